@@ -1,0 +1,14 @@
+# markervp_add_test(NAME n SOURCES a.cpp… [LIBRARIES l…] [LABELS slow])
+# One Boost.Test program, one CTest entry. LABELS slow: left out by `ctest -LE slow`.
+function(markervp_add_test)
+  cmake_parse_arguments(TEST "" "NAME" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${TEST_NAME} ${TEST_SOURCES} "${PROJECT_SOURCE_DIR}/tests/kit/main.cpp")
+  target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} Boost::unit_test_framework)
+  target_compile_definitions(${TEST_NAME} PRIVATE BOOST_TEST_DYN_LINK
+    MARKERVP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  add_test(NAME ${TEST_NAME} COMMAND ${TEST_NAME} --log_level=test_suite --report_level=short)
+  set_tests_properties(${TEST_NAME} PROPERTIES TIMEOUT 600)
+  if(TEST_LABELS)
+    set_tests_properties(${TEST_NAME} PROPERTIES LABELS "${TEST_LABELS}")
+  endif()
+endfunction()
