@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include <vp/clock.h>
+
+namespace vp {
+
+/// Called at the end of every instant in which a clock edge ran or a signal changed; for tracers.
+class InstantObserver {
+ public:
+  virtual ~InstantObserver() = default;
+  virtual void end_of_instant(std::uint64_t ps) = 0;
+};
+
+/// Runs the edges of all clocks of a simulation in the order of time, in one SystemC process.
+///
+/// At coincident edges every module samples what stood before the edge, whatever the order of the clocks. While nothing
+/// else can happen (no SystemC event before), it runs many edges in one activation.
+class ClockScheduler : public sc_core::sc_module {
+ public:
+  explicit ClockScheduler(sc_core::sc_module_name name);
+
+  /// Runs all edges up to and including the present simulation time. Whoever reads or writes clocked state from another
+  /// process calls it first: what he writes is seen by later edges only.
+  void synchronise();
+
+  /// Time of the instant being run, in ps: at least the simulation time.
+  std::uint64_t now_ps() const;
+
+  /// Notifies `event` at the instant being run (which may lie ahead of the simulation time).
+  void notify(sc_core::sc_event& event);
+
+  /// Many edges in one activation, up to the next SystemC event. Off (default): one activation an instant, so that a
+  /// run ended by sc_start(duration) has run no edge after its end.
+  void set_batch(bool batch) { batch_ = batch; }
+
+  /// At coincident edges the clock that was made first runs first.
+  bool runs_before(const Clock& first, const Clock& second) const;
+
+  void add_observer(InstantObserver& observer);
+  void remove_observer(InstantObserver& observer);
+
+ private:
+  friend class Clock;
+  friend class Clocked;
+  friend class SignalBase;
+
+  void start_of_simulation() override;
+  void run();
+  void run_instant(std::uint64_t ps);
+  void order_modules();
+  void mark_deferred_signals();
+  std::uint64_t next_instant() const;
+  void reschedule();
+  void defer(SignalBase& signal) { deferred_.push_back(&signal); }
+
+  std::vector<Clock*> clocks_;
+  std::vector<SignalBase*> deferred_;
+  std::vector<InstantObserver*> observers_;
+  sc_core::sc_event wake_up_;
+  std::uint64_t instant_ps_ = 0;
+  bool running_ = false;
+  bool batch_ = false;
+  bool stop_batch_ = false;
+  bool started_ = false;
+};
+
+/// SystemC's default resolution of 1 ps is assumed everywhere: a time's value is its picoseconds.
+inline std::uint64_t to_ps(const sc_core::sc_time& time) { return time.value(); }
+inline sc_core::sc_time from_ps(std::uint64_t ps) { return sc_core::sc_time::from_value(ps); }
+
+}  // namespace vp

@@ -1,0 +1,171 @@
+#include <vp/clock_scheduler.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace vp {
+
+namespace {
+
+/// Bounds a batch when nothing else is planned, so that the kernel gets a say now and then.
+constexpr std::uint64_t longest_batch_ps = 1'000'000'000;
+
+/// Tells every signal of the simulation who runs the instants.
+void claim_signals(const std::vector<sc_core::sc_object*>& objects, ClockScheduler& scheduler) {
+  for (sc_core::sc_object* object : objects) {
+    if (auto* signal = dynamic_cast<SignalBase*>(object)) signal->set_scheduler(scheduler);
+    claim_signals(object->get_child_objects(), scheduler);
+  }
+}
+
+/// Puts a module behind every module of its clock that reads its outputs. A ring is entered anywhere: its closing link
+/// becomes a deferred signal.
+class ConsumerFirstOrder {
+ public:
+  explicit ConsumerFirstOrder(const std::vector<Clocked*>& modules,
+                              const std::vector<std::vector<Clocked*>>& producers)
+      : modules_(modules), producers_(producers), visited_(modules.size(), false) {
+    for (std::size_t i = 0; i < modules_.size(); ++i) visit(i);
+    std::reverse(order_.begin(), order_.end());
+  }
+  const std::vector<Clocked*>& order() const { return order_; }
+
+ private:
+  void visit(std::size_t i) {
+    if (visited_[i]) return;
+    visited_[i] = true;
+    for (Clocked* producer : producers_[i]) {
+      const auto at = std::find(modules_.begin(), modules_.end(), producer);
+      if (at != modules_.end()) visit(static_cast<std::size_t>(at - modules_.begin()));
+    }
+    order_.push_back(modules_[i]);
+  }
+
+  const std::vector<Clocked*>& modules_;
+  const std::vector<std::vector<Clocked*>>& producers_;
+  std::vector<bool> visited_;
+  std::vector<Clocked*> order_;
+};
+
+}  // namespace
+
+ClockScheduler::ClockScheduler(sc_core::sc_module_name name) : sc_module(name) {
+  SC_HAS_PROCESS(ClockScheduler);
+  SC_METHOD(run);
+  sensitive << wake_up_;
+  dont_initialize();
+}
+
+void ClockScheduler::start_of_simulation() {
+  claim_signals(sc_core::sc_get_top_level_objects(), *this);
+  order_modules();
+  mark_deferred_signals();
+  started_ = true;
+  for (Clock* clock : clocks_) clock->plan_next(0);
+}
+
+std::uint64_t ClockScheduler::now_ps() const {
+  return std::max(instant_ps_, to_ps(sc_core::sc_time_stamp()));
+}
+
+std::uint64_t ClockScheduler::next_instant() const {
+  std::uint64_t first = Clock::never;
+  for (const Clock* clock : clocks_) first = std::min(first, clock->next_ps_);
+  return first;
+}
+
+// Clocks run in the order in which they were made; inside one, consumers before producers. So a plain store is seen by
+// the next edge only, as from a register.
+void ClockScheduler::run_instant(std::uint64_t ps) {
+  instant_ps_ = ps;
+  for (Clock* clock : clocks_) {
+    if (clock->next_ps_ == ps) clock->run_edge();
+  }
+  for (std::size_t i = 0; i < deferred_.size(); ++i) deferred_[i]->commit();
+  deferred_.clear();
+  for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
+}
+
+void ClockScheduler::synchronise() {
+  if (running_ || !started_) return;
+  running_ = true;
+  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
+  for (std::uint64_t next = next_instant(); next <= now; next = next_instant()) run_instant(next);
+  running_ = false;
+}
+
+void ClockScheduler::run() {
+  synchronise();
+  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
+  if (batch_) {
+    const sc_core::sc_time pending =
+        sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext());
+    const std::uint64_t horizon = now + std::min(to_ps(pending), longest_batch_ps);
+    running_ = true;
+    stop_batch_ = false;
+    for (std::uint64_t next = next_instant(); next <= horizon && next != Clock::never && !stop_batch_;
+         next = next_instant()) {
+      run_instant(next);
+    }
+    running_ = false;
+  }
+  reschedule();
+}
+
+void ClockScheduler::reschedule() {
+  if (running_ || !started_) return;
+  const std::uint64_t next = next_instant();
+  if (next == Clock::never) return;
+  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
+  wake_up_.notify(from_ps(next > now ? next - now : 0));
+}
+
+void ClockScheduler::notify(sc_core::sc_event& event) {
+  stop_batch_ = true;
+  event.notify(from_ps(now_ps() - to_ps(sc_core::sc_time_stamp())));
+}
+
+bool ClockScheduler::runs_before(const Clock& first, const Clock& second) const {
+  return std::find(clocks_.begin(), clocks_.end(), &first) <
+         std::find(clocks_.begin(), clocks_.end(), &second);
+}
+
+void ClockScheduler::add_observer(InstantObserver& observer) { observers_.push_back(&observer); }
+
+void ClockScheduler::remove_observer(InstantObserver& observer) {
+  observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
+}
+
+void ClockScheduler::order_modules() {
+  for (Clock* clock : clocks_) {
+    std::vector<std::vector<Clocked*>> producers;
+    for (const Clocked* module : clock->modules_) {
+      auto& list = producers.emplace_back();
+      for (const InBase* input : module->inputs_) {
+        if (!input->signal()) continue;
+        Clocked* producer = input->signal()->writer();
+        if (producer && producer != module) list.push_back(producer);
+      }
+    }
+    clock->modules_ = ConsumerFirstOrder(clock->modules_, producers).order();
+  }
+}
+
+void ClockScheduler::mark_deferred_signals() {
+  std::unordered_set<const Clocked*> already_run;
+  // Walks the running order: a consumer that comes after its producer would see the new value too early.
+  for (Clock* clock : clocks_) {
+    for (Clocked* module : clock->modules_) {
+      already_run.insert(module);
+      for (const InBase* input : module->inputs_) {
+        SignalBase* signal = input->signal();
+        if (!signal) continue;
+        Clocked* producer = signal->writer();
+        if (!producer || producer == module || !already_run.count(producer)) continue;
+        signal->deferred_ = signal->observed_ = true;
+      }
+    }
+  }
+}
+
+}  // namespace vp
