@@ -1,0 +1,25 @@
+#include <pl/axi_image_store/clocked.h>
+
+namespace pl {
+
+AxiImageStoreClocked::AxiImageStoreClocked(sc_core::sc_module_name name, vp::Clock& clk,
+                                           xilinx::Bram& bram)
+    : Clocked(name, clk), bram_(bram) {
+  wake_on(ena);
+  wake_on(rst);
+  wake_on(m.tvalid);
+}
+
+void AxiImageStoreClocked::edge() {
+  const bool enabled = ena && !rst;
+  if (m.sample()) {
+    bram_.write_a(address, m.tdata);
+    address = address + 1;
+  }
+  if (rst || (enabled && !ena_before_)) address = 0;
+  ena_before_ = enabled;
+  m.tready = enabled;
+  if (!m.tvalid) sleep();
+}
+
+}  // namespace pl

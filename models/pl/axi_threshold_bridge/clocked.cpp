@@ -1,0 +1,58 @@
+#include <pl/axi_threshold_bridge/clocked.h>
+
+namespace pl {
+
+AxiThresholdBridgeClocked::AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk)
+    : Clocked(name, clk), fifo_(fifo_depth) {
+  wake_on(ena);
+  wake_on(rst);
+  wake_on(thresh_in);
+  wake_on(m.tready);
+}
+
+void AxiThresholdBridgeClocked::edge() {
+  if (rst) {
+    reset();
+    return;
+  }
+  if (!ena) {
+    sleep();
+    return;
+  }
+  const std::uint32_t waiting = fifo_.count();
+  const bool arrived = thresh_in != thresh_seen;
+  if (m.free()) {
+    if (waiting != 0) {
+      const bool last = ++in_packet_ == burst_words;
+      if (last) in_packet_ = 0;
+      m.offer(fifo_.pop(), last);
+    } else {
+      m.withdraw();
+    }
+  }
+  if (arrived) {
+    thresh_seen = thresh_in;
+    // Room is judged by what stood before this clock, as the RTL's full flag does.
+    if (waiting < fifo_depth) {
+      fifo_.push(thresh_data);
+    } else {
+      bridge_overflow = bridge_overflow + 1;
+    }
+  }
+  fifo_count = static_cast<std::uint16_t>(fifo_.count());
+  const bool stuck = m.tvalid.written() && !m.tready.read();
+  const bool empty = !m.tvalid.written() && fifo_.count() == 0;
+  if (!arrived && (stuck || empty)) sleep();
+}
+
+void AxiThresholdBridgeClocked::reset() {
+  fifo_.clear();
+  in_packet_ = 0;
+  m.withdraw();
+  thresh_seen = false;
+  fifo_count = 0;
+  bridge_overflow = 0;
+  sleep();
+}
+
+}  // namespace pl

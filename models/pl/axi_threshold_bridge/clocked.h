@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include <pl/feature_packaging/core.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
+
+namespace pl {
+
+/// AXI Threshold Bridge, clocked (thesis 4.4.2, ports of table B.5): sends the binary image to the PS, 32 words a packet.
+/// System clock. A full FIFO (the DMA was not armed again in time) drops the newest word and counts it.
+class AxiThresholdBridgeClocked : public vp::Clocked {
+ public:
+  AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk);
+
+  vp::In<bool> ena{"ena", this};
+  vp::In<bool> rst{"rst", this};
+  vp::In<bool> thresh_in{"thresh_in", this};  ///< the crossing's toggle
+  vp::In<std::uint32_t> thresh_data{"thresh_data", this};
+  vp::AxiStreamMaster m{"m", *this};
+
+  // No ports of the IP: for the crossing, traces and reports.
+  vp::Signal<bool> thresh_seen{"thresh_seen"};
+  vp::Signal<std::uint16_t> fifo_count{"fifo_count"};
+  vp::Signal<std::uint32_t> bridge_overflow{"bridge_overflow"};
+
+  vp::Parameter<std::uint32_t> fifo_depth{
+      "fifo_depth", 64, vp::Unit::none, {1, 65536}, vp::Source::decision,
+      "words that wait for the DMA, besides the output register"};
+  vp::Parameter<std::uint32_t> burst_words{
+      "burst_words", 32, vp::Unit::none, {1, 256}, vp::Source::published,
+      "words a packet: TLAST comes with the last (thesis 4.4.2)"};
+
+ private:
+  void edge() override;
+  void reset();
+
+  FeatureBuffer fifo_;
+  std::uint32_t in_packet_ = 0;
+};
+
+}  // namespace pl

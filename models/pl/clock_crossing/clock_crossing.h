@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include <pl/clock_crossing/crossing_register.h>
+#include <vp/clock.h>
+
+namespace pl {
+
+/// The pixel side of all three crossings: corner, blob and binary words, and the count of those that were lost.
+///
+/// The system clock must have been made before the pixel clock: at coincident edges the system side samples first, so a
+/// word that is sampled and replaced at the same edge was seen.
+class ClockCrossing : public vp::Clocked {
+ public:
+  /// Throws std::logic_error if the clocks are in the wrong order.
+  ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, const vp::Clock& system_clk);
+
+  vp::In<bool> rst{"rst", this};
+  vp::In<bool> corner_out{"corner_out", this};
+  vp::In<std::uint32_t> corner_data{"corner_data", this};
+  vp::In<bool> blob_out{"blob_out", this};
+  vp::In<std::uint32_t> blob_start{"blob_start", this};
+  vp::In<std::uint32_t> blob_end{"blob_end", this};
+  vp::In<bool> thresh_out{"thresh_out", this};
+  vp::In<std::uint32_t> thresh_data{"thresh_data", this};
+
+  CrossingRegister corner{"corner"};
+  CrossingRegister blob{"blob"};
+  CrossingRegister binary{"binary"};
+  /// Words overwritten before the system side saw them, since the last reset.
+  vp::Signal<std::uint32_t> crossing_overflow{"crossing_overflow"};
+
+ private:
+  void edge() override;
+  void reset();
+  void count(bool delivered) {
+    if (!delivered) crossing_overflow = crossing_overflow + 1;
+  }
+};
+
+}  // namespace pl

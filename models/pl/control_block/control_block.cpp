@@ -1,0 +1,22 @@
+#include <pl/control_block/control_block.h>
+
+namespace pl {
+
+ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name) {}
+
+void ControlBlock::before_end_of_elaboration() {
+  gpio_in.signal()->attach(*this);
+  if (por.bound()) por.signal()->attach(*this);
+}
+
+void ControlBlock::on_change(vp::SignalBase&, std::uint32_t) {
+  const std::uint32_t packet = gpio_in;
+  ena = (packet & control_packet::ena) != 0;
+  rst_out = (packet & control_packet::rst) != 0 || (por.bound() && por);
+  ready = static_cast<std::uint8_t>(packet >> control_packet::ready_shift & 3);
+  wr_en = (packet & control_packet::wr_en) != 0;
+  wr_thresh = (packet & control_packet::wr_thresh) != 0;
+  threshold = static_cast<std::uint8_t>(packet >> control_packet::threshold_shift);
+}
+
+}  // namespace pl

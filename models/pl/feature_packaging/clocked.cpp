@@ -1,0 +1,91 @@
+#include <pl/feature_packaging/clocked.h>
+
+#include <pl/common/packet.h>
+
+namespace pl {
+
+FeaturePackagingClocked::FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk)
+    : Clocked(name, clk), corners_(buffer_depth), blobs_(buffer_depth) {
+  wake_on(ena);
+  wake_on(rst);
+  wake_on(ready);
+  wake_on(corner_in);
+  wake_on(blob_in);
+  wake_on(done);
+}
+
+void FeaturePackagingClocked::edge() {
+  if (rst) {
+    reset();
+    return;
+  }
+  if (!ena) {
+    sleep();
+    return;
+  }
+  // What the buffers held before this clock decides what is shown; words that arrive now are shown later.
+  const std::uint32_t corners = corners_.count(), blobs = blobs_.count();
+  const bool corner_arrived = corner_in != corner_seen, blob_arrived = blob_in != blob_seen;
+  store(corner_arrived, blob_arrived);
+  const bool asked = ready != ready_before_;
+  ready_before_ = ready;
+  if (want_) show_next(corners, blobs, !corner_arrived && !blob_arrived);
+  if (asked) want_ = true;
+  if (!done) ended_ = false;
+  corner_count = static_cast<std::uint16_t>(corners_.count());
+  blob_count = static_cast<std::uint16_t>(blobs_.count());
+  const bool end_due = done && !ended_;
+  const bool nothing_to_show = !want_ || (corners_.count() + blobs_.count() == 0 && !end_due);
+  if (!corner_arrived && !blob_arrived && !asked && nothing_to_show) sleep();
+}
+
+void FeaturePackagingClocked::store(bool corner_arrived, bool blob_arrived) {
+  if (corner_arrived) {
+    corner_seen = corner_in;
+    if (corners_.has_room(1)) {
+      corners_.push(corner_data);
+    } else {
+      feature_overflow = feature_overflow + 1;
+    }
+  }
+  if (blob_arrived) {
+    blob_seen = blob_in;
+    if (blobs_.has_room(2)) {
+      blobs_.push(blob_start);
+      blobs_.push(blob_end);
+    } else {
+      feature_overflow = feature_overflow + 1;
+    }
+  }
+}
+
+void FeaturePackagingClocked::show_next(std::uint32_t corners, std::uint32_t blobs, bool quiet) {
+  if (corners != 0) {
+    feature = corners_.pop();
+  } else if (blobs != 0) {
+    feature = blobs_.pop();
+  } else if (done && !ended_ && quiet) {
+    feature = packet::end_of_frame;
+    ended_ = true;
+  } else {
+    return;
+  }
+  want_ = false;
+}
+
+void FeaturePackagingClocked::reset() {
+  corners_.clear();
+  blobs_.clear();
+  corner_seen = false;
+  blob_seen = false;
+  ready_before_ = 0;
+  want_ = true;
+  ended_ = false;
+  feature = 0;
+  corner_count = 0;
+  blob_count = 0;
+  feature_overflow = 0;
+  sleep();
+}
+
+}  // namespace pl

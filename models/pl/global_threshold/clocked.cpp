@@ -1,0 +1,58 @@
+#include <pl/global_threshold/clocked.h>
+
+namespace pl {
+
+GlobalThresholdClocked::GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk)
+    : Clocked(name, clk) {
+  wake_on(por);
+  wake_on(rst);
+  wake_on(frame_ena);
+  wake_on(wr_thresh);
+}
+
+void GlobalThresholdClocked::edge() {
+  if (por || rst) {
+    reset();
+    return;
+  }
+  const bool frame = frame_ena;
+  binary_ena = frame;
+  thresh_out = false;
+  if (frame) {
+    take_pixel();
+  } else if (frame_before_) {
+    core_.end_frame();
+    active_threshold = core_.threshold();
+  }
+  if (wr_thresh) {
+    core_.set_threshold(threshold);
+    active_threshold = core_.threshold();
+  }
+  if (!frame && !frame_before_ && !wr_thresh) sleep();
+  frame_before_ = frame;
+}
+
+void GlobalThresholdClocked::take_pixel() {
+  const bool dark = core_.push(pixel);
+  const std::uint16_t column = x;
+  binary_out = dark;
+  binary_x = column;
+  binary_y = y;
+  word_ = word_ >> 1 | std::uint32_t{dark} << 31;
+  if (column % 32 == 31) {
+    thresh_out = true;
+    thresh_data = word_;
+  }
+}
+
+void GlobalThresholdClocked::reset() {
+  if (por) core_.set_threshold(ThresholdCore::default_threshold);
+  core_.clear_histogram();
+  active_threshold = core_.threshold();
+  binary_ena = false;
+  thresh_out = false;
+  frame_before_ = false;
+  sleep();
+}
+
+}  // namespace pl
