@@ -1,0 +1,176 @@
+#include <scene/blur.h>
+#include <scene/dictionary.h>
+#include <scene/noise.h>
+#include <scene/renderer.h>
+#include <scene/view_geometry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace platform {
+
+namespace {
+
+/// Below this the blur cannot be seen in 8 bits, and the kernel has no width.
+constexpr double smallest_blur_px = 0.05;
+constexpr double full_scale = 255.0;
+
+/// A marker has 6x6 cells; the outer ring is black.
+constexpr int cells_per_side = 6;
+
+/// Paints surfaces in the order room, borders, black squares, white cells. Squares do not hide one
+/// another, so what each adds to a pixel is its brightness minus what it covers, times the covered
+/// area.
+class Painter {
+ public:
+  explicit Painter(const Scene& scene)
+      : scene_(scene),
+        width_(scene.camera.width),
+        faces_(room_regions(scene)),
+        light_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(scene.camera.height)),
+        face_(light_.size(), mixed) {}
+
+  std::vector<double> paint() {
+    paint_room();
+    paint_square({0, 0, marker_side_m, marker_word(scene_.marker_id)});
+    for (const Square& square : scene_.squares) paint_square(square);
+    return std::move(light_);
+  }
+
+ private:
+  static constexpr std::uint8_t mixed = std::numeric_limits<std::uint8_t>::max();
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  /// Calls inner(x, y) for pixels wholly inside the region and edge(x, y, piece) for those it
+  /// shares with another.
+  template <typename Inner, typename Edge>
+  void visit(const ConvexRegion& region, Inner inner, Edge edge) const {
+    const auto edges = [&](int y, int first, int last) {
+      for (int x = first; x < last; ++x) {
+        PixelPiece piece(x, y);
+        piece.clip(region);
+        edge(x, y, piece);
+      }
+    };
+    for (int y = 0; y < scene_.camera.height; ++y) {
+      const PixelSpan touched = touched_pixels(region, y, width_);
+      const PixelSpan inside = inner_pixels(region, y, width_);
+      if (inside.first == inside.last) {
+        edges(y, touched.first, touched.last);
+        continue;
+      }
+      edges(y, touched.first, inside.first);
+      for (int x = inside.first; x < inside.last; ++x) inner(x, y);
+      edges(y, inside.last, touched.last);
+    }
+  }
+
+  void paint_room() {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const double level = faces_[i].level;
+      visit(
+          faces_[i].region,
+          [&](int x, int y) {
+            light_[index(x, y)] = level;
+            face_[index(x, y)] = static_cast<std::uint8_t>(i);
+          },
+          [&](int x, int y, const PixelPiece& piece) {
+            light_[index(x, y)] += level * piece.area();
+          });
+    }
+  }
+
+  /// Light of the room behind a piece of a pixel, times its area.
+  double room_behind(int x, int y, const PixelPiece& piece) const {
+    const std::uint8_t face = face_[index(x, y)];
+    if (face != mixed) return faces_[face].level * piece.area();
+    double sum = 0;
+    for (const RoomFace& candidate : faces_) {
+      PixelPiece part = piece;
+      part.clip(candidate.region);
+      sum += candidate.level * part.area();
+    }
+    return sum;
+  }
+
+  void paint_border(const PlaneRectangle& outer) {
+    const double level = scene_.brightness.border;
+    visit(
+        rectangle_region(scene_.camera, scene_.pose, outer),
+        [&](int x, int y) { light_[index(x, y)] = level; },
+        [&](int x, int y, const PixelPiece& piece) {
+          light_[index(x, y)] += level * piece.area() - room_behind(x, y, piece);
+        });
+  }
+
+  /// Changes the brightness of an area that has one.
+  void repaint(const PlaneRectangle& area, double from, double to) {
+    visit(
+        rectangle_region(scene_.camera, scene_.pose, area),
+        [&](int x, int y) { light_[index(x, y)] += to - from; },
+        [&](int x, int y, const PixelPiece& piece) {
+          light_[index(x, y)] += (to - from) * piece.area();
+        });
+  }
+
+  void paint_square(const Square& square) {
+    const double border = square.side * border_fraction;
+    paint_border({square.u - border, square.v - border, square.u + square.side + border,
+                  square.v + square.side + border});
+    const double white = scene_.brightness.border;
+    const double black = scene_.brightness.black;
+    repaint({square.u, square.v, square.u + square.side, square.v + square.side}, white, black);
+    const double cell = square.side / cells_per_side;
+    for (int row = 0; row < 4; ++row) {
+      const double v = square.v + (row + 1) * cell;
+      for (int column = 0; column < 4; ++column) {
+        if (is_black(square.word, row, column)) continue;
+        const int first = column;
+        while (column + 1 < 4 && !is_black(square.word, row, column + 1)) ++column;
+        repaint({square.u + (first + 1) * cell, v, square.u + (column + 2) * cell, v + cell}, black,
+                white);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  int width_;
+  std::array<RoomFace, room_faces> faces_;
+  std::vector<double> light_;
+  std::vector<std::uint8_t> face_;  ///< the room face behind each pixel, or `mixed`
+};
+
+}  // namespace
+
+std::vector<double> render_light(const Scene& scene) {
+  validate(scene);
+  std::vector<double> light = Painter(scene).paint();
+  if (scene.blur_sigma_px >= smallest_blur_px) {
+    gaussian_blur(light, scene.camera.width, scene.camera.height, scene.blur_sigma_px);
+  }
+  return light;
+}
+
+GreyImage render(const Scene& scene) {
+  const std::vector<double> light = render_light(scene);
+  GreyImage image{scene.camera.width, scene.camera.height, {}};
+  image.pixels.reserve(light.size());
+  GaussianNoise noise(scene.seed);
+  for (double value : light) {
+    const double noisy = value + scene.noise_sigma * noise.next();
+    const double rounded = std::floor(noisy * full_scale + 0.5);
+    image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(rounded, 0.0, full_scale)));
+  }
+  return image;
+}
+
+}  // namespace platform

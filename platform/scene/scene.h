@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <scene/camera.h>
+#include <scene/pose.h>
+
+namespace platform {
+
+/// Light that each surface sends, as a fraction of full scale (decision: wall and floor give the
+/// histogram peaks 178 and 79 of appendix C.7).
+struct Brightness {
+  double black = 0.08;   ///< marker cells and squares
+  double border = 0.90;  ///< white cells and the border around a marker
+  double wall = 0.698;
+  double floor = 0.31;
+  double ceiling = 0.80;
+  double side_walls = 0.62;
+};
+
+/// The room in the marker frame, m (decision). It has no end behind the camera.
+struct Room {
+  double wall_w = 0.6;
+  double floor_v = 1.2;
+  double ceiling_v = -2.6;
+  double side_u = 4.5;  ///< the side walls stand at -side_u and +side_u
+};
+
+/// White border around a marker as a fraction of its side: 0.125 m at 0.30 m (thesis 5.1.1).
+constexpr double border_fraction = 0.125 / 0.30;
+
+/// The word of a square without white cells.
+constexpr std::uint16_t plain_square_word = 0xFFFF;
+
+/// A further square with white border on the marker's plane (thesis 5.2.4).
+struct Square {
+  double u = 0;                            ///< its top left corner in the marker frame, m
+  double v = 0;                            ///< m
+  double side = marker_side_m;             ///< m
+  std::uint16_t word = plain_square_word;  ///< its 4x4 cells, 1 = black; all ones: a plain square
+};
+
+/// Everything that decides a picture. Two equal scenes render to equal bytes on any host.
+struct Scene {
+  std::string name;  ///< for messages and reports
+  Camera camera;
+  Pose pose;          ///< of the marker
+  int marker_id = 0;  ///< DICT_4X4_250
+  std::vector<Square> squares;
+  Brightness brightness;
+  Room room;
+  double noise_sigma =
+      0.007;  ///< deviation of the Gaussian noise, fraction of full scale (table 5.1)
+  double blur_sigma_px = 0;  ///< deviation of the lens blur, px; 0: none
+  std::uint64_t seed = 0;    ///< of the noise
+};
+
+/// What a perfect detector would find.
+struct GroundTruth {
+  int marker_id = 0;
+  std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
+  Pose pose;
+};
+
+/// Throws vp::InputError if the scene cannot be rendered: camera or pose invalid, a marker corner
+/// not in front of the camera, the camera behind the marker or outside the room, an unknown ID,
+/// overlapping squares, a level outside 0 to 1, a noise outside 0 to 1 or a blur outside 0 to 100
+/// px.
+void validate(const Scene& scene);
+
+/// Corners may lie outside the picture. Throws vp::InputError like validate().
+GroundTruth ground_truth(const Scene& scene);
+
+}  // namespace platform

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vp {
+
+/// The candidate that `word` is most likely a misspelling of; empty if none is near. Compared by
+/// Damerau-Levenshtein distance, at most max(2, length / 3); also with the last part of a dotted
+/// candidate, so that "treshold" finds "pl.corner_detection.threshold". Of equally near ones the
+/// first wins.
+std::string nearest_match(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Insertions, deletions, substitutions and swaps of neighbours that turn one text into the other.
+std::size_t edit_distance(std::string_view from, std::string_view to);
+
+std::string join(const std::vector<std::string>& parts, std::string_view separator);
+/// "a", "a or b", "a, b or c".
+std::string one_of(const std::vector<std::string>& names);
+/// All parts, empty ones too: "a..b" at '.' is "a", "", "b".
+std::vector<std::string> split(std::string_view text, char separator);
+/// Without white space at both ends.
+std::string_view trim(std::string_view text);
+/// With `decimals` places after the point ("12.30"), whatever the locale. Never "-0.00".
+std::string format_fixed(double value, int decimals);
+
+}  // namespace vp

@@ -1,0 +1,183 @@
+#include <vp/configuration.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "configuration_yaml.h"
+
+namespace vp {
+namespace {
+
+Configuration* current_configuration = nullptr;
+
+/// A module in the tree of parameters; the leaves are positions in a list.
+struct Group {
+  std::string name;
+  std::vector<std::size_t> leaves;
+  std::vector<Group> groups;
+
+  Group& group(const std::string& wanted) {
+    for (Group& existing : groups) {
+      if (existing.name == wanted) return existing;
+    }
+    groups.push_back({wanted, {}, {}});
+    return groups.back();
+  }
+
+  void collect(std::vector<std::size_t>& order) const {
+    order.insert(order.end(), leaves.begin(), leaves.end());
+    for (const Group& inner : groups) inner.collect(order);
+  }
+};
+
+}  // namespace
+
+const char* to_string(Source source) {
+  switch (source) {
+    case Source::measured:
+      return "measured";
+    case Source::published:
+      return "published";
+    case Source::derived:
+      return "derived";
+    case Source::assumed:
+      return "assumed";
+    case Source::decision:
+      return "decision";
+  }
+  return "";
+}
+
+void Configuration::load_file(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw InputError(path + ": is a folder, not a configuration file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": cannot read the configuration file");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) throw InputError(path + ": cannot read the configuration file");
+  load_text(text, path);
+}
+
+void Configuration::load_text(const std::string& yaml, const std::string& origin) {
+  for (auto& [key, setting] : read_yaml(yaml, origin)) from_files_[key] = setting;
+}
+
+void Configuration::set(std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    throw InputError("--set '" + std::string(assignment) +
+                     "': write path=value, such as --set pl.clock='50 MHz'");
+  }
+  set(assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
+void Configuration::set(std::string_view path, std::string_view value, std::string_view origin) {
+  const std::string key(trim(path));
+  if (!is_key(key)) {
+    throw InputError("'" + key + "' (" + std::string(origin) +
+                     ") is not a key: write names joined by dots");
+  }
+  from_command_line_[key] = {std::string(trim(value)), std::string(origin)};
+}
+
+const Setting* Configuration::find(const std::string& path) const {
+  for (const Settings* layer : {&from_command_line_, &from_files_}) {
+    const auto found = layer->find(path);
+    if (found != layer->end()) return &found->second;
+  }
+  return nullptr;
+}
+
+void Configuration::add(ParameterDescription description) {
+  const auto [position, is_new] = index_.emplace(description.path, parameters_.size());
+  if (is_new) {
+    parameters_.push_back(std::move(description));
+  } else {
+    parameters_[position->second] = std::move(description);
+  }
+}
+
+std::string Configuration::unknown_key(const std::string& key, const Setting& setting) const {
+  const std::string start = "unknown key '" + key + "' (" + setting.origin + "): ";
+  std::vector<std::string> paths;
+  std::vector<std::string> inside;
+  for (const ParameterDescription& parameter : parameters_) {
+    paths.push_back(parameter.path);
+    if (parameter.path.compare(0, key.size() + 1, key + ".") == 0) inside.push_back(parameter.path);
+  }
+  if (!inside.empty()) return start + "it stands for several, such as '" + inside.front() + "'";
+  const std::string nearest = nearest_match(key, paths);
+  if (nearest.empty()) return start + "the configuration has nothing like it";
+  return start + "did you mean '" + nearest + "'?";
+}
+
+void Configuration::check_unused() const {
+  std::vector<std::string> problems;
+  for (const Settings* layer : {&from_files_, &from_command_line_}) {
+    for (const auto& [key, setting] : *layer) {
+      if (index_.count(key) == 0) problems.push_back(unknown_key(key, setting));
+    }
+  }
+  if (!problems.empty()) throw InputError(join(problems, "; "));
+}
+
+std::vector<ParameterDescription> Configuration::parameters() const {
+  Group root;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const std::vector<std::string> parts = split(parameters_[i].path, '.');
+    Group* group = &root;
+    for (std::size_t depth = 0; depth + 1 < parts.size(); ++depth)
+      group = &group->group(parts[depth]);
+    group->leaves.push_back(i);
+  }
+  std::vector<std::size_t> order;
+  root.collect(order);
+  std::vector<ParameterDescription> ordered;
+  for (const std::size_t i : order) ordered.push_back(parameters_[i]);
+  return ordered;
+}
+
+std::string Configuration::to_yaml() const {
+  return write_yaml(parameters());
+}
+
+std::map<std::string, std::string> Configuration::values() const {
+  std::map<std::string, std::string> values;
+  for (const ParameterDescription& parameter : parameters_)
+    values[parameter.path] = parameter.value;
+  return values;
+}
+
+std::string Configuration::hash() const {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto mix = [&hash](const std::string& text) {
+    for (const unsigned char byte : text) hash = (hash ^ byte) * 0x100000001b3;
+    hash = hash * 0x100000001b3;  // a zero byte: "ab", "c" is not "a", "bc"
+  };
+  for (const auto& [path, value] : values()) {
+    mix(path);
+    mix(value);
+  }
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4) digits += "0123456789abcdef"[(hash >> shift) & 15];
+  return digits;
+}
+
+Configuration* Configuration::current() {
+  return current_configuration;
+}
+
+Configuration::Scope::Scope(Configuration& configuration) : outer_(current_configuration) {
+  current_configuration = &configuration;
+}
+
+Configuration::Scope::~Scope() {
+  current_configuration = outer_;
+}
+
+}  // namespace vp
