@@ -1,0 +1,157 @@
+#include <apps/hybrid/application.h>
+#include <apps/hybrid/message.h>
+#include <marker/marker_search.h>
+#include <marker/work.h>
+
+namespace hybrid {
+namespace {
+
+using marker::Status;
+
+/// Limits of the PL: whole words of 32 pixels, whole bursts of 1024, coordinates of 10 and 9 bits.
+constexpr std::uint32_t pixels_per_word = 32;
+constexpr std::uint32_t pixels_per_packet = 1024;
+constexpr std::uint32_t max_width = marker::packet::x_mask + 1;
+constexpr std::uint32_t max_height = marker::packet::y_mask + 1;
+
+constexpr bool is_supported(std::uint32_t width, std::uint32_t height) {
+  return width > 0 && height > 0 && width <= max_width && height <= max_height &&
+         width % pixels_per_word == 0 && width * height % pixels_per_packet == 0;
+}
+
+constexpr std::uint32_t binary_bytes(const hal_frame& frame) {
+  return frame.width * frame.height / 8;
+}
+
+}  // namespace
+
+int Application::run() {
+  if (!initialise()) {
+    link_.shut_down();
+    return 1;
+  }
+  int failures = 0;
+  while (const hal_frame* frame = hal_frame_next()) {
+    process(*frame);
+    hal_publish(marker::frame_result_kind, &result_, sizeof result_);
+    if (result_.status != Status::ok) failures = 1;
+  }
+  link_.shut_down();
+  return failures;
+}
+
+bool Application::initialise() {
+  options_ = read_options();
+  recovery_due_ = false;
+  binary_ = hal_dma_allocate(max_width * max_height / 8, BurstChain::burst_bytes);
+  if (binary_.data != nullptr) hal_cache_flush(binary_.data, binary_.size);
+  if (link_.initialise()) return true;
+  Message().text("hybrid: a DMA engine does not leave reset").write();
+  return false;
+}
+
+std::uint64_t Application::counts(double milliseconds) const {
+  return static_cast<std::uint64_t>(milliseconds *
+                                    (drivers::GlobalTimer::counts_per_second / 1000.0));
+}
+
+Status Application::admit(const hal_frame& frame) const {
+  if (!is_supported(frame.width, frame.height)) return Status::unsupported_size;
+  if (binary_.data == nullptr) return Status::no_memory;
+  return Status::ok;
+}
+
+void Application::process(const hal_frame& frame) {
+  marker::work(marker::Work::frames, 1);
+  marker::clear(result_);
+  result_.frame = frame.index;
+  result_.width = frame.width;
+  result_.height = frame.height;
+  result_.status = admit(frame);
+  if (result_.status == Status::ok) result_.status = receive(frame);
+  if (result_.status == Status::ok) {
+    find_marker(frame);
+  } else {
+    report(result_.status);
+  }
+}
+
+/// Upload, feature extraction and the rest of the binary image; decoding whatever came.
+Status Application::receive(const hal_frame& frame) {
+  marker::StageTimes& times = result_.times;
+  if (recovery_due_) link_.recover();
+  recovery_due_ = true;  // until the frame proves otherwise
+
+  times.upload.start = link_.now();
+  Status status =
+      link_.upload(frame.bus_address, frame.width * frame.height, counts(options_.timeout));
+  times.upload.end = link_.now();
+  if (status != Status::ok) return status;
+
+  link_.prepare_frame(binary_.bus_address, binary_bytes(frame));
+  times.frame.start = times.feature_extraction.start = link_.now();
+  link_.start_frame();
+  status = link_.receive_features(words_, counts(options_.timeout));
+  times.feature_extraction.end = times.receive.start = link_.now();
+
+  if (status == Status::ok) status = link_.await_binary_image(counts(options_.binary_timeout));
+  hal_cache_invalidate(binary_.data, binary_bytes(frame));
+  marker::decode(words_.words.data(), words_.stored(), result_.features);
+  times.receive.end = times.frame.end = link_.now();
+  result_.feature_words = words_.count;
+  result_.lost_words = words_.lost();
+  result_.binary_packets = link_.binary_packets();
+  recovery_due_ = status != Status::ok;
+  return status;
+}
+
+void Application::find_marker(const hal_frame& frame) {
+  marker::StageTimes& times = result_.times;
+  times.evaluation.start = times.receive.end;
+  marker::evaluate_features(result_.features, {options_.margin}, result_.candidates);
+  times.evaluation.end = times.identification.start = link_.now();
+
+  const marker::BinaryImage image{static_cast<const std::uint32_t*>(binary_.data), frame.width,
+                                  frame.height, true};
+  const marker::FoundMarker found = marker::find_first_marker(result_.features, result_.candidates,
+                                                              image, options_.canonical_width);
+  result_.examined = found.examined;
+  times.identification.end = times.pose.start = link_.now();
+
+  if (found.found) {
+    marker::Marker& marker = result_.markers[result_.marker_count++];
+    marker.candidate = found.candidate;
+    marker.identity = found.identity;
+    marker.corners = found.corners;
+    marker.pose = marker::estimate_pose(
+        found.corners, {frame.fx, frame.fy, frame.cx, frame.cy},
+        {options_.marker_side, options_.reprojection_stop, options_.iteration_limit});
+  }
+  times.pose.end = times.frame.end = link_.now();
+}
+
+void Application::report(Status status) const {
+  Message message;
+  message.text("hybrid: frame ")
+      .number(result_.frame)
+      .text(": ")
+      .text(marker::status_name(status))
+      .text(", ")
+      .number(result_.width)
+      .text(" x ")
+      .number(result_.height)
+      .text(" px");
+  if (status != Status::unsupported_size && status != Status::no_memory) {
+    message.text(", ")
+        .number(result_.feature_words)
+        .text(" words, ")
+        .number(result_.binary_packets)
+        .text(" packets, DMASR ")
+        .hexadecimal(link_.image_dma_status())
+        .text(" ")
+        .hexadecimal(link_.binary_dma_status());
+  }
+  message.write();
+}
+
+}  // namespace hybrid

@@ -1,0 +1,41 @@
+#include <apps/hybrid/options.h>
+#include <marker/rectification.h>
+
+namespace hybrid {
+namespace {
+
+enum class Option : std::uint32_t {
+#define HYBRID_ENUMERATOR(name, ...) name,
+  HYBRID_OPTIONS(HYBRID_ENUMERATOR)
+#undef HYBRID_ENUMERATOR
+      count
+};
+
+double value(Option option) {
+  return hal_option(static_cast<std::uint32_t>(option));
+}
+
+}  // namespace
+
+const hal_option_info option_table[] = {
+#define HYBRID_ROW(name, unit, default_value, minimum, maximum, documentation) \
+  {#name, unit, default_value, minimum, maximum, documentation},
+    HYBRID_OPTIONS(HYBRID_ROW)
+#undef HYBRID_ROW
+};
+
+const std::uint32_t option_count = static_cast<std::uint32_t>(Option::count);
+
+Options read_options() {
+  Options options{};
+  options.margin = value(Option::margin);
+  options.canonical_width = marker::canonical_width(value(Option::canonical_width));
+  options.marker_side = value(Option::marker_side);
+  options.reprojection_stop = value(Option::reprojection_stop);
+  options.iteration_limit = static_cast<std::uint32_t>(value(Option::iteration_limit));
+  options.timeout = value(Option::timeout);
+  options.binary_timeout = value(Option::binary_timeout);
+  return options;
+}
+
+}  // namespace hybrid

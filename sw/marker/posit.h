@@ -1,0 +1,39 @@
+#pragma once
+
+#include <marker/geometry.h>
+
+#include <array>
+#include <cstdint>
+
+namespace marker {
+
+/// A pinhole camera: x right, y down, z forward.
+struct Camera {
+  double fx, fy;  ///< focal lengths, px
+  double cx, cy;  ///< principal point, px; the centre of pixel (0, 0) is (0.5, 0.5)
+};
+
+struct PositOptions {
+  double side = 0.30;         ///< the marker's side, m (thesis chapter 5)
+  double stop = 2.0;          ///< px: done when the mean reprojection error is below (thesis 4.5.6)
+  std::uint32_t limit = 100;  ///< refinements of each solution at most (thesis 4.5.6)
+};
+
+/// Where the marker is: X = R·U + T (equation A.6), marker frame with its origin at the marker's
+/// top left corner, u right, v down, w away from the viewer.
+struct Pose {
+  bool valid;                         ///< false: the corners admit no pose, everything else is zero
+  std::array<double, 9> rotation;     ///< R, row by row
+  std::array<double, 3> translation;  ///< T, m
+  double reprojection_px;             ///< mean distance of the corners from their projections
+  double reprojection_mm;             ///< the same measured at each corner's depth
+  std::uint32_t iterations;           ///< refinements of both solutions, as a rule at least 1
+};
+
+/// Coplanar POSIT (Oberkampf, DeMenthon, Davis 1996; thesis 4.5.6, A.4) on the four corners of a
+/// square marker, clockwise from the marker's own top left, in px (pixel index + 0.5). The two
+/// solutions of the first step are both followed, step by step, until the better one is good
+/// enough; it is kept.
+Pose estimate_pose(const Quad& corners, const Camera& camera, const PositOptions& options);
+
+}  // namespace marker
