@@ -39,7 +39,7 @@ void Clocked::wake_on(InBase& input) { wake_inputs_.push_back(&input); }
 
 void Clocked::on_change(SignalBase&, std::uint32_t) { wake(); }
 
-void Clocked::before_end_of_elaboration() {
+void Clocked::end_of_elaboration() {
   for (InBase* input : wake_inputs_) {
     if (input->signal()) input->signal()->attach(*this);
   }

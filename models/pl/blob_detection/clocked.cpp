@@ -17,8 +17,7 @@ void BlobDetectionClocked::edge() {
     return;
   }
   const bool frame = ena;
-  blob_out = false;
-  if (retired_) filter();
+  blob_out = retired_ && filter();
   if (frame && !ena_before_) number_ = 0;
   ena_before_ = frame;
   retired_ = core_.step(frame, pixel, x, y);
@@ -27,13 +26,13 @@ void BlobDetectionClocked::edge() {
   if (!frame && !retired_ && !blob_out.written() && core_.quiescent()) sleep();
 }
 
-void BlobDetectionClocked::filter() {
+bool BlobDetectionClocked::filter() {
   const BoundingBox& box = core_.retired();
-  if (!box.at_least(minimum_side)) return;
-  blob_out = true;
+  if (!box.at_least(minimum_side)) return false;
   blob_start = packet::blob_start(number_, box.sx, box.sy);
   blob_end = packet::blob_end(number_, box.ex, box.ey);
   ++number_;
+  return true;
 }
 
 void BlobDetectionClocked::reset() {

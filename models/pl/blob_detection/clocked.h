@@ -37,7 +37,8 @@ class BlobDetectionClocked : public vp::Clocked {
  private:
   void edge() override;
   void reset();
-  void filter();
+  /// True if the label that retired last is large enough: its packets stand then.
+  bool filter();
 
   BlobCore core_;
   bool retired_ = false;  ///< the core retired a label in the last clock

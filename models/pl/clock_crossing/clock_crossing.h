@@ -35,7 +35,7 @@ class ClockCrossing : public vp::Clocked {
   void edge() override;
   void reset();
   void count(bool delivered) {
-    if (!delivered) crossing_overflow = crossing_overflow + 1;
+    if (!delivered) crossing_overflow = crossing_overflow.written() + 1;
   }
 };
 

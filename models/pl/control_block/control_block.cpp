@@ -4,12 +4,15 @@ namespace pl {
 
 ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name) {}
 
-void ControlBlock::before_end_of_elaboration() {
+void ControlBlock::end_of_elaboration() {
   gpio_in.signal()->attach(*this);
   if (por.bound()) por.signal()->attach(*this);
+  split();
 }
 
-void ControlBlock::on_change(vp::SignalBase&, std::uint32_t) {
+void ControlBlock::on_change(vp::SignalBase&, std::uint32_t) { split(); }
+
+void ControlBlock::split() {
   const std::uint32_t packet = gpio_in;
   ena = (packet & control_packet::ena) != 0;
   rst_out = (packet & control_packet::rst) != 0 || (por.bound() && por);

@@ -34,8 +34,9 @@ class ControlBlock : public sc_core::sc_module, public vp::SignalListener {
   vp::Signal<std::uint8_t> threshold{"threshold"};
 
  private:
-  void before_end_of_elaboration() override;
+  void end_of_elaboration() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void split();
 };
 
 }  // namespace pl

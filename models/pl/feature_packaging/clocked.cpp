@@ -45,7 +45,7 @@ void FeaturePackagingClocked::store(bool corner_arrived, bool blob_arrived) {
     if (corners_.has_room(1)) {
       corners_.push(corner_data);
     } else {
-      feature_overflow = feature_overflow + 1;
+      feature_overflow = feature_overflow.written() + 1;
     }
   }
   if (blob_arrived) {
@@ -54,7 +54,7 @@ void FeaturePackagingClocked::store(bool corner_arrived, bool blob_arrived) {
       blobs_.push(blob_start);
       blobs_.push(blob_end);
     } else {
-      feature_overflow = feature_overflow + 1;
+      feature_overflow = feature_overflow.written() + 1;
     }
   }
 }

@@ -18,16 +18,11 @@ void GlobalThresholdClocked::edge() {
   const bool frame = frame_ena;
   binary_ena = frame;
   thresh_out = false;
-  if (frame) {
-    take_pixel();
-  } else if (frame_before_) {
-    core_.end_frame();
-    active_threshold = core_.threshold();
-  }
-  if (wr_thresh) {
-    core_.set_threshold(threshold);
-    active_threshold = core_.threshold();
-  }
+  const bool frame_ended = !frame && frame_before_;
+  if (frame) take_pixel();
+  if (frame_ended) core_.end_frame();
+  if (wr_thresh) core_.set_threshold(threshold);  // wins over the frame's own
+  if (frame_ended || wr_thresh) active_threshold = core_.threshold();
   if (!frame && !frame_before_ && !wr_thresh) sleep();
   frame_before_ = frame;
 }

@@ -38,7 +38,7 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   virtual void edge() = 0;
   void sleep();
   void on_change(SignalBase& signal, std::uint32_t id) override;
-  void before_end_of_elaboration() override;
+  void end_of_elaboration() override;
 
  private:
   Clock& clock_;

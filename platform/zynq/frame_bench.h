@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include <hal/hal.h>
+#include <input/input_frame.h>
+#include <marker/result.h>
+#include <ps/cpu/test_bench.h>
+#include <report/result.h>
+#include <vp/report.h>
+#include <zynq/software_options.h>
+#include <zynq/zynq.h>
+
+namespace platform {
+
+/// The test bench around the PS program: puts images into DDR, takes results, and reads what only the hardware knows.
+class FrameBench : public ps::TestBench, private vp::SignalListener {
+ public:
+  using NextFrame = std::function<const input::InputFrame*()>;
+  using FrameDone = std::function<bool(report::FrameReport&&)>;
+
+  /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA memory.
+  FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports);
+
+  /// Where frames come from and reports go to, for one run.
+  void start(NextFrame next, FrameDone done);
+
+  // ps::TestBench
+  const hal_frame* next_frame(std::uint64_t now_ps) override;
+  void publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now_ps) override;
+  double option(std::uint32_t option, const hal_option_info& info) override;
+
+ private:
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void place(const input::InputFrame& frame);
+  report::FrameReport report_of(const marker::FrameResult& result, std::uint64_t now_ps) const;
+  void add_counts(report::FrameReport& report) const;
+  void add_warnings(report::FrameReport& report, const marker::FrameResult& result);
+
+  Zynq& zynq_;
+  const SoftwareOptions& options_;
+  const vp::ReportRouter& reports_;
+  NextFrame next_;
+  FrameDone done_;
+  hal_frame frame_{};
+  std::uint32_t frames_ = 0;
+  std::uint8_t threshold_ = 0;       ///< in use when the frame began
+  std::size_t warnings_reported_ = 0;
+  bool stop_ = false;
+};
+
+}  // namespace platform

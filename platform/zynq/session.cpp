@@ -1,0 +1,47 @@
+#include <zynq/session.h>
+
+#include <exception>
+#include <vp/error.h>
+#include <zynq/cost_profile.h>
+
+namespace platform {
+
+Session::Session(const Options& options)
+    : program_(ps::Program::load(options.program)), costs_(assumed_costs()) {
+  zynq_ = std::make_unique<Zynq>();
+  reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
+  options_ = std::make_unique<SoftwareOptions>("sw", program_->description());
+  bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
+  if (options.trace) tracer_ = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *options.trace);
+  zynq_->ps.cpu.load(*program_, costs_);
+  zynq_->ps.cpu.connect(*bench_);
+}
+
+input::ImageSize Session::image_size() const {
+  const pl::Geometry geometry = zynq_->pl.geometry();
+  return {static_cast<int>(geometry.width), static_cast<int>(geometry.height)};
+}
+
+report::RunFacts Session::facts() const {
+  report::RunFacts facts;
+  facts.fidelity = zynq_->fidelity.get();
+  facts.system = program_->name();
+  facts.design = "thesis";
+  facts.profile = costs_.profile();
+  return facts;
+}
+
+void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
+  bench_->start(std::move(next), std::move(done));
+  std::exception_ptr error;
+  try {
+    sc_core::sc_start();
+    zynq_->ps.cpu.check();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (tracer_) tracer_->close();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace platform

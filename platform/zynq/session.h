@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <input/image_file.h>
+#include <ps/cpu/cost_table.h>
+#include <ps/cpu/program.h>
+#include <report/result.h>
+#include <vp/report.h>
+#include <vp/trace.h>
+#include <zynq/frame_bench.h>
+#include <zynq/software_options.h>
+#include <zynq/zynq.h>
+
+namespace platform {
+
+/// A run of the whole platform: hardware, PS program, and the test bench around them. One in a process at a time, since
+/// SystemC elaborates once.
+class Session {
+ public:
+  struct Options {
+    std::string program;                ///< file of the PS program
+    std::optional<vp::TraceOptions> trace;  ///< waveforms to record
+  };
+
+  /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws vp::InputError for a wrong
+  /// value, a program that cannot be loaded, or costs that do not cover it.
+  explicit Session(const Options& options);
+
+  /// The resolution that the platform is built for.
+  input::ImageSize image_size() const;
+  /// What runs; the configuration is left to the caller.
+  report::RunFacts facts() const;
+
+  /// Runs the program until `next` gives no more images; `done` takes each frame's report and says whether to go on. Throws
+  /// vp::ProtocolError if hardware or software broke a rule, vp::InputError if the trace cannot be written; the reports
+  /// until then were handed over.
+  void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
+
+  Zynq& zynq() { return *zynq_; }
+  const vp::ReportRouter& reports() const { return reports_; }
+
+ private:
+  vp::ReportRouter reports_;
+  std::unique_ptr<ps::Program> program_;
+  ps::CostTable costs_;
+  std::unique_ptr<Zynq> zynq_;
+  std::unique_ptr<SoftwareOptions> options_;
+  std::unique_ptr<FrameBench> bench_;
+  std::unique_ptr<vp::Tracer> tracer_;
+};
+
+}  // namespace platform

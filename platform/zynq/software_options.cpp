@@ -1,0 +1,45 @@
+#include <zynq/software_options.h>
+
+#include <string>
+#include <vp/error.h>
+#include <vp/unit.h>
+
+namespace platform {
+
+namespace {
+
+/// The dimension a unit's name belongs to.
+vp::Unit dimension_of(const std::string& unit, const hal_program& program, const char* option) {
+  if (unit.empty()) return vp::Unit::none;
+  using vp::Unit;
+  for (Unit dimension : {Unit::frequency, Unit::time, Unit::bytes, Unit::pixels, Unit::length, Unit::power, Unit::energy,
+                         Unit::voltage, Unit::cycles, Unit::percent, Unit::angle, Unit::temperature}) {
+    for (const std::string& known : vp::allowed_units(dimension)) {
+      if (known == unit) return dimension;
+    }
+  }
+  throw vp::InputError("program '" + std::string(program.name) + "': its option '" + option +
+                       "' has the unknown unit '" + unit + "'");
+}
+
+}  // namespace
+
+SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program)
+    : sc_module(name) {
+  for (std::uint32_t i = 0; i < program.option_count; ++i) {
+    const hal_option_info& info = program.options[i];
+    const vp::Unit dimension = dimension_of(info.unit, program, info.name);
+    // Parameters are kept in the base unit of their dimension; the program thinks in its own.
+    const double base =
+        dimension == vp::Unit::none
+            ? 1
+            : vp::parse_quantity(std::string("1 ") + info.unit, dimension).to_double();
+    const auto& parameter = parameters_.emplace_back(
+        info.name, info.default_value * base, dimension,
+        vp::Range<double>{info.minimum * base, info.maximum * base}, vp::Source::decision,
+        info.documentation);
+    values_.push_back(parameter.get() / base);
+  }
+}
+
+}  // namespace platform
