@@ -89,7 +89,7 @@ void ClockScheduler::run_instant(std::uint64_t ps) {
 void ClockScheduler::synchronise() {
   if (running_ || !started_) return;
   running_ = true;
-  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
+  const std::uint64_t now = now_ps();
   for (std::uint64_t next = next_instant(); next <= now; next = next_instant()) run_instant(next);
   running_ = false;
 }
@@ -110,6 +110,50 @@ void ClockScheduler::run() {
     running_ = false;
   }
   reschedule();
+}
+
+void ClockScheduler::pass_until(std::uint64_t ps, std::uint64_t lookahead_ps,
+                                sc_core::sc_event& interrupted, Condition condition,
+                                const void* context) {
+  while (now_ps() < ps) {
+    // Our own wake-up is no reason to stop: the edges it stands for are run here.
+    wake_up_.cancel();
+    const std::uint64_t kernel = to_ps(sc_core::sc_time_stamp());
+    const std::uint64_t pending =
+        to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
+    // What happens at the time of an event may come before or after it: leave that to the kernel.
+    const std::uint64_t free = std::min(pending == 0 ? 0 : pending - 1, lookahead_ps);
+    if (kernel + free >= ps) {
+      run_ahead(ps, condition, context);
+      return;
+    }
+    if (run_ahead(std::max(now_ps(), kernel + free), condition, context)) return;
+    reschedule();
+    sc_core::wait(from_ps(ps - kernel), interrupted);
+    synchronise();
+    if (condition && condition(context)) return;
+  }
+}
+
+// True if the condition ended it.
+bool ClockScheduler::run_ahead(std::uint64_t ps, Condition condition, const void* context) {
+  running_ = true;
+  bool met = false;
+  for (std::uint64_t next = next_instant(); next <= ps && !met; next = next_instant()) {
+    run_instant(next);
+    met = condition && condition(context);
+  }
+  running_ = false;
+  if (!met) instant_ps_ = std::max(instant_ps_, ps);
+  return met;
+}
+
+void ClockScheduler::rejoin() {
+  const std::uint64_t kernel = to_ps(sc_core::sc_time_stamp());
+  if (instant_ps_ > kernel) {
+    reschedule();
+    sc_core::wait(from_ps(instant_ps_ - kernel));
+  }
 }
 
 void ClockScheduler::reschedule() {

@@ -27,8 +27,21 @@ class ClockScheduler : public sc_core::sc_module {
   /// process calls it first: what he writes is seen by later edges only.
   void synchronise();
 
-  /// Time of the instant being run, in ps: at least the simulation time.
+  /// The present time in ps: that of the instant being run, or as far as pass_until() got. SystemC's own time may lag
+  /// behind it, never lead.
   std::uint64_t now_ps() const;
+
+  /// What ends pass_until() early; checked after every instant.
+  using Condition = bool (*)(const void* context);
+
+  /// Lets time pass up to `ps` for the process (an SC_THREAD) that calls. As long as no SystemC event lies before, it runs
+  /// the clock edges itself and SystemC's time stays behind, by `lookahead_ps` at most; otherwise it waits as others do, and
+  /// `interrupted` ends that wait. Returns early, at the end of an instant in which `condition` holds.
+  void pass_until(std::uint64_t ps, std::uint64_t lookahead_ps, sc_core::sc_event& interrupted,
+                  Condition condition = nullptr, const void* context = nullptr);
+
+  /// Lets SystemC's time catch up with now_ps().
+  void rejoin();
 
   /// Notifies `event` at the instant being run (which may lie ahead of the simulation time).
   void notify(sc_core::sc_event& event);
@@ -50,6 +63,7 @@ class ClockScheduler : public sc_core::sc_module {
 
   void start_of_simulation() override;
   void run();
+  bool run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
   void order_modules();
   void mark_deferred_signals();

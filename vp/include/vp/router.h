@@ -1,0 +1,80 @@
+#pragma once
+
+#include <tlm_utils/multi_passthrough_target_socket.h>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include <vp/counter.h>
+#include <vp/mm_link.h>
+#include <vp/parameter.h>
+
+namespace vp {
+
+class Clock;
+
+/// A memory-mapped interconnect: any number of initiators, and targets by address.
+///
+///   router.map("axi_gpio_0", 0x4120'0000, 0x1'0000).bind(axi_gpio_0.s_axi.socket);
+///
+/// A miss, and an access that leaves its region, are answered with TLM_ADDRESS_ERROR_RESPONSE (AXI:
+/// DECERR). Each region has a named link below the router. The address of a payload is restored
+/// after every call.
+class Router : public sc_core::sc_module {
+ public:
+  /// What a target sees as address.
+  enum class Addresses {
+    relative,  ///< the offset from the region's base
+    absolute,  ///< the address as the router got it
+  };
+
+  /// One entry of the address map.
+  struct Region {
+    std::string name;
+    std::uint64_t base;
+    std::uint64_t size;
+    Addresses addresses;
+    MmLink* link;
+
+    std::uint64_t last() const { return base + size - 1; }
+    std::uint64_t translation() const { return addresses == Addresses::relative ? base : 0; }
+  };
+
+  /// The latencies count cycles of `clock`; without clock they are 0 and not configurable.
+  explicit Router(sc_core::sc_module_name name, const Clock* clock = nullptr);
+  ~Router() override;
+  const char* kind() const override { return "vp::Router"; }
+
+  tlm_utils::multi_passthrough_target_socket<Router> socket;
+
+  Counter decode_errors{"decode_errors", "transactions to an address where nothing is mapped"};
+
+  /// Maps `size` bytes from `base`. Returns the socket to bind to the target. Throws InputError if
+  /// the region overlaps another, is empty, or passes the end of the 64-bit address space.
+  virtual tlm_utils::simple_initiator_socket<MmLink>& map(
+      const std::string& region_name, std::uint64_t base, std::uint64_t size,
+      Addresses addresses = Addresses::relative);
+
+  /// The address map, by address.
+  const std::vector<Region>& regions() const { return regions_; }
+  /// The region that holds `address`; null if there is none.
+  const Region* find(std::uint64_t address) const;
+
+ private:
+  void b_transport(int initiator, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+  unsigned transport_dbg(int initiator, tlm::tlm_generic_payload& payload);
+  bool get_direct_mem_ptr(int initiator, tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
+  void invalidate(const MmLink& link, std::uint64_t first, std::uint64_t last);
+  sc_core::sc_time access_time(tlm::tlm_command command) const;
+
+  const Clock* clock_;
+  std::unique_ptr<Parameter<std::uint32_t>> read_latency_;
+  std::unique_ptr<Parameter<std::uint32_t>> write_latency_;
+  std::vector<Region> regions_;
+  std::vector<std::unique_ptr<MmLink>> links_;
+};
+
+}  // namespace vp

@@ -1,0 +1,66 @@
+#include <vp/axi_stream.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace vp {
+
+namespace {
+
+[[noreturn]] void second_end(const AxiStream& link, const char* end) {
+  throw std::logic_error(std::string(link.name()) + ": a second " + end + " is bound to this link");
+}
+
+}  // namespace
+
+AxiStreamMaster::AxiStreamMaster(const char* name, Clocked& owner)
+    : tdata(&owner),
+      tkeep(&owner),
+      tvalid(&owner),
+      tlast(&owner),
+      tready((std::string(name) + "_tready").c_str(), &owner) {}
+
+void AxiStreamMaster::bind(AxiStream& link) {
+  if (link.has_master_) second_end(link, "master");
+  link.has_master_ = true;
+  link_ = &link;
+  tdata(link.tdata);
+  tkeep(link.tkeep);
+  tvalid(link.tvalid);
+  tlast(link.tlast);
+  tready(link.tready);
+}
+
+AxiStreamSlave::AxiStreamSlave(const char* name, Clocked& owner)
+    : tdata((std::string(name) + "_tdata").c_str(), &owner),
+      tkeep((std::string(name) + "_tkeep").c_str(), &owner),
+      tvalid((std::string(name) + "_tvalid").c_str(), &owner),
+      tlast((std::string(name) + "_tlast").c_str(), &owner),
+      tready(&owner),
+      owner_(owner) {}
+
+void AxiStreamSlave::bind(AxiStream& link) {
+  if (link.has_slave_) second_end(link, "slave");
+  link.has_slave_ = true;
+  link_ = &link;
+  tdata(link.tdata);
+  tkeep(link.tkeep);
+  tvalid(link.tvalid);
+  tlast(link.tlast);
+  tready(link.tready);
+}
+
+// While the master waits it holds its beat (tvalid must not fall), and the slave's tready changes
+// on its own edges only: so the edges the slave slept through since its last look were stalls too.
+void AxiStreamSlave::count_stall(bool valid) {
+  const std::uint64_t cycle = owner_.clock().cycle();
+  if (waiting_) {
+    link_->stalls.add(cycle - last_stall_cycle_ - (valid ? 0 : 1));
+  } else {
+    ++link_->stalls;
+  }
+  waiting_ = valid;
+  last_stall_cycle_ = cycle;
+}
+
+}  // namespace vp

@@ -1,0 +1,156 @@
+#include <vp/router.h>
+
+#include <algorithm>
+
+#include <vp/clock.h>
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/hex.h>
+#include <vp/hierarchy.h>
+
+namespace vp {
+
+namespace {
+
+std::string describe(const Router::Region& region) {
+  return region.name + " (" + hex(region.base) + " to " + hex(region.last()) + ")";
+}
+
+/// Gives a payload the target's address while it lives.
+class TranslatedAddress {
+ public:
+  TranslatedAddress(tlm::tlm_generic_payload& payload, const Router::Region& region)
+      : payload_(payload), address_(payload.get_address()) {
+    payload_.set_address(address_ - region.translation());
+  }
+  ~TranslatedAddress() { payload_.set_address(address_); }
+  TranslatedAddress(const TranslatedAddress&) = delete;
+  TranslatedAddress& operator=(const TranslatedAddress&) = delete;
+
+ private:
+  tlm::tlm_generic_payload& payload_;
+  sc_dt::uint64 address_;
+};
+
+}  // namespace
+
+Router::Router(sc_core::sc_module_name name, const Clock* clock)
+    : sc_module(name), socket("socket"), clock_(clock) {
+  socket.register_b_transport(this, &Router::b_transport);
+  socket.register_transport_dbg(this, &Router::transport_dbg);
+  socket.register_get_direct_mem_ptr(this, &Router::get_direct_mem_ptr);
+  if (!clock_) return;
+  read_latency_ = std::make_unique<Parameter<std::uint32_t>>(
+      "read_latency", 0, Unit::cycles, Range<std::uint32_t>{0, 1'000}, Source::decision,
+      "added to each read; the path from the PS has its time in the PS port");
+  write_latency_ = std::make_unique<Parameter<std::uint32_t>>(
+      "write_latency", 0, Unit::cycles, Range<std::uint32_t>{0, 1'000}, Source::decision,
+      "added to each write; the path from the PS has its time in the PS port");
+}
+
+Router::~Router() = default;
+
+tlm_utils::simple_initiator_socket<MmLink>& Router::map(const std::string& region_name,
+                                                        std::uint64_t base, std::uint64_t size,
+                                                        Addresses addresses) {
+  if (size == 0 || base + (size - 1) < base) {
+    throw InputError(std::string(name()) + ": the region of " + region_name + " at " + hex(base) +
+                     " has a size of " + hex(size) +
+                     ": it must be at least 1 and end within 64 bits");
+  }
+  Region region{region_name, base, size, addresses, nullptr};
+  for (const Region& other : regions_) {
+    if (region.base <= other.last() && other.base <= region.last()) {
+      throw InputError(std::string(name()) + ": " + describe(region) + " overlaps " +
+                       describe(other) + ": move one of them");
+    }
+  }
+  const HierarchyScope scope(*this);
+  links_.push_back(std::make_unique<MmLink>(region_name.c_str()));
+  MmLink& link = *links_.back();
+  link.on_invalidate(
+      [this, &link](std::uint64_t first, std::uint64_t last) { invalidate(link, first, last); });
+  region.link = &link;
+  const auto place = std::upper_bound(regions_.begin(), regions_.end(), base,
+                                      [](std::uint64_t b, const Region& r) { return b < r.base; });
+  regions_.insert(place, region);
+  return link.socket;
+}
+
+const Router::Region* Router::find(std::uint64_t address) const {
+  const auto above = std::upper_bound(regions_.begin(), regions_.end(), address,
+                                      [](std::uint64_t a, const Region& r) { return a < r.base; });
+  if (above == regions_.begin()) return nullptr;
+  const Region& candidate = *(above - 1);
+  return address <= candidate.last() ? &candidate : nullptr;
+}
+
+sc_core::sc_time Router::access_time(tlm::tlm_command command) const {
+  const std::uint32_t cycles = command == tlm::TLM_READ_COMMAND ? *read_latency_ : *write_latency_;
+  return from_ps(clock_->duration_ps(cycles));
+}
+
+void Router::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  if (clock_) delay += access_time(payload.get_command());
+  const std::uint64_t address = payload.get_address();
+  const unsigned length = payload.get_data_length();
+  const Region* region = find(address);
+  if (!region || (length > 0 && length - 1 > region->last() - address)) {
+    ++decode_errors;
+    payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    return;
+  }
+  const TranslatedAddress translated(payload, *region);
+  region->link->transport(payload, delay);
+}
+
+// Reaches as far as the region does: the byte count tells.
+unsigned Router::transport_dbg(int, tlm::tlm_generic_payload& payload) {
+  const Region* region = find(payload.get_address());
+  if (!region) return 0;
+  const std::uint64_t room = region->last() - payload.get_address() + 1;
+  const unsigned length = payload.get_data_length();
+  payload.set_data_length(static_cast<unsigned>(std::min<std::uint64_t>(length, room)));
+  const TranslatedAddress translated(payload, *region);
+  const unsigned done = region->link->transport_debug(payload);
+  payload.set_data_length(length);
+  return done;
+}
+
+// The window comes back in the target's addresses, and may be wider than what is mapped.
+bool Router::get_direct_mem_ptr(int, tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
+  const std::uint64_t address = payload.get_address();
+  const Region* region = find(address);
+  if (!region) {
+    dmi.set_start_address(address);
+    dmi.set_end_address(address);
+    return false;
+  }
+  const TranslatedAddress translated(payload, *region);
+  const bool given = region->link->direct_memory(payload, dmi);
+  const std::uint64_t first = region->base - region->translation();
+  const std::uint64_t last = region->last() - region->translation();
+  if (given && dmi.get_start_address() < first) {
+    dmi.set_dmi_ptr(dmi.get_dmi_ptr() + (first - dmi.get_start_address()));
+  }
+  dmi.set_start_address(std::max<std::uint64_t>(dmi.get_start_address(), first) +
+                        region->translation());
+  dmi.set_end_address(std::min<std::uint64_t>(dmi.get_end_address(), last) + region->translation());
+  return given;
+}
+
+void Router::invalidate(const MmLink& link, std::uint64_t first, std::uint64_t last) {
+  for (const Region& region : regions_) {
+    if (region.link != &link) continue;
+    const std::uint64_t low = std::max(first, region.base - region.translation());
+    const std::uint64_t high = std::min(last, region.last() - region.translation());
+    if (low > high) return;
+    for (unsigned i = 0; i < socket.size(); ++i) {
+      socket[static_cast<int>(i)]->invalidate_direct_mem_ptr(low + region.translation(),
+                                                             high + region.translation());
+    }
+    return;
+  }
+}
+
+}  // namespace vp

@@ -1,0 +1,259 @@
+#include <vp/error.h>
+#include <vp/report.h>
+#include <vp/trace.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "probe_poll.h"
+#include "trace_clock.h"
+#include "trace_sources.h"
+
+namespace vp {
+
+namespace {
+
+constexpr std::uint64_t never = TraceOptions::never;
+
+VcdWriter::Kind kind_of(const TraceSource& source) {
+  if (source.real) return VcdWriter::Kind::real;
+  return source.probe ? VcdWriter::Kind::reg : VcdWriter::Kind::wire;
+}
+
+}  // namespace
+
+// The hot path: for every change of a traced signal.
+inline void Tracer::mark(VcdWriter::Id id, std::uint64_t bits) {
+  values_[id] = bits;
+  marked_[id / 64] |= std::uint64_t{1} << (id % 64);
+}
+
+// A new value of a variable now.
+inline void Tracer::record(VcdWriter::Id id, std::uint64_t bits) {
+  if (!recording_) return;
+  const std::uint64_t now = scheduler_.now_ps();
+  if (now != instant_ps_) enter(now);
+  if (recording_) mark(id, bits);
+}
+
+void Tracer::on_change(SignalBase& signal, std::uint32_t id) {
+  record(id, signal.bits());
+}
+
+Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOptions options)
+    : sc_module(name),
+      scheduler_(scheduler),
+      options_(std::move(options)),
+      probes_(std::make_unique<ProbePoll>()) {
+  if (options_.from_ps >= options_.to_ps) {
+    throw InputError("the trace window from " + std::to_string(options_.from_ps) + " ps to " +
+                     std::to_string(options_.to_ps) + " ps is empty; its end must come later");
+  }
+  writer_ = std::make_unique<VcdWriter>(options_.file);
+  SC_HAS_PROCESS(Tracer);
+  SC_METHOD(open_window);
+  sensitive << window_opens_;
+  dont_initialize();
+  SC_METHOD(leave_window);
+  sensitive << window_left_;
+  dont_initialize();
+}
+
+Tracer::~Tracer() {
+  if (!writer_ || !writer_->begun()) return;
+  writer_.reset();
+  try {
+    warn(*this, "/markervp/trace/incomplete",
+         "the run ended before its trace '" + options_.file.string() + "' was closed");
+  } catch (...) {  // warnings may be set to throw; a destructor must not
+  }
+}
+
+void Tracer::close() {
+  if (!writer_) return;
+  const std::uint64_t now = scheduler_.now_ps();
+  if (recording_) end_of_instant(now);
+  if (recording_) write_falls_before(std::min(now + 1, options_.to_ps));
+  recording_ = false;
+  leave_window();
+  const auto writer = std::move(writer_);
+  if (started_ && !writer->begun()) {
+    warn(*this, "/markervp/trace/window",
+         "no trace '" + options_.file.string() + "': the run ended at " + std::to_string(now) +
+             " ps, before its window began at " + std::to_string(options_.from_ps) + " ps");
+  }
+  writer->close(std::min(now, options_.to_ps));
+}
+
+// The watchers of the clocks are modules: they must stand before the elaboration ends, when it is
+// not known yet which of them will be wanted.
+void Tracer::before_end_of_elaboration() {
+  if (!options_.clocks) return;
+  for (Clock* clock : find_clocks(scheduler_)) {
+    clocks_.push_back(
+        std::make_unique<TraceClock>(sc_core::sc_gen_unique_name("clock"), *clock, *this));
+  }
+}
+
+void Tracer::start_of_simulation() {
+  started_ = true;
+  select_sources();
+  select_clocks();
+  marked_.assign(values_.size() / 64 + 1, 0);
+  if (options_.from_ps == 0) {
+    open_window();
+  } else {
+    window_opens_.notify(from_ps(options_.from_ps));
+  }
+}
+
+void Tracer::select_sources() {
+  std::vector<std::string> visible, hidden;
+  for (TraceSource& source : find_trace_sources()) {
+    const bool shown = !source.probe || options_.level == TraceLevel::registers;
+    (shown ? visible : hidden).push_back(source.path);
+    if (!shown || !options_.filter.selects(source.path)) continue;
+    follow(source, writer_->add(source.path, kind_of(source), source.width));
+    sources_.push_back(std::move(source));
+  }
+  options_.filter.check(visible, hidden);
+  values_.assign(sources_.size(), 0);
+}
+
+void Tracer::follow(const TraceSource& source, VcdWriter::Id id) {
+  if (source.probe) probes_->add(*source.probe, id);
+  if (source.signal) return;
+  sc_core::sc_spawn_options method;
+  method.spawn_method();
+  method.dont_initialize();
+  method.set_sensitivity(source.foreign_event);
+  sc_core::sc_spawn([this, id, bits = source.foreign_bits] { record(id, bits()); },
+                    sc_core::sc_gen_unique_name("follow"), &method);
+}
+
+void Tracer::select_clocks() {
+  for (auto& clock : clocks_) {
+    clock->selected = std::any_of(sources_.begin(), sources_.end(), [&](const TraceSource& source) {
+      const Clocked* writer = source.signal ? source.signal->writer() : nullptr;
+      return writer && &writer->clock() == &clock->clock();
+    });
+    if (!clock->selected) continue;
+    clock->id = writer_->add(clock->clock().name(), VcdWriter::Kind::wire, 1);
+    values_.push_back(0);
+  }
+}
+
+void Tracer::open_window() {
+  scheduler_.synchronise();
+  instant_ps_ = scheduler_.now_ps();
+  for (std::size_t id = 0; id < sources_.size(); ++id) values_[id] = sources_[id].bits();
+  for (auto& clock : clocks_) {
+    if (!clock->selected) continue;
+    std::uint64_t until_ps = never;
+    values_[clock->id] = clock->high_at(instant_ps_, until_ps);
+    if (values_[clock->id]) fall_later(*clock, until_ps);
+    clock->wake();
+  }
+  writer_->begin(instant_ps_, values_);
+  for (std::size_t id = 0; id < sources_.size(); ++id) {
+    const TraceSource& source = sources_[id];
+    if (source.signal && !source.probe) {
+      source.signal->attach(*this, static_cast<std::uint32_t>(id));
+    }
+  }
+  scheduler_.add_observer(*this);
+  attached_ = recording_ = true;
+}
+
+// Not from on_change() or end_of_instant(): their callers walk the lists that this shortens.
+void Tracer::leave_window() {
+  if (!attached_) return;
+  attached_ = false;
+  for (const TraceSource& source : sources_) {
+    if (source.signal && !source.probe) source.signal->detach(*this);
+  }
+  scheduler_.remove_observer(*this);
+}
+
+void Tracer::stop_recording() {
+  recording_ = false;
+  scheduler_.notify(window_left_);
+  // close() tells why.
+  if (writer_->failed() && sc_core::sc_get_status() == sc_core::SC_RUNNING) sc_core::sc_stop();
+}
+
+void Tracer::end_of_instant(std::uint64_t ps) {
+  if (recording_) enter(ps);
+  if (!recording_) return;
+  probes_->run(values_, [this](VcdWriter::Id id, std::uint64_t bits) { mark(id, bits); });
+  flush();
+}
+
+// The marked changes are written when time has moved on, or at the end of the instant: changes by
+// processes have no end of instant of their own.
+void Tracer::enter(std::uint64_t ps) {
+  if (ps == instant_ps_) return;
+  flush();
+  write_falls_before(std::min(ps, options_.to_ps));
+  instant_ps_ = ps;
+  if (ps >= options_.to_ps || writer_->failed()) {
+    stop_recording();
+  } else {
+    write_falls_at(ps);
+  }
+}
+
+// In the order of the ids, whoever changed first.
+void Tracer::flush() {
+  for (std::size_t word = 0; word < marked_.size(); ++word) {
+    std::uint64_t bits = marked_[word];
+    if (bits == 0) continue;
+    marked_[word] = 0;
+    writer_->set_time(instant_ps_);
+    for (; bits != 0; bits &= bits - 1) {
+      const std::size_t id = word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits));
+      writer_->change(static_cast<VcdWriter::Id>(id), values_[id]);
+    }
+  }
+}
+
+void Tracer::rise(TraceClock& clock, std::uint64_t ps) {
+  enter(ps);
+  if (!recording_) return;
+  // A clock that became faster while it was high falls just before it rises.
+  writer_->set_time(ps - 1);
+  writer_->change(clock.id, 0);
+  mark(clock.id, 1);
+  fall_later(clock, ps + clock.half_period_ps());
+}
+
+void Tracer::fall_later(TraceClock& clock, std::uint64_t ps) {
+  clock.fall_ps = ps;
+  next_fall_ps_ = never;
+  for (const auto& each : clocks_) next_fall_ps_ = std::min(next_fall_ps_, each->fall_ps);
+}
+
+void Tracer::write_falls_before(std::uint64_t ps) {
+  while (next_fall_ps_ < ps) {
+    const std::uint64_t fall_ps = next_fall_ps_;
+    writer_->set_time(fall_ps);
+    for (auto& clock : clocks_) {
+      if (clock->fall_ps != fall_ps) continue;
+      values_[clock->id] = 0;
+      writer_->change(clock->id, 0);
+      fall_later(*clock, never);
+    }
+  }
+}
+
+void Tracer::write_falls_at(std::uint64_t ps) {
+  if (next_fall_ps_ != ps) return;
+  for (auto& clock : clocks_) {
+    if (clock->fall_ps != ps) continue;
+    mark(clock->id, 0);
+    fall_later(*clock, never);
+  }
+}
+
+}  // namespace vp

@@ -1,0 +1,253 @@
+#include <fcntl.h>
+#include <unistd.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/vcd_writer.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+namespace vp {
+
+namespace {
+
+/// One write to the system for so many bytes; stays in the second-level cache.
+constexpr std::size_t buffer_size = 256 * 1024;
+/// Longest line of a change: "b", 64 digits, suffix, written in steps of 8 bytes.
+constexpr std::size_t longest_line = 96;
+
+constexpr std::array<std::array<char, 8>, 256> make_digits_of_byte() {
+  std::array<std::array<char, 8>, 256> digits{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    for (unsigned bit = 0; bit < 8; ++bit) digits[byte][bit] = (byte >> (7 - bit) & 1) ? '1' : '0';
+  }
+  return digits;
+}
+constexpr auto digits_of_byte = make_digits_of_byte();
+
+/// Identifier codes use the 94 printable characters, the shortest first.
+std::string identifier_code(VcdWriter::Id id) {
+  std::string code;
+  for (std::uint64_t rest = id + std::uint64_t{1}; rest > 0; rest = (rest - 1) / 94) {
+    code += static_cast<char>('!' + (rest - 1) % 94);
+  }
+  return code;
+}
+
+void require_valid_path(std::string_view path) {
+  bool valid = !path.empty() && path.front() != '.' && path.back() != '.' &&
+               path.find("..") == std::string_view::npos;
+  for (const char c : path) valid = valid && c > ' ' && c <= '~';
+  if (!valid) throw std::invalid_argument("not a name for a VCD: '" + std::string(path) + "'");
+}
+
+[[noreturn]] void cannot_write(const std::filesystem::path& file, int error, const char* advice) {
+  throw InputError("cannot write trace '" + file.string() + "': " + std::strerror(error) + "; " +
+                   advice);
+}
+
+}  // namespace
+
+/// A level of the hierarchy, in the order of declaration.
+struct VcdWriter::Scope {
+  std::string name;
+  std::vector<std::pair<std::string, Id>> variables;
+  std::vector<std::unique_ptr<Scope>> children;
+
+  Scope& child(const std::string& child_name) {
+    for (auto it = children.rbegin(); it != children.rend(); ++it) {
+      if ((*it)->name == child_name) return **it;
+    }
+    children.push_back(std::make_unique<Scope>());
+    children.back()->name = child_name;
+    return *children.back();
+  }
+};
+
+VcdWriter::VcdWriter(const std::filesystem::path& file)
+    : file_(file), written_(file), buffer_(buffer_size + longest_line) {
+  cursor_ = buffer_.data();
+  limit_ = cursor_ + buffer_size;
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) {
+    written_ += ".tmp";
+  }
+  constexpr const char* advice = "name a file in a folder that exists and may be written";
+  if (file_.empty()) cannot_write(file_, ENOENT, advice);
+  if (std::filesystem::is_directory(status)) cannot_write(file_, EISDIR, advice);
+  descriptor_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) cannot_write(file_, errno, advice);
+}
+
+VcdWriter::~VcdWriter() {
+  if (descriptor_ < 0) return;
+  if (!begun_ || failed()) {
+    remove();
+    return;
+  }
+  write_text("$comment incomplete: the run ended before its trace was closed $end\n");
+  finish();
+  if (failed()) remove();
+}
+
+VcdWriter::Id VcdWriter::add(std::string_view path, Kind kind, unsigned width) {
+  require_valid_path(path);
+  if (begun_) throw std::logic_error("VcdWriter::add() after begin()");
+  if (kind == Kind::real) width = 64;
+  if (width < 1 || width > 64) {
+    throw std::invalid_argument("width of '" + std::string(path) + "' is not 1 to 64 bits");
+  }
+  const Id id = static_cast<Id>(variables_.size());
+  Variable variable{};
+  variable.mask = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+  variable.real = kind == Kind::real;
+  variable.scalar = width == 1;
+  const std::string suffix = (variable.scalar ? "" : " ") + identifier_code(id) + "\n";
+  variable.suffix_length = static_cast<std::uint8_t>(suffix.size());
+  std::memcpy(variable.suffix, suffix.data(), suffix.size());
+  variables_.push_back(variable);
+  declarations_.push_back({std::string(path), kind, width});
+  return id;
+}
+
+void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) {
+  if (begun_ || values.size() != variables_.size()) {
+    throw std::logic_error("VcdWriter::begin() wants one value per variable, once");
+  }
+  write_header();
+  begun_ = true;
+  time_ps_ = ps;
+  write_stamp();
+  write_text("$dumpvars\n");
+  for (std::size_t id = 0; id < variables_.size(); ++id) {
+    variables_[id].last = values[id] & variables_[id].mask;
+    write_value(variables_[id]);
+  }
+  write_text("$end\n");
+}
+
+void VcdWriter::close(std::uint64_t end_ps) {
+  if (descriptor_ < 0) return;
+  if (!begun_) {
+    remove();
+    return;
+  }
+  set_time(end_ps);
+  if (stamp_due_) write_stamp();
+  finish();
+  if (!failed()) return;
+  remove();
+  cannot_write(file_, error_, "make room, or trace less: a time window, fewer signals");
+}
+
+void VcdWriter::write_header() {
+  Scope root;
+  for (std::size_t id = 0; id < declarations_.size(); ++id) {
+    std::vector<std::string> levels = split(declarations_[id].path, '.');
+    Scope* scope = &root;
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) scope = &scope->child(levels[i]);
+    scope->variables.emplace_back(levels.back(), static_cast<Id>(id));
+  }
+  write_text("$version markervp $end\n$timescale 1ps $end\n");
+  write_scope(root);
+  write_text("$enddefinitions $end\n");
+}
+
+void VcdWriter::write_scope(const Scope& scope) {
+  for (const auto& [leaf, id] : scope.variables) write_declaration(declarations_[id], leaf, id);
+  for (const auto& child : scope.children) {
+    write_text("$scope module " + child->name + " $end\n");
+    write_scope(*child);
+    write_text("$upscope $end\n");
+  }
+}
+
+void VcdWriter::write_declaration(const Declaration& declaration, std::string_view leaf, Id id) {
+  static constexpr const char* words[] = {"wire", "reg", "real"};
+  std::string line = "$var " + std::string(words[static_cast<int>(declaration.kind)]) + " " +
+                     std::to_string(declaration.width) + " " + identifier_code(id) + " ";
+  line += leaf;
+  if (declaration.kind != Kind::real && declaration.width > 1) {
+    line += " [" + std::to_string(declaration.width - 1) + ":0]";
+  }
+  write_text(line + " $end\n");
+}
+
+void VcdWriter::write_stamp() {
+  stamp_due_ = false;
+  if (cursor_ >= limit_) flush();
+  *cursor_++ = '#';
+  cursor_ = std::to_chars(cursor_, cursor_ + 20, time_ps_).ptr;
+  *cursor_++ = '\n';
+}
+
+void VcdWriter::write_number(const Variable& variable) {
+  char* at = cursor_;
+  if (variable.real) {
+    double value = 0;
+    std::memcpy(&value, &variable.last, sizeof value);
+    *at++ = 'r';
+    at = std::to_chars(at, at + 32, value).ptr;
+  } else {
+    // Leading zeros are left out (IEEE 1364, 18.2.1). Eight digits a step, the first two without a
+    // branch that would be mispredicted; what is too many is written over.
+    const int digits = 64 - __builtin_clzll(variable.last | 1);
+    std::uint64_t left_aligned = variable.last << (64 - digits);
+    *at++ = 'b';
+    std::memcpy(at, digits_of_byte[left_aligned >> 56].data(), 8);
+    std::memcpy(at + 8, digits_of_byte[left_aligned >> 48 & 0xff].data(), 8);
+    for (int done = 16; done < digits; done += 8) {
+      left_aligned <<= 8;
+      std::memcpy(at + done, digits_of_byte[left_aligned >> 48 & 0xff].data(), 8);
+    }
+    at += digits;
+  }
+  write_suffix(variable, at);
+}
+
+void VcdWriter::write_text(std::string_view text) {
+  while (!text.empty()) {
+    if (cursor_ >= limit_) flush();
+    const std::size_t part = std::min(text.size(), static_cast<std::size_t>(limit_ - cursor_));
+    std::memcpy(cursor_, text.data(), part);
+    cursor_ += part;
+    text.remove_prefix(part);
+  }
+}
+
+void VcdWriter::flush() {
+  const char* from = buffer_.data();
+  while (from != cursor_ && error_ == 0) {
+    const ::ssize_t count = ::write(descriptor_, from, static_cast<std::size_t>(cursor_ - from));
+    if (count >= 0) {
+      from += count;
+    } else if (errno != EINTR) {
+      error_ = errno;
+    }
+  }
+  cursor_ = buffer_.data();
+}
+
+void VcdWriter::finish() {
+  flush();
+  if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  descriptor_ = -1;
+  if (error_ != 0 || written_ == file_) return;
+  std::error_code error;
+  std::filesystem::rename(written_, file_, error);
+  if (error) error_ = error.value();
+}
+
+void VcdWriter::remove() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  std::error_code ignored;
+  if (written_ != file_) std::filesystem::remove(written_, ignored);
+}
+
+}  // namespace vp
