@@ -2,7 +2,8 @@
 # One Boost.Test program, one CTest entry. LABELS slow: left out by `ctest -LE slow`.
 function(markervp_add_test)
   cmake_parse_arguments(TEST "" "NAME" "SOURCES;LIBRARIES;LABELS" ${ARGN})
-  add_executable(${TEST_NAME} ${TEST_SOURCES} "${PROJECT_SOURCE_DIR}/tests/kit/main.cpp")
+  add_executable(${TEST_NAME} ${TEST_SOURCES} "${PROJECT_SOURCE_DIR}/tests/kit/main.cpp"
+    $<TARGET_OBJECTS:markervp_address_sanitizer>)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} Boost::unit_test_framework)
   target_compile_definitions(${TEST_NAME} PRIVATE BOOST_TEST_DYN_LINK
     MARKERVP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <systemc>
+
+#include <vp/clock_scheduler.h>
 
 namespace kit {
 
@@ -18,7 +22,15 @@ class Simulation {
   sc_core::sc_simcontext* context_;  // lives on: SystemC 2.3.4 cannot destroy a context safely
 };
 
-/// A simulation time in picoseconds, for exact comparison.
-inline std::uint64_t now_ps() { return sc_core::sc_time_stamp().value(); }
+/// The simulation time in picoseconds, for exact comparison: that of a clock scheduler that runs ahead of SystemC's.
+inline std::uint64_t now_ps() {
+  std::uint64_t now = sc_core::sc_time_stamp().value();
+  for (sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) {
+    if (const auto* scheduler = dynamic_cast<vp::ClockScheduler*>(object)) {
+      now = std::max(now, scheduler->now_ps());
+    }
+  }
+  return now;
+}
 
 }  // namespace kit

@@ -141,7 +141,8 @@ void Clock::seek_alarm() {
 
 // A module woke or set an alarm: the clock runs again from its first edge after `after_ps`.
 void Clock::plan_next(std::uint64_t after_ps) {
-  if (in_edge_) return;  // run_edge() plans when all modules have run
+  // run_edge() plans when all modules have run; an edge of this very instant that is still to come is not passed over.
+  if (in_edge_ || next_ps_ == after_ps) return;
   if (awake_ > 0 && hertz_ != 0) {
     seek(cycle_at_or_after(after_ps + 1));
   } else {

@@ -64,10 +64,6 @@ void ClockScheduler::start_of_simulation() {
   for (Clock* clock : clocks_) clock->plan_next(0);
 }
 
-std::uint64_t ClockScheduler::now_ps() const {
-  return std::max(instant_ps_, to_ps(sc_core::sc_time_stamp()));
-}
-
 std::uint64_t ClockScheduler::next_instant() const {
   std::uint64_t first = Clock::never;
   for (const Clock* clock : clocks_) first = std::min(first, clock->next_ps_);
@@ -88,8 +84,8 @@ void ClockScheduler::run_instant(std::uint64_t ps) {
 
 void ClockScheduler::synchronise() {
   if (running_ || !started_) return;
-  running_ = true;
   const std::uint64_t now = now_ps();
+  running_ = true;
   for (std::uint64_t next = next_instant(); next <= now; next = next_instant()) run_instant(next);
   running_ = false;
 }
@@ -112,26 +108,45 @@ void ClockScheduler::run() {
   reschedule();
 }
 
-void ClockScheduler::pass_until(std::uint64_t ps, std::uint64_t lookahead_ps,
-                                sc_core::sc_event& interrupted, Condition condition,
-                                const void* context) {
+void ClockScheduler::pass_until(std::uint64_t ps, Condition condition, const void* context) {
   while (now_ps() < ps) {
     // Our own wake-up is no reason to stop: the edges it stands for are run here.
     wake_up_.cancel();
     const std::uint64_t kernel = to_ps(sc_core::sc_time_stamp());
     const std::uint64_t pending =
         to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
-    // What happens at the time of an event may come before or after it: leave that to the kernel.
-    const std::uint64_t free = std::min(pending == 0 ? 0 : pending - 1, lookahead_ps);
+    // What happens at the time of an event may come before or after it: that is left to the kernel.
+    const std::uint64_t free = std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
     if (kernel + free >= ps) {
       run_ahead(ps, condition, context);
       return;
     }
     if (run_ahead(std::max(now_ps(), kernel + free), condition, context)) return;
-    reschedule();
-    sc_core::wait(from_ps(ps - kernel), interrupted);
-    synchronise();
+    wait_in_kernel(ps - kernel, condition, context);
     if (condition && condition(context)) return;
+  }
+}
+
+void ClockScheduler::wait_in_kernel(std::uint64_t ps, Condition condition, const void* context) {
+  reschedule();
+  if (!condition) {
+    sc_core::wait(from_ps(ps));
+  } else {
+    const std::pair<Condition, const void*> waiter{condition, context};
+    waiting_.push_back(waiter);
+    sc_core::wait(from_ps(ps), condition_met_);
+    waiting_.erase(std::find(waiting_.begin(), waiting_.end(), waiter));
+  }
+  synchronise();
+}
+
+// Wakes all who wait for a condition; those whose own does not hold go on waiting.
+void ClockScheduler::check_condition() {
+  for (const auto& [condition, context] : waiting_) {
+    if (condition(context)) {
+      notify(condition_met_);
+      return;
+    }
   }
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include <vp/clock.h>
 
 namespace vp {
 
-/// Called at the end of every instant in which a clock edge ran or a signal changed; for tracers.
+/// Called at the end of every instant in which a clock edge ran; for tracers.
 class InstantObserver {
  public:
   virtual ~InstantObserver() = default;
@@ -29,16 +31,24 @@ class ClockScheduler : public sc_core::sc_module {
 
   /// The present time in ps: that of the instant being run, or as far as pass_until() got. SystemC's own time may lag
   /// behind it, never lead.
-  std::uint64_t now_ps() const;
+  std::uint64_t now_ps() const {
+    return running_ ? instant_ps_
+                    : std::max(instant_ps_, std::uint64_t{sc_core::sc_time_stamp().value()});
+  }
 
   /// What ends pass_until() early; checked after every instant.
   using Condition = bool (*)(const void* context);
 
+  /// How far pass_until() may leave SystemC's time behind; 0 (default): not at all. No result depends on it.
+  void set_lookahead(std::uint64_t ps) { lookahead_ps_ = ps; }
+
   /// Lets time pass up to `ps` for the process (an SC_THREAD) that calls. As long as no SystemC event lies before, it runs
-  /// the clock edges itself and SystemC's time stays behind, by `lookahead_ps` at most; otherwise it waits as others do, and
-  /// `interrupted` ends that wait. Returns early, at the end of an instant in which `condition` holds.
-  void pass_until(std::uint64_t ps, std::uint64_t lookahead_ps, sc_core::sc_event& interrupted,
-                  Condition condition = nullptr, const void* context = nullptr);
+  /// the clock edges itself and SystemC's time stays behind; otherwise it waits as others do. Returns early, at the end of
+  /// an instant in which `condition` holds.
+  void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr);
+
+  /// The condition of the process in pass_until() may have become true outside of a clock edge: looks at it.
+  void check_condition();
 
   /// Lets SystemC's time catch up with now_ps().
   void rejoin();
@@ -63,6 +73,7 @@ class ClockScheduler : public sc_core::sc_module {
 
   void start_of_simulation() override;
   void run();
+  void wait_in_kernel(std::uint64_t ps, Condition condition, const void* context);
   bool run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
   void order_modules();
@@ -75,6 +86,10 @@ class ClockScheduler : public sc_core::sc_module {
   std::vector<SignalBase*> deferred_;
   std::vector<InstantObserver*> observers_;
   sc_core::sc_event wake_up_;
+
+  sc_core::sc_event condition_met_;
+  std::vector<std::pair<Condition, const void*>> waiting_;  ///< of processes in pass_until() while the kernel runs
+  std::uint64_t lookahead_ps_ = 0;
   std::uint64_t instant_ps_ = 0;
   bool running_ = false;
   bool batch_ = false;

@@ -37,6 +37,9 @@ class SignalBase : public sc_core::sc_object {
   void attach(SignalListener& listener, std::uint32_t id = 0);
   void detach(SignalListener& listener);
 
+  /// Writes in a clock edge become visible at the end of the instant: for an output that logic without a clock reads.
+  void defer_writes() { deferred_ = observed_ = true; }
+
   /// Says which module writes the signal, where that is not the module that holds it.
   void set_writer(Clocked& module) { writer_ = &module; }
   void set_scheduler(ClockScheduler& scheduler) { scheduler_ = &scheduler; }

@@ -1,0 +1,188 @@
+#include <xilinx/axi_dma/axi_dma.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/report.h>
+
+namespace xilinx {
+
+namespace {
+
+using namespace axi_dma;
+
+constexpr std::uint32_t reset_pin = 1;  // what a listener is told of, besides streams (0)
+
+vp::RegisterBankOptions bank_options() {
+  vp::RegisterBankOptions options;
+  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
+  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
+  options.address_bits = address_bits;
+  return options;
+}
+
+[[noreturn]] void not_built(const AxiDma& dma, const char* channel) {
+  throw std::logic_error(std::string(dma.name()) + " was built without its " + channel +
+                         " channel");
+}
+
+}  // namespace
+
+AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build)
+    : Clocked(name, aclk),
+      include_mm2s("include_mm2s", build.include_mm2s, vp::Source::published,
+                   "build option Enable Read Channel (PG021)"),
+      include_s2mm("include_s2mm", build.include_s2mm, vp::Source::published,
+                   "build option Enable Write Channel (PG021)"),
+      length_width("length_width", build.length_width, vp::Unit::none, {8, 26},
+                   vp::Source::published,
+                   "bits of the LENGTH registers (PG021; 14 is Vivado's default)"),
+      mm2s_dre("mm2s_dre", build.mm2s_dre, vp::Source::published,
+               "build option Allow Unaligned Transfers, read channel (PG021)"),
+      s2mm_dre("s2mm_dre", build.s2mm_dre, vp::Source::published,
+               "build option Allow Unaligned Transfers, write channel (PG021)"),
+      burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
+                  "largest burst in words (thesis 4.4.2: 32)"),
+      s_axi_lite("s_axi_lite", registers, bank_options(), &aclk.scheduler()) {
+  if (!include_mm2s && !include_s2mm) {
+    throw vp::InputError(std::string(this->name()) +
+                         ": include_mm2s and include_s2mm are both false: build one");
+  }
+  if ((burst_beats & (burst_beats - 1)) != 0) {
+    throw vp::InputError(std::string(burst_beats.name()) + " = " + std::to_string(burst_beats) +
+                         ": must be a power of two from 2 to 256");
+  }
+  build_channels();
+}
+
+void AxiDma::build_channels() {
+  DmaChannel::Core& core = *this;
+  if (include_mm2s) {
+    mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, burst_beats);
+    mm2s_->configure(length_width, mm2s_dre);
+    interrupts_.push_back({mm2s_.get(), &mm2s_introut});
+  } else {
+    for (const std::uint32_t offset : {MM2S_DMACR, MM2S_DMASR, MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH}) {
+      s_axi_lite[offset].remove();
+    }
+  }
+  if (include_s2mm) {
+    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats);
+    s2mm_->configure(length_width, s2mm_dre);
+    interrupts_.push_back({s2mm_.get(), &s2mm_introut});
+  } else {
+    for (const std::uint32_t offset : {S2MM_DMACR, S2MM_DMASR, S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH}) {
+      s_axi_lite[offset].remove();
+    }
+  }
+}
+
+Mm2sChannel& AxiDma::mm2s() {
+  if (!mm2s_) not_built(*this, "MM2S");
+  return *mm2s_;
+}
+
+S2mmChannel& AxiDma::s2mm() {
+  if (!s2mm_) not_built(*this, "S2MM");
+  return *s2mm_;
+}
+
+void AxiDma::share_memory_path(MemoryPath& path) {
+  if (mm2s_) mm2s_->m_axi.share(path);
+  if (s2mm_) s2mm_->m_axi.share(path);
+}
+
+void AxiDma::before_end_of_elaboration() {
+  if ((mm2s_ && !mm2s_->m_axis.bound()) || (s2mm_ && !s2mm_->s_axis.bound())) {
+    vp::error(*this, "/markervp/axi_dma/unbound",
+              "a channel is built but its stream is not connected");
+  }
+  Clocked::before_end_of_elaboration();
+  if (axi_resetn.bound()) axi_resetn.signal()->attach(*this, reset_pin);
+}
+
+void AxiDma::start_of_simulation() {
+  s_axi_lite.hold_in_reset(axi_resetn.bound() && !axi_resetn);
+}
+
+void AxiDma::on_change(vp::SignalBase& signal, std::uint32_t id) {
+  if (id != reset_pin) return Clocked::on_change(signal, id);
+  if (!axi_resetn) reset();
+  s_axi_lite.hold_in_reset(!axi_resetn);
+}
+
+void AxiDma::warn(const char* id, const std::string& message) const {
+  vp::warn(*this, id, message);
+}
+
+// Asleep while no channel has anything to do: software, the streams and alarms wake it.
+void AxiDma::edge() {
+  const std::uint64_t cycle = clock().cycle();
+  const bool was_stopped = stopped_;
+  std::uint64_t next = drive_interrupts() ? cycle + 1 : vp::Clock::never;
+  for (const Interrupt& i : interrupts_) next = std::min(next, i.channel->edge(cycle));
+  if (resetting_) next = std::min(next, run_soft_reset(cycle));
+  for (const Interrupt& i : interrupts_) {
+    if (i.level != i.channel->interrupt()) next = cycle + 1;
+  }
+  if (stopped_ && !was_stopped) next = cycle + 1;  // a channel that ran before the other failed
+  sleep_until(next, cycle);
+}
+
+void AxiDma::sleep_until(std::uint64_t next, std::uint64_t cycle) {
+  if (next <= cycle + 1) return wake();
+  sleep();
+  if (next != vp::Clock::never) wake_at(next);
+}
+
+// A register behind status AND enable. True if an output changed.
+bool AxiDma::drive_interrupts() {
+  bool changed = false;
+  for (Interrupt& i : interrupts_) {
+    const bool level = !resetting_ && i.channel->interrupt();
+    changed |= level != i.level;
+    i.level = level;
+    i.output->write(level);
+  }
+  return changed;
+}
+
+void AxiDma::stop_channels() {
+  stopped_ = true;
+  for (const Interrupt& i : interrupts_) i.channel->stop();
+}
+
+// The reset of either channel resets the core.
+void AxiDma::request_soft_reset() {
+  if (resetting_) return;
+  resetting_ = true;
+  reset_done_at_ = vp::Clock::never;
+  for (const Interrupt& i : interrupts_) i.channel->drop();
+}
+
+std::uint64_t AxiDma::run_soft_reset(std::uint64_t cycle) {
+  if (reset_done_at_ == vp::Clock::never) {
+    const bool quiet = std::all_of(interrupts_.begin(), interrupts_.end(),
+                                   [cycle](const Interrupt& i) { return i.channel->quiet(cycle); });
+    if (!quiet) return cycle + 1;
+    reset_done_at_ = cycle + latencies.reset_cycles;
+  }
+  if (cycle < reset_done_at_) return reset_done_at_;
+  s_axi_lite.reset();
+  reset();
+  return vp::Clock::never;
+}
+
+void AxiDma::reset() {
+  resetting_ = stopped_ = false;
+  reset_done_at_ = vp::Clock::never;
+  for (Interrupt& i : interrupts_) {
+    i.channel->reset();
+    i.level = false;
+    i.output->write(false);
+  }
+}
+
+}  // namespace xilinx

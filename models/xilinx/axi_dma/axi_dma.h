@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include <axi_dma_registers.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
+#include <vp/register_bank.h>
+#include <vp/signal.h>
+#include <xilinx/axi_dma/dma_channel.h>
+#include <xilinx/axi_dma/mm2s_channel.h>
+#include <xilinx/axi_dma/s2mm_channel.h>
+
+namespace xilinx {
+
+/// Build options of an AXI DMA, as Vivado asks for them; the defaults of its parameters.
+struct AxiDmaBuild {
+  bool include_mm2s = true;
+  bool include_s2mm = true;
+  std::uint32_t length_width = 14;
+  bool mm2s_dre = false;  ///< data realignment engine: unaligned addresses
+  bool s2mm_dre = false;
+  std::uint32_t burst_beats = 32;
+};
+
+/// AXI DMA v7.1 in direct register mode (PG021), register-accurate, 32-bit memory and stream, one
+/// clock.
+///
+///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
+///   dma.s2mm().s_axis(link);
+class AxiDma : public vp::Clocked, private DmaChannel::Core {
+ public:
+  /// Throws vp::InputError if neither channel is built or a burst is no power of two.
+  AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build = {});
+  const char* kind() const override { return "xilinx::AxiDma"; }
+
+  vp::Parameter<bool> include_mm2s;
+  vp::Parameter<bool> include_s2mm;
+  vp::Parameter<std::uint32_t> length_width;
+  vp::Parameter<bool> mm2s_dre;
+  vp::Parameter<bool> s2mm_dre;
+  vp::Parameter<std::uint32_t> burst_beats;
+  DmaTiming latencies;
+
+  vp::In<bool> axi_resetn{"axi_resetn"};  ///< may be left open
+  vp::RegisterBank s_axi_lite;
+  vp::Signal<bool> mm2s_introut{"mm2s_introut"};
+  vp::Signal<bool> s2mm_introut{"s2mm_introut"};
+
+  /// The channels. Throw std::logic_error if the build does not have them.
+  Mm2sChannel& mm2s();
+  S2mmChannel& s2mm();
+
+  /// All bursts contend with those of other masters on the same path.
+  void share_memory_path(MemoryPath& path);
+
+ private:
+  /// An interrupt output: a register.
+  struct Interrupt {
+    DmaChannel* channel;
+    vp::Signal<bool>* output;
+    bool level = false;
+  };
+
+  void edge() override;
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void before_end_of_elaboration() override;
+  void start_of_simulation() override;
+
+  // DmaChannel::Core
+  const DmaTiming& timing() const override { return latencies; }
+  const vp::Clock& channel_clock() const override { return clock(); }
+  void wake_channels() override { wake(); }
+  void stop_channels() override;
+  void request_soft_reset() override;
+  bool in_soft_reset() const override { return resetting_; }
+  bool stopped() const override { return stopped_; }
+  void warn(const char* id, const std::string& message) const override;
+
+  void build_channels();
+  bool drive_interrupts();
+  std::uint64_t run_soft_reset(std::uint64_t cycle);
+  void reset();
+  void sleep_until(std::uint64_t next, std::uint64_t cycle);
+
+  std::unique_ptr<Mm2sChannel> mm2s_;
+  std::unique_ptr<S2mmChannel> s2mm_;
+  std::vector<Interrupt> interrupts_;  ///< of the channels that are built
+  bool stopped_ = false;
+  bool resetting_ = false;
+  std::uint64_t reset_done_at_ = vp::Clock::never;
+};
+
+}  // namespace xilinx

@@ -1,0 +1,208 @@
+#include <xilinx/axi_dma/dma_channel.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <vp/hex.h>
+
+namespace xilinx {
+
+namespace {
+
+using namespace axi_dma;
+
+constexpr std::uint32_t word_bytes = 4;
+
+}  // namespace
+
+DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name)
+    : dmacr(bank[offsets.dmacr]),
+      dmasr(bank[offsets.dmasr]),
+      address(bank[offsets.address]),
+      address_msb(bank[offsets.address_msb]),
+      length(bank[offsets.length]),
+      core_(core),
+      name_(std::move(name)) {
+  dmacr.after_write([this](std::uint32_t word) { control_written(word); });
+  dmasr.after_write([this](std::uint32_t word) { status_written(word); });
+  length.after_write([this](std::uint32_t word) { length_written(word); });
+}
+
+void DmaChannel::configure(std::uint32_t length_width, bool unaligned) {
+  length.set_writable((1u << length_width) - 1);
+  unaligned_ = unaligned;
+}
+
+// ---- what software does
+// ----------------------------------------------------------------------------------------------
+
+void DmaChannel::control_written(std::uint32_t word) {
+  if ((dmacr & dmacr::IRQThreshold) == 0) dmacr.set_bits(1u << dmacr::IRQThreshold_shift);
+  if (word & dmacr::Reset) core_.request_soft_reset();
+  if (core_.stopped() || core_.in_soft_reset()) {
+    dmacr.clear_bits(dmacr::RS);  // an error holds RS at 0 until a reset
+  } else if (running()) {
+    halt_at_ = never;
+    if (dmasr.any(dmasr::Halted) && run_at_ == never) run_at_ = now() + core_.timing().run_latency;
+  } else {
+    run_at_ = never;
+    if (phase_ == Phase::idle && !dmasr.any(dmasr::Halted)) halt_after(now());
+  }
+  core_.wake_channels();
+}
+
+// A bit that the hardware sets on the same edge stays set.
+void DmaChannel::status_written(std::uint32_t word) {
+  if (fresh_at_ == now()) dmasr.set_bits(word & fresh_interrupts_);
+  core_.wake_channels();
+}
+
+void DmaChannel::length_written(std::uint32_t word) {
+  if (core_.in_soft_reset()) {
+    core_.warn("/markervp/axi_dma/length_in_reset",
+               name_ + " LENGTH written during a soft reset: it is lost");
+    return;
+  }
+  const std::string written = name_ + " LENGTH = " + std::to_string(word);
+  if (word != length) {
+    core_.warn(
+        "/markervp/axi_dma/length_too_wide",
+        written + " has more bits than this build: it is stored as " + std::to_string(length));
+  }
+  if (length == 0) {
+    core_.warn("/markervp/axi_dma/length_zero", written + ": a transfer of 0 bytes never starts");
+  } else if (!running()) {
+    core_.warn(
+        "/markervp/axi_dma/length_while_halted",
+        written + " written while the channel is halted: no transfer starts; set DMACR.RS before");
+  } else if (phase_ != Phase::idle) {
+    core_.warn(
+        "/markervp/axi_dma/length_while_busy",
+        written + " written while a transfer is running: it is lost; wait for it to complete");
+  } else {
+    phase_ = Phase::accepted;
+    requested_bytes_ = length;
+    accepted_at_ = now();
+    dmasr.clear_bits(dmasr::Idle);
+    core_.wake_channels();
+  }
+}
+
+// ---- what the hardware does
+// ------------------------------------------------------------------------------------------
+
+std::uint64_t DmaChannel::edge(std::uint64_t cycle) {
+  sample(cycle);
+  if (core_.in_soft_reset()) return never;
+  std::uint64_t next = never;
+  if (phase_ == Phase::accepted) {
+    const std::uint64_t due = accepted_at_ + core_.timing().address_latency;
+    if (cycle < due) {
+      next = due;
+    } else {
+      start(cycle);
+    }
+  }
+  if (phase_ == Phase::moving) {
+    next = finish_at_ == never ? move(cycle) : never;
+    if (finish_at_ != never && cycle >= finish_at_) report_status(cycle);
+    next = std::min(next, finish_at_);
+  }
+  return std::min(next, run_and_halt(cycle));
+}
+
+void DmaChannel::start(std::uint64_t cycle) {
+  std::uint32_t from = address;
+  if (!unaligned_ && from % word_bytes != 0) {
+    core_.warn("/markervp/axi_dma/unaligned", name_ + " address " + vp::hex(from) +
+                                                  " is not a multiple of 4 and this build has no "
+                                                  "realignment engine: the low bits are dropped");
+    from -= from % word_bytes;
+  }
+  phase_ = Phase::moving;
+  finish_at_ = never;
+  error_ = 0;
+  const std::uint64_t first = accepted_at_ + core_.timing().start_latency;
+  begin(from, requested_bytes_, std::max(first, cycle));
+}
+
+void DmaChannel::report_status(std::uint64_t cycle) {
+  finish_at_ = never;
+  if (error_ != 0) {
+    dmasr.set_bits(error_);
+    set_interrupt(dmasr::Err_Irq, cycle);
+    core_.stop_channels();
+    return;
+  }
+  phase_ = Phase::idle;
+  completed();
+  set_interrupt(dmasr::IOC_Irq, cycle);
+  if (running()) {
+    dmasr.set_bits(dmasr::Idle);
+  } else {
+    halt_after(cycle);
+  }
+}
+
+void DmaChannel::set_interrupt(std::uint32_t bit, std::uint64_t cycle) {
+  dmasr.set_bits(bit);
+  if (fresh_at_ != cycle) fresh_interrupts_ = 0;
+  fresh_at_ = cycle;
+  fresh_interrupts_ |= bit;
+}
+
+void DmaChannel::stop() {
+  dmacr.clear_bits(dmacr::RS);
+  run_at_ = never;
+  halting_ = !dmasr.any(dmasr::Halted);
+  complete_on_halt_ = phase_ != Phase::idle;
+  drop();
+}
+
+void DmaChannel::drop() {
+  if (phase_ == Phase::moving) abandon();
+  phase_ = Phase::idle;
+  finish_at_ = never;
+  error_ = 0;
+}
+
+void DmaChannel::halt_after(std::uint64_t cycle) {
+  halt_at_ = cycle + core_.timing().run_latency;
+}
+
+// Returns the next edge on which something changes by itself.
+std::uint64_t DmaChannel::run_and_halt(std::uint64_t cycle) {
+  if (run_at_ != never && cycle >= run_at_) {
+    dmasr.clear_bits(dmasr::Halted);
+    run_at_ = never;
+  }
+  if (halting_) {
+    if (!quiet(cycle)) return cycle + 1;
+    halting_ = false;
+    halt_after(cycle);
+  }
+  if (halt_at_ != never && cycle >= halt_at_) {
+    dmasr.set_bits(dmasr::Halted);
+    dmasr.clear_bits(dmasr::Idle);
+    if (complete_on_halt_) set_interrupt(dmasr::IOC_Irq, cycle);
+    complete_on_halt_ = false;
+    halt_at_ = never;
+  }
+  return std::min(run_at_, halt_at_);
+}
+
+void DmaChannel::reset() {
+  abandon();
+  forget_bursts();
+  phase_ = Phase::idle;
+  finish_at_ = run_at_ = halt_at_ = fresh_at_ = never;
+  error_ = fresh_interrupts_ = 0;
+  halting_ = complete_on_halt_ = false;
+}
+
+std::uint32_t DmaChannel::error_bit(tlm::tlm_response_status response) {
+  if (response == tlm::TLM_OK_RESPONSE) return 0;
+  return response == tlm::TLM_ADDRESS_ERROR_RESPONSE ? dmasr::DMADecErr : dmasr::DMASlvErr;
+}
+
+}  // namespace xilinx

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <axi_dma_registers.h>
+#include <vp/clock.h>
+#include <vp/counter.h>
+#include <vp/register_bank.h>
+#include <xilinx/axi_dma/dma_timing.h>
+#include <tlm>
+
+namespace xilinx {
+
+/// What both channels share: the registers, run and halt, completion, errors and the interrupt.
+/// Derived classes move the data.
+class DmaChannel {
+ public:
+  /// The part of the core that a channel needs.
+  class Core {
+   public:
+    virtual ~Core() = default;
+    virtual const DmaTiming& timing() const = 0;
+    virtual const vp::Clock& channel_clock() const = 0;
+    /// Software did something: run the next edge.
+    virtual void wake_channels() = 0;
+    /// An error in one channel stops both.
+    virtual void stop_channels() = 0;
+    virtual void request_soft_reset() = 0;
+    virtual bool in_soft_reset() const = 0;
+    /// An error was reported and the core was not reset since.
+    virtual bool stopped() const = 0;
+    virtual void warn(const char* id, const std::string& message) const = 0;
+  };
+
+  struct Offsets {
+    std::uint32_t dmacr, dmasr, address, address_msb, length;
+  };
+
+  static constexpr std::uint64_t never = vp::Clock::never;
+
+  DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name);
+  virtual ~DmaChannel() = default;
+
+  vp::Register& dmacr;
+  vp::Register& dmasr;
+  vp::Register& address;
+  vp::Register& address_msb;
+  vp::Register& length;
+
+  /// Bits of LENGTH, and whether the address may be unaligned (data realignment engine).
+  void configure(std::uint32_t length_width, bool unaligned);
+
+  /// One clock edge. Returns the next one that the channel needs (signals may wake it earlier).
+  std::uint64_t edge(std::uint64_t cycle);
+  /// Status AND enable: what the interrupt output shows one clock later.
+  bool interrupt() const { return (dmasr & dmacr & axi_dma::dmasr::interrupts) != 0; }
+
+  /// RS = 0, the transfer is dropped; halts when outstanding bursts are over.
+  void stop();
+  /// Drops the transfer under way; bursts on the bus finish.
+  void drop();
+  /// No burst is on the bus.
+  virtual bool quiet(std::uint64_t cycle) const = 0;
+  /// State after reset. The registers are the bank's to reset.
+  void reset();
+
+ protected:
+  /// A transfer begins: first address or TREADY on edge `first_cycle`.
+  virtual void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) = 0;
+  /// Moves data on one edge; calls finish() or fail(). Returns the next edge that it needs.
+  virtual std::uint64_t move(std::uint64_t cycle) = 0;
+  /// The part of an edge that always runs: sampling the stream.
+  virtual void sample(std::uint64_t cycle) = 0;
+  /// Forgets the transfer and takes the stream's outputs to rest; what is on the bus goes on.
+  virtual void abandon() = 0;
+  virtual void forget_bursts() = 0;
+  /// The transfer has reached memory or stream.
+  virtual void completed() {}
+
+  /// The transfer is done and shows in the status register on edge `cycle`.
+  void finish(std::uint64_t cycle) { finish_at_ = cycle; }
+  /// The transfer failed; `error` is one of the error bits of DMASR.
+  void fail(std::uint64_t cycle, std::uint32_t error) {
+    finish_at_ = cycle;
+    error_ = error;
+  }
+  /// The error bit for a bus response; 0 if it is none.
+  static std::uint32_t error_bit(tlm::tlm_response_status response);
+  bool keyhole() const { return dmacr.any(axi_dma::dmacr::Keyhole); }
+
+  Core& core_;
+
+ private:
+  enum class Phase { idle, accepted, moving };
+
+  void control_written(std::uint32_t word);
+  void status_written(std::uint32_t word);
+  void length_written(std::uint32_t word);
+  void start(std::uint64_t cycle);
+  void report_status(std::uint64_t cycle);
+  void set_interrupt(std::uint32_t bit, std::uint64_t cycle);
+  std::uint64_t run_and_halt(std::uint64_t cycle);
+  void halt_after(std::uint64_t cycle);
+  std::uint64_t now() const { return core_.channel_clock().cycle(); }
+  bool running() const { return dmacr.any(axi_dma::dmacr::RS); }
+
+  std::string name_;
+  bool unaligned_ = false;
+  Phase phase_ = Phase::idle;
+  std::uint32_t requested_bytes_ = 0;
+  std::uint64_t accepted_at_ = 0;
+  std::uint64_t finish_at_ = never;
+  std::uint32_t error_ = 0;
+  std::uint64_t run_at_ = never;   ///< Halted falls
+  std::uint64_t halt_at_ = never;  ///< Halted rises
+  bool halting_ = false;           ///< waits for the bus to become quiet
+  bool complete_on_halt_ = false;
+  std::uint32_t fresh_interrupts_ = 0;  ///< set by hardware on edge fresh_at_
+  std::uint64_t fresh_at_ = never;
+};
+
+}  // namespace xilinx

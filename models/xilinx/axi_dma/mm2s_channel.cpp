@@ -1,0 +1,179 @@
+#include <xilinx/axi_dma/mm2s_channel.h>
+
+#include <algorithm>
+
+namespace xilinx {
+
+namespace {
+
+using namespace axi_dma;
+
+constexpr unsigned word_bytes = 4;
+/// Address pipeline of the DataMover: bursts requested ahead (HDL of v5.1).
+constexpr unsigned outstanding_bursts = 4;
+/// FIFO of the DataMover in bursts: pipeline + 2, rounded up to a power of two (HDL of v5.1).
+constexpr unsigned fifo_bursts = 8;
+
+constexpr DmaChannel::Offsets offsets{MM2S_DMACR, MM2S_DMASR, MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH};
+
+}  // namespace
+
+Mm2sChannel::Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
+                         std::uint32_t burst_beats)
+    : DmaChannel(core, bank, offsets, "MM2S"),
+      m_axi("m_axi_mm2s", owner.clock().scheduler()),
+      m_axis("m_axis_mm2s", owner),
+      burst_size_(burst_beats * word_bytes),
+      fifo_size_(fifo_bursts * burst_size_) {
+  owner.wake_on(m_axis.tready);
+}
+
+void Mm2sChannel::begin(std::uint32_t from, std::uint32_t bytes, std::uint64_t first_cycle) {
+  read_address_ = from;
+  to_request_ = to_send_ = bytes;
+  buffered_ = 0;
+  taken_ = 0;
+  request_at_ = first_cycle;
+}
+
+void Mm2sChannel::sample(std::uint64_t) {
+  accepted_ = m_axis.accepted();
+}
+
+std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
+  if (accepted_ && m_axis.tlast.get()) {
+    withdraw();
+    finish(cycle + core_.timing().completion_latency);
+    return never;
+  }
+  if (!bursts_.empty() && bursts_.back().pending && m_axi.done()) schedule(bursts_.back(), cycle);
+  if (next_request_at(cycle) <= cycle) request(cycle);
+  if ((!offering_ || accepted_) && !offer(cycle)) withdraw();
+  return next_edge(cycle);
+}
+
+// ---- memory side
+// -----------------------------------------------------------------------------------------------------
+
+// The first edge from `cycle` on at which the next burst can be requested, as things stand.
+std::uint64_t Mm2sChannel::next_request_at(std::uint64_t cycle) const {
+  if (to_request_ == 0 || !m_axi.done() || buffered_ + burst_size_ > fifo_size_) return never;
+  if (!bursts_.empty() && bursts_.back().response != tlm::TLM_OK_RESPONSE) return never;
+  unsigned outstanding = 0;
+  std::uint64_t first_arrival = never;
+  for (const Burst& burst : bursts_) {
+    if (burst.first <= cycle) continue;
+    ++outstanding;
+    first_arrival = std::min(first_arrival, burst.first);
+  }
+  const std::uint64_t earliest = std::max(cycle, request_at_);
+  return outstanding < outstanding_bursts ? earliest : std::max(earliest, first_arrival);
+}
+
+// A burst ends at a multiple of its size, so it never crosses 4 KiB.
+unsigned Mm2sChannel::burst_bytes() const {
+  const unsigned to_boundary = burst_size_ - static_cast<unsigned>(read_address_ % burst_size_);
+  return std::min(to_request_, to_boundary);
+}
+
+void Mm2sChannel::request(std::uint64_t cycle) {
+  const unsigned bytes = burst_bytes();
+  Burst& burst = bursts_.emplace_back();
+  burst.lead = static_cast<unsigned>(read_address_ % word_bytes);
+  burst.data.resize(bytes);
+  m_axi.read(read_address_, burst.data.data(), bytes, keyhole());
+  to_request_ -= bytes;
+  buffered_ += bytes;
+  if (!keyhole()) read_address_ += bytes;
+  const DmaTiming& t = core_.timing();
+  burst.first = cycle + t.read_latency + t.memory_read_latency;
+  burst.pending = !m_axi.done();
+  request_at_ = cycle + 1;
+  if (!burst.pending) schedule(burst, cycle);
+}
+
+// The data is there: its place on the read channel, after what other masters read.
+void Mm2sChannel::schedule(Burst& burst, std::uint64_t cycle) {
+  burst.pending = false;
+  burst.response = m_axi.response();
+  burst.first = std::max({burst.first, cycle, m_axi.path().read_free});
+  const unsigned beats =
+      (burst.lead + static_cast<unsigned>(burst.data.size()) + word_bytes - 1) / word_bytes;
+  m_axi.path().read_free = bus_busy_until_ = burst.first + beats;
+}
+
+bool Mm2sChannel::quiet(std::uint64_t cycle) const {
+  return m_axi.done() && cycle >= bus_busy_until_;
+}
+
+// ---- stream side
+// -----------------------------------------------------------------------------------------------------
+
+// The edge on which the last byte of the next beat is in the FIFO.
+std::uint64_t Mm2sChannel::next_beat_at() const {
+  unsigned needed = std::min<std::uint32_t>(to_send_, word_bytes);
+  unsigned begin = taken_;
+  for (const Burst& burst : bursts_) {
+    if (burst.pending) return never;
+    if (burst.response != tlm::TLM_OK_RESPONSE) return burst.first;
+    const unsigned room = static_cast<unsigned>(burst.data.size()) - begin;
+    if (needed <= room) return burst.first + (burst.lead + begin + needed - 1) / word_bytes;
+    needed -= room;
+    begin = 0;
+  }
+  return never;
+}
+
+// Offers the next beat if its data has come. False if there is none to offer.
+bool Mm2sChannel::offer(std::uint64_t cycle) {
+  if (to_send_ == 0 || next_beat_at() > cycle) return false;
+  const unsigned bytes = std::min<std::uint32_t>(to_send_, word_bytes);
+  std::uint32_t data = 0;
+  for (unsigned i = 0; i < bytes; ++i) {
+    if (taken_ == bursts_.front().data.size()) {
+      bursts_.pop_front();
+      taken_ = 0;
+    }
+    const Burst& burst = bursts_.front();
+    if (burst.response != tlm::TLM_OK_RESPONSE) {
+      fail(cycle + core_.timing().completion_latency, error_bit(burst.response));
+      return false;
+    }
+    data |= std::uint32_t{burst.data[taken_++]} << (8 * i);
+  }
+  if (taken_ == bursts_.front().data.size()) {
+    bursts_.pop_front();
+    taken_ = 0;
+  }
+  to_send_ -= bytes;
+  buffered_ -= bytes;
+  offering_ = true;
+  m_axis.offer(data, to_send_ == 0, static_cast<std::uint8_t>((1u << bytes) - 1));
+  return true;
+}
+
+void Mm2sChannel::withdraw() {
+  if (offering_) m_axis.withdraw();
+  offering_ = false;
+}
+
+std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
+  if (!m_axi.done()) return cycle + 1;
+  const std::uint64_t next = next_request_at(cycle + 1);
+  if (offering_ && m_axis.tready) return cycle + 1;
+  if (offering_) return next;  // wakes when tready changes
+  return std::min(next, std::max(cycle + 1, next_beat_at()));
+}
+
+void Mm2sChannel::abandon() {
+  withdraw();
+  to_request_ = to_send_ = buffered_ = 0;
+  if (m_axi.done()) bursts_.clear();
+}
+
+void Mm2sChannel::forget_bursts() {
+  bursts_.clear();
+  bus_busy_until_ = 0;
+}
+
+}  // namespace xilinx

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <vp/axi_stream.h>
+#include <xilinx/axi_dma/dma_channel.h>
+#include <xilinx/axi_dma/memory_port.h>
+
+namespace xilinx {
+
+/// Memory to stream: reads bursts ahead into a FIFO and sends one beat per clock.
+class Mm2sChannel : public DmaChannel {
+ public:
+  Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats);
+
+  MemoryPort m_axi;
+  vp::AxiStreamMaster m_axis;
+
+  bool quiet(std::uint64_t cycle) const override;
+
+ private:
+  /// A burst whose data is on its way or in the FIFO.
+  struct Burst {
+    std::uint64_t first = 0;  ///< edge of its first beat
+    unsigned lead = 0;        ///< bytes of the first word before the transfer
+    bool pending = false;     ///< the memory port's thread is still at it
+    tlm::tlm_response_status response = tlm::TLM_OK_RESPONSE;
+    std::vector<unsigned char> data;
+  };
+
+  void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) override;
+  std::uint64_t move(std::uint64_t cycle) override;
+  void sample(std::uint64_t cycle) override;
+  void abandon() override;
+  void forget_bursts() override;
+
+  void request(std::uint64_t cycle);
+  std::uint64_t next_request_at(std::uint64_t cycle) const;
+  unsigned burst_bytes() const;
+  void schedule(Burst& burst, std::uint64_t cycle);
+  bool offer(std::uint64_t cycle);
+  void withdraw();
+  std::uint64_t next_edge(std::uint64_t cycle) const;
+  std::uint64_t next_beat_at() const;
+
+  const unsigned burst_size_;  ///< bytes
+  const unsigned fifo_size_;   ///< bytes
+  std::deque<Burst> bursts_;
+  std::uint64_t read_address_ = 0;
+  std::uint32_t to_request_ = 0;  ///< bytes of the transfer not requested yet
+  std::uint32_t to_send_ = 0;     ///< bytes not offered yet
+  std::uint32_t buffered_ = 0;    ///< bytes requested and not offered yet
+  unsigned taken_ = 0;            ///< bytes of the first burst offered already
+  std::uint64_t request_at_ = 0;
+  std::uint64_t bus_busy_until_ = 0;
+  bool offering_ = false;  ///< tvalid, as driven last
+  bool accepted_ = false;  ///< the beat on offer passed on this edge
+};
+
+}  // namespace xilinx

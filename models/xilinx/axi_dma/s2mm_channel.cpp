@@ -1,0 +1,189 @@
+#include <xilinx/axi_dma/s2mm_channel.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace xilinx {
+
+namespace {
+
+using namespace axi_dma;
+
+constexpr unsigned word_bytes = 4;
+/// FIFO of the DataMover in bursts (HDL of v5.1, as for reads).
+constexpr unsigned fifo_bursts = 8;
+
+constexpr DmaChannel::Offsets offsets{S2MM_DMACR, S2MM_DMASR, S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH};
+
+}  // namespace
+
+S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
+                         std::uint32_t burst_beats)
+    : DmaChannel(core, bank, offsets, "S2MM"),
+      m_axi("m_axi_s2mm", owner.clock().scheduler()),
+      s_axis("s_axis_s2mm", owner),
+      burst_size_(burst_beats * word_bytes),
+      fifo_beats_(fifo_bursts * burst_beats) {
+  owner.wake_on(s_axis.tvalid);
+}
+
+void S2mmChannel::begin(std::uint32_t to, std::uint32_t bytes, std::uint64_t first_cycle) {
+  write_address_ = to;
+  capacity_ = bytes;
+  received_ = 0;
+  ready_from_ = first_cycle;
+  closed_ = overflow_ = draining_ = false;
+}
+
+void S2mmChannel::sample(std::uint64_t cycle) {
+  beat_ = s_axis.sample();
+  if (draining_) drive_bus(cycle);
+}
+
+std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
+  if (beat_) take_beat(cycle);
+  drive_bus(cycle);
+  s_axis.tready = cycle >= ready_from_ && !closed_ && buffered_beats(cycle) < fifo_beats_;
+  return next_edge(cycle);
+}
+
+// ---- stream side
+// -----------------------------------------------------------------------------------------------------
+
+void S2mmChannel::take_beat(std::uint64_t cycle) {
+  const std::uint32_t data = s_axis.tdata;
+  const std::uint8_t keep = s_axis.tkeep;
+  const bool last = s_axis.tlast;
+  ++collected_beats_;
+  for (unsigned lane = 0; lane < word_bytes; ++lane) {
+    if ((keep >> lane & 1) == 0) continue;
+    if (received_ == capacity_) {
+      overflow_ = true;  // the packet is longer than LENGTH: nothing is written beyond
+      break;
+    }
+    collected_.push_back(static_cast<unsigned char>(data >> (8 * lane)));
+    ++received_;
+    if (!keyhole() && (write_address_ + collected_.size()) % burst_size_ == 0) close_burst(cycle);
+  }
+  if (keyhole() && collected_.size() >= burst_size_) close_burst(cycle);
+  if (received_ == capacity_ && !last) overflow_ = true;
+  closed_ = last || overflow_;
+  if (closed_) close_burst(cycle);
+}
+
+void S2mmChannel::close_burst(std::uint64_t cycle) {
+  if (collected_.empty()) {
+    collected_beats_ = closed_ ? 0 : collected_beats_;
+    return;
+  }
+  Burst burst;
+  burst.ready = cycle + core_.timing().write_latency;
+  burst.address = write_address_;
+  const auto lead = static_cast<unsigned>(write_address_ % word_bytes);
+  burst.beats = (lead + static_cast<unsigned>(collected_.size()) + word_bytes - 1) / word_bytes;
+  burst.data = std::exchange(collected_, {});
+  if (!keyhole()) write_address_ += burst.data.size();
+  queued_beats_ += burst.beats;
+  collected_beats_ = 0;
+  bursts_.push_back(std::move(burst));
+}
+
+// Beats in the FIFO after edge `cycle`: those of the burst on the bus leave one by one.
+unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
+  unsigned written = 0;
+  if (bus_ == Bus::busy && cycle > burst_start_) {
+    written =
+        static_cast<unsigned>(std::min<std::uint64_t>(cycle - burst_start_, bursts_.front().beats));
+  } else if (bus_ == Bus::answering) {
+    written = bursts_.front().beats;
+  }
+  return collected_beats_ + queued_beats_ - written;
+}
+
+// ---- memory side
+// -----------------------------------------------------------------------------------------------------
+
+void S2mmChannel::drive_bus(std::uint64_t cycle) {
+  if (bus_ == Bus::busy && cycle >= burst_end_) {
+    Burst& burst = bursts_.front();
+    m_axi.write(burst.address, burst.data.data(), static_cast<unsigned>(burst.data.size()),
+                keyhole());
+    bus_ = Bus::answering;
+  }
+  if (bus_ == Bus::answering && m_axi.done()) end_burst(cycle);
+  if (bus_ == Bus::free && !bursts_.empty() && cycle >= bursts_.front().ready &&
+      cycle >= bus_free_at_) {
+    start_burst(cycle);
+  }
+  if (closed_ && bursts_.empty() && bus_ == Bus::free) {
+    conclude(cycle + core_.timing().memory_write_latency, overflow_ ? dmasr::DMAIntErr : 0);
+  }
+}
+
+void S2mmChannel::start_burst(std::uint64_t cycle) {
+  burst_start_ = std::max(cycle, m_axi.path().write_free);
+  burst_end_ = burst_start_ + bursts_.front().beats;
+  m_axi.path().write_free = burst_end_;
+  bus_ = Bus::busy;
+}
+
+void S2mmChannel::end_burst(std::uint64_t cycle) {
+  bus_ = Bus::free;
+  bus_free_at_ = cycle + core_.timing().write_gap;
+  queued_beats_ -= bursts_.front().beats;
+  bursts_.pop_front();
+  const std::uint32_t error = error_bit(m_axi.response());
+  if (error != 0 && !draining_) conclude(cycle + core_.timing().memory_write_latency, error);
+}
+
+void S2mmChannel::conclude(std::uint64_t cycle, std::uint32_t error) {
+  ready_from_ = never;
+  closed_ = false;
+  if (error != 0) {
+    fail(cycle + core_.timing().completion_latency, error);
+  } else {
+    finish(cycle + core_.timing().completion_latency);
+  }
+}
+
+void S2mmChannel::completed() {
+  length = received_;
+}
+
+std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) const {
+  if (!m_axi.done()) return cycle + 1;
+  const bool listening = cycle >= ready_from_ && !closed_;
+  if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid
+  if (listening && bus_ == Bus::busy && buffered_beats(cycle) >= fifo_beats_) return cycle + 1;
+  std::uint64_t next = listening ? never : ready_from_;
+  if (bus_ == Bus::busy) {
+    next = std::min(next, burst_end_);
+  } else if (!bursts_.empty()) {
+    next = std::min(next, std::max({cycle + 1, bursts_.front().ready, bus_free_at_}));
+  }
+  return next;
+}
+
+bool S2mmChannel::quiet(std::uint64_t) const {
+  return m_axi.done() && bus_ == Bus::free;
+}
+
+void S2mmChannel::abandon() {
+  s_axis.tready = false;
+  ready_from_ = never;
+  closed_ = overflow_ = false;
+  draining_ = true;
+  collected_.clear();
+  collected_beats_ = 0;
+  while (bursts_.size() > (bus_ == Bus::free ? 0u : 1u)) bursts_.pop_back();
+}
+
+void S2mmChannel::forget_bursts() {
+  bursts_.clear();
+  queued_beats_ = 0;
+  bus_ = Bus::free;
+  burst_end_ = bus_free_at_ = 0;
+  draining_ = false;
+}
+
+}  // namespace xilinx

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <vp/axi_stream.h>
+#include <xilinx/axi_dma/dma_channel.h>
+#include <xilinx/axi_dma/memory_port.h>
+
+namespace xilinx {
+
+/// Stream to memory: collects beats into bursts and writes each when it is complete (store and
+/// forward).
+///
+/// TREADY is low without a transfer: data waits at the master, nothing is lost.
+class S2mmChannel : public DmaChannel {
+ public:
+  S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats);
+
+  MemoryPort m_axi;
+  vp::AxiStreamSlave s_axis;
+
+  bool quiet(std::uint64_t cycle) const override;
+
+ private:
+  /// A burst that is complete and waits for the bus, or is on it.
+  struct Burst {
+    std::uint64_t ready = 0;  ///< edge from which its address may go out
+    std::uint64_t address = 0;
+    unsigned beats = 0;
+    std::vector<unsigned char> data;
+  };
+  enum class Bus { free, busy, answering };
+
+  void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) override;
+  std::uint64_t move(std::uint64_t cycle) override;
+  void sample(std::uint64_t cycle) override;
+  void abandon() override;
+  void forget_bursts() override;
+  void completed() override;
+
+  void take_beat(std::uint64_t cycle);
+  void close_burst(std::uint64_t cycle);
+  void drive_bus(std::uint64_t cycle);
+  void start_burst(std::uint64_t cycle);
+  void end_burst(std::uint64_t cycle);
+  void conclude(std::uint64_t cycle, std::uint32_t error);
+  unsigned buffered_beats(std::uint64_t cycle) const;
+  std::uint64_t next_edge(std::uint64_t cycle) const;
+
+  const unsigned burst_size_;  ///< bytes
+  const unsigned fifo_beats_;
+  std::uint64_t write_address_ = 0;  ///< of the burst being collected
+  std::uint32_t capacity_ = 0;       ///< LENGTH
+  std::uint32_t received_ = 0;       ///< bytes taken that LENGTH has room for
+  std::uint64_t ready_from_ = never;
+  bool closed_ = false;    ///< no more beats belong to the transfer
+  bool overflow_ = false;  ///< the packet is longer than LENGTH, or had no TLAST at its end
+  std::vector<unsigned char> collected_;
+  unsigned collected_beats_ = 0;
+  std::deque<Burst> bursts_;
+  unsigned queued_beats_ = 0;  ///< beats in bursts_
+  Bus bus_ = Bus::free;
+  std::uint64_t burst_start_ = 0, burst_end_ = 0;
+  std::uint64_t bus_free_at_ = 0;  ///< edge from which the next burst may start
+  bool draining_ = false;          ///< the transfer was dropped, its burst on the bus goes on
+  bool beat_ = false;              ///< a beat passed on this edge
+};
+
+}  // namespace xilinx

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <vp/router.h>
+
+namespace xilinx {
+
+/// AXI Interconnect v2.1 (PG059): the router with the address rules of its crossbar. A segment is a
+/// power of two of at least 4 KiB and starts at a multiple of its size.
+class AxiInterconnect : public vp::Router {
+ public:
+  AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk);
+  const char* kind() const override { return "xilinx::AxiInterconnect"; }
+
+  /// Throws vp::InputError if the segment breaks the rules above or overlaps another.
+  tlm_utils::simple_initiator_socket<vp::MmLink>& map(
+      const std::string& region_name, std::uint64_t base, std::uint64_t size,
+      Addresses addresses = Addresses::relative) override;
+};
+
+}  // namespace xilinx
