@@ -1,0 +1,143 @@
+#include <cli/app.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include <cli/version.h>
+
+namespace platform::cli {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  markervp run                              the demo scene, results in out/
+  markervp run z1.0 roll30 photo.png        scenes and files, one after the other
+  markervp run roll                         every scene of a group
+  markervp run clip.avi --fit scale --camera camera.yaml
+  markervp run --trace run.vcd --trace-window 6ms:7ms
+  markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
+  markervp scenes                           what can be run
+  markervp config > platform.yaml           every parameter with its default
+
+Exit codes: 0 done, 1 a required marker was not found, 2 wrong usage, configuration or input,
+3 hardware or software broke a protocol rule.)";
+
+constexpr const char* run_examples =
+    R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
+any the demo scene runs. Results: result.json and an annotated picture per frame.)";
+
+constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash)
+For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
+For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)";
+
+// Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
+// choices with bars.
+
+void add_configuration_options(CLI::App& command, ConfigurationOptions& target) {
+  command.add_option("--config", target.files, "YAML file of parameters; later files win")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--set", target.assignments, "one parameter; wins over files")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_input_options(CLI::App& command, RunOptions& target) {
+  command.add_option("INPUT", target.inputs, "scenes, images, folders, videos")->type_name("");
+  command.add_option("--camera", target.camera, "camera calibration (OpenCV or ROS)")
+      ->type_name("FILE");
+  command.add_option("--fit", target.fit, "make images of another size fit")
+      ->type_name("crop|scale")
+      ->check(CLI::IsMember({"crop", "scale"}).description(""));
+  command.add_option("--frames", target.frames, "stop after this many frames")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber.description(""));
+  command.add_option("--repeat", target.repeat, "run all inputs this many times")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber.description(""));
+}
+
+void add_platform_options(CLI::App& command, RunOptions& target) {
+  command.add_option("--fidelity", target.fidelity, "how the PL is modelled: clocked")
+      ->type_name("LEVEL");
+  command
+      .add_option("--program", target.program,
+                  "PS program: a file, or the name of an installed one")
+      ->type_name("FILE");
+}
+
+void add_output_options(CLI::App& command, RunOptions& target) {
+  command.add_option("-o,--output", target.output, "folder for the results (default: out)")
+      ->type_name("DIR");
+  command.add_flag("--require-marker", target.require_marker,
+                   "exit code 1 if a frame has no marker");
+  command.add_flag("--no-pictures", target.no_pictures, "no annotated pictures");
+  command.add_flag("-q,--quiet", target.quiet, "no report per frame");
+}
+
+void add_trace_options(CLI::App& command, RunOptions& target) {
+  command.add_option("--trace", target.trace, "record waveforms as VCD")->type_name("FILE");
+  command.add_option("--trace-window", target.trace_window, "record only then: 6ms:7ms")
+      ->type_name("FROM:TO");
+  command
+      .add_option("--trace-filter", target.trace_filter,
+                  "record only these: 'pl.corner_detection.**'")
+      ->type_name("GLOB")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--trace-level", target.trace_level, "signals, or registers inside too")
+      ->type_name("ports|registers")
+      ->check(CLI::IsMember({"ports", "registers"}).description(""));
+  command.add_flag("--trace-clocks", target.trace_clocks, "record the clocks too");
+}
+
+void add_run(CLI::App& app, RunOptions& target) {
+  CLI::App* command = app.add_subcommand("run", "run the platform on images");
+  add_input_options(*command, target);
+  add_platform_options(*command, target);
+  add_configuration_options(*command, target.configuration);
+  add_output_options(*command, target);
+  add_trace_options(*command, target);
+  command->footer(run_examples);
+}
+
+void add_scenes(CLI::App& app, ScenesOptions& target) {
+  CLI::App* command = app.add_subcommand("scenes", "list the scenes that can be rendered");
+  command->add_option("GROUP", target.group, "only this group, in detail")->type_name("");
+  command->add_flag("--names", target.names_only, "one name a line, for scripts");
+}
+
+void add_config(CLI::App& app, ConfigOptions& target) {
+  CLI::App* command = app.add_subcommand("config", "print every parameter as it is in effect");
+  add_configuration_options(*command, target.configuration);
+}
+
+void add_completion(CLI::App& app, CompletionOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("completion", "print a script that completes the command line");
+  command->add_option("SHELL", target.shell, "for which shell")
+      ->type_name("bash|zsh|fish")
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}).description(""))
+      ->required();
+  command->footer(completion_help);
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> make_app(CommandLine& target) {
+  auto app = std::make_unique<CLI::App>(
+      "Virtual platform of a Zynq-7020 that finds ArUco markers at a high frame rate.", "markervp");
+  app->set_version_flag("--version", version_text());
+  app->set_help_flag("-h,--help", "print this help");
+  app->require_subcommand(1);
+  app->footer(examples);
+  add_run(*app, target.run);
+  add_scenes(*app, target.scenes);
+  add_config(*app, target.config);
+  add_completion(*app, target.completion);
+  return app;
+}
+
+}  // namespace platform::cli

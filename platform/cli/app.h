@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <cli/options.h>
+
+namespace platform::cli {
+
+/// The commands and options of the program; parsing fills `target`, which must live as long.
+std::unique_ptr<CLI::App> make_app(CommandLine& target);
+
+/// One line on what was wrong with `arguments` (without the program's name), with the nearest match
+/// of a misspelled command or option.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
+                        const std::vector<std::string>& arguments);
+
+}  // namespace platform::cli

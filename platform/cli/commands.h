@@ -1,0 +1,39 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <cli/options.h>
+#include <cli/simulation.h>
+
+namespace CLI {
+class App;
+}
+
+/// The commands of the program. Each returns the exit code and throws vp::InputError for what the
+/// user got wrong.
+namespace platform::cli {
+
+/// Runs the platform on the inputs. Everything is checked before the first frame and before
+/// anything is written; results up to an error in the middle are kept, and the result file says
+/// `incomplete`.
+int run(const RunOptions& options, const std::vector<std::string>& arguments,
+        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+
+int list_scenes(const ScenesOptions& options, std::ostream& out);
+
+int print_configuration(const ConfigOptions& options, const SimulationFactory& make_simulation,
+                        std::ostream& out);
+
+int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
+
+/// Reads --config and --set into `configuration`.
+void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
+
+/// Builds the platform and checks that every key the user set was one. Throws vp::InputError.
+std::unique_ptr<Simulation> build(vp::Configuration& configuration,
+                                  const SimulationOptions& options,
+                                  const SimulationFactory& make_simulation);
+
+}  // namespace platform::cli

@@ -1,0 +1,87 @@
+#include <cli/frame_runner.h>
+
+#include <filesystem>
+#include <ostream>
+#include <utility>
+
+#include <cli/interrupt.h>
+#include <picture/annotate.h>
+#include <report/console.h>
+#include <vp/error.h>
+
+namespace platform::cli {
+
+FrameRunner::FrameRunner(input::FrameSource& source) : source_(source), first_(source.next()) {}
+
+void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
+  const std::optional<std::uint64_t> total = source_.size();
+  if (outputs.progress && total && *total > 1) {
+    progress_ = std::make_unique<vp::Progress>("frames", *total);
+  }
+  try {
+    simulation.run([this] { return give(source_); },
+                   [&](report::FrameReport&& report) { return take(std::move(report), outputs); });
+  } catch (...) {
+    // An error of our own, below, came first and is the cause.
+    if (!error_) error_ = std::current_exception();
+  }
+  progress_.reset();
+}
+
+const input::InputFrame* FrameRunner::give(input::FrameSource& source) {
+  if (error_ || InterruptGuard::interrupted()) return nullptr;
+  try {
+    std::optional<input::InputFrame> frame =
+        first_ ? std::exchange(first_, std::nullopt) : source.next();
+    if (!frame) return nullptr;
+    pending_.push_back(*std::move(frame));
+    return &pending_.back();
+  } catch (...) {
+    error_ = std::current_exception();
+    return nullptr;
+  }
+}
+
+bool FrameRunner::take(report::FrameReport report, const Outputs& outputs) {
+  if (error_) return false;
+  try {
+    write(report, input_of(report), outputs);
+    pending_.pop_front();
+    ++first_pending_;
+  } catch (...) {
+    error_ = std::current_exception();
+  }
+  return !error_;
+}
+
+/// A program may leave out frames, but not go back or ahead.
+const input::InputFrame& FrameRunner::input_of(const report::FrameReport& report) {
+  while (first_pending_ < report.index && !pending_.empty()) {
+    pending_.pop_front();
+    ++first_pending_;
+  }
+  if (first_pending_ != report.index || pending_.empty()) {
+    throw vp::ProtocolError("the program reported frame " + std::to_string(report.index) +
+                            ", which it was not given or reported already");
+  }
+  return pending_.front();
+}
+
+void FrameRunner::write(report::FrameReport& report, const input::InputFrame& input,
+                        const Outputs& outputs) {
+  report.input = input.name;
+  report.truth = input.truth;
+  report.camera = input.camera;
+  if (outputs.pictures) {
+    const std::filesystem::path path =
+        std::filesystem::path(outputs.folder) / picture::picture_name(report);
+    write_png(picture::annotate(input.image, report), path.string());
+  }
+  outputs.result.add(report);
+  if (outputs.text) outputs.out << report::frame_text(report, source_.size()) << std::flush;
+  if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
+  ++frames_;
+  if (progress_) progress_->update(frames_);
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <cli/simulation.h>
+#include <input/frame_source.h>
+#include <report/result_writer.h>
+#include <vp/progress.h>
+
+namespace platform::cli {
+
+/// Where a run's frames come from and where its reports go: between inputs, simulation, pictures,
+/// console and result file. Memory does not grow with the number of frames.
+class FrameRunner {
+ public:
+  struct Outputs {
+    std::string folder;
+    bool pictures = true;
+    bool text = true;       ///< a few lines per frame on `out`
+    bool progress = false;  ///< a bar on stderr
+    std::ostream& out;
+    report::ResultWriter& result;
+  };
+
+  /// Makes the first frame, so that a bad input shows before anything else happens. Throws
+  /// vp::InputError.
+  explicit FrameRunner(input::FrameSource& source);
+
+  /// Runs the simulation on all frames. Errors of inputs, outputs and simulation are kept in
+  /// error(), not thrown.
+  void run(Simulation& simulation, const Outputs& outputs);
+
+  /// What ended the run early; null if nothing did. An interrupt is none.
+  std::exception_ptr error() const { return error_; }
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t without_marker() const { return without_marker_; }
+  /// The first input in which no marker was found.
+  const std::string& first_without_marker() const { return first_without_marker_; }
+
+ private:
+  const input::InputFrame* give(input::FrameSource& source);
+  bool take(report::FrameReport report, const Outputs& outputs);
+  const input::InputFrame& input_of(const report::FrameReport& report);
+  void write(report::FrameReport& report, const input::InputFrame& input, const Outputs& outputs);
+
+  input::FrameSource& source_;
+  std::optional<input::InputFrame> first_;
+  std::deque<input::InputFrame> pending_;  ///< given to the simulation, report not yet taken
+  std::uint32_t first_pending_ = 0;        ///< index of the first of them
+  std::unique_ptr<vp::Progress> progress_;
+  std::exception_ptr error_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t without_marker_ = 0;
+  std::string first_without_marker_;
+};
+
+}  // namespace platform::cli

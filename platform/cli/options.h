@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace platform::cli {
+
+/// --config and --set, in the order given.
+struct ConfigurationOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> assignments;  ///< "path=value"
+};
+
+/// `markervp run`.
+struct RunOptions {
+  std::vector<std::string> inputs;
+  ConfigurationOptions configuration;
+  std::string output = "out";
+  std::optional<std::string> camera;
+  std::optional<std::string> fit;
+  std::optional<std::string> fidelity;
+  std::optional<std::string> program;
+  std::optional<std::string> trace;
+  std::optional<std::string> trace_window;
+  std::vector<std::string> trace_filter;
+  std::string trace_level = "ports";
+  bool trace_clocks = false;
+  std::optional<std::uint64_t> frames;
+  std::uint64_t repeat = 1;
+  bool require_marker = false;
+  bool no_pictures = false;
+  bool quiet = false;
+};
+
+/// `markervp scenes`.
+struct ScenesOptions {
+  std::string group;        ///< empty: all
+  bool names_only = false;  ///< one name a line, for scripts
+};
+
+/// `markervp config`.
+struct ConfigOptions {
+  ConfigurationOptions configuration;
+};
+
+/// `markervp completion`.
+struct CompletionOptions {
+  std::string shell;
+};
+
+/// Everything the user typed.
+struct CommandLine {
+  RunOptions run;
+  ScenesOptions scenes;
+  ConfigOptions config;
+  CompletionOptions completion;
+};
+
+}  // namespace platform::cli

@@ -1,0 +1,61 @@
+#include <cli/program.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <ostream>
+
+#include <cli/app.h>
+#include <cli/commands.h>
+#include <vp/error.h>
+
+namespace platform::cli {
+
+namespace {
+
+/// Messages of libraries may have several lines; ours have one.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return text;
+}
+
+int fail(std::ostream& err, const std::string& message, ExitCode code) {
+  err << "markervp: " << one_line(message) << std::endl;
+  return code;
+}
+
+int run_command(const CLI::App& app, const CommandLine& line,
+                const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
+                std::ostream& out, std::ostream& err) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command == "run") return run(line.run, arguments, make_simulation, out, err);
+  if (command == "scenes") return list_scenes(line.scenes, out);
+  if (command == "config") return print_configuration(line.config, make_simulation, out);
+  return print_completion(line.completion, app, out);
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
+                std::ostream& out, std::ostream& err) {
+  CommandLine line;
+  const std::unique_ptr<CLI::App> app = make_app(line);
+  try {
+    app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app->exit(error, out, err);
+    return fail(err, usage_error(*app, error, arguments), wrong_input);
+  }
+  try {
+    return run_command(*app, line, arguments, make_simulation, out, err);
+  } catch (const vp::InputError& error) {
+    return fail(err, error.what(), wrong_input);
+  } catch (const vp::ProtocolError& error) {
+    return fail(err, error.what(), protocol_broken);
+  } catch (const std::exception& error) {
+    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+  }
+}
+
+}  // namespace platform::cli

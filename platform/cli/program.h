@@ -1,0 +1,26 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <cli/simulation.h>
+
+namespace platform::cli {
+
+/// Exit codes of the program (README).
+enum ExitCode {
+  done = 0,
+  marker_missing = 1,
+  wrong_input = 2,
+  protocol_broken = 3,
+  interrupted = 130,  ///< 128 + SIGINT, as shells count
+};
+
+/// The whole program but main(): parses `arguments` (without the program's name), runs the command,
+/// writes what the user reads to `out` and one line on what went wrong to `err`. Returns the exit
+/// code.
+int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
+                std::ostream& out, std::ostream& err);
+
+}  // namespace platform::cli

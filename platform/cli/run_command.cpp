@@ -1,0 +1,223 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <cli/frame_runner.h>
+#include <cli/interrupt.h>
+#include <cli/program.h>
+#include <cli/trace_window.h>
+#include <cli/version.h>
+#include <report/console.h>
+#include <report/file_output.h>
+#include <report/words.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using HostClock = std::chrono::steady_clock;
+
+vp::TraceOptions trace_options(const RunOptions& options) {
+  vp::TraceOptions trace;
+  trace.file = *options.trace;
+  if (trace.file.extension() != ".vcd") {
+    throw vp::InputError("--trace '" + *options.trace + "': the file's name must end in .vcd");
+  }
+  if (options.trace_window) {
+    const TimeWindow window = parse_trace_window(*options.trace_window);
+    trace.from_ps = window.from_ps;
+    trace.to_ps = window.to_ps;
+  }
+  trace.filter = vp::TraceFilter(options.trace_filter);
+  trace.level = options.trace_level == "ports" ? vp::TraceLevel::ports : vp::TraceLevel::registers;
+  trace.clocks = options.trace_clocks;
+  return trace;
+}
+
+SimulationOptions simulation_options(const RunOptions& options) {
+  const bool traces = options.trace_window || !options.trace_filter.empty() || options.trace_clocks;
+  if (traces && !options.trace) {
+    throw vp::InputError("options of the trace without one: name its file with --trace");
+  }
+  SimulationOptions result;
+  result.program = options.program;
+  if (options.trace) result.trace = trace_options(options);
+  return result;
+}
+
+input::InputOptions input_options(const RunOptions& options, input::ImageSize size) {
+  input::InputOptions result;
+  result.size = size;
+  if (options.fit) result.fit = *options.fit == "crop" ? input::Fit::crop : input::Fit::scale;
+  if (options.camera) result.camera = input::read_camera_file(*options.camera);
+  result.repeat = options.repeat;
+  result.limit = options.frames;
+  return result;
+}
+
+/// Throws if the trace could not be written when the time comes; makes nothing.
+void check_trace_folder(const RunOptions& options) {
+  if (!options.trace) return;
+  const fs::path folder = fs::absolute(*options.trace).parent_path();
+  if (!fs::is_directory(folder)) {
+    throw vp::InputError("--trace '" + *options.trace + "': there is no folder '" +
+                         folder.string() + "'");
+  }
+  if (fs::is_directory(*options.trace) || ::access(folder.c_str(), W_OK) != 0) {
+    throw vp::InputError("--trace '" + *options.trace + "' cannot be written");
+  }
+}
+
+std::string host_name() {
+  char name[256] = "";
+  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
+  return name;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
+                              const vp::Configuration& configuration) {
+  report::Provenance result;
+  result.program = "markervp";
+  result.version = program_version();
+  result.revision = source_revision();
+  result.configuration_hash = configuration.hash();
+  result.command_line = arguments;
+  result.host = host_name();
+  result.date = utc_now();
+  result.details.emplace_back("output", options.output);
+  if (options.camera) result.details.emplace_back("camera", *options.camera);
+  if (options.program) result.details.emplace_back("program_file", *options.program);
+  if (options.trace) result.details.emplace_back("trace", *options.trace);
+  return result;
+}
+
+/// What `error` says; empty for none.
+std::string message_of(const std::exception_ptr& error) {
+  if (!error) return "";
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& exception) {
+    return exception.what();
+  } catch (...) {
+    return "unknown error";
+  }
+}
+
+bool is_input_error(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const vp::InputError&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+/// The reason without folders, which belong into the provenance only.
+std::optional<std::string> incomplete(const FrameRunner& runner) {
+  if (runner.error()) return "stopped by an error";
+  if (InterruptGuard::interrupted()) return "interrupted";
+  return std::nullopt;
+}
+
+/// Prints each warning once.
+class Warner {
+ public:
+  explicit Warner(std::ostream& err) : err_(err) {}
+
+  void print(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      if (std::find(seen_.begin(), seen_.end(), warning) != seen_.end()) continue;
+      seen_.push_back(warning);
+      err_ << "markervp: warning: " << warning << std::endl;
+    }
+  }
+  const std::vector<std::string>& all() const { return seen_; }
+
+ private:
+  std::ostream& err_;
+  std::vector<std::string> seen_;
+};
+
+std::string written_text(const RunOptions& options, const FrameRunner& runner) {
+  std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
+  if (!options.no_pictures)
+    text += ", " + report::counted(runner.frames(), "picture") + " beside it";
+  if (options.trace) text += ", " + *options.trace;
+  return text + "\n";
+}
+
+int verdict(const RunOptions& options, const FrameRunner& runner, std::ostream& err) {
+  if (runner.error()) std::rethrow_exception(runner.error());
+  if (InterruptGuard::interrupted()) {
+    err << "markervp: interrupted; results up to here are kept" << std::endl;
+    return interrupted;
+  }
+  if (options.require_marker && runner.without_marker() > 0) {
+    err << "markervp: no marker in " << runner.without_marker() << " of "
+        << report::counted(runner.frames(), "frame") << ", first in "
+        << runner.first_without_marker() << std::endl;
+    return marker_missing;
+  }
+  return done;
+}
+
+}  // namespace
+
+int run(const RunOptions& options, const std::vector<std::string>& arguments,
+        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  const HostClock::time_point start = HostClock::now();
+  vp::Configuration configuration;
+  load_configuration(options.configuration, configuration);
+  if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+  const SimulationOptions asked = simulation_options(options);
+  const std::unique_ptr<Simulation> simulation = build(configuration, asked, make_simulation);
+  const auto source =
+      input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
+  FrameRunner runner(*source);
+  check_trace_folder(options);
+  const bool made_folder = report::prepare_output_folder(options.output);
+  report::Provenance origin = provenance(options, arguments, configuration);
+  Warner warner(err);
+  warner.print(source->warnings());
+
+  report::ResultWriter result(options.output);
+  const InterruptGuard guard;
+  const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
+  runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result});
+
+  if (runner.error() && runner.frames() == 0 && is_input_error(runner.error())) {
+    std::error_code ignored;
+    if (made_folder) fs::remove(options.output, ignored);
+    std::rethrow_exception(runner.error());
+  }
+  warner.print(source->warnings());
+  report::RunFacts facts = simulation->facts();
+  facts.configuration = configuration.values();
+  origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
+  if (runner.error()) origin.details.emplace_back("error", message_of(runner.error()));
+  result.finish(facts, origin, warner.all(), incomplete(runner));
+  out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
+      << written_text(options, runner) << std::flush;
+  return verdict(options, runner, err);
+}
+
+}  // namespace platform::cli

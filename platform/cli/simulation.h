@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <input/image_file.h>
+#include <input/input_frame.h>
+#include <report/result.h>
+#include <vp/configuration.h>
+#include <vp/trace.h>
+
+namespace platform::cli {
+
+/// What the command line asks of the simulation.
+struct SimulationOptions {
+  std::optional<std::string>
+      program;  ///< file or name of the PS program; none: the thesis' hybrid system
+  std::optional<vp::TraceOptions> trace;  ///< waveforms to record
+};
+
+/// The platform, elaborated and ready to run once.
+class Simulation {
+ public:
+  /// The next image, or null when the run is over. Valid until that frame's report was handed over.
+  using NextFrame = std::function<const input::InputFrame*()>;
+  /// Takes each frame's report, in order. False: end the run.
+  using FrameDone = std::function<bool(report::FrameReport&&)>;
+
+  virtual ~Simulation() = default;
+
+  /// The resolution that the platform is built for.
+  virtual input::ImageSize image_size() const = 0;
+
+  /// What runs; `configuration` may be left empty.
+  virtual report::RunFacts facts() const = 0;
+
+  /// Runs the PS program until `next` gives no more images. Neither function throws. `index` in a
+  /// report counts the images given; it lacks `input`, `truth` and `camera`, which the caller
+  /// knows. The trace file is made here, not earlier, and is whole when this returns or throws.
+  /// Throws vp::ProtocolError if hardware or software broke a rule; the reports until then have
+  /// been handed over.
+  virtual void run(const NextFrame& next, const FrameDone& done) = 0;
+};
+
+/// Builds the platform with the current vp::Configuration. Throws vp::InputError for a wrong value
+/// or a program that cannot be loaded.
+using SimulationFactory = std::function<std::unique_ptr<Simulation>(const SimulationOptions&)>;
+
+}  // namespace platform::cli

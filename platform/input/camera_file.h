@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <input/image_file.h>
+#include <scene/camera.h>
+
+namespace platform::input {
+
+/// A camera as a calibration found it.
+struct CalibratedCamera {
+  std::string name;  ///< of the file, without folders
+  Camera camera;  ///< principal point in this project's pixel coordinates; size only if `has_size`
+  bool has_size = false;
+  std::vector<double> distortion;  ///< coefficients as in the file; empty: none
+};
+
+/// Reads a camera calibration: an OpenCV FileStorage (YAML, XML or JSON) or a ROS camera_info YAML.
+/// Known names, in any upper and lower case, with or without underscores: `camera_matrix` or `K`
+/// (3x3), `distortion_coefficients`, `dist_coeffs` or `D`, `image_width` and `image_height` or
+/// `width` and `height`. Files put the centre of the first pixel at (0, 0); here it is (0.5, 0.5).
+/// Throws vp::InputError: missing, malformed, no camera matrix, focal length not positive, skew.
+CalibratedCamera read_camera_file(const std::string& path);
+
+/// The camera for images of `size`. Throws vp::InputError if the file is for another size.
+Camera camera_for(const CalibratedCamera& calibrated, ImageSize size);
+
+/// True if the lens bends the image.
+bool has_distortion(const CalibratedCamera& calibrated);
+
+}  // namespace platform::input

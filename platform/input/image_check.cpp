@@ -1,0 +1,210 @@
+#include <input/image_check.h>
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <string_view>
+
+#include <vp/error.h>
+
+namespace platform::input {
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 8> png_signature{0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw vp::InputError("image '" + path + "' " + problem);
+}
+
+[[noreturn]] void refuse_truncated(const std::string& path) {
+  refuse(path, "is truncated: its end is missing");
+}
+
+void check_sides(const ImageHeader& header, const std::string& path) {
+  if (header.width < 1 || header.height < 1) refuse(path, "has no pixels: its size is zero");
+}
+
+std::uint32_t big_endian(const Bytes& bytes, std::size_t at, std::size_t count) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+// ---- PNG: chunks of length, type, data and checksum (W3C PNG, section 5.3)
+// -----------------------------------------
+
+constexpr std::size_t chunk_overhead = 12;
+constexpr std::size_t ihdr_size = 13;
+
+void read_ihdr(const Bytes& bytes, std::size_t data, ImageHeader& header) {
+  header.width = static_cast<int>(std::min(big_endian(bytes, data, 4), 0x7FFFFFFFu));
+  header.height = static_cast<int>(std::min(big_endian(bytes, data + 4, 4), 0x7FFFFFFFu));
+  const bool eight_bits = bytes[data + 8] == 8;
+  const bool grey = bytes[data + 9] == 0;
+  const bool interlaced = bytes[data + 12] != 0;
+  header.plain_grey = eight_bits && grey && !interlaced;
+}
+
+ImageHeader check_png(const Bytes& bytes, const std::string& path) {
+  ImageHeader header;
+  header.format = ImageHeader::Format::png;
+  std::size_t at = png_signature.size();
+  if (bytes.size() < at) refuse_truncated(path);
+  for (;;) {
+    if (bytes.size() - at < chunk_overhead) refuse_truncated(path);
+    const std::size_t length = big_endian(bytes, at, 4);
+    if (bytes.size() - at - chunk_overhead < length) refuse_truncated(path);
+    const std::string type(bytes.begin() + static_cast<std::ptrdiff_t>(at + 4),
+                           bytes.begin() + static_cast<std::ptrdiff_t>(at + 8));
+    const uLong sum = ::crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
+    if (sum != big_endian(bytes, at + 8 + length, 4)) {
+      refuse(path, "is damaged: the checksum of its part '" + type + "' is wrong");
+    }
+    if (at == png_signature.size()) {
+      if (type != "IHDR" || length != ihdr_size) refuse(path, "is damaged: it has no PNG header");
+      read_ihdr(bytes, at + 8, header);
+    }
+    header.may_be_turned = header.may_be_turned || type == "eXIf";
+    if (type == "IEND") return header;
+    at += length + chunk_overhead;
+  }
+}
+
+// ---- JPEG: segments between markers (ITU-T T.81, annex B)
+// -----------------------------------------------------------
+
+constexpr std::uint8_t jpeg_start = 0xD8;
+constexpr std::uint8_t jpeg_end = 0xD9;
+constexpr std::uint8_t jpeg_scan = 0xDA;
+constexpr std::uint8_t jpeg_exif = 0xE1;
+
+/// Markers that stand alone: RST0…7 and TEM.
+bool is_bare(std::uint8_t marker) {
+  return (marker >= 0xD0 && marker <= 0xD7) || marker == 0x01;
+}
+
+/// SOF0…15 without DHT, JPG and DAC.
+bool is_frame(std::uint8_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+/// Position of the next marker's code at or after `at`, past entropy-coded data; nothing at the
+/// end.
+std::optional<std::size_t> next_marker(const Bytes& bytes, std::size_t at) {
+  for (; at + 1 < bytes.size(); ++at) {
+    const std::uint8_t code = bytes[at + 1];
+    if (bytes[at] == 0xFF && code != 0x00 && code != 0xFF) return at + 1;
+  }
+  return std::nullopt;
+}
+
+ImageHeader check_jpeg(const Bytes& bytes, const std::string& path) {
+  ImageHeader header;
+  header.format = ImageHeader::Format::jpeg;
+  bool scanned = false;
+  std::size_t at = 2;
+  while (const std::optional<std::size_t> marker = next_marker(bytes, at)) {
+    const std::uint8_t code = bytes[*marker];
+    at = *marker + 1;
+    if (code == jpeg_end) {
+      if (!scanned) refuse(path, "is damaged: it ends before its pixels");
+      return header;
+    }
+    if (is_bare(code)) continue;
+    if (bytes.size() - at < 2) break;
+    const std::size_t length = big_endian(bytes, at, 2);
+    if (length < 2 || bytes.size() - at < length) break;
+    if (is_frame(code) && length >= 7) {
+      header.height = static_cast<int>(big_endian(bytes, at + 3, 2));
+      header.width = static_cast<int>(big_endian(bytes, at + 5, 2));
+    }
+    header.may_be_turned = header.may_be_turned || code == jpeg_exif;
+    scanned = scanned || code == jpeg_scan;
+    at += length;
+  }
+  refuse_truncated(path);
+}
+
+// ---- Binary PGM: "P5 width height maximum", one white space, pixels (netpbm, pgm(5))
+// --------------------------------
+
+/// The next number of the header; comments run from # to the end of the line.
+std::optional<std::size_t> header_number(const Bytes& bytes, std::size_t& at) {
+  while (at < bytes.size() && (std::isspace(bytes[at]) != 0 || bytes[at] == '#')) {
+    if (bytes[at] == '#') {
+      while (at < bytes.size() && bytes[at] != '\n') ++at;
+    } else {
+      ++at;
+    }
+  }
+  std::size_t value = 0;
+  const std::size_t first = at;
+  for (; at < bytes.size() && std::isdigit(bytes[at]) != 0 && at - first < 9; ++at) {
+    value = value * 10 + static_cast<std::size_t>(bytes[at] - '0');
+  }
+  if (at == first) return std::nullopt;
+  return value;
+}
+
+ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
+  std::size_t at = 2;
+  const auto width = header_number(bytes, at);
+  const auto height = header_number(bytes, at);
+  const auto maximum = header_number(bytes, at);
+  if (!width || !height || !maximum || at >= bytes.size()) {
+    refuse(path, "is truncated or damaged: its PGM header is incomplete");
+  }
+  ImageHeader header;
+  header.format = ImageHeader::Format::pgm;
+  header.width = static_cast<int>(*width);
+  header.height = static_cast<int>(*height);
+  header.pixel_offset = at + 1;
+  header.plain_grey = *maximum == 255;
+  const std::size_t bytes_per_pixel = *maximum > 255 ? 2 : 1;
+  if (bytes.size() - header.pixel_offset < *width * *height * bytes_per_pixel)
+    refuse_truncated(path);
+  return header;
+}
+
+}  // namespace
+
+ImageHeader::Format announced_format(const Bytes& bytes) {
+  using Format = ImageHeader::Format;
+  const std::size_t known = std::min(bytes.size(), png_signature.size());
+  if (known >= 4 &&
+      std::equal(png_signature.begin(), png_signature.begin() + known, bytes.begin())) {
+    return Format::png;
+  }
+  if (known >= 2 && bytes[0] == 0xFF && bytes[1] == jpeg_start) return Format::jpeg;
+  if (known >= 3 && bytes[0] == 'P' && bytes[1] == '5' && std::isspace(bytes[2]) != 0) {
+    return Format::pgm;
+  }
+  return Format::other;
+}
+
+ImageHeader check_image(const Bytes& bytes, const std::string& path) {
+  ImageHeader header;
+  switch (announced_format(bytes)) {
+    case ImageHeader::Format::png:
+      header = check_png(bytes, path);
+      break;
+    case ImageHeader::Format::jpeg:
+      header = check_jpeg(bytes, path);
+      break;
+    case ImageHeader::Format::pgm:
+      header = check_pgm(bytes, path);
+      break;
+    case ImageHeader::Format::other:
+      return header;
+  }
+  check_sides(header, path);
+  return header;
+}
+
+}  // namespace platform::input

@@ -1,0 +1,168 @@
+#include <input/input_list.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include <input/image_file.h>
+#include <input/media.h>
+#include <scene/catalogue.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::input {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names by which a folder's images are known (the formats of OpenCV's codecs).
+const std::set<std::string>& image_extensions() {
+  static const std::set<std::string> extensions{".bmp", ".dib", ".jp2",  ".jpe", ".jpeg",
+                                                ".jpg", ".pbm", ".pgm",  ".png", ".pnm",
+                                                ".ppm", ".tif", ".tiff", ".webp"};
+  return extensions;
+}
+
+std::string file_name(const std::string& path) {
+  return fs::path(path).filename().string();
+}
+
+bool has_image_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return image_extensions().count(extension) > 0;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& input) {
+  std::vector<std::string> names = scene_names();
+  for (const SceneGroup& group : scene_groups()) names.push_back(group.name);
+  const std::string nearest = vp::nearest_match(input, names);
+  throw vp::InputError("no scene, image, folder or video named '" + input + "': " +
+                       (nearest.empty() ? "" : "did you mean the scene '" + nearest + "'? ") +
+                       "'markervp scenes' lists the scenes");
+}
+
+const SceneGroup* find_group(const std::string& name) {
+  for (const SceneGroup& group : scene_groups()) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+class Lister {
+ public:
+  explicit Lister(const InputOptions& options) : options_(options) {}
+
+  void add(const std::string& input) {
+    if (is_scene(input)) return add_scene(input);
+    if (const SceneGroup* group = find_group(input)) {
+      for (const std::string& scene : group->scenes) add_scene(scene);
+      return;
+    }
+    std::error_code error;
+    const fs::file_status status = fs::status(input, error);
+    if (status.type() == fs::file_type::not_found) refuse_unknown(input);
+    if (fs::is_directory(status)) return add_folder(input);
+    if (error || !fs::is_regular_file(status)) {
+      throw vp::InputError("'" + input + "' cannot be read: " +
+                           (error ? error.message() : "it is neither a file nor a folder"));
+    }
+    if (!add_image(input)) add_video(input);
+  }
+
+  std::vector<InputItem> take() { return std::move(items_); }
+
+ private:
+  void add_scene(const std::string& name) {
+    camera_of(options_, options_.size);
+    items_.push_back({InputItem::Kind::scene, name, name});
+  }
+
+  bool add_image(const std::string& path) {
+    const std::optional<ImageSize> found = inspect_image(path);
+    if (!found) return false;
+    check(path, *found);
+    items_.push_back({InputItem::Kind::image, path, file_name(path)});
+    return true;
+  }
+
+  void add_video(const std::string& path) {
+    const std::unique_ptr<VideoStream> video = media().open_video(path);
+    if (!video)
+      throw vp::InputError("'" + path + "' is neither an image nor a video that can be read");
+    const std::optional<GreyImage> first = video->next();
+    if (!first) throw vp::InputError("video '" + path + "' has no frames that can be read");
+    check(path, {first->width, first->height});
+    items_.push_back({InputItem::Kind::video, path, file_name(path)});
+  }
+
+  void add_folder(const std::string& path) {
+    std::error_code error;
+    std::vector<std::string> images;
+    fs::directory_iterator entry(path, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      if (name[0] != '.' && has_image_extension(name)) images.push_back(entry->path().string());
+    }
+    if (error) throw vp::InputError("folder '" + path + "' cannot be read: " + error.message());
+    if (images.empty()) throw vp::InputError("folder '" + path + "' has no images");
+    std::sort(images.begin(), images.end(), natural_less);
+    for (const std::string& image : images) {
+      if (!add_image(image)) throw vp::InputError("image '" + image + "' is damaged or no image");
+    }
+  }
+
+  /// Throws if an image of this size cannot be used.
+  void check(const std::string& path, ImageSize size) const {
+    check_fit(path, size, options_.size, options_.fit);
+    camera_of(options_, size);
+  }
+
+  const InputOptions& options_;
+  std::vector<InputItem> items_;
+};
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The run of digits at `at`, without leading zeros; moves `at` past it.
+std::string_view number_at(const std::string& text, std::size_t& at) {
+  while (at < text.size() && text[at] == '0') ++at;
+  const std::size_t first = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return std::string_view(text).substr(first, at - first);
+}
+
+}  // namespace
+
+std::vector<InputItem> list_inputs(const std::vector<std::string>& inputs,
+                                   const InputOptions& options) {
+  Lister lister(options);
+  for (const std::string& input : inputs) lister.add(input);
+  return lister.take();
+}
+
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view x = number_at(a, i);
+      const std::string_view y = number_at(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else if (a[i] != b[j]) {
+      return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return i == a.size();
+  return a < b;  // equal but for leading zeros
+}
+
+}  // namespace platform::input

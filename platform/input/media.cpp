@@ -1,0 +1,47 @@
+#include <input/media.h>
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include <input/library_folder.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+#define MARKERVP_TEXT_OF(name) #name
+#define MARKERVP_TEXT(name) MARKERVP_TEXT_OF(name)
+
+namespace platform::input {
+
+namespace {
+
+constexpr const char* file_name = "libmarkervp_media.so";
+
+}  // namespace
+
+const Media& load_media(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    const std::string path = (std::filesystem::path(folder) / file_name).string();
+    if (!std::filesystem::exists(path)) continue;
+    void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) {
+      throw vp::InputError(std::string("image and video files cannot be read: ") + ::dlerror());
+    }
+    const auto entry = reinterpret_cast<decltype(&MARKERVP_MEDIA_ENTRY)>(
+        ::dlsym(library, MARKERVP_TEXT(MARKERVP_MEDIA_ENTRY)));
+    if (entry == nullptr) {
+      throw vp::InputError("'" + path +
+                           "' is of another version than this program; install both anew");
+    }
+    return *entry();
+  }
+  throw vp::InputError("image and video files cannot be read: " + std::string(file_name) +
+                       " is missing in " + vp::one_of(folders) + "; install markervp completely");
+}
+
+const Media& media() {
+  static const Media& loaded = load_media(library_folders());
+  return loaded;
+}
+
+}  // namespace platform::input

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <marker/packet.h>
+#include <scene/camera.h>
+#include <scene/pose.h>
+#include <scene/scene.h>
+
+/// What a run found, as plain values: filled by the session that runs the platform, read by
+/// result.json, the console and the pictures. No simulation inside.
+namespace platform::report {
+
+/// Counted per frame; the overflow counters are those of SPEC "Overflow counters", read at the
+/// frame's end.
+struct Counts {
+  std::uint64_t corners = 0;        ///< corner words received
+  std::uint64_t blobs = 0;          ///< blobs received
+  std::uint64_t feature_words = 0;  ///< words received, the end word included
+  std::uint64_t candidates = 0;     ///< blobs with a corner in each quadrant
+  std::uint64_t feature_overflow = 0;
+  std::uint64_t label_overflow = 0;
+  std::uint64_t bridge_overflow = 0;
+  std::uint64_t crossing_overflow = 0;
+};
+
+/// A marker that the software identified.
+struct FoundMarker {
+  int id = 0;
+  int rotation = 0;                      ///< quarter turns clockwise from upright, 0 to 3
+  std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
+  bool has_pose = true;                  ///< false: the corners admit no pose
+  Pose pose;
+  double reprojection_px = 0;  ///< mean distance of the corners from their projections
+  std::uint32_t iterations = 0;
+};
+
+/// What a picture shows besides the marker. Not part of result.json.
+struct Features {
+  std::vector<marker::Corner> corners;
+  std::vector<marker::BoundingBox> blobs;
+  /// Corners of each candidate as pixel indices, clockwise from the top left.
+  std::vector<std::array<PixelPoint, 4>> candidates;
+};
+
+/// Simulated time that one stage took, ps. The name is the key in `time_us`: "upload",
+/// "feature_extraction", …
+struct StageTime {
+  std::string name;
+  std::uint64_t ps = 0;
+};
+
+/// One image and what came of it.
+struct FrameReport {
+  std::string input;            ///< name of the input, no path
+  std::uint32_t index = 0;      ///< 0, 1, 2 … in the order of the run
+  std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
+  Counts counts;
+  std::vector<FoundMarker> markers;
+  std::optional<GroundTruth> truth;  ///< of the scene's marker, where known
+  std::vector<StageTime> times;      ///< in the order of the flow; "frame" and "upload" among them
+  std::uint64_t start_ps = 0;   ///< simulated time at which work on the frame began, upload done
+  std::uint64_t end_ps = 0;     ///< simulated time of its last result
+  std::uint64_t upload_ps = 0;  ///< time before `start_ps` in which the image was only uploaded
+  std::vector<std::string> warnings;
+  Camera camera;      ///< that took the image
+  Features features;  ///< dropped once the picture is drawn
+};
+
+/// The design point that ran.
+struct RunFacts {
+  std::string fidelity;                              ///< "tlm" or "clocked"
+  std::string system;                                ///< "hybrid" or "ps-only"
+  std::string design;                                ///< which IP variants: "thesis"
+  std::string profile;                               ///< cost table of the software
+  std::map<std::string, std::string> configuration;  ///< path -> "value unit"
+};
+
+/// Everything that may differ between two runs of the same design point on the same inputs.
+struct Provenance {
+  std::string program;             ///< "markervp"
+  std::string version;             ///< of the program
+  std::string revision;            ///< of its sources, as git describes it; may be empty
+  std::string configuration_hash;  ///< 16 hexadecimal digits
+  std::vector<std::string> command_line;
+  std::string host;
+  std::string date;        ///< start of the run, UTC, ISO 8601
+  double wall_time_s = 0;  ///< of the whole run
+  /// Further facts by name, in order: "output", "trace", "camera" …
+  std::vector<std::pair<std::string, std::string>> details;
+};
+
+}  // namespace platform::report

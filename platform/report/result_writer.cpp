@@ -1,0 +1,80 @@
+#include <report/result_writer.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <report/file_output.h>
+#include <report/result_json.h>
+#include <vp/error.h>
+
+namespace platform::report {
+
+namespace {
+
+constexpr int schema = 1;
+constexpr int indent = 2;
+
+/// File names may hold any bytes; JSON holds UTF-8 only.
+std::string dump(const Json& json, int spaces = -1) {
+  return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The members of `json` as lines of an object that goes on after them.
+std::string opened(const Json& json) {
+  std::string text = dump(json, indent);
+  text.erase(text.size() - 2);  // the last line feed and brace
+  return text + ",\n";
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(const std::string& folder)
+    : path_((std::filesystem::path(folder) / "result.json").string()), frames_(std::tmpfile()) {
+  if (!frames_) throw vp::InputError(std::string("no temporary file: ") + std::strerror(errno));
+}
+
+ResultWriter::~ResultWriter() = default;
+
+void ResultWriter::add(const FrameReport& frame) {
+  const std::string text = (summary_.frames() == 0 ? "\n    " : ",\n    ") + dump(to_json(frame));
+  if (std::fwrite(text.data(), 1, text.size(), frames_.get()) != text.size()) {
+    throw vp::InputError(std::string("temporary file: ") + std::strerror(errno));
+  }
+  summary_.add(frame);
+}
+
+void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
+                          const std::vector<std::string>& warnings,
+                          const std::optional<std::string>& incomplete) {
+  Json head;
+  head["schema"] = schema;
+  head["provenance"] = to_json(provenance);
+  head["fidelity"] = facts.fidelity;
+  head["system"] = facts.system;
+  head["design"] = facts.design;
+  head["profile"] = facts.profile;
+  head["configuration"] = Json::object();
+  for (const auto& [path, value] : facts.configuration) head["configuration"][path] = value;
+  if (!warnings.empty()) head["warnings"] = warnings;
+  if (incomplete) head["incomplete"] = *incomplete;
+
+  AtomicFile file(path_);
+  file.write(opened(head) + "  \"frames\": [");
+  std::rewind(frames_.get());
+  std::array<char, 1 << 16> block;
+  while (const std::size_t size = std::fread(block.data(), 1, block.size(), frames_.get())) {
+    file.write({block.data(), size});
+  }
+  if (std::ferror(frames_.get())) {
+    throw vp::InputError(std::string("temporary file: ") + std::strerror(errno));
+  }
+  Json tail;
+  tail["summary"] = to_json(summary_);
+  file.write(summary_.frames() == 0 ? "],\n" : "\n  ],\n");
+  file.write(dump(tail, indent).substr(2) + "\n");
+  file.commit();
+}
+
+}  // namespace platform::report

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <report/result.h>
+#include <report/summary.h>
+
+namespace platform::report {
+
+/// Writes `result.json`, schema 1, in memory that does not grow with the number of frames: frames
+/// wait in a file without a name until the header is known. The result appears under its name when
+/// finish() has written all of it, not before.
+///
+/// Real numbers are rounded to these decimal places, then written as the shortest text that reads
+/// back as the same double:
+///
+///   | Key                                          | Unit   | Places |
+///   |----------------------------------------------|--------|--------|
+///   | corners_px, reprojection_px, corner_px       | px     | 6      |
+///   | pose.rotation                                |        | 9      |
+///   | pose.translation_m                           | m      | 9      |
+///   | translation_mm                               | mm     | 6      |
+///   | rotation_deg                                 | degree | 6      |
+///   | time_us, latency_us (6 places are 1 ps)      | us     | 6      |
+///   | fps                                          | 1/s    | 6      |
+///   | provenance.wall_time_s                       | s      | 3      |
+///
+/// A marker without pose has no `pose`, `reprojection_px` and `iterations`, and its error has
+/// `corner_px` only.
+class ResultWriter {
+ public:
+  /// `folder` exists and is writable (prepare_output_folder).
+  explicit ResultWriter(const std::string& folder);
+  ~ResultWriter();
+
+  void add(const FrameReport& frame);
+
+  /// `warnings` are those of the whole run. `incomplete` says why the run ended early, if it did.
+  /// Throws vp::InputError if the file cannot be written.
+  void finish(const RunFacts& facts, const Provenance& provenance,
+              const std::vector<std::string>& warnings,
+              const std::optional<std::string>& incomplete = std::nullopt);
+
+  const Summary& summary() const { return summary_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> frames_;
+  Summary summary_;
+};
+
+}  // namespace platform::report

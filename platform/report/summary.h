@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <report/result.h>
+
+namespace platform::report {
+
+/// Mean, least and largest of the values added so far; all 0 when there are none.
+class Statistic {
+ public:
+  void add(double value);
+  std::uint64_t count() const { return count_; }
+  double mean() const { return count_ == 0 ? 0 : sum_ / static_cast<double>(count_); }
+  double min() const { return min_; }
+  double max() const { return max_; }
+
+ private:
+  std::uint64_t count_ = 0;
+  double sum_ = 0;
+  double min_ = 0;
+  double max_ = 0;
+};
+
+/// A run in figures, gathered frame by frame in constant memory.
+///
+/// A frame's period runs from the last result before it (its own start, for the first frame) to its
+/// own result, without the time in which its image was only uploaded (thesis 5.5: images are
+/// preloaded). FPS is one over it; the mean FPS is frames over the sum of periods. Latency runs
+/// from the frame's start to its result.
+class Summary {
+ public:
+  struct Stage {
+    std::string name;
+    Statistic us;
+  };
+
+  void add(const FrameReport& frame);
+
+  std::uint64_t frames() const { return latency_us_.count(); }
+  /// Frames in which a marker was identified.
+  std::uint64_t detected() const { return detected_; }
+  /// Frames with ground truth in which another marker was identified, and not the true one.
+  std::uint64_t mistaken() const { return mistaken_; }
+  /// Frames with warnings.
+  std::uint64_t warned() const { return warned_; }
+  /// Frames per second over the whole run; 0 before any time has passed.
+  double mean_fps() const;
+  /// The slowest and the fastest frame.
+  const Statistic& fps() const { return fps_; }
+  const Statistic& latency_us() const { return latency_us_; }
+  const std::vector<Stage>& stages() const { return stages_; }
+  /// Over the markers whose truth is known.
+  const Statistic& corner_px() const { return corner_px_; }
+  const Statistic& translation_mm() const { return translation_mm_; }
+  const Statistic& rotation_deg() const { return rotation_deg_; }
+
+ private:
+  void add_stages(const FrameReport& frame);
+  void add_markers(const FrameReport& frame);
+
+  std::uint64_t detected_ = 0;
+  std::uint64_t mistaken_ = 0;
+  std::uint64_t warned_ = 0;
+  std::uint64_t busy_ps_ = 0;
+  std::uint64_t last_end_ps_ = 0;
+  Statistic fps_;
+  Statistic latency_us_;
+  Statistic corner_px_;
+  Statistic translation_mm_;
+  Statistic rotation_deg_;
+  std::vector<Stage> stages_;
+};
+
+}  // namespace platform::report

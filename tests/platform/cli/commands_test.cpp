@@ -1,0 +1,81 @@
+#include <cli/trace_window.h>
+#include <vp/text.h>
+#include <boost/test/unit_test.hpp>
+
+#include "cli_kit.h"
+
+using namespace cli_test;
+
+BOOST_FIXTURE_TEST_SUITE(commands, Terminal)
+
+BOOST_AUTO_TEST_CASE(help_has_examples_and_exit_codes) {
+  BOOST_TEST(run({"--help"}) == 0);
+  BOOST_TEST(contains(out.str(), "markervp run z1.0"));
+  BOOST_TEST(contains(out.str(), "Exit codes"));
+  BOOST_TEST(run({"run", "--help"}) == 0);
+  BOOST_TEST(contains(out.str(), "--trace-window"));
+  BOOST_TEST(contains(out.str(), "--fit crop|scale"), out.str());
+  BOOST_TEST(err.str() == "");
+}
+
+BOOST_AUTO_TEST_CASE(version) {
+  BOOST_TEST(run({"--version"}) == 0);
+  BOOST_TEST(out.str().rfind("markervp 0.", 0) == 0u, out.str());
+}
+
+BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{}, "a command is missing: run, scenes, config or completion"},
+      {{"rnu"}, "did you mean 'run'?"},
+      {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
+      {{"--verison"}, "did you mean '--version'?"},
+      {{"run", "--repaet=3"},
+       "unknown option '--repaet': did you mean '--repeat'? 'markervp run --help'"},
+      {{"config", "extra"}, "unexpected argument 'extra'"},
+      {{"scenes", "rol"}, "did you mean 'roll'?"},
+      {{"completion", "tcsh"}, "tcsh"},
+      {{"completion"}, "SHELL"},
+      {{"run", "--output"}, "--output"},
+      {{"config", "--set", "dpeth=1"}, "depth"},
+  };
+  for (const auto& [arguments, problem] : cases) {
+    BOOST_TEST(run(arguments) == 2);
+    BOOST_TEST(is_one_line_with(err.str(), problem), err.str() << " lacks " << problem);
+    BOOST_TEST(out.str() == "");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
+  BOOST_TEST(run({"scenes"}) == 0);
+  BOOST_TEST(contains(out.str(), "5.2.2.1"), out.str());
+  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+  BOOST_TEST(run({"scenes", "yaw"}) == 0);
+  BOOST_TEST(contains(out.str(), "yaw45"));
+  BOOST_TEST(contains(out.str(), "pitch 0.0 yaw 45.0 roll 0.0 deg"));
+  BOOST_TEST(run({"scenes", "--names"}) == 0);
+  BOOST_TEST(contains(out.str(), "\nroll330\n"));
+  BOOST_TEST(contains(out.str(), "\ndemo\n"));
+}
+
+BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {
+  BOOST_TEST(run({"config", "--set", "depth=42"}) == 0);
+  BOOST_TEST(contains(out.str(), "depth: 42"), out.str());
+  BOOST_TEST(contains(out.str(), "words of the FIFO"));
+  kit::write_file(folder / "p.yaml", out.str());
+  Terminal other;
+  BOOST_TEST(other.run({"config", "--config", folder / "p.yaml"}) == 0);
+  BOOST_TEST(other.out.str() == out.str());
+}
+
+BOOST_AUTO_TEST_CASE(trace_windows) {
+  using platform::cli::parse_trace_window;
+  BOOST_TEST(parse_trace_window("6ms:7ms").from_ps == 6'000'000'000u);
+  BOOST_TEST(parse_trace_window(":100us").from_ps == 0u);
+  BOOST_TEST(parse_trace_window(":100us").to_ps == 100'000'000u);
+  BOOST_TEST(parse_trace_window("2 s:").to_ps == UINT64_MAX);
+  for (const char* wrong : {"", "6ms", "a:b", "1ms:2ms:3ms", "-1ms:2ms", "5:6", "2ms:2ms"}) {
+    BOOST_CHECK_THROW(parse_trace_window(wrong), vp::InputError);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

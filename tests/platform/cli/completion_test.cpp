@@ -1,0 +1,85 @@
+#include <vp/text.h>
+#include <boost/test/unit_test.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "cli_kit.h"
+
+using namespace cli_test;
+
+namespace {
+
+std::string output_of(const std::string& command) {
+  const auto close = [](std::FILE* pipe) { ::pclose(pipe); };
+  const std::unique_ptr<std::FILE, decltype(close)> pipe(::popen(command.c_str(), "r"), close);
+  std::string text;
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get()))
+    text += static_cast<char>(c);
+  return text;
+}
+
+bool has(const std::string& shell) {
+  return std::system(("command -v " + shell + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+struct Completion : Terminal {
+  /// The script, and a stand-in for the program that lists two scenes.
+  std::string script(const std::string& shell) {
+    BOOST_TEST(run({"completion", shell}) == 0);
+    kit::write_file(folder / shell, out.str());
+    kit::write_file(folder / "markervp", "#!/bin/sh\nprintf 'demo\\nz1.0\\n'\n");
+    std::filesystem::permissions(folder / "markervp", std::filesystem::perms::owner_all);
+    return folder / shell;
+  }
+
+  /// What bash offers for the last of `words`.
+  std::string offered(const std::vector<std::string>& words) {
+    std::string command =
+        "cd '" + folder.path() + "' && bash -c 'source " + script("bash") + "; compopt() { :; }; ";
+    command += "PATH=.:$PATH; COMP_WORDS=(" + vp::join(words, " ") + "); ";
+    command += "COMP_CWORD=" + std::to_string(words.size() - 1) +
+               "; _markervp; printf \"%s \" \"${COMPREPLY[@]}\"'";
+    return output_of(command);
+  }
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(completion, Completion)
+
+BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
+  BOOST_TEST(offered({"markervp", "\"\""}) == "run scenes config completion --help --version ");
+  BOOST_TEST(offered({"markervp", "co"}) == "config completion ");
+  BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
+             "--trace-window --trace-filter --trace-level --trace-clocks ");
+  BOOST_TEST(offered({"markervp", "run", "--fit", "\"\""}) == "crop scale ");
+  BOOST_TEST(offered({"markervp", "run", "z1"}) == "z1.0 ");
+  BOOST_TEST(offered({"markervp", "run", "demo", "--repeat", "\"\""}) == " ",
+             "numbers are not offered");
+  BOOST_TEST(offered({"markervp", "completion", "z"}) == "zsh ");
+  BOOST_TEST(contains(offered({"markervp", "scenes", "\"\""}), "roll "));
+  BOOST_TEST(contains(offered({"markervp", "config", "--config", "\"\""}), "bash "),
+             "files of the folder");
+}
+
+BOOST_AUTO_TEST_CASE(every_shell_that_is_here_accepts_its_script) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const std::string file = script(shell);
+    if (!has(shell)) continue;
+    BOOST_TEST(std::system((shell + " -n '" + file + "'").c_str()) == 0, shell);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_script_knows_every_option) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const std::string text = kit::read_file(script(shell));
+    const std::string dashes = shell == "fish" ? "-l " : "--";
+    for (const char* option :
+         {"output", "trace-window", "camera", "fit", "set", "require-marker", "names"}) {
+      BOOST_TEST(contains(text, dashes + option), shell << " does not know " << option);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cli/simulation.h>
+#include <vp/error.h>
+#include <vp/parameter.h>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+namespace cli_test {
+
+/// A platform that knows the truth of each scene and takes 8 ms a frame.
+class FakeSimulation : public platform::cli::Simulation {
+ public:
+  struct Behaviour {
+    platform::input::ImageSize size{64, 32};
+    std::optional<std::uint32_t> break_at;     ///< vp::ProtocolError instead of this frame's report
+    std::function<void(std::uint32_t)> after;  ///< called when a frame's report was handed over
+    bool refuses = false;                      ///< vp::InputError as soon as it runs
+    std::uint32_t runs = 0;                    ///< times that run() was entered
+  };
+
+  explicit FakeSimulation(Behaviour& behaviour) : behaviour_(behaviour) {}
+
+  platform::input::ImageSize image_size() const override { return behaviour_.size; }
+  platform::report::RunFacts facts() const override {
+    return {"clocked", "hybrid", "thesis", "assumed", {}};
+  }
+
+  void run(const NextFrame& next, const FrameDone& done) override {
+    ++behaviour_.runs;
+    if (behaviour_.refuses) throw vp::InputError("the trace filter matches no signal");
+    for (std::uint32_t index = 0; const platform::input::InputFrame* frame = next(); ++index) {
+      if (behaviour_.break_at == index) throw vp::ProtocolError("the DMA was not armed");
+      if (!done(report_of(*frame, index))) return;
+      if (behaviour_.after) behaviour_.after(index);
+    }
+  }
+
+ private:
+  static platform::report::FrameReport report_of(const platform::input::InputFrame& frame,
+                                                 std::uint32_t index) {
+    platform::report::FrameReport report;
+    report.index = index;
+    report.start_ps = index * 8'000'000'000ull;
+    report.end_ps = report.start_ps + 8'000'000'000;
+    report.times = {{"frame", 8'000'000'000}};
+    if (!frame.truth) return report;
+    platform::report::FoundMarker marker;
+    marker.id = frame.truth->marker_id;
+    marker.corners_px = frame.truth->corners_px;
+    marker.pose = frame.truth->pose;
+    report.markers.push_back(marker);
+    return report;
+  }
+
+  vp::Parameter<std::uint32_t> depth_{
+      "depth", 100, vp::Unit::none, {1, 1000}, vp::Source::decision, "words of the FIFO"};
+  vp::Parameter<std::string> fidelity_{
+      "fidelity", "clocked", {"clocked"}, vp::Source::decision, "how it is modelled"};
+  Behaviour& behaviour_;
+};
+
+}  // namespace cli_test

@@ -1,0 +1,100 @@
+#include <report/console.h>
+
+#include <vp/text.h>
+#include <boost/test/unit_test.hpp>
+
+#include "report_kit.h"
+
+using namespace platform;
+using namespace report_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void check_width(const std::string& text) {
+  for (const std::string& line : vp::split(text, '\n')) {
+    BOOST_TEST(line.size() <= report::console_width, line);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(console)
+
+BOOST_AUTO_TEST_CASE(a_frame_in_a_few_lines) {
+  const std::string text = report::frame_text(found_frame("z1.0"), 41);
+  check_width(text);
+  BOOST_TEST(contains(text, "[ 1/41] z1.0: marker 0, upright\n"), text);
+  BOOST_TEST(contains(text, "(322.00, 240.00)  (434.41, 240.00)"), text);
+  BOOST_TEST(
+      contains(
+          text,
+          "t (0.000, 0.000, 1.012) m   pitch 0.0 yaw 0.0 roll 0.0 deg   3 iterations to 0.25 px"),
+      text);
+  BOOST_TEST(contains(text, "corner 0.50 px   translation 12.0 mm   rotation 0.00 deg"), text);
+  BOOST_TEST(contains(text, "31 corners   2 blobs   1 candidate   36 words   threshold 128"), text);
+  BOOST_TEST(contains(text, "6144.5"), text);
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_without_marker) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.markers.clear();
+  frame.warnings = {"3 features dropped"};
+  const std::string text = report::frame_text(frame);
+  BOOST_TEST(contains(text, "[1] z1.0: no marker\n"), text);
+  BOOST_TEST(contains(text, "3 features dropped"), text);
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_marker_is_called_one) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.markers[0].id = 3;
+  frame.markers[0].rotation = 1;
+  BOOST_TEST(contains(report::frame_text(frame), "marker 3, turned 90 deg clockwise"));
+  BOOST_TEST(contains(report::frame_text(frame), "another marker: the scene has 0"));
+}
+
+BOOST_AUTO_TEST_CASE(many_stages_wrap) {
+  report::FrameReport frame = found_frame("z1.0");
+  for (int i = 0; i < 12; ++i)
+    frame.times.push_back({"further_stage_" + std::to_string(i), 1'000'000});
+  check_width(report::frame_text(frame));
+}
+
+BOOST_AUTO_TEST_CASE(angles_are_those_of_the_scene) {
+  BOOST_TEST(contains(report::frame_text(found_frame("yaw45")), "pitch 0.0 yaw 45.0 roll 0.0 deg"));
+  BOOST_TEST(
+      contains(report::frame_text(found_frame("pitch30")), "pitch 30.0 yaw 0.0 roll 0.0 deg"));
+  BOOST_TEST(
+      contains(report::frame_text(found_frame("roll60")), "pitch 0.0 yaw 0.0 roll 60.0 deg"));
+}
+
+BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
+  report::Summary summary;
+  summary.add(found_frame("z1.0", 0));
+  report::FrameReport wrong = found_frame("z2.0", 1);
+  wrong.markers[0].id = 5;
+  wrong.warnings = {"a word was lost"};
+  summary.add(wrong);
+  const std::string text = report::summary_text(summary, facts());
+  check_width(text);
+  BOOST_TEST(contains(text, "2 frames, 2 with a marker, 1 of them a wrong one"), text);
+  BOOST_TEST(contains(text, "FPS      mean 125.0   min 125.0   max 125.0"), text);
+  BOOST_TEST(contains(text, "latency  mean 8.000 ms"), text);
+  BOOST_TEST(contains(text, "warnings in 1 frame, listed in result.json"), text);
+  BOOST_TEST(
+      contains(text,
+               "corner 0.50 px   translation 12.0 mm   rotation 0.00 deg   (mean over 1 marker)"),
+      text);
+  BOOST_TEST(
+      contains(text, "feature_extraction          6144.5      6144.5      6144.5   76.8 % #######"),
+      text);
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_run) {
+  BOOST_TEST(contains(report::summary_text({}, facts()), "0 frames, 0 with a marker"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

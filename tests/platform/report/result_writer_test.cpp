@@ -1,0 +1,162 @@
+#include <report/result_writer.h>
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <report/file_output.h>
+#include <report/result_json.h>
+#include <vp/error.h>
+
+#include "report_kit.h"
+#include "temporary_files.h"
+
+using namespace platform;
+using namespace report_test;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json written(const std::vector<report::FrameReport>& frames,
+             const std::vector<std::string>& warnings = {},
+             const std::optional<std::string>& incomplete = std::nullopt) {
+  const kit::TemporaryFolder folder;
+  report::ResultWriter writer(folder.path());
+  for (const report::FrameReport& frame : frames) writer.add(frame);
+  BOOST_TEST(folder.entries().empty(), "nothing appears before the result is complete");
+  writer.finish(facts(), provenance(), warnings, incomplete);
+  BOOST_TEST(folder.entries() == std::vector<std::string>{"result.json"});
+  return Json::parse(kit::read_file(folder / "result.json"));
+}
+
+std::vector<std::string> keys(const Json& json) {
+  std::vector<std::string> result;
+  for (const auto& [key, value] : json.items()) result.push_back(key);
+  return result;
+}
+
+using Keys = std::vector<std::string>;
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(result_writer)
+
+BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
+  const Json json = written({found_frame("z1.0")});
+  BOOST_TEST(keys(json) == (Keys{"schema", "provenance", "fidelity", "system", "design", "profile",
+                                 "configuration", "frames", "summary"}));
+  BOOST_TEST(json["schema"] == 1);
+  BOOST_TEST(json["configuration"]["pl.clk"] == "50 MHz");
+  const Json& frame = json["frames"][0];
+  BOOST_TEST(keys(frame) == (Keys{"input", "index", "threshold", "counts", "markers", "time_us"}));
+  BOOST_TEST(keys(frame["counts"]) ==
+             (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow",
+                   "label_overflow", "bridge_overflow", "crossing_overflow"}));
+  BOOST_TEST(keys(frame["markers"][0]) ==
+             (Keys{"id", "rotation", "corners_px", "pose", "reprojection_px", "iterations", "truth",
+                   "error"}));
+  BOOST_TEST(keys(json["summary"]) == (Keys{"frames", "detected", "fps", "latency_us"}));
+}
+
+BOOST_AUTO_TEST_CASE(values_and_errors) {
+  const Json json = written({found_frame("z1.0")});
+  const Json& marker = json["frames"][0]["markers"][0];
+  BOOST_TEST(marker["error"]["corner_px"] == 0.5, "one of four corners is 2 px off");
+  BOOST_TEST(marker["error"]["translation_mm"] == 12.0);
+  BOOST_TEST(marker["error"]["rotation_deg"] == 0.0);
+  BOOST_TEST(marker["pose"]["translation_m"] == Json({0.0, 0.0, 1.012}));
+  BOOST_TEST(marker["pose"]["rotation"][1] == Json({0.0, 1.0, 0.0}));
+  BOOST_TEST(marker["truth"]["pose"]["translation_m"][2] == 1.0);
+  BOOST_TEST(marker["corners_px"][0] == Json({322.0, 240.0}));
+  BOOST_TEST(json["frames"][0]["time_us"]["pose"] == 0.123456, "a picosecond is not lost");
+}
+
+BOOST_AUTO_TEST_CASE(numbers_are_rounded_to_stated_places) {
+  BOOST_TEST(report::rounded(0.1234567, 6) == 0.123457);
+  BOOST_TEST(report::rounded(-0.0000001, 6) == 0.0);
+  BOOST_TEST(!std::signbit(report::rounded(-0.0000001, 6)));
+  BOOST_TEST(report::rounded(6144.5, 6) == 6144.5);
+}
+
+BOOST_AUTO_TEST_CASE(the_summary_excludes_the_upload) {
+  const Json json = written({found_frame("z1.0", 0), found_frame("z1.0", 1)});
+  BOOST_TEST(json["summary"]["frames"] == 2);
+  BOOST_TEST(json["summary"]["detected"] == 2);
+  BOOST_TEST(json["summary"]["fps"]["mean"] == 125.0);
+  BOOST_TEST(json["summary"]["fps"]["max"] == 125.0);
+  BOOST_TEST(json["summary"]["latency_us"]["max"] == 8000.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_known_is_absent) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.truth.reset();
+  frame.markers[0].has_pose = false;
+  const Json marker = written({frame})["frames"][0]["markers"][0];
+  BOOST_TEST(keys(marker) == (Keys{"id", "rotation", "corners_px"}));
+  const Json nothing = written({});
+  BOOST_TEST(nothing["frames"].empty());
+  BOOST_TEST(keys(nothing["summary"]) == (Keys{"frames", "detected"}));
+}
+
+BOOST_AUTO_TEST_CASE(another_marker_than_the_scenes_has_no_error) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.markers[0].id = 77;
+  const Json marker = written({frame})["frames"][0]["markers"][0];
+  BOOST_TEST(!marker.contains("error"));
+  BOOST_TEST(!marker.contains("truth"));
+}
+
+BOOST_AUTO_TEST_CASE(warnings_and_an_early_end_are_told) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.warnings = {"a word was lost"};
+  const Json json = written({frame}, {"no camera"}, "interrupted");
+  BOOST_TEST(json["frames"][0]["warnings"][0] == "a word was lost");
+  BOOST_TEST(json["warnings"][0] == "no camera");
+  BOOST_TEST(json["incomplete"] == "interrupted");
+}
+
+BOOST_AUTO_TEST_CASE(equal_runs_give_equal_bytes_and_bad_utf8_does_no_harm) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.input = "caf\xE9.png";
+  BOOST_TEST(written({frame}).dump() == written({frame}).dump());
+}
+
+BOOST_AUTO_TEST_CASE(without_finish_nothing_is_left) {
+  const kit::TemporaryFolder folder;
+  { report::ResultWriter writer(folder.path()); }
+  BOOST_TEST(folder.entries().empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(file_output)
+
+BOOST_AUTO_TEST_CASE(an_output_folder_is_made_and_left_empty) {
+  const kit::TemporaryFolder folder;
+  report::prepare_output_folder(folder / "a/b");
+  BOOST_TEST(std::filesystem::is_empty(folder / "a/b"));
+}
+
+BOOST_AUTO_TEST_CASE(an_output_folder_that_cannot_be_is_refused) {
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "file", "x");
+  BOOST_CHECK_THROW(report::prepare_output_folder(folder / "file"), vp::InputError);
+  BOOST_CHECK_THROW(report::prepare_output_folder(folder / "file/below"), vp::InputError);
+  BOOST_CHECK_THROW(report::prepare_output_folder("/proc/markervp"), vp::InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {
+  const kit::TemporaryFolder folder;
+  {
+    report::AtomicFile file(folder / "a");
+    file.write("text");
+  }
+  BOOST_TEST(folder.entries().empty());
+  report::AtomicFile file(folder / "a");
+  file.write("text");
+  file.commit();
+  BOOST_TEST(folder.entries() == std::vector<std::string>{"a"});
+  BOOST_TEST(kit::read_file(folder / "a") == "text");
+  BOOST_CHECK_THROW(report::AtomicFile(folder / "no/such/folder"), vp::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
