@@ -117,11 +117,8 @@ void ClockScheduler::pass_until(std::uint64_t ps, Condition condition, const voi
         to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
     // What happens at the time of an event may come before or after it: that is left to the kernel.
     const std::uint64_t free = std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
-    if (kernel + free >= ps) {
-      run_ahead(ps, condition, context);
-      return;
-    }
-    if (run_ahead(std::max(now_ps(), kernel + free), condition, context)) return;
+    const std::uint64_t reachable = std::max(now_ps(), std::min(ps, kernel + free));
+    if (run_ahead(reachable, condition, context) == Ahead::met || now_ps() >= ps) return;
     wait_in_kernel(ps - kernel, condition, context);
     if (condition && condition(context)) return;
   }
@@ -150,17 +147,24 @@ void ClockScheduler::check_condition() {
   }
 }
 
-// True if the condition ended it.
-bool ClockScheduler::run_ahead(std::uint64_t ps, Condition condition, const void* context) {
+// Stops where a condition holds, and where an edge notified a SystemC event: the kernel has its turn then.
+ClockScheduler::Ahead ClockScheduler::run_ahead(std::uint64_t ps, Condition condition,
+                                                const void* context) {
+  Ahead end = Ahead::reached;
   running_ = true;
-  bool met = false;
-  for (std::uint64_t next = next_instant(); next <= ps && !met; next = next_instant()) {
+  stop_batch_ = false;
+  for (std::uint64_t next = next_instant(); next <= ps && end == Ahead::reached;
+       next = next_instant()) {
     run_instant(next);
-    met = condition && condition(context);
+    if (condition && condition(context)) {
+      end = Ahead::met;
+    } else if (stop_batch_) {
+      end = Ahead::stopped;
+    }
   }
   running_ = false;
-  if (!met) instant_ps_ = std::max(instant_ps_, ps);
-  return met;
+  if (end == Ahead::reached) instant_ps_ = std::max(instant_ps_, ps);
+  return end;
 }
 
 void ClockScheduler::rejoin() {

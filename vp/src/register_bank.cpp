@@ -134,9 +134,17 @@ bool RegisterBank::all_bytes_enabled(const tlm::tlm_generic_payload& payload) co
   return true;
 }
 
+void RegisterBank::pass(const sc_core::sc_time& time) {
+  if (scheduler_) {
+    scheduler_->pass_until(scheduler_->now_ps() + to_ps(time));
+  } else {
+    sc_core::wait(time);
+  }
+}
+
 void RegisterBank::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   if (delay != sc_core::SC_ZERO_TIME) {
-    sc_core::wait(delay);
+    pass(delay);
     delay = sc_core::SC_ZERO_TIME;
   }
   synchronise();

@@ -97,9 +97,9 @@ void Tracer::before_end_of_elaboration() {
 }
 
 void Tracer::start_of_simulation() {
-  started_ = true;
   select_sources();
   select_clocks();
+  started_ = true;  // not before: a filter that selects nothing is an error of its own
   marked_.assign(values_.size() / 64 + 1, 0);
   if (options_.from_ps == 0) {
     open_window();

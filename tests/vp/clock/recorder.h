@@ -9,6 +9,7 @@
 /// Notes the times of its edges.
 struct Recorder : vp::Clocked {
   Recorder(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {}
+  using Clocked::sleep;
 
   void edge() override {
     times.push_back(clock().scheduler().now_ps());

@@ -44,7 +44,8 @@ class ClockScheduler : public sc_core::sc_module {
 
   /// Lets time pass up to `ps` for the process (an SC_THREAD) that calls. As long as no SystemC event lies before, it runs
   /// the clock edges itself and SystemC's time stays behind; otherwise it waits as others do. Returns early, at the end of
-  /// an instant in which `condition` holds.
+  /// an instant in which `condition` holds. A model that is called meanwhile and wants to wait uses pass_until(), too, or
+  /// calls rejoin() first.
   void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr);
 
   /// The condition of the process in pass_until() may have become true outside of a clock edge: looks at it.
@@ -74,7 +75,8 @@ class ClockScheduler : public sc_core::sc_module {
   void start_of_simulation() override;
   void run();
   void wait_in_kernel(std::uint64_t ps, Condition condition, const void* context);
-  bool run_ahead(std::uint64_t ps, Condition condition, const void* context);
+  enum class Ahead { reached, met, stopped };
+  Ahead run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
   void order_modules();
   void mark_deferred_signals();

@@ -146,6 +146,7 @@ class RegisterBank : public sc_core::sc_module {
   bool held_in_reset() const { return held_in_reset_; }
 
  private:
+  void pass(const sc_core::sc_time& time);
   void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(tlm::tlm_generic_payload& payload);
   tlm::tlm_response_status access(tlm::tlm_generic_payload& payload);

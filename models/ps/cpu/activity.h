@@ -1,0 +1,67 @@
+#pragma once
+
+#include <hal/hal.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+/// How often a program did a unit of work.
+struct WorkCount {
+  std::string name;
+  std::uint64_t count = 0;
+  double cycles = 0;    ///< CPU cycles of one
+  double stall_ns = 0;  ///< memory stalls of one in ns
+};
+
+/// Where a program's time went.
+struct FunctionTime {
+  std::string name;
+  std::uint64_t calls = 0;
+  std::uint64_t self_ps =
+      0;  ///< inside the function itself; without interrupts and functions below it
+  std::uint64_t total_ps =
+      0;  ///< from entry to return; of nested calls of one function the outermost
+};
+
+/// Bookkeeping of what a processor does as simulation time passes.
+class Activity {
+ public:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  void start(const hal_program& program);
+
+  void enter(std::uint32_t function, std::uint64_t now_ps);
+  void leave(std::uint64_t now_ps);
+  /// The function that runs; `none` outside of all.
+  std::uint32_t function() const { return stack_.empty() ? none : stack_.back().function; }
+
+  /// `ps` passed in the function that runs, or in the interrupt's entry, exit and dispatcher.
+  void busy(std::uint64_t ps, bool in_handler);
+  /// `ps` passed asleep.
+  void idle(std::uint64_t ps) { idle_ps_ += ps; }
+  /// An interrupt begins or ends: the interrupted function's own time stops.
+  void enter_handler() { handler_base_ = stack_.size(); }
+  void leave_handler() { handler_base_ = 0; }
+
+  const std::vector<FunctionTime>& functions() const { return functions_; }
+  std::uint64_t busy_ps() const { return busy_ps_; }
+  std::uint64_t idle_ps() const { return idle_ps_; }
+  std::uint64_t handler_ps() const { return handler_ps_; }
+
+ private:
+  struct Frame {
+    std::uint32_t function;
+    std::uint64_t entered_ps;
+  };
+  std::vector<FunctionTime> functions_;
+  std::vector<Frame> stack_;
+  std::size_t handler_base_ = 0;  ///< frames of the interrupted program
+  std::uint64_t busy_ps_ = 0;
+  std::uint64_t idle_ps_ = 0;
+  std::uint64_t handler_ps_ = 0;
+};
+
+}  // namespace ps

@@ -1,0 +1,220 @@
+#include <ps/cpu/cpu.h>
+#include <ps/cpu/native_hal.h>
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/hex.h>
+#include <vp/unit.h>
+#include <cmath>
+#include <cstring>
+
+namespace ps {
+
+using namespace vp::literals;
+
+namespace {
+
+constexpr vp::Range<std::uint32_t> cycles_range{0, 1'000'000};
+constexpr double fs_per_ns = 1e6;
+
+const char* answer(tlm::tlm_response_status status) {
+  switch (status) {
+    case tlm::TLM_ADDRESS_ERROR_RESPONSE:
+      return "DECERR, nothing answers there";
+    case tlm::TLM_COMMAND_ERROR_RESPONSE:
+      return "SLVERR, the device does not allow it";
+    case tlm::TLM_BURST_ERROR_RESPONSE:
+      return "SLVERR, the device does not take this size or alignment";
+    case tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE:
+      return "SLVERR, the device does not take part of a word";
+    case tlm::TLM_INCOMPLETE_RESPONSE:
+      return "no response (its model is wrong)";
+    default:
+      return "SLVERR, the device reports an error";
+  }
+}
+
+}  // namespace
+
+Cpu* Cpu::running_ = nullptr;
+
+Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
+    : sc_module(name),
+      stack_size("stack_size", 8_MiB, vp::Unit::bytes, {64_KiB, 1_GiB}, vp::Source::decision,
+                 "stack of the program"),
+      quantum("quantum", 100_us, vp::Unit::time, {0, 1000_s}, vp::Source::decision,
+              "how far the program may run ahead of the simulation; no result depends on it"),
+      timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
+              "the run ends if the program neither ends nor asks for an image for so long"),
+      interrupt_entry("interrupt_entry", 100, vp::Unit::cycles, cycles_range, vp::Source::published,
+                      "from nIRQ to the handler, warm caches: below 100 (jblopen.com, Zynq-7000)"),
+      interrupt_exit("interrupt_exit", 60, vp::Unit::cycles, cycles_range, vp::Source::assumed,
+                     "from the handler back to the program"),
+      barrier_cycles("barrier_cycles", 20, vp::Unit::cycles, cycles_range, vp::Source::assumed,
+                     "a data synchronisation barrier"),
+      cache_call_cycles("cache_call_cycles", 60, vp::Unit::cycles, cycles_range,
+                        vp::Source::assumed, "a cache operation before its first line"),
+      cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
+                        vp::Source::assumed, "a line of 32 bytes in both cache levels"),
+      clock_(clock) {
+  use_native_hal();
+  SC_HAS_PROCESS(Cpu);
+  SC_THREAD(run);
+  set_stack_size(static_cast<std::size_t>(stack_size));
+  payload_.set_data_ptr(data_);
+  payload_.set_data_length(sizeof data_);
+  payload_.set_streaming_width(sizeof data_);
+}
+
+void Cpu::load(Program& program, const CostTable& costs) {
+  const hal_program& description = program.description();
+  work_.clear();
+  for (std::uint32_t i = 0; i < description.work_count; ++i) {
+    const WorkCost& cost = costs.at(description.work[i], description.name);
+    Work work;
+    work.cycles = static_cast<LocalTime::Wide>(
+        std::llround(cost.cycles * static_cast<double>(LocalTime::one_cycle)));
+    work.stall_fs = static_cast<LocalTime::Wide>(std::llround(cost.stall_ns * fs_per_ns));
+    work_.push_back(work);
+  }
+  program_ = &program;
+  cost_profile_ = costs.profile();
+}
+
+std::uint64_t Cpu::now_ps() const {
+  return clock_.scheduler().now_ps();
+}
+
+void Cpu::end_of_elaboration() {
+  clock_.scheduler().set_lookahead(quantum);
+  if (n_irq.bound()) n_irq.signal()->attach(*this);
+}
+
+void Cpu::run() {
+  if (!program_) return;
+  std::exception_ptr error;
+  state_ = State::running;
+  running_ = this;
+  try {
+    program_->reset();
+    activity_.start(program_->description());
+    deadline_ps_ = now_ps() + timeout;
+    follow_clock();
+    limit_advance();
+    exit_code_ = program_->description().entry();
+    catch_up();
+  } catch (const sc_core::sc_unwind_exception&) {
+    throw;
+  } catch (const std::exception& thrown) {
+    error = std::make_exception_ptr(vp::ProtocolError(
+        std::string("the program threw an exception: ") + thrown.what() + where()));
+  } catch (...) {
+    error = std::make_exception_ptr(vp::ProtocolError("the program threw an exception" + where()));
+  }
+  if (error) stop(std::move(error));
+  end(State::finished);
+}
+
+void Cpu::end(State state) {
+  clock_.scheduler().rejoin();
+  state_ = state;
+  end_ps_ = now_ps();
+  running_ = nullptr;
+  console.flush();
+  ended_.notify(sc_core::SC_ZERO_TIME);
+  if (pause_at_end_) sc_core::sc_pause();
+}
+
+// The thread never comes back: nothing of the program is unwound.
+void Cpu::stop(std::exception_ptr error) {
+  error_ = std::move(error);
+  exit_code_ = 0;
+  end(State::failed);
+  while (true) sc_core::wait(never_);
+}
+
+void Cpu::fail(const std::string& problem) {
+  stop(std::make_exception_ptr(vp::ProtocolError(problem + where())));
+}
+
+// A mistake found ahead of time: first what the program did before.
+void Cpu::misuse(const std::string& problem) {
+  catch_up();
+  fail(problem);
+}
+
+std::string Cpu::where() const {
+  std::string text = ", at " + vp::format_time(now_ps());
+  const std::uint32_t number = activity_.function();
+  const hal_program& description = program_->description();
+  if (number != Activity::none) {
+    text += std::string(" in function '") + description.functions[number] + "'";
+  }
+  if (in_handler_now_) text += " in the interrupt handler";
+  return text + " of program '" + description.name + "'";
+}
+
+void Cpu::check() const {
+  if (error_) std::rethrow_exception(error_);
+  if (state_ == State::running) {
+    throw vp::ProtocolError("nothing is left to happen, but the program has not ended" + where());
+  }
+}
+
+std::vector<WorkCount> Cpu::work() const {
+  std::vector<WorkCount> counts;
+  for (std::size_t i = 0; i < work_.size(); ++i) {
+    const Work& work = work_[i];
+    counts.push_back({program_->description().work[i], work.count,
+                      static_cast<double>(work.cycles) / static_cast<double>(LocalTime::one_cycle),
+                      static_cast<double>(work.stall_fs) / fs_per_ns});
+  }
+  return counts;
+}
+
+Cpu& Cpu::running(const char* call) {
+  if (running_) return *running_;
+  throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
+}
+
+std::string Cpu::device_at(std::uint32_t address) const {
+  const std::string device = device_ ? device_(address) : std::string();
+  return device.empty() ? device : " (" + device + ")";
+}
+
+std::uint32_t Cpu::access(tlm::tlm_command command, std::uint32_t address, std::uint32_t value) {
+  catch_up();
+  if (address % sizeof data_ != 0) {
+    fail("data abort: access to " + vp::hex(address) + device_at(address) +
+         ", which is not a multiple of 4");
+  }
+  std::memcpy(data_, &value, sizeof data_);
+  payload_.set_command(command);
+  payload_.set_address(address);
+  payload_.set_byte_enable_ptr(nullptr);
+  payload_.set_dmi_allowed(false);
+  payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+
+  const std::uint64_t start = now_ps();
+  sc_core::sc_time rest = sc_core::SC_ZERO_TIME;
+  try {
+    m_axi.transport(payload_, rest);
+  } catch (const vp::ProtocolError& error) {
+    throw vp::ProtocolError(error.what() + where());
+  }
+  activity_.busy(now_ps() - start, in_handler_now_);
+  check_response(address);
+  if (rest != sc_core::SC_ZERO_TIME) {
+    timeline().push(Timeline::Kind::access, vp::to_ps(rest));
+    limit_advance();
+  }
+  std::memcpy(&value, data_, sizeof data_);
+  return value;
+}
+
+void Cpu::check_response(std::uint32_t address) {
+  if (payload_.is_response_ok()) return;
+  fail(std::string("data abort: ") + (payload_.is_read() ? "read of " : "write to ") +
+       vp::hex(address) + device_at(address) + ": " + answer(payload_.get_response_status()));
+}
+
+}  // namespace ps

@@ -1,0 +1,222 @@
+#pragma once
+
+#include <hal/hal.h>
+
+#include <ps/cpu/activity.h>
+#include <ps/cpu/console.h>
+#include <ps/cpu/cost_table.h>
+#include <ps/cpu/local_time.h>
+#include <ps/cpu/program.h>
+#include <ps/cpu/test_bench.h>
+#include <ps/cpu/timeline.h>
+#include <ps/ddr/dma_allocator.h>
+#include <vp/clock.h>
+#include <vp/counter.h>
+#include <vp/mm_link.h>
+#include <vp/parameter.h>
+#include <vp/signal.h>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <systemc>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ps {
+
+/// A processor without instruction set: one thread that runs a program natively and gives it the
+/// HAL.
+///
+/// The program's own statements take no time; the work it counts does, through the cost table, and
+/// so does what the HAL does for it. The processor may be ahead of the simulation, but catches up
+/// before each register access, barrier, cache operation, interrupt check, and call of the test
+/// bench. An interrupt that comes while it catches up runs its handler at exactly that time, and
+/// the work goes on afterwards. So no result depends on how far ahead it may be (`quantum`).
+///
+/// When something ends the run early (a bus error, a mistake of the program, the time-out), the
+/// program is frozen where it stands: its stack is never unwound, no destructor runs and no
+/// exception passes its code, as on a chip that hangs in an abort handler. The simulation goes on
+/// without it, or pauses.
+class Cpu : public sc_core::sc_module, public vp::SignalListener {
+ public:
+  Cpu(sc_core::sc_module_name name, vp::Clock& clock);
+  const char* kind() const override { return "ps::Cpu"; }
+
+  vp::MmLink m_axi{"m_axi"};    ///< bind m_axi.socket to the interconnect
+  vp::In<bool> n_irq{"n_irq"};  ///< from the interrupt controller, active low; may stay unbound
+  vp::Signal<std::uint32_t> function{
+      "function"};  ///< annotated function that runs, its number + 1; 0 none
+  vp::Signal<bool> in_handler{"in_handler"};  ///< from interrupt entry to exit
+  vp::Signal<bool> asleep{"asleep"};          ///< waits for an interrupt
+
+  vp::Parameter<std::uint64_t> stack_size;
+  vp::Parameter<std::uint64_t> quantum;
+  vp::Parameter<std::uint64_t> timeout;
+  vp::Parameter<std::uint32_t> interrupt_entry;
+  vp::Parameter<std::uint32_t> interrupt_exit;
+  vp::Parameter<std::uint32_t> barrier_cycles;
+  vp::Parameter<std::uint32_t> cache_call_cycles;
+  vp::Parameter<std::uint32_t> cache_line_cycles;
+
+  vp::Counter interrupts{"interrupts", "interrupts taken"};
+  vp::Counter polls{"polls", "reads made by hal_poll_until_changed"};
+  vp::Counter barriers{"barriers", "barriers and cache operations"};
+  vp::Counter cache_lines{"cache_lines", "cache lines flushed or invalidated"};
+
+  // What stands around the processor: to be set before the simulation starts. What is passed must
+  // outlive it.
+  /// Throws vp::InputError if `costs` lacks a unit of work of the program.
+  void load(Program& program, const CostTable& costs);
+  void connect(TestBench& bench) { bench_ = &bench; }
+  void connect(DmaAllocator& dma_memory) { dma_memory_ = &dma_memory; }
+  /// Names the device at an address in messages; "" if there is none.
+  void name_devices(std::function<std::string(std::uint32_t)> device) {
+    device_ = std::move(device);
+  }
+  /// False: the simulation goes on when the program has ended. Default: it pauses (sc_pause).
+  void set_pause_at_end(bool pause) { pause_at_end_ = pause; }
+  Console console;
+
+  enum class State { waiting, running, finished, failed };
+  State state() const { return state_; }
+  /// What the entry function returned; 0 unless finished.
+  int exit_code() const { return exit_code_; }
+  /// When the program ended, in ps; 0 before.
+  std::uint64_t end_ps() const { return end_ps_; }
+  /// Throws what ended the program: vp::ProtocolError, or what a model or the test bench threw.
+  /// Nothing if it finished. A program that neither ended nor can go on is vp::ProtocolError too:
+  /// call it after the simulation.
+  void check() const;
+  /// Notified when the program ends, however.
+  const sc_core::sc_event& ended() const { return ended_; }
+
+  std::vector<WorkCount> work() const;
+  const Activity& activity() const { return activity_; }
+  const std::string& cost_profile() const { return cost_profile_; }
+
+  /// The processor whose program runs, for the HAL. Throws vp::ProtocolError if none does.
+  static Cpu& running(const char* call);
+  /// Runs a HAL call. An exception in it ends the run, without passing the program's frames.
+  template <class Call>
+  auto guarded(Call call);
+
+  // The HAL, see <hal/hal.h>.
+  std::uint32_t read32(std::uint32_t address);
+  void write32(std::uint32_t address, std::uint32_t value);
+  hal_poll_result poll_until_changed(std::uint32_t address, std::uint32_t previous,
+                                     std::uint32_t cycles, std::uint32_t limit);
+  void barrier();
+  void maintain_cache(const void* data, std::size_t size);
+  hal_dma_buffer allocate_dma(std::size_t size, std::size_t alignment);
+  void connect_interrupt(hal_interrupt_handler handler, void* context);
+  bool enable_interrupt(bool enable);
+  void wait_for_interrupt();
+  void write_console(const char* text, std::size_t length);
+  const hal_frame* next_frame();
+  void publish(std::uint32_t kind, const void* data, std::size_t size);
+  double option(std::uint32_t option);
+  void do_work(std::uint32_t item, std::uint64_t count);
+  void enter_function(std::uint32_t number);
+  void leave_function();
+
+ private:
+  struct Work {
+    LocalTime::Wide cycles = 0;    ///< of one unit, in 2^-20 cycles
+    LocalTime::Wide stall_fs = 0;  ///< of one unit
+    LocalTime::Wide most_fs = 0;   ///< of one unit, rounded up
+    std::uint64_t count = 0;
+  };
+  enum class Interrupts { take, leave };
+
+  void end_of_elaboration() override;
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void run();
+
+  // Time: cpu_time.cpp
+  std::uint64_t now_ps() const;
+  static bool irq_is_low(const void* cpu);
+  Timeline& timeline() { return timelines_[in_handler_now_ ? 1 : 0]; }
+  void spend_cycles(std::uint64_t cycles);
+  void close_segment();
+  void catch_up();
+  void settle();
+  bool play(Interrupts interrupts);
+  std::uint64_t pass(std::uint64_t ps, bool interruptible);
+  void follow_clock();
+  void limit_advance();
+  bool interrupt_pending() const { return n_irq.bound() && !n_irq.read(); }
+  bool interrupt_due() const { return !masked_ && !in_handler_now_ && interrupt_pending(); }
+  void run_handler();
+  void sleep();
+
+  std::uint32_t access(tlm::tlm_command command, std::uint32_t address, std::uint32_t value);
+  void check_response(std::uint32_t address);
+  std::string where() const;
+  std::string device_at(std::uint32_t address) const;
+  [[noreturn]] void stop(std::exception_ptr error);
+  [[noreturn]] void fail(const std::string& problem);
+  [[noreturn]] void misuse(const std::string& problem);
+  void end(State state);
+
+  vp::Clock& clock_;
+  Program* program_ = nullptr;
+  TestBench* bench_ = nullptr;
+  DmaAllocator* dma_memory_ = nullptr;
+  std::function<std::string(std::uint32_t)> device_;
+  std::string cost_profile_;
+  bool pause_at_end_ = true;
+
+  State state_ = State::waiting;
+  int exit_code_ = 0;
+  std::uint64_t end_ps_ = 0;
+  std::exception_ptr error_;
+  sc_core::sc_event ended_;
+  sc_core::sc_event never_;
+
+  std::vector<Work> work_;
+  std::size_t open_functions_ = 0;  ///< entered by the program, ahead of time
+  std::size_t open_before_handler_ = 0;
+  Activity activity_;
+
+  std::uint64_t hertz_ = 0;
+  LocalTime local_time_;
+  Timeline timelines_[2];         ///< of the program, of the handler that interrupts it
+  LocalTime::Wide ahead_fs_ = 0;  ///< work counted since the last settling, rounded up
+  LocalTime::Wide ahead_limit_fs_ = 0;
+  std::uint64_t deadline_ps_ = 0;
+
+  hal_interrupt_handler handler_ = nullptr;
+  void* handler_context_ = nullptr;
+  bool masked_ = true;
+  bool in_handler_now_ = false;
+
+  tlm::tlm_generic_payload payload_;
+  unsigned char data_[4] = {};
+
+  static Cpu* running_;
+};
+
+template <class Call>
+auto Cpu::guarded(Call call) {
+  std::exception_ptr error;
+  try {
+    if constexpr (std::is_void_v<decltype(call())>) {
+      call();
+      running_ = this;
+      return;
+    } else {
+      auto result = call();
+      running_ = this;
+      return result;
+    }
+  } catch (const sc_core::sc_unwind_exception&) {
+    throw;  // somebody kills the process
+  } catch (...) {
+    error = std::current_exception();
+  }
+  stop(std::move(error));
+}
+
+}  // namespace ps

@@ -1,0 +1,99 @@
+// What the HAL's functions do, but for those that only make time pass (cpu_time.cpp).
+#include <ps/cpu/cpu.h>
+#include <vp/clock_scheduler.h>
+
+namespace ps {
+
+std::uint32_t Cpu::read32(std::uint32_t address) {
+  return access(tlm::TLM_READ_COMMAND, address, 0);
+}
+
+void Cpu::write32(std::uint32_t address, std::uint32_t value) {
+  access(tlm::TLM_WRITE_COMMAND, address, value);
+}
+
+// The poll grid: read n + 1 leaves when read n is answered and the loop's cycles have passed, later
+// by the interrupts that came in between.
+hal_poll_result Cpu::poll_until_changed(std::uint32_t address, std::uint32_t previous,
+                                        std::uint32_t cycles, std::uint32_t limit) {
+  hal_poll_result result{previous, 0, false};
+  while (result.polls < limit && !result.changed) {
+    result.value = read32(address);
+    ++result.polls;
+    ++polls;
+    result.changed = result.value != previous;
+    spend_cycles(cycles);
+  }
+  return result;
+}
+
+void Cpu::barrier() {
+  ++barriers;
+  spend_cycles(barrier_cycles);
+  catch_up();
+}
+
+void Cpu::maintain_cache(const void* data, std::size_t size) {
+  constexpr std::uintptr_t line = DmaAllocator::cache_line;
+  const auto first = reinterpret_cast<std::uintptr_t>(data) / line;
+  const auto end = (reinterpret_cast<std::uintptr_t>(data) + size + line - 1) / line;
+  const std::uint64_t lines = size == 0 ? 0 : end - first;
+  cache_lines.add(lines);
+  spend_cycles(cache_call_cycles + cache_line_cycles * lines);
+  barrier();
+}
+
+hal_dma_buffer Cpu::allocate_dma(std::size_t size, std::size_t alignment) {
+  hal_dma_buffer buffer{nullptr, 0, size};
+  if (!dma_memory_) return buffer;
+  if (const auto address = dma_memory_->allocate(size, alignment)) {
+    buffer.bus_address = *address;
+    buffer.data = reinterpret_cast<void*>(std::uintptr_t{*address});
+  }
+  return buffer;
+}
+
+void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
+  catch_up();
+  handler_ = handler;
+  handler_context_ = context;
+}
+
+bool Cpu::enable_interrupt(bool enable) {
+  catch_up();
+  const bool was_enabled = !masked_;
+  masked_ = !enable;
+  catch_up();
+  return was_enabled;
+}
+
+void Cpu::write_console(const char* text, std::size_t length) {
+  catch_up();
+  console.write(text, length);
+}
+
+const hal_frame* Cpu::next_frame() {
+  catch_up();
+  const hal_frame* frame = bench_ ? bench_->next_frame(now_ps()) : nullptr;
+  if (frame) {
+    deadline_ps_ = now_ps() + timeout;
+    limit_advance();
+  }
+  return frame;
+}
+
+void Cpu::publish(std::uint32_t kind, const void* data, std::size_t size) {
+  catch_up();
+  if (bench_) bench_->publish(kind, data, size, now_ps());
+}
+
+double Cpu::option(std::uint32_t option) {
+  const hal_program& program = program_->description();
+  if (option >= program.option_count) {
+    misuse("hal_option(" + std::to_string(option) + "): no such option");
+  }
+  const hal_option_info& info = program.options[option];
+  return bench_ ? bench_->option(option, info) : info.default_value;
+}
+
+}  // namespace ps

@@ -1,0 +1,115 @@
+#include <dlfcn.h>
+
+#include <ps/cpu/program.h>
+#include <ps/cpu/static_image.h>
+#include <vp/error.h>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+namespace ps {
+
+namespace {
+
+constexpr const char* symbol = "hal_program_info";
+
+/// Throws if the description cannot be used. `what` is "program 'x'".
+void check(const hal_program& program, const std::string& what) {
+  if (program.abi != HAL_ABI) {
+    throw vp::InputError(what + " was built for version " + std::to_string(program.abi) +
+                         " of the HAL, this is version " + std::to_string(HAL_ABI) +
+                         ": rebuild it");
+  }
+  const bool complete = program.name && program.entry &&
+                        (program.work || program.work_count == 0) &&
+                        (program.functions || program.function_count == 0) &&
+                        (program.options || program.option_count == 0);
+  if (!complete) {
+    throw vp::InputError(what + " has an incomplete " + symbol +
+                         ": it needs a name, an entry, and a table for each count that is not 0");
+  }
+}
+
+class LinkedProgram : public Program {
+ public:
+  explicit LinkedProgram(const hal_program& description) : Program(description, {}) {}
+  void reset() override {}
+};
+
+/// A shared object in memory. Loading a file twice gives the same memory, so all users share the
+/// picture taken first.
+class SharedObject {
+ public:
+  static std::shared_ptr<SharedObject> open(const std::string& path) {
+    static std::map<std::string, std::weak_ptr<SharedObject>> loaded;
+    if (auto object = loaded[path].lock()) return object;
+    auto object = std::make_shared<SharedObject>(path);
+    loaded[path] = object;
+    return object;
+  }
+
+  explicit SharedObject(const std::string& path) : handle_(load(path)), image_(handle_) {}
+  // Destructors of static objects then find what their constructors left, however often the program
+  // ran.
+  ~SharedObject() {
+    image_.restore();
+    dlclose(handle_);
+  }
+  SharedObject(const SharedObject&) = delete;
+  SharedObject& operator=(const SharedObject&) = delete;
+
+  const hal_program* description() const {
+    return static_cast<const hal_program*>(dlsym(handle_, symbol));
+  }
+  void restore() const { image_.restore(); }
+
+ private:
+  static void* load(const std::string& path) {
+    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    throw vp::InputError("cannot load program '" + path + "': " + dlerror());
+  }
+
+  void* handle_;
+  StaticImage image_;
+};
+
+class LoadedProgram : public Program {
+ public:
+  LoadedProgram(std::shared_ptr<SharedObject> object, const hal_program& description,
+                std::string path)
+      : Program(description, std::move(path)), object_(std::move(object)) {}
+  void reset() override { object_->restore(); }
+
+ private:
+  std::shared_ptr<SharedObject> object_;
+};
+
+std::string absolute(const std::string& path) {
+  char resolved[PATH_MAX];
+  if (realpath(path.c_str(), resolved)) return resolved;
+  throw vp::InputError("cannot load program '" + path + "': " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::unique_ptr<Program> Program::linked(const hal_program& description) {
+  check(description, "the linked program");
+  return std::make_unique<LinkedProgram>(description);
+}
+
+std::unique_ptr<Program> Program::load(const std::string& path) {
+  const std::string file = absolute(path);
+  auto object = SharedObject::open(file);
+  const hal_program* description = object->description();
+  if (!description) {
+    throw vp::InputError("'" + path + "' is not a PS program: it has no symbol " + symbol +
+                         " (define it as <hal/hal.h> declares it)");
+  }
+  check(*description, "program '" + path + "'");
+  return std::make_unique<LoadedProgram>(std::move(object), *description, file);
+}
+
+}  // namespace ps

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <hal/hal.h>
+
+#include <memory>
+#include <string>
+
+namespace ps {
+
+/// A PS program that a Cpu can run.
+class Program {
+ public:
+  /// Loads a plug-in. Throws vp::InputError with one line if the file is missing, is no shared
+  /// object, needs symbols that nobody has, describes no program, or was built for another HAL.
+  static std::unique_ptr<Program> load(const std::string& path);
+  /// A program that is part of this executable; reset() does nothing. Throws vp::InputError as
+  /// load() does.
+  static std::unique_ptr<Program> linked(const hal_program& description);
+
+  virtual ~Program() = default;
+
+  const hal_program& description() const { return *description_; }
+  const char* name() const { return description_->name; }
+  /// Absolute path of the plug-in; empty if linked.
+  const std::string& path() const { return path_; }
+
+  /// Makes its static variables what they were after loading: before each run. Variables inside
+  /// functions are fresh too. What a static object holds on the heap is not reset; programs for the
+  /// chip have no such objects.
+  virtual void reset() = 0;
+
+ protected:
+  Program(const hal_program& description, std::string path)
+      : description_(&description), path_(std::move(path)) {}
+
+ private:
+  const hal_program* description_;
+  std::string path_;
+};
+
+}  // namespace ps

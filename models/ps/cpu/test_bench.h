@@ -1,0 +1,25 @@
+#pragma once
+
+#include <hal/hal.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace ps {
+
+/// What stands around a program in a run: gives it images and options, takes its results. The
+/// platform implements it. Times are simulation times of the call in ps; the calls take none.
+class TestBench {
+ public:
+  virtual ~TestBench() = default;
+
+  /// The next image, or null when the run is over. Valid until the next call.
+  virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
+  /// A result; `data` is valid during the call only.
+  virtual void publish(std::uint32_t kind, const void* data, std::size_t size,
+                       std::uint64_t now_ps) = 0;
+  /// The value of the program's option number `option`.
+  virtual double option(std::uint32_t option, const hal_option_info& info) = 0;
+};
+
+}  // namespace ps

@@ -1,0 +1,118 @@
+#include <gic_registers.h>
+
+#include <ps/gic/gic.h>
+#include <vp/report.h>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace ps {
+
+namespace {
+
+constexpr std::uint32_t f2p_listener = ~std::uint32_t{0};
+
+vp::RegisterBankOptions options(unsigned address_bits) {
+  vp::RegisterBankOptions options;
+  options.holes = vp::RegisterBankOptions::Holes::acknowledge;  // reserved words read 0
+  options.address_bits = address_bits;
+  return options;
+}
+
+std::uint32_t f2p_id(unsigned bit) {
+  return bit < 8 ? gic::irq_f2p_0_id + bit : gic::irq_f2p_8_id + (bit - 8);
+}
+
+}  // namespace
+
+Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
+    : sc_module(name),
+      cpu_interface("cpu_interface", gic::cpu_interface_registers, options(8), &scheduler),
+      distributor("distributor", gic::distributor_registers, options(12), &scheduler) {
+  wire_cpu_interface();
+  wire_distributor();
+}
+
+void Gic::connect(std::uint32_t id, vp::Signal<bool>& signal) {
+  if (id < gic::sgi_count || id >= gic::id_count || !wires_.emplace(id, &signal).second) {
+    throw std::logic_error(std::string(name()) + ": interrupt " + std::to_string(id) +
+                           " has no input, or is wired already");
+  }
+}
+
+void Gic::end_of_elaboration() {
+  for (const auto& [id, signal] : wires_) {
+    signal->attach(*this, id);
+    logic_.set_wire(id, signal->get());
+  }
+  if (irq_f2p.bound()) {
+    irq_f2p.signal()->attach(*this, f2p_listener);
+    set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
+  }
+  update_outputs();
+}
+
+void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
+  if (id == f2p_listener) {
+    set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
+  } else {
+    logic_.set_wire(id, wires_.at(id)->get());
+  }
+  update_outputs();
+}
+
+void Gic::set_f2p(std::uint32_t levels) {
+  for (unsigned bit = 0; bit < 16; ++bit) logic_.set_wire(f2p_id(bit), (levels >> bit & 1) != 0);
+}
+
+void Gic::update_outputs() {
+  n_irq = !logic_.irq();
+  n_fiq = !logic_.fiq();
+}
+
+void Gic::wire_cpu_interface() {
+  const auto plain = [this](std::uint32_t offset, std::uint32_t InterruptLogic::*field) {
+    vp::Register& shown = cpu_interface[offset];
+    shown.after_write([this, &shown, field](std::uint32_t) {
+      logic_.*field = shown.value();
+      update_outputs();
+    });
+  };
+  plain(gic::ICCICR, &InterruptLogic::iccicr);
+  plain(gic::ICCPMR, &InterruptLogic::iccpmr);
+
+  const auto binary_point = [this](std::uint32_t offset, std::uint32_t InterruptLogic::*field) {
+    vp::Register& shown = cpu_interface[offset];
+    shown.after_write([this, &shown, field](std::uint32_t) {
+      shown = std::max(shown.value(), shown.reset_value());
+      logic_.*field = shown.value();
+      update_outputs();
+    });
+  };
+  binary_point(gic::ICCBPR, &InterruptLogic::iccbpr);
+  binary_point(gic::ICCABPR, &InterruptLogic::iccabpr);
+
+  vp::Register& icciar = cpu_interface[gic::ICCIAR];
+  icciar.computed_by([this] { return logic_.acknowledgeable(); });
+  icciar.after_read([this](std::uint32_t) {
+    const std::uint32_t id = logic_.acknowledge();
+    ++(id < gic::id_count ? acknowledged : spurious);
+    update_outputs();
+  });
+  cpu_interface[gic::ICCEOIR].after_write([this](std::uint32_t word) { end_of_interrupt(word); });
+  cpu_interface[gic::ICCRPR].computed_by([this] { return logic_.running_priority(); });
+  cpu_interface[gic::ICCHPIR].computed_by([this] { return logic_.highest_pending(); });
+}
+
+void Gic::end_of_interrupt(std::uint32_t word) {
+  const std::uint32_t id = word & gic::icciar::ACKINTID;
+  if (id == gic::spurious_id || id == gic::non_secure_id) return;
+  if (!logic_.end(id)) {
+    vp::warn(
+        *this, "/markervp/gic/eoi",
+        "ICCEOIR was written with " + std::to_string(id) + ", an interrupt that is not active");
+  }
+  update_outputs();
+}
+
+}  // namespace ps

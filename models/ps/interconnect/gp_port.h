@@ -1,0 +1,42 @@
+#pragma once
+
+#include <tlm_utils/simple_target_socket.h>
+#include <vp/clock.h>
+#include <vp/mm_link.h>
+#include <vp/parameter.h>
+#include <cstdint>
+#include <systemc>
+#include <tlm>
+
+namespace ps {
+
+/// M_AXI_GP0: the CPU's way to the registers of the programmable logic.
+///
+/// An access takes a time in the PS that does not depend on the PL's clock, plus clocks of the PL:
+/// read_time + read_clocks, write_time + write_clocks, as measured for single strongly ordered
+/// accesses. Of a request that leaves the CPU at t0, half the PS time and request_clocks pass on
+/// the way there; the slave sees it at the first edge of the PL clock from then on, and answers
+/// within the rest. A slave that takes longer delays the answer.
+class GpPort : public sc_core::sc_module {
+ public:
+  GpPort(sc_core::sc_module_name name, vp::Clock& pl_clock);
+  const char* kind() const override { return "ps::GpPort"; }
+
+  tlm_utils::simple_target_socket<GpPort> socket;
+  vp::MmLink link{"link"};  ///< bind link.socket to the PL interconnect
+
+  vp::Parameter<std::uint64_t> read_time;
+  vp::Parameter<double> read_clocks;
+  vp::Parameter<std::uint64_t> write_time;
+  vp::Parameter<double> write_clocks;
+  vp::Parameter<double> request_clocks;
+
+ private:
+  void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+  unsigned transport_dbg(tlm::tlm_generic_payload& payload);
+  void wait_for_slave(const tlm::tlm_generic_payload& payload, std::uint64_t earliest_ps);
+
+  vp::Clock& pl_clock_;
+};
+
+}  // namespace ps

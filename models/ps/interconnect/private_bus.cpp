@@ -1,0 +1,41 @@
+#include <ps/interconnect/private_bus.h>
+#include <vp/clock_scheduler.h>
+
+namespace ps {
+
+namespace {
+
+constexpr const char* assumed =
+    ": a few cycles of the peripheral clock (half the CPU's) each way through the SCU";
+
+}  // namespace
+
+PrivateBus::PrivateBus(sc_core::sc_module_name name, const vp::Clock& cpu_clock)
+    : sc_module(name),
+      socket("socket"),
+      read_cycles("read_cycles", 32, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
+                  std::string("CPU cycles of a read") + assumed),
+      write_cycles("write_cycles", 24, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
+                   std::string("CPU cycles of a write") + assumed),
+      cpu_clock_(cpu_clock) {
+  socket.register_b_transport(this, &PrivateBus::b_transport);
+  socket.register_transport_dbg(this, &PrivateBus::transport_dbg);
+  link_.socket.bind(devices.socket);
+}
+
+void PrivateBus::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  const std::uint32_t cycles = payload.is_read() ? read_cycles : write_cycles;
+  const std::uint64_t total = cpu_clock_.duration_ps(cycles);
+  const std::uint64_t request = cpu_clock_.duration_ps(cycles / 2.0);
+  vp::ClockScheduler& scheduler = cpu_clock_.scheduler();
+  scheduler.pass_until(scheduler.now_ps() + vp::to_ps(delay) + request);
+  delay = sc_core::SC_ZERO_TIME;
+  link_.transport(payload, delay);
+  delay += vp::from_ps(total - request);
+}
+
+unsigned PrivateBus::transport_dbg(tlm::tlm_generic_payload& payload) {
+  return link_.transport_debug(payload);
+}
+
+}  // namespace ps

@@ -1,0 +1,137 @@
+// Console, images, results, options and DMA memory.
+#include <boost/test/unit_test.hpp>
+#include <cstring>
+
+#include "bench.h"
+
+using namespace bench;
+
+namespace {
+
+struct Recorder : ps::TestBench {
+  const hal_frame* next_frame(std::uint64_t now_ps) override {
+    asked.push_back(now_ps);
+    frame.index = static_cast<std::uint32_t>(asked.size() - 1);
+    return frame.index < frames ? &frame : nullptr;
+  }
+  void publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now) override {
+    results.push_back({kind, std::string(static_cast<const char*>(data), size), now});
+  }
+  double option(std::uint32_t option, const hal_option_info& info) override {
+    return info.maximum + option;
+  }
+
+  struct Result {
+    std::uint32_t kind;
+    std::string data;
+    std::uint64_t ps;
+  };
+  hal_frame frame{};
+  std::uint32_t frames = 2;
+  std::vector<std::uint64_t> asked;
+  std::vector<Result> results;
+};
+
+void print(const char* text) {
+  hal_console_write(text, std::strlen(text));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cpu_bench)
+
+BOOST_AUTO_TEST_CASE(images_and_results_at_exact_times) {
+  Bench b({"cpu.timeout=1 us"});  // two images of 0.8 us: an image starts it anew
+  Recorder bench;
+  b.cpu.connect(bench);
+  b.run([] {
+    while (const hal_frame* frame = hal_frame_next()) {
+      hal_work(step, 800);
+      char text[] = {'a', static_cast<char>('0' + frame->index)};
+      hal_publish(HAL_KIND('t', 'e', 's', 't'), text, sizeof text);
+      text[0] = 'x';
+    }
+    return 0;
+  });
+  const std::vector<std::uint64_t> asked{0, 800'000, 1'600'000};
+  BOOST_TEST(bench.asked == asked, boost::test_tools::per_element());
+  BOOST_REQUIRE(bench.results.size() == 2u);
+  BOOST_TEST(bench.results[1].kind == 0x7473'6574u);
+  BOOST_TEST(bench.results[1].data == "a1");
+  BOOST_TEST(bench.results[1].ps == 1'600'000u);
+}
+
+BOOST_AUTO_TEST_CASE(options_come_from_the_bench) {
+  Recorder bench;
+  Bench b;
+  b.run([] {
+    BOOST_TEST(hal_option(0) == 4.0);
+    return 0;
+  });
+  Bench c;
+  c.cpu.connect(bench);
+  c.run([] {
+    BOOST_TEST(hal_option(0) == 20.0);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(without_bench_there_are_no_images) {
+  Bench b;
+  b.run([] {
+    hal_publish(0, "", 0);
+    return hal_frame_next() ? 1 : 0;
+  });
+  BOOST_TEST(b.cpu.exit_code() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_console_makes_lines) {
+  Bench b;
+  std::vector<std::string> lines;
+  b.cpu.console.connect([&](const std::string& line) { lines.push_back(line); }, "hybrid: ");
+  b.run([&] {
+    print("two ");
+    BOOST_TEST(lines.empty());
+    print("words\r\n\nlast");
+    return 0;
+  });
+  const std::vector<std::string> expected{"hybrid: two words", "hybrid: ", "hybrid: last"};
+  BOOST_TEST(lines == expected, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(dma_memory_has_one_number_as_pointer_and_bus_address) {
+  Bench b;
+  ps::DmaAllocator memory(0x1000'0000, 0x1000'1000);
+  b.cpu.connect(memory);
+  b.run([] {
+    const hal_dma_buffer first = hal_dma_allocate(33, 4);
+    BOOST_TEST(first.bus_address == 0x1000'0000u);
+    BOOST_TEST(reinterpret_cast<std::uintptr_t>(first.data) == 0x1000'0000u);
+    BOOST_TEST(first.size == 33u);
+    BOOST_TEST(hal_dma_allocate(1, 4).bus_address == 0x1000'0040u);
+    BOOST_TEST(hal_dma_allocate(1, 1024).bus_address == 0x1000'0400u);
+    const hal_dma_buffer too_large = hal_dma_allocate(0x1000, 4);
+    BOOST_TEST(!too_large.data);
+    BOOST_TEST(too_large.bus_address == 0u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(without_dma_memory_there_is_none) {
+  Bench b;
+  b.run([] { return hal_dma_allocate(1, 4).data ? 1 : 0; });
+  BOOST_TEST(b.cpu.exit_code() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_bus_observer_sees_the_accesses) {
+  Bench b;
+  b.run([] {
+    hal_write32(device_address, 1);
+    hal_read32(device_address);
+    return 0;
+  });
+  BOOST_TEST(b.cpu.m_axi.reads == 1u);
+  BOOST_TEST(b.cpu.m_axi.writes == 1u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,423 @@
+// The interrupt controller's registers, as a program on the bus sees them.
+#include <gic_registers.h>
+
+#include <ps/gic/gic.h>
+#include <vp/report.h>
+#include <boost/test/unit_test.hpp>
+#include <sstream>
+
+#include "bench.h"
+
+using namespace bench;
+
+namespace {
+
+constexpr std::uint32_t icc = gic::cpu_interface_base;
+constexpr std::uint32_t icd = gic::distributor_base;
+
+struct GicBench : Bench {
+  GicBench() {
+    bus.map("gic_cpu_interface", icc, 0x100).bind(gic.cpu_interface.socket);
+    bus.map("gic_distributor", icd, 0x1000).bind(gic.distributor.socket);
+    gic.irq_f2p(irq_f2p);
+    gic.connect(gic::global_timer_id, timer);
+  }
+  vp::Signal<std::uint32_t> irq_f2p{"irq_f2p", 16};
+  vp::Signal<bool> timer{"timer"};
+  ps::Gic gic{"gic", scheduler};
+
+  bool irq() const { return !gic.n_irq.get(); }
+};
+
+void change(std::uint32_t address, std::uint32_t mask, std::uint32_t bits) {
+  hal_write32(address, (hal_read32(address) & ~mask) | bits);
+}
+
+/// What the driver does, for one interrupt of this CPU. Private interrupts have their target and
+/// sensitivity by nature.
+void set_up(std::uint32_t id, std::uint32_t priority = 0xA0, bool edge = false) {
+  hal_write32(icd + gic::ICDDCR, 1);
+  hal_write32(icc + gic::ICCPMR, 0xF0);
+  hal_write32(icc + gic::ICCICR, 7);
+  const unsigned byte = 8 * (id % 4);
+  change(icd + gic::ICDIPR(id / 4), 0xFFu << byte, priority << byte);
+  if (id >= gic::first_spi) {
+    change(icd + gic::ICDIPTR(id / 4), 0xFFu << byte, 1u << byte);
+    const unsigned pair = 2 * (id % 16);
+    const std::uint32_t sense = edge ? gic::icdicfr::rising_edge : gic::icdicfr::level_high;
+    change(icd + gic::ICDICFR(id / 16), 3u << pair, sense << pair);
+  }
+  hal_write32(icd + gic::ICDISER(id / 32), 1u << (id % 32));
+}
+
+std::uint32_t acknowledge() {
+  return hal_read32(icc + gic::ICCIAR);
+}
+void end(std::uint32_t id) {
+  hal_write32(icc + gic::ICCEOIR, id);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(gic_test)
+
+BOOST_AUTO_TEST_CASE(reset_values) {
+  GicBench b;
+  b.run([] {
+    for (const auto& r : gic::cpu_interface_registers) {
+      BOOST_TEST(hal_read32(icc + r.offset) == (r.access == vp::Access::write_only ? 0 : r.reset),
+                 r.name);
+    }
+    for (const auto& r : gic::distributor_registers) {
+      BOOST_TEST(hal_read32(icd + r.offset) == (r.access == vp::Access::write_only ? 0 : r.reset),
+                 r.name);
+    }
+    BOOST_TEST(hal_read32(icd + 0xF80) == 0u);  // reserved
+    return 0;
+  });
+  BOOST_TEST(!b.irq());
+  BOOST_TEST(b.gic.n_fiq.get());
+}
+
+BOOST_AUTO_TEST_CASE(writable_bits) {
+  GicBench b;
+  vp::ReportRouter reports(sc_core::SC_NONE);
+  std::ostringstream text;
+  reports.redirect(text);
+  b.run([] {
+    const auto ones_read_back = [](std::uint32_t address) {
+      hal_write32(address, 0xFFFF'FFFF);
+      return hal_read32(address);
+    };
+    BOOST_TEST(ones_read_back(icc + gic::ICCICR) == 0x1Fu);
+    BOOST_TEST(ones_read_back(icc + gic::ICCPMR) == 0xF8u);
+    BOOST_TEST(ones_read_back(icc + gic::ICCBPR) == 7u);
+    hal_write32(icc + gic::ICCBPR, 0);
+    BOOST_TEST(hal_read32(icc + gic::ICCBPR) == 2u);
+    hal_write32(icc + gic::ICCABPR, 0);
+    BOOST_TEST(hal_read32(icc + gic::ICCABPR) == 3u);
+    BOOST_TEST(ones_read_back(icc + gic::ICCIIDR) == 0x3901'243Bu);
+    BOOST_TEST(ones_read_back(icd + gic::ICDDCR) == 3u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDISR(1)) == 0xFFFF'FFFFu);
+    BOOST_TEST(ones_read_back(icd + gic::ICDISER(0)) == 0xFFFF'FFFFu);
+    BOOST_TEST(hal_read32(icd + gic::ICDICER(0)) == 0xFFFF'FFFFu);
+    hal_write32(icd + gic::ICDICER(0), 0xFFFF'FFFF);
+    BOOST_TEST(hal_read32(icd + gic::ICDISER(0)) == 0xFFFFu);  // software interrupts stay enabled
+    BOOST_TEST(ones_read_back(icd + gic::ICDISER(2)) == 0xFFFF'FFFFu);
+    hal_write32(icd + gic::ICDICER(2), 0xF0);
+    BOOST_TEST(hal_read32(icd + gic::ICDISER(2)) == 0xFFFF'FF0Fu);
+    BOOST_TEST(ones_read_back(icd + gic::ICDISPR(0)) == 0xFFFF'0000u);
+    hal_write32(icd + gic::ICDICPR(0), 0x000F'0000);
+    BOOST_TEST(hal_read32(icd + gic::ICDISPR(0)) == 0xFFF0'0000u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDABR(1)) == 0u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDIPR(15)) == 0xF8F8'F8F8u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDIPTR(0)) == 0x0101'0101u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDIPTR(15)) == 0x0303'0303u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDICFR(0)) == 0xAAAA'AAAAu);
+    BOOST_TEST(ones_read_back(icd + gic::ICDICFR(1)) == 0x7DC0'0000u);
+    BOOST_TEST(ones_read_back(icd + gic::ICDICFR(3)) == 0xFFFF'FFFFu);
+    hal_write32(icd + gic::ICDICFR(3), 0);
+    BOOST_TEST(hal_read32(icd + gic::ICDICFR(3)) == 0x5555'5555u);  // the lower bit of a pair is 1
+    return 0;
+  });
+  BOOST_TEST(reports.count(sc_core::SC_WARNING) == 5u);  // writes to read-only registers
+}
+
+BOOST_AUTO_TEST_CASE(a_level_is_pending_as_long_as_it_is_high) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    b.irq_f2p = 1;
+    BOOST_TEST(b.irq());
+    BOOST_TEST(hal_read32(icd + gic::ICDISPR(1)) == 1u << 29);
+    BOOST_TEST(hal_read32(icc + gic::ICCHPIR) == 61u);
+    BOOST_TEST(acknowledge() == 61u);
+    BOOST_TEST(!b.irq());  // active: not signalled again
+    BOOST_TEST(hal_read32(icd + gic::ICDABR(1)) == 1u << 29);
+    BOOST_TEST(hal_read32(icc + gic::ICCRPR) == 0xA0u);
+    BOOST_TEST(acknowledge() == 1023u);
+    end(61);
+    BOOST_TEST(hal_read32(icc + gic::ICCRPR) == 0xFFu);
+    BOOST_TEST(b.irq());  // still high
+    BOOST_TEST(acknowledge() == 61u);
+    b.irq_f2p = 0;
+    end(61);
+    BOOST_TEST(!b.irq());
+    BOOST_TEST(hal_read32(icd + gic::ICDISPR(1)) == 0u);
+    return 0;
+  });
+  BOOST_TEST(b.gic.acknowledged == 2u);
+  BOOST_TEST(b.gic.spurious == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(an_edge_is_latched_until_acknowledged) {
+  GicBench b;
+  b.run([&] {
+    set_up(62, 0xA0, true);
+    b.irq_f2p = 2;
+    b.irq_f2p = 0;
+    BOOST_TEST(b.irq());
+    BOOST_TEST(acknowledge() == 62u);
+    BOOST_TEST(hal_read32(icd + gic::ICDISPR(1)) == 0u);
+    b.irq_f2p = 2;  // again, while active
+    BOOST_TEST(!b.irq());
+    end(62);
+    BOOST_TEST(b.irq());
+    hal_write32(icd + gic::ICDICPR(1), 1u << 30);
+    BOOST_TEST(!b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(an_edge_before_the_enable_is_not_lost) {
+  GicBench b;
+  b.run([&] {
+    set_up(61, 0xA0, true);
+    hal_write32(icd + gic::ICDICER(1), 1u << 29);
+    b.irq_f2p = 1;
+    b.irq_f2p = 0;
+    BOOST_TEST(!b.irq());
+    hal_write32(icd + gic::ICDISER(1), 1u << 29);
+    BOOST_TEST(b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(every_gate_on_the_way_can_close) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    b.irq_f2p = 1;
+    const auto blocked = [&](std::uint32_t address, std::uint32_t closed, std::uint32_t open) {
+      BOOST_TEST(b.irq());
+      hal_write32(address, closed);
+      BOOST_TEST(!b.irq());
+      BOOST_TEST(acknowledge() == 1023u);
+      hal_write32(address, open);
+    };
+    blocked(icd + gic::ICDDCR, 0, 1);
+    blocked(icc + gic::ICCICR, 0, 7);
+    blocked(icc + gic::ICCPMR, 0xA0, 0xF0);  // strictly more urgent than the mask
+    blocked(icc + gic::ICCPMR, 0x00, 0xA8);
+    blocked(icd + gic::ICDIPTR(15), 0, 0x0000'0100);
+    BOOST_TEST(b.irq());
+    hal_write32(icd + gic::ICDICER(1), 1u << 29);
+    BOOST_TEST(!b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_most_urgent_comes_first_of_equals_the_lowest) {
+  GicBench b;
+  b.run([&] {
+    set_up(61, 0xA0);
+    set_up(62, 0x40);
+    set_up(84, 0x40);
+    b.irq_f2p = 1u << 0 | 1u << 1 | 1u << 8;
+    BOOST_TEST(acknowledge() == 62u);
+    BOOST_TEST(!b.irq());  // 84 is as urgent as the running one, 61 less
+    b.irq_f2p = 1u << 0 | 1u << 8;
+    end(62);
+    BOOST_TEST(acknowledge() == 84u);
+    set_up(63, 0x10);
+    b.irq_f2p = 1u << 0 | 1u << 8 | 1u << 2;
+    BOOST_TEST(b.irq());  // more urgent than the running one
+    BOOST_TEST(acknowledge() == 63u);
+    BOOST_TEST(hal_read32(icc + gic::ICCRPR) == 0x10u);
+    b.irq_f2p = 1;
+    end(63);
+    BOOST_TEST(hal_read32(icc + gic::ICCRPR) == 0x40u);
+    end(84);
+    BOOST_TEST(acknowledge() == 61u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_binary_point_limits_preemption) {
+  GicBench b;
+  b.run([&] {
+    set_up(61, 0x48);
+    set_up(62, 0x40);
+    hal_write32(icc + gic::ICCBPR, 3);  // the lowest priority bit does not count
+    b.irq_f2p = 1;
+    BOOST_TEST(acknowledge() == 61u);
+    b.irq_f2p = 3;
+    BOOST_TEST(!b.irq());
+    hal_write32(icc + gic::ICCBPR, 2);
+    BOOST_TEST(b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(all_sixteen_wires_of_the_pl) {
+  GicBench b;
+  b.run([&] {
+    for (unsigned bit = 0; bit < 16; ++bit) {
+      const std::uint32_t id = bit < 8 ? 61 + bit : 84 + bit - 8;
+      set_up(id);
+      b.irq_f2p = 1u << bit;
+      BOOST_TEST(acknowledge() == id);
+      b.irq_f2p = 0;
+      end(id);
+    }
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(software_interrupts) {
+  GicBench b;
+  b.run([&] {
+    set_up(5);
+    hal_write32(icd + gic::ICDSGIR, 1u << 16 | 5);
+    BOOST_TEST(acknowledge() == 5u);
+    end(5);
+    hal_write32(icd + gic::ICDSGIR, 2u << 24 | 6);  // to itself
+    BOOST_TEST(acknowledge() == 6u);
+    end(6);
+    hal_write32(icd + gic::ICDSGIR, 2u << 16 | 5);  // to the other CPU
+    hal_write32(icd + gic::ICDSGIR, 1u << 24 | 5);  // to all others
+    BOOST_TEST(acknowledge() == 1023u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_private_interrupt_with_its_fixed_edge) {
+  GicBench b;
+  b.run([&] {
+    set_up(27);
+    b.timer = true;
+    BOOST_TEST(acknowledge() == 27u);
+    end(27);
+    BOOST_TEST(!b.irq());  // edge sensitive: a level that stays is no second interrupt
+    b.timer = false;
+    b.timer = true;
+    BOOST_TEST(b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(pending_by_software) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    hal_write32(icd + gic::ICDISPR(1), 1u << 29);
+    BOOST_TEST(acknowledge() == 61u);
+    end(61);
+    BOOST_TEST(!b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(non_secure_interrupts_need_ack_ctl) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    hal_write32(icd + gic::ICDISR(1), 1u << 29);
+    b.irq_f2p = 1;
+    BOOST_TEST(!b.irq());
+    hal_write32(icd + gic::ICDDCR, 3);
+    BOOST_TEST(b.irq());
+    hal_write32(icc + gic::ICCICR, 3);
+    BOOST_TEST(acknowledge() == 1022u);
+    BOOST_TEST(hal_read32(icc + gic::ICCHPIR) == 1022u);
+    hal_write32(icc + gic::ICCICR, 7);
+    BOOST_TEST(acknowledge() == 61u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(secure_interrupts_as_fiq) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    b.irq_f2p = 1;
+    hal_write32(icc + gic::ICCICR, 0xF);
+    BOOST_TEST(!b.irq());
+    BOOST_TEST(!b.gic.n_fiq.get());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_end_of_what_is_not_active_is_reported) {
+  GicBench b;
+  vp::ReportRouter reports(sc_core::SC_NONE);
+  std::ostringstream text;
+  reports.redirect(text);
+  b.run([&] {
+    end(61);
+    end(95);
+    end(1023);  // harmless: what a spurious acknowledge returned
+    return 0;
+  });
+  BOOST_TEST(reports.count("/markervp/gic/eoi") == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(reading_by_debugger_changes_nothing) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    b.irq_f2p = 1;
+    std::uint32_t word = 0;
+    tlm::tlm_generic_payload payload;
+    payload.set_command(tlm::TLM_READ_COMMAND);
+    payload.set_address(icc + gic::ICCIAR);
+    payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    BOOST_TEST(b.cpu.m_axi.transport_debug(payload) == 4u);
+    BOOST_TEST(word == 61u);
+    BOOST_TEST(b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(inputs_that_do_not_exist) {
+  GicBench b;
+  vp::Signal<bool> wire("wire");
+  BOOST_CHECK_THROW(b.gic.connect(5, wire), std::logic_error);
+  BOOST_CHECK_THROW(b.gic.connect(96, wire), std::logic_error);
+  BOOST_CHECK_THROW(b.gic.connect(gic::global_timer_id, wire), std::logic_error);
+}
+
+namespace {
+
+struct SystemBench : GicBench {
+  vp::In<bool>& wire() { return cpu.n_irq; }
+  SystemBench() { cpu.n_irq(gic.n_irq); }
+};
+
+std::vector<std::uint64_t> served;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(from_the_wire_to_the_handler_and_back) {
+  SystemBench b;
+  served.clear();
+  b.device.written = [&](std::uint32_t) { b.irq_f2p = 0; };
+  sc_core::sc_spawn([&] {
+    sc_core::wait(vp::from_ps(700'000));
+    b.irq_f2p = 1;
+  });
+  b.run([] {
+    set_up(61);
+    hal_interrupt_connect(
+        [](void*) {
+          const std::uint32_t id = acknowledge();
+          served.push_back(id);
+          served.push_back(now_ps());
+          hal_write32(device_address, 0);
+          end(id);
+        },
+        nullptr);
+    hal_interrupt_enable(true);
+    hal_work(step, 1000);
+    hal_barrier();
+    return 0;
+  });
+  const std::vector<std::uint64_t> expected{61, 800'000};  // 100 cycles of entry
+  BOOST_TEST(served == expected, boost::test_tools::per_element());
+  BOOST_TEST(b.cpu.interrupts == 1u);
+  BOOST_TEST(b.cpu.end_ps() == 1'180'000u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
