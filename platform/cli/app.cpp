@@ -1,6 +1,7 @@
 #include <cli/app.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 
 #include <cli/version.h>
@@ -30,6 +31,10 @@ constexpr const char* completion_help = R"(For bash:  source <(markervp completi
 For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
 For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)";
 
+/// Larger numbers than anybody waits for. CLI11 takes what is too long for 64 bits as the largest
+/// number.
+constexpr std::uint64_t most_frames = 1'000'000'000;
+
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
 
@@ -53,10 +58,10 @@ void add_input_options(CLI::App& command, RunOptions& target) {
       ->check(CLI::IsMember({"crop", "scale"}).description(""));
   command.add_option("--frames", target.frames, "stop after this many frames")
       ->type_name("N")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(CLI::Range(std::uint64_t{1}, most_frames).description(""));
   command.add_option("--repeat", target.repeat, "run all inputs this many times")
       ->type_name("N")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(CLI::Range(std::uint64_t{1}, most_frames).description(""));
 }
 
 void add_platform_options(CLI::App& command, RunOptions& target) {

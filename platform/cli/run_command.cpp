@@ -68,11 +68,12 @@ input::InputOptions input_options(const RunOptions& options, input::ImageSize si
 void check_trace_folder(const RunOptions& options) {
   if (!options.trace) return;
   const fs::path folder = fs::absolute(*options.trace).parent_path();
-  if (!fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
     throw vp::InputError("--trace '" + *options.trace + "': there is no folder '" +
                          folder.string() + "'");
   }
-  if (fs::is_directory(*options.trace) || ::access(folder.c_str(), W_OK) != 0) {
+  if (fs::is_directory(*options.trace, ignored) || ::access(folder.c_str(), W_OK) != 0) {
     throw vp::InputError("--trace '" + *options.trace + "' cannot be written");
   }
 }

@@ -27,7 +27,8 @@ std::string reason() {
 bool prepare_output_folder(const std::string& folder) {
   std::error_code error;
   const bool made = std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
     const std::string why = error ? error.message() : "a file of that name is in the way";
     throw vp::InputError("output folder '" + folder + "' cannot be made: " + why +
                          "; choose another with --output");

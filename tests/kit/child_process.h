@@ -30,7 +30,8 @@ class ChildProcess {
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                const std::string& folder) {
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : arguments)
+      argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -72,9 +73,10 @@ class ChildProcess {
   }
 
  private:
-  static void send_to(posix_spawn_file_actions_t& actions, int descriptor, const std::string& file) {
-    posix_spawn_file_actions_addopen(&actions, descriptor, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
+  static void send_to(posix_spawn_file_actions_t& actions, int descriptor,
+                      const std::string& file) {
+    posix_spawn_file_actions_addopen(&actions, descriptor, file.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
   }
 
   TemporaryFolder files_;

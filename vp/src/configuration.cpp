@@ -54,7 +54,8 @@ const char* to_string(Source source) {
 }
 
 void Configuration::load_file(const std::string& path) {
-  if (std::filesystem::is_directory(path))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
     throw InputError(path + ": is a folder, not a configuration file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot read the configuration file");

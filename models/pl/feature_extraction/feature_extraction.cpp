@@ -1,11 +1,29 @@
 #include <pl/feature_extraction/feature_extraction.h>
 
+#include <vp/error.h>
+#include <string>
+
 namespace pl {
+
+namespace {
+
+constexpr std::uint32_t pixels_per_word = 4;
+
+void check_holds_a_frame(const xilinx::Bram& bram, const Geometry& geometry) {
+  const std::uint32_t words = geometry.pixels() / pixels_per_word;
+  if (bram.depth_a >= words) return;
+  throw vp::InputError(std::string(bram.name()) + ".depth_a is " + std::to_string(bram.depth_a) +
+                       ": a frame of " + std::to_string(geometry.width) + "x" +
+                       std::to_string(geometry.height) + " px needs " + std::to_string(words) +
+                       " words");
+}
+
+}  // namespace
 
 FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk,
                                      vp::Clock& pixel_clk)
     : sc_module(name),
-      bram("bram", geometry().pixels() / 4),
+      bram("bram", geometry().pixels() / pixels_per_word),
       axi_image_store("axi_image_store", system_clk, bram),
       sensor_input("sensor_input", pixel_clk, geometry(), bram),
       corner_detection("corner_detection", pixel_clk, geometry()),
@@ -14,7 +32,9 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
       frame_status("frame_status", pixel_clk),
       clock_crossing("clock_crossing", pixel_clk, system_clk),
       feature_packaging("feature_packaging", system_clk),
-      axi_threshold_bridge("axi_threshold_bridge", system_clk) {}
+      axi_threshold_bridge("axi_threshold_bridge", system_clk) {
+  check_holds_a_frame(bram, geometry());
+}
 
 void FeatureExtraction::before_end_of_elaboration() {
   connect_controls();

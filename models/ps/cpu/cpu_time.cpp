@@ -110,8 +110,8 @@ std::uint64_t Cpu::pass(std::uint64_t ps, bool interruptible) {
   const std::uint64_t passed = now_ps() - start;
   activity_.busy(passed, in_handler_now_);
   if (now_ps() >= deadline_ps_) {
-    fail("no end within " + vp::format_time(timeout) +
-         " of simulated time since the last image (timeout)");
+    fail("no end within " + vp::format_time(timeout) + " of simulated time since the last image (" +
+         timeout.name() + ")");
   }
   return passed;
 }
@@ -163,7 +163,7 @@ void Cpu::sleep() {
   activity_.idle(now_ps() - start);
   if (!interrupt_pending()) {
     fail("it waits for an interrupt, and none came within " + vp::format_time(timeout) +
-         " of simulated time since the last image (timeout)");
+         " of simulated time since the last image (" + timeout.name() + ")");
   }
 }
 

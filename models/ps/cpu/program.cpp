@@ -1,12 +1,16 @@
 #include <dlfcn.h>
+#include <elf.h>
 
 #include <ps/cpu/program.h>
 #include <ps/cpu/static_image.h>
 #include <vp/error.h>
+#include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <stdexcept>
 
@@ -31,6 +35,26 @@ void check(const hal_program& program, const std::string& what) {
     throw vp::InputError(what + " has an incomplete " + symbol +
                          ": it needs a name, an entry, and a table for each count that is not 0");
   }
+}
+
+/// The loader maps a file as its headers say; touching what a truncated one lacks is a bus error
+/// (SIGBUS). What is no ELF file at all is left to the loader's own message.
+void check_whole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  Elf64_Ehdr header{};
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return;
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return;
+  std::uint64_t end = header.e_phoff;
+  for (unsigned i = 0; i < header.e_phnum; ++i) {
+    Elf64_Phdr segment{};
+    file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));
+    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) break;
+    if (segment.p_type == PT_LOAD) end = std::max(end, segment.p_offset + segment.p_filesz);
+  }
+  if (file && static_cast<std::uint64_t>(size) >= end) return;
+  throw vp::InputError("cannot load program '" + path + "': the file is truncated");
 }
 
 class LinkedProgram : public Program {
@@ -68,6 +92,7 @@ class SharedObject {
 
  private:
   static void* load(const std::string& path) {
+    check_whole(path);
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     throw vp::InputError("cannot load program '" + path + "': " + dlerror());
   }

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(a_program_that_catches_everything_does_not_catch_this) {
 BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) {
   const Settings settings{"cpu.timeout=1 us"};
   const std::string tail =
-      "no end within 1 us of simulated time since the last image (timeout), at ";
+      "no end within 1 us of simulated time since the last image (cpu.timeout), at ";
   const std::vector<std::function<void()>> loops{
       [] { hal_work(step, 3); },
       [] { hal_read32(device_address); },
@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) 
   BOOST_TEST(
       error ==
       "it waits for an interrupt, and none came within 1 us of simulated time since the last "
-      "image (timeout), at 1 us in function 'outer' of program 'bench'");
+      "image (cpu.timeout), at 1 us in function 'outer' of program 'bench'");
   BOOST_TEST(b.cpu.activity().idle_ps() == 1'000'000u);
 }
 

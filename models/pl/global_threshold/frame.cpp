@@ -1,0 +1,102 @@
+#include <pl/global_threshold/frame.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <pl/global_threshold/frame_simd.h>
+
+namespace pl {
+
+namespace {
+
+using Histogram = std::array<std::uint32_t, 256>;
+
+/// Neighbouring pixels are often equal: eight tables, so that no increment waits for the last one.
+Histogram count_levels(const std::uint8_t* pixels, std::size_t count) {
+  std::array<Histogram, 8> tables{};
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, pixels + i, sizeof eight);
+    for (Histogram& table : tables) {
+      ++table[eight & 0xFF];
+      eight >>= 8;
+    }
+  }
+  for (; i < count; ++i) ++tables[0][pixels[i]];
+  for (std::size_t t = 1; t < tables.size(); ++t) {
+    for (std::size_t level = 0; level < 256; ++level) tables[0][level] += tables[t][level];
+  }
+  return tables[0];
+}
+
+/// The level among `first` to `first` + 127 that reached the greatest count first, `fallback` if
+/// there is no pixel. A level reached its final count with its last pixel, so among equals it is
+/// the one whose last pixel came first.
+std::uint8_t find_peak(const Histogram& histogram, std::size_t first, std::uint8_t fallback,
+                       const std::uint8_t* pixels, std::size_t count) {
+  const auto begin = histogram.begin() + static_cast<std::ptrdiff_t>(first), end = begin + 128;
+  const std::uint32_t most = *std::max_element(begin, end);
+  if (most == 0) return fallback;
+  std::array<bool, 256> candidate{};
+  std::size_t candidates = 0;
+  for (std::size_t level = first; level < first + 128; ++level) {
+    candidate[level] = histogram[level] == most;
+    candidates += candidate[level];
+  }
+  for (const std::uint8_t* p = pixels + count; candidates > 1;) {
+    const std::uint8_t level = *--p;
+    candidates -= candidate[level];
+    candidate[level] = false;
+  }
+  return static_cast<std::uint8_t>(std::find(candidate.begin(), candidate.end(), true) -
+                                   candidate.begin());
+}
+
+}  // namespace
+
+Peaks find_peaks(const std::uint8_t* pixels, std::size_t count) {
+  const Histogram histogram = count_levels(pixels, count);
+  const Peaks none;
+  return {find_peak(histogram, 0, none.dark, pixels, count),
+          find_peak(histogram, 128, none.bright, pixels, count)};
+}
+
+ThresholdFrame::ThresholdFrame(const Geometry& geometry) : words_(geometry.pixels() / 32) {}
+
+void ThresholdFrame::begin(const std::uint8_t* image) {
+  image_ = image;
+  rewind(0);
+}
+
+void ThresholdFrame::advance(std::uint32_t pixels) {
+  if (position_ % 32 != 0) advance_by_pixel(std::min(pixels, (position_ / 32 + 1) * 32));
+  const std::uint32_t whole = pixels / 32 * 32;
+  if (position_ < whole) {
+    pack_dark(image_ + position_, (whole - position_) / 32, threshold_, &words_[position_ / 32]);
+    position_ = whole;
+  }
+  advance_by_pixel(pixels);
+}
+
+void ThresholdFrame::advance_by_pixel(std::uint32_t to) {
+  for (; position_ < to; ++position_) {
+    const std::uint32_t dark = image_[position_] <= threshold_;
+    words_[position_ / 32] |= dark << position_ % 32;
+  }
+}
+
+void ThresholdFrame::rewind(std::uint32_t pixel) {
+  position_ = pixel;
+  std::size_t word = pixel / 32;
+  if (pixel % 32 != 0) words_[word++] &= (1u << pixel % 32) - 1;
+  std::fill(words_.begin() + static_cast<std::ptrdiff_t>(word), words_.end(), 0);
+}
+
+std::uint8_t ThresholdFrame::end() {
+  threshold_ = find_peaks(image_, position_).threshold();
+  return threshold_;
+}
+
+}  // namespace pl

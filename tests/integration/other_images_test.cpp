@@ -1,0 +1,211 @@
+// Any image: files of many formats, folders, videos, other sizes, with and without a marker.
+#include <boost/test/unit_test.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "executable.h"
+#include "pictures.h"
+
+using namespace integration;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The frames of a run that must go well.
+Json frames_of(const Workplace& place, const Arguments& arguments) {
+  Arguments all{"--quiet", "--no-pictures"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const kit::Outcome outcome = place.run(all);
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  return place.result()["frames"];
+}
+
+/// Counts and markers, without what only scenes have.
+Json finds(Json frame) {
+  for (Json& marker : frame["markers"]) {
+    marker.erase("truth");
+    marker.erase("error");
+  }
+  return {frame["counts"], frame["markers"]};
+}
+
+void check_marker(const Json& frame, int id) {
+  BOOST_TEST_CONTEXT(frame["input"].get<std::string>()) {
+    BOOST_TEST_REQUIRE(frame["markers"].size() == 1u);
+    BOOST_TEST(frame["markers"][0]["id"] == id);
+  }
+}
+
+Names inputs_of(const Json& frames) {
+  Names names;
+  for (const Json& frame : frames) names.push_back(frame["input"]);
+  return names;
+}
+
+cv::Mat sixteen_bits(const cv::Mat& picture) {
+  cv::Mat wide;
+  picture.convertTo(wide, CV_16U, 257);
+  return wide;
+}
+
+void write_video(const std::string& path, const std::vector<cv::Mat>& pictures) {
+  cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25, pictures[0].size());
+  BOOST_TEST_REQUIRE(writer.isOpened());
+  for (const cv::Mat& picture : pictures) writer.write(picture);
+}
+
+cv::Mat coloured(const cv::Mat& grey) {
+  cv::Mat colour;
+  cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
+  return colour;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(other_images)
+
+BOOST_AUTO_TEST_CASE(no_marker_is_a_result) {
+  const Workplace place;
+  write_picture(place / "wall.png", empty_wall());
+  const Json frames = frames_of(place, {"wall.png"});
+  BOOST_TEST_REQUIRE(frames.size() == 1u);
+  BOOST_TEST(frames[0]["markers"].empty());
+  BOOST_TEST(!frames[0].contains("warnings"));
+  BOOST_TEST(place.result()["summary"]["detected"] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_required_marker_that_is_missing_is_exit_code_1) {
+  const Workplace place;
+  write_picture(place / "wall.png", empty_wall());
+  const kit::Outcome outcome = place.run({"demo", "wall.png", "--require-marker"});
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "markervp: no marker in 1 of 2 frames, first in wall.png\n"),
+             outcome.err);
+  BOOST_TEST(place.entries() == (Names{"out", "wall.png"}), boost::test_tools::per_element());
+  BOOST_TEST(place.result()["frames"].size() == 2u);
+  BOOST_TEST(Workplace().run({"demo", "--require-marker"}).exit_code == 0);
+}
+
+BOOST_AUTO_TEST_CASE(formats_of_the_same_picture_have_the_same_result) {
+  const Workplace place;
+  const cv::Mat grey = scene_picture("yaw30");
+  cv::Mat with_alpha;
+  cv::cvtColor(grey, with_alpha, cv::COLOR_GRAY2BGRA);
+  write_picture(place / "grey.png", grey);
+  write_picture(place / "colour.png", coloured(grey));
+  write_picture(place / "alpha.png", with_alpha);
+  write_picture(place / "deep.png", sixteen_bits(grey));
+  write_picture(place / "plain.pgm", grey);
+  write_picture(place / "plain.bmp", grey);
+  write_picture(place / "plain.tiff", grey);
+  const Json scene = frames_of(place, {"yaw30"})[0];
+  check_marker(scene, 0);
+  for (const char* file : {"grey.png", "colour.png", "alpha.png", "deep.png", "plain.pgm",
+                           "plain.bmp", "plain.tiff"}) {
+    const Json frame = frames_of(place, {file})[0];
+    BOOST_TEST(frame["input"] == file);
+    BOOST_TEST(finds(frame) == finds(scene), file);
+    BOOST_TEST(frame["time_us"] == scene["time_us"], file);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(photographs_have_the_right_marker) {
+  const Workplace place;
+  for (const char* scene : {"z1.0", "yaw30", "id99", "roll90"}) {
+    const cv::Mat picture = photograph(scene);
+    const std::string name = scene;
+    write_picture(place / (name + ".png"), picture);
+    write_picture(place / (name + ".jpg"), picture);
+    write_picture(place / (name + "_16.png"), sixteen_bits(picture));
+    for (const Json& frame :
+         frames_of(place, {"./" + name + ".png", name + ".jpg", name + "_16.png"})) {
+      check_marker(frame, name == "id99" ? 99 : 0);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_is_its_images_in_natural_order) {
+  const Workplace place;
+  std::filesystem::create_directories(place / "shots/more");
+  write_picture(place / "shots/shot10.png", scene_picture("id7"));
+  write_picture(place / "shots/shot9.jpg", scene_picture("id99"));
+  write_picture(place / "shots/shot100.png", scene_picture("id36"));
+  write_picture(place / "shots/more/shot1.png", scene_picture("id15"));
+  kit::write_file(place / "shots/notes.txt", "no image");
+  const Json frames = frames_of(place, {"shots"});
+  BOOST_TEST(inputs_of(frames) == (Names{"shot9.jpg", "shot10.png", "shot100.png"}),
+             boost::test_tools::per_element());
+  check_marker(frames[0], 99);
+  check_marker(frames[1], 7);
+  check_marker(frames[2], 36);
+}
+
+BOOST_AUTO_TEST_CASE(a_video_is_its_pictures) {
+  const Workplace place;
+  write_video(place / "clip.avi", {coloured(scene_picture("id99")), photograph("z1.0"),
+                                   coloured(scene_picture("id7"))});
+  const Json frames = frames_of(place, {"clip.avi", "id36"});
+  BOOST_TEST(inputs_of(frames) == (Names{"clip.avi#0", "clip.avi#1", "clip.avi#2", "id36"}),
+             boost::test_tools::per_element());
+  check_marker(frames[0], 99);
+  check_marker(frames[1], 0);
+  check_marker(frames[2], 7);
+  check_marker(frames[3], 36);
+}
+
+/// What can be read is a result; the user is told that it is not all.
+BOOST_AUTO_TEST_CASE(a_video_that_breaks_off_runs_as_far_as_it_goes) {
+  const Workplace place;
+  write_video(place / "whole.avi", std::vector<cv::Mat>(6, coloured(scene_picture("id99"))));
+  const std::size_t size = kit::read_file(place / "whole.avi").size();
+  kit::write_part(place / "whole.avi", place / "part.avi", size / 2);
+  const kit::Outcome outcome = place.run({"part.avi", "--no-pictures"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.err, "part.avi"), outcome.err);
+  const Json frames = place.result()["frames"];
+  BOOST_TEST(frames.size() >= 1u);
+  BOOST_TEST(frames.size() < 6u);
+  for (const Json& frame : frames) check_marker(frame, 99);
+}
+
+BOOST_AUTO_TEST_CASE(crop_takes_the_middle) {
+  const Workplace place;
+  cv::Mat large(600, 800, CV_8UC1, cv::Scalar(178));
+  scene_picture("yaw30").copyTo(large(cv::Rect(80, 60, 640, 480)));
+  write_picture(place / "large.png", large);
+  const Json cropped = frames_of(place, {"large.png", "--fit", "crop"})[0];
+  const Json scene = frames_of(place, {"yaw30"})[0];
+  BOOST_TEST(cropped["counts"] == scene["counts"]);
+  BOOST_TEST(cropped["markers"][0]["corners_px"] == scene["markers"][0]["corners_px"]);
+  // The thesis' camera with 800 pixels over the same view has a focal length 800/640 times as long.
+  const double far = cropped["markers"][0]["pose"]["translation_m"][2];
+  const double near = scene["markers"][0]["pose"]["translation_m"][2];
+  BOOST_TEST(far > 1.1 * near);
+}
+
+BOOST_AUTO_TEST_CASE(scale_keeps_the_view) {
+  const Workplace place;
+  write_picture(place / "double.png", scene_picture("yaw30", 1280, 960));
+  write_picture(place / "half.png", scene_picture("z1.0", 320, 240));
+  const Json frames = frames_of(place, {"double.png", "half.png", "--fit", "scale"});
+  const Json scenes = frames_of(place, {"yaw30", "z1.0"});
+  for (std::size_t i = 0; i < 2; ++i) {
+    check_marker(frames[i], 0);
+    const Json& found = frames[i]["markers"][0]["corners_px"];
+    const Json& expected = scenes[i]["markers"][0]["truth"]["corners_px"];
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double distance =
+            found[corner][axis].get<double>() - expected[corner][axis].get<double>();
+        BOOST_TEST(std::abs(distance) < 3);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

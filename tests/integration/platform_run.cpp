@@ -1,0 +1,102 @@
+#include "platform_run.h"
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include <input/frame_source.h>
+#include <vp/configuration.h>
+#include <zynq/session.h>
+
+#include "simulation.h"
+
+namespace integration {
+
+namespace {
+
+using platform::Session;
+using platform::input::ImageSize;
+using platform::input::InputFrame;
+using platform::report::FrameReport;
+
+using Next = std::function<std::optional<InputFrame>()>;
+
+PlatformRun run(const Settings& settings, const std::function<Next(ImageSize)>& open) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  for (const auto& [path, value] : settings) configuration.set(path, value);
+  const vp::Configuration::Scope scope(configuration);
+  Session session({MARKERVP_HYBRID, std::nullopt});
+  configuration.check_unused();
+
+  PlatformRun result;
+  const Next next = open(session.image_size());
+  std::optional<InputFrame> current;
+  session.run(
+      [&]() -> const InputFrame* {
+        current = next();
+        return current ? &*current : nullptr;
+      },
+      [&](FrameReport&& report) {
+        report.input = current->name;
+        report.truth = current->truth;
+        report.camera = current->camera;
+        result.frames.push_back(std::move(report));
+        return true;
+      });
+  result.facts = session.facts();
+  return result;
+}
+
+}  // namespace
+
+PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings) {
+  return run(settings, [&](ImageSize size) -> Next {
+    platform::input::InputOptions options;
+    options.size = size;
+    std::shared_ptr<platform::input::FrameSource> source =
+        platform::input::open_inputs(scenes, options);
+    return [source] { return source->next(); };
+  });
+}
+
+PlatformRun run_images(const std::vector<platform::GreyImage>& images, const Settings& settings) {
+  return run(settings, [&](ImageSize size) -> Next {
+    const auto camera = platform::Camera::for_resolution(size.width, size.height);
+    return [&images, camera, given = std::size_t{0}]() mutable -> std::optional<InputFrame> {
+      if (given == images.size()) return std::nullopt;
+      const std::string name = "image" + std::to_string(given);
+      return InputFrame{name, images[given++], camera, std::nullopt};
+    };
+  });
+}
+
+double stage_us(const FrameReport& frame, const std::string& stage) {
+  for (const auto& time : frame.times) {
+    if (time.name == stage) return static_cast<double>(time.ps) / 1e6;
+  }
+  throw std::out_of_range("no stage " + stage);
+}
+
+std::uint64_t overflows(const FrameReport& frame) {
+  const auto& counts = frame.counts;
+  return counts.feature_overflow + counts.label_overflow + counts.bridge_overflow +
+         counts.crossing_overflow;
+}
+
+std::vector<std::string> features(const FrameReport& frame) {
+  std::vector<std::string> words;
+  for (const marker::Corner& c : frame.features.corners) {
+    words.push_back("corner " + std::to_string(c.x) + " " + std::to_string(c.y) + " " +
+                    std::to_string(c.strength) + " " +
+                    std::to_string(static_cast<int>(c.direction)));
+  }
+  for (const marker::BoundingBox& b : frame.features.blobs) {
+    words.push_back("blob " + std::to_string(b.sx) + " " + std::to_string(b.sy) + " " +
+                    std::to_string(b.ex) + " " + std::to_string(b.ey));
+  }
+  return words;
+}
+
+}  // namespace integration

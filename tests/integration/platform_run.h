@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <input/input_frame.h>
+#include <report/result.h>
+
+namespace integration {
+
+/// A run of the whole platform with the program `hybrid`, in this process.
+struct PlatformRun {
+  platform::report::RunFacts facts;
+  /// With input, truth and camera filled in.
+  std::vector<platform::report::FrameReport> frames;
+};
+
+/// Parameters by path: {"ps.fclk_clk1.frequency", "40 MHz"}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs scenes or groups of scenes, in the resolution that the settings ask for, one after the
+/// other.
+PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings = {});
+
+/// Runs the same for images of the test's own.
+PlatformRun run_images(const std::vector<platform::GreyImage>& images,
+                       const Settings& settings = {});
+
+/// Duration of one stage of a frame, us. Throws std::out_of_range if the frame has none of that
+/// name.
+double stage_us(const platform::report::FrameReport& frame, const std::string& stage);
+
+/// The overflow counters together.
+std::uint64_t overflows(const platform::report::FrameReport& frame);
+
+/// What the PL found, in words that compare: "corner x y strength direction", "blob sx sy ex ey".
+std::vector<std::string> features(const platform::report::FrameReport& frame);
+
+}  // namespace integration

@@ -1,0 +1,218 @@
+#include "result_schema.h"
+
+namespace integration {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Kind { text, number, count, object, array };
+
+struct Key {
+  const char* name;
+  Kind kind;
+};
+
+bool is_of(Kind kind, const Json& value) {
+  switch (kind) {
+    case Kind::text:
+      return value.is_string();
+    case Kind::number:
+      return value.is_number();
+    case Kind::count:
+      return value.is_number_unsigned();
+    case Kind::object:
+      return value.is_object();
+    case Kind::array:
+      return value.is_array();
+  }
+  return false;
+}
+
+class Checker {
+ public:
+  std::vector<std::string> take() { return std::move(problems_); }
+
+  void result(const Json& json) {
+    if (!keys(json, "result",
+              {{"schema", Kind::count},
+               {"provenance", Kind::object},
+               {"fidelity", Kind::text},
+               {"system", Kind::text},
+               {"design", Kind::text},
+               {"profile", Kind::text},
+               {"configuration", Kind::object},
+               {"frames", Kind::array},
+               {"summary", Kind::object}})) {
+      return;
+    }
+    expect(json["schema"] == 1, "schema is not 1");
+    one_of(json["fidelity"], "fidelity", {"tlm", "clocked"});
+    one_of(json["system"], "system", {"hybrid", "ps-only"});
+    provenance(json["provenance"]);
+    for (const auto& [path, value] : json["configuration"].items()) {
+      expect(value.is_string() && !value.empty(), "configuration." + path + " is no text");
+    }
+    for (std::size_t i = 0; i < json["frames"].size(); ++i) {
+      frame(json["frames"][i], "frames[" + std::to_string(i) + "]");
+    }
+    summary(json["summary"], json["frames"].size());
+  }
+
+ private:
+  void expect(bool good, const std::string& problem) {
+    if (!good) problems_.push_back(problem);
+  }
+
+  /// True if all of them are there and of their kind.
+  bool keys(const Json& json, const std::string& where, const std::vector<Key>& expected) {
+    const std::size_t before = problems_.size();
+    expect(json.is_object(), where + " is no object");
+    if (!json.is_object()) return false;
+    for (const Key& key : expected) {
+      const auto found = json.find(key.name);
+      if (found == json.end()) {
+        problems_.push_back(where + "." + key.name + " is missing");
+      } else {
+        expect(is_of(key.kind, *found), where + "." + key.name + " is of another type");
+      }
+    }
+    return problems_.size() == before;
+  }
+
+  void one_of(const Json& value, const std::string& where,
+              const std::vector<std::string>& allowed) {
+    for (const std::string& text : allowed) {
+      if (value == text) return;
+    }
+    problems_.push_back(where + " has an unknown value");
+  }
+
+  void numbers(const Json& json, const std::string& where, std::size_t count) {
+    bool good = json.is_array() && json.size() == count;
+    for (const Json& value : json) good = good && value.is_number();
+    expect(good, where + " is not " + std::to_string(count) + " numbers");
+  }
+
+  /// `rows` arrays of `columns` numbers.
+  void table(const Json& json, const std::string& where, std::size_t rows, std::size_t columns) {
+    expect(json.is_array() && json.size() == rows,
+           where + " has not " + std::to_string(rows) + " rows");
+    if (!json.is_array()) return;
+    for (const Json& row : json) numbers(row, where, columns);
+  }
+
+  void provenance(const Json& json) {
+    keys(json, "provenance",
+         {{"program", Kind::text},
+          {"version", Kind::text},
+          {"configuration_hash", Kind::text},
+          {"command_line", Kind::array},
+          {"host", Kind::text},
+          {"date", Kind::text},
+          {"wall_time_s", Kind::number}});
+  }
+
+  void frame(const Json& json, const std::string& where) {
+    if (!keys(json, where,
+              {{"input", Kind::text},
+               {"index", Kind::count},
+               {"threshold", Kind::count},
+               {"counts", Kind::object},
+               {"markers", Kind::array},
+               {"time_us", Kind::object}})) {
+      return;
+    }
+    keys(json["counts"], where + ".counts",
+         {{"corners", Kind::count},
+          {"blobs", Kind::count},
+          {"feature_words", Kind::count},
+          {"candidates", Kind::count},
+          {"feature_overflow", Kind::count},
+          {"label_overflow", Kind::count},
+          {"bridge_overflow", Kind::count},
+          {"crossing_overflow", Kind::count}});
+    keys(json["time_us"], where + ".time_us",
+         {{"upload", Kind::number},
+          {"feature_extraction", Kind::number},
+          {"receive", Kind::number},
+          {"evaluation", Kind::number},
+          {"identification", Kind::number},
+          {"pose", Kind::number},
+          {"frame", Kind::number}});
+    for (const Json& found : json["markers"]) marker(found, where + ".markers");
+    if (json.contains("energy_mj"))
+      keys(json["energy_mj"], where + ".energy_mj", {{"total", Kind::number}});
+  }
+
+  void marker(const Json& json, const std::string& where) {
+    if (!keys(json, where,
+              {{"id", Kind::count},
+               {"rotation", Kind::count},
+               {"corners_px", Kind::array},
+               {"pose", Kind::object},
+               {"reprojection_px", Kind::number},
+               {"iterations", Kind::count}})) {
+      return;
+    }
+    expect(json["id"] < 250, where + ".id is not in the dictionary");
+    expect(json["rotation"] < 4, where + ".rotation is not 0 to 3");
+    table(json["corners_px"], where + ".corners_px", 4, 2);
+    pose(json["pose"], where + ".pose");
+    expect(json.contains("truth") == json.contains("error"),
+           where + " has only one of truth and error");
+    if (json.contains("truth") && json.contains("error")) truth(json, where);
+  }
+
+  void truth(const Json& marker, const std::string& where) {
+    if (keys(marker["truth"], where + ".truth",
+             {{"corners_px", Kind::array}, {"pose", Kind::object}})) {
+      table(marker["truth"]["corners_px"], where + ".truth.corners_px", 4, 2);
+      pose(marker["truth"]["pose"], where + ".truth.pose");
+    }
+    keys(marker["error"], where + ".error",
+         {{"corner_px", Kind::number},
+          {"translation_mm", Kind::number},
+          {"rotation_deg", Kind::number}});
+  }
+
+  void pose(const Json& json, const std::string& where) {
+    if (!keys(json, where, {{"rotation", Kind::array}, {"translation_m", Kind::array}})) return;
+    table(json["rotation"], where + ".rotation", 3, 3);
+    numbers(json["translation_m"], where + ".translation_m", 3);
+  }
+
+  void summary(const Json& json, std::size_t frames) {
+    if (!keys(json, "summary",
+              {{"frames", Kind::count},
+               {"detected", Kind::count},
+               {"fps", Kind::object},
+               {"latency_us", Kind::object}})) {
+      return;
+    }
+    expect(json["frames"] == frames, "summary.frames is not the number of frames");
+    expect(json["detected"] <= json["frames"], "summary.detected exceeds summary.frames");
+    keys(json["fps"], "summary.fps",
+         {{"mean", Kind::number}, {"min", Kind::number}, {"max", Kind::number}});
+    keys(json["latency_us"], "summary.latency_us", {{"mean", Kind::number}, {"max", Kind::number}});
+    if (!json.contains("power_w")) return;
+    keys(json["power_w"], "summary.power_w",
+         {{"total", Kind::number},
+          {"ps", Kind::number},
+          {"pl", Kind::number},
+          {"static", Kind::number}});
+    keys(json, "summary", {{"energy_per_frame_mj", Kind::number}});
+  }
+
+  std::vector<std::string> problems_;
+};
+
+}  // namespace
+
+std::vector<std::string> schema_problems(const Json& result) {
+  Checker checker;
+  checker.result(result);
+  return checker.take();
+}
+
+}  // namespace integration

@@ -1,0 +1,123 @@
+// From the stream of the DMA into the BRAM.
+#include <pl/control_block/control_block.h>
+#include <boost/test/unit_test.hpp>
+
+#include "pipeline.h"
+
+namespace {
+
+using harness::Image;
+
+namespace control_packet = pl::control_packet;
+
+constexpr int width = 64, height = 32;
+
+std::vector<std::uint32_t> packed(const Image& image) {
+  std::vector<std::uint32_t> words;
+  for (std::size_t i = 0; i < image.size(); i += 4) {
+    words.push_back(image[i] | std::uint32_t{image[i + 1]} << 8 |
+                    std::uint32_t{image[i + 2]} << 16 | std::uint32_t{image[i + 3]} << 24);
+  }
+  return words;
+}
+
+struct Store : harness::Pipeline {
+  Store() : Pipeline({}, harness::frame_size(width, height)) {
+    reset();
+    source.send(packed(image), 32);
+  }
+  void enable(bool on) { driver.control(on ? control_packet::wr_en : 0); }
+  void clocks(unsigned n) { run_for(n * 10'000u); }
+  std::vector<std::uint8_t>& memory() { return pl.bram.contents(); }
+  unsigned address() const { return pl.axi_image_store.address; }
+
+  Image image = harness::noise(width, height, 41);
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(image_store)
+
+BOOST_AUTO_TEST_CASE(the_leftmost_pixel_of_a_word_is_in_bits_7_to_0) {
+  Store s;
+  s.source.send({0x4433'2211, 0x8877'6655}, 32);
+  s.enable(true);
+  s.clocks(10);
+  const std::vector<std::uint8_t> expected{0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0};
+  BOOST_TEST(std::vector<std::uint8_t>(s.memory().begin(), s.memory().begin() + 9) == expected,
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(it_takes_one_word_a_clock) {
+  Store s;
+  s.clocks(5);
+  BOOST_TEST(s.image_link.tvalid.get());
+  s.enable(true);
+  s.clocks(1);  // tready
+  BOOST_TEST(s.address() == 0u);
+  s.clocks(1);
+  BOOST_TEST(s.address() == 1u);
+  s.clocks(511);
+  BOOST_TEST(s.address() == 512u);
+  BOOST_TEST((s.memory() == s.image));
+  BOOST_TEST(s.image_link.packets.get() == 16u);
+}
+
+BOOST_AUTO_TEST_CASE(without_wr_en_the_master_waits) {
+  Store s;
+  s.clocks(100);
+  BOOST_TEST(s.source.sent() == 0u);
+  BOOST_TEST(s.address() == 0u);
+  BOOST_TEST((s.memory() == Image(width * height, 0)));
+  BOOST_TEST(!s.image_link.tready.get());
+  s.enable(true);
+  s.clocks(600);
+  BOOST_TEST((s.memory() == s.image));
+}
+
+BOOST_AUTO_TEST_CASE(wr_en_low_in_the_middle_holds_the_stream_and_its_rise_starts_at_address_0) {
+  Store s;
+  s.enable(true);
+  s.clocks(100);
+  s.enable(false);
+  s.clocks(50);
+  const unsigned stored = s.address();
+  BOOST_TEST(stored > 90u);
+  BOOST_TEST(s.source.sent() == stored);
+  s.clocks(50);
+  BOOST_TEST(s.address() == stored);
+  s.enable(true);
+  s.clocks(2);
+  BOOST_TEST(s.address() == 1u);
+  const std::vector<std::uint32_t> words = packed(s.image);
+  s.clocks(1);
+  const std::uint32_t first = s.memory()[0] | s.memory()[1] << 8 | s.memory()[2] << 16 |
+                              static_cast<std::uint32_t>(s.memory()[3]) << 24;
+  BOOST_TEST(first == words[stored]);  // the stream goes on where it stood
+}
+
+BOOST_AUTO_TEST_CASE(rst_returns_to_address_0) {
+  Store s;
+  s.enable(true);
+  s.clocks(100);
+  s.driver.control(control_packet::wr_en | control_packet::rst);
+  s.clocks(10);
+  BOOST_TEST(s.address() == 0u);
+  BOOST_TEST(!s.image_link.tready.get());
+  const std::size_t sent = s.source.sent();
+  s.clocks(10);
+  BOOST_TEST(s.source.sent() == sent);
+}
+
+BOOST_AUTO_TEST_CASE(an_uploaded_image_gives_the_words_of_a_loaded_one) {
+  Store s;
+  s.enable(true);
+  s.clocks(600);
+  s.enable(false);
+  const std::vector<harness::Word> uploaded = s.run_frame();
+  harness::Pipeline loaded({}, harness::frame_size(width, height));
+  loaded.load(s.image);
+  BOOST_TEST(harness::first_difference(uploaded, loaded.run_frame()) == "");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
