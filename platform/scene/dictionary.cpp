@@ -2,8 +2,8 @@
 
 #include <marker/dictionary.h>
 
-#include <string>
 #include <vp/error.h>
+#include <string>
 
 namespace platform {
 

@@ -4,8 +4,8 @@
 
 namespace platform {
 
-/// What the units of work of the marker programs cost on a Cortex-A9 at 667 MHz: the profile `assumed`. Each entry stands
-/// with its reason in the source; nothing is measured on the chip.
+/// What the units of work of the marker programs cost on a Cortex-A9 at 667 MHz: the profile
+/// `assumed`. Each entry stands with its reason in the source; nothing is measured on the chip.
 ps::CostTable assumed_costs();
 
 }  // namespace platform

@@ -1,10 +1,10 @@
 #include <zynq/frame_bench.h>
 
-#include <algorithm>
-#include <cstring>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/unit.h>
+#include <algorithm>
+#include <cstring>
 
 namespace platform {
 
@@ -31,7 +31,8 @@ report::Features features_of(const marker::FrameResult& result) {
   for (std::uint32_t i = 0; i < result.candidates.count; ++i) {
     const marker::Quad q =
         marker::swap_bottom(marker::candidate_corners(set, result.candidates.candidates[i]));
-    features.candidates.push_back({{{q[0].x, q[0].y}, {q[1].x, q[1].y}, {q[2].x, q[2].y}, {q[3].x, q[3].y}}});
+    features.candidates.push_back(
+        {{{q[0].x, q[0].y}, {q[1].x, q[1].y}, {q[2].x, q[2].y}, {q[3].x, q[3].y}}});
   }
   return features;
 }
@@ -77,9 +78,11 @@ void FrameBench::place(const input::InputFrame& frame) {
   frame_.cy = frame.camera.cy;
 }
 
-void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now_ps) {
+void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
+                         std::uint64_t now_ps) {
   if (kind != marker::frame_result_kind || size != sizeof(marker::FrameResult)) {
-    throw vp::ProtocolError("the program published a result of unknown kind or size at " + vp::format_time(now_ps) +
+    throw vp::ProtocolError("the program published a result of unknown kind or size at " +
+                            vp::format_time(now_ps) +
                             ": build it against the HAL and marker headers of this version");
   }
   // Static: a result is too large for the stack of the program's thread.
@@ -95,7 +98,8 @@ double FrameBench::option(std::uint32_t option, const hal_option_info&) {
   return options_.value(option);
 }
 
-report::FrameReport FrameBench::report_of(const marker::FrameResult& result, std::uint64_t now_ps) const {
+report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
+                                          std::uint64_t now_ps) const {
   report::FrameReport report;
   report.index = result.frame;
   report.threshold = threshold_;
@@ -103,7 +107,8 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result, std
   report.counts.blobs = result.features.blob_count + result.features.lost_blobs;
   report.counts.feature_words = result.feature_words;
   report.counts.candidates = result.candidates.count + result.candidates.lost;
-  for (std::uint32_t i = 0; i < result.marker_count; ++i) report.markers.push_back(found_marker(result.markers[i]));
+  for (std::uint32_t i = 0; i < result.marker_count; ++i)
+    report.markers.push_back(found_marker(result.markers[i]));
   // Stamps count pairs of CPU cycles.
   auto duration = [&](const marker::StageTime& stage) {
     return zynq_.ps.cpu_clk.clk.duration_ps(2.0 * static_cast<double>(stage.end - stage.start));
@@ -133,20 +138,24 @@ void FrameBench::add_counts(report::FrameReport& report) const {
 
 void FrameBench::add_warnings(report::FrameReport& report, const marker::FrameResult& result) {
   if (result.status != marker::Status::ok) {
-    report.warnings.push_back(std::string("the software gave up: ") + marker::status_name(result.status));
+    report.warnings.push_back(std::string("the software gave up: ") +
+                              marker::status_name(result.status));
   }
   auto lost = [&](std::uint64_t count, const char* what) {
     if (count != 0) report.warnings.push_back(std::to_string(count) + " " + what);
   };
-  lost(report.counts.feature_overflow, "features dropped: a buffer of pl.feature_packaging was full");
+  lost(report.counts.feature_overflow,
+       "features dropped: a buffer of pl.feature_packaging was full");
   lost(report.counts.label_overflow, "dark pixels without label: pl.blob_detection has too few");
   lost(report.counts.bridge_overflow, "binary words dropped: DMA 1 was not armed again in time");
-  lost(report.counts.crossing_overflow, "words lost between the clocks: the system clock is too slow");
+  lost(report.counts.crossing_overflow,
+       "words lost between the clocks: the system clock is too slow");
   lost(result.lost_words, "feature words without room in the software");
   const auto& all = reports_.warnings();
   for (; warnings_reported_ < all.size(); ++warnings_reported_) {
     const vp::Warning& w = all[warnings_reported_];
-    report.warnings.push_back(w.where + ": " + w.message + " (" + w.id + " at " + vp::format_time(w.time_ps) + ")");
+    report.warnings.push_back(w.where + ": " + w.message + " (" + w.id + " at " +
+                              vp::format_time(w.time_ps) + ")");
   }
 }
 

@@ -15,13 +15,15 @@
 
 namespace platform {
 
-/// The test bench around the PS program: puts images into DDR, takes results, and reads what only the hardware knows.
+/// The test bench around the PS program: puts images into DDR, takes results, and reads what only
+/// the hardware knows.
 class FrameBench : public ps::TestBench, private vp::SignalListener {
  public:
   using NextFrame = std::function<const input::InputFrame*()>;
   using FrameDone = std::function<bool(report::FrameReport&&)>;
 
-  /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA memory.
+  /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA
+  /// memory.
   FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports);
 
   /// Where frames come from and reports go to, for one run.
@@ -29,7 +31,8 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
 
   // ps::TestBench
   const hal_frame* next_frame(std::uint64_t now_ps) override;
-  void publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now_ps) override;
+  void publish(std::uint32_t kind, const void* data, std::size_t size,
+               std::uint64_t now_ps) override;
   double option(std::uint32_t option, const hal_option_info& info) override;
 
  private:
@@ -46,7 +49,7 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
   FrameDone done_;
   hal_frame frame_{};
   std::uint32_t frames_ = 0;
-  std::uint8_t threshold_ = 0;       ///< in use when the frame began
+  std::uint8_t threshold_ = 0;  ///< in use when the frame began
   std::size_t warnings_reported_ = 0;
   bool stop_ = false;
 };

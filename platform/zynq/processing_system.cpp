@@ -33,8 +33,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   cpu.m_axi.socket.bind(interconnect.socket);
   interconnect.map("m_axi_gp0", m_axi_gp0_base, m_axi_gp0_size, Addresses::absolute)
       .bind(m_axi_gp0.socket);
-  interconnect
-      .map("private_bus", ps::PrivateBus::base, ps::PrivateBus::size, Addresses::absolute)
+  interconnect.map("private_bus", ps::PrivateBus::base, ps::PrivateBus::size, Addresses::absolute)
       .bind(private_bus.socket);
   private_bus.devices.map("gic_cpu_interface", gic_cpu_interface, 0x100)
       .bind(gic.cpu_interface.socket);

@@ -16,13 +16,14 @@
 
 namespace platform {
 
-/// The processing system of the Zynq-7020 as far as the marker detector uses it (UG585): one Cortex-A9 with its private
-/// devices, DDR, the GP0 and HP0 ports, the two PL clocks.
+/// The processing system of the Zynq-7020 as far as the marker detector uses it (UG585): one
+/// Cortex-A9 with its private devices, DDR, the GP0 and HP0 ports, the two PL clocks.
 class ProcessingSystem : public sc_core::sc_module {
  public:
   ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
 
-  // The system clock is made before the pixel clock: at coincident edges it samples first (see pl::ClockCrossing).
+  // The system clock is made before the pixel clock: at coincident edges it samples first (see
+  // pl::ClockCrossing).
   ClockSource fclk_clk0;
   ClockSource fclk_clk1;
   ClockSource cpu_clk;

@@ -11,22 +11,22 @@
 
 namespace platform {
 
-/// The whole programmable logic: the feature extraction and what Xilinx provides around it, wired as the thesis'
-/// figure 4.2 (letters of tables 4.2 and 4.3).
+/// The whole programmable logic: the feature extraction and what Xilinx provides around it, wired
+/// as the thesis' figure 4.2 (letters of tables 4.2 and 4.3).
 class ProgrammableLogic : public pl::FeatureExtraction {
  public:
   ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk);
 
-  xilinx::ProcSysReset proc_sys_reset;            ///< G
-  xilinx::AxiInterconnect axi_interconnect;       ///< H: GP0 to the registers
-  xilinx::AxiInterconnect axi_mem_interconnect;   ///< J: DMA to HP0
-  xilinx::AxiGpio axi_gpio_0;                     ///< B: control packet, all outputs
-  xilinx::AxiGpio axi_gpio_1;                     ///< C: feature words, all inputs
-  xilinx::AxiDma axi_dma_0;                       ///< E: images to the PL, read channel only
-  xilinx::AxiDma axi_dma_1;                       ///< F: binary image to DDR, write channel only
+  xilinx::ProcSysReset proc_sys_reset;           ///< G
+  xilinx::AxiInterconnect axi_interconnect;      ///< H: GP0 to the registers
+  xilinx::AxiInterconnect axi_mem_interconnect;  ///< J: DMA to HP0
+  xilinx::AxiGpio axi_gpio_0;                    ///< B: control packet, all outputs
+  xilinx::AxiGpio axi_gpio_1;                    ///< C: feature words, all inputs
+  xilinx::AxiDma axi_dma_0;                      ///< E: images to the PL, read channel only
+  xilinx::AxiDma axi_dma_1;                      ///< F: binary image to DDR, write channel only
   vp::AxiStream image_stream_link{"image_stream"};
   vp::AxiStream binary_stream_link{"binary_stream"};
-  xilinx::Concat concat;                          ///< interrupts of both DMAs
+  xilinx::Concat concat;  ///< interrupts of both DMAs
 
  private:
   xilinx::MemoryPath memory_path_;

@@ -1,8 +1,8 @@
 #include <zynq/session.h>
 
-#include <exception>
 #include <vp/error.h>
 #include <zynq/cost_profile.h>
+#include <exception>
 
 namespace platform {
 
@@ -12,7 +12,8 @@ Session::Session(const Options& options)
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
-  if (options.trace) tracer_ = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *options.trace);
+  if (options.trace)
+    tracer_ = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *options.trace);
   zynq_->ps.cpu.load(*program_, costs_);
   zynq_->ps.cpu.connect(*bench_);
 }

@@ -18,17 +18,18 @@
 
 namespace platform {
 
-/// A run of the whole platform: hardware, PS program, and the test bench around them. One in a process at a time, since
-/// SystemC elaborates once.
+/// A run of the whole platform: hardware, PS program, and the test bench around them. One in a
+/// process at a time, since SystemC elaborates once.
 class Session {
  public:
   struct Options {
-    std::string program;                ///< file of the PS program
+    std::string program;                    ///< file of the PS program
     std::optional<vp::TraceOptions> trace;  ///< waveforms to record
   };
 
-  /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws vp::InputError for a wrong
-  /// value, a program that cannot be loaded, or costs that do not cover it.
+  /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws
+  /// vp::InputError for a wrong value, a program that cannot be loaded, or costs that do not cover
+  /// it.
   explicit Session(const Options& options);
 
   /// The resolution that the platform is built for.
@@ -36,9 +37,9 @@ class Session {
   /// What runs; the configuration is left to the caller.
   report::RunFacts facts() const;
 
-  /// Runs the program until `next` gives no more images; `done` takes each frame's report and says whether to go on. Throws
-  /// vp::ProtocolError if hardware or software broke a rule, vp::InputError if the trace cannot be written; the reports
-  /// until then were handed over.
+  /// Runs the program until `next` gives no more images; `done` takes each frame's report and says
+  /// whether to go on. Throws vp::ProtocolError if hardware or software broke a rule,
+  /// vp::InputError if the trace cannot be written; the reports until then were handed over.
   void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
   Zynq& zynq() { return *zynq_; }

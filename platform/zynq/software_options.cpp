@@ -1,8 +1,8 @@
 #include <zynq/software_options.h>
 
-#include <string>
 #include <vp/error.h>
 #include <vp/unit.h>
+#include <string>
 
 namespace platform {
 
@@ -12,8 +12,9 @@ namespace {
 vp::Unit dimension_of(const std::string& unit, const hal_program& program, const char* option) {
   if (unit.empty()) return vp::Unit::none;
   using vp::Unit;
-  for (Unit dimension : {Unit::frequency, Unit::time, Unit::bytes, Unit::pixels, Unit::length, Unit::power, Unit::energy,
-                         Unit::voltage, Unit::cycles, Unit::percent, Unit::angle, Unit::temperature}) {
+  for (Unit dimension :
+       {Unit::frequency, Unit::time, Unit::bytes, Unit::pixels, Unit::length, Unit::power,
+        Unit::energy, Unit::voltage, Unit::cycles, Unit::percent, Unit::angle, Unit::temperature}) {
     for (const std::string& known : vp::allowed_units(dimension)) {
       if (known == unit) return dimension;
     }
@@ -34,10 +35,10 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
         dimension == vp::Unit::none
             ? 1
             : vp::parse_quantity(std::string("1 ") + info.unit, dimension).to_double();
-    const auto& parameter = parameters_.emplace_back(
-        info.name, info.default_value * base, dimension,
-        vp::Range<double>{info.minimum * base, info.maximum * base}, vp::Source::decision,
-        info.documentation);
+    const auto& parameter =
+        parameters_.emplace_back(info.name, info.default_value * base, dimension,
+                                 vp::Range<double>{info.minimum * base, info.maximum * base},
+                                 vp::Source::decision, info.documentation);
     values_.push_back(parameter.get() / base);
   }
 }

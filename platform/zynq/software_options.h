@@ -12,7 +12,8 @@ namespace platform {
 /// The options that a PS program declares, as parameters `sw.<name>`.
 class SoftwareOptions : public sc_core::sc_module {
  public:
-  /// Throws vp::InputError for a value out of its range, and for a unit that the program's option may not have.
+  /// Throws vp::InputError for a value out of its range, and for a unit that the program's option
+  /// may not have.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program);
 
   /// Option number `option` in the unit that the program declared.

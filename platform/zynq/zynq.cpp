@@ -11,8 +11,7 @@ constexpr std::uint64_t hp0_base = 0, hp0_size = 0x4000'0000;
 
 Zynq::Zynq() {
   ps.m_axi_gp0.link.socket.bind(pl.axi_interconnect.socket);
-  pl.axi_mem_interconnect
-      .map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
+  pl.axi_mem_interconnect.map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
       .bind(ps.s_axi_hp0.socket);
   ps.gic.irq_f2p(pl.concat.dout);
   pl.proc_sys_reset.ext_reset_in(ps.fclk_reset0_n);

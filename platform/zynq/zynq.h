@@ -14,9 +14,11 @@ namespace platform {
 struct Zynq {
   Zynq();
 
-  vp::Parameter<std::string> fidelity{
-      "fidelity", "clocked", {"clocked"}, vp::Source::decision,
-      "how the programmable logic is modelled: clock by clock"};
+  vp::Parameter<std::string> fidelity{"fidelity",
+                                      "clocked",
+                                      {"clocked"},
+                                      vp::Source::decision,
+                                      "how the programmable logic is modelled: clock by clock"};
   vp::ClockScheduler scheduler{"scheduler"};
   ProcessingSystem ps{"ps", scheduler};
   ProgrammableLogic pl{"pl", ps.fclk_clk0.clk, ps.fclk_clk1.clk};

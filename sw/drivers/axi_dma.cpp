@@ -49,8 +49,8 @@ std::uint32_t AxiDma::status() const {
 
 void AxiDma::set_completion_interrupt(bool on) const {
   const std::uint32_t control = hal_read32(registers_.control);
-  hal_write32(registers_.control, on ? control | axi_dma::dmacr::IOC_IrqEn
-                                     : control & ~axi_dma::dmacr::IOC_IrqEn);
+  hal_write32(registers_.control,
+              on ? control | axi_dma::dmacr::IOC_IrqEn : control & ~axi_dma::dmacr::IOC_IrqEn);
 }
 
 bool AxiDma::is_complete(std::uint32_t status) {

@@ -31,8 +31,8 @@ class AxiDma {
   /// The status register, for messages.
   std::uint32_t status() const;
 
-  /// Lets a completed transfer interrupt (as after initialise()) or not. One that completed meanwhile interrupts when
-  /// this is turned on. Errors always interrupt.
+  /// Lets a completed transfer interrupt (as after initialise()) or not. One that completed
+  /// meanwhile interrupts when this is turned on. Errors always interrupt.
   void set_completion_interrupt(bool on) const;
 
   static bool is_complete(std::uint32_t status);

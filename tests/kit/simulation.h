@@ -22,7 +22,8 @@ class Simulation {
   sc_core::sc_simcontext* context_;  // lives on: SystemC 2.3.4 cannot destroy a context safely
 };
 
-/// The simulation time in picoseconds, for exact comparison: that of a clock scheduler that runs ahead of SystemC's.
+/// The simulation time in picoseconds, for exact comparison: that of a clock scheduler that runs
+/// ahead of SystemC's.
 inline std::uint64_t now_ps() {
   std::uint64_t now = sc_core::sc_time_stamp().value();
   for (sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) {

@@ -1,6 +1,7 @@
-// Only in builds with the address sanitizer. libsystemc 2.3.4 tells the sanitizer when it enters a thread's stack, but
-// not the bounds of the main stack when it returns, nor that a thread has ended. A throw on the main stack then leaves
-// poisoned memory behind, which is reported later as an overflow that is none. This sets the bounds right before a throw.
+// Only in builds with the address sanitizer. libsystemc 2.3.4 tells the sanitizer when it enters a
+// thread's stack, but not the bounds of the main stack when it returns, nor that a thread has
+// ended. A throw on the main stack then leaves poisoned memory behind, which is reported later as
+// an overflow that is none. This sets the bounds right before a throw.
 #if defined(__SANITIZE_ADDRESS__)
 #include <dlfcn.h>
 #include <pthread.h>
@@ -31,7 +32,8 @@ const Stack main_stack;
 }  // namespace
 
 extern "C" __attribute__((no_sanitize("address"))) void __asan_handle_no_return() {
-  static const auto original = reinterpret_cast<void (*)()>(dlsym(RTLD_NEXT, "__asan_handle_no_return"));
+  static const auto original =
+      reinterpret_cast<void (*)()>(dlsym(RTLD_NEXT, "__asan_handle_no_return"));
   if (main_stack.contains(__builtin_frame_address(0))) {
     __sanitizer_start_switch_fiber(nullptr, main_stack.bottom, main_stack.size);
     __sanitizer_finish_switch_fiber(nullptr, nullptr, nullptr);

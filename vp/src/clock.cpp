@@ -1,7 +1,7 @@
 #include <vp/clock.h>
 
-#include <algorithm>
 #include <vp/clock_scheduler.h>
+#include <algorithm>
 
 namespace vp {
 
@@ -35,9 +35,13 @@ void Clocked::wake_at(std::uint64_t cycle) {
   clock_.plan_next(clock_.scheduler().now_ps());
 }
 
-void Clocked::wake_on(InBase& input) { wake_inputs_.push_back(&input); }
+void Clocked::wake_on(InBase& input) {
+  wake_inputs_.push_back(&input);
+}
 
-void Clocked::on_change(SignalBase&, std::uint32_t) { wake(); }
+void Clocked::on_change(SignalBase&, std::uint32_t) {
+  wake();
+}
 
 void Clocked::end_of_elaboration() {
   for (InBase* input : wake_inputs_) {
@@ -86,9 +90,8 @@ std::uint64_t Clock::cycle() const {
 
 std::uint64_t Clock::duration_ps(double cycles) const {
   if (hertz_ == 0) return never;
-  return static_cast<std::uint64_t>(cycles * static_cast<double>(ps_per_second) /
-                                        static_cast<double>(hertz_) +
-                                    0.5);
+  return static_cast<std::uint64_t>(
+      cycles * static_cast<double>(ps_per_second) / static_cast<double>(hertz_) + 0.5);
 }
 
 void Clock::seek(std::uint64_t cycle) {
@@ -141,7 +144,8 @@ void Clock::seek_alarm() {
 
 // A module woke or set an alarm: the clock runs again from its first edge after `after_ps`.
 void Clock::plan_next(std::uint64_t after_ps) {
-  // run_edge() plans when all modules have run; an edge of this very instant that is still to come is not passed over.
+  // run_edge() plans when all modules have run; an edge of this very instant that is still to come
+  // is not passed over.
   if (in_edge_ || next_ps_ == after_ps) return;
   if (awake_ > 0 && hertz_ != 0) {
     seek(cycle_at_or_after(after_ps + 1));

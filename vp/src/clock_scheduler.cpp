@@ -18,8 +18,8 @@ void claim_signals(const std::vector<sc_core::sc_object*>& objects, ClockSchedul
   }
 }
 
-/// Puts a module behind every module of its clock that reads its outputs. A ring is entered anywhere: its closing link
-/// becomes a deferred signal.
+/// Puts a module behind every module of its clock that reads its outputs. A ring is entered
+/// anywhere: its closing link becomes a deferred signal.
 class ConsumerFirstOrder {
  public:
   explicit ConsumerFirstOrder(const std::vector<Clocked*>& modules,
@@ -70,8 +70,8 @@ std::uint64_t ClockScheduler::next_instant() const {
   return first;
 }
 
-// Clocks run in the order in which they were made; inside one, consumers before producers. So a plain store is seen by
-// the next edge only, as from a register.
+// Clocks run in the order in which they were made; inside one, consumers before producers. So a
+// plain store is seen by the next edge only, as from a register.
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
   for (Clock* clock : clocks_) {
@@ -99,8 +99,8 @@ void ClockScheduler::run() {
     const std::uint64_t horizon = now + std::min(to_ps(pending), longest_batch_ps);
     running_ = true;
     stop_batch_ = false;
-    for (std::uint64_t next = next_instant(); next <= horizon && next != Clock::never && !stop_batch_;
-         next = next_instant()) {
+    for (std::uint64_t next = next_instant();
+         next <= horizon && next != Clock::never && !stop_batch_; next = next_instant()) {
       run_instant(next);
     }
     running_ = false;
@@ -147,7 +147,8 @@ void ClockScheduler::check_condition() {
   }
 }
 
-// Stops where a condition holds, and where an edge notified a SystemC event: the kernel has its turn then.
+// Stops where a condition holds, and where an edge notified a SystemC event: the kernel has its
+// turn then.
 ClockScheduler::Ahead ClockScheduler::run_ahead(std::uint64_t ps, Condition condition,
                                                 const void* context) {
   Ahead end = Ahead::reached;
@@ -193,7 +194,9 @@ bool ClockScheduler::runs_before(const Clock& first, const Clock& second) const 
          std::find(clocks_.begin(), clocks_.end(), &second);
 }
 
-void ClockScheduler::add_observer(InstantObserver& observer) { observers_.push_back(&observer); }
+void ClockScheduler::add_observer(InstantObserver& observer) {
+  observers_.push_back(&observer);
+}
 
 void ClockScheduler::remove_observer(InstantObserver& observer) {
   observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
@@ -216,7 +219,8 @@ void ClockScheduler::order_modules() {
 
 void ClockScheduler::mark_deferred_signals() {
   std::unordered_set<const Clocked*> already_run;
-  // Walks the running order: a consumer that comes after its producer would see the new value too early.
+  // Walks the running order: a consumer that comes after its producer would see the new value too
+  // early.
   for (Clock* clock : clocks_) {
     for (Clocked* module : clock->modules_) {
       already_run.insert(module);

@@ -1,8 +1,8 @@
 #include <vp/signal.h>
 
-#include <algorithm>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
+#include <algorithm>
 
 namespace vp {
 

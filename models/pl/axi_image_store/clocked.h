@@ -9,8 +9,8 @@
 
 namespace pl {
 
-/// AXI Image Store, clocked (thesis 4.3.3, ports of table B.8): writes the image that arrives on its stream into port A
-/// of the BRAM, from address 0 on after each rise of `ena`. System clock.
+/// AXI Image Store, clocked (thesis 4.3.3, ports of table B.8): writes the image that arrives on
+/// its stream into port A of the BRAM, from address 0 on after each rise of `ena`. System clock.
 class AxiImageStoreClocked : public vp::Clocked {
  public:
   AxiImageStoreClocked(sc_core::sc_module_name name, vp::Clock& clk, xilinx::Bram& bram);

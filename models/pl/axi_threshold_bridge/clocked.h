@@ -6,11 +6,13 @@
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
+#include <vp/probe.h>
 
 namespace pl {
 
-/// AXI Threshold Bridge, clocked (thesis 4.4.2, ports of table B.5): sends the binary image to the PS, 32 words a packet.
-/// System clock. A full FIFO (the DMA was not armed again in time) drops the newest word and counts it.
+/// AXI Threshold Bridge, clocked (thesis 4.4.2, ports of table B.5): sends the binary image to the
+/// PS, 32 words a packet. System clock. A full FIFO (the DMA was not armed again in time) drops the
+/// newest word and counts it.
 class AxiThresholdBridgeClocked : public vp::Clocked {
  public:
   AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk);
@@ -27,11 +29,13 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
   vp::Signal<std::uint32_t> bridge_overflow{"bridge_overflow"};
 
   vp::Parameter<std::uint32_t> fifo_depth{
-      "fifo_depth", 64, vp::Unit::none, {1, 65536}, vp::Source::decision,
-      "words that wait for the DMA, besides the output register"};
+      "fifo_depth",         64,
+      vp::Unit::none,       {1, 65536},
+      vp::Source::decision, "words that wait for the DMA, besides the output register"};
   vp::Parameter<std::uint32_t> burst_words{
-      "burst_words", 32, vp::Unit::none, {1, 256}, vp::Source::published,
-      "words a packet: TLAST comes with the last (thesis 4.4.2)"};
+      "burst_words",         32,
+      vp::Unit::none,        {1, 256},
+      vp::Source::published, "words a packet: TLAST comes with the last (thesis 4.4.2)"};
 
  private:
   void edge() override;
@@ -39,6 +43,7 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
 
   FeatureBuffer fifo_;
   std::uint32_t in_packet_ = 0;
+  vp::Probe<std::uint32_t> in_packet_probe_{"in_packet", in_packet_, 9};
 };
 
 }  // namespace pl

@@ -5,6 +5,7 @@
 #include <pl/blob_detection/core.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
+#include <vp/probe.h>
 
 namespace pl {
 
@@ -26,10 +27,18 @@ class BlobDetectionClocked : public vp::Clocked {
   vp::Signal<std::uint32_t> label_overflow{"label_overflow"};
 
   vp::Parameter<std::uint32_t> label_count{
-      "label_count", 128, vp::Unit::none, {4, 1024}, vp::Source::decision,
+      "label_count",
+      128,
+      vp::Unit::none,
+      {4, 1024},
+      vp::Source::decision,
       "labels, the background's included; the thesis does not give its number"};
   vp::Parameter<std::uint32_t> minimum_side{
-      "minimum_side", 24, vp::Unit::pixels, {1, 1023}, vp::Source::published,
+      "minimum_side",
+      24,
+      vp::Unit::pixels,
+      {1, 1023},
+      vp::Source::published,
       "smallest Ex - Sx and Ey - Sy of a blob that is reported (thesis 4.3.6.4)"};
 
   const BlobCore& core() const { return core_; }
@@ -44,6 +53,11 @@ class BlobDetectionClocked : public vp::Clocked {
   bool retired_ = false;  ///< the core retired a label in the last clock
   bool ena_before_ = false;
   std::uint32_t number_ = 0;
+  vp::Probe<BlobCore::Label> label_{"label", [this] { return core_.label(); }, 10};
+  vp::Probe<BlobCore::Label> next_label_{"next_label", [this] { return core_.next_label(); }, 10};
+  vp::Probe<std::uint32_t> free_labels_{"free_labels", [this] { return core_.free_labels(); }, 11};
+  vp::Probe<bool> flush_{"flush", [this] { return core_.flushing(); }};
+  vp::Probe<std::uint32_t> number_probe_{"number", number_, 11};
 };
 
 }  // namespace pl

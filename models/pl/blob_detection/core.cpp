@@ -30,7 +30,8 @@ void BlobCore::reset() {
 }
 
 bool BlobCore::step(bool ena, bool dark, std::uint32_t x, std::uint32_t y) {
-  // Everything looks at the registers as they stood before this clock; the label that retires is found first.
+  // Everything looks at the registers as they stood before this clock; the label that retires is
+  // found first.
   const Label expired = find_expired(ena, x, y);
   if (expired != 0) {
     retired_ = boxes_[expired];

@@ -1,7 +1,7 @@
 #include <pl/clock_crossing/clock_crossing.h>
 
-#include <stdexcept>
 #include <vp/clock_scheduler.h>
+#include <stdexcept>
 
 namespace pl {
 

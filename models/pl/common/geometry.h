@@ -12,8 +12,8 @@ struct Geometry {
   std::uint32_t pixels() const { return width * height; }
 };
 
-/// Refuses a size the packet formats and DMA bursts cannot carry (vp::InputError): width a multiple of 32 up to 1024,
-/// height up to 512, width × height a multiple of 1024.
+/// Refuses a size the packet formats and DMA bursts cannot carry (vp::InputError): width a multiple
+/// of 32 up to 1024, height up to 512, width × height a multiple of 1024.
 void check(const Geometry& geometry);
 
 }  // namespace pl

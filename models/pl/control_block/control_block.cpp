@@ -10,7 +10,9 @@ void ControlBlock::end_of_elaboration() {
   split();
 }
 
-void ControlBlock::on_change(vp::SignalBase&, std::uint32_t) { split(); }
+void ControlBlock::on_change(vp::SignalBase&, std::uint32_t) {
+  split();
+}
 
 void ControlBlock::split() {
   const std::uint32_t packet = gpio_in;

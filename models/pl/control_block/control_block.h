@@ -19,7 +19,8 @@ constexpr std::uint32_t threshold_shift = 8;  ///< eight bits
 
 }  // namespace control_packet
 
-/// Control Block (thesis 4.4.1, ports of table B.4): splits the control packet. Combinational, at every fidelity.
+/// Control Block (thesis 4.4.1, ports of table B.4): splits the control packet. Combinational, at
+/// every fidelity.
 class ControlBlock : public sc_core::sc_module, public vp::SignalListener {
  public:
   explicit ControlBlock(sc_core::sc_module_name name);

@@ -6,6 +6,7 @@
 #include <pl/corner_detection/core.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
+#include <vp/probe.h>
 
 namespace pl {
 
@@ -23,7 +24,11 @@ class CornerDetectionClocked : public vp::Clocked {
   vp::Signal<std::uint32_t> corner_data{"corner_data"};  ///< valid while corner_out is high
 
   vp::Parameter<std::uint32_t> threshold{
-      "threshold", 30, vp::Unit::none, {0, 255}, vp::Source::decision,
+      "threshold",
+      30,
+      vp::Unit::none,
+      {0, 255},
+      vp::Source::decision,
       "a circle pixel is bright if it exceeds the point of interest by more (grey levels)"};
 
  private:
@@ -34,6 +39,7 @@ class CornerDetectionClocked : public vp::Clocked {
   std::uint32_t in_flight_ = 0;  ///< bit n: a corner leaves in n + 1 clocks
   std::array<std::uint32_t, CornerCore::latency + 1> data_{};
   unsigned slot_ = 0;
+  vp::Probe<std::uint32_t> in_flight_probe_{"in_flight", in_flight_, CornerCore::latency};
 };
 
 }  // namespace pl

@@ -62,7 +62,8 @@ void CornerCore::reset() {
 
 bool CornerCore::push(std::uint8_t pixel, std::uint32_t x, std::uint32_t y, Corner& corner) {
   pixels_[(y % 8) * width_ + x] = pixel;
-  // The one new point of interest: right of and below the centre. Windows that wrap around a line's end do not count.
+  // The one new point of interest: right of and below the centre. Windows that wrap around a line's
+  // end do not count.
   if (x < 6 || y < 6) return false;
   scores_[((y - 3) % 4) * width_ + x - 3] = score(x - 3, y - 3);
   if (x < 2 * reach || y < 2 * reach) return false;
@@ -74,13 +75,14 @@ bool CornerCore::push(std::uint8_t pixel, std::uint32_t x, std::uint32_t y, Corn
 }
 
 CornerCore::Score CornerCore::score(std::uint32_t x, std::uint32_t y) const {
-  const std::uint8_t *m3 = row(y - 3) + x, *m2 = row(y - 2) + x, *m1 = row(y - 1) + x, *p0 = row(y) + x,
-                     *p1 = row(y + 1) + x, *p2 = row(y + 2) + x, *p3 = row(y + 3) + x;
+  const std::uint8_t *m3 = row(y - 3) + x, *m2 = row(y - 2) + x, *m1 = row(y - 1) + x,
+                     *p0 = row(y) + x, *p1 = row(y + 1) + x, *p2 = row(y + 2) + x,
+                     *p3 = row(y + 3) + x;
   // Nine of sixteen always take in the top or the bottom, and the left or the right pixel.
   const std::uint32_t limit = *p0 + threshold_;
   if (*m3 <= limit && *p3 <= limit) return {};
   if (p0[3] <= limit && p0[-3] <= limit) return {};
-  const fast::Circle circle = {m3[0], m3[1], m2[2],  m1[3],  p0[3],  p1[3],  p2[2],  p3[1],
+  const fast::Circle circle = {m3[0], m3[1],  m2[2],  m1[3],  p0[3],  p1[3],  p2[2],  p3[1],
                                p3[0], p3[-1], p2[-2], p1[-3], p0[-3], m1[-3], m2[-2], m3[-1]};
   const fast::Thresholded t = fast::threshold(circle, *p0, threshold_);
   if (!fast::contiguous(t.bright)) return {};
@@ -88,7 +90,8 @@ CornerCore::Score CornerCore::score(std::uint32_t x, std::uint32_t y) const {
           static_cast<std::uint8_t>(fast::direction(t.bright))};
 }
 
-// Strictly greater than the neighbours that came before in raster order, at least equal to those that come after.
+// Strictly greater than the neighbours that came before in raster order, at least equal to those
+// that come after.
 bool CornerCore::is_maximum(std::uint32_t x, std::uint32_t y) const {
   const Score *above = scores(y - 1) + x, *here = scores(y) + x, *below = scores(y + 1) + x;
   const std::uint16_t s = here->strength;

@@ -32,19 +32,22 @@ Thresholded threshold(const Circle& circle, std::uint8_t point, std::uint32_t th
 bool contiguous(std::uint16_t bright);
 /// Sum of the differences (equation 4.3), at most 16 · 255 = 4080.
 std::uint32_t strength(const std::array<std::uint8_t, 16>& difference);
-/// The region of five circle pixels with the most bright ones; the first of N 0, S 1, E 2, W 3 at a tie.
+/// The region of five circle pixels with the most bright ones; the first of N 0, S 1, E 2, W 3 at a
+/// tie.
 std::uint32_t direction(std::uint16_t bright);
 
 }  // namespace fast
 
-/// Finds dark corners in a stream of pixels: FAST-9 on the bright side, then a 3×3 non-maximum suppression.
+/// Finds dark corners in a stream of pixels: FAST-9 on the bright side, then a 3×3 non-maximum
+/// suppression.
 ///
-/// The thesis has nine FAST modules side by side; eight of the nine points of interest were seen before, so only the new
-/// one is computed here and its result kept for two lines. The outputs are the same, clock for clock.
+/// The thesis has nine FAST modules side by side; eight of the nine points of interest were seen
+/// before, so only the new one is computed here and its result kept for two lines. The outputs are
+/// the same, clock for clock.
 class CornerCore {
  public:
-  /// Clocks from the one in which the window takes a pixel to the one in which the corner leaves: threshold,
-  /// {strength, contiguity, direction}, two of non-maximum suppression.
+  /// Clocks from the one in which the window takes a pixel to the one in which the corner leaves:
+  /// threshold, {strength, contiguity, direction}, two of non-maximum suppression.
   static constexpr unsigned latency = 4;
   /// The newest pixel lies this far right of and below the centre of the window.
   static constexpr std::uint32_t reach = 4;
@@ -52,7 +55,8 @@ class CornerCore {
   /// `threshold` 0 to 255 grey levels.
   CornerCore(const Geometry& geometry, std::uint32_t threshold);
 
-  /// Takes the pixel at (x, y), in raster order. True if the window's centre (x − 4, y − 4) is a corner.
+  /// Takes the pixel at (x, y), in raster order. True if the window's centre (x − 4, y − 4) is a
+  /// corner.
   bool push(std::uint8_t pixel, std::uint32_t x, std::uint32_t y, Corner& corner);
 
   void reset();

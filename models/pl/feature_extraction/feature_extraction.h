@@ -22,17 +22,17 @@
 
 namespace pl {
 
-/// The feature extraction with its data bridge, wired as the thesis' figure E.1: pixels from a BRAM in, feature words and
-/// the binary image out. What connects it to the PS (GPIO, DMA) is outside.
+/// The feature extraction with its data bridge, wired as the thesis' figure E.1: pixels from a BRAM
+/// in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 class FeatureExtraction : public sc_core::sc_module {
  public:
   /// `system_clk` must have been made before `pixel_clk`.
   FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk);
 
-  vp::Parameter<std::uint32_t> width{
-      "width", 640, vp::Unit::pixels, vp::Source::published, "width of a frame (thesis 4.3.1)"};
-  vp::Parameter<std::uint32_t> height{
-      "height", 480, vp::Unit::pixels, vp::Source::published, "height of a frame (thesis 4.3.1)"};
+  vp::Parameter<std::uint32_t> width{"width", 640, vp::Unit::pixels, vp::Source::published,
+                                     "width of a frame (thesis 4.3.1)"};
+  vp::Parameter<std::uint32_t> height{"height", 480, vp::Unit::pixels, vp::Source::published,
+                                      "height of a frame (thesis 4.3.1)"};
   Geometry geometry() const { return {width, height}; }
 
   /// Wires that the surroundings drive.

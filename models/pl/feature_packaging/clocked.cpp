@@ -23,7 +23,8 @@ void FeaturePackagingClocked::edge() {
     sleep();
     return;
   }
-  // What the buffers held before this clock decides what is shown; words that arrive now are shown later.
+  // What the buffers held before this clock decides what is shown; words that arrive now are shown
+  // later.
   const std::uint32_t corners = corners_.count(), blobs = blobs_.count();
   const bool corner_arrived = corner_in != corner_seen, blob_arrived = blob_in != blob_seen;
   store(corner_arrived, blob_arrived);

@@ -5,13 +5,16 @@
 #include <pl/feature_packaging/core.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
+#include <vp/probe.h>
 
 namespace pl {
 
-/// Feature Packaging, clocked (thesis 4.4.3, ports of table B.6, and `done`, decision). System clock.
+/// Feature Packaging, clocked (thesis 4.4.3, ports of table B.6, and `done`, decision). System
+/// clock.
 ///
-/// Corners and blobs wait in a buffer each; corners go first. Every change of `ready` lets the next word onto `feature`
-/// two clocks later, if one waits; the first word comes by itself. A full buffer drops the feature and counts it.
+/// Corners and blobs wait in a buffer each; corners go first. Every change of `ready` lets the next
+/// word onto `feature` two clocks later, if one waits; the first word comes by itself. A full
+/// buffer drops the feature and counts it.
 class FeaturePackagingClocked : public vp::Clocked {
  public:
   FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk);
@@ -35,8 +38,9 @@ class FeaturePackagingClocked : public vp::Clocked {
   vp::Signal<std::uint32_t> feature_overflow{"feature_overflow"};
 
   vp::Parameter<std::uint32_t> buffer_depth{
-      "buffer_depth", 100, vp::Unit::none, {2, 65536}, vp::Source::published,
-      "words in each of the two feature buffers (thesis 4.4.3)"};
+      "buffer_depth",        100,
+      vp::Unit::none,        {2, 65536},
+      vp::Source::published, "words in each of the two feature buffers (thesis 4.4.3)"};
 
  private:
   void edge() override;
@@ -49,6 +53,8 @@ class FeaturePackagingClocked : public vp::Clocked {
   std::uint8_t ready_before_ = 0;
   bool want_ = true;
   bool ended_ = false;
+  vp::Probe<bool> want_probe_{"want", want_};
+  vp::Probe<bool> ended_probe_{"ended", ended_};
 };
 
 }  // namespace pl

@@ -3,14 +3,16 @@
 #include <cstdint>
 
 #include <vp/clock.h>
+#include <vp/probe.h>
 
 namespace pl {
 
-/// Tells when a frame is completely processed (decision: the thesis sends the end packet then, and does not say how).
+/// Tells when a frame is completely processed (decision: the thesis sends the end packet then, and
+/// does not say how).
 ///
 /// `busy` falls when the pixel pipeline has drained and the blob detection is idle: clock
-/// max(W·H + 17, W·H + 5 + labels still active). `done` waits, too, for a word that leaves in that very clock, so that
-/// the end packet never overtakes a feature.
+/// max(W·H + 17, W·H + 5 + labels still active). `done` waits, too, for a word that leaves in that
+/// very clock, so that the end packet never overtakes a feature.
 class FrameStatus : public vp::Clocked {
  public:
   /// Clocks after the last pixel that cover the pipeline of every module.
@@ -33,6 +35,8 @@ class FrameStatus : public vp::Clocked {
 
   std::uint32_t drain_ = drain_clocks;
   bool started_ = false;
+  vp::Probe<std::uint32_t> drain_probe_{"drain", drain_, 4};
+  vp::Probe<bool> started_probe_{"started", started_};
 };
 
 }  // namespace pl

@@ -4,10 +4,12 @@
 
 #include <pl/global_threshold/core.h>
 #include <vp/clock.h>
+#include <vp/probe.h>
 
 namespace pl {
 
-/// Global Threshold, clocked (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives it).
+/// Global Threshold, clocked (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table
+/// B.4 drives it).
 class GlobalThresholdClocked : public vp::Clocked {
  public:
   GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk);
@@ -27,7 +29,8 @@ class GlobalThresholdClocked : public vp::Clocked {
   vp::Signal<bool> thresh_out{"thresh_out"};
   vp::Signal<std::uint32_t> thresh_data{"thresh_data"};  ///< bit i is pixel 32w + i (decision)
   /// The threshold in use, 0 to 255; no port of the IP, for traces and reports.
-  vp::Signal<std::uint8_t> active_threshold{"active_threshold", 8, ThresholdCore::default_threshold};
+  vp::Signal<std::uint8_t> active_threshold{"active_threshold", 8,
+                                            ThresholdCore::default_threshold};
 
   const ThresholdCore& core() const { return core_; }
 
@@ -39,6 +42,9 @@ class GlobalThresholdClocked : public vp::Clocked {
   ThresholdCore core_;
   bool frame_before_ = false;
   std::uint32_t word_ = 0;
+  vp::Probe<std::uint32_t> word_probe_{"word", word_};
+  vp::Probe<std::uint8_t> dark_peak_{"dark_peak", [this] { return core_.dark_peak(); }};
+  vp::Probe<std::uint8_t> bright_peak_{"bright_peak", [this] { return core_.bright_peak(); }};
 };
 
 }  // namespace pl

@@ -5,16 +5,18 @@
 
 namespace pl {
 
-/// Intensity histogram of the running frame and the threshold it gives for the next one (thesis 4.3.5).
+/// Intensity histogram of the running frame and the threshold it gives for the next one
+/// (thesis 4.3.5).
 ///
-/// One peak in each half, replaced only by a strictly greater count; next threshold = (P1 + P2) / 2. Equation 4.5 prints
-/// a minus; figure C.7's 79 and 178 give 128 (decision).
+/// One peak in each half, replaced only by a strictly greater count; next threshold = (P1 + P2)
+/// / 2. Equation 4.5 prints a minus; figure C.7's 79 and 178 give 128 (decision).
 class ThresholdCore {
  public:
   /// Threshold after a system reset (thesis 4.3.5).
   static constexpr std::uint8_t default_threshold = 127;
 
-  /// Takes a pixel of the running frame. True (dark) if it is not above the threshold (equation 4.4).
+  /// Takes a pixel of the running frame. True (dark) if it is not above the threshold
+  /// (equation 4.4).
   bool push(std::uint8_t pixel) {
     count(pixel);
     return pixel <= threshold_;

@@ -4,12 +4,13 @@
 
 #include <pl/common/geometry.h>
 #include <vp/clock.h>
+#include <vp/probe.h>
 #include <xilinx/bram/bram.h>
 
 namespace pl {
 
-/// Sensor Input, clocked (thesis 4.3.2, ports of table B.7): reads the stored image from port B of the BRAM and plays it
-/// as a camera sensor would, one pixel per pixel clock.
+/// Sensor Input, clocked (thesis 4.3.2, ports of table B.7): reads the stored image from port B of
+/// the BRAM and plays it as a camera sensor would, one pixel per pixel clock.
 class SensorInputClocked : public vp::Clocked {
  public:
   SensorInputClocked(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
@@ -31,6 +32,8 @@ class SensorInputClocked : public vp::Clocked {
   std::uint16_t column_ = 0, row_ = 0;
   bool running_ = false;
   bool ena_before_ = false;
+  vp::Probe<std::uint32_t> address_probe_{"address", address_, 19};
+  vp::Probe<bool> running_probe_{"running", running_};
 };
 
 }  // namespace pl

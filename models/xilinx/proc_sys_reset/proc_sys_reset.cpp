@@ -32,8 +32,9 @@ ProcSysReset::ProcSysReset(sc_core::sc_module_name name, vp::Clock& slowest_sync
   wake_on(aux_reset_in);
   wake_on(dcm_locked);
   // Resets pass logic without a clock on their way to the modules of several clocks.
-  for (vp::SignalBase* output : std::initializer_list<vp::SignalBase*>{
-           &bus_struct_reset, &interconnect_aresetn, &peripheral_reset, &peripheral_aresetn, &mb_reset}) {
+  for (vp::SignalBase* output :
+       std::initializer_list<vp::SignalBase*>{&bus_struct_reset, &interconnect_aresetn,
+                                              &peripheral_reset, &peripheral_aresetn, &mb_reset}) {
     output->defer_writes();
   }
 }

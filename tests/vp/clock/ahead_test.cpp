@@ -1,9 +1,9 @@
 // A process that lets time pass itself, ahead of SystemC's.
 #include "recorder.h"
 
+#include <simulation.h>
 #include <boost/test/unit_test.hpp>
 #include <functional>
-#include <simulation.h>
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "recorder.h"
 
-#include <boost/test/unit_test.hpp>
 #include <simulation.h>
+#include <boost/test/unit_test.hpp>
 
 using Times = std::vector<std::uint64_t>;
 
@@ -13,7 +13,8 @@ struct Fixture : kit::Simulation {
 
 BOOST_FIXTURE_TEST_CASE(edges_fall_at_rounded_multiples_of_the_period, Fixture) {
   // 27 MHz: 37037.037 ps, 55 MHz: 18181.818 ps, 148.5 MHz: 6734.007 ps.
-  vp::Clock a{"a", scheduler, 27'000'000}, b{"b", scheduler, 55'000'000}, c{"c", scheduler, 148'500'000};
+  vp::Clock a{"a", scheduler, 27'000'000}, b{"b", scheduler, 55'000'000},
+      c{"c", scheduler, 148'500'000};
   Recorder ra{"ra", a}, rb{"rb", b}, rc{"rc", c};
   run_to(120'000);
   BOOST_TEST(ra.times == (Times{37037, 74074, 111111}), boost::test_tools::per_element());

@@ -41,7 +41,8 @@ struct CountingModule : vp::Clocked {
   vp::Signal<std::uint32_t> count{"count"};
 };
 
-/// Runs everything up to and including the time `ps` (sc_start leaves out what happens at its very end).
+/// Runs everything up to and including the time `ps` (sc_start leaves out what happens at its very
+/// end).
 inline void run_to(std::uint64_t ps) {
   sc_core::sc_start(vp::from_ps(ps + 1) - sc_core::sc_time_stamp());
 }

@@ -1,7 +1,7 @@
 #include "recorder.h"
 
-#include <boost/test/unit_test.hpp>
 #include <simulation.h>
+#include <boost/test/unit_test.hpp>
 
 BOOST_AUTO_TEST_SUITE(scheduler)
 
@@ -56,7 +56,8 @@ BOOST_FIXTURE_TEST_CASE(coincident_edges_sample_what_stood_before, Fixture) {
 /// Writes a signal at 20 ns, when an edge falls, too.
 struct Writer : sc_core::sc_module {
   SC_HAS_PROCESS(Writer);
-  Writer(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, vp::Signal<std::uint32_t>& out)
+  Writer(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+         vp::Signal<std::uint32_t>& out)
       : sc_module(name), scheduler_(scheduler), out_(out) {
     SC_THREAD(run);
   }

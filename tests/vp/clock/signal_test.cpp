@@ -1,7 +1,7 @@
 #include "recorder.h"
 
-#include <boost/test/unit_test.hpp>
 #include <simulation.h>
+#include <boost/test/unit_test.hpp>
 
 BOOST_AUTO_TEST_SUITE(signals)
 

@@ -14,8 +14,9 @@ class ClockScheduler;
 
 /// A module that does something on the rising edges of one clock.
 ///
-/// edge() samples inputs (what stood before the edge) and writes outputs. A module that would do nothing on further
-/// edges with the same inputs calls sleep(); it wakes when a signal it listens to changes, or at an alarm.
+/// edge() samples inputs (what stood before the edge) and writes outputs. A module that would do
+/// nothing on further edges with the same inputs calls sleep(); it wakes when a signal it listens
+/// to changes, or at an alarm.
 class Clocked : public sc_core::sc_module, public SignalListener {
  public:
   Clocked(sc_core::sc_module_name name, Clock& clock);
@@ -61,9 +62,11 @@ class Clock : public sc_core::sc_object {
   /// Changes the frequency now: the next edge comes one new period from now. 0 stops the clock.
   void set_frequency(std::uint64_t hertz);
 
-  /// Number of edges so far, those slept through included. Inside edge(): the number of this edge, the first one is 1.
+  /// Number of edges so far, those slept through included. Inside edge(): the number of this edge,
+  /// the first one is 1.
   std::uint64_t cycle() const;
-  /// Time of edge number `cycle` in ps, if the frequency stays; cycle > cycles before the last change.
+  /// Time of edge number `cycle` in ps, if the frequency stays; cycle > cycles before the last
+  /// change.
   std::uint64_t time_of(std::uint64_t cycle) const;
   /// Number of the first edge at or after `ps` (not before the clock's last change).
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const;
@@ -88,15 +91,15 @@ class Clock : public sc_core::sc_object {
 
   ClockScheduler& scheduler_;
   std::uint64_t hertz_;
-  std::uint64_t origin_ps_ = 0;      ///< time of the last change
-  std::uint64_t origin_cycle_ = 0;   ///< edges before the last change
-  std::uint64_t next_cycle_ = 1;     ///< the next edge that runs
-  std::uint64_t next_ps_ = 0;        ///< its time; `never` while asleep
+  std::uint64_t origin_ps_ = 0;     ///< time of the last change
+  std::uint64_t origin_cycle_ = 0;  ///< edges before the last change
+  std::uint64_t next_cycle_ = 1;    ///< the next edge that runs
+  std::uint64_t next_ps_ = 0;       ///< its time; `never` while asleep
   std::uint64_t quotient_ = 0, remainder_ = 0, step_quotient_ = 0, step_remainder_ = 0;
   std::uint64_t edges_run_ = 0;
-  std::size_t awake_ = 0;            ///< modules that run on every edge
+  std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;
-  std::vector<Clocked*> modules_;    ///< in running order: consumers first
+  std::vector<Clocked*> modules_;  ///< in running order: consumers first
 };
 
 inline void Clocked::sleep() {

@@ -37,7 +37,8 @@ class SignalBase : public sc_core::sc_object {
   void attach(SignalListener& listener, std::uint32_t id = 0);
   void detach(SignalListener& listener);
 
-  /// Writes in a clock edge become visible at the end of the instant: for an output that logic without a clock reads.
+  /// Writes in a clock edge become visible at the end of the instant: for an output that logic
+  /// without a clock reads.
   void defer_writes() { deferred_ = observed_ = true; }
 
   /// Says which module writes the signal, where that is not the module that holds it.
@@ -55,11 +56,13 @@ class SignalBase : public sc_core::sc_object {
   /// Makes a deferred value visible.
   virtual void commit() = 0;
   enum EventKind { any_change, rising, falling, event_kinds };
-  /// The event of a kind; made when first asked for, so that a signal without SystemC readers has none.
+  /// The event of a kind; made when first asked for, so that a signal without SystemC readers has
+  /// none.
   sc_core::sc_event& event_of(EventKind kind) const;
 
   mutable bool observed_ = false;  ///< somebody listens, or writes are deferred: off the fast path
-  bool deferred_ = false;  ///< a consumer runs after the writer in the same instant: writes wait for the instant's end
+  bool deferred_ = false;  ///< a consumer runs after the writer in the same instant: writes wait
+                           ///< for the instant's end
   bool queued_ = false;
   ClockScheduler* scheduler_ = nullptr;
   mutable std::uint64_t change_stamp_ = ~std::uint64_t{0};
@@ -108,11 +111,12 @@ class SignalReader<bool> : public SignalBase, public sc_core::sc_signal_in_if<bo
   using SignalBase::SignalBase;
 };
 
-/// A register's output: reading is a plain load, writing a plain store while nobody listens. It implements
-/// sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can bind to it.
+/// A register's output: reading is a plain load, writing a plain store while nobody listens. It
+/// implements sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can
+/// bind to it.
 ///
-/// Written by one module. Inside an instant, modules see what stood before the clock edge: the scheduler runs consumers
-/// before producers, and defers the writes where that is not possible.
+/// Written by one module. Inside an instant, modules see what stood before the clock edge: the
+/// scheduler runs consumers before producers, and defers the writes where that is not possible.
 template <class T>
 class Signal : public SignalReader<T> {
  public:
@@ -194,7 +198,8 @@ class InBase {
 template <class T>
 class In : public InBase {
  public:
-  /// `owner` is the clocked module that samples the port on its edges; null for a combinational reader.
+  /// `owner` is the clocked module that samples the port on its edges; null for a combinational
+  /// reader.
   explicit In(const char* name, Clocked* owner = nullptr) : InBase(name, owner) {}
   void bind(Signal<T>& signal) { signal_ = &signal; }
   void operator()(Signal<T>& signal) { bind(signal); }
@@ -207,7 +212,8 @@ class In : public InBase {
   Signal<T>* signal_ = nullptr;
 };
 
-/// An output of a module that drives a signal held elsewhere (a link). Outputs with a wire of their own are Signals.
+/// An output of a module that drives a signal held elsewhere (a link). Outputs with a wire of their
+/// own are Signals.
 template <class T>
 class Out {
  public:

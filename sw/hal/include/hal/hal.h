@@ -2,13 +2,16 @@
 #define MARKERVP_HAL_H
 
 /*
- * The hardware abstraction layer: all that a PS program may ask of what runs it. Two back ends implement it: the
- * virtual platform (models/ps/cpu) and the chip (bare metal). Plain C, no SystemC.
+ * The hardware abstraction layer: all that a PS program may ask of what runs it. Two back ends
+ * implement it: the virtual platform (models/ps/cpu) and the chip (bare metal). Plain C, no
+ * SystemC.
  *
  * Rules of the road, the same on both:
  *  - memory that a DMA engine writes is observed only after hal_barrier() or a cache operation;
- *  - handlers run inside HAL accesses, barriers, polls and hal_wait_for_interrupt(), never between two plain statements;
- *  - annotations (hal_work, hal_function_*) cost nothing on the chip; on the platform they are the only source of CPU time.
+ *  - handlers run inside HAL accesses, barriers, polls and hal_wait_for_interrupt(), never between
+ * two plain statements;
+ *  - annotations (hal_work, hal_function_*) cost nothing on the chip; on the platform they are the
+ * only source of CPU time.
  */
 
 #include <stdbool.h>
@@ -19,9 +22,12 @@
 extern "C" {
 #endif
 
-/* ---- Registers -------------------------------------------------------------------------------------------------- */
+/* ---- Registers
+ * --------------------------------------------------------------------------------------------------
+ */
 
-/** Reads a 32-bit device register. `address` is a bus address, a multiple of 4. A bus error is a data abort. */
+/** Reads a 32-bit device register. `address` is a bus address, a multiple of 4. A bus error is a
+ * data abort. */
 uint32_t hal_read32(uint32_t address);
 
 /** Writes a 32-bit device register, strongly ordered: complete when the call returns. */
@@ -35,21 +41,25 @@ typedef struct hal_poll_result {
 } hal_poll_result;
 
 /**
- * Reads `address` until the word differs from `previous` or `limit` reads were made. Each round costs the read itself
- * plus `cycles` CPU cycles for the loop around it. On the chip a plain loop.
+ * Reads `address` until the word differs from `previous` or `limit` reads were made. Each round
+ * costs the read itself plus `cycles` CPU cycles for the loop around it. On the chip a plain loop.
  */
 hal_poll_result hal_poll_until_changed(uint32_t address, uint32_t previous, uint32_t cycles,
                                        uint32_t limit);
 
-/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+/* ---- Memory
+ * ------------------------------------------------------------------------------------------------------
+ */
 
 /** Data synchronisation barrier: what other masters wrote before is visible after. */
 void hal_barrier(void);
 
-/** Writes dirty cache lines of [data, data + size) back to memory: before a device reads it. Includes a barrier. */
+/** Writes dirty cache lines of [data, data + size) back to memory: before a device reads it.
+ * Includes a barrier. */
 void hal_cache_flush(const void* data, size_t size);
 
-/** Drops cached lines of [data, data + size): before software reads what a device wrote. Includes a barrier. */
+/** Drops cached lines of [data, data + size): before software reads what a device wrote. Includes a
+ * barrier. */
 void hal_cache_invalidate(void* data, size_t size);
 
 /** Memory that a DMA engine can reach. */
@@ -59,29 +69,35 @@ typedef struct hal_dma_buffer {
   size_t size;          /**< bytes, as asked for */
 } hal_dma_buffer;
 
-/** Takes `size` bytes of DMA memory, aligned to `alignment` (a power of two; at least a cache line of 32 bytes is used).
- *  Never given back: all of it is free again when the program starts anew. */
+/** Takes `size` bytes of DMA memory, aligned to `alignment` (a power of two; at least a cache line
+ * of 32 bytes is used). Never given back: all of it is free again when the program starts anew. */
 hal_dma_buffer hal_dma_allocate(size_t size, size_t alignment);
 
-/* ---- Interrupts -------------------------------------------------------------------------------------------------- */
+/* ---- Interrupts
+ * --------------------------------------------------------------------------------------------------
+ */
 
 typedef void (*hal_interrupt_handler)(void* context);
 
-/** Sets the one handler of the IRQ exception (the dispatcher of the interrupt controller's driver). NULL removes it. */
+/** Sets the one handler of the IRQ exception (the dispatcher of the interrupt controller's driver).
+ * NULL removes it. */
 void hal_interrupt_connect(hal_interrupt_handler handler, void* context);
 
 /** Unmasks (true) or masks (false) IRQ in the CPU. Masked after reset. Returns what it was. */
 bool hal_interrupt_enable(bool enable);
 
-/** Sleeps until an interrupt is pending at the CPU; its handler has run on return if IRQ is unmasked. */
+/** Sleeps until an interrupt is pending at the CPU; its handler has run on return if IRQ is
+ * unmasked. */
 void hal_wait_for_interrupt(void);
 
-/* ---- Console and test bench -------------------------------------------------------------------------------------- */
+/* ---- Console and test bench
+ * -------------------------------------------------------------------------------------- */
 
 /** Writes text to the console. */
 void hal_console_write(const char* text, size_t length);
 
-/** One image for the program to work on, already in its memory (thesis 4.5.1.1: "preloaded at a specific address"). */
+/** One image for the program to work on, already in its memory (thesis 4.5.1.1: "preloaded at a
+ * specific address"). */
 typedef struct hal_frame {
   uint32_t index;        /**< 0, 1, 2 … in the order of the run */
   uint32_t width;        /**< pixels */
@@ -95,32 +111,40 @@ typedef struct hal_frame {
 /** The next image, or NULL when the run is over. Takes no time. Valid until the next call. */
 const hal_frame* hal_frame_next(void);
 
-/** Hands a result to the test bench; `kind` names its type (four characters, see HAL_KIND). Copied. Takes no time. */
+/** Hands a result to the test bench; `kind` names its type (four characters, see HAL_KIND). Copied.
+ * Takes no time. */
 void hal_publish(uint32_t kind, const void* data, size_t size);
 
 #define HAL_KIND(a, b, c, d) \
   ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 
-/** The value of the program's option number `option` (its place in hal_program.options). On the chip: its default. */
+/** The value of the program's option number `option` (its place in hal_program.options). On the
+ * chip: its default. */
 double hal_option(uint32_t option);
 
-/* ---- Annotations: vanish on the chip ------------------------------------------------------------------------------ */
+/* ---- Annotations: vanish on the chip
+ * ------------------------------------------------------------------------------ */
 
 #ifdef HAL_BARE_METAL
 #define hal_work(item, count) ((void)0)
 #define hal_function_enter(function) ((void)0)
 #define hal_function_leave() ((void)0)
 #else
-/** The program did `count` units of work number `item` (its place in hal_program.work): time passes. */
+/** The program did `count` units of work number `item` (its place in hal_program.work): time
+ * passes. */
 void hal_work(uint32_t item, uint64_t count);
-/** The program is now inside its function number `function` (its place in hal_program.functions). They nest. */
+/** The program is now inside its function number `function` (its place in hal_program.functions).
+ * They nest. */
 void hal_function_enter(uint32_t function);
 void hal_function_leave(void);
 #endif
 
-/* ---- The program ------------------------------------------------------------------------------------------------- */
+/* ---- The program
+ * -------------------------------------------------------------------------------------------------
+ */
 
-/** An option that a user of the program may set, and sweeps may vary: `sw.<name>` in the configuration. */
+/** An option that a user of the program may set, and sweeps may vary: `sw.<name>` in the
+ * configuration. */
 typedef struct hal_option_info {
   const char* name;
   const char* unit; /**< "px", "m" … or "" */
@@ -130,12 +154,12 @@ typedef struct hal_option_info {
 
 /** What a program says of itself. Every program defines one, named `hal_program_info`. */
 typedef struct hal_program {
-  uint32_t abi;                   /**< HAL_ABI */
-  const char* name;               /**< "hybrid" */
-  int (*entry)(void);             /**< returns 0 when all went well */
-  const char* const* work;        /**< names of the units of work, as in the cost table */
+  uint32_t abi;            /**< HAL_ABI */
+  const char* name;        /**< "hybrid" */
+  int (*entry)(void);      /**< returns 0 when all went well */
+  const char* const* work; /**< names of the units of work, as in the cost table */
   uint32_t work_count;
-  const char* const* functions;   /**< names of annotated functions, as in traces and reports */
+  const char* const* functions; /**< names of annotated functions, as in traces and reports */
   uint32_t function_count;
   const hal_option_info* options;
   uint32_t option_count;

@@ -4,7 +4,8 @@
 
 namespace vp {
 
-/// How a register answers software. Device-specific effects are the model's; this is what a bus sees.
+/// How a register answers software. Device-specific effects are the model's; this is what a bus
+/// sees.
 enum class Access : std::uint8_t {
   read_write,         ///< reads back what was written (within `writable`)
   read_only,          ///< writes are acknowledged and ignored
@@ -13,14 +14,15 @@ enum class Access : std::uint8_t {
   write_1_to_toggle,  ///< a 1 inverts the bit (within `writable`), a 0 keeps it
 };
 
-/// One register of a device, declared once: the model, the software's header and the documentation come from it.
+/// One register of a device, declared once: the model, the software's header and the documentation
+/// come from it.
 struct RegisterInfo {
-  const char* name;             ///< the datasheet's name
-  std::uint32_t offset;         ///< bytes from the device's base address
-  std::uint32_t reset;          ///< value after reset
+  const char* name;      ///< the datasheet's name
+  std::uint32_t offset;  ///< bytes from the device's base address
+  std::uint32_t reset;   ///< value after reset
   Access access;
-  std::uint32_t writable;       ///< bits that a write can change
-  const char* documentation;    ///< one line
+  std::uint32_t writable;     ///< bits that a write can change
+  const char* documentation;  ///< one line
 };
 
 }  // namespace vp
