@@ -64,11 +64,18 @@ input::InputOptions input_options(const RunOptions& options, input::ImageSize si
   return result;
 }
 
-/// Throws if the trace could not be written when the time comes; makes nothing.
+/// Without "." and a "/" at the end, so that two ways to write it are equal.
+fs::path normal_folder(const fs::path& folder) {
+  return (fs::absolute(folder) / "").lexically_normal().parent_path();
+}
+
+/// Throws if the trace could not be written when the time comes; makes nothing. The output folder is
+/// made later.
 void check_trace_folder(const RunOptions& options) {
   if (!options.trace) return;
-  const fs::path folder = fs::absolute(*options.trace).parent_path();
+  const fs::path folder = normal_folder(fs::absolute(*options.trace).parent_path());
   std::error_code ignored;
+  if (folder == normal_folder(options.output) && !fs::exists(folder, ignored)) return;
   if (!fs::is_directory(folder, ignored)) {
     throw vp::InputError("--trace '" + *options.trace + "': there is no folder '" +
                          folder.string() + "'");

@@ -12,8 +12,7 @@ Session::Session(const Options& options)
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
-  if (options.trace)
-    tracer_ = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *options.trace);
+  trace_ = options.trace;
   zynq_->ps.cpu.load(*program_, costs_);
   zynq_->ps.cpu.connect(*bench_);
 }
@@ -34,6 +33,9 @@ report::RunFacts Session::facts() const {
 
 void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(std::move(next), std::move(done));
+  // Not earlier: it opens its file, and the user may have got something else wrong.
+  std::unique_ptr<vp::Tracer> tracer;
+  if (trace_) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace_);
   std::exception_ptr error;
   try {
     sc_core::sc_start();
@@ -41,7 +43,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   } catch (...) {
     error = std::current_exception();
   }
-  if (tracer_) tracer_->close();
+  if (tracer) tracer->close();
   if (error) std::rethrow_exception(error);
 }
 

@@ -52,7 +52,7 @@ class Session {
   std::unique_ptr<Zynq> zynq_;
   std::unique_ptr<SoftwareOptions> options_;
   std::unique_ptr<FrameBench> bench_;
-  std::unique_ptr<vp::Tracer> tracer_;
+  std::optional<vp::TraceOptions> trace_;
 };
 
 }  // namespace platform
