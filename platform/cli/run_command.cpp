@@ -1,8 +1,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <ostream>
@@ -69,20 +71,24 @@ fs::path normal_folder(const fs::path& folder) {
   return (fs::absolute(folder) / "").lexically_normal().parent_path();
 }
 
-/// Throws if the trace could not be written when the time comes; makes nothing. The output folder is
-/// made later.
+/// Throws if the trace could not be written when the time comes; makes nothing. The output folder
+/// is made later.
 void check_trace_folder(const RunOptions& options) {
   if (!options.trace) return;
   const fs::path folder = normal_folder(fs::absolute(*options.trace).parent_path());
   std::error_code ignored;
   if (folder == normal_folder(options.output) && !fs::exists(folder, ignored)) return;
+  int reason = 0;
   if (!fs::is_directory(folder, ignored)) {
-    throw vp::InputError("--trace '" + *options.trace + "': there is no folder '" +
-                         folder.string() + "'");
+    reason = ENOENT;
+  } else if (fs::is_directory(*options.trace, ignored)) {
+    reason = EISDIR;
+  } else if (::access(folder.c_str(), W_OK) != 0) {
+    reason = errno;
   }
-  if (fs::is_directory(*options.trace, ignored) || ::access(folder.c_str(), W_OK) != 0) {
-    throw vp::InputError("--trace '" + *options.trace + "' cannot be written");
-  }
+  if (reason == 0) return;
+  throw vp::InputError("cannot write trace '" + *options.trace + "': " + std::strerror(reason) +
+                       "; name a file in a folder that exists and may be written");
 }
 
 std::string host_name() {

@@ -41,6 +41,14 @@ using Names = std::vector<std::string>;
 
 BOOST_AUTO_TEST_SUITE(determinism)
 
+BOOST_AUTO_TEST_CASE(a_trace_may_go_into_the_new_output_folder) {
+  const Workplace place;
+  const kit::Outcome outcome = place.run(
+      {"z1.0", "--quiet", "--no-pictures", "--trace", "out/run.vcd", "--trace-filter", "ps.cpu.*"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(std::filesystem::exists(place / "out/run.vcd"));
+}
+
 BOOST_AUTO_TEST_CASE(two_runs_write_the_same_bytes) {
   const Workplace first, second;
   const Arguments arguments{"demo",           "roll30",    "--trace",       "run.vcd",
