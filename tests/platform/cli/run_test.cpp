@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(what_the_user_got_wrong_is_one_line_exit_code_2_and_no_file
       {{"z1.0", "--frames", "0"}, "--frames"},
       {{"z1.0", "--repeat", "many"}, "--repeat"},
       {{"z1.0", "--trace", files / "a.txt"}, "must end in .vcd"},
-      {{"z1.0", "--trace", files / "no/folder/a.vcd"}, "there is no folder"},
+      {{"z1.0", "--trace", files / "no/folder/a.vcd"}, "No such file or directory"},
       {{"z1.0", "--trace", "a.vcd", "--trace-window", "7ms:6ms"}, "ends before it begins"},
       {{"z1.0", "--trace", "a.vcd", "--trace-window", "7:8"}, "--trace-window"},
       {{"z1.0", "--trace-window", "6ms:7ms"}, "--trace"},
