@@ -12,7 +12,7 @@
 #include <string>
 
 #include "simulation.h"
-#include "temporary_folder.h"
+#include "temporary_files.h"
 #include "vcd_check.h"
 
 /// Counts the edges of its clock, up to a limit; then it sleeps.
@@ -87,6 +87,6 @@ struct TraceFixture : kit::Simulation {
   }
   std::string text() const { return VcdCheck::text_of(options.file.string()); }
 
-  TemporaryFolder folder;
+  kit::TemporaryFolder folder;
   vp::TraceOptions options;
 };

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(gtkwave_converts_a_trace_and_gives_it_back,
   options.clocks = true;
   const VcdCheck ours(run(300'000));
   const std::string vcd = options.file.string();
-  const std::string back = (folder / "back.vcd").string();
+  const std::string back = folder / "back.vcd";
   BOOST_TEST_REQUIRE(
       std::system(("vcd2fst " + vcd + " " + vcd + ".fst >" + vcd + ".log 2>&1 && fst2vcd -f " +
                    vcd + ".fst -o " + back + " >>" + vcd + ".log 2>&1")

@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_before_the_window_leaves_no_file_and_says_s
   sc_core::sc_start(sc_core::sc_time(40, sc_core::SC_NS));
   platform.tracer.close();
   BOOST_TEST(router.count("/markervp/trace/window") == 1u);
-  BOOST_TEST(folder.file_count() == 0u);
+  BOOST_TEST(folder.entries().size() == 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "../config/input_error.h"
-#include "temporary_folder.h"
+#include "temporary_files.h"
 #include "vcd_check.h"
 
 namespace {
@@ -41,7 +41,7 @@ class FileSizeLimit {
 };
 
 struct Fixture {
-  TemporaryFolder folder;
+  kit::TemporaryFolder folder;
   std::filesystem::path file = folder / "out.vcd";
   std::filesystem::path temporary = folder / "out.vcd.tmp";
   std::string text() const { return VcdCheck::text_of(file.string()); }
@@ -189,11 +189,11 @@ BOOST_AUTO_TEST_CASE(without_close_what_was_written_is_kept_and_marked) {
 
 BOOST_AUTO_TEST_CASE(without_a_value_there_is_no_file) {
   { vp::VcdWriter writer(file); }
-  BOOST_TEST(folder.file_count() == 0u);
+  BOOST_TEST(folder.entries().size() == 0u);
   vp::VcdWriter writer(file);
   writer.add("a", Kind::wire, 1);
   writer.close(5);
-  BOOST_TEST(folder.file_count() == 0u);
+  BOOST_TEST(folder.entries().size() == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_refused_at_once) {
@@ -201,14 +201,14 @@ BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_refused_at_once) {
   const auto open = [](const std::filesystem::path& path) {
     return input_error([&] { vp::VcdWriter writer(path); });
   };
-  const auto missing = folder / "missing" / "out.vcd";
+  const auto missing = folder / "missing/out.vcd";
   BOOST_TEST(open(missing) ==
-             "cannot write trace '" + missing.string() + "': No such file or directory; " + advice);
+             "cannot write trace '" + missing + "': No such file or directory; " + advice);
   BOOST_TEST(open(folder.path()) ==
-             "cannot write trace '" + folder.path().string() + "': Is a directory; " + advice);
+             "cannot write trace '" + folder.path() + "': Is a directory; " + advice);
   BOOST_TEST(open("") == "cannot write trace '': No such file or directory; " + advice);
   BOOST_TEST(open("/dev/null/out.vcd").find("Not a directory") != std::string::npos);
-  BOOST_TEST(folder.file_count() == 0u);
+  BOOST_TEST(folder.entries().size() == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_full_disk_is_noticed_and_nothing_half_written_stays) {
@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_noticed_and_nothing_half_written_stays) {
   BOOST_TEST(message == "cannot write trace '" + file.string() +
                             "': File too large; make room, or trace less: a time window, fewer "
                             "signals");
-  BOOST_TEST(folder.file_count() == 0u);
+  BOOST_TEST(folder.entries().size() == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_device_is_written_directly) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "examples.h"
-#include "temporary_folder.h"
+#include "temporary_files.h"
 #include "vcd_check.h"
 
 namespace appendix_c {
@@ -33,7 +33,7 @@ class TraceOf {
 
  private:
   static std::string make(const std::string& name) {
-    const TemporaryFolder folder;
+    const kit::TemporaryFolder folder;
     const std::filesystem::path file = folder / (name + ".vcd");
     write_trace(name, file);
     return VcdCheck::text_of(file.string());
