@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <systemc>
+#include <vector>
 
 #include <vp/clock_scheduler.h>
 
@@ -11,15 +12,15 @@ namespace kit {
 /// A fresh SystemC context for one test case: derive the fixture from it, first.
 class Simulation {
  public:
-  Simulation() : context_(new sc_core::sc_simcontext) {
-    sc_core::sc_curr_simcontext = sc_core::sc_default_global_context = context_;
+  Simulation() {
+    // They live on: SystemC 2.3.4 cannot destroy a context safely. Kept, they are no leaks either.
+    static auto& contexts = *new std::vector<sc_core::sc_simcontext*>;
+    contexts.push_back(new sc_core::sc_simcontext);
+    sc_core::sc_curr_simcontext = sc_core::sc_default_global_context = contexts.back();
     sc_core::sc_report_handler::set_actions(sc_core::SC_ERROR, sc_core::SC_THROW);
   }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
-
- private:
-  sc_core::sc_simcontext* context_;  // lives on: SystemC 2.3.4 cannot destroy a context safely
 };
 
 /// The simulation time in picoseconds, for exact comparison: that of a clock scheduler that runs
