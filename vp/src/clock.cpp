@@ -57,12 +57,14 @@ Clock::Clock(const char* name, ClockScheduler& scheduler, std::uint64_t hertz)
 
 void Clock::set_frequency(std::uint64_t hertz) {
   scheduler_.synchronise();
+  for (ClockListener* listener : listeners_) listener->before_change(*this);
   const std::uint64_t now = scheduler_.now_ps();
   origin_cycle_ = cycle();
   origin_ps_ = now;
   hertz_ = hertz;
   seek(origin_cycle_ + 1);
   plan_next(now);
+  for (ClockListener* listener : listeners_) listener->after_change(*this);
 }
 
 std::uint64_t Clock::time_of(std::uint64_t cycle) const {

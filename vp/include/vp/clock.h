@@ -49,6 +49,16 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   std::vector<InBase*> wake_inputs_;
 };
 
+/// Told when the frequency of a clock changes: who keeps times that follow from it.
+class ClockListener {
+ public:
+  virtual ~ClockListener() = default;
+  /// All edges up to now have run; the old frequency still stands.
+  virtual void before_change(Clock& clock) = 0;
+  /// The new frequency stands.
+  virtual void after_change(Clock& clock) = 0;
+};
+
 /// One clock: edge n falls round(n · 10¹² / f) ps after the clock's last change, n = 1, 2, 3 …
 class Clock : public sc_core::sc_object {
  public:
@@ -61,6 +71,7 @@ class Clock : public sc_core::sc_object {
   std::uint64_t frequency_hz() const { return hertz_; }
   /// Changes the frequency now: the next edge comes one new period from now. 0 stops the clock.
   void set_frequency(std::uint64_t hertz);
+  void add_listener(ClockListener& listener) { listeners_.push_back(&listener); }
 
   /// Number of edges so far, those slept through included. Inside edge(): the number of this edge,
   /// the first one is 1.
@@ -100,6 +111,7 @@ class Clock : public sc_core::sc_object {
   std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;
   std::vector<Clocked*> modules_;  ///< in running order: consumers first
+  std::vector<ClockListener*> listeners_;
 };
 
 inline void Clocked::sleep() {
