@@ -25,8 +25,8 @@ xilinx::AxiDmaBuild one_channel(bool mm2s) {
 }  // namespace
 
 ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk,
-                                     vp::Clock& pixel_clk)
-    : FeatureExtraction(name, system_clk, pixel_clk),
+                                     vp::Clock& pixel_clk, pl::Fidelity otherwise)
+    : FeatureExtraction(name, system_clk, pixel_clk, otherwise),
       proc_sys_reset("proc_sys_reset", system_clk),
       axi_interconnect("axi_interconnect", system_clk),
       axi_mem_interconnect("axi_mem_interconnect", system_clk),

@@ -15,7 +15,8 @@ namespace platform {
 /// as the thesis' figure 4.2 (letters of tables 4.2 and 4.3).
 class ProgrammableLogic : public pl::FeatureExtraction {
  public:
-  ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk);
+  ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
+                    pl::Fidelity otherwise);
 
   xilinx::ProcSysReset proc_sys_reset;           ///< G
   xilinx::AxiInterconnect axi_interconnect;      ///< H: GP0 to the registers

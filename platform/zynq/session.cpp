@@ -8,7 +8,8 @@ namespace platform {
 
 Session::Session(const Options& options)
     : program_(ps::Program::load(options.program)), costs_(assumed_costs()) {
-  zynq_ = std::make_unique<Zynq>();
+  // Waveforms show what happens clock by clock, unless the user wants otherwise.
+  zynq_ = std::make_unique<Zynq>(options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
@@ -24,7 +25,7 @@ input::ImageSize Session::image_size() const {
 
 report::RunFacts Session::facts() const {
   report::RunFacts facts;
-  facts.fidelity = zynq_->fidelity.get();
+  facts.fidelity = zynq_->fidelity.text();
   facts.system = program_->name();
   facts.design = "thesis";
   facts.profile = costs_.profile();

@@ -9,7 +9,12 @@ constexpr std::uint64_t hp0_base = 0, hp0_size = 0x4000'0000;
 
 }  // namespace
 
-Zynq::Zynq() {
+Zynq::Zynq(pl::Fidelity otherwise)
+    : fidelity("fidelity", otherwise,
+               {{"tlm", pl::Fidelity::tlm}, {"clocked", pl::Fidelity::clocked}},
+               vp::Source::decision,
+               "how the programmable logic is modelled, if pl.fidelity names nothing else for an "
+               "IP: whole frames, or clock by clock; the results are the same") {
   ps.m_axi_gp0.link.socket.bind(pl.axi_interconnect.socket);
   pl.axi_mem_interconnect.map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
       .bind(ps.s_axi_hp0.socket);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <systemc>
 
 #include <vp/clock_scheduler.h>
@@ -12,16 +11,13 @@ namespace platform {
 
 /// The Zynq-7020 with the marker detector in its programmable logic: everything that is simulated.
 struct Zynq {
-  Zynq();
+  /// `otherwise`: the fidelity if none is configured.
+  explicit Zynq(pl::Fidelity otherwise = pl::Fidelity::tlm);
 
-  vp::Parameter<std::string> fidelity{"fidelity",
-                                      "clocked",
-                                      {"clocked"},
-                                      vp::Source::decision,
-                                      "how the programmable logic is modelled: clock by clock"};
+  vp::Parameter<pl::Fidelity> fidelity;
   vp::ClockScheduler scheduler{"scheduler"};
   ProcessingSystem ps{"ps", scheduler};
-  ProgrammableLogic pl{"pl", ps.fclk_clk0.clk, ps.fclk_clk1.clk};
+  ProgrammableLogic pl{"pl", ps.fclk_clk0.clk, ps.fclk_clk1.clk, fidelity};
 };
 
 }  // namespace platform

@@ -40,8 +40,10 @@ AxiStreamSlave::AxiStreamSlave(const char* name, Clocked& owner)
       owner_(owner) {}
 
 void AxiStreamSlave::bind(AxiStream& link) {
-  if (link.has_slave_) second_end(link, "slave");
-  link.has_slave_ = true;
+  if (link.slave_) second_end(link, "slave");
+  link.slave_ = &owner_;
+  link.slave_takes_source_ = takes_source_;
+  link.sink_ = sink_;
   link_ = &link;
   tdata(link.tdata);
   tkeep(link.tkeep);

@@ -22,10 +22,12 @@ class AxiImageStoreClocked : public vp::Clocked {
   /// Words stored since the last rise of `ena`.
   vp::Signal<std::uint32_t> address{"address", 17};
 
- private:
+ protected:
   void edge() override;
 
   xilinx::Bram& bram_;
+
+ private:
   bool ena_before_ = false;
 };
 

@@ -37,8 +37,16 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
       vp::Unit::none,        {1, 256},
       vp::Source::published, "words a packet: TLAST comes with the last (thesis 4.4.2)"};
 
- private:
+  /// The words come from the whole binary image, none on `thresh_in`. Known once the stream is
+  /// bound.
+  virtual bool direct() const { return false; }
+  /// Brings the counters up to now.
+  virtual void settle() {}
+
+ protected:
   void edge() override;
+
+ private:
   void reset();
 
   FeatureBuffer fifo_;

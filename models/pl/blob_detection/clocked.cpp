@@ -6,10 +6,7 @@ namespace pl {
 
 BlobDetectionClocked::BlobDetectionClocked(sc_core::sc_module_name name, vp::Clock& clk,
                                            const Geometry& geometry)
-    : Clocked(name, clk), core_(geometry, label_count) {
-  wake_on(ena);
-  wake_on(rst);
-}
+    : BlobDetection(name, clk), core_(geometry, label_count) {}
 
 void BlobDetectionClocked::edge() {
   if (rst) {

@@ -31,6 +31,10 @@ class ClockCrossing : public vp::Clocked {
   CrossingRegister binary{"binary"};
   /// Words overwritten before the system side saw them, since the last reset.
   vp::Signal<std::uint32_t> crossing_overflow{"crossing_overflow"};
+  /// Counts words that were lost on a way that somebody else models.
+  void add_lost(std::uint32_t words) {
+    if (words != 0) crossing_overflow = crossing_overflow.written() + words;
+  }
 
  private:
   void edge() override;

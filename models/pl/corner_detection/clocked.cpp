@@ -6,10 +6,7 @@ namespace pl {
 
 CornerDetectionClocked::CornerDetectionClocked(sc_core::sc_module_name name, vp::Clock& clk,
                                                const Geometry& geometry)
-    : Clocked(name, clk), core_(geometry, threshold) {
-  wake_on(ena);
-  wake_on(rst);
-}
+    : CornerDetection(name, clk), core_(geometry, threshold) {}
 
 void CornerDetectionClocked::edge() {
   if (rst) {

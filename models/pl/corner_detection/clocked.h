@@ -4,32 +4,15 @@
 #include <cstdint>
 
 #include <pl/corner_detection/core.h>
-#include <vp/clock.h>
-#include <vp/parameter.h>
+#include <pl/corner_detection/corner_detection.h>
 #include <vp/probe.h>
 
 namespace pl {
 
-/// Corner Detection, clocked (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
-class CornerDetectionClocked : public vp::Clocked {
+/// Corner Detection, clocked.
+class CornerDetectionClocked : public CornerDetection {
  public:
   CornerDetectionClocked(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry);
-
-  vp::In<bool> ena{"ena", this};
-  vp::In<bool> rst{"rst", this};
-  vp::In<std::uint8_t> pixel{"pixel", this};
-  vp::In<std::uint16_t> x{"x", this};
-  vp::In<std::uint16_t> y{"y", this};
-  vp::Signal<bool> corner_out{"corner_out"};
-  vp::Signal<std::uint32_t> corner_data{"corner_data"};  ///< valid while corner_out is high
-
-  vp::Parameter<std::uint32_t> threshold{
-      "threshold",
-      30,
-      vp::Unit::none,
-      {0, 255},
-      vp::Source::decision,
-      "a circle pixel is bright if it exceeds the point of interest by more (grey levels)"};
 
  private:
   void edge() override;

@@ -1,5 +1,15 @@
 #include <pl/feature_extraction/feature_extraction.h>
 
+#include <pl/axi_image_store/tlm.h>
+#include <pl/axi_threshold_bridge/tlm.h>
+#include <pl/blob_detection/clocked.h>
+#include <pl/blob_detection/tlm.h>
+#include <pl/corner_detection/clocked.h>
+#include <pl/corner_detection/tlm.h>
+#include <pl/global_threshold/clocked.h>
+#include <pl/global_threshold/tlm.h>
+#include <pl/sensor_input/clocked.h>
+#include <pl/sensor_input/tlm.h>
 #include <vp/error.h>
 #include <string>
 
@@ -21,25 +31,79 @@ void check_holds_a_frame(const xilinx::Bram& bram, const Geometry& geometry) {
 }  // namespace
 
 FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk,
-                                     vp::Clock& pixel_clk)
+                                     vp::Clock& pixel_clk, Fidelity otherwise)
     : sc_module(name),
+      fidelity("fidelity", otherwise),
       bram("bram", geometry().pixels() / pixels_per_word),
-      axi_image_store("axi_image_store", system_clk, bram),
-      sensor_input("sensor_input", pixel_clk, geometry(), bram),
-      corner_detection("corner_detection", pixel_clk, geometry()),
-      global_threshold("global_threshold", pixel_clk),
-      blob_detection("blob_detection", pixel_clk, geometry()),
       frame_status("frame_status", pixel_clk),
       clock_crossing("clock_crossing", pixel_clk, system_clk),
       feature_packaging("feature_packaging", system_clk),
-      axi_threshold_bridge("axi_threshold_bridge", system_clk) {
+      sensor_input_(make_sensor_input(pixel_clk)),
+      axi_image_store_(make_image_store(system_clk)),
+      corner_detection_(make_corner_detection(pixel_clk)),
+      global_threshold_(make_global_threshold(pixel_clk)),
+      blob_detection_(make_blob_detection(pixel_clk)),
+      axi_threshold_bridge_(make_threshold_bridge(system_clk, pixel_clk)) {
   check_holds_a_frame(bram, geometry());
+}
+
+std::unique_ptr<SensorInput> FeatureExtraction::make_sensor_input(vp::Clock& clk) {
+  if (fidelity.sensor_input == Fidelity::tlm) {
+    return std::make_unique<SensorInputTlm>("sensor_input", clk, geometry(), bram);
+  }
+  return std::make_unique<SensorInputClocked>("sensor_input", clk, geometry(), bram);
+}
+
+std::unique_ptr<AxiImageStoreClocked> FeatureExtraction::make_image_store(vp::Clock& clk) {
+  if (fidelity.axi_image_store == Fidelity::tlm) {
+    return std::make_unique<AxiImageStoreTlm>("axi_image_store", clk, bram, sensor_input.view);
+  }
+  return std::make_unique<AxiImageStoreClocked>("axi_image_store", clk, bram);
+}
+
+std::unique_ptr<CornerDetection> FeatureExtraction::make_corner_detection(vp::Clock& clk) {
+  if (fidelity.corner_detection == Fidelity::tlm) {
+    return std::make_unique<CornerDetectionTlm>("corner_detection", clk, geometry(),
+                                                sensor_input.view);
+  }
+  return std::make_unique<CornerDetectionClocked>("corner_detection", clk, geometry());
+}
+
+std::unique_ptr<GlobalThreshold> FeatureExtraction::make_global_threshold(vp::Clock& clk) {
+  if (fidelity.global_threshold == Fidelity::tlm) {
+    return std::make_unique<GlobalThresholdTlm>("global_threshold", clk, geometry(),
+                                                sensor_input.view);
+  }
+  return std::make_unique<GlobalThresholdClocked>("global_threshold", clk);
+}
+
+std::unique_ptr<BlobDetection> FeatureExtraction::make_blob_detection(vp::Clock& clk) {
+  if (fidelity.blob_detection == Fidelity::tlm) {
+    return std::make_unique<BlobDetectionTlm>("blob_detection", clk, geometry(),
+                                              global_threshold.binary);
+  }
+  return std::make_unique<BlobDetectionClocked>("blob_detection", clk, geometry());
+}
+
+// Without a binary image as a whole there is nothing that it could take at once.
+std::unique_ptr<AxiThresholdBridgeClocked> FeatureExtraction::make_threshold_bridge(
+    vp::Clock& clk, vp::Clock& pixel_clk) {
+  if (fidelity.axi_threshold_bridge == Fidelity::tlm &&
+      fidelity.global_threshold == Fidelity::tlm) {
+    return std::make_unique<AxiThresholdBridgeTlm>("axi_threshold_bridge", clk, pixel_clk,
+                                                   global_threshold.binary, clock_crossing);
+  }
+  return std::make_unique<AxiThresholdBridgeClocked>("axi_threshold_bridge", clk);
 }
 
 void FeatureExtraction::before_end_of_elaboration() {
   connect_controls();
   connect_pixels();
   connect_features();
+}
+
+void FeatureExtraction::end_of_elaboration() {
+  global_threshold.show_words(!axi_threshold_bridge.direct());
 }
 
 void FeatureExtraction::connect_controls() {

@@ -1,19 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <systemc>
 
 #include <pl/axi_image_store/clocked.h>
 #include <pl/axi_threshold_bridge/clocked.h>
-#include <pl/blob_detection/clocked.h>
+#include <pl/blob_detection/blob_detection.h>
 #include <pl/clock_crossing/clock_crossing.h>
 #include <pl/common/geometry.h>
 #include <pl/control_block/control_block.h>
-#include <pl/corner_detection/clocked.h>
+#include <pl/corner_detection/corner_detection.h>
+#include <pl/feature_extraction/fidelity_choice.h>
 #include <pl/feature_packaging/clocked.h>
 #include <pl/frame_status/frame_status.h>
-#include <pl/global_threshold/clocked.h>
-#include <pl/sensor_input/clocked.h>
+#include <pl/global_threshold/global_threshold.h>
+#include <pl/sensor_input/sensor_input.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
@@ -26,8 +28,12 @@ namespace pl {
 /// in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 class FeatureExtraction : public sc_core::sc_module {
  public:
-  /// `system_clk` must have been made before `pixel_clk`.
-  FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk);
+  /// `system_clk` must have been made before `pixel_clk`. `fidelity` of the IP for which no other
+  /// is configured.
+  FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
+                    Fidelity fidelity = Fidelity::clocked);
+
+  FidelityChoice fidelity;
 
   vp::Parameter<std::uint32_t> width{"width", 640, vp::Unit::pixels, vp::Source::published,
                                      "width of a frame (thesis 4.3.1)"};
@@ -42,8 +48,19 @@ class FeatureExtraction : public sc_core::sc_module {
   vp::AxiStreamMaster& binary_stream() { return axi_threshold_bridge.m; }
   const vp::Signal<std::uint32_t>& feature() const { return feature_packaging.feature; }
 
+  /// Brings the counters up to now.
+  void settle() { axi_threshold_bridge.settle(); }
+
  private:
   void before_end_of_elaboration() override;
+  void end_of_elaboration() override;
+  std::unique_ptr<SensorInput> make_sensor_input(vp::Clock& clk);
+  std::unique_ptr<AxiImageStoreClocked> make_image_store(vp::Clock& clk);
+  std::unique_ptr<CornerDetection> make_corner_detection(vp::Clock& clk);
+  std::unique_ptr<GlobalThreshold> make_global_threshold(vp::Clock& clk);
+  std::unique_ptr<BlobDetection> make_blob_detection(vp::Clock& clk);
+  std::unique_ptr<AxiThresholdBridgeClocked> make_threshold_bridge(vp::Clock& clk,
+                                                                   vp::Clock& pixel_clk);
   void connect_controls();
   void connect_pixels();
   void connect_features();
@@ -57,15 +74,23 @@ class FeatureExtraction : public sc_core::sc_module {
  public:
   ControlBlock control_block{"control_block"};
   xilinx::Bram bram;
-  AxiImageStoreClocked axi_image_store;
-  SensorInputClocked sensor_input;
-  CornerDetectionClocked corner_detection;
-  GlobalThresholdClocked global_threshold;
-  BlobDetectionClocked blob_detection;
   FrameStatus frame_status;
   ClockCrossing clock_crossing;
   FeaturePackagingClocked feature_packaging;
-  AxiThresholdBridgeClocked axi_threshold_bridge;
+
+  // Modelled as `fidelity` says.
+  const std::unique_ptr<SensorInput> sensor_input_;
+  SensorInput& sensor_input = *sensor_input_;
+  const std::unique_ptr<AxiImageStoreClocked> axi_image_store_;
+  AxiImageStoreClocked& axi_image_store = *axi_image_store_;
+  const std::unique_ptr<CornerDetection> corner_detection_;
+  CornerDetection& corner_detection = *corner_detection_;
+  const std::unique_ptr<GlobalThreshold> global_threshold_;
+  GlobalThreshold& global_threshold = *global_threshold_;
+  const std::unique_ptr<BlobDetection> blob_detection_;
+  BlobDetection& blob_detection = *blob_detection_;
+  const std::unique_ptr<AxiThresholdBridgeClocked> axi_threshold_bridge_;
+  AxiThresholdBridgeClocked& axi_threshold_bridge = *axi_threshold_bridge_;
 };
 
 }  // namespace pl

@@ -3,12 +3,7 @@
 namespace pl {
 
 GlobalThresholdClocked::GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk)
-    : Clocked(name, clk) {
-  wake_on(por);
-  wake_on(rst);
-  wake_on(frame_ena);
-  wake_on(wr_thresh);
-}
+    : GlobalThreshold(name, clk) {}
 
 void GlobalThresholdClocked::edge() {
   if (por || rst) {

@@ -94,6 +94,14 @@ void ThresholdFrame::rewind(std::uint32_t pixel) {
   std::fill(words_.begin() + static_cast<std::ptrdiff_t>(word), words_.end(), 0);
 }
 
+void ThresholdFrame::refresh(std::uint32_t first, std::uint32_t count) {
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const std::uint32_t bit = 1u << i % 32;
+    std::uint32_t& word = words_[i / 32];
+    word = image_[i] <= threshold_ ? word | bit : word & ~bit;
+  }
+}
+
 std::uint8_t ThresholdFrame::end() {
   threshold_ = find_peaks(image_, position_).threshold();
   return threshold_;

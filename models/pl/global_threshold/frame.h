@@ -39,6 +39,9 @@ class ThresholdFrame {
   void advance(std::uint32_t pixels);
   /// Pixels from this raster index on count as not binarised; the threshold stays as it is now.
   void rewind(std::uint32_t pixel);
+  /// Of `count` pixels that were binarised, from `first` on, the values changed: they are binarised
+  /// again with the present threshold.
+  void refresh(std::uint32_t first, std::uint32_t count);
   /// The frame is over: takes over the threshold that its pixels so far give, and returns it.
   std::uint8_t end();
 

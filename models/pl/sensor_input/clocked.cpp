@@ -4,15 +4,13 @@ namespace pl {
 
 SensorInputClocked::SensorInputClocked(sc_core::sc_module_name name, vp::Clock& clk,
                                        const Geometry& geometry, xilinx::Bram& bram)
-    : Clocked(name, clk), geometry_(geometry), bram_(bram) {
-  wake_on(ena);
-  wake_on(rst);
-}
+    : SensorInput(name, clk, geometry, bram) {}
 
 void SensorInputClocked::edge() {
   if (rst) {
     running_ = ena_before_ = false;
     frame_ena = false;
+    view.end();
     sleep();
     return;
   }
@@ -34,6 +32,7 @@ void SensorInputClocked::edge() {
     running_ = true;
     address_ = 0;
     column_ = row_ = 0;
+    view.begin(clock().cycle() + 1);
   }
 }
 

@@ -100,6 +100,7 @@ void AxiDma::before_end_of_elaboration() {
               "a channel is built but its stream is not connected");
   }
   Clocked::before_end_of_elaboration();
+  if (mm2s_) mm2s_->m_axis.set_sender(*mm2s_);
   if (axi_resetn.bound()) axi_resetn.signal()->attach(*this, reset_pin);
 }
 

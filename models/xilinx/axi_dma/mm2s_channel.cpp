@@ -1,6 +1,7 @@
 #include <xilinx/axi_dma/mm2s_channel.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace xilinx {
 
@@ -41,6 +42,12 @@ void Mm2sChannel::sample(std::uint64_t) {
 }
 
 std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
+  if (!whole_burst_.empty()) {
+    const std::uint64_t end = whole_first_ + whole_burst_.size();
+    if (cycle < end) return end;
+    end_whole_burst(cycle);
+    return never;
+  }
   if (accepted_ && m_axis.tlast.get()) {
     withdraw();
     finish(cycle + core_.timing().completion_latency);
@@ -48,6 +55,7 @@ std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
   }
   if (!bursts_.empty() && bursts_.back().pending && m_axi.done()) schedule(bursts_.back(), cycle);
   if (next_request_at(cycle) <= cycle) request(cycle);
+  if (!offering_ && start_whole_burst(cycle)) return whole_first_ + whole_burst_.size();
   if ((!offering_ || accepted_) && !offer(cycle)) withdraw();
   return next_edge(cycle);
 }
@@ -165,7 +173,58 @@ std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
   return std::min(next, std::max(cycle + 1, next_beat_at()));
 }
 
+// ---- bursts as a whole
+// ------------------------------------------------------------------------------------------------
+
+// The rest of a transfer, if it is one burst of whole words whose time is known.
+bool Mm2sChannel::start_whole_burst(std::uint64_t cycle) {
+  const vp::BurstSink* sink = m_axis.sink();
+  if (!sink || to_request_ != 0 || bursts_.size() != 1 || taken_ != 0) return false;
+  const Burst& burst = bursts_.front();
+  if (burst.pending || burst.response != tlm::TLM_OK_RESPONSE || burst.lead != 0) return false;
+  if (to_send_ != burst.data.size() || to_send_ % word_bytes != 0) return false;
+  if (!sink->takes_bursts()) return false;
+  whole_first_ = std::max(cycle, burst.first);
+  whole_burst_.resize(to_send_ / word_bytes);
+  for (std::size_t i = 0; i < whole_burst_.size(); ++i) {
+    const unsigned char* byte = &burst.data[i * word_bytes];
+    whole_burst_[i] = byte[0] | std::uint32_t{byte[1]} << 8 | std::uint32_t{byte[2]} << 16 |
+                      std::uint32_t{byte[3]} << 24;
+  }
+  return true;
+}
+
+void Mm2sChannel::end_whole_burst(std::uint64_t cycle) {
+  m_axis.send_burst(whole_burst_.data(), static_cast<std::uint32_t>(whole_burst_.size()), true);
+  whole_burst_.clear();
+  bursts_.clear();
+  to_send_ = buffered_ = 0;
+  finish(cycle + core_.timing().completion_latency);
+}
+
+// What passed so far is given; the state is that of single beats from here on.
+void Mm2sChannel::settle(std::uint64_t cycle) {
+  if (whole_burst_.empty()) return;
+  core_.wake_channels();
+  const std::vector<std::uint32_t> words = std::exchange(whole_burst_, {});
+  if (cycle < whole_first_) return;
+  const auto last = static_cast<std::uint32_t>(words.size() - 1);
+  const auto passed =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(cycle - whole_first_, last));
+  if (passed != 0) m_axis.send_burst(words.data(), passed, false);
+  taken_ = (passed + 1) * word_bytes;
+  to_send_ -= taken_;
+  buffered_ -= taken_;
+  if (taken_ == bursts_.front().data.size()) {
+    bursts_.pop_front();
+    taken_ = 0;
+  }
+  offering_ = true;
+  m_axis.offer(words[passed], passed == last);
+}
+
 void Mm2sChannel::abandon() {
+  settle(core_.channel_clock().cycle());
   withdraw();
   to_request_ = to_send_ = buffered_ = 0;
   if (m_axi.done()) bursts_.clear();

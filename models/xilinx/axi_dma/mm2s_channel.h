@@ -11,7 +11,7 @@
 namespace xilinx {
 
 /// Memory to stream: reads bursts ahead into a FIFO and sends one beat per clock.
-class Mm2sChannel : public DmaChannel {
+class Mm2sChannel : public DmaChannel, public vp::BurstSender {
  public:
   Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats);
 
@@ -19,6 +19,7 @@ class Mm2sChannel : public DmaChannel {
   vp::AxiStreamMaster m_axis;
 
   bool quiet(std::uint64_t cycle) const override;
+  void settle(std::uint64_t cycle) override;
 
  private:
   /// A burst whose data is on its way or in the FIFO.
@@ -44,6 +45,8 @@ class Mm2sChannel : public DmaChannel {
   void withdraw();
   std::uint64_t next_edge(std::uint64_t cycle) const;
   std::uint64_t next_beat_at() const;
+  bool start_whole_burst(std::uint64_t cycle);
+  void end_whole_burst(std::uint64_t cycle);
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_size_;   ///< bytes
@@ -55,8 +58,10 @@ class Mm2sChannel : public DmaChannel {
   unsigned taken_ = 0;            ///< bytes of the first burst offered already
   std::uint64_t request_at_ = 0;
   std::uint64_t bus_busy_until_ = 0;
-  bool offering_ = false;  ///< tvalid, as driven last
-  bool accepted_ = false;  ///< the beat on offer passed on this edge
+  bool offering_ = false;                   ///< tvalid, as driven last
+  bool accepted_ = false;                   ///< the beat on offer passed on this edge
+  std::vector<std::uint32_t> whole_burst_;  ///< words that go to a sink in one call
+  std::uint64_t whole_first_ = 0;           ///< edge from which its first beat is on offer
 };
 
 }  // namespace xilinx

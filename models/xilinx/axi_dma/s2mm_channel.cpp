@@ -25,6 +25,7 @@ S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
       burst_size_(burst_beats * word_bytes),
       fifo_beats_(fifo_bursts * burst_beats) {
   owner.wake_on(s_axis.tvalid);
+  s_axis.accept_source();
 }
 
 void S2mmChannel::begin(std::uint32_t to, std::uint32_t bytes, std::uint64_t first_cycle) {
@@ -36,12 +37,12 @@ void S2mmChannel::begin(std::uint32_t to, std::uint32_t bytes, std::uint64_t fir
 }
 
 void S2mmChannel::sample(std::uint64_t cycle) {
-  beat_ = s_axis.sample();
+  beat_ = !s_axis.source() && s_axis.sample();
   if (draining_) drive_bus(cycle);
 }
 
 std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
-  if (beat_) take_beat(cycle);
+  take_beats(cycle);
   drive_bus(cycle);
   s_axis.tready = cycle >= ready_from_ && !closed_ && buffered_beats(cycle) < fifo_beats_;
   return next_edge(cycle);
@@ -50,10 +51,27 @@ std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
 // ---- stream side
 // -----------------------------------------------------------------------------------------------------
 
-void S2mmChannel::take_beat(std::uint64_t cycle) {
-  const std::uint32_t data = s_axis.tdata;
-  const std::uint8_t keep = s_axis.tkeep;
-  const bool last = s_axis.tlast;
+void S2mmChannel::take_beats(std::uint64_t cycle) {
+  if (!s_axis.source()) {
+    if (beat_) take_beat({s_axis.tdata, s_axis.tkeep, s_axis.tlast}, cycle);
+    return;
+  }
+  for (vp::BeatSource::Beat beat; s_axis.take(cycle, beat);) take_beat(beat, cycle);
+}
+
+// With a source: no earlier edge brings what has to be acted on. A burst, the transfer or the FIFO
+// is full.
+std::uint64_t S2mmChannel::next_beat_of_interest(std::uint64_t cycle) const {
+  const std::uint32_t in_burst = static_cast<std::uint32_t>(
+      keyhole() ? collected_.size() : (write_address_ + collected_.size()) % burst_size_);
+  const std::uint32_t bytes = std::min(burst_size_ - in_burst, capacity_ - received_);
+  const std::uint32_t beats =
+      std::min((bytes + word_bytes - 1) / word_bytes, fifo_beats_ - buffered_beats(cycle));
+  return std::max(cycle + 1, s_axis.source()->earliest_pass(std::max(beats, 1u)));
+}
+
+void S2mmChannel::take_beat(const vp::BeatSource::Beat& beat, std::uint64_t cycle) {
+  const auto [data, keep, last] = beat;
   ++collected_beats_;
   for (unsigned lane = 0; lane < word_bytes; ++lane) {
     if ((keep >> lane & 1) == 0) continue;
@@ -153,9 +171,10 @@ void S2mmChannel::completed() {
 std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) const {
   if (!m_axi.done()) return cycle + 1;
   const bool listening = cycle >= ready_from_ && !closed_;
-  if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid
+  if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid, or by the source
   if (listening && bus_ == Bus::busy && buffered_beats(cycle) >= fifo_beats_) return cycle + 1;
   std::uint64_t next = listening ? never : ready_from_;
+  if (listening && s_axis.source()) next = next_beat_of_interest(cycle);
   if (bus_ == Bus::busy) {
     next = std::min(next, burst_end_);
   } else if (!bursts_.empty()) {
@@ -170,6 +189,9 @@ bool S2mmChannel::quiet(std::uint64_t) const {
 
 void S2mmChannel::abandon() {
   s_axis.tready = false;
+  if (s_axis.source()) {
+    for (vp::BeatSource::Beat beat; s_axis.take(core_.channel_clock().cycle(), beat);) continue;
+  }
   ready_from_ = never;
   closed_ = overflow_ = false;
   draining_ = true;

@@ -40,7 +40,9 @@ class S2mmChannel : public DmaChannel {
   void forget_bursts() override;
   void completed() override;
 
-  void take_beat(std::uint64_t cycle);
+  void take_beat(const vp::BeatSource::Beat& beat, std::uint64_t cycle);
+  void take_beats(std::uint64_t cycle);
+  std::uint64_t next_beat_of_interest(std::uint64_t cycle) const;
   void close_burst(std::uint64_t cycle);
   void drive_bus(std::uint64_t cycle);
   void start_burst(std::uint64_t cycle);

@@ -1,6 +1,8 @@
 #include <xilinx/bram/bram.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include <vp/hex.h>
 #include <vp/report.h>
@@ -21,18 +23,39 @@ Bram::Bram(sc_core::sc_module_name name, std::uint32_t default_depth_a)
       bytes_(std::size_t{depth_a} * word_bytes, 0) {}
 
 void Bram::write_a(std::uint32_t address, std::uint32_t word) {
-  if (address >= depth_a) {
-    ++out_of_range;
-    vp::warn(*this, "/markervp/bram/out_of_range",
-             "write at word " + vp::hex(address) + ", the memory has " + std::to_string(depth_a) +
-                 " words");
-    return;
+  write_a(address, &word, 1);
+}
+
+void Bram::write_a(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+  const std::uint32_t fitting = address < depth_a ? std::min(count, depth_a - address) : 0;
+  if (fitting != 0) store(address, words, fitting);
+  for (std::uint32_t i = fitting; i < count; ++i) refuse_write(address + i);
+}
+
+std::vector<std::uint8_t> Bram::fork() {
+  std::vector<std::uint8_t> copy = bytes_;
+  std::swap(copy, bytes_);
+  return copy;
+}
+
+void Bram::store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
+  const std::uint32_t first = address * word_bytes;
+  if (listener_) listener_->before_write(first, count * word_bytes);
+  writes_a.add(count);
+  std::uint8_t* byte = &bytes_[first];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (unsigned lane = 0; lane < word_bytes; ++lane) {
+      *byte++ = static_cast<std::uint8_t>(words[i] >> (8 * lane));
+    }
   }
-  ++writes_a;
-  for (std::uint32_t lane = 0; lane < word_bytes; ++lane) {
-    bytes_[std::size_t{address} * word_bytes + lane] =
-        static_cast<std::uint8_t>(word >> (8 * lane));
-  }
+  if (listener_) listener_->after_write(first, count * word_bytes);
+}
+
+void Bram::refuse_write(std::uint32_t address) {
+  ++out_of_range;
+  vp::warn(*this, "/markervp/bram/out_of_range",
+           "write at word " + vp::hex(address) + ", the memory has " + std::to_string(depth_a) +
+               " words");
 }
 
 std::uint8_t Bram::refuse_read(std::uint32_t address) {

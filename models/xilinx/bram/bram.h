@@ -17,6 +17,16 @@ namespace xilinx {
 /// a fault of the module at the port: it is warned of, a write is dropped, a read returns 0.
 class Bram : public sc_core::sc_module {
  public:
+  /// Told of what port A does, before it happens; for models that look at many bytes at once.
+  class Listener {
+   public:
+    virtual ~Listener() = default;
+    /// Bytes `first` to `first` + `count` - 1 are about to be written.
+    virtual void before_write(std::uint32_t first, std::uint32_t count) = 0;
+    /// They were written.
+    virtual void after_write(std::uint32_t first, std::uint32_t count) = 0;
+  };
+
   /// Depth of port A in words; 76 800 for 640 × 480 pixels.
   explicit Bram(sc_core::sc_module_name name, std::uint32_t depth_a = 76'800);
   const char* kind() const override { return "xilinx::Bram"; }
@@ -31,6 +41,8 @@ class Bram : public sc_core::sc_module {
 
   /// Port A. `address` counts words.
   void write_a(std::uint32_t address, std::uint32_t word);
+  /// Port A, `count` words one after the other.
+  void write_a(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
   /// Port B. `address` counts bytes.
   std::uint8_t read_b(std::uint32_t address) {
     if (address >= bytes_.size()) return refuse_read(address);
@@ -42,10 +54,19 @@ class Bram : public sc_core::sc_module {
   /// counted.
   std::vector<std::uint8_t>& contents() { return bytes_; }
 
+  /// Hands over the memory as it stands, at its place; the Bram goes on with a copy.
+  std::vector<std::uint8_t> fork();
+
+  /// At most one.
+  void set_listener(Listener* listener) { listener_ = listener; }
+
  private:
+  void store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
+  void refuse_write(std::uint32_t address);
   std::uint8_t refuse_read(std::uint32_t address);
 
   std::vector<std::uint8_t> bytes_;
+  Listener* listener_ = nullptr;
 };
 
 }  // namespace xilinx

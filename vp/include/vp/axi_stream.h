@@ -9,6 +9,41 @@
 
 namespace vp {
 
+/// A master that knows when its beats pass: a slave that asks needs no event for each. TVALID and
+/// TDATA rest then; TREADY is a wire as ever.
+class BeatSource {
+ public:
+  struct Beat {
+    std::uint32_t data = 0;
+    std::uint8_t keep = 0xF;
+    bool last = false;
+  };
+  virtual ~BeatSource() = default;
+  /// No edge before this one passes the `beats`th beat from now on, nor one with TLAST before it,
+  /// while TREADY stays high; Clock::never if none is in sight. The slave is woken when that
+  /// changes.
+  virtual std::uint64_t earliest_pass(std::uint32_t beats) = 0;
+  /// Takes the oldest beat that passed on an edge up to `cycle`. False if there is none.
+  virtual bool take(std::uint64_t cycle, Beat& beat) = 0;
+};
+
+/// A slave that takes whole bursts while its TREADY is high and nobody looks at single beats.
+class BurstSink {
+ public:
+  virtual ~BurstSink() = default;
+  virtual bool takes_bursts() const = 0;
+  /// `count` beats that passed one after the other, the last of them on this edge.
+  virtual void take_burst(const std::uint32_t* words, std::uint32_t count) = 0;
+};
+
+/// A master that sends bursts to a BurstSink.
+class BurstSender {
+ public:
+  virtual ~BurstSender() = default;
+  /// Gives what passed on edges up to `cycle` of a burst under way; the rest comes beat by beat.
+  virtual void settle(std::uint64_t cycle) = 0;
+};
+
 /// One 32-bit AXI4-Stream connection, a named object with the five wires of thesis figure 4.18 and
 /// TKEEP.
 ///
@@ -35,7 +70,11 @@ class AxiStream : public sc_core::sc_module {
   friend class AxiStreamSlave;
 
   bool has_master_ = false;
-  bool has_slave_ = false;
+  Clocked* slave_ = nullptr;
+  bool slave_takes_source_ = false;
+  BeatSource* source_ = nullptr;
+  BurstSink* sink_ = nullptr;
+  BurstSender* sender_ = nullptr;
 };
 
 /// The port bundle of a module that sends: `vp::AxiStreamMaster m_axis{"m_axis", *this};`
@@ -63,6 +102,23 @@ class AxiStreamMaster {
   void withdraw() {
     tvalid = false;
     tlast = false;
+  }
+
+  // Without an event for each beat, where the slave can: after the binding.
+  bool slave_takes_source() const { return link_->slave_takes_source_; }
+  void set_source(BeatSource& source) { link_->source_ = &source; }
+  /// More, or other, beats are in sight of the source than before.
+  void wake_slave() { link_->slave_->wake(); }
+  /// Edges on which a beat of the source waited for TREADY.
+  void count_stalls(std::uint64_t edges) { link_->stalls.add(edges); }
+  /// Null if the slave wants single beats.
+  BurstSink* sink() const { return link_->sink_; }
+  void set_sender(BurstSender& sender) { link_->sender_ = &sender; }
+  /// Gives the sink a burst of which `count` beats have passed; `last`: the last one with TLAST.
+  void send_burst(const std::uint32_t* words, std::uint32_t count, bool last) {
+    link_->sink_->take_burst(words, count);
+    link_->beats.add(count);
+    link_->packets.add(last ? 1 : 0);
   }
 
   Out<std::uint32_t> tdata;
@@ -101,6 +157,24 @@ class AxiStreamSlave {
     return false;
   }
 
+  // Without an event for each beat, where the master can.
+  /// The slave asks source() if there is one. Before the binding.
+  void accept_source() { takes_source_ = true; }
+  BeatSource* source() const { return link_->source_; }
+  /// Takes and counts the oldest beat of the source that passed up to edge `cycle`.
+  bool take(std::uint64_t cycle, BeatSource::Beat& beat) {
+    if (!link_->source_->take(cycle, beat)) return false;
+    ++link_->beats;
+    link_->packets.add(beat.last);
+    return true;
+  }
+  /// Before the binding.
+  void set_sink(BurstSink& sink) { sink_ = &sink; }
+  /// A burst under way is given up to edge `cycle`, the rest beat by beat.
+  void settle(std::uint64_t cycle) {
+    if (link_->sender_) link_->sender_->settle(cycle);
+  }
+
   In<std::uint32_t> tdata;
   In<std::uint8_t> tkeep;
   In<bool> tvalid;
@@ -112,6 +186,8 @@ class AxiStreamSlave {
 
   Clocked& owner_;
   AxiStream* link_ = nullptr;
+  bool takes_source_ = false;
+  BurstSink* sink_ = nullptr;
   bool waiting_ = false;  ///< the last edge looked at was a stall
   std::uint64_t last_stall_cycle_ = 0;
 };

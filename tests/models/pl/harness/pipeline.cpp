@@ -1,6 +1,8 @@
 #include "pipeline.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
 
 namespace harness {
 
@@ -8,6 +10,13 @@ namespace control_packet = pl::control_packet;
 
 Settings::Settings(const std::vector<std::string>& assignments) {
   for (const std::string& assignment : assignments) configuration.set(assignment);
+}
+
+pl::Fidelity fidelity_under_test() {
+  const char* name = std::getenv("MARKERVP_TEST_FIDELITY");
+  if (!name || std::string(name) == "clocked") return pl::Fidelity::clocked;
+  if (std::string(name) == "tlm") return pl::Fidelity::tlm;
+  throw std::runtime_error(std::string("MARKERVP_TEST_FIDELITY=") + name + ": clocked or tlm");
 }
 
 Pipeline::Pipeline(Clocks clocks, const std::vector<std::string>& settings)

@@ -34,6 +34,10 @@ class Settings {
   vp::Configuration::Scope scope_{configuration};
 };
 
+/// The fidelity under test: MARKERVP_TEST_FIDELITY in the environment, "clocked" or "tlm" (clocked
+/// if it is not set). The test programs run once with each.
+pl::Fidelity fidelity_under_test();
+
 /// The feature extraction alone, with a driver in the place of the PS.
 class Pipeline : public kit::Simulation {
  public:
@@ -68,7 +72,7 @@ class Pipeline : public kit::Simulation {
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock fclk_clk0;
   vp::Clock fclk_clk1;
-  pl::FeatureExtraction pl{"pl", fclk_clk0, fclk_clk1};
+  pl::FeatureExtraction pl{"pl", fclk_clk0, fclk_clk1, fidelity_under_test()};
   vp::AxiStream image_link{"image_link"};
   vp::AxiStream binary_link{"binary_link"};
   StreamSource source{"source", fclk_clk0};

@@ -1,0 +1,205 @@
+#include <pl/axi_threshold_bridge/lazy_bridge.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace pl {
+
+namespace {
+
+constexpr std::uint64_t never = vp::Clock::never;
+
+}  // namespace
+
+LazyBridge::LazyBridge(vp::Clock& pixel_clk, vp::Clock& system_clk, const BinaryView& binary,
+                       std::uint32_t fifo_depth, std::uint32_t burst_words)
+    : pixel_clock_(pixel_clk),
+      system_clock_(system_clk),
+      binary_(binary),
+      fifo_depth_(fifo_depth),
+      burst_words_(burst_words),
+      fifo_(fifo_depth) {
+  pixel_clock_.add_listener(*this);
+  system_clock_.add_listener(*this);
+  const std::uint64_t pixel = pixel_clock_.frequency_hz(), system = system_clock_.frequency_hz();
+  if (pixel != 0 && system % pixel == 0) ratio_ = system / pixel;
+}
+
+// ---- words on their way
+// ------------------------------------------------------------------------------------------------
+
+// A word is in the crossing's register after its edge, and seen by the next edge of the system
+// clock; at coincident edges that clock comes first.
+std::uint64_t LazyBridge::arrival(std::uint64_t crossing) const {
+  if (ratio_ != 0) return crossing * ratio_ + 1;
+  if (crossing <= changed_pixel_) return changed_system_ + 1;
+  const std::uint64_t crossed = pixel_clock_.time_of(crossing);
+  return crossed == never ? never : system_clock_.cycle_at_or_after(crossed + 1);
+}
+
+bool LazyBridge::next_word(Word& word) const {
+  if (!late_.empty()) {
+    word = late_.front();
+    return true;
+  }
+  if (next_ >= binary_.size()) return false;
+  word = {binary_.leaves_at(next_) + 1, binary_.words()[next_]};
+  return true;
+}
+
+void LazyBridge::drop_word() {
+  if (!late_.empty()) {
+    late_.pop_front();
+  } else {
+    ++next_;
+  }
+}
+
+void LazyBridge::plan() {
+  Word word;
+  arrives_ = next_word(word) ? arrival(word.crossing) : never;
+}
+
+void LazyBridge::frame_begins() {
+  advance(system_clock_.cycle());
+  for (; next_ < binary_.size(); ++next_) {
+    late_.push_back({binary_.leaves_at(next_) + 1, binary_.words()[next_]});
+  }
+  next_ = 0;
+  arrives_ = never;  // the next look plans, with the new frame
+}
+
+void LazyBridge::frame_cut() {
+  advance(system_clock_.cycle());
+  late_.clear();
+  next_ = binary_.size();
+  arrives_ = never;
+}
+
+void LazyBridge::before_change(vp::Clock&) {
+  advance(system_clock_.cycle());
+}
+
+void LazyBridge::after_change(vp::Clock&) {
+  ratio_ = 0;
+  changed_pixel_ = pixel_clock_.cycle();
+  changed_system_ = system_clock_.cycle();
+  plan();
+}
+
+// ---- edges
+// -------------------------------------------------------------------------------------------------------------
+
+std::uint64_t LazyBridge::next_edge() const {
+  const bool moves = valid_ ? ready_ : fifo_.count() != 0;
+  return moves ? cycle_ + 1 : arrives_;
+}
+
+void LazyBridge::advance(std::uint64_t cycle) {
+  if (arrives_ == never) plan();
+  for (std::uint64_t edge = next_edge(); edge <= cycle; edge = next_edge()) {
+    if (edge == arrives_ && ready_ && !valid_ && edge + 2 <= cycle) {
+      run_through(edge);
+    } else {
+      step(edge);
+    }
+  }
+  cycle_ = std::max(cycle_, cycle);
+}
+
+// One edge of the bridge: what stood before it decides.
+void LazyBridge::step(std::uint64_t edge) {
+  const std::uint32_t waiting = fifo_.count();
+  cycle_ = edge;
+  if (valid_ && ready_) pass();
+  if (!valid_ && waiting != 0) offer();
+  if (edge == arrives_) arrive(waiting);
+}
+
+// A word that arrives in an empty bridge is offered one edge later and passes after another.
+void LazyBridge::run_through(std::uint64_t edge) {
+  const std::uint32_t waiting = fifo_.count();
+  if (waiting != 0) return step(edge);
+  cycle_ = edge;
+  arrive(waiting);
+  if (fifo_.count() == 0 || arrives_ <= edge + 2) return;
+  cycle_ = edge + 1;
+  offer();
+  cycle_ = edge + 2;
+  pass();
+}
+
+void LazyBridge::offer() {
+  const bool last = ++in_packet_ == burst_words_;
+  if (last) in_packet_ = 0;
+  out_ = {fifo_.pop(), 0xF, last};
+  valid_ = true;
+  offered_ = cycle_;
+}
+
+void LazyBridge::pass() {
+  passed_.push_back(out_);
+  valid_ = false;
+  stalls_ += cycle_ - offered_ - 1;
+}
+
+void LazyBridge::arrive(std::uint32_t waiting) {
+  Word word{};
+  next_word(word);
+  drop_word();
+  for (plan(); arrives_ == cycle_; plan()) {
+    next_word(word);  // overwrites one that was not seen yet
+    drop_word();
+    ++lost_;
+  }
+  if (in_reset_) return;
+  if (waiting < fifo_depth_) {
+    fifo_.push(word.data);
+  } else {
+    ++overflow_;
+  }
+}
+
+void LazyBridge::hold_in_reset(bool hold) {
+  in_reset_ = hold;
+  if (!hold) return;
+  if (valid_) stalls_ += cycle_ - offered_;
+  fifo_.clear();
+  valid_ = false;
+  in_packet_ = 0;
+  overflow_ = 0;
+}
+
+// ---- the slave's side
+// ---------------------------------------------------------------------------------------------------
+
+std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
+  if (arrives_ == never) plan();
+  if (!passed_.empty()) return cycle_;
+  beats = std::min(beats, burst_words_ - in_packet_ + (valid_ && !out_.last ? 1 : 0));
+  if (valid_ && out_.last) beats = 1;
+  const std::uint32_t held = fifo_.count() + (valid_ ? 1 : 0);
+  if (beats <= held) return cycle_ + beats;
+  const std::uint32_t words_ahead = beats - held - 1;
+  if (words_ahead < late_.size()) return arrival(late_[words_ahead].crossing) + 2;
+  const std::uint64_t index = std::uint64_t{next_} + words_ahead - late_.size();
+  if (index >= binary_.size()) return never;
+  return arrival(binary_.leaves_at(static_cast<std::uint32_t>(index)) + 1) + 2;
+}
+
+bool LazyBridge::take(vp::BeatSource::Beat& beat) {
+  if (passed_.empty()) return false;
+  beat = passed_.front();
+  passed_.pop_front();
+  return true;
+}
+
+std::uint32_t LazyBridge::take_lost() {
+  return std::exchange(lost_, 0);
+}
+
+std::uint64_t LazyBridge::take_stalls() {
+  return std::exchange(stalls_, 0);
+}
+
+}  // namespace pl

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include <pl/feature_packaging/core.h>
+#include <pl/global_threshold/binary_view.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+
+namespace pl {
+
+/// The threshold bridge and its clock crossing without an event for each word: the registers are
+/// brought up to date when somebody looks, edge by edge where something happens.
+class LazyBridge : private vp::ClockListener {
+ public:
+  /// `fifo_depth` words besides the output register, `burst_words` words a packet.
+  LazyBridge(vp::Clock& pixel_clk, vp::Clock& system_clk, const BinaryView& binary,
+             std::uint32_t fifo_depth, std::uint32_t burst_words);
+
+  /// Runs all system-clock edges up to and including `cycle`.
+  void advance(std::uint64_t cycle);
+  /// TREADY after the edge that was run last.
+  void set_ready(bool ready) { ready_ = ready; }
+  /// The registers' state after a reset on the edge that was run last; while it lasts, words that
+  /// arrive are not taken.
+  void hold_in_reset(bool hold);
+
+  /// The words of the frame before are about to be overwritten; those under way are kept.
+  void frame_begins();
+  /// The pixel side is reset now: words under way are lost.
+  void frame_cut();
+
+  /// See vp::BeatSource.
+  std::uint64_t earliest_pass(std::uint32_t beats);
+  bool take(vp::BeatSource::Beat& beat);
+
+  std::uint32_t overflow() const { return overflow_; }
+  /// Words that overwrote one in the crossing, since the last call.
+  std::uint32_t take_lost();
+  /// Edges on which a word waited for TREADY, since the last call.
+  std::uint64_t take_stalls();
+
+ private:
+  /// A word behind the threshold, with the pixel-clock edge at which the crossing takes it.
+  struct Word {
+    std::uint64_t crossing;
+    std::uint32_t data;
+  };
+
+  void before_change(vp::Clock& clock) override;
+  void after_change(vp::Clock& clock) override;
+  std::uint64_t arrival(std::uint64_t crossing) const;
+  bool next_word(Word& word) const;
+  void drop_word();
+  void plan();
+  void step(std::uint64_t edge);
+  void run_through(std::uint64_t edge);
+  void offer();
+  void pass();
+  void arrive(std::uint32_t waiting);
+  std::uint64_t next_edge() const;
+
+  vp::Clock& pixel_clock_;
+  vp::Clock& system_clock_;
+  const BinaryView& binary_;
+  const std::uint32_t fifo_depth_, burst_words_;
+
+  std::deque<Word> late_;                     ///< of the frame before, still in the crossing
+  std::uint32_t next_ = 0;                    ///< word of the present frame that arrives next
+  std::uint64_t arrives_ = vp::Clock::never;  ///< system-clock edge on which the next word is taken
+
+  FeatureBuffer fifo_;
+  vp::BeatSource::Beat out_;
+  bool valid_ = false;
+  std::uint64_t offered_ = 0;  ///< edge from which the word in the output register is offered
+  std::uint32_t in_packet_ = 0;
+  std::deque<vp::BeatSource::Beat> passed_;
+
+  bool ready_ = false;
+  bool in_reset_ = false;
+  std::uint64_t cycle_ = 0;  ///< edge that was run last
+  std::uint32_t overflow_ = 0, lost_ = 0;
+  std::uint64_t stalls_ = 0;
+
+  std::uint64_t ratio_ = 0;  ///< system clocks a pixel clock, if whole since time 0; else 0
+  std::uint64_t changed_pixel_ = 0, changed_system_ = 0;  ///< cycles at the last clock change
+};
+
+}  // namespace pl

@@ -1,0 +1,75 @@
+#include <pl/axi_threshold_bridge/tlm.h>
+
+namespace pl {
+
+AxiThresholdBridgeTlm::AxiThresholdBridgeTlm(sc_core::sc_module_name name, vp::Clock& clk,
+                                             vp::Clock& pixel_clk, BinaryView& binary,
+                                             ClockCrossing& crossing)
+    : AxiThresholdBridgeClocked(name, clk),
+      bridge_(pixel_clk, clk, binary, fifo_depth, burst_words),
+      crossing_(crossing) {
+  binary.add_listener(*this);
+}
+
+void AxiThresholdBridgeTlm::before_end_of_elaboration() {
+  AxiThresholdBridgeClocked::before_end_of_elaboration();
+  if (direct()) m.set_source(*this);
+}
+
+void AxiThresholdBridgeTlm::edge() {
+  if (!direct()) return AxiThresholdBridgeClocked::edge();
+  sleep();
+  if (rst == in_reset_) return;
+  const std::uint64_t cycle = clock().cycle();
+  bridge_.advance(cycle - 1);
+  count();
+  in_reset_ = rst;
+  if (rst) bridge_.advance(cycle);
+  bridge_.hold_in_reset(rst);
+  if (rst) bridge_overflow = 0;
+}
+
+void AxiThresholdBridgeTlm::on_change(vp::SignalBase& signal, std::uint32_t id) {
+  if (!direct() || &signal != m.tready.signal()) {
+    return AxiThresholdBridgeClocked::on_change(signal, id);
+  }
+  settle();
+  bridge_.set_ready(m.tready);
+}
+
+void AxiThresholdBridgeTlm::settle() {
+  if (!direct()) return;
+  bridge_.advance(clock().cycle());
+  count();
+}
+
+void AxiThresholdBridgeTlm::count() {
+  bridge_overflow = bridge_.overflow();
+  crossing_.add_lost(bridge_.take_lost());
+  m.count_stalls(bridge_.take_stalls());
+}
+
+std::uint64_t AxiThresholdBridgeTlm::earliest_pass(std::uint32_t beats) {
+  return bridge_.earliest_pass(beats);
+}
+
+bool AxiThresholdBridgeTlm::take(std::uint64_t cycle, Beat& beat) {
+  bridge_.advance(cycle);
+  return bridge_.take(beat);
+}
+
+void AxiThresholdBridgeTlm::binary_begins() {
+  if (!direct()) return;
+  bridge_.frame_begins();
+  count();
+  m.wake_slave();
+}
+
+// The crossing is reset, too, and its count with it.
+void AxiThresholdBridgeTlm::binary_cut() {
+  if (!direct()) return;
+  bridge_.frame_cut();
+  bridge_.take_lost();
+}
+
+}  // namespace pl

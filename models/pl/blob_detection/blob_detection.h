@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vp/clock.h>
+#include <vp/parameter.h>
+
+namespace pl {
+
+/// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`, decision).
+class BlobDetection : public vp::Clocked {
+ public:
+  vp::In<bool> ena{"ena", this};
+  vp::In<bool> rst{"rst", this};
+  // Clocked fidelity only.
+  vp::In<bool> pixel{"pixel", this};  ///< 1 is dark
+  vp::In<std::uint16_t> x{"x", this};
+  vp::In<std::uint16_t> y{"y", this};
+  vp::Signal<bool> blob_out{"blob_out"};
+  vp::Signal<std::uint32_t> blob_start{"blob_start"};
+  vp::Signal<std::uint32_t> blob_end{"blob_end"};
+  vp::Signal<bool> idle{"idle", 1, true};  ///< no frame, and every label retired
+  /// Dark pixels that found no free label since the last reset; complete at the end of the frame.
+  vp::Signal<std::uint32_t> label_overflow{"label_overflow"};
+
+  vp::Parameter<std::uint32_t> label_count{
+      "label_count",
+      128,
+      vp::Unit::none,
+      {4, 1024},
+      vp::Source::decision,
+      "labels, the background's included; the thesis does not give its number"};
+  vp::Parameter<std::uint32_t> minimum_side{
+      "minimum_side",
+      24,
+      vp::Unit::pixels,
+      {1, 1023},
+      vp::Source::published,
+      "smallest Ex - Sx and Ey - Sy of a blob that is reported (thesis 4.3.6.4)"};
+
+ protected:
+  BlobDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+    wake_on(ena);
+    wake_on(rst);
+  }
+};
+
+}  // namespace pl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vp/clock.h>
+#include <vp/parameter.h>
+
+namespace pl {
+
+/// Corner Detection (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
+class CornerDetection : public vp::Clocked {
+ public:
+  vp::In<bool> ena{"ena", this};
+  vp::In<bool> rst{"rst", this};
+  // Clocked fidelity only.
+  vp::In<std::uint8_t> pixel{"pixel", this};
+  vp::In<std::uint16_t> x{"x", this};
+  vp::In<std::uint16_t> y{"y", this};
+  vp::Signal<bool> corner_out{"corner_out"};
+  vp::Signal<std::uint32_t> corner_data{"corner_data"};  ///< valid while corner_out is high
+
+  vp::Parameter<std::uint32_t> threshold{
+      "threshold",
+      30,
+      vp::Unit::none,
+      {0, 255},
+      vp::Source::decision,
+      "a circle pixel is bright if it exceeds the point of interest by more (grey levels)"};
+
+ protected:
+  CornerDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+    wake_on(ena);
+    wake_on(rst);
+  }
+};
+
+}  // namespace pl

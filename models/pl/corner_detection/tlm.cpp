@@ -1,0 +1,94 @@
+#include <pl/corner_detection/tlm.h>
+
+#include <algorithm>
+
+#include <pl/corner_detection/core.h>
+
+namespace pl {
+
+namespace {
+
+/// The clock at which a frame's first pixel is taken.
+constexpr std::uint64_t first_pixel_clock = 3;
+
+}  // namespace
+
+CornerDetectionTlm::CornerDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk,
+                                       const Geometry& geometry, FrameView& view)
+    : CornerDetection(name, clk), geometry_(geometry), view_(view), frame_(geometry, threshold) {
+  view_.add_listener(*this);
+}
+
+void CornerDetectionTlm::edge() {
+  sleep();
+  if (rst) return reset();
+  const std::uint64_t cycle = clock().cycle();
+  if (ena && !ena_before_) begin(cycle);
+  ena_before_ = ena;
+  if (cycle >= changed_cycle_) find_again(cycle);
+  const bool leaves = emit(cycle);
+  wake_at(leaves ? cycle + 1 : std::min(next_corner_cycle(), changed_cycle_));
+}
+
+bool CornerDetectionTlm::emit(std::uint64_t cycle) {
+  const bool leaves = next_ < corners_.size() && corners_[next_].clock == cycle;
+  if (leaves) corner_data = corners_[next_++].word;
+  corner_out = leaves;
+  return leaves;
+}
+
+// The last corners of the frame before may still be under way.
+void CornerDetectionTlm::begin(std::uint64_t cycle) {
+  corners_.erase(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(next_));
+  next_ = 0;
+  offset_ = cycle - first_pixel_clock;
+  changed_cycle_ = vp::Clock::never;
+  frame_.begin(view_.pixels());
+  append_corners();
+}
+
+void CornerDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
+  const std::uint64_t taken = cycle_of(first_pixel_clock + first);
+  if (taken >= changed_cycle_) return;
+  changed_ = first;
+  changed_cycle_ = taken;
+  wake_at(std::min(next_corner_cycle(), changed_cycle_));
+}
+
+// Corners that a changed row completes are found again; what left already stays.
+void CornerDetectionTlm::find_again(std::uint64_t cycle) {
+  const std::uint32_t row = changed_ / geometry_.width;
+  const std::uint64_t row_begin =
+      cycle_of(first_pixel_clock + CornerCore::latency + std::uint64_t{row} * geometry_.width);
+  corners_.erase(first_at_or_after(row_begin, next_), corners_.end());
+  const std::size_t kept = corners_.size();
+  frame_.rewind(row);
+  append_corners();
+  corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(kept),
+                 first_at_or_after(cycle, kept));
+  changed_cycle_ = vp::Clock::never;
+}
+
+void CornerDetectionTlm::append_corners() {
+  const std::size_t old = corners_.size();
+  frame_.advance(geometry_.height, corners_);
+  for (std::size_t i = old; i < corners_.size(); ++i) corners_[i].clock += offset_;
+}
+
+std::vector<StampedWord>::iterator CornerDetectionTlm::first_at_or_after(std::uint64_t cycle,
+                                                                         std::size_t from) {
+  return std::lower_bound(corners_.begin() + static_cast<std::ptrdiff_t>(from), corners_.end(),
+                          cycle,
+                          [](const StampedWord& c, std::uint64_t at) { return c.clock < at; });
+}
+
+void CornerDetectionTlm::reset() {
+  corners_.clear();
+  next_ = 0;
+  ena_before_ = false;
+  changed_cycle_ = vp::Clock::never;
+  corner_out = false;
+  wake_at(vp::Clock::never);
+}
+
+}  // namespace pl

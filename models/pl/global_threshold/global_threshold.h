@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+
+#include <pl/global_threshold/binary_view.h>
+#include <pl/global_threshold/core.h>
+#include <vp/clock.h>
+
+namespace pl {
+
+/// Global Threshold (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives
+/// it).
+class GlobalThreshold : public vp::Clocked {
+ public:
+  vp::In<bool> por{"por", this};  ///< system reset: the threshold returns to 127 (decision)
+  vp::In<bool> rst{"rst", this};  ///< the adaptive threshold survives it (decision)
+  vp::In<bool> frame_ena{"frame_ena", this};
+  vp::In<bool> wr_thresh{"wr_thresh", this};  ///< a level: loads `threshold` on every clock
+  vp::In<std::uint8_t> threshold{"threshold", this};
+  vp::Signal<bool> binary_ena{"binary_ena"};
+  vp::Signal<bool> thresh_out{"thresh_out"};
+  vp::Signal<std::uint32_t> thresh_data{"thresh_data"};  ///< bit i is pixel 32w + i (decision)
+  /// The threshold in use, 0 to 255; no port of the IP, for traces and reports.
+  vp::Signal<std::uint8_t> active_threshold{"active_threshold", 8,
+                                            ThresholdCore::default_threshold};
+
+  /// Transaction level only: the whole binary image.
+  BinaryView binary;
+  /// Whether words leave on `thresh_out`. The clocked model always shows them; default: shown.
+  virtual void show_words(bool /*show*/) {}
+
+  // Clocked fidelity only.
+  vp::In<std::uint8_t> pixel{"pixel", this};
+  vp::In<std::uint16_t> x{"x", this};
+  vp::In<std::uint16_t> y{"y", this};
+  vp::Signal<bool> binary_out{"binary_out"};  ///< 1 is dark
+  vp::Signal<std::uint16_t> binary_x{"binary_x", 10};
+  vp::Signal<std::uint16_t> binary_y{"binary_y", 9};
+
+ protected:
+  GlobalThreshold(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+    wake_on(por);
+    wake_on(rst);
+    wake_on(frame_ena);
+    wake_on(wr_thresh);
+  }
+};
+
+}  // namespace pl
