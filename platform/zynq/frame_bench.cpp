@@ -68,7 +68,9 @@ const hal_frame* FrameBench::next_frame(std::uint64_t) {
   return &frame_;
 }
 
+// A program that does not upload its images finds them in the image store.
 void FrameBench::place(const input::InputFrame& frame) {
+  if (options_.value("upload", 1) < 0.5) zynq_.pl.bram.load(frame.image.pixels);
   std::memcpy(zynq_.ps.ddr.at(frame_.bus_address, frame.image.pixels.size()),
               frame.image.pixels.data(), frame.image.pixels.size());
   frame_.index = frames_++;

@@ -43,4 +43,11 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
   }
 }
 
+double SoftwareOptions::value(const std::string& option, double otherwise) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    if (parameters_[i].basename() == option) return values_[i];
+  }
+  return otherwise;
+}
+
 }  // namespace platform

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -18,6 +19,8 @@ class SoftwareOptions : public sc_core::sc_module {
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
+  /// The same by name; `otherwise` if the program has no such option.
+  double value(const std::string& option, double otherwise) const;
 
  private:
   std::deque<vp::Parameter<double>> parameters_;

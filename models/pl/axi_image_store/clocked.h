@@ -19,6 +19,9 @@ class AxiImageStoreClocked : public vp::Clocked {
   vp::In<bool> rst{"rst", this};
   vp::AxiStreamSlave m{"m", *this};
 
+  /// Brings memory and counters up to now.
+  virtual void settle() {}
+
   /// Words stored since the last rise of `ena`.
   vp::Signal<std::uint32_t> address{"address", 17};
 

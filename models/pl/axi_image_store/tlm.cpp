@@ -24,8 +24,12 @@ void AxiImageStoreTlm::take_burst(const std::uint32_t* words, std::uint32_t coun
   address = address + count;
 }
 
-void AxiImageStoreTlm::frame_begins() {
+void AxiImageStoreTlm::settle() {
   m.settle(clock().cycle());
+}
+
+void AxiImageStoreTlm::frame_begins() {
+  settle();
 }
 
 }  // namespace pl

@@ -14,6 +14,8 @@ class AxiImageStoreTlm : public AxiImageStoreClocked, private vp::BurstSink, pri
   AxiImageStoreTlm(sc_core::sc_module_name name, vp::Clock& clk, xilinx::Bram& bram,
                    FrameView& view);
 
+  void settle() override;
+
  private:
   void edge() override;
   bool takes_bursts() const override;

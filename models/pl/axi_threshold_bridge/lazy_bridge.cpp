@@ -1,7 +1,6 @@
 #include <pl/axi_threshold_bridge/lazy_bridge.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace pl {
 
@@ -11,16 +10,15 @@ constexpr std::uint64_t never = vp::Clock::never;
 
 }  // namespace
 
-LazyBridge::LazyBridge(vp::Clock& pixel_clk, vp::Clock& system_clk, const BinaryView& binary,
-                       std::uint32_t fifo_depth, std::uint32_t burst_words)
+LazyBridge::LazyBridge(const vp::Clock& pixel_clk, const vp::Clock& system_clk,
+                       const BinaryView& binary, std::uint32_t fifo_depth,
+                       std::uint32_t burst_words)
     : pixel_clock_(pixel_clk),
       system_clock_(system_clk),
       binary_(binary),
       fifo_depth_(fifo_depth),
       burst_words_(burst_words),
       fifo_(fifo_depth) {
-  pixel_clock_.add_listener(*this);
-  system_clock_.add_listener(*this);
   const std::uint64_t pixel = pixel_clock_.frequency_hz(), system = system_clock_.frequency_hz();
   if (pixel != 0 && system % pixel == 0) ratio_ = system / pixel;
 }
@@ -76,11 +74,7 @@ void LazyBridge::frame_cut() {
   arrives_ = never;
 }
 
-void LazyBridge::before_change(vp::Clock&) {
-  advance(system_clock_.cycle());
-}
-
-void LazyBridge::after_change(vp::Clock&) {
+void LazyBridge::clock_changed() {
   ratio_ = 0;
   changed_pixel_ = pixel_clock_.cycle();
   changed_system_ = system_clock_.cycle();
@@ -140,7 +134,9 @@ void LazyBridge::offer() {
 void LazyBridge::pass() {
   passed_.push_back(out_);
   valid_ = false;
-  stalls_ += cycle_ - offered_ - 1;
+  ++counts_.beats;
+  counts_.packets += out_.last;
+  counts_.stalls += cycle_ - offered_ - 1;
 }
 
 void LazyBridge::arrive(std::uint32_t waiting) {
@@ -150,7 +146,7 @@ void LazyBridge::arrive(std::uint32_t waiting) {
   for (plan(); arrives_ == cycle_; plan()) {
     next_word(word);  // overwrites one that was not seen yet
     drop_word();
-    ++lost_;
+    ++counts_.lost;
   }
   if (in_reset_) return;
   if (waiting < fifo_depth_) {
@@ -163,7 +159,7 @@ void LazyBridge::arrive(std::uint32_t waiting) {
 void LazyBridge::hold_in_reset(bool hold) {
   in_reset_ = hold;
   if (!hold) return;
-  if (valid_) stalls_ += cycle_ - offered_;
+  if (valid_) counts_.stalls += cycle_ - offered_;
   fifo_.clear();
   valid_ = false;
   in_packet_ = 0;
@@ -192,14 +188,6 @@ bool LazyBridge::take(vp::BeatSource::Beat& beat) {
   beat = passed_.front();
   passed_.pop_front();
   return true;
-}
-
-std::uint32_t LazyBridge::take_lost() {
-  return std::exchange(lost_, 0);
-}
-
-std::uint64_t LazyBridge::take_stalls() {
-  return std::exchange(stalls_, 0);
 }
 
 }  // namespace pl

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <utility>
 
 #include <pl/feature_packaging/core.h>
 #include <pl/global_threshold/binary_view.h>
@@ -12,10 +13,10 @@ namespace pl {
 
 /// The threshold bridge and its clock crossing without an event for each word: the registers are
 /// brought up to date when somebody looks, edge by edge where something happens.
-class LazyBridge : private vp::ClockListener {
+class LazyBridge {
  public:
   /// `fifo_depth` words besides the output register, `burst_words` words a packet.
-  LazyBridge(vp::Clock& pixel_clk, vp::Clock& system_clk, const BinaryView& binary,
+  LazyBridge(const vp::Clock& pixel_clk, const vp::Clock& system_clk, const BinaryView& binary,
              std::uint32_t fifo_depth, std::uint32_t burst_words);
 
   /// Runs all system-clock edges up to and including `cycle`.
@@ -25,6 +26,10 @@ class LazyBridge : private vp::ClockListener {
   /// The registers' state after a reset on the edge that was run last; while it lasts, words that
   /// arrive are not taken.
   void hold_in_reset(bool hold);
+
+  /// Before and after a change of either clock's frequency.
+  void clock_changes() { advance(system_clock_.cycle()); }
+  void clock_changed();
 
   /// The words of the frame before are about to be overwritten; those under way are kept.
   void frame_begins();
@@ -36,10 +41,13 @@ class LazyBridge : private vp::ClockListener {
   bool take(vp::BeatSource::Beat& beat);
 
   std::uint32_t overflow() const { return overflow_; }
-  /// Words that overwrote one in the crossing, since the last call.
-  std::uint32_t take_lost();
-  /// Edges on which a word waited for TREADY, since the last call.
-  std::uint64_t take_stalls();
+  /// What happened since the last call.
+  struct Counts {
+    std::uint64_t beats = 0, packets = 0;  ///< that passed
+    std::uint64_t stalls = 0;              ///< edges on which a word waited for TREADY
+    std::uint32_t lost = 0;                ///< words that were overwritten in the crossing
+  };
+  Counts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   /// A word behind the threshold, with the pixel-clock edge at which the crossing takes it.
@@ -48,8 +56,6 @@ class LazyBridge : private vp::ClockListener {
     std::uint32_t data;
   };
 
-  void before_change(vp::Clock& clock) override;
-  void after_change(vp::Clock& clock) override;
   std::uint64_t arrival(std::uint64_t crossing) const;
   bool next_word(Word& word) const;
   void drop_word();
@@ -61,8 +67,8 @@ class LazyBridge : private vp::ClockListener {
   void arrive(std::uint32_t waiting);
   std::uint64_t next_edge() const;
 
-  vp::Clock& pixel_clock_;
-  vp::Clock& system_clock_;
+  const vp::Clock& pixel_clock_;
+  const vp::Clock& system_clock_;
   const BinaryView& binary_;
   const std::uint32_t fifo_depth_, burst_words_;
 
@@ -80,8 +86,8 @@ class LazyBridge : private vp::ClockListener {
   bool ready_ = false;
   bool in_reset_ = false;
   std::uint64_t cycle_ = 0;  ///< edge that was run last
-  std::uint32_t overflow_ = 0, lost_ = 0;
-  std::uint64_t stalls_ = 0;
+  std::uint32_t overflow_ = 0;
+  Counts counts_;
 
   std::uint64_t ratio_ = 0;  ///< system clocks a pixel clock, if whole since time 0; else 0
   std::uint64_t changed_pixel_ = 0, changed_system_ = 0;  ///< cycles at the last clock change

@@ -9,6 +9,8 @@ AxiThresholdBridgeTlm::AxiThresholdBridgeTlm(sc_core::sc_module_name name, vp::C
       bridge_(pixel_clk, clk, binary, fifo_depth, burst_words),
       crossing_(crossing) {
   binary.add_listener(*this);
+  clk.add_listener(*this);
+  pixel_clk.add_listener(*this);
 }
 
 void AxiThresholdBridgeTlm::before_end_of_elaboration() {
@@ -45,8 +47,9 @@ void AxiThresholdBridgeTlm::settle() {
 
 void AxiThresholdBridgeTlm::count() {
   bridge_overflow = bridge_.overflow();
-  crossing_.add_lost(bridge_.take_lost());
-  m.count_stalls(bridge_.take_stalls());
+  const LazyBridge::Counts counts = bridge_.take_counts();
+  crossing_.add_lost(counts.lost);
+  m.count(counts.beats, counts.packets, counts.stalls);
 }
 
 std::uint64_t AxiThresholdBridgeTlm::earliest_pass(std::uint32_t beats) {
@@ -55,7 +58,17 @@ std::uint64_t AxiThresholdBridgeTlm::earliest_pass(std::uint32_t beats) {
 
 bool AxiThresholdBridgeTlm::take(std::uint64_t cycle, Beat& beat) {
   bridge_.advance(cycle);
+  count();
   return bridge_.take(beat);
+}
+
+void AxiThresholdBridgeTlm::before_change(vp::Clock&) {
+  bridge_.clock_changes();
+}
+
+void AxiThresholdBridgeTlm::after_change(vp::Clock&) {
+  bridge_.clock_changed();
+  if (direct()) m.wake_slave();
 }
 
 void AxiThresholdBridgeTlm::binary_begins() {
@@ -69,7 +82,8 @@ void AxiThresholdBridgeTlm::binary_begins() {
 void AxiThresholdBridgeTlm::binary_cut() {
   if (!direct()) return;
   bridge_.frame_cut();
-  bridge_.take_lost();
+  count();
+  crossing_.forget_lost();
 }
 
 }  // namespace pl

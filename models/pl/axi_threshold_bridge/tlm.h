@@ -12,6 +12,7 @@ namespace pl {
 /// tells the slave when they pass. For a slave that wants single beats it works as the clocked one.
 class AxiThresholdBridgeTlm : public AxiThresholdBridgeClocked,
                               private vp::BeatSource,
+                              private vp::ClockListener,
                               private BinaryListener {
  public:
   /// `crossing` gets the count of words that were lost on the way.
@@ -27,6 +28,8 @@ class AxiThresholdBridgeTlm : public AxiThresholdBridgeClocked,
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   std::uint64_t earliest_pass(std::uint32_t beats) override;
   bool take(std::uint64_t cycle, Beat& beat) override;
+  void before_change(vp::Clock& clock) override;
+  void after_change(vp::Clock& clock) override;
   void binary_begins() override;
   void binary_cut() override;
   void count();

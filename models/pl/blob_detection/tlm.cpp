@@ -29,13 +29,13 @@ void BlobDetectionTlm::edge() {
   if (ena && !ena_before_) begin(cycle);
   ena_before_ = ena;
   if (cycle >= changed_cycle_) find_again(cycle);
-  const bool leaves = emit(cycle);
+  emit(cycle);
   idle = cycle >= idle_cycle_;
   if (!ena) label_overflow = frame_.overflow();
-  wake_at(leaves ? cycle + 1 : next_change(cycle));
+  wake_at(next_change(cycle));
 }
 
-bool BlobDetectionTlm::emit(std::uint64_t cycle) {
+void BlobDetectionTlm::emit(std::uint64_t cycle) {
   const bool leaves = next_ < blobs_.size() && blobs_[next_].clock == cycle;
   if (leaves) {
     blob_start = blobs_[next_].start;
@@ -43,10 +43,10 @@ bool BlobDetectionTlm::emit(std::uint64_t cycle) {
     ++next_;
   }
   blob_out = leaves;
-  return leaves;
 }
 
 std::uint64_t BlobDetectionTlm::next_change(std::uint64_t cycle) const {
+  if (blob_out.written()) return cycle + 1;
   const std::uint64_t blob = next_ < blobs_.size() ? blobs_[next_].clock : vp::Clock::never;
   const std::uint64_t idle_from = cycle < idle_cycle_ ? idle_cycle_ : vp::Clock::never;
   return std::min({blob, idle_from, changed_cycle_});
@@ -96,6 +96,8 @@ void BlobDetectionTlm::forget_before(std::uint64_t cycle, std::size_t from) {
 }
 
 void BlobDetectionTlm::binary_changed(std::uint32_t first) {
+  // A pixel of a frame that begins here only in the next clock is not known yet.
+  if (!begun_ || begin_ + first <= clock().cycle()) return;
   changed_cycle_ = std::min(changed_cycle_, begin_ + first);
   wake_at(next_change(clock().cycle()));
 }

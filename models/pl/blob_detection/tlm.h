@@ -28,7 +28,7 @@ class BlobDetectionTlm : public BlobDetection, private BinaryListener {
   void find_again(std::uint64_t cycle);
   void stamp(std::size_t from);
   void forget_before(std::uint64_t cycle, std::size_t from);
-  bool emit(std::uint64_t cycle);
+  void emit(std::uint64_t cycle);
   std::uint64_t next_change(std::uint64_t cycle) const;
   std::uint64_t frame_end() const { return begin_ + geometry_.pixels(); }
 

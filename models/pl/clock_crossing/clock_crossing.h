@@ -35,6 +35,8 @@ class ClockCrossing : public vp::Clocked {
   void add_lost(std::uint32_t words) {
     if (words != 0) crossing_overflow = crossing_overflow.written() + words;
   }
+  /// The pixel side is in reset, and with it the count.
+  void forget_lost() { crossing_overflow = 0; }
 
  private:
   void edge() override;

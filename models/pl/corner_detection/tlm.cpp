@@ -26,15 +26,20 @@ void CornerDetectionTlm::edge() {
   if (ena && !ena_before_) begin(cycle);
   ena_before_ = ena;
   if (cycle >= changed_cycle_) find_again(cycle);
-  const bool leaves = emit(cycle);
-  wake_at(leaves ? cycle + 1 : std::min(next_corner_cycle(), changed_cycle_));
+  emit(cycle);
+  wake_at(next_change(cycle));
 }
 
-bool CornerDetectionTlm::emit(std::uint64_t cycle) {
+void CornerDetectionTlm::emit(std::uint64_t cycle) {
   const bool leaves = next_ < corners_.size() && corners_[next_].clock == cycle;
   if (leaves) corner_data = corners_[next_++].word;
   corner_out = leaves;
-  return leaves;
+}
+
+std::uint64_t CornerDetectionTlm::next_change(std::uint64_t cycle) const {
+  if (corner_out.written()) return cycle + 1;
+  const std::uint64_t corner = next_ < corners_.size() ? corners_[next_].clock : vp::Clock::never;
+  return std::min(corner, changed_cycle_);
 }
 
 // The last corners of the frame before may still be under way.
@@ -49,10 +54,12 @@ void CornerDetectionTlm::begin(std::uint64_t cycle) {
 
 void CornerDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
   const std::uint64_t taken = cycle_of(first_pixel_clock + first);
-  if (taken >= changed_cycle_) return;
+  // A pixel of a frame that begins here only in the next clocks is not known yet.
+  const std::uint64_t cycle = clock().cycle();
+  if (taken <= cycle || taken >= changed_cycle_) return;
   changed_ = first;
   changed_cycle_ = taken;
-  wake_at(std::min(next_corner_cycle(), changed_cycle_));
+  wake_at(next_change(cycle));
 }
 
 // Corners that a changed row completes are found again; what left already stays.

@@ -25,10 +25,8 @@ class CornerDetectionTlm : public CornerDetection, private FrameListener {
   void find_again(std::uint64_t cycle);
   void append_corners();
   std::vector<StampedWord>::iterator first_at_or_after(std::uint64_t cycle, std::size_t from);
-  std::uint64_t next_corner_cycle() const {
-    return next_ < corners_.size() ? corners_[next_].clock : vp::Clock::never;
-  }
-  bool emit(std::uint64_t cycle);
+  std::uint64_t next_change(std::uint64_t cycle) const;
+  void emit(std::uint64_t cycle);
   void reset();
   std::uint64_t cycle_of(std::uint64_t clock) const { return offset_ + clock; }
 

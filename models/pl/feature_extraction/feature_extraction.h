@@ -48,8 +48,11 @@ class FeatureExtraction : public sc_core::sc_module {
   vp::AxiStreamMaster& binary_stream() { return axi_threshold_bridge.m; }
   const vp::Signal<std::uint32_t>& feature() const { return feature_packaging.feature; }
 
-  /// Brings the counters up to now.
-  void settle() { axi_threshold_bridge.settle(); }
+  /// Brings memories and counters up to now, for whoever looks at them from outside.
+  void settle() {
+    axi_image_store.settle();
+    axi_threshold_bridge.settle();
+  }
 
  private:
   void before_end_of_elaboration() override;

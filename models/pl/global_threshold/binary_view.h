@@ -13,7 +13,7 @@ class BinaryListener {
   virtual void binary_begins() {}
   /// Pixels from raster index `first` on changed; none of them had left the threshold.
   virtual void binary_changed(std::uint32_t /*first*/) {}
-  /// The frame is cut off now: no further word leaves.
+  /// The pixel side is reset now: no further word leaves, what is under way is lost.
   virtual void binary_cut() {}
 };
 

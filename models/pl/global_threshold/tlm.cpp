@@ -58,7 +58,8 @@ void GlobalThresholdTlm::load(std::uint64_t cycle) {
 }
 
 void GlobalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t count) {
-  if (!running_) return;
+  // A pixel of a frame that begins here only in the next clocks is not known yet.
+  if (!running_ || first_cycle_ + first <= clock().cycle()) return;
   frame_.refresh(first, count);
   binary.change(first);
 }
@@ -76,7 +77,7 @@ void GlobalThresholdTlm::reset() {
   active_threshold = frame_.threshold();
   binary_ena = false;
   thresh_out = false;
-  if (running_) binary.cut();
+  binary.cut();
   running_ = false;
   wake_at(vp::Clock::never);
 }

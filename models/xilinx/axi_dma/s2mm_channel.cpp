@@ -56,7 +56,7 @@ void S2mmChannel::take_beats(std::uint64_t cycle) {
     if (beat_) take_beat({s_axis.tdata, s_axis.tkeep, s_axis.tlast}, cycle);
     return;
   }
-  for (vp::BeatSource::Beat beat; s_axis.take(cycle, beat);) take_beat(beat, cycle);
+  for (vp::BeatSource::Beat beat; s_axis.source()->take(cycle, beat);) take_beat(beat, cycle);
 }
 
 // With a source: no earlier edge brings what has to be acted on. A burst, the transfer or the FIFO
@@ -190,7 +190,7 @@ bool S2mmChannel::quiet(std::uint64_t) const {
 void S2mmChannel::abandon() {
   s_axis.tready = false;
   if (s_axis.source()) {
-    for (vp::BeatSource::Beat beat; s_axis.take(core_.channel_clock().cycle(), beat);) continue;
+    for (vp::BeatSource::Beat beat; s_axis.source()->take(core_.channel_clock().cycle(), beat);) continue;
   }
   ready_from_ = never;
   closed_ = overflow_ = false;

@@ -32,6 +32,13 @@ void Bram::write_a(std::uint32_t address, const std::uint32_t* words, std::uint3
   for (std::uint32_t i = fitting; i < count; ++i) refuse_write(address + i);
 }
 
+void Bram::load(const std::vector<std::uint8_t>& bytes) {
+  const auto count = static_cast<std::uint32_t>(std::min(bytes.size(), bytes_.size()));
+  if (listener_) listener_->before_write(0, count);
+  std::copy_n(bytes.begin(), count, bytes_.begin());
+  if (listener_) listener_->after_write(0, count);
+}
+
 std::vector<std::uint8_t> Bram::fork() {
   std::vector<std::uint8_t> copy = bytes_;
   std::swap(copy, bytes_);

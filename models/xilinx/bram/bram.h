@@ -50,8 +50,9 @@ class Bram : public sc_core::sc_module {
     return bytes_[address];
   }
 
-  /// All bytes in port B's order, for loading an image without bus traffic and for tests. Not
-  /// counted.
+  /// Writes bytes in port B's order from address 0 on, without bus traffic. Not counted.
+  void load(const std::vector<std::uint8_t>& bytes);
+  /// All bytes in port B's order, for tests.
   std::vector<std::uint8_t>& contents() { return bytes_; }
 
   /// Hands over the memory as it stands, at its place; the Bram goes on with a copy.

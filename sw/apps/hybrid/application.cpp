@@ -83,8 +83,10 @@ Status Application::receive(const hal_frame& frame) {
   recovery_due_ = true;  // until the frame proves otherwise
 
   times.upload.start = link_.now();
-  Status status =
-      link_.upload(frame.bus_address, frame.width * frame.height, counts(options_.timeout));
+  Status status = Status::ok;
+  if (options_.upload) {
+    status = link_.upload(frame.bus_address, frame.width * frame.height, counts(options_.timeout));
+  }
   times.upload.end = link_.now();
   if (status != Status::ok) return status;
 

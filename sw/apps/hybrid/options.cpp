@@ -33,6 +33,7 @@ Options read_options() {
   options.marker_side = value(Option::marker_side);
   options.reprojection_stop = value(Option::reprojection_stop);
   options.iteration_limit = static_cast<std::uint32_t>(value(Option::iteration_limit));
+  options.upload = value(Option::upload) >= 0.5;
   options.timeout = value(Option::timeout);
   options.binary_timeout = value(Option::binary_timeout);
   return options;

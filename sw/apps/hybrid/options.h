@@ -16,6 +16,9 @@
     "POSIT stops when the mean reprojection error is below (thesis 4.5.6)")                        \
   X(iteration_limit, "", 100, 1, 100000,                                                           \
     "POSIT refines a solution at most so many times (thesis 4.5.6)")                               \
+  X(upload, "", 1, 0, 1,                                                                           \
+    "1: the image goes to the image store through DMA 0; 0: it is there already, as from a "       \
+    "camera on the PL (decision)")                                                                 \
   X(timeout, "ms", 1000, 0.1, 1000000,                                                             \
     "longest time for an upload, and from ena to the end word (decision)")                         \
   X(binary_timeout, "ms", 10, 0.001, 1000000,                                                      \
@@ -30,6 +33,7 @@ struct Options {
   double marker_side;
   double reprojection_stop;
   std::uint32_t iteration_limit;
+  bool upload;
   double timeout;
   double binary_timeout;
 };

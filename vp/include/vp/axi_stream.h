@@ -109,8 +109,12 @@ class AxiStreamMaster {
   void set_source(BeatSource& source) { link_->source_ = &source; }
   /// More, or other, beats are in sight of the source than before.
   void wake_slave() { link_->slave_->wake(); }
-  /// Edges on which a beat of the source waited for TREADY.
-  void count_stalls(std::uint64_t edges) { link_->stalls.add(edges); }
+  /// Counts what passed from the source, and the edges on which it waited for TREADY.
+  void count(std::uint64_t beats, std::uint64_t packets, std::uint64_t stalls) {
+    link_->beats.add(beats);
+    link_->packets.add(packets);
+    link_->stalls.add(stalls);
+  }
   /// Null if the slave wants single beats.
   BurstSink* sink() const { return link_->sink_; }
   void set_sender(BurstSender& sender) { link_->sender_ = &sender; }
@@ -161,13 +165,6 @@ class AxiStreamSlave {
   /// The slave asks source() if there is one. Before the binding.
   void accept_source() { takes_source_ = true; }
   BeatSource* source() const { return link_->source_; }
-  /// Takes and counts the oldest beat of the source that passed up to edge `cycle`.
-  bool take(std::uint64_t cycle, BeatSource::Beat& beat) {
-    if (!link_->source_->take(cycle, beat)) return false;
-    ++link_->beats;
-    link_->packets.add(beat.last);
-    return true;
-  }
   /// Before the binding.
   void set_sink(BurstSink& sink) { sink_ = &sink; }
   /// A burst under way is given up to edge `cycle`, the rest beat by beat.

@@ -1,0 +1,121 @@
+// The same result.json at either fidelity, with every instruction set, quantum and way of polling,
+// outside `fidelity`, `configuration` and `provenance`.
+#include <boost/test/unit_test.hpp>
+
+#include "executable.h"
+
+using namespace integration;
+
+namespace {
+
+Json result_of(const Arguments& arguments) {
+  const Workplace place;
+  Arguments all{"--quiet", "--no-pictures"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const kit::Outcome outcome = place.run(all);
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  Json result = place.result();
+  for (const char* key : {"fidelity", "configuration", "provenance"}) result.erase(key);
+  return result;
+}
+
+Arguments with(Arguments arguments, const std::string& assignment) {
+  arguments.insert(arguments.end(), {"--set", assignment});
+  return arguments;
+}
+
+/// Empty if equal; else the first place where they differ.
+std::string difference(const Json& a, const Json& b) {
+  const Json patch = Json::diff(a, b);
+  return patch.empty() ? "" : patch[0].dump();
+}
+
+const Arguments inputs{"demo", "squares15", "roll45", "front7", "z4.5", "--repeat", "2"};
+
+const Json& expected() {
+  static const Json result = result_of(with(inputs, "fidelity=clocked"));
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(fidelity)
+
+BOOST_AUTO_TEST_CASE(tlm_is_the_default) {
+  const Workplace place;
+  BOOST_TEST(place.run({"demo", "--quiet", "--no-pictures"}).exit_code == 0);
+  BOOST_TEST(place.result()["fidelity"] == "tlm");
+  BOOST_TEST(place.result()["configuration"]["pl.fidelity.blob_detection"] == "tlm");
+}
+
+BOOST_AUTO_TEST_CASE(a_trace_shows_the_clocked_model_unless_asked_otherwise) {
+  const Arguments trace{"demo",  "--quiet",        "--no-pictures", "--trace",
+                        "a.vcd", "--trace-window", "6ms:6.01ms"};
+  const Workplace clocked, tlm;
+  BOOST_TEST(clocked.run(trace).exit_code == 0);
+  BOOST_TEST(clocked.result()["fidelity"] == "clocked");
+  BOOST_TEST(tlm.run(with(trace, "fidelity=tlm")).exit_code == 0);
+  BOOST_TEST(tlm.result()["fidelity"] == "tlm");
+}
+
+BOOST_AUTO_TEST_CASE(an_ip_that_cannot_be_fed_is_refused_with_advice) {
+  const Workplace place;
+  const kit::Outcome outcome = place.run({"demo", "--set", "pl.fidelity.corner_detection=clocked",
+                                          "--set", "pl.fidelity.sensor_input=tlm"});
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(outcome.err.find("pl.fidelity.sensor_input") != std::string::npos, outcome.err);
+  BOOST_TEST(outcome.err.find("pl.fidelity.corner_detection") != std::string::npos, outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_at_transaction_level) {
+  BOOST_TEST(difference(result_of(inputs), expected()) == "");
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_on_any_scene_of_the_catalogue) {
+  for (const char* group : {"x", "y", "z", "pitch", "yaw", "roll", "squares", "id", "front"}) {
+    BOOST_TEST_CONTEXT(group) {
+      BOOST_TEST(difference(result_of({group}), result_of({group, "--set", "fidelity=clocked"})) ==
+                 "");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_in_a_mixture) {
+  BOOST_TEST(difference(result_of(with(inputs, "pl.fidelity.corner_detection=clocked")),
+                        expected()) == "");
+  BOOST_TEST(
+      difference(result_of(with(inputs, "pl.fidelity.blob_detection=clocked")), expected()) == "");
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_for_any_quantum) {
+  for (const char* quantum : {"0 us", "1 us", "100 us", "10 ms"}) {
+    BOOST_TEST_CONTEXT(quantum) {
+      BOOST_TEST(difference(result_of(with(inputs, std::string("ps.cpu.quantum=") + quantum)),
+                            expected()) == "");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_when_every_poll_is_made) {
+  BOOST_TEST(difference(result_of(with(inputs, "ps.poll_elision=false")), expected()) == "");
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_at_other_clocks) {
+  for (const char* clock :
+       {"ps.fclk_clk1.frequency=74.25 MHz", "ps.fclk_clk0.frequency=33.333333 MHz",
+        "ps.fclk_clk1.frequency=200 MHz", "ps.cpu_clk.frequency=123.456789 MHz"}) {
+    BOOST_TEST_CONTEXT(clock) {
+      const Arguments arguments = with({"demo", "--repeat", "2"}, clock);
+      BOOST_TEST(difference(result_of(arguments), result_of(with(arguments, "fidelity=clocked"))) ==
+                 "");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_when_the_image_is_there_already) {
+  const Arguments arguments = with({"demo", "--repeat", "2"}, "sw.upload=0");
+  BOOST_TEST(difference(result_of(arguments), result_of(with(arguments, "fidelity=clocked"))) ==
+             "");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
