@@ -8,31 +8,40 @@ namespace vp {
 namespace {
 
 constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
+/// Edges this far from a known one are computed in 64 bits: the product with the period still fits.
+constexpr std::uint64_t reach_cycles = std::uint64_t{1} << 23;
 using Wide = unsigned __int128;
 
 }  // namespace
 
-Clocked::Clocked(sc_core::sc_module_name name, Clock& clock) : sc_module(name), clock_(clock) {
-  clock_.modules_.push_back(this);
+Clocked::Clocked(sc_core::sc_module_name name, Clock& clock)
+    : sc_module(name), clock_(clock), place_(clock.places_.size()) {
+  clock_.places_.push_back({this});
   ++clock_.awake_;
+  clock_.attend_to_all();
 }
 
 Clocked::~Clocked() {
   sleep();
-  auto& modules = clock_.modules_;
-  modules.erase(std::remove(modules.begin(), modules.end(), this), modules.end());
+  auto& places = clock_.places_;
+  places.erase(places.begin() + static_cast<std::ptrdiff_t>(place_));
+  for (std::size_t i = place_; i < places.size(); ++i) places[i].module->place_ = i;
+  clock_.attend_to_all();
 }
 
 void Clocked::wake() {
-  if (awake_) return;
-  awake_ = true;
-  ++clock_.awake_;
-  clock_.plan_next(clock_.scheduler().now_ps());
+  Clock::Place& place = clock_.places_[place_];
+  if (place.awake) return;
+  place.awake = true;
+  clock_.attend_to(place_);
+  // While another module is awake every edge runs anyway.
+  if (clock_.awake_++ == 0) clock_.plan_next(clock_.scheduler().now_ps());
 }
 
 void Clocked::wake_at(std::uint64_t cycle) {
-  alarm_ = cycle;
-  clock_.plan_next(clock_.scheduler().now_ps());
+  clock_.places_[place_].alarm = cycle;
+  clock_.attend_to(place_);
+  if (clock_.awake_ == 0) clock_.plan_next(clock_.scheduler().now_ps());
 }
 
 void Clocked::wake_on(InBase& input) {
@@ -50,9 +59,9 @@ void Clocked::end_of_elaboration() {
 }
 
 Clock::Clock(const char* name, ClockScheduler& scheduler, std::uint64_t hertz)
-    : sc_object(name), scheduler_(scheduler), hertz_(hertz) {
+    : sc_object(name), scheduler_(scheduler) {
   scheduler_.clocks_.push_back(this);
-  seek(1);
+  start(hertz);
 }
 
 void Clock::set_frequency(std::uint64_t hertz) {
@@ -61,33 +70,80 @@ void Clock::set_frequency(std::uint64_t hertz) {
   const std::uint64_t now = scheduler_.now_ps();
   origin_cycle_ = cycle();
   origin_ps_ = now;
-  hertz_ = hertz;
-  seek(origin_cycle_ + 1);
+  start(hertz);
+  ++scheduler_.clock_changes_;
   plan_next(now);
   for (ClockListener* listener : listeners_) listener->after_change(*this);
 }
 
-std::uint64_t Clock::time_of(std::uint64_t cycle) const {
-  if (hertz_ == 0) return never;
+// Edges count from the origin on.
+void Clock::start(std::uint64_t hertz) {
+  hertz_ = hertz;
+  cycle_ps_ = never;
+  next_ = {origin_cycle_ + 1, never, 0};
+  if (hertz_ == 0) return;
+  period_ps_ = ps_per_second / hertz_;
+  period_remainder_ = ps_per_second % hertz_;
+  reach_ps_ = (std::uint64_t{1} << 62) / hertz_;
+  anchor_ = {origin_cycle_, origin_ps_, hertz_ / 2};
+  seek(origin_cycle_ + 1);
+}
+
+void Clock::set_anchor(std::uint64_t cycle) const {
   const Wide numerator = Wide(cycle - origin_cycle_) * ps_per_second + hertz_ / 2;
-  return origin_ps_ + static_cast<std::uint64_t>(numerator / hertz_);
+  anchor_ = {cycle, origin_ps_ + static_cast<std::uint64_t>(numerator / hertz_),
+             static_cast<std::uint64_t>(numerator % hertz_)};
+}
+
+Clock::Edge Clock::exact_edge(std::uint64_t cycle) const {
+  if (cycle - anchor_.cycle > reach_cycles) set_anchor(cycle);
+  const std::uint64_t n = cycle - anchor_.cycle;
+  Edge edge{cycle, anchor_.ps + n * period_ps_, anchor_.remainder};
+  if (period_remainder_ != 0) {
+    const std::uint64_t cut_off = n * period_remainder_ + anchor_.remainder;
+    edge.ps += cut_off / hertz_;
+    edge.remainder = cut_off % hertz_;
+  }
+  return edge;
+}
+
+// The first edge at or after `ps`, which is past the origin, counted from an anchor near it.
+inline std::uint64_t Clock::edges_from_anchor(std::uint64_t ps) const {
+  if (ps - anchor_.ps > reach_ps_) {
+    // The edge looked for or the one before.
+    set_anchor(origin_cycle_ +
+               static_cast<std::uint64_t>(Wide(ps - origin_ps_) * hertz_ / ps_per_second));
+  }
+  // The smallest n whose edge, n · 10¹² / f + what was cut off, is not before.
+  const std::uint64_t distance = (ps - anchor_.ps) * hertz_;
+  if (distance <= anchor_.remainder) return 0;
+  return (distance - anchor_.remainder + ps_per_second - 1) / ps_per_second;
 }
 
 std::uint64_t Clock::cycle_at_or_after(std::uint64_t ps) const {
   if (hertz_ == 0) return never;
   if (ps <= origin_ps_) return origin_cycle_ + 1;
-  // An estimate that is at most one too small, then the exact edge.
-  std::uint64_t n = static_cast<std::uint64_t>(Wide(ps - origin_ps_) * hertz_ / ps_per_second);
-  std::uint64_t cycle = origin_cycle_ + std::max<std::uint64_t>(n, 1);
-  while (time_of(cycle) < ps) ++cycle;
-  return cycle;
+  const std::uint64_t n = edges_from_anchor(ps);
+  return std::max(anchor_.cycle + n, origin_cycle_ + 1);
+}
+
+std::uint64_t Clock::edge_at_or_after(std::uint64_t ps) const {
+  if (hertz_ == 0) return never;
+  if (ps <= origin_ps_) return exact_edge(origin_cycle_ + 1).ps;
+  const std::uint64_t n = edges_from_anchor(ps);
+  if (anchor_.cycle + n <= origin_cycle_) return exact_edge(origin_cycle_ + 1).ps;
+  const std::uint64_t edge = anchor_.ps + n * period_ps_;
+  if (period_remainder_ == 0) return edge;
+  return edge + (n * period_remainder_ + anchor_.remainder) / hertz_;
 }
 
 std::uint64_t Clock::cycle() const {
   const std::uint64_t now = scheduler_.now_ps();
-  if (hertz_ == 0 || now < origin_ps_) return origin_cycle_;
+  if (now == cycle_ps_) return cycle_;
+  cycle_ps_ = now;
   // The last edge at or before now.
-  return cycle_at_or_after(now + 1) - 1;
+  cycle_ = hertz_ == 0 || now < origin_ps_ ? origin_cycle_ : cycle_at_or_after(now + 1) - 1;
+  return cycle_;
 }
 
 std::uint64_t Clock::duration_ps(double cycles) const {
@@ -96,49 +152,61 @@ std::uint64_t Clock::duration_ps(double cycles) const {
       cycles * static_cast<double>(ps_per_second) / static_cast<double>(hertz_) + 0.5);
 }
 
-void Clock::seek(std::uint64_t cycle) {
-  next_cycle_ = cycle;
-  next_ps_ = time_of(cycle);
-  if (hertz_ == 0) return;
-  step_quotient_ = ps_per_second / hertz_;
-  step_remainder_ = ps_per_second % hertz_;
-  const Wide numerator = Wide(cycle - origin_cycle_) * ps_per_second + hertz_ / 2;
-  remainder_ = static_cast<std::uint64_t>(numerator % hertz_);
+// exact_edge(next_.cycle + 1) without a division.
+inline void Clock::step() {
+  ++next_.cycle;
+  next_.ps += period_ps_;
+  next_.remainder += period_remainder_;
+  if (next_.remainder >= hertz_) {
+    next_.remainder -= hertz_;
+    ++next_.ps;
+  }
 }
 
-// time_of(next_cycle_ + 1) without a division.
-inline void Clock::step() {
-  ++next_cycle_;
-  next_ps_ += step_quotient_;
-  remainder_ += step_remainder_;
-  if (remainder_ >= hertz_) {
-    remainder_ -= hertz_;
-    ++next_ps_;
+// A module that is woken meanwhile by one before it is visited too.
+template <class Visit>
+void Clock::for_each_attended(Visit visit) const {
+  for (std::size_t word = 0; word < attended_.size(); ++word) {
+    std::uint64_t left = attended_[word];
+    while (left != 0) {
+      const unsigned bit = static_cast<unsigned>(__builtin_ctzll(left));
+      visit(64 * word + bit);
+      left = attended_[word] & ~std::uint64_t{1} << bit;
+    }
   }
+}
+
+void Clock::attend_to_all() {
+  attended_.assign((places_.size() + 63) / 64, 0);
+  for (std::size_t i = 0; i < places_.size(); ++i) attend_to(i);
 }
 
 void Clock::run_edge() {
   ++edges_run_;
   in_edge_ = true;
-  const std::uint64_t cycle = next_cycle_;
-  for (Clocked* module : modules_) {
-    const bool due = module->alarm_ == cycle;
-    if (due) module->alarm_ = never;
-    if (module->awake_ || due) module->edge();
-  }
+  const std::uint64_t cycle = next_.cycle;
+  cycle_ = cycle;
+  cycle_ps_ = next_.ps;
+  for_each_attended([&](std::size_t i) {
+    Place& place = places_[i];
+    const bool due = place.alarm == cycle;
+    if (due) place.alarm = never;
+    if (place.awake || due) place.module->edge();
+    attend_to(i);
+  });
   in_edge_ = false;
-  if (awake_ > 0) {
-    step();
-  } else {
+  if (awake_ == 0) {
     seek_alarm();
+  } else if (next_.cycle == cycle) {
+    step();
   }
 }
 
 void Clock::seek_alarm() {
   std::uint64_t alarm = never;
-  for (const Clocked* module : modules_) alarm = std::min(alarm, module->alarm_);
+  for_each_attended([&](std::size_t i) { alarm = std::min(alarm, places_[i].alarm); });
   if (alarm == never || hertz_ == 0) {
-    next_ps_ = never;
+    next_.ps = never;
   } else {
     seek(alarm);
   }
@@ -148,13 +216,23 @@ void Clock::seek_alarm() {
 void Clock::plan_next(std::uint64_t after_ps) {
   // run_edge() plans when all modules have run; an edge of this very instant that is still to come
   // is not passed over.
-  if (in_edge_ || next_ps_ == after_ps) return;
+  if (in_edge_ || next_.ps == after_ps) return;
   if (awake_ > 0 && hertz_ != 0) {
     seek(cycle_at_or_after(after_ps + 1));
   } else {
     seek_alarm();
   }
   scheduler_.reschedule();
+}
+
+void Clock::set_order(const std::vector<Clocked*>& modules) {
+  std::vector<Place> places;
+  for (Clocked* module : modules) {
+    places.push_back(places_[module->place_]);
+    module->place_ = places.size() - 1;
+  }
+  places_ = std::move(places);
+  attend_to_all();
 }
 
 }  // namespace vp

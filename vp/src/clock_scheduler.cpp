@@ -62,12 +62,15 @@ void ClockScheduler::start_of_simulation() {
   mark_deferred_signals();
   started_ = true;
   for (Clock* clock : clocks_) clock->plan_next(0);
+  find_next();
 }
 
-std::uint64_t ClockScheduler::next_instant() const {
+// Before the simulation starts there is no next instant.
+void ClockScheduler::find_next() {
+  if (!started_) return;
   std::uint64_t first = Clock::never;
-  for (const Clock* clock : clocks_) first = std::min(first, clock->next_ps_);
-  return first;
+  for (const Clock* clock : clocks_) first = std::min(first, clock->next_.ps);
+  next_ps_ = first;
 }
 
 // Clocks run in the order in which they were made; inside one, consumers before producers. So a
@@ -75,57 +78,65 @@ std::uint64_t ClockScheduler::next_instant() const {
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
   for (Clock* clock : clocks_) {
-    if (clock->next_ps_ == ps) clock->run_edge();
+    if (clock->next_.ps == ps) clock->run_edge();
   }
   for (std::size_t i = 0; i < deferred_.size(); ++i) deferred_[i]->commit();
   deferred_.clear();
   for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
+  find_next();
 }
 
-void ClockScheduler::synchronise() {
-  if (running_ || !started_) return;
+void ClockScheduler::run_due_instants() {
+  if (running_) return;
   const std::uint64_t now = now_ps();
   running_ = true;
-  for (std::uint64_t next = next_instant(); next <= now; next = next_instant()) run_instant(next);
+  while (next_ps_ <= now) run_instant(next_ps_);
   running_ = false;
 }
 
 void ClockScheduler::run() {
   synchronise();
-  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
+  const std::uint64_t now = kernel_ps();
   if (batch_) {
     const sc_core::sc_time pending =
         sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext());
     const std::uint64_t horizon = now + std::min(to_ps(pending), longest_batch_ps);
     running_ = true;
     stop_batch_ = false;
-    for (std::uint64_t next = next_instant();
-         next <= horizon && next != Clock::never && !stop_batch_; next = next_instant()) {
-      run_instant(next);
-    }
+    while (next_ps_ <= horizon && next_ps_ != Clock::never && !stop_batch_) run_instant(next_ps_);
     running_ = false;
   }
-  reschedule();
+  plan_wake_up();
 }
 
-void ClockScheduler::pass_until(std::uint64_t ps, Condition condition, const void* context) {
+// What happens at the time of an event may come before or after it: that is left to the kernel.
+std::uint64_t ClockScheduler::find_horizon() {
+  if (const std::uint64_t known = known_horizon()) return known;
+  // Our own wake-up is no reason to stop: the edges it stands for are run here.
+  wake_up_.cancel();
+  const std::uint64_t pending =
+      to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
+  horizon_kernel_ps_ = kernel_ps();
+  horizon_delta_ = sc_core::sc_delta_count();
+  horizon_ps_ = horizon_kernel_ps_ + std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
+  return horizon_ps_;
+}
+
+void ClockScheduler::pass_instants(std::uint64_t ps, Condition condition, const void* context) {
   while (now_ps() < ps) {
-    // Our own wake-up is no reason to stop: the edges it stands for are run here.
-    wake_up_.cancel();
-    const std::uint64_t kernel = to_ps(sc_core::sc_time_stamp());
-    const std::uint64_t pending =
-        to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
-    // What happens at the time of an event may come before or after it: that is left to the kernel.
-    const std::uint64_t free = std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
-    const std::uint64_t reachable = std::max(now_ps(), std::min(ps, kernel + free));
-    if (run_ahead(reachable, condition, context) == Ahead::met || now_ps() >= ps) return;
-    wait_in_kernel(ps - kernel, condition, context);
+    if (run_ahead_until(ps, condition, context) || now_ps() >= ps) return;
+    wait_in_kernel(ps - kernel_ps(), condition, context);
     if (condition && condition(context)) return;
   }
 }
 
+bool ClockScheduler::run_ahead_until(std::uint64_t ps, Condition condition, const void* context) {
+  const std::uint64_t reachable = std::max(now_ps(), std::min(ps, find_horizon()));
+  return run_ahead(reachable, condition, context) == Ahead::met;
+}
+
 void ClockScheduler::wait_in_kernel(std::uint64_t ps, Condition condition, const void* context) {
-  reschedule();
+  plan_wake_up();
   if (!condition) {
     sc_core::wait(from_ps(ps));
   } else {
@@ -154,9 +165,8 @@ ClockScheduler::Ahead ClockScheduler::run_ahead(std::uint64_t ps, Condition cond
   Ahead end = Ahead::reached;
   running_ = true;
   stop_batch_ = false;
-  for (std::uint64_t next = next_instant(); next <= ps && end == Ahead::reached;
-       next = next_instant()) {
-    run_instant(next);
+  while (next_ps_ <= ps && end == Ahead::reached) {
+    run_instant(next_ps_);
     if (condition && condition(context)) {
       end = Ahead::met;
     } else if (stop_batch_) {
@@ -169,24 +179,30 @@ ClockScheduler::Ahead ClockScheduler::run_ahead(std::uint64_t ps, Condition cond
 }
 
 void ClockScheduler::rejoin() {
-  const std::uint64_t kernel = to_ps(sc_core::sc_time_stamp());
-  if (instant_ps_ > kernel) {
-    reschedule();
-    sc_core::wait(from_ps(instant_ps_ - kernel));
+  if (instant_ps_ > kernel_ps()) {
+    plan_wake_up();
+    sc_core::wait(from_ps(instant_ps_ - kernel_ps()));
   }
 }
 
+// A clock's next edge has moved. Who has run ahead wakes us when it waits.
 void ClockScheduler::reschedule() {
-  if (running_ || !started_) return;
-  const std::uint64_t next = next_instant();
-  if (next == Clock::never) return;
-  const std::uint64_t now = to_ps(sc_core::sc_time_stamp());
-  wake_up_.notify(from_ps(next > now ? next - now : 0));
+  if (running_) return;  // run_instant() does
+  find_next();
+  if (instant_ps_ <= kernel_ps()) plan_wake_up();
+}
+
+void ClockScheduler::plan_wake_up() {
+  forget_horizon();
+  if (next_ps_ == Clock::never) return;
+  const std::uint64_t now = kernel_ps();
+  wake_up_.notify(from_ps(next_ps_ > now ? next_ps_ - now : 0));
 }
 
 void ClockScheduler::notify(sc_core::sc_event& event) {
   stop_batch_ = true;
-  event.notify(from_ps(now_ps() - to_ps(sc_core::sc_time_stamp())));
+  forget_horizon();
+  event.notify(from_ps(now_ps() - kernel_ps()));
 }
 
 bool ClockScheduler::runs_before(const Clock& first, const Clock& second) const {
@@ -205,7 +221,10 @@ void ClockScheduler::remove_observer(InstantObserver& observer) {
 void ClockScheduler::order_modules() {
   for (Clock* clock : clocks_) {
     std::vector<std::vector<Clocked*>> producers;
-    for (const Clocked* module : clock->modules_) {
+    std::vector<Clocked*> modules;
+    for (const Clock::Place& place : clock->places_) {
+      const Clocked* module = place.module;
+      modules.push_back(place.module);
       auto& list = producers.emplace_back();
       for (const InBase* input : module->inputs_) {
         if (!input->signal()) continue;
@@ -213,7 +232,7 @@ void ClockScheduler::order_modules() {
         if (producer && producer != module) list.push_back(producer);
       }
     }
-    clock->modules_ = ConsumerFirstOrder(clock->modules_, producers).order();
+    clock->set_order(ConsumerFirstOrder(modules, producers).order());
   }
 }
 
@@ -222,7 +241,8 @@ void ClockScheduler::mark_deferred_signals() {
   // Walks the running order: a consumer that comes after its producer would see the new value too
   // early.
   for (Clock* clock : clocks_) {
-    for (Clocked* module : clock->modules_) {
+    for (const Clock::Place& place : clock->places_) {
+      const Clocked* module = place.module;
       already_run.insert(module);
       for (const InBase* input : module->inputs_) {
         SignalBase* signal = input->signal();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <vp/register_route.h>
+
 namespace vp {
 
 MmLink::MmLink(sc_core::sc_module_name name) : sc_module(name), socket("socket") {
@@ -13,7 +15,7 @@ void MmLink::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& dela
   for (MmObserver* observer : observers_) observer->before(*this, payload, delay);
   socket->b_transport(payload, delay);
   for (MmObserver* observer : observers_) observer->after(*this, payload, delay);
-  count(payload);
+  count(payload.get_command(), payload.get_data_length(), payload.is_response_error());
 }
 
 unsigned MmLink::transport_debug(tlm::tlm_generic_payload& payload) {
@@ -26,28 +28,16 @@ bool MmLink::direct_allowed() const {
 }
 
 bool MmLink::direct_memory(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
+  if (RegisterRoute* route = RegisterRoute::asked_for(payload)) {
+    if (!observers_.empty()) return false;
+    route->add(*this);
+  }
   return direct_allowed() && socket->get_direct_mem_ptr(payload, dmi);
 }
 
 void MmLink::account(tlm::tlm_command command, std::uint64_t address, std::uint64_t bytes) {
-  count(command, bytes);
+  count(command, bytes, false);
   for (MmObserver* observer : observers_) observer->direct(*this, command, address, bytes);
-}
-
-void MmLink::count(tlm::tlm_command command, std::uint64_t bytes) {
-  if (command == tlm::TLM_READ_COMMAND) {
-    ++reads;
-    bytes_read.add(bytes);
-  } else if (command == tlm::TLM_WRITE_COMMAND) {
-    ++writes;
-    bytes_written.add(bytes);
-  }
-}
-
-void MmLink::count(const tlm::tlm_generic_payload& payload) {
-  const bool failed = payload.is_response_error();
-  count(payload.get_command(), failed ? 0 : payload.get_data_length());
-  if (failed) ++errors;
 }
 
 void MmLink::on_invalidate(std::function<void(std::uint64_t, std::uint64_t)> callback) {
@@ -56,11 +46,20 @@ void MmLink::on_invalidate(std::function<void(std::uint64_t, std::uint64_t)> cal
 
 void MmLink::add_observer(MmObserver& observer) {
   observers_.push_back(&observer);
-  invalidate(0, ~sc_dt::uint64{0});
+  take_back();
 }
 
 void MmLink::remove_observer(MmObserver& observer) {
   observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
+  take_back();
+}
+
+// Direct access was given for the observers that were there. Before the sockets are bound nobody
+// has any.
+void MmLink::take_back() {
+  if (sc_core::sc_get_status() >= sc_core::SC_END_OF_ELABORATION) {
+    invalidate(0, ~sc_dt::uint64{0});
+  }
 }
 
 void MmLink::invalidate(sc_dt::uint64 first, sc_dt::uint64 last) {

@@ -6,6 +6,7 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/hex.h>
+#include <vp/register_route.h>
 #include <vp/report.h>
 
 namespace vp {
@@ -96,6 +97,7 @@ RegisterBank::RegisterBank(sc_core::sc_module_name name, RegisterTable table,
   }
   socket.register_b_transport(this, &RegisterBank::b_transport);
   socket.register_transport_dbg(this, &RegisterBank::transport_dbg);
+  socket.register_get_direct_mem_ptr(this, &RegisterBank::get_direct_mem_ptr);
 }
 
 Register& RegisterBank::operator[](std::uint32_t offset) {
@@ -165,26 +167,54 @@ tlm::tlm_response_status RegisterBank::access(tlm::tlm_generic_payload& payload)
   if (!target && options_.holes == RegisterBankOptions::Holes::error) {
     return tlm::TLM_ADDRESS_ERROR_RESPONSE;
   }
-  if (held_in_reset_) {
-    warn(*this, "/markervp/register_bank/in_reset",
-         hex(payload.get_address()) +
-             " accessed while the device is held in reset: release its reset first");
-    return tlm::TLM_GENERIC_ERROR_RESPONSE;
+  std::uint32_t word = payload.is_read() ? 0 : load_word(payload.get_data_ptr());
+  tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
+  if (target) {
+    status = access(*target, payload.is_read(), payload.get_address(), word);
+  } else if (held_in_reset_) {
+    status = refuse_in_reset(payload.get_address());
   }
-  if (payload.is_read()) {
-    store_word(payload.get_data_ptr(), target ? target->read() : 0);
-  } else if (target) {
-    const std::uint32_t word = load_word(payload.get_data_ptr());
-    if (target->ignores_writes()) warn_of_ignored_write(*target, word);
-    target->write(word);
+  if (payload.is_read() && status == tlm::TLM_OK_RESPONSE) {
+    store_word(payload.get_data_ptr(), word);
+  }
+  return status;
+}
+
+tlm::tlm_response_status RegisterBank::access(Register& target, bool read, std::uint64_t address,
+                                              std::uint32_t& word) {
+  if (scheduler_) scheduler_->synchronise();
+  if (held_in_reset_) return refuse_in_reset(address);
+  if (read) {
+    word = target.read();
+  } else {
+    if (target.ignores_writes()) warn_of_ignored_write(target, word);
+    target.write(word);
   }
   return tlm::TLM_OK_RESPONSE;
+}
+
+tlm::tlm_response_status RegisterBank::refuse_in_reset(std::uint64_t address) const {
+  warn(*this, "/markervp/register_bank/in_reset",
+       hex(address) + " accessed while the device is held in reset: release its reset first");
+  return tlm::TLM_GENERIC_ERROR_RESPONSE;
 }
 
 void RegisterBank::warn_of_ignored_write(const Register& target, std::uint32_t word) const {
   warn(*this, "/markervp/register_bank/ignored_write",
        hex(word) + " written to " + target.info_.name +
            (target.removed_ ? ", which this build does not have" : ", which is read only"));
+}
+
+// Memory is never given, but the way here is.
+bool RegisterBank::get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
+  dmi.allow_none();
+  dmi.set_start_address(0);
+  dmi.set_end_address(~sc_dt::uint64{0});
+  if (RegisterRoute* route = RegisterRoute::asked_for(payload)) {
+    Register* target = find(payload.get_address());
+    if (target && scheduler_) route->end_at(*this, *target, payload.get_address(), *scheduler_);
+  }
+  return false;
 }
 
 // Byte by byte, so that a debugger may ask for any range. A write sets the stored value and causes

@@ -85,13 +85,21 @@ const Router::Region* Router::find(std::uint64_t address) const {
   return address <= candidate.last() ? &candidate : nullptr;
 }
 
-sc_core::sc_time Router::access_time(tlm::tlm_command command) const {
-  const std::uint32_t cycles = command == tlm::TLM_READ_COMMAND ? *read_latency_ : *write_latency_;
-  return from_ps(clock_->duration_ps(cycles));
+bool Router::takes_time() const {
+  return clock_ && (*read_latency_ != 0 || *write_latency_ != 0);
+}
+
+std::uint64_t Router::access_time_ps(bool read) const {
+  return clock_->duration_ps(read ? *read_latency_ : *write_latency_);
+}
+
+void Router::enter(bool read, std::uint64_t start_ps, Passage& passage) const {
+  passage.earliest_ps = passage.leaves_ps = start_ps + access_time_ps(read);
+  passage.answer_ps = passage.rest_ps = 0;
 }
 
 void Router::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-  if (clock_) delay += access_time(payload.get_command());
+  if (takes_time()) delay += from_ps(access_time_ps(payload.is_read()));
   const std::uint64_t address = payload.get_address();
   const unsigned length = payload.get_data_length();
   const Region* region = find(address);
@@ -125,6 +133,10 @@ bool Router::get_direct_mem_ptr(int, tlm::tlm_generic_payload& payload, tlm::tlm
     dmi.set_start_address(address);
     dmi.set_end_address(address);
     return false;
+  }
+  if (RegisterRoute* route = RegisterRoute::asked_for(payload)) {
+    if (payload.get_data_length() - 1 > region->last() - address) return false;
+    if (takes_time()) route->add(*this, address);
   }
   const TranslatedAddress translated(payload, *region);
   const bool given = region->link->direct_memory(payload, dmi);

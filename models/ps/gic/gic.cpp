@@ -62,12 +62,17 @@ void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
 }
 
 void Gic::set_f2p(std::uint32_t levels) {
-  for (unsigned bit = 0; bit < 16; ++bit) logic_.set_wire(f2p_id(bit), (levels >> bit & 1) != 0);
+  for (std::uint32_t changed = levels ^ f2p_levels_; changed != 0; changed &= changed - 1) {
+    const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
+    logic_.set_wire(f2p_id(bit), (levels >> bit & 1) != 0);
+  }
+  f2p_levels_ = levels;
 }
 
 void Gic::update_outputs() {
-  n_irq = !logic_.irq();
-  n_fiq = !logic_.fiq();
+  const InterruptLogic::Line line = logic_.signalled();
+  n_irq = line != InterruptLogic::Line::irq;
+  n_fiq = line != InterruptLogic::Line::fiq;
 }
 
 void Gic::wire_cpu_interface() {
@@ -94,8 +99,8 @@ void Gic::wire_cpu_interface() {
 
   vp::Register& icciar = cpu_interface[gic::ICCIAR];
   icciar.computed_by([this] { return logic_.acknowledgeable(); });
-  icciar.after_read([this](std::uint32_t) {
-    const std::uint32_t id = logic_.acknowledge();
+  icciar.after_read([this](std::uint32_t id) {
+    logic_.acknowledge(id);
     ++(id < gic::id_count ? acknowledged : spurious);
     update_outputs();
   });

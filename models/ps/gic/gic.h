@@ -55,6 +55,7 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   void update_outputs();
 
   InterruptLogic logic_;
+  std::uint32_t f2p_levels_ = 0;
   std::map<std::uint32_t, vp::Signal<bool>*> wires_;
 };
 

@@ -6,106 +6,101 @@ namespace ps {
 namespace {
 
 constexpr std::uint32_t idle_priority = 0xFF;
-constexpr std::uint8_t this_cpu = 1;
 constexpr std::uint32_t ppi_edges = 0x7DC00000;  ///< ICDICFR1 after reset
+
+/// Calls `visit` with the id of each bit of a word, the lowest first.
+template <class Visit>
+void for_each_id(unsigned n, std::uint32_t word, Visit visit) {
+  for (; word != 0; word &= word - 1) {
+    visit(32 * n + static_cast<std::uint32_t>(__builtin_ctz(word)));
+  }
+}
 
 }  // namespace
 
-void InterruptLogic::reset() {
-  std::array<bool, gic::id_count> wires{};
-  for (std::uint32_t id = 0; id < gic::id_count; ++id) wires[id] = interrupts_[id].wire;
-  interrupts_ = {};
-  for (std::uint32_t id = 0; id < gic::id_count; ++id) {
-    Interrupt& interrupt = interrupts_[id];
-    interrupt.wire = wires[id];
-    if (id < gic::sgi_count) {
-      interrupt.enabled = interrupt.edge = true;
-    } else if (id < gic::first_spi) {
-      interrupt.edge = (ppi_edges >> (2 * (id - 16)) & 2) != 0;
-    }
-    if (id < gic::first_spi) interrupt.targets = this_cpu;
+InterruptLogic::InterruptLogic() {
+  for (std::uint32_t id = 0; id < gic::first_spi; ++id) {
+    const bool by_software = id < gic::sgi_count;
+    enabled.set(id, by_software);
+    edge.set(id, by_software || (ppi_edges >> (2 * (id - gic::sgi_count)) & 2) != 0);
+    targeted.set(id, true);
   }
-  icddcr = iccicr = iccpmr = 0;
-  iccbpr = 2;
-  iccabpr = 3;
 }
 
 void InterruptLogic::set_wire(std::uint32_t id, bool level) {
-  Interrupt& interrupt = interrupts_[id];
-  if (level && !interrupt.wire && interrupt.edge) interrupt.latched = true;
-  interrupt.wire = level;
+  if (level && !wire[id] && edge[id]) latched.set(id, true);
+  wire.set(id, level);
 }
 
-bool InterruptLogic::forwarded(const Interrupt& interrupt) const {
-  const std::uint32_t group = interrupt.non_secure ? gic::icddcr::EnableNS : gic::icddcr::EnableS;
-  return (icddcr & group) != 0 && interrupt.enabled && interrupt.pending() && !interrupt.active &&
-         (interrupt.targets & this_cpu) != 0;
+// What the distributor lets through of interrupts 32 · n …
+std::uint32_t InterruptLogic::forwarded(unsigned n) const {
+  const std::uint32_t waiting = pending(n) & enabled.word(n) & ~active.word(n) & targeted.word(n);
+  if (waiting == 0) return 0;
+  const std::uint32_t groups = ((icddcr & gic::icddcr::EnableNS) != 0 ? non_secure.word(n) : 0) |
+                               ((icddcr & gic::icddcr::EnableS) != 0 ? ~non_secure.word(n) : 0);
+  return waiting & groups;
 }
 
 // The most urgent interrupt that the distributor forwards; of equals the lowest id.
 std::uint32_t InterruptLogic::candidate() const {
   std::uint32_t best = gic::spurious_id;
-  for (std::uint32_t id = 0; id < gic::id_count; ++id) {
-    if (!forwarded(interrupts_[id])) continue;
-    if (best == gic::spurious_id || interrupts_[id].priority < interrupts_[best].priority)
-      best = id;
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for_each_id(n, forwarded(n), [&](std::uint32_t id) {
+      if (best == gic::spurious_id || priority[id] < priority[best]) best = id;
+    });
   }
   return best;
 }
 
 std::uint32_t InterruptLogic::running_priority() const {
   std::uint32_t running = idle_priority;
-  for (const Interrupt& interrupt : interrupts_) {
-    if (interrupt.active) running = std::min<std::uint32_t>(running, interrupt.priority);
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for_each_id(n, active.word(n), [&](std::uint32_t id) {
+      running = std::min<std::uint32_t>(running, priority[id]);
+    });
   }
   return running;
 }
 
 // Only the bits above the binary point count against the running interrupt.
-bool InterruptLogic::preempts(const Interrupt& interrupt) const {
+bool InterruptLogic::preempts(std::uint32_t id) const {
   const std::uint32_t running = running_priority();
   if (running == idle_priority) return true;
-  const bool own_point = interrupt.non_secure && (iccicr & gic::iccicr::SBPR) == 0;
+  const bool own_point = non_secure[id] && (iccicr & gic::iccicr::SBPR) == 0;
   // The non-secure binary point counts one bit less.
   const std::uint32_t point = own_point ? iccabpr - 1 : iccbpr;
   const std::uint32_t group = 0xFFu << (point + 1) & 0xFFu;
-  return (interrupt.priority & group) < (running & group);
+  return (priority[id] & group) < (running & group);
 }
 
-InterruptLogic::Line InterruptLogic::signalled() const {
-  const std::uint32_t id = candidate();
+InterruptLogic::Line InterruptLogic::line_of(std::uint32_t id) const {
   if (id == gic::spurious_id) return Line::none;
-  const Interrupt& interrupt = interrupts_[id];
-  const std::uint32_t enable = interrupt.non_secure ? gic::iccicr::EnableNS : gic::iccicr::EnableS;
-  if ((iccicr & enable) == 0 || interrupt.priority >= iccpmr || !preempts(interrupt)) {
-    return Line::none;
-  }
-  const bool fast = !interrupt.non_secure && (iccicr & gic::iccicr::FIQEn) != 0;
+  const std::uint32_t enable = non_secure[id] ? gic::iccicr::EnableNS : gic::iccicr::EnableS;
+  if ((iccicr & enable) == 0 || priority[id] >= iccpmr || !preempts(id)) return Line::none;
+  const bool fast = !non_secure[id] && (iccicr & gic::iccicr::FIQEn) != 0;
   return fast ? Line::fiq : Line::irq;
 }
 
 std::uint32_t InterruptLogic::as_seen(std::uint32_t id) const {
   if (id == gic::spurious_id) return id;
-  const bool hidden = interrupts_[id].non_secure && (iccicr & gic::iccicr::AckCtl) == 0;
+  const bool hidden = non_secure[id] && (iccicr & gic::iccicr::AckCtl) == 0;
   return hidden ? gic::non_secure_id : id;
 }
 
 std::uint32_t InterruptLogic::acknowledgeable() const {
-  return signalled() == Line::none ? gic::spurious_id : as_seen(candidate());
+  const std::uint32_t id = candidate();
+  return line_of(id) == Line::none ? gic::spurious_id : as_seen(id);
 }
 
-std::uint32_t InterruptLogic::acknowledge() {
-  const std::uint32_t id = acknowledgeable();
-  if (id < gic::id_count) {
-    interrupts_[id].latched = false;
-    interrupts_[id].active = true;
-  }
-  return id;
+void InterruptLogic::acknowledge(std::uint32_t id) {
+  if (id >= gic::id_count) return;
+  latched.set(id, false);
+  active.set(id, true);
 }
 
 bool InterruptLogic::end(std::uint32_t id) {
-  if (id >= gic::id_count || !interrupts_[id].active) return false;
-  interrupts_[id].active = false;
+  if (id >= gic::id_count || !active[id]) return false;
+  active.set(id, false);
   return true;
 }
 

@@ -12,24 +12,39 @@ namespace ps {
 /// one CPU in secure state).
 class InterruptLogic {
  public:
-  InterruptLogic() { reset(); }
-  void reset();
+  /// The state after reset.
+  InterruptLogic();
 
-  /// What software set in the distributor.
-  struct Interrupt {
-    bool non_secure = false;
-    bool enabled = false;
-    bool edge = false;
-    bool latched = false;  ///< pending by an edge, a software interrupt or ICDISPR
-    bool active = false;
-    bool wire = false;  ///< level of the input
-    std::uint8_t priority = 0;
-    std::uint8_t targets = 0;  ///< bit 0: this CPU
+  /// A bit for each interrupt, as the distributor's registers show them.
+  class Bits {
+   public:
+    bool operator[](std::uint32_t id) const { return (words_[id / 32] >> id % 32 & 1) != 0; }
+    void set(std::uint32_t id, bool value) {
+      const std::uint32_t bit = std::uint32_t{1} << id % 32;
+      words_[id / 32] = (words_[id / 32] & ~bit) | (value ? bit : 0);
+    }
+    /// Interrupts 32 · n to 32 · n + 31.
+    std::uint32_t word(unsigned n) const { return words_[n]; }
+    std::uint32_t& word(unsigned n) { return words_[n]; }
 
-    bool pending() const { return latched || (wire && !edge); }
+   private:
+    std::array<std::uint32_t, gic::bit_registers> words_{};
   };
-  Interrupt& operator[](std::uint32_t id) { return interrupts_[id]; }
-  const Interrupt& operator[](std::uint32_t id) const { return interrupts_[id]; }
+
+  /// What software set in the distributor, and what came of it.
+  Bits non_secure;
+  Bits enabled;
+  Bits edge;
+  Bits latched;  ///< pending by an edge, a software interrupt or ICDISPR
+  Bits active;
+  Bits wire;      ///< levels of the inputs
+  Bits targeted;  ///< goes to this CPU
+  std::array<std::uint8_t, gic::id_count> priority{};
+
+  /// Interrupts 32 · n … that are pending.
+  std::uint32_t pending(unsigned n) const {
+    return latched.word(n) | (wire.word(n) & ~edge.word(n));
+  }
 
   /// Registers that the decisions depend on.
   std::uint32_t icddcr = 0;
@@ -42,14 +57,15 @@ class InterruptLogic {
   /// not.
   void set_wire(std::uint32_t id, bool level);
 
-  bool irq() const { return signalled() == Line::irq; }
-  bool fiq() const { return signalled() == Line::fiq; }
+  /// The line to the CPU that is asserted.
+  enum class Line { none, irq, fiq };
+  Line signalled() const { return line_of(candidate()); }
 
   /// What ICCIAR would return: the signalled interrupt; 1023 if there is none, 1022 if it is
   /// non-secure and AckCtl is 0.
   std::uint32_t acknowledgeable() const;
-  /// Reads ICCIAR: that interrupt becomes active.
-  std::uint32_t acknowledge();
+  /// ICCIAR returned `id`: that interrupt becomes active.
+  void acknowledge(std::uint32_t id);
   /// Writes ICCEOIR. False if the interrupt was not active (a mistake of the software; nothing
   /// happens).
   bool end(std::uint32_t id);
@@ -60,15 +76,11 @@ class InterruptLogic {
   std::uint32_t running_priority() const;
 
  private:
-  enum class Line { none, irq, fiq };
-
   std::uint32_t candidate() const;
-  bool forwarded(const Interrupt& interrupt) const;
-  bool preempts(const Interrupt& interrupt) const;
-  Line signalled() const;
+  std::uint32_t forwarded(unsigned n) const;
+  bool preempts(std::uint32_t id) const;
+  Line line_of(std::uint32_t id) const;
   std::uint32_t as_seen(std::uint32_t id) const;
-
-  std::array<Interrupt, gic::id_count> interrupts_;
 };
 
 }  // namespace ps

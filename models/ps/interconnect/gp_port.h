@@ -4,6 +4,7 @@
 #include <vp/clock.h>
 #include <vp/mm_link.h>
 #include <vp/parameter.h>
+#include <vp/register_route.h>
 #include <cstdint>
 #include <systemc>
 #include <tlm>
@@ -17,7 +18,7 @@ namespace ps {
 /// accesses. Of a request that leaves the CPU at t0, half the PS time and request_clocks pass on
 /// the way there; the slave sees it at the first edge of the PL clock from then on, and answers
 /// within the rest. A slave that takes longer delays the answer.
-class GpPort : public sc_core::sc_module {
+class GpPort : public sc_core::sc_module, private vp::RouteStage {
  public:
   GpPort(sc_core::sc_module_name name, vp::Clock& pl_clock);
   const char* kind() const override { return "ps::GpPort"; }
@@ -34,9 +35,23 @@ class GpPort : public sc_core::sc_module {
  private:
   void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(tlm::tlm_generic_payload& payload);
-  void wait_for_slave(const tlm::tlm_generic_payload& payload, std::uint64_t earliest_ps);
+  bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
+
+  void enter(bool read, std::uint64_t start_ps, Passage& passage) const override;
+  std::uint64_t leaves(std::uint64_t earliest_ps) const override;
+  std::uint64_t longest_wait_ps() const override;
+  std::string obstacle() const override;
+
+  /// What an access takes at a frequency of the PL clock, in ps: up to the slave's clock, and
+  /// whole.
+  struct Durations {
+    std::uint64_t read_request, read, write_request, write;
+  };
+  const Durations& durations() const;
 
   vp::Clock& pl_clock_;
+  mutable Durations durations_{};
+  mutable std::uint64_t durations_hertz_ = 0;
 };
 
 }  // namespace ps

@@ -60,6 +60,12 @@ void AxiGpio::build_channel(AxiGpioChannel& channel, vp::Register& data, vp::Reg
   tri.set_writable(channel.mask());
   tri.set_reset_value(channel.tri_default & channel.mask());
   data.computed_by([this, &channel, &data, &tri] { return read_data(channel, data, tri); });
+  if (channel.direction == GpioDirection::all_inputs) {
+    data.stable_until([this, &channel] {
+      const std::uint64_t next = channel.next_delayed(clock().cycle(), input_latency);
+      return next == vp::Clock::never ? next : clock().time_of(next);
+    });
+  }
   if (channel.direction != GpioDirection::mixed) tri.computed_by([] { return all_ones; });
   const auto write = [&channel, &data, &tri](std::uint32_t) { channel.drive(data, tri); };
   data.after_write(write);

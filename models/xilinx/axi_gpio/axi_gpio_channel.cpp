@@ -63,6 +63,14 @@ std::uint32_t AxiGpioChannel::delayed(std::uint64_t cycle, std::uint64_t latency
   return history_[i].value;
 }
 
+std::uint64_t AxiGpioChannel::next_delayed(std::uint64_t cycle, std::uint64_t latency) const {
+  std::uint64_t next = vp::Clock::never;
+  for (std::size_t i = history_.size(); i > 1 && history_[i - 1].cycle + latency > cycle; --i) {
+    next = history_[i - 1].cycle + latency;
+  }
+  return next;
+}
+
 std::uint64_t AxiGpioChannel::next_change(std::uint64_t latency) const {
   return under_way_.empty() ? vp::Clock::never : under_way_.front().cycle + latency;
 }

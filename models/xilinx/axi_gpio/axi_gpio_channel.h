@@ -52,6 +52,9 @@ class AxiGpioChannel {
   void record(std::uint64_t cycle, bool track);
   /// What stands behind `latency` flip-flops after edge `cycle`.
   std::uint32_t delayed(std::uint64_t cycle, std::uint64_t latency) const;
+  /// The first edge after `cycle` on which that may be another; vp::Clock::never if the pins have
+  /// not changed since.
+  std::uint64_t next_delayed(std::uint64_t cycle, std::uint64_t latency) const;
 
   /// Edge on which the next change of the inputs is `latency` edges old; vp::Clock::never if none
   /// is under way.

@@ -134,6 +134,49 @@ BOOST_AUTO_TEST_CASE(an_event_from_an_edge_is_served_at_its_time) {
   BOOST_TEST((order == expected));
 }
 
+BOOST_AUTO_TEST_CASE(an_event_behind_its_back_is_served_when_told) {
+  scheduler.set_lookahead(1'000'000);
+  sc_core::sc_event event;
+  std::vector<std::pair<char, std::uint64_t>> order;
+  Script ahead{"ahead", [&] {
+                 sc_core::wait(sc_core::SC_ZERO_TIME);  // the other one waits
+                 scheduler.pass_until(5'000);
+                 event.notify(vp::from_ps(20'000));
+                 scheduler.forget_horizon();
+                 scheduler.pass_until(45'000);
+                 order.emplace_back('a', scheduler.now_ps());
+                 recorder.sleep();
+               }};
+  Script woken{"woken", [&] {
+                 sc_core::wait(event);
+                 order.emplace_back('w', scheduler.now_ps());
+               }};
+  run_to(100'000);
+  const std::vector<std::pair<char, std::uint64_t>> expected{{'w', 20'000}, {'a', 45'000}};
+  BOOST_TEST((order == expected));
+}
+
+BOOST_AUTO_TEST_CASE(running_ahead_stops_before_systemc_has_its_turn) {
+  scheduler.set_lookahead(1'000'000);
+  Times ends;
+  const auto third_edge = [](const void* context) {
+    return static_cast<const Recorder*>(context)->times.size() == 3;
+  };
+  Script ahead{"ahead", [&] {
+                 sc_core::wait(sc_core::SC_ZERO_TIME);
+                 BOOST_TEST(scheduler.run_ahead_until(90'000, third_edge, &recorder));
+                 ends.push_back(scheduler.now_ps());
+                 BOOST_TEST(!scheduler.run_ahead_until(90'000, third_edge, &recorder));
+                 ends.push_back(scheduler.now_ps());
+                 BOOST_TEST(!scheduler.run_ahead_until(90'000, third_edge, &recorder));
+                 ends.push_back(scheduler.now_ps());
+                 recorder.sleep();
+               }};
+  Script other{"other", [] { sc_core::wait(65, sc_core::SC_NS); }};
+  run_to(100'000);
+  BOOST_TEST(ends == (Times{30'000, 64'999, 64'999}), boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(rejoining_lets_systemc_catch_up) {
   scheduler.set_lookahead(1'000'000);
   std::uint64_t systemc = 0;

@@ -13,18 +13,20 @@ namespace vp {
 /// TDATA rest then; TREADY is a wire as ever.
 class BeatSource {
  public:
-  struct Beat {
-    std::uint32_t data = 0;
-    std::uint8_t keep = 0xF;
-    bool last = false;
+  /// Whole words that passed one after the other.
+  struct Beats {
+    const std::uint32_t* words = nullptr;
+    std::uint32_t count = 0;
+    bool last = false;  ///< TLAST came with the last of them
   };
   virtual ~BeatSource() = default;
   /// No edge before this one passes the `beats`th beat from now on, nor one with TLAST before it,
   /// while TREADY stays high; Clock::never if none is in sight. The slave is woken when that
   /// changes.
   virtual std::uint64_t earliest_pass(std::uint32_t beats) = 0;
-  /// Takes the oldest beat that passed on an edge up to `cycle`. False if there is none.
-  virtual bool take(std::uint64_t cycle, Beat& beat) = 0;
+  /// Takes the oldest beats that passed on edges up to `cycle`, up to the first with TLAST. Their
+  /// words are valid until the source is called again.
+  virtual Beats take(std::uint64_t cycle) = 0;
 };
 
 /// A slave that takes whole bursts while its TREADY is high and nobody looks at single beats.

@@ -23,7 +23,7 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   ~Clocked() override;
 
   Clock& clock() const { return clock_; }
-  bool awake() const { return awake_; }
+  bool awake() const;
   /// Runs edge() from the next edge of the clock on.
   void wake();
   /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep.
@@ -43,8 +43,7 @@ class Clocked : public sc_core::sc_module, public SignalListener {
 
  private:
   Clock& clock_;
-  bool awake_ = true;
-  std::uint64_t alarm_ = ~std::uint64_t{0};
+  std::size_t place_ = 0;  ///< in the clock's running order
   std::vector<InBase*> inputs_;
   std::vector<InBase*> wake_inputs_;
 };
@@ -78,11 +77,13 @@ class Clock : public sc_core::sc_object {
   std::uint64_t cycle() const;
   /// Time of edge number `cycle` in ps, if the frequency stays; cycle > cycles before the last
   /// change.
-  std::uint64_t time_of(std::uint64_t cycle) const;
+  std::uint64_t time_of(std::uint64_t cycle) const {
+    return hertz_ == 0 ? never : exact_edge(cycle).ps;
+  }
   /// Number of the first edge at or after `ps` (not before the clock's last change).
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const;
   /// Time in ps of the first edge at or after `ps`; `never` if the clock stands.
-  std::uint64_t edge_at_or_after(std::uint64_t ps) const { return time_of(cycle_at_or_after(ps)); }
+  std::uint64_t edge_at_or_after(std::uint64_t ps) const;
   /// `cycles` periods in ps, rounded to the nearest.
   std::uint64_t duration_ps(double cycles) const;
 
@@ -94,30 +95,70 @@ class Clock : public sc_core::sc_object {
   friend class ClockScheduler;
   friend class Clocked;
 
+  /// An edge and what was cut off its time, in 1 / f ps.
+  struct Edge {
+    std::uint64_t cycle;
+    std::uint64_t ps;
+    std::uint64_t remainder;
+  };
+  /// A module in running order, and when it runs.
+  struct Place {
+    Clocked* module;
+    std::uint64_t alarm = never;
+    bool awake = true;
+  };
+
+  void start(std::uint64_t hertz);
   void run_edge();
-  void plan_next(std::uint64_t after_ps);
-  void seek(std::uint64_t cycle);
-  void seek_alarm();
   void step();
+  void plan_next(std::uint64_t after_ps);
+  void seek(std::uint64_t cycle) { next_ = exact_edge(cycle); }
+  void seek_alarm();
+  void set_anchor(std::uint64_t cycle) const;
+  std::uint64_t edges_from_anchor(std::uint64_t ps) const;
+  Edge exact_edge(std::uint64_t cycle) const;
+  void set_order(const std::vector<Clocked*>& modules);
+  void attend_to(std::size_t place);
+  void attend_to_all();
+  template <class Visit>
+  void for_each_attended(Visit visit) const;
 
   ClockScheduler& scheduler_;
   std::uint64_t hertz_;
-  std::uint64_t origin_ps_ = 0;     ///< time of the last change
-  std::uint64_t origin_cycle_ = 0;  ///< edges before the last change
-  std::uint64_t next_cycle_ = 1;    ///< the next edge that runs
-  std::uint64_t next_ps_ = 0;       ///< its time; `never` while asleep
-  std::uint64_t quotient_ = 0, remainder_ = 0, step_quotient_ = 0, step_remainder_ = 0;
+  std::uint64_t origin_ps_ = 0;         ///< time of the last change
+  std::uint64_t origin_cycle_ = 0;      ///< edges before the last change
+  Edge next_{1, never, 0};              ///< the next edge that runs; at `never` while asleep
+  std::uint64_t period_ps_ = 0;         ///< rounded down
+  std::uint64_t period_remainder_ = 0;  ///< what that cut off, in 1 / f ps
+  std::uint64_t reach_ps_ = 0;          ///< how far from an edge the next ones follow in 64 bits
+  mutable Edge anchor_{0, 0, 0};        ///< some edge; those near it follow without wide divisions
+  mutable std::uint64_t cycle_ps_ = never;  ///< the time that was last asked for,
+  mutable std::uint64_t cycle_ = 0;         ///< and the number of edges then
   std::uint64_t edges_run_ = 0;
   std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;
-  std::vector<Clocked*> modules_;  ///< in running order: consumers first
+  std::vector<Place> places_;            ///< in running order: consumers first
+  std::vector<std::uint64_t> attended_;  ///< a bit for each place that is awake or has an alarm
   std::vector<ClockListener*> listeners_;
 };
 
+inline void Clock::attend_to(std::size_t place) {
+  const std::uint64_t bit = std::uint64_t{1} << place % 64;
+  std::uint64_t& word = attended_[place / 64];
+  const Place& p = places_[place];
+  word = p.awake || p.alarm != never ? word | bit : word & ~bit;
+}
+
+inline bool Clocked::awake() const {
+  return clock_.places_[place_].awake;
+}
+
 inline void Clocked::sleep() {
-  if (!awake_) return;
-  awake_ = false;
+  Clock::Place& place = clock_.places_[place_];
+  if (!place.awake) return;
+  place.awake = false;
   --clock_.awake_;
+  if (place.alarm == Clock::never) clock_.attend_to(place_);
 }
 
 }  // namespace vp

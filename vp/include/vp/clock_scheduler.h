@@ -28,13 +28,14 @@ class ClockScheduler : public sc_core::sc_module {
 
   /// Runs all edges up to and including the present simulation time. Whoever reads or writes
   /// clocked state from another process calls it first: what he writes is seen by later edges only.
-  void synchronise();
+  void synchronise() {
+    if (next_ps_ <= now_ps()) run_due_instants();
+  }
 
   /// The present time in ps: that of the instant being run, or as far as pass_until() got.
   /// SystemC's own time may lag behind it, never lead.
   std::uint64_t now_ps() const {
-    return running_ ? instant_ps_
-                    : std::max(instant_ps_, std::uint64_t{sc_core::sc_time_stamp().value()});
+    return running_ ? instant_ps_ : std::max(instant_ps_, kernel_ps());
   }
 
   /// What ends pass_until() early; checked after every instant.
@@ -42,14 +43,35 @@ class ClockScheduler : public sc_core::sc_module {
 
   /// How far pass_until() may leave SystemC's time behind; 0 (default): not at all. No result
   /// depends on it.
-  void set_lookahead(std::uint64_t ps) { lookahead_ps_ = ps; }
+  void set_lookahead(std::uint64_t ps) {
+    lookahead_ps_ = ps;
+    forget_horizon();
+  }
 
   /// Lets time pass up to `ps` for the process (an SC_THREAD) that calls. As long as no SystemC
   /// event lies before, it runs the clock edges itself and SystemC's time stays behind; otherwise
   /// it waits as others do. Returns early, at the end of an instant in which `condition` holds. A
   /// model that is called meanwhile and wants to wait uses pass_until(), too, or calls rejoin()
   /// first.
-  void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr);
+  ///
+  /// A process that has run ahead notifies SystemC events through notify(); code that may do
+  /// otherwise (a foreign target) is followed by forget_horizon().
+  void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr) {
+    if (ps <= now_ps()) return;
+    if (ps < next_ps_ && ps <= known_horizon()) {
+      instant_ps_ = ps;
+    } else {
+      pass_instants(ps, condition, context);
+    }
+  }
+
+  /// The same, but never waits for SystemC: stops before its next event. True if `condition` ended
+  /// it.
+  bool run_ahead_until(std::uint64_t ps, Condition condition, const void* context);
+
+  /// SystemC events may have been notified behind the scheduler's back: looks again before it runs
+  /// ahead.
+  void forget_horizon() { horizon_ps_ = 0; }
 
   /// The condition of the process in pass_until() may have become true outside of a clock edge:
   /// looks at it.
@@ -65,6 +87,11 @@ class ClockScheduler : public sc_core::sc_module {
   /// instant, so that a run ended by sc_start(duration) has run no edge after its end.
   void set_batch(bool batch) { batch_ = batch; }
 
+  /// All clocks, in the order in which they were made.
+  const std::vector<Clock*>& clocks() const { return clocks_; }
+  /// How often the frequency of a clock has changed.
+  std::uint64_t clock_changes() const { return clock_changes_; }
+
   /// At coincident edges the clock that was made first runs first.
   bool runs_before(const Clock& first, const Clock& second) const;
 
@@ -76,16 +103,28 @@ class ClockScheduler : public sc_core::sc_module {
   friend class Clocked;
   friend class SignalBase;
 
+  std::uint64_t kernel_ps() const { return kernel_time_.value(); }
+  /// Up to where no SystemC event lies, if that was found out since SystemC ran last; else 0.
+  std::uint64_t known_horizon() const {
+    return horizon_kernel_ps_ == kernel_ps() && horizon_delta_ == sc_core::sc_delta_count()
+               ? horizon_ps_
+               : 0;
+  }
+  std::uint64_t find_horizon();
+
   void start_of_simulation() override;
   void run();
+  void run_due_instants();
+  void pass_instants(std::uint64_t ps, Condition condition, const void* context);
   void wait_in_kernel(std::uint64_t ps, Condition condition, const void* context);
   enum class Ahead { reached, met, stopped };
   Ahead run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
   void order_modules();
   void mark_deferred_signals();
-  std::uint64_t next_instant() const;
+  void find_next();
   void reschedule();
+  void plan_wake_up();
   void defer(SignalBase& signal) { deferred_.push_back(&signal); }
 
   std::vector<Clock*> clocks_;
@@ -96,8 +135,14 @@ class ClockScheduler : public sc_core::sc_module {
   sc_core::sc_event condition_met_;
   std::vector<std::pair<Condition, const void*>>
       waiting_;  ///< of processes in pass_until() while the kernel runs
+  const sc_core::sc_time& kernel_time_ = sc_core::sc_time_stamp();  ///< one object, always current
   std::uint64_t lookahead_ps_ = 0;
   std::uint64_t instant_ps_ = 0;
+  std::uint64_t next_ps_ = Clock::never;  ///< the next instant in which a clock has an edge
+  std::uint64_t horizon_ps_ = 0;          ///< no SystemC event lies before or at it; 0 unknown
+  std::uint64_t horizon_kernel_ps_ = 0;   ///< when that was found out
+  sc_dt::uint64 horizon_delta_ = 0;
+  std::uint64_t clock_changes_ = 0;
   bool running_ = false;
   bool batch_ = false;
   bool stop_batch_ = false;

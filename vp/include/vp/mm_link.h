@@ -60,10 +60,21 @@ class MmLink : public sc_core::sc_module {
   void remove_observer(MmObserver& observer);
 
  private:
+  friend class RegisterRoute;
+
   void invalidate(sc_dt::uint64 first, sc_dt::uint64 last);
+  void take_back();
   bool direct_allowed() const;
-  void count(tlm::tlm_command command, std::uint64_t bytes);
-  void count(const tlm::tlm_generic_payload& payload);
+  void count(tlm::tlm_command command, std::uint64_t bytes, bool failed) {
+    if (command == tlm::TLM_READ_COMMAND) {
+      ++reads;
+      if (!failed) bytes_read.add(bytes);
+    } else if (command == tlm::TLM_WRITE_COMMAND) {
+      ++writes;
+      if (!failed) bytes_written.add(bytes);
+    }
+    if (failed) ++errors;
+  }
 
   std::vector<MmObserver*> observers_;
   std::function<void(std::uint64_t, std::uint64_t)> invalidated_;

@@ -50,6 +50,7 @@ class Register {
   void set_reset_value(std::uint32_t value);
   void set_writable(std::uint32_t mask) { writable_ = mask; }
   void remove();
+  bool removed() const { return removed_; }
   std::uint32_t reset_value() const { return reset_; }
 
   /// Software reads what `compute` returns, not value(). No side effects: debug accesses call it
@@ -64,6 +65,11 @@ class Register {
     after_write_ = std::move(effect);
   }
 
+  /// Reads return what a read now would before the time that `until` tells (in ps), if the inputs
+  /// of the device stay as they are. A poll may then skip reads; so the register has no
+  /// after_read().
+  void stable_until(std::function<std::uint64_t()> until) { stable_until_ = std::move(until); }
+
   /// What software did with the register, for the coverage report.
   struct Use {
     std::uint64_t reads = 0;
@@ -77,7 +83,14 @@ class Register {
 
  private:
   friend class RegisterBank;
+  friend class RegisterRoute;
 
+  std::uint64_t stable_until_ps() const { return stable_until_ && !removed_ ? stable_until_() : 0; }
+  void credit_reads(std::uint64_t reads, std::uint32_t word) {
+    use_.reads += reads;
+    use_.read_ones |= word;
+    use_.read_zeros |= ~word;
+  }
   std::uint32_t seen() const;
   std::uint32_t read();
   void write(std::uint32_t word);
@@ -92,6 +105,7 @@ class Register {
   std::function<std::uint32_t()> compute_;
   std::function<void(std::uint32_t)> after_read_;
   std::function<void(std::uint32_t)> after_write_;
+  std::function<std::uint64_t()> stable_until_;
   Use use_;
 };
 
@@ -138,6 +152,10 @@ class RegisterBank : public sc_core::sc_module {
   Register& operator[](std::uint32_t offset);
   /// All registers, in the table's order.
   const std::deque<Register>& registers() const { return registers_; }
+
+  /// An access by software, now: reads or writes `word`. `address` is for messages.
+  tlm::tlm_response_status access(Register& target, bool read, std::uint64_t address,
+                                  std::uint32_t& word);
   /// Sets every register to its reset value; no effects.
   void reset();
   /// While held, registers stay at their reset values and an access is warned of and answered with
@@ -149,9 +167,11 @@ class RegisterBank : public sc_core::sc_module {
   void pass(const sc_core::sc_time& time);
   void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(tlm::tlm_generic_payload& payload);
+  bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
   tlm::tlm_response_status access(tlm::tlm_generic_payload& payload);
   Register* find(std::uint64_t address) const;
   bool all_bytes_enabled(const tlm::tlm_generic_payload& payload) const;
+  tlm::tlm_response_status refuse_in_reset(std::uint64_t address) const;
   void warn_of_ignored_write(const Register& target, std::uint32_t word) const;
   void synchronise() const;
 

@@ -11,6 +11,7 @@
 #include <vp/counter.h>
 #include <vp/mm_link.h>
 #include <vp/parameter.h>
+#include <vp/register_route.h>
 
 namespace vp {
 
@@ -23,7 +24,7 @@ class Clock;
 /// A miss, and an access that leaves its region, are answered with TLM_ADDRESS_ERROR_RESPONSE (AXI:
 /// DECERR). Each region has a named link below the router. The address of a payload is restored
 /// after every call.
-class Router : public sc_core::sc_module {
+class Router : public sc_core::sc_module, private RouteStage {
  public:
   /// What a target sees as address.
   enum class Addresses {
@@ -68,7 +69,9 @@ class Router : public sc_core::sc_module {
   unsigned transport_dbg(int initiator, tlm::tlm_generic_payload& payload);
   bool get_direct_mem_ptr(int initiator, tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
   void invalidate(const MmLink& link, std::uint64_t first, std::uint64_t last);
-  sc_core::sc_time access_time(tlm::tlm_command command) const;
+  void enter(bool read, std::uint64_t start_ps, Passage& passage) const override;
+  bool takes_time() const;
+  std::uint64_t access_time_ps(bool read) const;
 
   const Clock* clock_;
   std::unique_ptr<Parameter<std::uint32_t>> read_latency_;

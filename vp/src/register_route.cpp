@@ -1,0 +1,173 @@
+#include <vp/register_route.h>
+
+#include <algorithm>
+
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/hex.h>
+#include <vp/mm_link.h>
+#include <vp/register_bank.h>
+
+namespace vp {
+
+namespace {
+
+constexpr std::uint64_t word_bytes = 4;
+
+/// Turns a request for direct memory into one for a route.
+struct RouteRequest : tlm::tlm_extension<RouteRequest> {
+  explicit RouteRequest(RegisterRoute& route) : route(&route) {}
+  tlm_extension_base* clone() const override { return new RouteRequest(*route); }
+  void copy_from(const tlm_extension_base& other) override {
+    route = static_cast<const RouteRequest&>(other).route;
+  }
+  RegisterRoute* route;
+};
+
+}  // namespace
+
+void report_bus_hang(const RouteStage& stage, bool read, std::uint64_t address) {
+  throw ProtocolError(std::string("bus hang: ") + (read ? "read of " : "write to ") + hex(address) +
+                      " " + stage.obstacle());
+}
+
+RegisterRoute::RegisterRoute(MmLink& first, std::uint64_t address) {
+  if (address % word_bytes != 0) return;
+  RouteRequest request(*this);
+  tlm::tlm_generic_payload payload;
+  payload.set_extension(&request);
+  payload.set_address(address);
+  payload.set_read();
+  payload.set_data_length(word_bytes);
+  tlm::tlm_dmi dmi;
+  first.direct_memory(payload, dmi);
+  payload.clear_extension(&request);
+  if (stops_.size() > most_stages) register_ = nullptr;
+}
+
+RegisterRoute* RegisterRoute::asked_for(const tlm::tlm_generic_payload& payload) {
+  const auto* request = payload.get_extension<RouteRequest>();
+  return request ? request->route : nullptr;
+}
+
+void RegisterRoute::end_at(RegisterBank& bank, Register& target, std::uint64_t address,
+                           ClockScheduler& scheduler) {
+  bank_ = &bank;
+  register_ = &target;
+  address_ = address;
+  scheduler_ = &scheduler;
+}
+
+void RegisterRoute::begin(Access& access, bool read, std::uint64_t start_ps) const {
+  access.read_ = read;
+  access.stage_ = 0;
+  access.changes_ = scheduler_->clock_changes();
+  enter(access, start_ps);
+}
+
+void RegisterRoute::follow(Access& access, std::uint64_t ps) const {
+  while (access.stage_ < stops_.size() && access.passages_[access.stage_].leaves_ps < ps) {
+    leave(access);
+  }
+}
+
+// Looks again after waiting: a clock may have changed meanwhile.
+void RegisterRoute::wait_to_leave(Access& access) const {
+  const Stop& stop = stops_[access.stage_];
+  RouteStage::Passage& passage = access.passages_[access.stage_];
+  while (true) {
+    if (passage.leaves_ps == Clock::never) report_bus_hang(*stop.stage, access.read_, stop.address);
+    scheduler_->pass_until(passage.leaves_ps);
+    if (access.changes_ == scheduler_->clock_changes()) return;
+    access.changes_ = scheduler_->clock_changes();
+    passage.leaves_ps = std::max(stop.stage->leaves(passage.earliest_ps), scheduler_->now_ps());
+  }
+}
+
+RegisterRoute::Answer RegisterRoute::complete(Access& access, std::uint32_t& word) {
+  while (access.stage_ < stops_.size()) {
+    wait_to_leave(access);
+    leave(access);
+  }
+  Answer answer{bank_->access(*register_, access.read_, address_, word), access.time_ps_};
+  for (std::size_t i = stops_.size(); i > 0; --i) {
+    const RouteStage::Passage& passage = access.passages_[i - 1];
+    answer.ps = std::max(answer.ps + passage.rest_ps, passage.answer_ps);
+  }
+  count(access.read_, answer.status != tlm::TLM_OK_RESPONSE);
+  return answer;
+}
+
+RegisterRoute::Answer RegisterRoute::transfer(bool read, std::uint32_t& word) {
+  Access access;
+  begin(access, read, scheduler_->now_ps());
+  return complete(access, word);
+}
+
+void RegisterRoute::count(bool read, bool failed) {
+  const auto command = read ? tlm::TLM_READ_COMMAND : tlm::TLM_WRITE_COMMAND;
+  for (MmLink* link : links_) link->count(command, word_bytes, failed);
+}
+
+// Constant where the first stage holds the answer back longer than anything behind it can.
+std::optional<std::uint64_t> RegisterRoute::read_time_ps() const {
+  std::uint64_t longest = 0;  // from entering the stage to leaving it with the answer
+  std::uint64_t held = 0;     // the least of that, whatever comes behind
+  std::uint64_t behind = 0;
+  for (std::size_t i = stops_.size(); i > 0; --i) {
+    const RouteStage& stage = *stops_[i - 1].stage;
+    RouteStage::Passage passage{};
+    stage.enter(true, 0, passage);
+    behind = passage.earliest_ps + stage.longest_wait_ps() + longest + passage.rest_ps;
+    held = passage.answer_ps;
+    longest = std::max(behind, held);
+  }
+  if (behind <= held) return held;
+  return std::nullopt;
+}
+
+std::uint64_t RegisterRoute::arrival_ps(std::uint64_t start_ps) const {
+  std::uint64_t ps = start_ps;
+  for (const Stop& stop : stops_) {
+    RouteStage::Passage passage{};
+    stop.stage->enter(true, ps, passage);
+    ps = passage.leaves_ps;
+    if (ps == Clock::never) return ps;
+  }
+  return ps;
+}
+
+std::uint64_t RegisterRoute::stable_until_ps() const {
+  return bank_->held_in_reset() ? 0 : register_->stable_until_ps();
+}
+
+std::uint32_t RegisterRoute::peek() const {
+  return register_->seen();
+}
+
+void RegisterRoute::credit_reads(std::uint64_t reads, std::uint32_t word) {
+  for (MmLink* link : links_) {
+    link->reads.add(reads);
+    link->bytes_read.add(reads * word_bytes);
+  }
+  register_->credit_reads(reads, word);
+}
+
+RegisterRoutes::RegisterRoutes(MmLink& first) : first_(first) {
+  first_.on_invalidate([this](std::uint64_t, std::uint64_t) {
+    recent_.fill({});
+    stale_ = true;  // an access may be on its way: forgotten before the next
+  });
+}
+
+RegisterRoute* RegisterRoutes::look_up(std::uint64_t address) {
+  if (stale_) routes_.clear();
+  stale_ = false;
+  auto& route = routes_[address];
+  if (!route) route = std::make_unique<RegisterRoute>(first_, address);
+  RegisterRoute* known = route->known() ? route.get() : nullptr;
+  recent_[slot(address)] = {address, known};
+  return known;
+}
+
+}  // namespace vp
