@@ -23,9 +23,6 @@ LazyBridge::LazyBridge(const vp::Clock& pixel_clk, const vp::Clock& system_clk,
   if (pixel != 0 && system % pixel == 0) ratio_ = system / pixel;
 }
 
-// ---- words on their way
-// ------------------------------------------------------------------------------------------------
-
 // A word is in the crossing's register after its edge, and seen by the next edge of the system
 // clock; at coincident edges that clock comes first.
 std::uint64_t LazyBridge::arrival(std::uint64_t crossing) const {
@@ -81,9 +78,6 @@ void LazyBridge::clock_changed() {
   plan();
 }
 
-// ---- edges
-// -------------------------------------------------------------------------------------------------------------
-
 std::uint64_t LazyBridge::next_edge() const {
   const bool moves = valid_ ? ready_ : fifo_.count() != 0;
   return moves ? cycle_ + 1 : arrives_;
@@ -93,7 +87,7 @@ void LazyBridge::advance(std::uint64_t cycle) {
   if (arrives_ == never) plan();
   for (std::uint64_t edge = next_edge(); edge <= cycle; edge = next_edge()) {
     if (edge == arrives_ && ready_ && !valid_ && edge + 2 <= cycle) {
-      run_through(edge);
+      if (!run_many_through(cycle)) run_through(edge);
     } else {
       step(edge);
     }
@@ -123,19 +117,43 @@ void LazyBridge::run_through(std::uint64_t edge) {
   pass();
 }
 
+// The same for as many words of a packet as there are, where their arrivals are far enough apart.
+bool LazyBridge::run_many_through(std::uint64_t cycle) {
+  if (ratio_ == 0 || fifo_.count() != 0 || in_reset_ || !late_.empty()) return false;
+  const std::uint64_t last_crossing = (cycle - 3) / ratio_;
+  const std::uint64_t arrived = (last_crossing - binary_.leaves_at(next_) - 1) / 32 + 1;
+  const auto count = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>({arrived, binary_.size() - next_, burst_words_ - in_packet_}));
+  const std::uint32_t* words = binary_.words() + next_;
+  passed_.insert(passed_.end(), words, words + count);
+  next_ += count;
+  in_packet_ += count;
+  counts_.beats += count;
+  if (in_packet_ == burst_words_) {
+    in_packet_ = 0;
+    ends_.push_back(passed_.size());
+    ++counts_.packets;
+  }
+  cycle_ = arrival(binary_.leaves_at(next_ - 1) + 1) + 2;
+  plan();
+  return true;
+}
+
 void LazyBridge::offer() {
   const bool last = ++in_packet_ == burst_words_;
   if (last) in_packet_ = 0;
-  out_ = {fifo_.pop(), 0xF, last};
+  out_ = fifo_.pop();
+  last_ = last;
   valid_ = true;
   offered_ = cycle_;
 }
 
 void LazyBridge::pass() {
   passed_.push_back(out_);
+  if (last_) ends_.push_back(passed_.size());
   valid_ = false;
   ++counts_.beats;
-  counts_.packets += out_.last;
+  counts_.packets += last_;
   counts_.stalls += cycle_ - offered_ - 1;
 }
 
@@ -166,14 +184,11 @@ void LazyBridge::hold_in_reset(bool hold) {
   overflow_ = 0;
 }
 
-// ---- the slave's side
-// ---------------------------------------------------------------------------------------------------
-
 std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
   if (arrives_ == never) plan();
-  if (!passed_.empty()) return cycle_;
-  beats = std::min(beats, burst_words_ - in_packet_ + (valid_ && !out_.last ? 1 : 0));
-  if (valid_ && out_.last) beats = 1;
+  if (taken_ != passed_.size()) return cycle_;
+  beats = std::min(beats, burst_words_ - in_packet_ + (valid_ && !last_ ? 1 : 0));
+  if (valid_ && last_) beats = 1;
   const std::uint32_t held = fifo_.count() + (valid_ ? 1 : 0);
   if (beats <= held) return cycle_ + beats;
   const std::uint32_t words_ahead = beats - held - 1;
@@ -183,11 +198,20 @@ std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
   return arrival(binary_.leaves_at(static_cast<std::uint32_t>(index)) + 1) + 2;
 }
 
-bool LazyBridge::take(vp::BeatSource::Beat& beat) {
-  if (passed_.empty()) return false;
-  beat = passed_.front();
-  passed_.pop_front();
-  return true;
+vp::BeatSource::Beats LazyBridge::take() {
+  if (taken_ == passed_.size()) {
+    passed_.clear();
+    ends_.clear();
+    taken_ = 0;
+    return {};
+  }
+  const auto end = std::upper_bound(ends_.begin(), ends_.end(), taken_);
+  const bool last = end != ends_.end();
+  const std::size_t stop = last ? *end : passed_.size();
+  const vp::BeatSource::Beats beats{&passed_[taken_], static_cast<std::uint32_t>(stop - taken_),
+                                    last};
+  taken_ = stop;
+  return beats;
 }
 
 }  // namespace pl

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <utility>
+#include <vector>
 
 #include <pl/feature_packaging/core.h>
 #include <pl/global_threshold/binary_view.h>
@@ -38,7 +39,7 @@ class LazyBridge {
 
   /// See vp::BeatSource.
   std::uint64_t earliest_pass(std::uint32_t beats);
-  bool take(vp::BeatSource::Beat& beat);
+  vp::BeatSource::Beats take();
 
   std::uint32_t overflow() const { return overflow_; }
   /// What happened since the last call.
@@ -62,6 +63,7 @@ class LazyBridge {
   void plan();
   void step(std::uint64_t edge);
   void run_through(std::uint64_t edge);
+  bool run_many_through(std::uint64_t cycle);
   void offer();
   void pass();
   void arrive(std::uint32_t waiting);
@@ -77,11 +79,14 @@ class LazyBridge {
   std::uint64_t arrives_ = vp::Clock::never;  ///< system-clock edge on which the next word is taken
 
   FeatureBuffer fifo_;
-  vp::BeatSource::Beat out_;
+  std::uint32_t out_ = 0;  ///< the output register
+  bool last_ = false;      ///< its TLAST
   bool valid_ = false;
   std::uint64_t offered_ = 0;  ///< edge from which the word in the output register is offered
   std::uint32_t in_packet_ = 0;
-  std::deque<vp::BeatSource::Beat> passed_;
+  std::vector<std::uint32_t> passed_;  ///< words that passed, from taken_ on not taken yet
+  std::vector<std::size_t> ends_;      ///< where in passed_ a packet ended
+  std::size_t taken_ = 0;
 
   bool ready_ = false;
   bool in_reset_ = false;

@@ -56,10 +56,10 @@ std::uint64_t AxiThresholdBridgeTlm::earliest_pass(std::uint32_t beats) {
   return bridge_.earliest_pass(beats);
 }
 
-bool AxiThresholdBridgeTlm::take(std::uint64_t cycle, Beat& beat) {
+vp::BeatSource::Beats AxiThresholdBridgeTlm::take(std::uint64_t cycle) {
   bridge_.advance(cycle);
   count();
-  return bridge_.take(beat);
+  return bridge_.take();
 }
 
 void AxiThresholdBridgeTlm::before_change(vp::Clock&) {

@@ -27,7 +27,7 @@ class AxiThresholdBridgeTlm : public AxiThresholdBridgeClocked,
   void before_end_of_elaboration() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   std::uint64_t earliest_pass(std::uint32_t beats) override;
-  bool take(std::uint64_t cycle, Beat& beat) override;
+  Beats take(std::uint64_t cycle) override;
   void before_change(vp::Clock& clock) override;
   void after_change(vp::Clock& clock) override;
   void binary_begins() override;

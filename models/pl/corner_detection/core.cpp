@@ -58,9 +58,12 @@ CornerCore::CornerCore(const Geometry& geometry, std::uint32_t threshold)
 void CornerCore::reset() {
   std::fill(pixels_.begin(), pixels_.end(), 0);
   std::fill(scores_.begin(), scores_.end(), Score{});
+  x_ = y_ = 0;
 }
 
 bool CornerCore::push(std::uint8_t pixel, std::uint32_t x, std::uint32_t y, Corner& corner) {
+  x_ = x;
+  y_ = y;
   pixels_[(y % 8) * width_ + x] = pixel;
   // The one new point of interest: right of and below the centre. Windows that wrap around a line's
   // end do not count.

@@ -61,12 +61,20 @@ class CornerCore {
 
   void reset();
 
- private:
+  /// What one FAST module found.
   struct Score {
     std::uint16_t strength = 0;  ///< 0: not a corner
     std::uint8_t direction = 0;
   };
+  // For traces.
+  /// The point of interest that was new in that clock.
+  Score newest() const { return x_ < 6 || y_ < 6 ? Score{} : scores(y_ - 3)[x_ - 3]; }
+  /// The one in the middle of the 3 x 3 grid.
+  Score centre() const {
+    return x_ < 2 * reach || y_ < 2 * reach ? Score{} : scores(y_ - reach)[x_ - reach];
+  }
 
+ private:
   Score score(std::uint32_t x, std::uint32_t y) const;
   bool is_maximum(std::uint32_t x, std::uint32_t y) const;
   const std::uint8_t* row(std::uint32_t y) const { return &pixels_[(y % 8) * width_]; }
@@ -74,6 +82,7 @@ class CornerCore {
 
   std::uint32_t width_;
   std::uint32_t threshold_;
+  std::uint32_t x_ = 0, y_ = 0;       ///< of the newest pixel
   std::vector<std::uint8_t> pixels_;  ///< the last eight lines
   std::vector<Score> scores_;         ///< the last four lines of results
 };

@@ -125,17 +125,30 @@ void AxiDma::edge() {
   std::uint64_t next = drive_interrupts() ? cycle + 1 : vp::Clock::never;
   for (const Interrupt& i : interrupts_) next = std::min(next, i.channel->edge(cycle));
   if (resetting_) next = std::min(next, run_soft_reset(cycle));
-  for (const Interrupt& i : interrupts_) {
-    if (i.level != i.channel->interrupt()) next = cycle + 1;
-  }
+  if (interrupts_differ()) next = cycle + 1;
   if (stopped_ && !was_stopped) next = cycle + 1;  // a channel that ran before the other failed
   sleep_until(next, cycle);
 }
 
 void AxiDma::sleep_until(std::uint64_t next, std::uint64_t cycle) {
-  if (next <= cycle + 1) return wake();
   sleep();
-  if (next != vp::Clock::never) wake_at(next);
+  planned_ = std::max(next, cycle + 1);
+  wake_at(planned_);
+}
+
+void AxiDma::plan_edge(std::uint64_t cycle) {
+  if (cycle >= planned_) return;
+  planned_ = cycle;
+  wake_at(cycle);
+}
+
+bool AxiDma::interrupts_differ() const {
+  return std::any_of(interrupts_.begin(), interrupts_.end(),
+                     [](const Interrupt& i) { return i.level != i.channel->interrupt(); });
+}
+
+void AxiDma::plan_interrupts() {
+  if (interrupts_differ()) plan_edge(clock().cycle() + 1);
 }
 
 // A register behind status AND enable. True if an output changed.
@@ -160,6 +173,7 @@ void AxiDma::request_soft_reset() {
   if (resetting_) return;
   resetting_ = true;
   reset_done_at_ = vp::Clock::never;
+  plan_edge(clock().cycle() + 1);
   for (const Interrupt& i : interrupts_) i.channel->drop();
 }
 

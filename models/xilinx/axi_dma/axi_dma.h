@@ -74,7 +74,8 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   // DmaChannel::Core
   const DmaTiming& timing() const override { return latencies; }
   const vp::Clock& channel_clock() const override { return clock(); }
-  void wake_channels() override { wake(); }
+  void plan_edge(std::uint64_t cycle) override;
+  void plan_interrupts() override;
   void stop_channels() override;
   void request_soft_reset() override;
   bool in_soft_reset() const override { return resetting_; }
@@ -83,6 +84,7 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
 
   void build_channels();
   bool drive_interrupts();
+  bool interrupts_differ() const;
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();
   void sleep_until(std::uint64_t next, std::uint64_t cycle);
@@ -90,6 +92,7 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;
   std::vector<Interrupt> interrupts_;  ///< of the channels that are built
+  std::uint64_t planned_ = 0;  ///< the next edge that runs, unless a signal wakes it earlier
   bool stopped_ = false;
   bool resetting_ = false;
   std::uint64_t reset_done_at_ = vp::Clock::never;

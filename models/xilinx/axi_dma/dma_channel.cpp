@@ -25,6 +25,7 @@ DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offset
       name_(std::move(name)) {
   dmacr.after_write([this](std::uint32_t word) { control_written(word); });
   dmasr.after_write([this](std::uint32_t word) { status_written(word); });
+  address.after_write([this](std::uint32_t) { latch_address(); });
   length.after_write([this](std::uint32_t word) { length_written(word); });
 }
 
@@ -34,7 +35,6 @@ void DmaChannel::configure(std::uint32_t length_width, bool unaligned) {
 }
 
 // ---- what software does
-// ----------------------------------------------------------------------------------------------
 
 void DmaChannel::control_written(std::uint32_t word) {
   if ((dmacr & dmacr::IRQThreshold) == 0) dmacr.set_bits(1u << dmacr::IRQThreshold_shift);
@@ -48,13 +48,20 @@ void DmaChannel::control_written(std::uint32_t word) {
     run_at_ = never;
     if (phase_ == Phase::idle && !dmasr.any(dmasr::Halted)) halt_after(now());
   }
-  core_.wake_channels();
+  plan_after_write();
+}
+
+// The next edge on which registers or the interrupt output follow what software wrote.
+void DmaChannel::plan_after_write() {
+  const std::uint64_t next = std::min(run_at_, halt_at_);
+  if (next != never) core_.plan_edge(std::max(next, now() + 1));
+  core_.plan_interrupts();
 }
 
 // A bit that the hardware sets on the same edge stays set.
 void DmaChannel::status_written(std::uint32_t word) {
   if (fresh_at_ == now()) dmasr.set_bits(word & fresh_interrupts_);
-  core_.wake_channels();
+  plan_after_write();
 }
 
 void DmaChannel::length_written(std::uint32_t word) {
@@ -63,42 +70,53 @@ void DmaChannel::length_written(std::uint32_t word) {
                name_ + " LENGTH written during a soft reset: it is lost");
     return;
   }
-  const std::string written = name_ + " LENGTH = " + std::to_string(word);
+  const auto written = [&] { return name_ + " LENGTH = " + std::to_string(word); };
   if (word != length) {
     core_.warn(
         "/markervp/axi_dma/length_too_wide",
-        written + " has more bits than this build: it is stored as " + std::to_string(length));
+        written() + " has more bits than this build: it is stored as " + std::to_string(length));
   }
   if (length == 0) {
-    core_.warn("/markervp/axi_dma/length_zero", written + ": a transfer of 0 bytes never starts");
+    core_.warn("/markervp/axi_dma/length_zero", written() + ": a transfer of 0 bytes never starts");
   } else if (!running()) {
     core_.warn(
         "/markervp/axi_dma/length_while_halted",
-        written + " written while the channel is halted: no transfer starts; set DMACR.RS before");
+        written() + " written while the channel is halted: no transfer starts; set DMACR.RS before");
   } else if (phase_ != Phase::idle) {
     core_.warn(
         "/markervp/axi_dma/length_while_busy",
-        written + " written while a transfer is running: it is lost; wait for it to complete");
+        written() + " written while a transfer is running: it is lost; wait for it to complete");
   } else {
     phase_ = Phase::accepted;
     requested_bytes_ = length;
     accepted_at_ = now();
+    sampled_address_ = address;
     dmasr.clear_bits(dmasr::Idle);
-    core_.wake_channels();
+    core_.plan_edge(std::max(accepted_at_ + 1, starts_at()));
   }
 }
 
+// The address register is sampled some edges after LENGTH was written; until then it may change.
+void DmaChannel::latch_address() {
+  if (phase_ == Phase::accepted && now() < accepted_at_ + core_.timing().address_latency) {
+    sampled_address_ = address;
+  }
+}
+
+std::uint64_t DmaChannel::starts_at() const {
+  const DmaTiming& timing = core_.timing();
+  return accepted_at_ + std::max<std::uint32_t>(timing.address_latency, timing.start_latency);
+}
+
 // ---- what the hardware does
-// ------------------------------------------------------------------------------------------
 
 std::uint64_t DmaChannel::edge(std::uint64_t cycle) {
   sample(cycle);
   if (core_.in_soft_reset()) return never;
   std::uint64_t next = never;
   if (phase_ == Phase::accepted) {
-    const std::uint64_t due = accepted_at_ + core_.timing().address_latency;
-    if (cycle < due) {
-      next = due;
+    if (cycle < starts_at()) {
+      next = starts_at();
     } else {
       start(cycle);
     }
@@ -112,7 +130,7 @@ std::uint64_t DmaChannel::edge(std::uint64_t cycle) {
 }
 
 void DmaChannel::start(std::uint64_t cycle) {
-  std::uint32_t from = address;
+  std::uint32_t from = sampled_address_;
   if (!unaligned_ && from % word_bytes != 0) {
     core_.warn("/markervp/axi_dma/unaligned", name_ + " address " + vp::hex(from) +
                                                   " is not a multiple of 4 and this build has no "
@@ -122,13 +140,13 @@ void DmaChannel::start(std::uint64_t cycle) {
   phase_ = Phase::moving;
   finish_at_ = never;
   error_ = 0;
-  const std::uint64_t first = accepted_at_ + core_.timing().start_latency;
-  begin(from, requested_bytes_, std::max(first, cycle));
+  begin(from, requested_bytes_, cycle);
 }
 
 void DmaChannel::report_status(std::uint64_t cycle) {
   finish_at_ = never;
   if (error_ != 0) {
+    warn_of_bus_error();
     dmasr.set_bits(error_);
     set_interrupt(dmasr::Err_Irq, cycle);
     core_.stop_channels();
@@ -142,6 +160,17 @@ void DmaChannel::report_status(std::uint64_t cycle) {
   } else {
     halt_after(cycle);
   }
+}
+
+void DmaChannel::warn_of_bus_error() const {
+  if ((error_ & (dmasr::DMADecErr | dmasr::DMASlvErr)) == 0) return;
+  const bool nothing = (error_ & dmasr::DMADecErr) != 0;
+  core_.warn("/markervp/axi_dma/bus_error",
+             name_ + " transfer of " + std::to_string(requested_bytes_) + " bytes at " +
+                 vp::hex(address) +
+                 (nothing ? " leaves the memory that the DMA reaches (DECERR)"
+                          : " is refused by the memory (SLVERR)") +
+                 ": take DMA buffers from hal_dma_allocate and use their bus_address");
 }
 
 void DmaChannel::set_interrupt(std::uint32_t bit, std::uint64_t cycle) {

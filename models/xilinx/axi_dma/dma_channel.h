@@ -22,8 +22,10 @@ class DmaChannel {
     virtual ~Core() = default;
     virtual const DmaTiming& timing() const = 0;
     virtual const vp::Clock& channel_clock() const = 0;
-    /// Software did something: run the next edge.
-    virtual void wake_channels() = 0;
+    /// Runs edge `cycle`, or an earlier one.
+    virtual void plan_edge(std::uint64_t cycle) = 0;
+    /// Runs the next edge if an interrupt output has to follow its channel.
+    virtual void plan_interrupts() = 0;
     /// An error in one channel stops both.
     virtual void stop_channels() = 0;
     virtual void request_soft_reset() = 0;
@@ -80,6 +82,8 @@ class DmaChannel {
 
   /// The transfer is done and shows in the status register on edge `cycle`.
   void finish(std::uint64_t cycle) { finish_at_ = cycle; }
+  /// It is not: something came in between.
+  void unfinish() { finish_at_ = never; }
   /// The transfer failed; `error` is one of the error bits of DMASR.
   void fail(std::uint64_t cycle, std::uint32_t error) {
     finish_at_ = cycle;
@@ -97,11 +101,15 @@ class DmaChannel {
   void control_written(std::uint32_t word);
   void status_written(std::uint32_t word);
   void length_written(std::uint32_t word);
+  void latch_address();
+  std::uint64_t starts_at() const;
   void start(std::uint64_t cycle);
   void report_status(std::uint64_t cycle);
+  void warn_of_bus_error() const;
   void set_interrupt(std::uint32_t bit, std::uint64_t cycle);
   std::uint64_t run_and_halt(std::uint64_t cycle);
   void halt_after(std::uint64_t cycle);
+  void plan_after_write();
   std::uint64_t now() const { return core_.channel_clock().cycle(); }
   bool running() const { return dmacr.any(axi_dma::dmacr::RS); }
 
@@ -110,6 +118,7 @@ class DmaChannel {
   Phase phase_ = Phase::idle;
   std::uint32_t requested_bytes_ = 0;
   std::uint64_t accepted_at_ = 0;
+  std::uint32_t sampled_address_ = 0;
   std::uint64_t finish_at_ = never;
   std::uint32_t error_ = 0;
   std::uint64_t run_at_ = never;   ///< Halted falls

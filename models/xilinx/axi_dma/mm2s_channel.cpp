@@ -42,12 +42,6 @@ void Mm2sChannel::sample(std::uint64_t) {
 }
 
 std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
-  if (!whole_burst_.empty()) {
-    const std::uint64_t end = whole_first_ + whole_burst_.size();
-    if (cycle < end) return end;
-    end_whole_burst(cycle);
-    return never;
-  }
   if (accepted_ && m_axis.tlast.get()) {
     withdraw();
     finish(cycle + core_.timing().completion_latency);
@@ -55,13 +49,12 @@ std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
   }
   if (!bursts_.empty() && bursts_.back().pending && m_axi.done()) schedule(bursts_.back(), cycle);
   if (next_request_at(cycle) <= cycle) request(cycle);
-  if (!offering_ && start_whole_burst(cycle)) return whole_first_ + whole_burst_.size();
+  if (!offering_ && start_whole_burst(cycle)) return never;
   if ((!offering_ || accepted_) && !offer(cycle)) withdraw();
   return next_edge(cycle);
 }
 
 // ---- memory side
-// -----------------------------------------------------------------------------------------------------
 
 // The first edge from `cycle` on at which the next burst can be requested, as things stand.
 std::uint64_t Mm2sChannel::next_request_at(std::uint64_t cycle) const {
@@ -115,7 +108,6 @@ bool Mm2sChannel::quiet(std::uint64_t cycle) const {
 }
 
 // ---- stream side
-// -----------------------------------------------------------------------------------------------------
 
 // The edge on which the last byte of the next beat is in the FIFO.
 std::uint64_t Mm2sChannel::next_beat_at() const {
@@ -174,7 +166,6 @@ std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
 }
 
 // ---- bursts as a whole
-// ------------------------------------------------------------------------------------------------
 
 // The rest of a transfer, if it is one burst of whole words whose time is known.
 bool Mm2sChannel::start_whole_burst(std::uint64_t cycle) {
@@ -191,26 +182,28 @@ bool Mm2sChannel::start_whole_burst(std::uint64_t cycle) {
     whole_burst_[i] = byte[0] | std::uint32_t{byte[1]} << 8 | std::uint32_t{byte[2]} << 16 |
                       std::uint32_t{byte[3]} << 24;
   }
+  finish(whole_first_ + whole_burst_.size() + core_.timing().completion_latency);
   return true;
 }
 
-void Mm2sChannel::end_whole_burst(std::uint64_t cycle) {
+void Mm2sChannel::completed() {
+  if (whole_burst_.empty()) return;
   m_axis.send_burst(whole_burst_.data(), static_cast<std::uint32_t>(whole_burst_.size()), true);
   whole_burst_.clear();
   bursts_.clear();
   to_send_ = buffered_ = 0;
-  finish(cycle + core_.timing().completion_latency);
 }
 
 // What passed so far is given; the state is that of single beats from here on.
 void Mm2sChannel::settle(std::uint64_t cycle) {
   if (whole_burst_.empty()) return;
-  core_.wake_channels();
+  if (cycle >= whole_first_ + whole_burst_.size()) return completed();
   const std::vector<std::uint32_t> words = std::exchange(whole_burst_, {});
+  unfinish();
+  core_.plan_edge(cycle + 1);
   if (cycle < whole_first_) return;
   const auto last = static_cast<std::uint32_t>(words.size() - 1);
-  const auto passed =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(cycle - whole_first_, last));
+  const auto passed = static_cast<std::uint32_t>(cycle - whole_first_);
   if (passed != 0) m_axis.send_burst(words.data(), passed, false);
   taken_ = (passed + 1) * word_bytes;
   to_send_ -= taken_;

@@ -36,6 +36,7 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   void sample(std::uint64_t cycle) override;
   void abandon() override;
   void forget_bursts() override;
+  void completed() override;
 
   void request(std::uint64_t cycle);
   std::uint64_t next_request_at(std::uint64_t cycle) const;
@@ -46,7 +47,6 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   std::uint64_t next_edge(std::uint64_t cycle) const;
   std::uint64_t next_beat_at() const;
   bool start_whole_burst(std::uint64_t cycle);
-  void end_whole_burst(std::uint64_t cycle);
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_size_;   ///< bytes

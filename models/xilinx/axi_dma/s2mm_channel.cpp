@@ -10,6 +10,7 @@ namespace {
 using namespace axi_dma;
 
 constexpr unsigned word_bytes = 4;
+constexpr std::uint8_t all_bytes = 0xF;
 /// FIFO of the DataMover in bursts (HDL of v5.1, as for reads).
 constexpr unsigned fifo_bursts = 8;
 
@@ -49,14 +50,47 @@ std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
 }
 
 // ---- stream side
-// -----------------------------------------------------------------------------------------------------
 
 void S2mmChannel::take_beats(std::uint64_t cycle) {
   if (!s_axis.source()) {
-    if (beat_) take_beat({s_axis.tdata, s_axis.tkeep, s_axis.tlast}, cycle);
+    if (beat_) take_beat(s_axis.tdata, s_axis.tkeep, s_axis.tlast, cycle);
     return;
   }
-  for (vp::BeatSource::Beat beat; s_axis.source()->take(cycle, beat);) take_beat(beat, cycle);
+  for (auto beats = s_axis.source()->take(cycle); beats.count != 0;
+       beats = s_axis.source()->take(cycle)) {
+    take_words(beats, cycle);
+  }
+}
+
+// Word by word where a burst or LENGTH ends inside one.
+void S2mmChannel::take_words(const vp::BeatSource::Beats& beats, std::uint64_t cycle) {
+  const bool aligned = !keyhole() && write_address_ % word_bytes == 0;
+  for (std::uint32_t taken = 0; taken < beats.count;) {
+    const std::uint32_t in_burst =
+        static_cast<std::uint32_t>((write_address_ + collected_.size()) % burst_size_);
+    const std::uint32_t room = std::min(burst_size_ - in_burst, capacity_ - received_);
+    const std::uint32_t count = aligned ? std::min(beats.count - taken, room / word_bytes) : 0;
+    const bool last = beats.last && taken + std::max(count, 1u) == beats.count;
+    if (count == 0) {
+      take_beat(beats.words[taken++], all_bytes, last, cycle);
+      continue;
+    }
+    append(beats.words + taken, count);
+    taken += count;
+    if (in_burst + count * word_bytes == burst_size_) close_burst(cycle);
+    end_beat(last, cycle);
+  }
+}
+
+void S2mmChannel::append(const std::uint32_t* words, std::uint32_t count) {
+  const std::size_t old = collected_.size();
+  collected_.resize(old + count * word_bytes);
+  for (std::uint32_t i = 0; i < count * word_bytes; ++i) {
+    collected_[old + i] =
+        static_cast<unsigned char>(words[i / word_bytes] >> (8 * (i % word_bytes)));
+  }
+  collected_beats_ += count;
+  received_ += count * word_bytes;
 }
 
 // With a source: no earlier edge brings what has to be acted on. A burst, the transfer or the FIFO
@@ -70,8 +104,7 @@ std::uint64_t S2mmChannel::next_beat_of_interest(std::uint64_t cycle) const {
   return std::max(cycle + 1, s_axis.source()->earliest_pass(std::max(beats, 1u)));
 }
 
-void S2mmChannel::take_beat(const vp::BeatSource::Beat& beat, std::uint64_t cycle) {
-  const auto [data, keep, last] = beat;
+void S2mmChannel::take_beat(std::uint32_t data, std::uint8_t keep, bool last, std::uint64_t cycle) {
   ++collected_beats_;
   for (unsigned lane = 0; lane < word_bytes; ++lane) {
     if ((keep >> lane & 1) == 0) continue;
@@ -84,6 +117,10 @@ void S2mmChannel::take_beat(const vp::BeatSource::Beat& beat, std::uint64_t cycl
     if (!keyhole() && (write_address_ + collected_.size()) % burst_size_ == 0) close_burst(cycle);
   }
   if (keyhole() && collected_.size() >= burst_size_) close_burst(cycle);
+  end_beat(last, cycle);
+}
+
+void S2mmChannel::end_beat(bool last, std::uint64_t cycle) {
   if (received_ == capacity_ && !last) overflow_ = true;
   closed_ = last || overflow_;
   if (closed_) close_burst(cycle);
@@ -119,7 +156,6 @@ unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
 }
 
 // ---- memory side
-// -----------------------------------------------------------------------------------------------------
 
 void S2mmChannel::drive_bus(std::uint64_t cycle) {
   if (bus_ == Bus::busy && cycle >= burst_end_) {
@@ -173,7 +209,7 @@ std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) const {
   const bool listening = cycle >= ready_from_ && !closed_;
   if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid, or by the source
   if (listening && bus_ == Bus::busy && buffered_beats(cycle) >= fifo_beats_) return cycle + 1;
-  std::uint64_t next = listening ? never : ready_from_;
+  std::uint64_t next = cycle < ready_from_ ? ready_from_ : never;
   if (listening && s_axis.source()) next = next_beat_of_interest(cycle);
   if (bus_ == Bus::busy) {
     next = std::min(next, burst_end_);
@@ -190,7 +226,7 @@ bool S2mmChannel::quiet(std::uint64_t) const {
 void S2mmChannel::abandon() {
   s_axis.tready = false;
   if (s_axis.source()) {
-    for (vp::BeatSource::Beat beat; s_axis.source()->take(core_.channel_clock().cycle(), beat);) continue;
+    while (s_axis.source()->take(core_.channel_clock().cycle()).count != 0) continue;
   }
   ready_from_ = never;
   closed_ = overflow_ = false;

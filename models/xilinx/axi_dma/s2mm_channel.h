@@ -40,8 +40,11 @@ class S2mmChannel : public DmaChannel {
   void forget_bursts() override;
   void completed() override;
 
-  void take_beat(const vp::BeatSource::Beat& beat, std::uint64_t cycle);
   void take_beats(std::uint64_t cycle);
+  void take_beat(std::uint32_t data, std::uint8_t keep, bool last, std::uint64_t cycle);
+  void take_words(const vp::BeatSource::Beats& beats, std::uint64_t cycle);
+  void append(const std::uint32_t* words, std::uint32_t count);
+  void end_beat(bool last, std::uint64_t cycle);
   std::uint64_t next_beat_of_interest(std::uint64_t cycle) const;
   void close_burst(std::uint64_t cycle);
   void drive_bus(std::uint64_t cycle);
