@@ -25,8 +25,19 @@ bool AxiDma::initialise(const AxiDmaConfig& config) {
   return true;
 }
 
+bool AxiDma::fits(std::uint32_t address, std::uint32_t bytes) const {
+  return bytes != 0 && bytes <= max_bytes_ && address % stream_bytes_ == 0;
+}
+
+bool AxiDma::start_again(std::uint32_t address, std::uint32_t bytes) const {
+  if (!fits(address, bytes)) return false;
+  hal_write32(registers_.address, address);
+  hal_write32(registers_.length, bytes);
+  return true;
+}
+
 bool AxiDma::start(std::uint32_t address, std::uint32_t bytes) const {
-  if (bytes == 0 || bytes > max_bytes_ || address % stream_bytes_ != 0) return false;
+  if (!fits(address, bytes)) return false;
   // A channel that runs is not idle before its first transfer either: its halt bit tells the two
   // apart.
   const std::uint32_t status = hal_read32(registers_.status);

@@ -25,6 +25,10 @@ class AxiDma {
   /// `bytes` do not fit the build.
   bool start(std::uint32_t address, std::uint32_t bytes) const;
 
+  /// Starts the next transfer of a channel whose last one has completed, as acknowledge() told: two
+  /// writes. False, and nothing started, if `address` or `bytes` do not fit the build.
+  bool start_again(std::uint32_t address, std::uint32_t bytes) const;
+
   /// Reads the status, clears the interrupts that it shows, returns it.
   std::uint32_t acknowledge() const;
 
@@ -41,6 +45,8 @@ class AxiDma {
   static constexpr unsigned reset_polls = 500;  ///< as the vendor's driver
 
  private:
+  bool fits(std::uint32_t address, std::uint32_t bytes) const;
+
   struct Registers {
     std::uint32_t control, status, address, length;  ///< bus addresses
   };

@@ -66,6 +66,17 @@ BOOST_AUTO_TEST_CASE(start_writes_length_last) {
   BOOST_TEST((fake_hal::state().accesses == expected));
 }
 
+BOOST_AUTO_TEST_CASE(start_again_writes_address_and_length_only) {
+  dma.initialise({base, Channel::stream_to_memory});
+  fake_hal::state().accesses.clear();
+  BOOST_TEST(dma.start_again(0x1000'0080, 128));
+  const std::vector<Access> expected = {{true, base + axi_dma::S2MM_DA, 0x1000'0080},
+                                        {true, base + axi_dma::S2MM_LENGTH, 128}};
+  BOOST_TEST((fake_hal::state().accesses == expected));
+  BOOST_TEST(!dma.start_again(0x1000'0082, 128));
+  BOOST_TEST(!dma.start_again(0x1000'0080, 0));
+}
+
 BOOST_AUTO_TEST_CASE(start_uses_the_source_address_of_the_other_channel) {
   dma.initialise({base, Channel::memory_to_stream});
   dma.start(0x1000'0000, 128);

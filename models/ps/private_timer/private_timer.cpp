@@ -1,0 +1,103 @@
+#include <private_timer_registers.h>
+
+#include <ps/private_timer/private_timer.h>
+#include <vp/report.h>
+#include <algorithm>
+
+namespace ps {
+
+namespace pt = private_timer;
+
+namespace {
+
+vp::RegisterBankOptions options() {
+  vp::RegisterBankOptions options;
+  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
+  options.address_bits = 8;
+  return options;
+}
+
+}  // namespace
+
+PrivateTimer::PrivateTimer(sc_core::sc_module_name name, vp::Clock& cpu_clock)
+    : vp::Clocked(name, cpu_clock),
+      registers("registers", pt::registers, options(), &cpu_clock.scheduler()),
+      timer_(registers, {pt::LOAD, pt::COUNTER, pt::CONTROL}, cpu_clock),
+      watchdog_(registers, {pt::WDT_LOAD, pt::WDT_COUNTER, pt::WDT_CONTROL}, cpu_clock),
+      status_(registers[pt::INTERRUPT_STATUS]),
+      watchdog_status_(registers[pt::WDT_INTERRUPT_STATUS]),
+      reset_status_(registers[pt::WDT_RESET_STATUS]) {
+  wire(timer_);
+  wire(watchdog_);
+  watchdog_.counter.after_write([this](std::uint32_t word) { watchdog_counter_written(word); });
+  watchdog_.control.after_write([this](std::uint32_t) { watchdog_control_written(); });
+  registers[pt::WDT_DISABLE].after_write([this](std::uint32_t word) { disable_written(word); });
+  for (vp::Register* status : {&status_, &watchdog_status_, &reset_status_}) {
+    status->after_write([this](std::uint32_t) { update(); });
+  }
+}
+
+void PrivateTimer::wire(DownCounter& counter) {
+  const auto set = [this, &counter](std::uint32_t word) {
+    counter.set(word);
+    update();
+  };
+  counter.load.after_write(set);
+  counter.counter.after_write(set);
+  counter.control.after_write([this, &counter](std::uint32_t) {
+    counter.control_written();
+    update();
+  });
+}
+
+// Writing 0 does not leave watchdog mode.
+void PrivateTimer::watchdog_control_written() {
+  watchdog_mode_ |= watchdog_.control.any(pt::control::Watchdog_Mode);
+  if (watchdog_mode_) watchdog_.control.set_bits(pt::control::Watchdog_Mode);
+  watchdog_.control_written();
+  update();
+}
+
+void PrivateTimer::watchdog_counter_written(std::uint32_t word) {
+  if (watchdog_mode_) {
+    vp::warn(*this, "/markervp/private_timer/watchdog_counter",
+             "WDT_COUNTER written in watchdog mode: ignored; write WDT_LOAD");
+    return;
+  }
+  watchdog_.set(word);
+  update();
+}
+
+void PrivateTimer::disable_written(std::uint32_t word) {
+  if (last_disable_key_ == pt::disable_key_1 && word == pt::disable_key_2) {
+    watchdog_mode_ = false;
+    watchdog_.control.clear_bits(pt::control::Watchdog_Mode);
+  }
+  last_disable_key_ = word;
+}
+
+void PrivateTimer::update() {
+  if (timer_.take_event()) status_.set_bits(pt::status::Event_Flag);
+  if (watchdog_.take_event()) {
+    if (watchdog_mode_) {
+      reset_status_.set_bits(pt::reset_status::Reset_Flag);
+      vp::warn(*this, "/markervp/private_timer/watchdog",
+               "the watchdog expired: on the chip it resets the processor; the program goes on "
+               "here");
+    } else {
+      watchdog_status_.set_bits(pt::status::Event_Flag);
+    }
+  }
+  irq = status_.any(pt::status::Event_Flag) && timer_.control.any(pt::control::IRQ_Enable);
+  watchdog_irq = watchdog_status_.any(pt::status::Event_Flag) &&
+                 watchdog_.control.any(pt::control::IRQ_Enable);
+  watchdog_reset = reset_status_.any(pt::reset_status::Reset_Flag);
+  wake_at(std::min(timer_.next_event(), watchdog_.next_event()));
+}
+
+void PrivateTimer::edge() {
+  update();
+  sleep();
+}
+
+}  // namespace ps

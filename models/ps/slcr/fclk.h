@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vp/register_bank.h>
+#include <cstdint>
+#include <systemc>
+
+namespace vp {
+class Clock;
+class ClockScheduler;
+}  // namespace vp
+
+namespace ps {
+
+/// One clock to the PL, FCLK_CLKn: two dividers behind a PLL, and the throttle that gives a number
+/// of clocks and then stops.
+///
+/// A clock that nothing changed runs with the frequency it started with, even if the dividers give
+/// it only nearly.
+class Fclk : public sc_core::sc_module {
+ public:
+  /// `offset` of FPGAn_CLK_CTRL in the bank.
+  Fclk(sc_core::sc_module_name name, vp::RegisterBank& bank, std::uint32_t offset);
+  const char* kind() const override { return "ps::Fclk"; }
+
+  /// The clock of the simulation that follows. May stay away: the registers work alone.
+  void drive(vp::Clock& clock, double source_hz);
+  /// Software wrote FPGAn_CLK_CTRL.
+  void divide(double source_hz);
+  /// A PLL may have changed. 0: stopped.
+  void follow(double source_hz);
+  /// Value of SRCSEL.
+  std::uint32_t source() const;
+  /// What the dividers give.
+  std::uint64_t programmed_hz(double source_hz) const;
+
+  /// Software wrote FPGAn_THR_CTRL or FPGAn_THR_CNT.
+  void throttle_written();
+
+ private:
+  bool throttled() const;
+  std::uint32_t status() const;
+  void start_pulses();
+  void end_of_pulses();
+  void apply();
+
+  vp::Register& clk_ctrl_;
+  vp::Register& thr_ctrl_;
+  vp::Register& thr_cnt_;
+  vp::Clock* clock_ = nullptr;
+  double source_hz_ = 0.0;
+  std::uint64_t hertz_ = 0;  ///< when not throttled
+  bool started_ = false;     ///< CPU_START as it was
+  bool throttled_ = false;   ///< the count as it was: not 0
+  bool pulsing_ = false;
+  std::uint64_t first_cycle_ = 0;  ///< cycles before the throttle or the pulses began
+  sc_core::sc_event last_pulse_;
+};
+
+}  // namespace ps

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <ps/slcr/clock_tree.h>
+#include <ps/slcr/fclk.h>
+#include <ps/slcr/level_shifters.h>
+#include <vp/parameter.h>
+#include <vp/register_bank.h>
+#include <vp/signal.h>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <systemc>
+
+namespace vp {
+class Clock;
+class ClockScheduler;
+}  // namespace vp
+
+namespace ps {
+
+/// The system level control registers of the Zynq-7000: PLLs, clocks, resets, level shifters, and
+/// the lock before them. Clocks that it drives follow the registers at the time of the write.
+///
+/// The boot code has run at time 0 (`programmed_by_boot`): the PLLs have the usual values, the
+/// resets to the PL are released, the level shifters are on, and the dividers give the frequencies
+/// that the driven clocks start with. Where no dividers give one exactly, the registers show the
+/// nearest, and the clock keeps its own frequency until software writes the register or its PLL.
+/// Without boot code the registers are as after reset, and so are the clocks.
+class Slcr : public sc_core::sc_module {
+ public:
+  Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
+  const char* kind() const override { return "ps::Slcr"; }
+
+  vp::RegisterBank registers;  ///< at 0xF800_0000
+
+  vp::Parameter<bool> programmed_by_boot;
+  vp::Parameter<double> ps_clk;
+  vp::Parameter<std::uint32_t> boot_mode;
+  vp::Parameter<std::uint32_t> idcode;
+
+  vp::Signal<bool> fclk_reset0_n, fclk_reset1_n, fclk_reset2_n, fclk_reset3_n;  ///< to the PL
+  vp::Signal<bool> uart0_rst, uart1_rst;                                        ///< active high
+  LevelShifters level_shifters;
+
+  // What the registers drive: to be said before the simulation starts, FCLK 0 to 3 and UART 0 and
+  // 1 by number.
+  void drive_fclk(unsigned number, vp::Clock& clock);
+  void drive_uart_ref(unsigned number, vp::Clock& clock);
+  void drive_cpu(vp::Clock& clock);
+
+  /// Outputs of the PLLs now, Hz. 0: powered down or in reset, and not bypassed. A PLL that has not
+  /// locked yet counts as locked.
+  clock_tree::PllOutputs plls() const;
+
+  /// What the registers give FCLK_CLK`number`, throttle aside, Hz.
+  std::uint64_t programmed_fclk_hz(unsigned number) const;
+
+  /// CPU clocks of the ratio that CLK_621_TRUE selects, Hz.
+  struct CpuClocks {
+    std::uint64_t cpu_6x4x, cpu_3x2x, cpu_2x, cpu_1x;
+  };
+  CpuClocks cpu_clocks() const;
+
+ private:
+  struct Pll {
+    vp::Register& ctrl;
+    vp::Register& cfg;
+    std::uint32_t feedback;  ///< divider in effect
+    bool off = false;        ///< in reset or powered down
+    std::uint64_t locked_at_ps = 0;
+  };
+  enum PllNumber { arm, ddr, io, pll_count };
+
+  void start_of_simulation() override { level_shifters.start(); }
+
+  void program_as_boot_code();
+  void wire();
+  void wire_clocks();
+  void on_write(std::uint32_t offset, std::function<void()> effect);
+  void written(vp::Register& target, std::uint32_t word);
+  bool is_secure(const vp::Register& target) const;
+  void apply_locks();
+  void lock_written(std::uint32_t word, std::uint32_t key, bool lock);
+
+  void pll_written(Pll& pll);
+  double output_hz(const Pll& pll) const;
+  std::uint32_t pll_status() const;
+  double peripheral_source_hz(std::uint32_t select) const;
+  double cpu_source_hz() const;
+  double fclk_source_hz(unsigned number) const;
+  void follow_plls();
+  void update_uarts();
+  void update_cpu();
+  void update_fclk_resets();
+  void update_uart_resets();
+  void cpu_reset_written();
+  [[noreturn]] void stop(const std::string& what) const;
+
+  vp::ClockScheduler& scheduler_;
+  std::map<std::uint32_t, std::function<void()>> effects_;  ///< by offset
+  bool locked_ = true;
+  vp::Register& arm_clk_ctrl_;
+  vp::Register& uart_clk_ctrl_;
+  vp::Register& clk_621_true_;
+  std::array<Pll, pll_count> pll_;
+  std::deque<Fclk> fclk_;
+  std::array<vp::Clock*, 2> uart_ref_{};
+  vp::Clock* cpu_ = nullptr;
+  double cpu_source_hz_ = 0.0;
+};
+
+}  // namespace ps

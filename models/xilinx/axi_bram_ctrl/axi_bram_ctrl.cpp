@@ -1,0 +1,159 @@
+#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/hex.h>
+#include <vp/report.h>
+
+namespace xilinx {
+
+namespace {
+
+constexpr std::uint32_t word_bytes = 4;
+constexpr std::uint64_t most_beats = 256;
+constexpr std::uint64_t boundary = 4096;  // AXI: a burst never crosses it
+
+std::uint64_t beats_of(std::uint64_t address, std::uint64_t bytes) {
+  return (address % word_bytes + bytes + word_bytes - 1) / word_bytes;
+}
+
+}  // namespace
+
+AxiBramCtrl::AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
+                         const AxiBramCtrlBuild& build)
+    : sc_module(name),
+      memory_size("memory_size", build.memory_size, vp::Unit::bytes, {2048, 4u << 20},
+                  vp::Source::published, "bytes behind the controller, a power of two (PG078)"),
+      axi4_lite("axi4_lite", build.axi4_lite, vp::Source::published,
+                "build option AXI Protocol AXI4LITE: single words only (PG078)"),
+      single_port("single_port", build.single_port, vp::Source::published,
+                  "build option Number of BRAM Interfaces 1: reads and writes take turns (PG078)"),
+      read_latency("read_latency", 3, vp::Unit::cycles, {1, 64}, vp::Source::assumed,
+                   "clocks from the address to the first word"),
+      write_latency("write_latency", 2, vp::Unit::cycles, {1, 64}, vp::Source::assumed,
+                    "clocks from the address to the first word, and response"),
+      s_axi("s_axi"),
+      clock_(s_axi_aclk),
+      memory_(memory_size, 0) {
+  if ((memory_size & (memory_size - 1)) != 0) {
+    throw vp::InputError(std::string(memory_size.name()) + " = " + std::to_string(memory_size) +
+                         " B: must be a power of two");
+  }
+  s_axi.register_b_transport(this, &AxiBramCtrl::b_transport);
+  s_axi.register_transport_dbg(this, &AxiBramCtrl::transport_dbg);
+  s_axi.register_get_direct_mem_ptr(this, &AxiBramCtrl::get_direct_mem_ptr);
+}
+
+void AxiBramCtrl::before_end_of_elaboration() {
+  if (s_axi_aresetn.bound()) s_axi_aresetn.signal()->attach(*this);
+}
+
+void AxiBramCtrl::on_change(vp::SignalBase&, std::uint32_t) {
+  read_free_ps_ = write_free_ps_ = 0;
+  if (in_reset()) s_axi->invalidate_direct_mem_ptr(0, memory_.size() - 1);
+}
+
+tlm::tlm_response_status AxiBramCtrl::check(const tlm::tlm_generic_payload& payload) const {
+  const std::uint64_t address = payload.get_address();
+  const std::uint64_t length = payload.get_data_length();
+  const std::uint64_t width = payload.get_streaming_width();
+  if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) return tlm::TLM_COMMAND_ERROR_RESPONSE;
+  if (length == 0 || width == 0) return tlm::TLM_BURST_ERROR_RESPONSE;
+  const std::uint64_t span = std::min(length, width);
+  if (address >= memory_.size() || span > memory_.size() - address) {
+    return tlm::TLM_ADDRESS_ERROR_RESPONSE;
+  }
+  const std::uint64_t most = axi4_lite ? 1 : most_beats;
+  if (beats_of(address, length) > most || address % boundary + span > boundary) {
+    return tlm::TLM_BURST_ERROR_RESPONSE;
+  }
+  if (payload.get_byte_enable_ptr() && payload.get_byte_enable_length() == 0) {
+    return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
+  }
+  return tlm::TLM_OK_RESPONSE;
+}
+
+/// Bytes beyond the streaming width go to the first addresses again (AXI: a FIXED burst).
+void AxiBramCtrl::move(tlm::tlm_generic_payload& payload) {
+  unsigned char* memory = memory_.data() + payload.get_address();
+  const unsigned width = payload.get_streaming_width();
+  const unsigned char* enables = payload.get_byte_enable_ptr();
+  unsigned char* data = payload.get_data_ptr();
+  for (unsigned i = 0; i < payload.get_data_length(); ++i) {
+    if (enables && enables[i % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED) continue;
+    unsigned char& byte = memory[i % width];
+    if (payload.is_read()) {
+      data[i] = byte;
+    } else {
+      byte = data[i];
+    }
+  }
+}
+
+// Contention is arithmetic: a burst starts when the controller is free. Returns its end.
+std::uint64_t AxiBramCtrl::take_port(bool read, std::uint64_t earliest_ps,
+                                     std::uint64_t burst_beats) {
+  std::uint64_t& free = read ? read_free_ps_ : write_free_ps_;
+  const std::uint64_t start = clock_.edge_at_or_after(std::max(earliest_ps, free));
+  const std::uint32_t latency = read ? read_latency : write_latency;
+  const double cycles = static_cast<double>(latency) + static_cast<double>(burst_beats) - 1;
+  free = start + clock_.duration_ps(cycles);
+  if (single_port) read_free_ps_ = write_free_ps_ = free;
+  return free;
+}
+
+void AxiBramCtrl::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  if (in_reset() || clock_.frequency_hz() == 0) {
+    vp::warn(*this, "/markervp/axi_bram_ctrl/in_reset",
+             vp::hex(payload.get_address()) + " accessed while the controller is " +
+                 (in_reset() ? "held in reset" : "without clock") + ": it cannot answer");
+    payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
+    return;
+  }
+  const tlm::tlm_response_status status = check(payload);
+  payload.set_response_status(status);
+  if (status != tlm::TLM_OK_RESPONSE) return;
+  move(payload);
+  payload.set_dmi_allowed(true);
+  const std::uint64_t burst_beats = beats_of(payload.get_address(), payload.get_data_length());
+  beats.add(burst_beats);
+  ++(payload.is_read() ? reads : writes);
+  const std::uint64_t now = clock_.scheduler().now_ps();
+  const std::uint64_t end = take_port(payload.is_read(), now + vp::to_ps(delay), burst_beats);
+  delay = vp::from_ps(end - now);
+}
+
+unsigned AxiBramCtrl::transport_dbg(tlm::tlm_generic_payload& payload) {
+  const std::uint64_t address = payload.get_address();
+  if (address >= memory_.size() || payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
+  const auto length = static_cast<unsigned>(
+      std::min<std::uint64_t>(payload.get_data_length(), memory_.size() - address));
+  if (payload.is_read()) {
+    std::memcpy(payload.get_data_ptr(), memory_.data() + address, length);
+  } else {
+    std::memcpy(memory_.data() + address, payload.get_data_ptr(), length);
+  }
+  return length;
+}
+
+bool AxiBramCtrl::get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
+  dmi.init();
+  if (payload.get_address() >= memory_.size() || in_reset()) {
+    dmi.set_start_address(payload.get_address());
+    dmi.set_end_address(payload.get_address());
+    return false;
+  }
+  dmi.set_dmi_ptr(memory_.data());
+  dmi.set_start_address(0);
+  dmi.set_end_address(memory_.size() - 1);
+  dmi.set_read_latency(vp::from_ps(clock_.duration_ps(read_latency)));
+  dmi.set_write_latency(vp::from_ps(clock_.duration_ps(write_latency)));
+  dmi.allow_read_write();
+  return true;
+}
+
+}  // namespace xilinx
