@@ -39,29 +39,34 @@ class Activity {
   std::uint32_t function() const { return stack_.empty() ? none : stack_.back().function; }
 
   /// `ps` passed in the function that runs, or in the interrupt's entry, exit and dispatcher.
-  void busy(std::uint64_t ps, bool in_handler);
+  void busy(std::uint64_t ps) { unassigned_ps_ += ps; }
   /// `ps` passed asleep.
   void idle(std::uint64_t ps) { idle_ps_ += ps; }
   /// An interrupt begins or ends: the interrupted function's own time stops.
-  void enter_handler() { handler_base_ = stack_.size(); }
-  void leave_handler() { handler_base_ = 0; }
+  void enter_handler();
+  void leave_handler();
 
-  const std::vector<FunctionTime>& functions() const { return functions_; }
-  std::uint64_t busy_ps() const { return busy_ps_; }
+  const std::vector<FunctionTime>& functions() const;
+  std::uint64_t busy_ps() const { return busy_ps_ + unassigned_ps_; }
   std::uint64_t idle_ps() const { return idle_ps_; }
-  std::uint64_t handler_ps() const { return handler_ps_; }
+  std::uint64_t handler_ps() const { return handler_ps_ + (in_handler_ ? unassigned_ps_ : 0); }
 
  private:
   struct Frame {
     std::uint32_t function;
     std::uint64_t entered_ps;
   };
-  std::vector<FunctionTime> functions_;
+  void assign() const;
+
+  mutable std::vector<FunctionTime> functions_;
   std::vector<Frame> stack_;
   std::size_t handler_base_ = 0;  ///< frames of the interrupted program
-  std::uint64_t busy_ps_ = 0;
+  bool in_handler_ = false;
   std::uint64_t idle_ps_ = 0;
-  std::uint64_t handler_ps_ = 0;
+  // Time is assigned to functions when they change.
+  mutable std::uint64_t unassigned_ps_ = 0;
+  mutable std::uint64_t busy_ps_ = 0;
+  mutable std::uint64_t handler_ps_ = 0;
 };
 
 }  // namespace ps

@@ -1,6 +1,5 @@
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/native_hal.h>
-#include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/hex.h>
 #include <vp/unit.h>
@@ -16,7 +15,7 @@ namespace {
 constexpr vp::Range<std::uint32_t> cycles_range{0, 1'000'000};
 constexpr double fs_per_ns = 1e6;
 
-const char* answer(tlm::tlm_response_status status) {
+const char* answer_text(tlm::tlm_response_status status) {
   switch (status) {
     case tlm::TLM_ADDRESS_ERROR_RESPONSE:
       return "DECERR, nothing answers there";
@@ -45,6 +44,10 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
               "how far the program may run ahead of the simulation; no result depends on it"),
       timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
               "the run ends if the program neither ends nor asks for an image for so long"),
+      loop_blocks("loop_blocks", 100'000, vp::Unit::none, {1'000, 1'000'000'000},
+                  vp::Source::decision,
+                  "basic blocks without HAL call or annotation after which time jumps to what "
+                  "happens next"),
       interrupt_entry("interrupt_entry", 100, vp::Unit::cycles, cycles_range, vp::Source::published,
                       "from nIRQ to the handler, warm caches: below 100 (jblopen.com, Zynq-7000)"),
       interrupt_exit("interrupt_exit", 60, vp::Unit::cycles, cycles_range, vp::Source::assumed,
@@ -55,11 +58,13 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
                         vp::Source::assumed, "a cache operation before its first line"),
       cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
                         vp::Source::assumed, "a line of 32 bytes in both cache levels"),
-      clock_(clock) {
+      clock_(clock),
+      scheduler_(clock.scheduler()),
+      trap_(static_cast<std::size_t>(stack_size) + FaultTrap::gap) {
   use_native_hal();
   SC_HAS_PROCESS(Cpu);
   SC_THREAD(run);
-  set_stack_size(static_cast<std::size_t>(stack_size));
+  set_stack_size(static_cast<std::size_t>(stack_size) + FaultTrap::gap);
   payload_.set_data_ptr(data_);
   payload_.set_data_length(sizeof data_);
   payload_.set_streaming_width(sizeof data_);
@@ -77,21 +82,19 @@ void Cpu::load(Program& program, const CostTable& costs) {
     work_.push_back(work);
   }
   program_ = &program;
+  if (!program.path().empty()) code_.emplace(&description);
   cost_profile_ = costs.profile();
 }
 
-std::uint64_t Cpu::now_ps() const {
-  return clock_.scheduler().now_ps();
-}
-
 void Cpu::end_of_elaboration() {
-  clock_.scheduler().set_lookahead(quantum);
+  scheduler_.set_lookahead(quantum);
   if (n_irq.bound()) n_irq.signal()->attach(*this);
+  for (vp::Clock* clock : scheduler_.clocks()) clock->add_listener(*this);
 }
 
 void Cpu::run() {
   if (!program_) return;
-  std::exception_ptr error;
+  std::optional<std::string> thrown;
   state_ = State::running;
   running_ = this;
   try {
@@ -99,26 +102,26 @@ void Cpu::run() {
     activity_.start(program_->description());
     deadline_ps_ = now_ps() + timeout;
     follow_clock();
-    limit_advance();
-    exit_code_ = program_->description().entry();
+    start_ahead();
+    exit_code_ = call_program();
     catch_up();
   } catch (const sc_core::sc_unwind_exception&) {
     throw;
-  } catch (const std::exception& thrown) {
-    error = std::make_exception_ptr(vp::ProtocolError(
-        std::string("the program threw an exception: ") + thrown.what() + where()));
+  } catch (const std::exception& error) {
+    thrown = std::string(": ") + error.what();
   } catch (...) {
-    error = std::make_exception_ptr(vp::ProtocolError("the program threw an exception" + where()));
+    thrown = "";
   }
-  if (error) stop(std::move(error));
+  if (thrown) break_off("the program threw an exception" + *thrown);
   end(State::finished);
 }
 
 void Cpu::end(State state) {
-  clock_.scheduler().rejoin();
+  scheduler_.rejoin();
   state_ = state;
   end_ps_ = now_ps();
   running_ = nullptr;
+  ProgramWatch::stop();
   console.flush();
   ended_.notify(sc_core::SC_ZERO_TIME);
   if (pause_at_end_) sc_core::sc_pause();
@@ -150,7 +153,7 @@ std::string Cpu::where() const {
     text += std::string(" in function '") + description.functions[number] + "'";
   }
   if (in_handler_now_) text += " in the interrupt handler";
-  return text + " of program '" + description.name + "'";
+  return text + " of program '" + description.name + "'" + program_counter();
 }
 
 void Cpu::check() const {
@@ -171,8 +174,7 @@ std::vector<WorkCount> Cpu::work() const {
   return counts;
 }
 
-Cpu& Cpu::running(const char* call) {
-  if (running_) return *running_;
+void Cpu::nothing_runs(const char* call) {
   throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
 }
 
@@ -181,40 +183,40 @@ std::string Cpu::device_at(std::uint32_t address) const {
   return device.empty() ? device : " (" + device + ")";
 }
 
-std::uint32_t Cpu::access(tlm::tlm_command command, std::uint32_t address, std::uint32_t value) {
+std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value) {
   catch_up();
+  if (vp::RegisterRoute* route = routes_.find(address)) {
+    on_bus(now_ps(), read, address, [&] { return route->transfer(read, value); });
+  } else {
+    transport(read, address, value);
+  }
+  return value;
+}
+
+// The general way: anything may be behind the sockets.
+void Cpu::transport(bool read, std::uint32_t address, std::uint32_t& value) {
   if (address % sizeof data_ != 0) {
     fail("data abort: access to " + vp::hex(address) + device_at(address) +
          ", which is not a multiple of 4");
   }
   std::memcpy(data_, &value, sizeof data_);
-  payload_.set_command(command);
+  payload_.set_command(read ? tlm::TLM_READ_COMMAND : tlm::TLM_WRITE_COMMAND);
   payload_.set_address(address);
   payload_.set_byte_enable_ptr(nullptr);
   payload_.set_dmi_allowed(false);
   payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-
-  const std::uint64_t start = now_ps();
-  sc_core::sc_time rest = sc_core::SC_ZERO_TIME;
-  try {
+  on_bus(now_ps(), read, address, [&] {
+    sc_core::sc_time rest = sc_core::SC_ZERO_TIME;
     m_axi.transport(payload_, rest);
-  } catch (const vp::ProtocolError& error) {
-    throw vp::ProtocolError(error.what() + where());
-  }
-  activity_.busy(now_ps() - start, in_handler_now_);
-  check_response(address);
-  if (rest != sc_core::SC_ZERO_TIME) {
-    timeline().push(Timeline::Kind::access, vp::to_ps(rest));
-    limit_advance();
-  }
+    scheduler_.forget_horizon();
+    return vp::RegisterRoute::Answer{payload_.get_response_status(), now_ps() + vp::to_ps(rest)};
+  });
   std::memcpy(&value, data_, sizeof data_);
-  return value;
 }
 
-void Cpu::check_response(std::uint32_t address) {
-  if (payload_.is_response_ok()) return;
-  fail(std::string("data abort: ") + (payload_.is_read() ? "read of " : "write to ") +
-       vp::hex(address) + device_at(address) + ": " + answer(payload_.get_response_status()));
+void Cpu::refuse(tlm::tlm_response_status status, bool read, std::uint32_t address) {
+  fail(std::string("data abort: ") + (read ? "read of " : "write to ") + vp::hex(address) +
+       device_at(address) + ": " + answer_text(status));
 }
 
 }  // namespace ps

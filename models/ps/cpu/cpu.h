@@ -3,21 +3,30 @@
 #include <hal/hal.h>
 
 #include <ps/cpu/activity.h>
+#include <ps/cpu/code_location.h>
 #include <ps/cpu/console.h>
 #include <ps/cpu/cost_table.h>
+#include <ps/cpu/fault_trap.h>
 #include <ps/cpu/local_time.h>
+#include <ps/cpu/poll_skip.h>
 #include <ps/cpu/program.h>
+#include <ps/cpu/program_watch.h>
 #include <ps/cpu/test_bench.h>
 #include <ps/cpu/timeline.h>
 #include <ps/ddr/dma_allocator.h>
 #include <vp/clock.h>
+#include <vp/clock_scheduler.h>
 #include <vp/counter.h>
+#include <vp/error.h>
 #include <vp/mm_link.h>
 #include <vp/parameter.h>
+#include <vp/register_route.h>
 #include <vp/signal.h>
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <type_traits>
@@ -38,8 +47,8 @@ namespace ps {
 /// When something ends the run early (a bus error, a mistake of the program, the time-out), the
 /// program is frozen where it stands: its stack is never unwound, no destructor runs and no
 /// exception passes its code, as on a chip that hangs in an abort handler. The simulation goes on
-/// without it, or pauses.
-class Cpu : public sc_core::sc_module, public vp::SignalListener {
+/// without it, or pauses. A fault of the program (segmentation fault, abort, …) ends it so, too.
+class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::ClockListener {
  public:
   Cpu(sc_core::sc_module_name name, vp::Clock& clock);
   const char* kind() const override { return "ps::Cpu"; }
@@ -54,6 +63,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
   vp::Parameter<std::uint64_t> stack_size;
   vp::Parameter<std::uint64_t> quantum;
   vp::Parameter<std::uint64_t> timeout;
+  vp::Parameter<std::uint64_t> loop_blocks;
   vp::Parameter<std::uint32_t> interrupt_entry;
   vp::Parameter<std::uint32_t> interrupt_exit;
   vp::Parameter<std::uint32_t> barrier_cycles;
@@ -75,6 +85,13 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
   void name_devices(std::function<std::string(std::uint32_t)> device) {
     device_ = std::move(device);
   }
+  enum class CacheCall { flush, invalidate };
+  /// Told of each cache operation of the program, when it is over. Null: nobody is.
+  using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
+  void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
+  /// False: polls make every read. Default: those that cannot see anything new only take their
+  /// time, and are counted like the others.
+  void set_poll_elision(bool elide) { poll_elision_ = elide; }
   /// False: the simulation goes on when the program has ended. Default: it pauses (sc_pause).
   void set_pause_at_end(bool pause) { pause_at_end_ = pause; }
   Console console;
@@ -93,11 +110,16 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
   const sc_core::sc_event& ended() const { return ended_; }
 
   std::vector<WorkCount> work() const;
+  /// Reads among `polls` that were not made, for performance reports.
+  std::uint64_t skipped_polls() const { return skipped_polls_; }
   const Activity& activity() const { return activity_; }
   const std::string& cost_profile() const { return cost_profile_; }
 
   /// The processor whose program runs, for the HAL. Throws vp::ProtocolError if none does.
-  static Cpu& running(const char* call);
+  static Cpu& running(const char* call) {
+    if (!running_) nothing_runs(call);
+    return *running_;
+  }
   /// Runs a HAL call. An exception in it ends the run, without passing the program's frames.
   template <class Call>
   auto guarded(Call call);
@@ -108,7 +130,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
   hal_poll_result poll_until_changed(std::uint32_t address, std::uint32_t previous,
                                      std::uint32_t cycles, std::uint32_t limit);
   void barrier();
-  void maintain_cache(const void* data, std::size_t size);
+  void maintain_cache(CacheCall call, const void* data, std::size_t size);
   hal_dma_buffer allocate_dma(std::size_t size, std::size_t alignment);
   void connect_interrupt(hal_interrupt_handler handler, void* context);
   bool enable_interrupt(bool enable);
@@ -121,6 +143,13 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
   void enter_function(std::uint32_t number);
   void leave_function();
 
+  // What a program does without the HAL: cpu_program.cpp
+  /// It ran `loop_blocks` basic blocks without HAL call or annotation, `before` times already: lets
+  /// time pass, and interrupts come.
+  void notice_loop(unsigned before);
+  /// It called exit().
+  void program_exits(int code);
+
  private:
   struct Work {
     LocalTime::Wide cycles = 0;    ///< of one unit, in 2^-20 cycles
@@ -129,44 +158,81 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
     std::uint64_t count = 0;
   };
   enum class Interrupts { take, leave };
+  /// Reads of a poll that were not made, and the one that is on its way.
+  struct Skipped {
+    std::uint64_t reads = 0;
+    std::uint64_t until_ps = 0;  ///< that one left then; otherwise now
+    vp::RegisterRoute* route = nullptr;
+    std::optional<vp::RegisterRoute::Access> on_its_way;
+  };
 
   void end_of_elaboration() override;
+  int call_program();
+  [[noreturn]] void report(const Fault& fault);
+  void call_handler();
+  void check_acknowledged();
+  void look_at(const void* data, std::size_t size) const;
+  std::string program_counter() const;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void run();
 
+  // Polls: cpu_poll.cpp
+  Skipped skip_reads(std::uint32_t address, std::uint32_t previous, std::uint32_t cycles,
+                     std::uint32_t limit);
+  void go_on_between(std::uint64_t end_ps, std::uint64_t leave_ps);
+  void before_change(vp::Clock& clock) override;
+  void after_change(vp::Clock&) override {}
+
   // Time: cpu_time.cpp
-  std::uint64_t now_ps() const;
+  std::uint64_t now_ps() const { return scheduler_.now_ps(); }
   static bool irq_is_low(const void* cpu);
+  /// When what was done so far will be over.
+  std::uint64_t reached_ps() { return std::max(now_ps(), access_end_ps_) + timeline().total_ps(); }
   Timeline& timeline() { return timelines_[in_handler_now_ ? 1 : 0]; }
   void spend_cycles(std::uint64_t cycles);
   void close_segment();
   void catch_up();
   void settle();
   bool play(Interrupts interrupts);
-  std::uint64_t pass(std::uint64_t ps, bool interruptible);
+  std::uint64_t pass(std::uint64_t ps);
+  void end_access();
   void follow_clock();
-  void limit_advance();
+  void start_ahead();
+  bool far_ahead();
   bool interrupt_pending() const { return n_irq.bound() && !n_irq.read(); }
   bool interrupt_due() const { return !masked_ && !in_handler_now_ && interrupt_pending(); }
+  void take_interrupts() {
+    while (interrupt_due()) run_handler();
+  }
   void run_handler();
   void sleep();
 
-  std::uint32_t access(tlm::tlm_command command, std::uint32_t address, std::uint32_t value);
-  void check_response(std::uint32_t address);
+  std::uint32_t access(bool read, std::uint32_t address, std::uint32_t value);
+  /// An access that left at `start_ps`. `transfer` brings it to the device and gives the answer.
+  template <class Transfer>
+  void on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer);
+  void transport(bool read, std::uint32_t address, std::uint32_t& value);
+  [[noreturn]] void refuse(tlm::tlm_response_status status, bool read, std::uint32_t address);
   std::string where() const;
   std::string device_at(std::uint32_t address) const;
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
+  [[noreturn]] static void nothing_runs(const char* call);
+  [[noreturn]] void time_out(const char* what);
   [[noreturn]] void misuse(const std::string& problem);
+  [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
 
   vp::Clock& clock_;
+  vp::ClockScheduler& scheduler_;
   Program* program_ = nullptr;
   TestBench* bench_ = nullptr;
   DmaAllocator* dma_memory_ = nullptr;
   std::function<std::string(std::uint32_t)> device_;
   std::string cost_profile_;
+  CacheListener cache_listener_;
   bool pause_at_end_ = true;
+  bool poll_elision_ = true;
 
   State state_ = State::waiting;
   int exit_code_ = 0;
@@ -182,33 +248,58 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener {
 
   std::uint64_t hertz_ = 0;
   LocalTime local_time_;
-  Timeline timelines_[2];         ///< of the program, of the handler that interrupts it
-  LocalTime::Wide ahead_fs_ = 0;  ///< work counted since the last settling, rounded up
-  LocalTime::Wide ahead_limit_fs_ = 0;
+  std::uint64_t access_end_ps_ = 0;  ///< of the last bus access: an interrupt waits for it
+  Timeline timelines_[2];  ///< what comes after it: of the program, of a handler that interrupts it
+  LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
+  std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
   std::uint64_t deadline_ps_ = 0;
+  unsigned unacknowledged_ = 0;  ///< handlers in a row that left the request pending
 
   hal_interrupt_handler handler_ = nullptr;
   void* handler_context_ = nullptr;
   bool masked_ = true;
   bool in_handler_now_ = false;
 
+  vp::RegisterRoutes routes_{m_axi};
+  PollSkip* skip_ = nullptr;  ///< while it runs
+  std::uint64_t skipped_polls_ = 0;
   tlm::tlm_generic_payload payload_;
   unsigned char data_[4] = {};
+
+  FaultTrap trap_;
+  std::optional<CodeLocator> code_;  ///< of a plug-in
+  std::uintptr_t fault_pc_ = 0;      ///< in the program, of the fault that ended it
 
   static Cpu* running_;
 };
 
+template <class Transfer>
+void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer) {
+  vp::RegisterRoute::Answer answer;
+  try {
+    answer = transfer();
+  } catch (const vp::ProtocolError& error) {
+    throw vp::ProtocolError(error.what() + where());
+  }
+  activity_.busy(now_ps() - start_ps);
+  if (answer.status != tlm::TLM_OK_RESPONSE) refuse(answer.status, read, address);
+  access_end_ps_ = answer.ps;
+}
+
 template <class Call>
 auto Cpu::guarded(Call call) {
   std::exception_ptr error;
+  ProgramWatch::enter_hal();
   try {
     if constexpr (std::is_void_v<decltype(call())>) {
       call();
       running_ = this;
+      ProgramWatch::leave_hal();
       return;
     } else {
       auto result = call();
       running_ = this;
+      ProgramWatch::leave_hal();
       return result;
     }
   } catch (const sc_core::sc_unwind_exception&) {

@@ -1,30 +1,14 @@
 // What the HAL's functions do, but for those that only make time pass (cpu_time.cpp).
 #include <ps/cpu/cpu.h>
-#include <vp/clock_scheduler.h>
 
 namespace ps {
 
 std::uint32_t Cpu::read32(std::uint32_t address) {
-  return access(tlm::TLM_READ_COMMAND, address, 0);
+  return access(true, address, 0);
 }
 
 void Cpu::write32(std::uint32_t address, std::uint32_t value) {
-  access(tlm::TLM_WRITE_COMMAND, address, value);
-}
-
-// The poll grid: read n + 1 leaves when read n is answered and the loop's cycles have passed, later
-// by the interrupts that came in between.
-hal_poll_result Cpu::poll_until_changed(std::uint32_t address, std::uint32_t previous,
-                                        std::uint32_t cycles, std::uint32_t limit) {
-  hal_poll_result result{previous, 0, false};
-  while (result.polls < limit && !result.changed) {
-    result.value = read32(address);
-    ++result.polls;
-    ++polls;
-    result.changed = result.value != previous;
-    spend_cycles(cycles);
-  }
-  return result;
+  access(false, address, value);
 }
 
 void Cpu::barrier() {
@@ -33,7 +17,7 @@ void Cpu::barrier() {
   catch_up();
 }
 
-void Cpu::maintain_cache(const void* data, std::size_t size) {
+void Cpu::maintain_cache(CacheCall call, const void* data, std::size_t size) {
   constexpr std::uintptr_t line = DmaAllocator::cache_line;
   const auto first = reinterpret_cast<std::uintptr_t>(data) / line;
   const auto end = (reinterpret_cast<std::uintptr_t>(data) + size + line - 1) / line;
@@ -41,6 +25,7 @@ void Cpu::maintain_cache(const void* data, std::size_t size) {
   cache_lines.add(lines);
   spend_cycles(cache_call_cycles + cache_line_cycles * lines);
   barrier();
+  if (cache_listener_) cache_listener_(call, reinterpret_cast<std::uintptr_t>(data), size);
 }
 
 hal_dma_buffer Cpu::allocate_dma(std::size_t size, std::size_t alignment) {
@@ -63,11 +48,12 @@ bool Cpu::enable_interrupt(bool enable) {
   catch_up();
   const bool was_enabled = !masked_;
   masked_ = !enable;
-  catch_up();
+  take_interrupts();
   return was_enabled;
 }
 
 void Cpu::write_console(const char* text, std::size_t length) {
+  look_at(text, length);
   catch_up();
   console.write(text, length);
 }
@@ -75,16 +61,19 @@ void Cpu::write_console(const char* text, std::size_t length) {
 const hal_frame* Cpu::next_frame() {
   catch_up();
   const hal_frame* frame = bench_ ? bench_->next_frame(now_ps()) : nullptr;
+  scheduler_.forget_horizon();
   if (frame) {
     deadline_ps_ = now_ps() + timeout;
-    limit_advance();
+    start_ahead();
   }
   return frame;
 }
 
 void Cpu::publish(std::uint32_t kind, const void* data, std::size_t size) {
+  look_at(data, size);
   catch_up();
   if (bench_) bench_->publish(kind, data, size, now_ps());
+  scheduler_.forget_horizon();
 }
 
 double Cpu::option(std::uint32_t option) {

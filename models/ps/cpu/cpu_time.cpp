@@ -1,6 +1,5 @@
 // The processor's time: what it did ahead of the simulation passes, and interrupts come in between.
 #include <ps/cpu/cpu.h>
-#include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/unit.h>
 #include <algorithm>
@@ -36,41 +35,61 @@ void Cpu::close_segment() {
   if (const std::uint64_t ps = local_time_.take_ps()) timeline().push(Timeline::Kind::work, ps);
 }
 
-// How much work may be counted before settle() looks at it: the quantum, but not past the time-out.
-void Cpu::limit_advance() {
-  const std::uint64_t reached = now_ps() + timeline().total_ps();
-  const std::uint64_t left = deadline_ps_ > reached ? deadline_ps_ - reached : 0;
+// Nothing is counted since the simulation was looked at.
+void Cpu::start_ahead() {
   ahead_fs_ = 0;
-  ahead_limit_fs_ = LocalTime::Wide{std::min<std::uint64_t>(left, quantum)} * LocalTime::fs_per_ps;
+  ahead_limit_fs_ = 0;
+}
+
+// More work is counted than settle() may leave: the quantum, and not past the time-out.
+bool Cpu::far_ahead() {
+  if (ahead_limit_fs_ == 0) {
+    const std::uint64_t reached = reached_ps();
+    const std::uint64_t left = deadline_ps_ > reached ? deadline_ps_ - reached : 0;
+    ahead_limit_fs_ = std::min<std::uint64_t>(left, quantum) * LocalTime::fs_per_ps;
+  }
+  return ahead_fs_ >= ahead_limit_fs_;
+}
+
+// The rest of the last bus access passes. An interrupt waits for its end.
+inline void Cpu::end_access() {
+  const std::uint64_t start = now_ps();
+  if (access_end_ps_ <= start) return;
+  const std::uint64_t end = std::min(access_end_ps_, std::max(deadline_ps_, start));
+  scheduler_.pass_until(end);
+  activity_.busy(end - start);
+  if (end >= deadline_ps_) time_out("no end");
 }
 
 // All that was done ahead passes, and interrupts that come run their handler.
 void Cpu::catch_up() {
-  close_segment();
-  clock_.scheduler().synchronise();
-  play(Interrupts::take);
-  while (interrupt_due()) run_handler();
-  limit_advance();
+  if (!local_time_.empty()) close_segment();
+  scheduler_.synchronise();
+  end_access();
+  if (!timeline().empty()) play(Interrupts::take);
+  start_ahead();
+  take_interrupts();
 }
 
 // The simulation follows, up to an interrupt at most: handlers run inside HAL calls that catch up,
 // not between two statements of the program. There it waits until the program comes to such a call.
 void Cpu::settle() {
   close_segment();
-  if (now_ps() + timeline().total_ps() >= deadline_ps_) {
+  if (reached_ps() >= deadline_ps_) {
     catch_up();
     return;
   }
-  clock_.scheduler().synchronise();
+  scheduler_.synchronise();
+  end_access();
   play(Interrupts::leave);
-  limit_advance();
+  start_ahead();
 }
 
 // False if an interrupt is due that was to be left.
 bool Cpu::play(Interrupts interrupts) {
   Timeline& line = timeline();
   while (!line.empty()) {
-    const Timeline::Segment segment = line.front();
+    const Timeline::Segment& segment = line.front();
     switch (segment.kind) {
       case Timeline::Kind::work:
         if (interrupt_due()) {
@@ -78,11 +97,8 @@ bool Cpu::play(Interrupts interrupts) {
           run_handler();
           continue;
         }
-        line.pass(pass(segment.ps, true));
+        line.pass(pass(segment.ps));
         if (line.front().ps > 0) continue;
-        break;
-      case Timeline::Kind::access:
-        pass(segment.ps, false);
         break;
       case Timeline::Kind::enter:
         activity_.enter(segment.function, now_ps());
@@ -99,21 +115,23 @@ bool Cpu::play(Interrupts interrupts) {
 }
 
 // Lets up to `ps` pass; less if an interrupt comes that may be taken. Returns what passed.
-std::uint64_t Cpu::pass(std::uint64_t ps, bool interruptible) {
+std::uint64_t Cpu::pass(std::uint64_t ps) {
   const std::uint64_t start = now_ps();
   const std::uint64_t end = start + std::min(ps, deadline_ps_ - std::min(deadline_ps_, start));
-  if (interruptible && !masked_ && !in_handler_now_) {
-    clock_.scheduler().pass_until(end, irq_is_low, this);
+  if (!masked_ && !in_handler_now_) {
+    scheduler_.pass_until(end, irq_is_low, this);
   } else {
-    clock_.scheduler().pass_until(end);
+    scheduler_.pass_until(end);
   }
-  const std::uint64_t passed = now_ps() - start;
-  activity_.busy(passed, in_handler_now_);
-  if (now_ps() >= deadline_ps_) {
-    fail("no end within " + vp::format_time(timeout) + " of simulated time since the last image (" +
-         timeout.name() + ")");
-  }
-  return passed;
+  const std::uint64_t now = now_ps();
+  activity_.busy(now - start);
+  if (now >= deadline_ps_) time_out("no end");
+  return now - start;
+}
+
+void Cpu::time_out(const char* what) {
+  fail(std::string(what) + " within " + vp::format_time(timeout) +
+       " of simulated time since the last image (" + timeout.name() + ")");
 }
 
 bool Cpu::irq_is_low(const void* cpu) {
@@ -121,7 +139,7 @@ bool Cpu::irq_is_low(const void* cpu) {
 }
 
 void Cpu::on_change(vp::SignalBase&, std::uint32_t) {
-  if (interrupt_pending()) clock_.scheduler().check_condition();
+  if (interrupt_pending()) scheduler_.check_condition();
 }
 
 void Cpu::run_handler() {
@@ -135,7 +153,7 @@ void Cpu::run_handler() {
 
   running_ = this;
   spend_cycles(interrupt_entry);
-  handler_(handler_context_);
+  call_handler();
   if (open_functions_ != open_before_handler_) {
     misuse("the interrupt handler returned without leaving its function");
   }
@@ -147,23 +165,23 @@ void Cpu::run_handler() {
   in_handler = false;
   in_handler_now_ = false;
   masked_ = false;
+  check_acknowledged();
 }
 
 void Cpu::wait_for_interrupt() {
   catch_up();
   if (!interrupt_pending()) sleep();
-  catch_up();
+  take_interrupts();
 }
 
 void Cpu::sleep() {
   const std::uint64_t start = now_ps();
   asleep = true;
-  clock_.scheduler().pass_until(std::max(deadline_ps_, start), irq_is_low, this);
+  scheduler_.pass_until(std::max(deadline_ps_, start), irq_is_low, this);
   asleep = false;
   activity_.idle(now_ps() - start);
   if (!interrupt_pending()) {
-    fail("it waits for an interrupt, and none came within " + vp::format_time(timeout) +
-         " of simulated time since the last image (" + timeout.name() + ")");
+    time_out("it waits for an interrupt, and none came");
   }
 }
 
@@ -175,7 +193,7 @@ void Cpu::do_work(std::uint32_t item, std::uint64_t count) {
   local_time_.add_stall_fs(work.stall_fs * count);
   constexpr std::uint64_t much = std::uint64_t{1} << 40;
   if (count < much) ahead_fs_ += work.most_fs * count;
-  if (count >= much || ahead_fs_ >= ahead_limit_fs_) settle();
+  if (count >= much || (ahead_fs_ >= ahead_limit_fs_ && far_ahead())) settle();
 }
 
 void Cpu::enter_function(std::uint32_t number) {

@@ -5,7 +5,13 @@ namespace ps {
 
 namespace {
 
-constexpr LocalTime::Wide fs_per_second = 1'000'000'000'000'000;
+/// 2^-20 of a cycle is 5^15 / (hertz · 2^5) femtoseconds: 10^15 / (hertz · 2^20), reduced.
+constexpr std::uint64_t numerator_factor = 30'517'578'125;
+constexpr unsigned denominator_bits = 5;
+/// Fewer cycles than this are computed in 64 bits.
+constexpr LocalTime::Wide few_cycles = std::uint64_t{1} << 28;
+static_assert(((std::uint64_t{1} << 28) - 1) <=
+              ((std::uint64_t{1} << 63) - (std::uint64_t{1} << 46)) / numerator_factor);
 
 }  // namespace
 
@@ -23,13 +29,32 @@ void LocalTime::add_stall_fs(Wide femtoseconds) {
   stall_fs_ = std::min(stall_fs_ + std::min(femtoseconds, most_stall_fs), most_stall_fs);
 }
 
+// Femtoseconds of the cycles, and what that cuts off.
+LocalTime::Wide LocalTime::take_cycles() {
+  const std::uint64_t denominator = hertz_ << denominator_bits;
+  const Wide cycles = cycles_;
+  cycles_ = 0;
+  if (cycles < few_cycles) {
+    const std::uint64_t numerator =
+        static_cast<std::uint64_t>(cycles) * numerator_factor + cycle_remainder_;
+    cycle_remainder_ = numerator % denominator;
+    return numerator / denominator;
+  }
+  const Wide numerator = cycles * numerator_factor + cycle_remainder_;
+  const Wide femtoseconds = numerator / denominator;
+  cycle_remainder_ = static_cast<std::uint64_t>(numerator - femtoseconds * denominator);
+  return femtoseconds;
+}
+
 std::uint64_t LocalTime::take_ps() {
-  const Wide denominator = Wide{hertz_} << fraction_bits;
-  const Wide numerator = cycles_ * fs_per_second + cycle_remainder_;
-  cycle_remainder_ = numerator % denominator;
-  const Wide total_fs = numerator / denominator + stall_fs_ + fs_remainder_;
+  const Wide total_fs = take_cycles() + stall_fs_ + fs_remainder_;
+  stall_fs_ = 0;
+  if (total_fs >> 64 == 0) {
+    const auto fs = static_cast<std::uint64_t>(total_fs);
+    fs_remainder_ = fs % fs_per_ps;
+    return fs / fs_per_ps;
+  }
   fs_remainder_ = static_cast<std::uint64_t>(total_fs % fs_per_ps);
-  cycles_ = stall_fs_ = 0;
   constexpr Wide most_ps = Wide{1} << 62;
   return static_cast<std::uint64_t>(std::min(total_fs / fs_per_ps, most_ps));
 }

@@ -22,7 +22,7 @@ class LocalTime {
   static constexpr Wide most_cycles = Wide{1} << 76;  ///< in 2^-20 cycles: three years at 667 MHz
   static constexpr Wide most_stall_fs = Wide{1} << 100;
 
-  /// `hertz` at least 1: the frequency at which cycles added before are taken.
+  /// `hertz` 1 to 10^12: the frequency at which cycles added before are taken.
   void set_frequency(std::uint64_t hertz);
 
   void add_cycles(Wide fraction_cycles);
@@ -33,10 +33,12 @@ class LocalTime {
   std::uint64_t take_ps();
 
  private:
+  Wide take_cycles();
+
   std::uint64_t hertz_ = 1;
   Wide cycles_ = 0;  ///< in 2^-20 cycles
   Wide stall_fs_ = 0;
-  Wide cycle_remainder_ = 0;  ///< in 1 / (hertz · 2^20) of a femtosecond, less than one
+  std::uint64_t cycle_remainder_ = 0;  ///< in 1 / (hertz · 2^5) of a femtosecond, less than one
   std::uint64_t fs_remainder_ = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/native_hal.h>
+#include <ps/cpu/program_watch.h>
+#include <cstdlib>
 
 namespace {
 
@@ -42,11 +44,13 @@ void hal_barrier(void) {
 }
 
 void hal_cache_flush(const void* data, size_t size) {
-  on_cpu("hal_cache_flush", [&](ps::Cpu& cpu) { cpu.maintain_cache(data, size); });
+  on_cpu("hal_cache_flush",
+         [&](ps::Cpu& cpu) { cpu.maintain_cache(ps::Cpu::CacheCall::flush, data, size); });
 }
 
 void hal_cache_invalidate(void* data, size_t size) {
-  on_cpu("hal_cache_invalidate", [&](ps::Cpu& cpu) { cpu.maintain_cache(data, size); });
+  on_cpu("hal_cache_invalidate",
+         [&](ps::Cpu& cpu) { cpu.maintain_cache(ps::Cpu::CacheCall::invalidate, data, size); });
 }
 
 hal_dma_buffer hal_dma_allocate(size_t size, size_t alignment) {
@@ -92,6 +96,23 @@ void hal_function_enter(uint32_t function) {
 
 void hal_function_leave(void) {
   on_cpu("hal_function_leave", [](ps::Cpu& cpu) { cpu.leave_function(); });
+}
+
+// Calls of exit() in a program come here, see cmake/MarkervpProgram.cmake.
+[[noreturn]] void __wrap_exit(int code) {
+  if (ps::ProgramWatch::runs) {
+    on_cpu("exit", [code](ps::Cpu& cpu) { cpu.program_exits(code); });
+  }
+  std::exit(code);
+}
+
+// Programs call it in every basic block.
+void __sanitizer_cov_trace_pc(void) {
+  using Watch = ps::ProgramWatch;
+  if (--Watch::blocks_left != 0 || !Watch::runs) return;
+  const unsigned before = Watch::suspicions;
+  on_cpu("a loop", [before](ps::Cpu& cpu) { cpu.notice_loop(before); });
+  Watch::suspicions = before + 1;
 }
 
 }  // extern "C"

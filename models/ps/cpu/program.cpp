@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace ps {
@@ -37,15 +38,53 @@ void check(const hal_program& program, const std::string& what) {
   }
 }
 
-/// The loader maps a file as its headers say; touching what a truncated one lacks is a bus error
-/// (SIGBUS). What is no ELF file at all is left to the loader's own message.
-void check_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file.tellg();
+/// Empty if the file has none.
+std::optional<Elf64_Ehdr> elf_header(std::istream& file) {
   Elf64_Ehdr header{};
   file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return;
-  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return;
+  if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return std::nullopt;
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return std::nullopt;
+  return header;
+}
+
+std::string machine_name(std::uint16_t machine) {
+  switch (machine) {
+    case EM_ARM:
+      return "ARM";
+    case EM_AARCH64:
+      return "AArch64";
+    case EM_386:
+      return "x86";
+    case EM_X86_64:
+      return "x86-64";
+    default:
+      return "ELF machine number " + std::to_string(machine);
+  }
+}
+
+/// The loader itself says "no such file" of it. Class and machine are at the same place in all ELF
+/// files.
+void check_machine(const std::string& path, const Elf64_Ehdr& header) {
+  std::ifstream executable("/proc/self/exe", std::ios::binary);
+  const auto own = elf_header(executable);
+  if (!own ||
+      (header.e_machine == own->e_machine && header.e_ident[EI_CLASS] == own->e_ident[EI_CLASS])) {
+    return;
+  }
+  throw vp::InputError("cannot load program '" + path + "': it is for another machine, " +
+                       machine_name(header.e_machine) + "; build it for this one, " +
+                       machine_name(own->e_machine) + ", with markervp_add_program");
+}
+
+/// The loader maps a file as its headers say; touching what a truncated one lacks is a bus error
+/// (SIGBUS). What is no ELF file at all is left to the loader's own message.
+void check_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  const auto found = elf_header(file);
+  if (!found) return;
+  const Elf64_Ehdr& header = *found;
+  check_machine(path, header);
   std::uint64_t end = header.e_phoff;
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
@@ -92,7 +131,7 @@ class SharedObject {
 
  private:
   static void* load(const std::string& path) {
-    check_whole(path);
+    check_file(path);
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     throw vp::InputError("cannot load program '" + path + "': " + dlerror());
   }

@@ -6,20 +6,19 @@
 
 namespace ps {
 
-/// What a processor has done ahead of the simulation time, in order: stretches of time, and the
+/// What a processor has done ahead of the simulation time, in order: stretches of work, and the
 /// functions it entered and left between them.
 class Timeline {
  public:
   enum class Kind : std::uint8_t {
-    work,    ///< time passes; an interrupt may come in between
-    access,  ///< the rest of a bus access: an interrupt waits for its end
-    enter,   ///< enters `function`
-    leave,   ///< leaves the function entered last
+    work,   ///< time passes; an interrupt may come in between
+    enter,  ///< enters `function`
+    leave,  ///< leaves the function entered last
   };
   struct Segment {
-    Kind kind;
-    std::uint32_t function;
-    std::uint64_t ps;
+    Kind kind = Kind::work;
+    std::uint32_t function = 0;
+    std::uint64_t ps = 0;
   };
 
   bool empty() const { return next_ == segments_.size(); }
@@ -29,7 +28,10 @@ class Timeline {
   const Segment& front() const { return segments_[next_]; }
 
   void push(Kind kind, std::uint64_t ps, std::uint32_t function = 0) {
-    segments_.push_back({kind, function, ps});
+    Segment& segment = segments_.emplace_back();
+    segment.kind = kind;
+    segment.function = function;
+    segment.ps = ps;
     total_ps_ += ps;
   }
   /// `ps` of the first segment have passed.

@@ -1,6 +1,8 @@
 // Programs that do wrong: the run ends with one line, and what was done before is kept.
 #include <vp/error.h>
+#include <vp/report.h>
 #include <boost/test/unit_test.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "bench.h"
@@ -210,6 +212,21 @@ BOOST_AUTO_TEST_CASE(a_handler_may_not_leave_what_it_did_not_enter) {
         leaves ? "without hal_function_enter()" : "without leaving its function";
     BOOST_TEST(error.find(words) != std::string::npos, error);
   }
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_that_nobody_acknowledges) {
+  Bench b({"cpu.timeout=1 ms"});
+  vp::ReportRouter reports;
+  std::ostringstream ignored;
+  reports.redirect(ignored);
+  b.set_n_irq_at(5'000, false);
+  failure_of(b, [] {
+    hal_interrupt_connect([](void*) {}, nullptr);
+    hal_interrupt_enable(true);
+    while (true) hal_work(step, 10);
+    return 0;
+  });
+  BOOST_TEST(reports.count("/markervp/cpu/not_acknowledged") == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(an_exception_of_the_program) {

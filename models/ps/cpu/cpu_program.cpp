@@ -1,0 +1,124 @@
+// The program's own code: how it is called, what it does without the HAL, and how it fails.
+#include <ps/cpu/cpu.h>
+#include <vp/report.h>
+#include <algorithm>
+
+namespace ps {
+
+namespace {
+
+/// The first jump of time for a loop without HAL call; each further one is twice as long.
+constexpr std::uint64_t first_jump_ps = 10'000;
+constexpr unsigned most_doublings = 40;
+/// Handlers in a row after which an interrupt looks as if nobody acknowledged it (decision).
+constexpr unsigned many_handlers = 1'000;
+
+}  // namespace
+
+volatile bool ProgramWatch::runs = false;
+volatile std::uint64_t ProgramWatch::blocks_left = ~std::uint64_t{0};
+std::uint64_t ProgramWatch::blocks_limit = ~std::uint64_t{0};
+unsigned ProgramWatch::suspicions = 0;
+
+int Cpu::call_program() {
+  struct Call {
+    hal_program const* program;
+    int result;
+  } call{&program_->description(), 0};
+  ProgramWatch::blocks_limit = loop_blocks;
+  ProgramWatch::leave_hal();
+  const Fault* fault = trap_.call(
+      [](void* context) {
+        Call& call = *static_cast<Call*>(context);
+        call.result = call.program->entry();
+      },
+      &call);
+  ProgramWatch::stop();
+  if (fault) report(*fault);
+  return call.result;
+}
+
+// The program is over: what it did ahead of time passes, but no handler runs any more.
+void Cpu::break_off(const std::string& problem) {
+  ProgramWatch::stop();
+  masked_ = true;
+  misuse(problem);
+}
+
+void Cpu::report(const Fault& fault) {
+  std::string text = fault.text();
+  if (fault.stack_overflow) {
+    text += ": its " + std::to_string(stack_size / 1024) + " KiB are used up (" +
+            stack_size.name() + ")";
+  } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
+    const std::string device = device_at(static_cast<std::uint32_t>(fault.address));
+    if (!device.empty()) {
+      text += device +
+              ", a device address: dereference no pointer to it, use hal_read32() and "
+              "hal_write32()";
+    }
+  }
+  if (code_) {
+    fault_pc_ = code_->first_inside(std::vector<std::uintptr_t>(
+        fault.frames, fault.frames + std::min(fault.frame_count, Fault::most_frames)));
+  }
+  break_off(text);
+}
+
+void Cpu::program_exits(int code) {
+  break_off("the program called exit(" + std::to_string(code) +
+            "): return from its entry function instead");
+}
+
+void Cpu::call_handler() {
+  std::string thrown;
+  try {
+    const ProgramWatch::ProgramCode code;
+    handler_(handler_context_);
+    return;
+  } catch (const sc_core::sc_unwind_exception&) {
+    throw;
+  } catch (const std::exception& error) {
+    thrown = std::string(": ") + error.what();
+  } catch (...) {
+  }
+  fail("the interrupt handler threw an exception" + thrown);
+}
+
+void Cpu::check_acknowledged() {
+  if (!interrupt_pending()) {
+    unacknowledged_ = 0;
+  } else if (++unacknowledged_ == many_handlers) {
+    vp::warn(*this, "/markervp/cpu/not_acknowledged",
+             "the interrupt handler has returned " + std::to_string(many_handlers) +
+                 " times in a row with an interrupt still pending: acknowledge it at the device, "
+                 "and end it at the interrupt controller");
+  }
+}
+
+// A bad pointer is the program's fault, not that of who reads it for the program.
+void Cpu::look_at(const void* data, std::size_t size) const {
+  constexpr std::size_t page = 4096;
+  const ProgramWatch::ProgramCode code;
+  const auto* bytes = static_cast<const volatile char*>(data);
+  for (std::size_t i = 0; i < size; i += page) static_cast<void>(bytes[i]);
+  if (size != 0) static_cast<void>(bytes[size - 1]);
+}
+
+// An interrupt ends the jump: the program may have waited for what its handler does.
+void Cpu::notice_loop(unsigned before) {
+  const std::uint64_t taken = interrupts;
+  catch_up();
+  if (interrupts != taken) return;
+  pass(first_jump_ps << std::min(before, most_doublings));
+  catch_up();
+}
+
+// ", pc 0x1a2b make()+0x1c": where the program is, if that can be told.
+std::string Cpu::program_counter() const {
+  if (!code_ || running_ != this) return {};
+  const std::uintptr_t pc = fault_pc_ != 0 ? fault_pc_ : code_->first_inside(return_addresses());
+  return pc == 0 ? std::string() : ", pc " + code_->text(pc);
+}
+
+}  // namespace ps

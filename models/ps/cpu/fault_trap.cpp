@@ -1,0 +1,222 @@
+#include <execinfo.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <ps/cpu/fault_trap.h>
+#include <ps/cpu/program_watch.h>
+#include <vp/hex.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#endif
+
+namespace ps {
+
+namespace {
+
+/// Enough to walk the stack of the program.
+constexpr std::size_t signal_stack_size = 256 * 1024;
+/// Around the stack's end: what a function with large variables may miss the guard page by.
+constexpr std::uintptr_t overflow_range = 1024 * 1024;
+/// Between the caller of call() and the true top of the stack.
+constexpr std::uintptr_t overflow_slack = 64 * 1024;
+
+Fault::Access access_of(int signal, const void* context) {
+#if defined(__x86_64__)
+  if (signal != SIGSEGV && signal != SIGBUS) return Fault::Access::unknown;
+  // Bits of the page fault's error code.
+  constexpr greg_t write = 2, fetch = 16;
+  const greg_t error = static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_ERR];
+  if ((error & fetch) != 0) return Fault::Access::execute;
+  return (error & write) != 0 ? Fault::Access::write : Fault::Access::read;
+#else
+  static_cast<void>(signal);
+  static_cast<void>(context);
+  return Fault::Access::unknown;
+#endif
+}
+
+std::uintptr_t instruction_of(const void* context) {
+#if defined(__x86_64__)
+  return static_cast<std::uintptr_t>(
+      static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
+#else
+  static_cast<void>(context);
+  return 0;
+#endif
+}
+
+/// Who jumped to nowhere: his return address is on top of the stack.
+std::uintptr_t caller_of_nothing(const void* context) {
+#if defined(__x86_64__)
+  return *reinterpret_cast<const std::uintptr_t*>(
+      static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RSP]);
+#else
+  static_cast<void>(context);
+  return 0;
+#endif
+}
+
+const char* arithmetic_text(int code) {
+  switch (code) {
+    case FPE_INTDIV:
+    case FPE_INTOVF:
+      return "integer division by zero, or its result does not fit";
+    case FPE_FLTDIV:
+      return "floating point division by zero";
+    case FPE_FLTOVF:
+      return "floating point overflow";
+    case FPE_FLTUND:
+      return "floating point underflow";
+    case FPE_FLTINV:
+      return "invalid floating point operation";
+    default:
+      return "arithmetic exception";
+  }
+}
+
+}  // namespace
+
+std::string Fault::text() const {
+  if (terminated) return "the program called std::terminate()";
+  if (signal == SIGABRT) return "the program called abort()";
+  if (signal == SIGILL) return "illegal instruction";
+  if (signal == SIGFPE) return std::string("arithmetic trap: ") + arithmetic_text(code);
+  if (stack_overflow) return "stack overflow";
+  std::string text = "segmentation fault";
+  if (!address_known) return text + ": access to an address that no machine has";
+  switch (access) {
+    case Access::read:
+      text += ": read of ";
+      break;
+    case Access::write:
+      text += ": write to ";
+      break;
+    case Access::execute:
+      text += ": jump to ";
+      break;
+    case Access::unknown:
+      text += ": access to ";
+      break;
+  }
+  constexpr std::uintptr_t first_page = 4096;
+  return text + vp::hex(address) + (address < first_page ? " (a null pointer)" : "");
+}
+
+FaultTrap* FaultTrap::active_ = nullptr;
+
+FaultTrap::FaultTrap(std::size_t stack_size)
+    : stack_size_(stack_size), signal_stack_(new char[signal_stack_size]) {}
+
+FaultTrap::~FaultTrap() {
+  disarm();
+}
+
+// Noinline: the gap lies between the frame that lands and the program's.
+__attribute__((noinline)) void FaultTrap::call_below(void (*code)(void* context), void* context) {
+  // Read back below, so that it is not optimised away.
+  volatile char room[gap];
+  room[0] = 0;
+  code(context);
+  room[gap - 1] = room[0];
+}
+
+const Fault* FaultTrap::call(void (*code)(void* context), void* context) {
+  char here = 0;
+  stack_top_ = reinterpret_cast<std::uintptr_t>(&here);
+  arm();
+  if (sigsetjmp(landing_, 1) == 0) {
+    try {
+      call_below(code, context);
+    } catch (...) {
+      disarm();
+      throw;
+    }
+    disarm();
+    return nullptr;
+  }
+  landed_ = true;
+  disarm();
+#if defined(__SANITIZE_ADDRESS__)
+  // The frames that were left keep their marks otherwise.
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(stack_top_ - stack_size_ / 2),
+                              stack_size_ / 2);
+#endif
+  return &fault_;
+}
+
+void FaultTrap::arm() {
+  void* first[1];
+  backtrace(first, 1);  // loads what it needs now, not in the signal handler
+  stack_t stack{};
+  stack.ss_sp = signal_stack_.get();
+  stack.ss_size = signal_stack_size;
+  sigaltstack(&stack, &old_stack_);
+  struct sigaction action {};
+  action.sa_sigaction = &FaultTrap::on_signal;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &action, &old_actions_[i]);
+  old_terminate_ = std::set_terminate(&FaultTrap::on_terminate);
+  active_ = this;
+  armed_ = true;
+}
+
+void FaultTrap::disarm() {
+  if (!armed_) return;
+  armed_ = false;
+  active_ = nullptr;
+  std::set_terminate(old_terminate_);
+  for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &old_actions_[i], nullptr);
+  sigaltstack(&old_stack_, nullptr);
+}
+
+bool FaultTrap::is_stack_overflow(std::uintptr_t address) const {
+  const std::uintptr_t end = stack_top_ - stack_size_;
+  return address < end + overflow_slack && address > end - overflow_range;
+}
+
+// The signal comes again, to whom it belongs.
+void FaultTrap::give_back(int signal) {
+  for (std::size_t i = 0; i < signal_count; ++i) {
+    if (signals[i] == signal) sigaction(signal, &old_actions_[i], nullptr);
+  }
+}
+
+// A second fault comes from walking a stack that the program destroyed.
+void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
+  FaultTrap& trap = *active_;
+  Fault& fault = trap.fault_;
+  const bool sent = info->si_code <= 0;
+  const bool by_others = sent && info->si_pid != getpid();
+  if (trap.landed_ || !ProgramWatch::runs || by_others) {
+    trap.give_back(signal);
+    if (sent) raise(signal);
+    return;
+  }
+  if (fault.signal != 0) siglongjmp(trap.landing_, 1);
+  fault.signal = signal;
+  fault.code = info->si_code;
+  fault.access = access_of(signal, context);
+  fault.address = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  fault.address_known = info->si_code > 0 && info->si_code != SI_KERNEL;
+  fault.stack_overflow = signal != SIGILL && signal != SIGFPE && signal != SIGABRT &&
+                         fault.address_known && trap.is_stack_overflow(fault.address);
+  fault.frames[fault.frame_count++] = instruction_of(context);
+  if (fault.access == Fault::Access::execute) {
+    fault.frames[fault.frame_count++] = caller_of_nothing(context) - 1;
+  }
+  void* walked[Fault::most_frames];
+  const int count = backtrace(walked, static_cast<int>(Fault::most_frames));
+  for (int i = 0; i < count && fault.frame_count < Fault::most_frames; ++i) {
+    fault.frames[fault.frame_count++] = reinterpret_cast<std::uintptr_t>(walked[i]) - 1;
+  }
+  siglongjmp(trap.landing_, 1);
+}
+
+void FaultTrap::on_terminate() {
+  if (active_ && ProgramWatch::runs) active_->fault_.terminated = true;
+  std::abort();
+}
+
+}  // namespace ps
