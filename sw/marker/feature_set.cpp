@@ -93,6 +93,7 @@ void decode(const std::uint32_t* words, std::uint32_t count, FeatureSet& feature
   }
   features.malformed += open.count();
   work(Work::packets_decoded, decoded);
+  work(Work::boxes_decoded, features.blob_count);
 }
 
 }  // namespace marker

@@ -34,8 +34,9 @@ Code read_code(const CellCounts& cells) {
 
 /// True and `id` set if the dictionary has this word.
 bool look_up(Code code, std::uint16_t& id) {
+  const Code* const known = dictionary.data();
   for (std::uint32_t i = 0; i < dictionary_size; ++i) {
-    if (hamming_distance(code, dictionary[i]) == 0) {
+    if (code == known[i]) {
       id = static_cast<std::uint16_t>(i);
       work(Work::dictionary_compares, i + 1);
       return true;

@@ -128,16 +128,36 @@ bool is_below(const Solution& s, double limit) {
   return s.error >= 0 && s.error < limit;
 }
 
-/// One step of POSIT. False, and nothing changed, if the solution leads nowhere.
-bool refine(const Posit& posit, Solution& s) {
-  if (s.error < 0) return false;
-  Solution first{}, second{};
-  posit.pos(posit.weights(s), first, second);
-  const Solution& better = is_better(second, first) ? second : first;
-  if (better.error < 0) return false;
-  s = better;
-  return true;
-}
+/// So many steps in a row may bring no smaller error (decision: with two, exact corners seen from
+/// the side do not converge).
+constexpr unsigned patience = 3;
+
+/// One of the two solutions of the first step on its way.
+class Track {
+ public:
+  explicit Track(const Solution& start) : now_(start), best_(start) {}
+
+  /// One step of POSIT. False, and nothing changed, if the track ended.
+  bool advance(const Posit& posit) {
+    if (now_.error < 0 || steps_without_gain_ == patience) return false;
+    Solution first{}, second{};
+    posit.pos(posit.weights(now_), first, second);
+    now_ = is_better(second, first) ? second : first;
+    if (is_better(now_, best_)) {
+      best_ = now_;
+      steps_without_gain_ = 0;
+    } else {
+      ++steps_without_gain_;
+    }
+    return true;
+  }
+
+  const Solution& best() const { return best_; }
+
+ private:
+  Solution now_, best_;
+  unsigned steps_without_gain_ = 0;
+};
 
 }  // namespace
 
@@ -148,20 +168,21 @@ Pose estimate_pose(const Quad& corners, const Camera& camera, const PositOptions
   if (!(camera.fx > 0 && camera.fy > 0 && options.side > 0)) return pose;
 
   const Posit posit(corners, camera, options.side);
-  Solution first{}, second{};
-  posit.pos({1, 1, 1, 1}, first, second);
+  Solution one{}, other{};
+  posit.pos({1, 1, 1, 1}, one, other);
+  Track first(one), second(other);
   std::uint32_t steps = 1;
-  std::uint32_t iterations = 0;
-  while (iterations < options.limit) {
-    const bool first_moved = refine(posit, first);
-    const bool second_moved = refine(posit, second);
-    steps += (first_moved ? 1 : 0) + (second_moved ? 1 : 0);
+  std::uint32_t iterations = 1;
+  while (iterations < options.limit && !is_below(first.best(), options.stop) &&
+         !is_below(second.best(), options.stop)) {
+    const bool first_moved = first.advance(posit);
+    const bool second_moved = second.advance(posit);
     if (!first_moved && !second_moved) break;
+    steps += (first_moved ? 1 : 0) + (second_moved ? 1 : 0);
     ++iterations;
-    if (is_below(first, options.stop) || is_below(second, options.stop)) break;
   }
   work(Work::posit_iterations, steps);
-  const Solution& best = is_better(second, first) ? second : first;
+  const Solution& best = is_better(second.best(), first.best()) ? second.best() : first.best();
   if (best.error < 0) return pose;
 
   pose.valid = true;

@@ -55,16 +55,22 @@ struct StageTime {
 };
 
 /// The stages follow each other; `frame` reaches from the start of feature_extraction to the end of
-/// pose.
+/// pose. Stages that a system does not have are 0, 0.
 struct StageTimes {
   StageTime upload;              ///< image into the PL (thesis 4.5.1.1)
-  StageTime feature_extraction;  ///< `ena` to the end word (thesis 4.5.1.3)
+  StageTime feature_extraction;  ///< `ena` to the end word (thesis 4.5.1.3); on the PS the four
+                                 ///< stages at the end of this list together
   StageTime receive;     ///< rest of the binary image, cache maintenance, decoding (4.5.1.2, 4.5.2)
   StageTime evaluation;  ///< algorithm 1 (4.5.3)
   StageTime
       identification;  ///< rectification and identification until the first marker (4.5.4, 4.5.5)
   StageTime pose;      ///< POSIT (4.5.6)
   StageTime frame;
+  // Features found on the PS.
+  StageTime capture;           ///< the camera's frame into memory (thesis 5.4)
+  StageTime corner_detection;  ///< FAST
+  StageTime threshold;         ///< binary image and histogram
+  StageTime blob_detection;    ///< grouping
 };
 
 /// A marker with its pose.
@@ -94,12 +100,16 @@ struct FrameResult {
   std::uint32_t marker_count;
   std::array<Marker, max_markers> markers;
   StageTimes times;
+  // Known to the software only where it finds the features itself.
+  bool has_threshold;            ///< the next two are set
+  std::uint32_t threshold;       ///< grey level with which the image was made binary
+  std::uint32_t label_overflow;  ///< dark pixels that found no free label
 };
 
 static_assert(std::is_trivially_copyable_v<FrameResult>, "published as bytes");
 
 /// The kind under which FrameResult is published.
-inline constexpr std::uint32_t frame_result_kind = HAL_KIND('M', 'K', 'F', '1');
+inline constexpr std::uint32_t frame_result_kind = HAL_KIND('M', 'K', 'F', '2');
 
 /// Makes `result` that of a new frame. Entries beyond the counts keep what they held.
 inline void clear(FrameResult& result) {
@@ -110,6 +120,8 @@ inline void clear(FrameResult& result) {
   result.candidates.count = result.candidates.lost = 0;
   result.marker_count = 0;
   result.times = {};
+  result.has_threshold = false;
+  result.threshold = result.label_overflow = 0;
 }
 
 }  // namespace marker

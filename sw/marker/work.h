@@ -6,24 +6,47 @@
 
 /// The units of work that PS programs count: X(name, what one unit is). The order is that of
 /// hal_program.work.
-#define MARKERVP_WORK_ITEMS(X)                                                        \
-  X(frames, "a frame set up and taken down by the application")                       \
-  X(interrupts, "a DMA interrupt served, dispatcher included")                        \
-  X(words_received, "a feature word stored, counted and acknowledged")                \
-  X(packets_decoded, "a feature word decoded and stored as corner or half a box")     \
-  X(blobs_evaluated, "a bounding box prepared and its four corners checked")          \
-  X(corner_tests, "a corner looked at for one blob: assigned? inside the box?")       \
-  X(quadrant_tests, "a corner inside the box tested against one quadrant")            \
-  X(score_evaluations, "a corner score computed and compared")                        \
-  X(candidates, "a candidate stored")                                                 \
-  X(homographies, "the eight components of appendix D")                               \
-  X(grid_samples, "a canonical sample mapped into the image and read")                \
-  X(grid_samples_dma, "one of them read from memory that a DMA engine wrote: stalls") \
-  X(cells, "a cell's majority decided")                                               \
-  X(rotations, "a code turned by a quarter")                                          \
-  X(dictionary_compares, "a Hamming distance to one dictionary word")                 \
-  X(poses, "a pose set up and concluded")                                             \
-  X(posit_iterations, "one POS step of POSIT with the error of both its poses")
+#define MARKERVP_WORK_ITEMS(X)                                                            \
+  X(frames, "a frame set up and taken down by the application")                           \
+  X(interrupts, "a DMA interrupt served, dispatcher included")                            \
+  X(words_received, "a feature word stored, counted and acknowledged")                    \
+  X(packets_decoded, "a feature word decoded; a corner is stored, too")                   \
+  X(boxes_decoded, "two words matched to a bounding box and stored")                      \
+  X(corners_freed, "a corner marked as not assigned before the evaluation")               \
+  X(blobs_evaluated, "a bounding box prepared and its four corners checked")              \
+  X(corner_tests, "a corner looked at for one blob: assigned already?")                   \
+  X(box_tests, "a corner not assigned: inside the box?")                                  \
+  X(corners_inside, "a corner inside the box: its quadrants")                             \
+  X(quadrant_tests, "one of them tested against one quadrant")                            \
+  X(score_evaluations, "a corner score computed and compared")                            \
+  X(quads_checked, "four corners of a box: distinct and convex?")                         \
+  X(candidates, "a candidate stored")                                                     \
+  X(homographies, "the eight components of appendix D")                                   \
+  X(grid_samples, "a canonical sample mapped into the image and read")                    \
+  X(grid_samples_dma, "one of them read from memory that a DMA engine wrote: stalls")     \
+  X(cells, "a cell's majority decided")                                                   \
+  X(rotations, "a code turned by a quarter")                                              \
+  X(dictionary_compares, "a code compared with one of the dictionary")                    \
+  X(poses, "a pose set up and concluded")                                                 \
+  X(posit_iterations, "one POS step of POSIT with the error of both its poses")           \
+  X(corner_frames, "an image searched for corners on the PS: what does not depend on it") \
+  X(corner_rows, "a row of points scored")                                                \
+  X(corner_pixels, "a point pre-tested, and its strength looked at")                      \
+  X(corner_survivors, "a point that passed the pre-test: all 16 pixels of its circle")    \
+  X(corner_bright, "a bright pixel on the circle of such a point")                        \
+  X(corner_points, "a corner before suppression, compared with its neighbours")           \
+  X(corners_found, "a corner stored with its direction")                                  \
+  X(threshold_frames, "an image made binary on the PS: histogram cleared, peaks found")   \
+  X(threshold_pixels, "a pixel counted in the histogram and compared")                    \
+  X(blob_frames, "an image grouped on the PS: what does not depend on it")                \
+  X(blob_rows, "a row grouped, and ended blobs looked for")                               \
+  X(blob_pixels, "a pixel of the binary image read, its label stored")                    \
+  X(blob_dark, "one of them dark")                                                        \
+  X(blob_runs, "a dark pixel without labelled left neighbour: the whole window")          \
+  X(blob_rivals, "another label enters the window of a run: widths compared")             \
+  X(blob_labels, "a new label")                                                           \
+  X(blob_label_checks, "a label asked whether its blob ended")                            \
+  X(blobs_ended, "a label given back, its box filtered by size")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.
@@ -35,7 +58,11 @@
   X(feature_evaluation)       \
   X(rectification)            \
   X(identification)           \
-  X(pose_estimation)
+  X(pose_estimation)          \
+  X(capture)                  \
+  X(corner_detection)         \
+  X(thresholding)             \
+  X(blob_detection)
 
 namespace marker {
 
@@ -71,6 +98,13 @@ inline constexpr const char* function_names[] = {
 inline void work([[maybe_unused]] Work item, [[maybe_unused]] std::uint64_t count) {
   hal_work(static_cast<std::uint32_t>(item), count);
 }
+
+/// Counts one unit in `counter`, for work() to tell later. Nothing on the chip.
+#ifdef HAL_BARE_METAL
+#define MARKERVP_COUNT(counter) static_cast<void>(0)
+#else
+#define MARKERVP_COUNT(counter) static_cast<void>(++(counter))
+#endif
 
 /// Marks a function from construction to the end of the block. Nothing on the chip.
 class FunctionScope {

@@ -9,15 +9,16 @@ void BurstChain::start(std::uint32_t address, std::uint32_t bursts, LastInterrup
   bursts_ = bursts;
   done_ = 0;
   failed_ = false;
-  start_next();
+  hold_back_last();
+  started(dma_.start(next_address_, burst_bytes));
 }
 
-void BurstChain::start_next() {
+void BurstChain::hold_back_last() {
   if (last_ == LastInterrupt::waits && done_ + 1 == bursts_) dma_.set_completion_interrupt(false);
-  if (!dma_.start(next_address_, burst_bytes)) {
-    fail(dma_.status());
-    return;
-  }
+}
+
+void BurstChain::started(bool accepted) {
+  if (!accepted) return fail(dma_.status());
   next_address_ += burst_bytes;
 }
 
@@ -40,7 +41,9 @@ void BurstChain::on_interrupt(void* self) {
     chain.fail(status);
   } else if (drivers::AxiDma::is_complete(status) && !chain.is_over()) {
     chain.done_ = chain.done_ + 1;
-    if (chain.done_ != chain.bursts_) chain.start_next();
+    if (chain.done_ == chain.bursts_) return;
+    chain.hold_back_last();
+    chain.started(chain.dma_.start_again(chain.next_address_, burst_bytes));
   }
 }
 

@@ -41,7 +41,8 @@ class BurstChain {
   std::uint32_t status() const { return failed_ ? failure_status_ : dma_.status(); }
 
  private:
-  void start_next();
+  void hold_back_last();
+  void started(bool accepted);
   void fail(std::uint32_t status);
 
   drivers::AxiDma dma_;

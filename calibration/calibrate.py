@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+"""How long the PS software takes on a Cortex-A9: makes the cost tables in data/profiles.
+
+The kernels of sw/ are compiled for the chip and run under qemu-arm, whose plug-in counts what they
+execute; natively they count their units of work. Least squares finds the instructions of a unit,
+llvm-mca's pipeline model and a cache model the time of an instruction. See docs/calibration.md.
+"""
+import argparse
+import datetime
+import json
+import os
+import subprocess
+import sys
+
+import fit
+import fit_thesis
+import pipeline
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+LIMIT_PERCENT = 1.0
+
+# A miss of level 1 that hits level 2 stalls so many CPU cycles, one that goes to DDR so many ns
+# (assumed: UG585 and the PL310's manual give latencies of the parts, not of the whole).
+L2_HIT_CYCLES = 25
+DDR_NS = 150.0
+
+# Code around the kernels in the application, in instructions a frame (assumed).
+GLUE = {"O0": 900, "O2": 300}
+
+# Units by kernel, as platform/profiles/kernels.cpp; the unit that streams through memory comes
+# first, those that matter least last. "call" is what does not depend on the input.
+KERNELS = {
+    "receive": ["words_received", "call"],
+    "interrupt": ["interrupts"],
+    "decode": ["packets_decoded", "boxes_decoded", "call"],
+    "evaluation": ["corner_tests", "box_tests", "corners_inside", "blobs_evaluated",
+                   "quadrant_tests", "score_evaluations", "quads_checked", "corners_freed",
+                   "candidates", "call"],
+    "identification": ["grid_samples", "dictionary_compares", "homographies", "cells", "rotations"],
+    "pose": ["posit_iterations", "poses"],
+    "corner_detection": ["corner_pixels", "corner_survivors", "corner_bright", "corner_points",
+                         "corner_rows", "corners_found", "corner_frames"],
+    "threshold": ["threshold_pixels", "threshold_frames"],
+    "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
+                       "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
+}
+
+SOURCES = ["calibration/driver/%s.cpp" % n for n in
+           ("devices", "kernels", "main", "measure", "scene")] + [
+    "sw/marker/%s.cpp" % n for n in
+    ("blob_grouping", "dictionary", "fast", "feature_evaluation", "feature_set", "identification",
+     "label_pool", "marker_search", "posit", "rectification", "threshold")] + [
+    "sw/apps/hybrid/burst_chain.cpp", "sw/apps/hybrid/pl_link.cpp"] + [
+    "sw/drivers/%s.cpp" % n for n in ("axi_dma", "axi_gpio", "gic", "global_timer")]
+INCLUDES = ["sw", "sw/hal/include", "vp/registers/include", "models/xilinx/axi_dma/registers",
+            "models/xilinx/axi_gpio/registers", "models/ps/gic/registers",
+            "models/ps/global_timer/registers"]
+
+
+def run(command, **options):
+    return subprocess.run(command, cwd=ROOT, check=True, **options)
+
+
+class Tools:
+    """What is built once: the plug-in, and the driver for this machine and for the chip."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        os.makedirs(folder, exist_ok=True)
+        self.plugin = os.path.join(folder, "libcount.so")
+        run(["gcc", "-O2", "-Wall", "-Wextra", "-shared", "-fPIC", "-fvisibility=hidden", "-o",
+             self.plugin, "calibration/plugin/count.c", "calibration/plugin/cache_model.c"])
+        self.driver = {"native": self.compile("native", ["g++", "-O2"])}
+        for level in ("O0", "O2"):
+            self.driver[level] = self.compile(
+                level, ["arm-linux-gnueabihf-g++", "-" + level, "-marm", "-mcpu=cortex-a9",
+                        "-mfpu=neon-vfpv3", "-mfloat-abi=hard", "-static", "-DHAL_BARE_METAL",
+                        "-fno-exceptions", "-fno-rtti", "-Wno-psabi"])
+
+    def compile(self, name, command):
+        program = os.path.join(self.folder, "driver-" + name)
+        run(command + ["-std=c++17", "-ffp-contract=off", "-Wall", "-Wextra", "-o", program] +
+            ["-I" + i for i in INCLUDES] + SOURCES)
+        return program
+
+    def native(self, arguments):
+        """Measurements in order: (kernel, checksum, counts by unit)."""
+        text = run([self.driver["native"]] + arguments, capture_output=True, text=True).stdout
+        found = []
+        for line in text.splitlines():
+            kernel, checksum, *units = line.split()
+            found.append((kernel, checksum, {u.split("=")[0]: int(u.split("=")[1]) for u in units}))
+        return found
+
+    def counted(self, level, arguments, cache=False):
+        """The same measurements on the chip: (kernel, checksum, counts, runs by block).
+
+        With `cache` the counts have misses, without it there are blocks; also the blocks themselves.
+        """
+        counts, blocks = (os.path.join(self.folder, n) for n in ("counts.txt", "blocks.txt"))
+        plugin = "%s,out=%s,%s" % (self.plugin, counts,
+                                   "cache=on" if cache else "blocks=" + blocks)
+        text = run(["qemu-arm", "-cpu", "cortex-a9", "-plugin", plugin, self.driver[level]] +
+                   arguments, capture_output=True, text=True).stdout
+        kernels = [line.split()[:2] for line in text.splitlines()]
+        found = []
+        with open(counts, encoding="ascii") as file:
+            for (kernel, checksum), line in zip(kernels, file):
+                words = line.split()
+                runs = [word.split("=") for word in words[4:]]
+                found.append((kernel, checksum, list(map(int, words[:4])),
+                              {int(number): int(times) for number, times in runs}))
+        if len(found) != len(kernels):
+            sys.exit("calibrate: the plug-in saw %d measurements of %d" %
+                     (len(found), len(kernels)))
+        return found, {} if cache else pipeline.read_blocks(blocks)
+
+    def both(self, level, arguments, cache=False):
+        """By kernel: a list of (counts by unit, counts of the plug-in, runs by block); blocks."""
+        found = {}
+        there, blocks = self.counted(level, arguments, cache)
+        for here, (kernel, checksum, counts, runs) in zip(self.native(arguments), there):
+            if here[:2] != (kernel, checksum):
+                sys.exit("calibrate: %s computed %s here and %s on the chip" %
+                         (here[0], here[1], checksum))
+            found.setdefault(kernel, []).append((dict(here[2], call=1), counts, runs))
+        return found, blocks
+
+
+def memory_costs(tools, level):
+    """By kernel: misses of level 1 that hit level 2, and of level 2, for each of its first unit."""
+    found, _ = tools.both(level, ["2", "640", "480"], cache=True)
+    costs = {}
+    for kernel, samples in found.items():
+        unit = KERNELS[kernel.replace("_cold", "")][0]
+        units = sum(s[0].get(unit, 0) for s in samples)
+        level1, level2 = (sum(s[1][i] for s in samples) for i in (2, 3))
+        costs[kernel] = ((level1 - level2) / units, level2 / units)
+    return costs
+
+
+def calibrate(tools, level, scenes):
+    """The kernels of a cost table, and whether all fits are good enough."""
+    samples, blocks = tools.both(level, [str(scenes)])
+    cycles, unknown = pipeline.cycles_of_blocks(blocks)
+    memory = memory_costs(tools, level)
+    kernels, good, calls = {}, True, GLUE[level]
+    print("-%s                leave one out: instructions     cycles     cycles per   misses a unit"
+          % level)
+    print("kernel                    mean %%    max %%    mean %%    max %%  instruction  level 1  level 2")
+    for kernel, units in KERNELS.items():
+        executed = [(counts, numbers[0]) for counts, numbers, _ in samples[kernel]]
+        taken = [(counts, sum(cycles[b] * n for b, n in runs.items()))
+                 for counts, _, runs in samples[kernel]]
+        errors = fit.leave_one_out(executed, units)
+        errors_taken = fit.leave_one_out(taken, units)
+        mean, worst = sum(errors) / len(errors), max(errors)
+        mean_taken = sum(errors_taken) / len(errors_taken)
+        cpi = sum(t for _, t in taken) / sum(t for _, t in executed)
+        near, far = memory[kernel]
+        print("%-22s %9.3f %8.3f %9.3f %8.3f %12.3f %8.4f %8.4f" %
+              (kernel, mean, worst, mean_taken, max(errors_taken), cpi, near, far))
+        good = good and max(mean, mean_taken) <= LIMIT_PERCENT
+        instructions, time = fit.fit(executed, units), fit.fit(taken, units)
+        calls += instructions.pop("call", 0)
+        entry = {u: {"instructions": round(n, 3), "cycles": round(time[u], 3), "stall_ns": 0.0}
+                 for u, n in instructions.items()}
+        stream = entry[units[0]]
+        stream["cycles"] = round(stream["cycles"] + near * L2_HIT_CYCLES, 3)
+        stream["stall_ns"] = round(far * DDR_NS, 4)
+        kernels[kernel] = {"source": "derived", "cycles_per_instruction": round(cpi, 4),
+                           "leave_one_out_percent": {"mean": round(mean, 4), "max": round(worst, 4)},
+                           "units": entry}
+    if unknown:
+        print("not modelled, a cycle each: " + ", ".join(sorted({u.split()[0] for u in unknown})))
+    extra = max(0.0, memory["identification_cold"][1] - memory["identification"][1])
+    kernels["identification"]["units"]["grid_samples_dma"] = {
+        "instructions": 0, "cycles": 0, "stall_ns": round(extra * DDR_NS, 4)}
+    cpi = kernels["decode"]["cycles_per_instruction"]
+    kernels["application"] = {"source": "assumed", "units": {"frames": {
+        "instructions": round(calls, 1), "cycles": round(calls * cpi, 1), "stall_ns": 0.0}}}
+    return kernels, good
+
+
+def make_table(tools, level, scenes):
+    """A cost table, and whether its fits are good enough."""
+    kernels, good = calibrate(tools, level, scenes)
+    return {
+        "version": 1,
+        "profile": "a9-" + level,
+        "optimisation": level,
+        "origin": "scripts/calibrate: instructions counted in code compiled for a Cortex-A9, "
+                  "cycles by llvm-mca and a cache model; nothing fitted to the thesis",
+        "date": datetime.date.today().isoformat(),
+        "memory": {"l2_hit_cycles": L2_HIT_CYCLES, "ddr_ns": DDR_NS, "source": "assumed"},
+        "kernels": kernels,
+    }, good
+
+
+def differences(table, path):
+    """Units whose instructions are not those of the table in the file."""
+    with open(path, encoding="ascii") as file:
+        known = json.load(file)["kernels"]
+    return [unit for kernel, entry in table["kernels"].items()
+            for unit, cost in entry["units"].items()
+            if abs(cost["instructions"] - known[kernel]["units"][unit]["instructions"]) >
+            0.001 * cost["instructions"] + 0.01]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--scenes", type=int, default=24, help="random scenes (default: 24)")
+    parser.add_argument("--build", default=os.path.join(ROOT, "build", "calibration"),
+                        help="folder for what is built")
+    parser.add_argument("--output", default=os.path.join(ROOT, "data", "profiles"),
+                        help="folder of the tables")
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; fail if the tables are not those of the sources")
+    parser.add_argument("--markervp", help="executable that runs the thesis' tests, to fit the "
+                        "profile `thesis`; without it only the cost tables are made")
+    arguments = parser.parse_args()
+    tools = Tools(os.path.abspath(arguments.build))
+    all_good, stale = True, []
+    for level in ("O0", "O2"):
+        table, good = make_table(tools, level, arguments.scenes)
+        all_good = all_good and good
+        path = os.path.join(arguments.output, "a9-%s.json" % level)
+        if arguments.check:
+            stale += ["%s -%s" % (unit, level) for unit in differences(table, path)]
+            continue
+        with open(path, "w", encoding="ascii") as file:
+            json.dump(table, file, indent=2)
+            file.write("\n")
+    if not all_good:
+        sys.exit("calibrate: a fit is worse than %g %%: a kernel does work that it does not count" %
+                 LIMIT_PERCENT)
+    if stale:
+        sys.exit("calibrate: the kernels changed, run scripts/calibrate: " + ", ".join(stale))
+    if arguments.markervp and not arguments.check:
+        fit_thesis.make_profile(arguments.markervp, arguments.output,
+                                os.path.join(ROOT, "data", "published.csv"))
+
+
+if __name__ == "__main__":
+    main()

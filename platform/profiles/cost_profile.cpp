@@ -1,0 +1,198 @@
+#include <profiles/cost_profile.h>
+
+#include <algorithm>
+
+#include <input/library_folder.h>
+#include <profiles/kernels.h>
+#include <profiles/profile_file.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::profiles {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = ProfileFile::Json;
+
+// A unit is a few statements; the largest, a pose or a whole frame's set-up, is some 10⁵ cycles.
+constexpr double most_cycles = 1e7, most_stall_ns = 1e6;
+// Two compilers and two programmers differ by less.
+constexpr double least_scale = 0.1, most_scale = 10;
+
+const char* name_of(Optimisation optimisation) {
+  return optimisation == Optimisation::o0 ? "O0" : "O2";
+}
+
+/// Where installed profiles may be.
+std::vector<fs::path> profile_folders() {
+  std::vector<fs::path> folders;
+  for (const std::string& folder : input::library_folders()) {
+    folders.push_back(fs::path(folder) / "profiles");
+  }
+  return folders;
+}
+
+std::vector<std::string> installed_profiles() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::path& folder : profile_folders()) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path profile_path(const std::string& name) {
+  if (fs::path(name).extension() == ".json") return name;
+  std::error_code ignored;
+  for (const fs::path& folder : profile_folders()) {
+    const fs::path file = folder / (name + ".json");
+    if (fs::exists(file, ignored)) return file;
+  }
+  const std::vector<std::string> names = installed_profiles();
+  if (names.empty()) {
+    throw vp::InputError("no profile '" + name + "': none are installed in " +
+                         profile_folders().front().string() + "; install markervp completely");
+  }
+  const std::string nearest = vp::nearest_match(name, names);
+  throw vp::InputError("no profile '" + name + "'" +
+                       (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)") + ": give " +
+                       vp::one_of(names) + ", or a file that ends in .json");
+}
+
+void read_units(const ProfileFile& file, const Json& units, const std::vector<std::string>& names,
+                const std::string& where, ps::CostTable& costs) {
+  for (const std::string& name : names) {
+    const Json& unit = file.object(units, name, where);
+    const std::string here = "unit '" + name + "' of " + where;
+    file.only(unit, {"cycles", "stall_ns", "instructions"}, here);
+    costs.set(name, {file.number(unit, "cycles", here, 0, most_cycles),
+                     file.number(unit, "stall_ns", here, 0, most_stall_ns)});
+  }
+}
+
+/// Units of programs that are not ours.
+void read_other_units(const ProfileFile& file, ps::CostTable& costs) {
+  const Json& root = file.root();
+  if (root.find("other_units") == root.end()) return;
+  const Json& units = file.object(root, "other_units", "the profile");
+  std::vector<std::string> names;
+  for (const auto& [name, cost] : units.items()) {
+    if (!kernel_of(name).empty()) {
+      file.refuse("unit '" + name + "' in other_units belongs to kernel '" + kernel_of(name) + "'");
+    }
+    names.push_back(name);
+  }
+  read_units(file, units, names, "other_units", costs);
+}
+
+CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation> optimisation) {
+  const Json& root = file.root();
+  file.only(
+      root,
+      {"version", "profile", "optimisation", "origin", "date", "kernels", "other_units", "memory"},
+      "the profile");
+  const std::string built = file.text(root, "optimisation", "the profile");
+  if (optimisation && built != name_of(*optimisation)) {
+    file.refuse("it is for code compiled with -" + built + ", and sw.opt asks for " +
+                name_of(*optimisation));
+  }
+  CostProfile profile{ps::CostTable(file.text(root, "profile", "the profile")),
+                      file.text(root, "origin", "the profile"),
+                      file.text(root, "date", "the profile"),
+                      {}};
+  const Json& all = file.object(root, "kernels", "the profile");
+  std::set<std::string> names;
+  for (const Kernel& kernel : kernels()) names.insert(kernel.name);
+  file.only(all, names, "kernels");
+  for (const Kernel& kernel : kernels()) {
+    const Json& entry = file.object(all, kernel.name, "kernels");
+    const std::string where = "kernel '" + kernel.name + "'";
+    file.only(entry, {"source", "cycles_per_instruction", "leave_one_out_percent", "units"}, where);
+    const Json& units = file.object(entry, "units", where);
+    file.only(units, {kernel.units.begin(), kernel.units.end()}, where);
+    read_units(file, units, kernel.units, where, profile.costs);
+  }
+  read_other_units(file, profile.costs);
+  return profile;
+}
+
+FittedConstant read_constant(const ProfileFile& file, const Json& entry, const std::string& where,
+                             ps::CostTable& costs) {
+  if (!entry.is_object()) file.refuse(where + " is not an object");
+  FittedConstant constant;
+  const Json& published = file.member(entry, "published", where);
+  if (!published.is_array() || published.empty()) {
+    file.refuse("'published' of " + where + " is not a list of published values");
+  }
+  for (const Json& id : published) {
+    if (!id.is_string()) file.refuse("'published' of " + where + " has an entry that is no text");
+    constant.published.push_back(id.get<std::string>());
+  }
+  if (entry.find("kernel") != entry.end()) {
+    file.only(entry, {"kernel", "scale", "published", "note"}, where);
+    const std::string name = file.text(entry, "kernel", where);
+    const auto& all = kernels();
+    const auto kernel =
+        std::find_if(all.begin(), all.end(), [&](const Kernel& k) { return k.name == name; });
+    if (kernel == all.end()) file.refuse("kernel '" + name + "' of " + where + " is unknown");
+    constant.name = "scale of " + name;
+    constant.value = file.number(entry, "scale", where, least_scale, most_scale);
+    for (const std::string& unit : kernel->units) {
+      const ps::WorkCost cost = costs.entries().at(unit);
+      costs.set(unit, {cost.cycles * constant.value, cost.stall_ns * constant.value});
+    }
+    return constant;
+  }
+  file.only(entry, {"unit", "stall_ns", "published", "note"}, where);
+  const std::string unit = file.text(entry, "unit", where);
+  if (kernel_of(unit).empty()) file.refuse("unit '" + unit + "' of " + where + " is unknown");
+  constant.name = "stall of " + unit;
+  constant.value = file.number(entry, "stall_ns", where, 0, most_stall_ns);
+  costs.set(unit, {costs.entries().at(unit).cycles, constant.value});
+  return constant;
+}
+
+CostProfile read_scaled(const ProfileFile& file, Optimisation optimisation) {
+  const Json& root = file.root();
+  file.only(root, {"version", "profile", "origin", "date", "tables", "fitted"}, "the profile");
+  const Json& tables = file.object(root, "tables", "the profile");
+  file.only(tables, {"O0", "O2"}, "tables");
+  const std::string table = file.text(tables, name_of(optimisation), "tables");
+  const CostProfile base =
+      read_cost_table(ProfileFile(file.path().parent_path() / (table + ".json")), optimisation);
+  const std::string name = file.text(root, "profile", "the profile");
+  CostProfile profile{ps::CostTable(optimisation == Optimisation::o0 ? name : name + "-O2"),
+                      file.text(root, "origin", "the profile"),
+                      file.text(root, "date", "the profile"),
+                      {}};
+  for (const auto& [unit, cost] : base.costs.entries()) profile.costs.set(unit, cost);
+  const Json& fitted = file.member(root, "fitted", "the profile");
+  if (!fitted.is_array()) file.refuse("'fitted' is not a list");
+  if (fitted.size() > max_fitted) {
+    file.refuse("it fits " + std::to_string(fitted.size()) + " constants, more than " +
+                std::to_string(max_fitted));
+  }
+  for (const Json& entry : fitted) {
+    const std::string where = "fitted constant " + std::to_string(profile.fitted.size() + 1);
+    FittedConstant constant = read_constant(file, entry, where, profile.costs);
+    for (const FittedConstant& other : profile.fitted) {
+      if (other.name == constant.name) file.refuse("the " + constant.name + " is fitted twice");
+    }
+    profile.fitted.push_back(std::move(constant));
+  }
+  return profile;
+}
+
+}  // namespace
+
+CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation) {
+  const ProfileFile file(profile_path(name));
+  if (file.root().find("tables") == file.root().end()) return read_cost_table(file, optimisation);
+  return read_scaled(file, optimisation.value_or(Optimisation::o0));
+}
+
+}  // namespace platform::profiles

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ps/cpu/cost_table.h>
+
+/// How long the PS software takes: tables of data files, checked when they are read.
+///
+/// A *cost table* has the cost of each unit of work, found by scripts/calibrate. A *scaled profile*
+/// takes cost tables and fits a few named constants to published values.
+namespace platform::profiles {
+
+/// How the PS software is compiled.
+enum class Optimisation { o0, o2 };
+
+/// One constant of a profile that was fitted to published values.
+struct FittedConstant {
+  std::string name;                    ///< "scale of corner_detection"
+  double value = 0;                    ///< a factor, or ns
+  std::vector<std::string> published;  ///< the values it was fitted to, by their ID
+};
+
+/// A profile, ready to use.
+struct CostProfile {
+  ps::CostTable costs;  ///< its profile() is the name for reports: "thesis", "thesis-O2", "a9-O2"
+  std::string origin;   ///< one line
+  std::string date;     ///< ISO 8601
+  std::vector<FittedConstant> fitted;  ///< empty: nothing was
+};
+
+/// Most constants that a profile may fit.
+inline constexpr std::size_t max_fitted = 8;
+
+/// Reads a profile. `name` is that of an installed one ("thesis", "a9-O0", …) or a file, which ends
+/// in .json. `optimisation`: none is that of the profile, O0 for one that has both.
+/// Throws vp::InputError that names file and entry: no such profile, another version, a kernel or
+/// unit that is missing, unknown, negative or absurd, or an optimisation that it is not for.
+CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
+
+}  // namespace platform::profiles

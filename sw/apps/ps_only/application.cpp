@@ -1,0 +1,140 @@
+#include <apps/hybrid/message.h>
+#include <apps/ps_only/application.h>
+#include <marker/marker_search.h>
+#include <marker/work.h>
+
+namespace ps_only {
+namespace {
+
+using marker::Status;
+
+/// The least that has a corner's neighbourhood.
+constexpr std::uint32_t min_side = 9;
+
+constexpr bool is_supported(std::uint32_t width, std::uint32_t height) {
+  return width >= min_side && height >= min_side && width <= marker::max_image_width &&
+         height <= marker::max_image_height && width % marker::pixels_per_word == 0;
+}
+
+}  // namespace
+
+int Application::run() {
+  initialise();
+  int failures = 0;
+  while (const hal_frame* frame = hal_frame_next()) {
+    process(*frame);
+    hal_publish(marker::frame_result_kind, &result_, sizeof result_);
+    if (result_.status != Status::ok) failures = 1;
+  }
+  hal_interrupt_enable(false);
+  hal_interrupt_connect(nullptr, nullptr);
+  return failures;
+}
+
+void Application::initialise() {
+  options_ = read_options();
+  threshold_.reset();
+  hal_interrupt_enable(false);
+  gic_.initialise();
+  timer_.initialise();
+  gic_.connect(gic::global_timer_id, drivers::Trigger::rising_edge, &Application::on_alarm, this);
+  hal_interrupt_enable(true);
+}
+
+void Application::on_alarm(void* self) {
+  Application& application = *static_cast<Application*>(self);
+  application.timer_.clear_alarm();
+  application.alarm_ = true;
+}
+
+void Application::process(const hal_frame& frame) {
+  marker::work(marker::Work::frames, 1);
+  marker::clear(result_);
+  result_.frame = frame.index;
+  result_.width = frame.width;
+  result_.height = frame.height;
+  if (!is_supported(frame.width, frame.height)) {
+    result_.status = Status::unsupported_size;
+    hybrid::Message()
+        .text("ps-only: frame ")
+        .number(frame.index)
+        .text(": ")
+        .text(marker::status_name(result_.status))
+        .text(", ")
+        .number(frame.width)
+        .text(" x ")
+        .number(frame.height)
+        .text(" px")
+        .write();
+    return;
+  }
+  marker::StageTimes& times = result_.times;
+  times.frame.start = times.feature_extraction.start = times.capture.start = timer_.now();
+  capture(frame);
+  find_features(frame);
+  find_marker(frame);
+}
+
+/// The image is in memory already; what passes is the time that a camera takes to bring it there.
+void Application::capture(const hal_frame& frame) {
+  const marker::FunctionScope scope(marker::Function::capture);
+  // One count every 2 CPU cycles, one pixel a clock of the camera.
+  const double counts = static_cast<double>(frame.width) * frame.height * options_.cpu_clock /
+                        (2 * options_.pixel_clock);
+  const std::uint64_t end = result_.times.capture.start + static_cast<std::uint64_t>(counts + 0.5);
+  alarm_ = false;
+  timer_.set_alarm(end);
+  for (;;) {
+    // Masked, so that the interrupt does not slip in between the test and the sleep.
+    hal_interrupt_enable(false);
+    if (!alarm_) hal_wait_for_interrupt();
+    hal_interrupt_enable(true);
+    hal_barrier();
+    if (alarm_) break;
+  }
+  result_.times.capture.end = timer_.now();
+}
+
+void Application::find_features(const hal_frame& frame) {
+  marker::StageTimes& times = result_.times;
+  const marker::GreyImage image{frame.pixels, frame.width, frame.height};
+  times.corner_detection.start = times.capture.end;
+  corners_.detect(image, options_.corner_threshold, result_.features);
+  times.corner_detection.end = times.threshold.start = timer_.now();
+
+  result_.has_threshold = true;
+  result_.threshold = threshold_.value();
+  threshold_.binarise(image, binary_.data());
+  times.threshold.end = times.blob_detection.start = timer_.now();
+
+  const marker::BinaryImage binary{binary_.data(), frame.width, frame.height, false};
+  blobs_.detect(binary, {options_.label_count, options_.minimum_side}, result_.features);
+  result_.label_overflow = blobs_.label_overflow();
+  times.blob_detection.end = times.feature_extraction.end = timer_.now();
+}
+
+void Application::find_marker(const hal_frame& frame) {
+  marker::StageTimes& times = result_.times;
+  times.evaluation.start = times.feature_extraction.end;
+  marker::evaluate_features(result_.features, {options_.margin}, result_.candidates);
+  times.evaluation.end = times.identification.start = timer_.now();
+
+  const marker::BinaryImage binary{binary_.data(), frame.width, frame.height, false};
+  const marker::FoundMarker found = marker::find_first_marker(result_.features, result_.candidates,
+                                                              binary, options_.canonical_width);
+  result_.examined = found.examined;
+  times.identification.end = times.pose.start = timer_.now();
+
+  if (found.found) {
+    marker::Marker& marker = result_.markers[result_.marker_count++];
+    marker.candidate = found.candidate;
+    marker.identity = found.identity;
+    marker.corners = found.corners;
+    marker.pose = marker::estimate_pose(
+        found.corners, {frame.fx, frame.fy, frame.cx, frame.cy},
+        {options_.marker_side, options_.reprojection_stop, options_.iteration_limit});
+  }
+  times.pose.end = times.frame.end = timer_.now();
+}
+
+}  // namespace ps_only
