@@ -6,10 +6,12 @@
  * implement it: the virtual platform (models/ps/cpu) and the chip (bare metal). Plain C, no
  * SystemC.
  *
- * Rules of the road, the same on both:
- *  - memory that a DMA engine writes is observed only after hal_barrier() or a cache operation;
- *  - handlers run inside HAL accesses, barriers, polls and hal_wait_for_interrupt(), never between
- * two plain statements;
+ * Rules of the road:
+ *  - memory that a DMA engine writes is observed only after hal_barrier() or a cache operation; on
+ *    the chip, where DMA memory is cached unless built otherwise, only the cache operation will do;
+ *  - on the platform handlers run inside HAL accesses, barriers, polls and
+ *    hal_wait_for_interrupt(), on the chip between any two instructions. So what a handler shares
+ *    with the program is volatile, and a look at it before a sleep is made with IRQ masked;
  *  - annotations (hal_work, hal_function_*) cost nothing on the chip; on the platform they are the
  * only source of CPU time.
  */

@@ -1,0 +1,163 @@
+#include <apps/algorithms/self_test.h>
+#include <apps/hybrid/message.h>
+#include <hal/hal.h>
+#include <marker/marker_search.h>
+
+#include <cstring>
+
+namespace algorithms {
+namespace {
+
+using hybrid::Message;
+
+/// The camera of the scenes (thesis chapter 5).
+constexpr marker::Camera camera{381.36, 381.36, width / 2.0, height / 2.0};
+constexpr std::uint32_t canonical_width = 60;
+/// Never good enough: all iterations are made, so that rounding has time to show.
+constexpr marker::PositOptions all_iterations{0.30, 0.0, 100};
+
+void bits(Message& message, double value) {
+  std::uint64_t pattern = 0;
+  static_assert(sizeof pattern == sizeof value, "IEEE 754 double");
+  std::memcpy(&pattern, &value, sizeof pattern);
+  message.text(" ");
+  for (int shift = 60; shift >= 0; shift -= 4) {
+    const char digit[] = {"0123456789abcdef"[(pattern >> shift) & 0xF], 0};
+    message.text(digit);
+  }
+}
+
+template <class Values>
+void print_doubles(const char* name, const Values& values) {
+  Message message;
+  message.text("  ").text(name);
+  unsigned in_line = 0;
+  for (const double value : values) {
+    if (in_line++ == 4) {  // a line holds 128 characters
+      message.write();
+      message.text("  ").text(name);
+      in_line = 1;
+    }
+    bits(message, value);
+  }
+  message.write();
+}
+
+void print_quad(const char* name, const marker::Quad& quad) {
+  print_doubles(name, std::array<double, 8>{quad[0].x, quad[0].y, quad[1].x, quad[1].y, quad[2].x,
+                                            quad[2].y, quad[3].x, quad[3].y});
+}
+
+void print_identification(const marker::Identification& identity) {
+  Message()
+      .text("  identity ")
+      .number(identity.found)
+      .text(" id ")
+      .number(identity.id)
+      .text(" rotation ")
+      .number(identity.rotation)
+      .text(" border ")
+      .number(identity.border)
+      .text(" code ")
+      .hexadecimal(identity.code)
+      .write();
+}
+
+void print_pose(const marker::Pose& pose) {
+  Message().text("  pose ").number(pose.valid).text(" iterations ").number(pose.iterations).write();
+  print_doubles("R", pose.rotation);
+  print_doubles("T", pose.translation);
+  print_doubles("error", std::array<double, 2>{pose.reprojection_px, pose.reprojection_mm});
+}
+
+void print_rectification(const marker::Quad& corners, const marker::BinaryImage& image) {
+  const marker::Homography h = marker::make_homography(corners, canonical_width);
+  print_doubles("homography",
+                std::array<double, 8>{h.h1, h.h2, h.u1, h.h4, h.h5, h.v1, h.h7, h.h8});
+  if (!h.valid) return;
+  marker::CellCounts cells{};
+  marker::rectify(image, h, canonical_width, cells);
+  for (const auto& row : cells.dark) {
+    Message message;
+    message.text("  cells");
+    for (const std::uint32_t dark : row) message.text(" ").number(dark);
+    message.write();
+  }
+}
+
+marker::BinaryImage image_of(const hal_dma_buffer& binary) {
+  return {static_cast<const std::uint32_t*>(binary.data), width, height, true};
+}
+
+}  // namespace
+
+bool SelfTest::prepare() {
+  constexpr std::size_t bytes = binary_words * sizeof(std::uint32_t);
+  if (binary_.data == nullptr) binary_ = hal_dma_allocate(bytes, 128);
+  return binary_.data != nullptr;
+}
+
+bool SelfTest::run(const GoldenText& text) {
+  if (!prepare() || !read_golden(text, words_, static_cast<std::uint32_t*>(binary_.data))) {
+    Message().text("algorithms: ").text(text.name).text(": no memory, or no golden frame").write();
+    return false;
+  }
+  hal_cache_flush(binary_.data, binary_.size);
+  marker::decode(words_.words.data(), words_.stored(), features_);
+  marker::evaluate_features(features_, {}, candidates_);
+  Message().text("algorithms: ").text(text.name).write();
+  print_features();
+  for (std::uint32_t i = 0; i < candidates_.count; ++i) print_candidate(i);
+  print_marker();
+  return true;
+}
+
+void SelfTest::print_features() const {
+  Message()
+      .text("  words ")
+      .number(words_.count)
+      .text(" corners ")
+      .number(features_.corner_count)
+      .text(" blobs ")
+      .number(features_.blob_count)
+      .text(" malformed ")
+      .number(features_.malformed)
+      .text(" candidates ")
+      .number(candidates_.count)
+      .write();
+}
+
+void SelfTest::print_candidate(std::uint32_t index) const {
+  const marker::Candidate& candidate = candidates_.candidates[index];
+  Message message;
+  message.text(" candidate ").number(index).text(" blob ").number(candidate.blob).text(" corners");
+  for (const std::uint16_t corner : candidate.corners) message.text(" ").number(corner);
+  message.write();
+  const marker::Quad corners = marker::candidate_corners(features_, candidate);
+  const marker::BinaryImage image = image_of(binary_);
+  print_rectification(corners, image);
+  print_identification(marker::identify_candidate(image, corners, canonical_width));
+  const marker::Quad clockwise = marker::marker_corners(corners, index % 4);
+  print_quad("corners", clockwise);
+  print_pose(marker::estimate_pose(clockwise, camera, all_iterations));
+}
+
+/// What the system itself would report.
+void SelfTest::print_marker() const {
+  const marker::FoundMarker marker =
+      marker::find_first_marker(features_, candidates_, image_of(binary_), canonical_width);
+  Message()
+      .text(" marker ")
+      .number(marker.found)
+      .text(" candidate ")
+      .number(marker.candidate)
+      .text(" examined ")
+      .number(marker.examined)
+      .write();
+  if (!marker.found) return;
+  print_identification(marker.identity);
+  print_quad("corners", marker.corners);
+  print_pose(marker::estimate_pose(marker.corners, camera, {}));
+}
+
+}  // namespace algorithms

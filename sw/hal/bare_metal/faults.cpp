@@ -1,0 +1,100 @@
+// What the CPU cannot carry out: said on the console, and the program has ended.
+#include <hal/hal.h>
+
+#include "chip_program.h"
+#include "memory_map.h"
+#include "text.h"
+
+namespace {
+
+enum class Fault : std::uint32_t { undefined, prefetch, data, fiq };  // as in start.S
+
+/// The kind of abort by status register (ARM architecture v7-A, table B3-23).
+const char* reason(std::uint32_t status) {
+  switch ((status >> 6 & 0x10) | (status & 0xF)) {
+    case 0x01:
+      return "unaligned address";
+    case 0x05:
+    case 0x07:
+      return "nothing is mapped there";
+    case 0x0D:
+    case 0x0F:
+      return "not permitted";
+    case 0x08:
+      return "bus error";
+    case 0x16:
+      return "bus error of an earlier write";
+    default:
+      return "see the status";
+  }
+}
+
+constexpr std::uint32_t imprecise = 0x16;
+
+bool has_address(std::uint32_t status) {
+  return ((status >> 6 & 0x10) | (status & 0xF)) != imprecise;
+}
+
+void describe_data_abort() {
+  std::uint32_t status = 0;
+  std::uint32_t address = 0;
+  asm volatile("mrc p15, 0, %0, c5, c0, 0" : "=r"(status));   // DFSR
+  asm volatile("mrc p15, 0, %0, c6, c0, 0" : "=r"(address));  // DFAR
+  chip::print((status & 1u << 11) ? "data abort: write" : "data abort: read");
+  if (has_address(status)) {
+    chip::print((status & 1u << 11) ? " to " : " of ");
+    chip::print_hexadecimal(address);
+  }
+  chip::print(": ");
+  const bool is_guard = address >= CHIP_STACK_GUARD && address < CHIP_STACK_FIRST;
+  chip::print(has_address(status) && is_guard ? "stack overflow" : reason(status));
+  chip::print(", status ");
+  chip::print_hexadecimal(status);
+}
+
+void describe_prefetch_abort() {
+  std::uint32_t status = 0;
+  asm volatile("mrc p15, 0, %0, c5, c0, 1" : "=r"(status));  // IFSR
+  chip::print("prefetch abort: ");
+  chip::print(reason(status));
+  chip::print(", status ");
+  chip::print_hexadecimal(status);
+}
+
+void describe(Fault fault) {
+  switch (fault) {
+    case Fault::undefined:
+      chip::print("undefined instruction");
+      break;
+    case Fault::prefetch:
+      describe_prefetch_abort();
+      break;
+    case Fault::data:
+      describe_data_abort();
+      break;
+    case Fault::fiq:
+      chip::print("fast interrupt, which nobody uses");
+      break;
+  }
+}
+
+bool describing = false;
+
+}  // namespace
+
+/// Called by the vectors. `status` is the program status of what was interrupted, `caller` its link
+/// register: register accesses all happen inside the HAL, and who called it matters more.
+extern "C" [[noreturn]] void chip_fault(Fault fault, std::uint32_t pc, std::uint32_t status,
+                                        std::uint32_t caller) {
+  if (describing) chip::end(chip::fault_exit_code);  // the description itself went wrong
+  describing = true;
+  constexpr std::uint32_t thumb = 1u << 5;
+  chip::print("\nchip: ");
+  describe(fault);
+  chip::print(", pc ");
+  chip::print_hexadecimal(fault == Fault::undefined && (status & thumb) ? pc + 2 : pc);
+  chip::print(", lr ");
+  chip::print_hexadecimal(caller);
+  chip::print("\n");
+  chip::end(chip::fault_exit_code);
+}

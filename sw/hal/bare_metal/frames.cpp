@@ -1,0 +1,118 @@
+// The program's images: one binary PGM file in the ELF, handed out as often as the build says.
+#include <hal/hal.h>
+
+#include <cstring>
+
+#include "chip_program.h"
+#include "text.h"
+
+extern "C" {
+extern const unsigned char chip_image_begin[];
+extern const unsigned char chip_image_end[];
+}
+
+namespace {
+
+#ifndef CHIP_FRAMES
+#define CHIP_FRAMES 1
+#endif
+
+/// The camera of the scenes (thesis chapter 5), its focal length scaled to the image's width.
+constexpr double standard_focal_length = 381.36;  // px
+constexpr double standard_width = 640;            // px
+
+[[noreturn]] void refuse(const char* reason) {
+  chip::print("chip: the image in the ELF ");
+  chip::print(reason);
+  chip::print("\n");
+  chip::end(chip::input_exit_code);
+}
+
+/// Reads the header of a PGM file: P5, width, height, 255, each after white space or comments.
+class PgmReader {
+ public:
+  PgmReader(const unsigned char* begin, const unsigned char* end) : at_(begin), end_(end) {}
+
+  bool magic() { return next() == 'P' && next() == '5'; }
+
+  std::uint32_t number() {
+    skip_space();
+    std::uint32_t value = 0;
+    while (peek() >= '0' && peek() <= '9' && value < 100'000) {
+      value = value * 10 + static_cast<std::uint32_t>(next() - '0');
+    }
+    return value;
+  }
+
+  /// What follows the single white space after the header.
+  const unsigned char* pixels() {
+    next();
+    return at_;
+  }
+
+ private:
+  int peek() const { return at_ < end_ ? *at_ : -1; }
+  int next() { return at_ < end_ ? *at_++ : -1; }
+  bool is_space() const { return peek() == ' ' || (peek() >= '\t' && peek() <= '\r'); }
+  void skip_space() {
+    while (is_space() || peek() == '#') {
+      if (peek() == '#') {
+        while (peek() != '\n' && peek() != -1) next();
+      } else {
+        next();
+      }
+    }
+  }
+
+  const unsigned char* at_;
+  const unsigned char* end_;
+};
+
+void set_camera(hal_frame& frame) {
+#ifdef CHIP_CAMERA
+  const double camera[] = {CHIP_CAMERA};
+  static_assert(sizeof camera == 4 * sizeof(double), "MARKERVP_CHIP_CAMERA is fx,fy,cx,cy");
+  frame.fx = camera[0];
+  frame.fy = camera[1];
+  frame.cx = camera[2];
+  frame.cy = camera[3];
+#else
+  frame.fx = frame.fy = standard_focal_length * (frame.width / standard_width);
+  frame.cx = frame.width / 2.0;
+  frame.cy = frame.height / 2.0;
+#endif
+}
+
+/// Copies the pixels into DMA memory: those in the file do not start at a whole word.
+void prepare(hal_frame& frame) {
+  PgmReader file(chip_image_begin, chip_image_end);
+  if (!file.magic()) refuse("is no binary PGM file (P5)");
+  frame.width = file.number();
+  frame.height = file.number();
+  if (file.number() != 255) refuse("does not have 255 as its white");
+  const unsigned char* pixels = file.pixels();
+  const std::uint64_t count = std::uint64_t{frame.width} * frame.height;
+  if (count == 0 || static_cast<std::uint64_t>(chip_image_end - pixels) < count) {
+    refuse("is cut off");
+  }
+  const hal_dma_buffer buffer = hal_dma_allocate(static_cast<size_t>(count), 4096);
+  if (buffer.data == nullptr) refuse("has no room in the DMA memory");
+  std::memcpy(buffer.data, pixels, static_cast<size_t>(count));
+  hal_cache_flush(buffer.data, buffer.size);
+  frame.pixels = static_cast<const std::uint8_t*>(buffer.data);
+  frame.bus_address = buffer.bus_address;
+  set_camera(frame);
+}
+
+hal_frame frame{};
+std::uint32_t frames_given = 0;
+
+}  // namespace
+
+extern "C" const hal_frame* hal_frame_next(void) {
+  const unsigned char* const end = chip_image_end;
+  if (chip_image_begin == end || frames_given == CHIP_FRAMES) return nullptr;
+  if (frames_given == 0) prepare(frame);
+  frame.index = frames_given++;
+  return &frame;
+}

@@ -1,0 +1,17 @@
+#ifndef SLEEP_H
+#define SLEEP_H
+
+/* Waits by looking at the global timer; interrupts are served meanwhile. Declared as POSIX does. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+int usleep(unsigned int useconds);
+unsigned int sleep(unsigned int seconds);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef XGPIO_H
+#define XGPIO_H
+
+/* AXI GPIO (PG144). */
+
+#include <xil_types.h>
+#include <xparameters.h>
+#include <xstatus.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  u16 DeviceId;
+  UINTPTR BaseAddress;
+  int InterruptPresent;
+  int IsDual;
+} XGpio_Config;
+
+typedef struct {
+  UINTPTR BaseAddress;
+  u32 IsReady;
+  int InterruptPresent;
+  int IsDual;
+} XGpio;
+
+/** NULL if there is no such device. */
+XGpio_Config* XGpio_LookupConfig(u16 DeviceId);
+int XGpio_CfgInitialize(XGpio* InstancePtr, XGpio_Config* Config, UINTPTR EffectiveAddr);
+/** XST_DEVICE_NOT_FOUND if there is no such device. */
+int XGpio_Initialize(XGpio* InstancePtr, u16 DeviceId);
+
+/** `Channel` is 1 or 2; a 1 in `DirectionMask` is an input. */
+void XGpio_SetDataDirection(XGpio* InstancePtr, unsigned Channel, u32 DirectionMask);
+u32 XGpio_GetDataDirection(XGpio* InstancePtr, unsigned Channel);
+u32 XGpio_DiscreteRead(XGpio* InstancePtr, unsigned Channel);
+void XGpio_DiscreteWrite(XGpio* InstancePtr, unsigned Channel, u32 Mask);
+void XGpio_DiscreteSet(XGpio* InstancePtr, unsigned Channel, u32 Mask);
+void XGpio_DiscreteClear(XGpio* InstancePtr, unsigned Channel, u32 Mask);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,50 @@
+#ifndef XIL_EXCEPTION_H
+#define XIL_EXCEPTION_H
+
+/* Of the exceptions only IRQ has a handler; the others end the program, as the HAL says. */
+
+#include <hal/hal.h>
+#include <xil_types.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef void (*Xil_ExceptionHandler)(void* data);
+
+#define XIL_EXCEPTION_ID_IRQ_INT 5U
+#define XIL_EXCEPTION_ID_INT XIL_EXCEPTION_ID_IRQ_INT
+#define XIL_EXCEPTION_IRQ 0x80U
+
+static inline void Xil_ExceptionInit(void) {}
+
+static inline void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler Handler,
+                                                void* Data) {
+  if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(Handler, Data);
+}
+
+static inline void Xil_ExceptionRemoveHandler(u32 Exception_id) {
+  if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(NULL, NULL);
+}
+
+static inline void Xil_ExceptionEnableMask(u32 Mask) {
+  if (Mask & XIL_EXCEPTION_IRQ) (void)hal_interrupt_enable(true);
+}
+
+static inline void Xil_ExceptionDisableMask(u32 Mask) {
+  if (Mask & XIL_EXCEPTION_IRQ) (void)hal_interrupt_enable(false);
+}
+
+static inline void Xil_ExceptionEnable(void) {
+  Xil_ExceptionEnableMask(XIL_EXCEPTION_IRQ);
+}
+
+static inline void Xil_ExceptionDisable(void) {
+  Xil_ExceptionDisableMask(XIL_EXCEPTION_IRQ);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,23 @@
+#ifndef XIL_PRINTF_H
+#define XIL_PRINTF_H
+
+#include <xil_types.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The console's printf without floating point: %c %s %d %i %u %x %X %p %%, the modifier l,
+ * a width, and the flags 0 and -. */
+void xil_printf(const char8* ctrl1, ...) __attribute__((format(printf, 1, 2)));
+
+/** Writes a string as it is. */
+void print(const char8* ptr);
+
+void outbyte(char c);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,22 @@
+#include "native_console.h"
+
+#include <vp/configuration.h>
+#include <zynq/session.h>
+
+#include "simulation.h"
+
+std::vector<std::string> native_console(
+    const std::string& program_file,
+    const std::vector<std::pair<std::string, std::string>>& settings) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  for (const auto& [path, value] : settings) configuration.set(path, value);
+  const vp::Configuration::Scope scope(configuration);
+  platform::Session session({program_file, std::nullopt});
+  configuration.check_unused();
+  std::vector<std::string> lines;
+  session.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
+  session.run([]() -> const platform::input::InputFrame* { return nullptr; },
+              [](platform::report::FrameReport&&) { return true; });
+  return lines;
+}

@@ -1,0 +1,113 @@
+// Xil_In…, Xil_Out…, cache names, exceptions.
+#include <boost/test/unit_test.hpp>
+
+#include <xil_cache.h>
+#include <xil_exception.h>
+#include <xil_io.h>
+
+#include "fake_hal.h"
+
+namespace {
+
+using fake_hal::Access;
+using fake_hal::state;
+
+struct Fixture {
+  Fixture() { fake_hal::reset(); }
+};
+
+constexpr UINTPTR gpio = 0x4120'0000;
+constexpr UINTPTR last_register = 0xFFFF'FFFC;
+
+void note(void* context) {
+  ++*static_cast<int*>(context);
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(xil_io, Fixture)
+
+BOOST_AUTO_TEST_CASE(words_of_devices_go_through_the_hal) {
+  Xil_Out32(gpio, 0x1234'5678);
+  BOOST_CHECK_EQUAL(Xil_In32(gpio), 0x1234'5678u);
+  Xil_Out32(last_register, 1);
+  BOOST_REQUIRE_EQUAL(state().accesses.size(), 3);
+  BOOST_CHECK(state().accesses[0] == (Access{true, 0x4120'0000, 0x1234'5678}));
+  BOOST_CHECK(state().accesses[1] == (Access{false, 0x4120'0000, 0x1234'5678}));
+  BOOST_CHECK(state().accesses[2] == (Access{true, 0xFFFF'FFFC, 1}));
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_word_are_cut_out_and_put_in) {
+  Xil_Out32(gpio, 0x4433'2211);
+  BOOST_CHECK_EQUAL(Xil_In8(gpio), 0x11);
+  BOOST_CHECK_EQUAL(Xil_In8(gpio + 3), 0x44);
+  BOOST_CHECK_EQUAL(Xil_In16(gpio), 0x2211);
+  BOOST_CHECK_EQUAL(Xil_In16(gpio + 2), 0x4433);
+  Xil_Out8(gpio + 1, 0xAA);
+  BOOST_CHECK_EQUAL(Xil_In32(gpio), 0x4433'AA11u);
+  Xil_Out16(gpio + 2, 0xBEEF);
+  BOOST_CHECK_EQUAL(Xil_In32(gpio), 0xBEEF'AA11u);
+  Xil_Out64(gpio + 8, 0x0123'4567'89AB'CDEF);
+  BOOST_CHECK_EQUAL(Xil_In32(gpio + 8), 0x89AB'CDEFu);
+  BOOST_CHECK_EQUAL(Xil_In32(gpio + 12), 0x0123'4567u);
+  BOOST_CHECK_EQUAL(Xil_In64(gpio + 8), 0x0123'4567'89AB'CDEFu);
+}
+
+BOOST_AUTO_TEST_CASE(memory_is_reached_by_pointer) {
+  u32 words[4] = {};
+  const auto address = reinterpret_cast<UINTPTR>(words);
+  Xil_Out32(address, 0x4433'2211);
+  Xil_Out8(address + 1, 0xAA);
+  Xil_Out16(address + 2, 0xBEEF);
+  Xil_Out64(address + 8, 0x0123'4567'89AB'CDEF);
+  BOOST_CHECK_EQUAL(words[0], 0xBEEF'AA11u);
+  BOOST_CHECK_EQUAL(words[2], 0x89AB'CDEFu);
+  BOOST_CHECK_EQUAL(Xil_In8(address + 1), 0xAA);
+  BOOST_CHECK_EQUAL(Xil_In16(address + 2), 0xBEEF);
+  BOOST_CHECK_EQUAL(Xil_In32(address), 0xBEEF'AA11u);
+  BOOST_CHECK_EQUAL(Xil_In64(address + 8), 0x0123'4567'89AB'CDEFu);
+  BOOST_CHECK(state().accesses.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_border_between_memory_and_registers) {
+  BOOST_CHECK(!markervp_is_register(0x3FFF'FFFF));
+  BOOST_CHECK(markervp_is_register(0x4000'0000));
+  BOOST_CHECK(markervp_is_register(0xFFFF'FFFF));
+  BOOST_CHECK(!markervp_is_register(UINTPTR{0x1'0000'0000}));
+}
+
+BOOST_AUTO_TEST_CASE(cache_ranges) {
+  char buffer[64];
+  const auto address = reinterpret_cast<INTPTR>(buffer);
+  Xil_DCacheEnable();
+  Xil_ICacheEnable();
+  BOOST_CHECK(state().flushed.empty());
+  Xil_DCacheFlushRange(address, 64);
+  Xil_DCacheInvalidateRange(address + 32, 32);
+  BOOST_REQUIRE_EQUAL(state().flushed.size(), 1);
+  BOOST_CHECK(state().flushed[0].first == buffer && state().flushed[0].second == 64);
+  BOOST_REQUIRE_EQUAL(state().invalidated.size(), 1);
+  BOOST_CHECK(state().invalidated[0].first == buffer + 32 && state().invalidated[0].second == 32);
+}
+
+BOOST_AUTO_TEST_CASE(only_irq_has_a_handler) {
+  int calls = 0;
+  Xil_ExceptionInit();
+  Xil_ExceptionRegisterHandler(0, &note, &calls);
+  BOOST_CHECK(state().handler == nullptr);
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_INT, &note, &calls);
+  BOOST_REQUIRE(state().handler == &note);
+  state().handler(state().handler_context);
+  BOOST_CHECK_EQUAL(calls, 1);
+  BOOST_CHECK(!state().enabled);
+  Xil_ExceptionEnable();
+  BOOST_CHECK(state().enabled);
+  Xil_ExceptionDisableMask(0x40);  // FIQ
+  BOOST_CHECK(state().enabled);
+  Xil_ExceptionDisable();
+  BOOST_CHECK(!state().enabled);
+  Xil_ExceptionRemoveHandler(XIL_EXCEPTION_ID_INT);
+  BOOST_CHECK(state().handler == nullptr);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
