@@ -19,9 +19,10 @@ constexpr const char* examples = R"(Examples:
   markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
   markervp scenes                           what can be run
   markervp config > platform.yaml           every parameter with its default
+  markervp map axi_dma_0                    addresses and registers that software sees
 
-Exit codes: 0 done, 1 a required marker was not found, 2 wrong usage, configuration or input,
-3 hardware or software broke a protocol rule.)";
+Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 wrong usage,
+configuration or input, 3 hardware or software broke a protocol rule.)";
 
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
@@ -71,6 +72,11 @@ void add_platform_options(CLI::App& command, RunOptions& target) {
       .add_option("--program", target.program,
                   "PS program: a file, or the name of an installed one")
       ->type_name("FILE");
+  command
+      .add_option("--system", target.system,
+                  "features from the PL (default), or everything on the PS")
+      ->type_name("hybrid|ps-only")
+      ->check(CLI::IsMember({"hybrid", "ps-only"}).description(""));
 }
 
 void add_output_options(CLI::App& command, RunOptions& target) {
@@ -98,6 +104,20 @@ void add_trace_options(CLI::App& command, RunOptions& target) {
   command.add_flag("--trace-clocks", target.trace_clocks, "record the clocks too");
 }
 
+void add_debug_options(CLI::App& command, RunOptions& target) {
+  command.add_option("--log-bus", target.log_bus, "write every bus access")->type_name("FILE");
+  command
+      .add_option("--log-bus-filter", target.log_bus_filter,
+                  "only these: axi_dma_0, 0x41200000, 0x40000000:0x4FFFFFFF")
+      ->type_name("DEVICE")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--register-coverage", target.register_coverage,
+                  "write which registers and bits the program used")
+      ->type_name("FILE");
+}
+
 void add_run(CLI::App& app, RunOptions& target) {
   CLI::App* command = app.add_subcommand("run", "run the platform on images");
   add_input_options(*command, target);
@@ -105,6 +125,7 @@ void add_run(CLI::App& app, RunOptions& target) {
   add_configuration_options(*command, target.configuration);
   add_output_options(*command, target);
   add_trace_options(*command, target);
+  add_debug_options(*command, target);
   command->footer(run_examples);
 }
 
@@ -116,6 +137,15 @@ void add_scenes(CLI::App& app, ScenesOptions& target) {
 
 void add_config(CLI::App& app, ConfigOptions& target) {
   CLI::App* command = app.add_subcommand("config", "print every parameter as it is in effect");
+  add_configuration_options(*command, target.configuration);
+}
+
+void add_map(CLI::App& app, MapOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("map", "print memory map, registers, interrupts and clocks");
+  command->add_option("DEVICE", target.device, "the registers of this device")->type_name("");
+  command->add_flag("--registers", target.registers, "the registers of all devices");
+  command->add_flag("--markdown", target.markdown, "everything, as a page of the documentation");
   add_configuration_options(*command, target.configuration);
 }
 
@@ -141,6 +171,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_run(*app, target.run);
   add_scenes(*app, target.scenes);
   add_config(*app, target.config);
+  add_map(*app, target.map);
   add_completion(*app, target.completion);
   return app;
 }

@@ -26,6 +26,10 @@ int list_scenes(const ScenesOptions& options, std::ostream& out);
 int print_configuration(const ConfigOptions& options, const SimulationFactory& make_simulation,
                         std::ostream& out);
 
+/// Prints memory map, registers and interrupts of the platform as it is configured.
+int print_map(const MapOptions& options, const SimulationFactory& make_simulation,
+              std::ostream& out);
+
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.

@@ -22,11 +22,15 @@ struct RunOptions {
   std::optional<std::string> fit;
   std::optional<std::string> fidelity;
   std::optional<std::string> program;
+  std::optional<std::string> system;
   std::optional<std::string> trace;
   std::optional<std::string> trace_window;
   std::vector<std::string> trace_filter;
   std::string trace_level = "ports";
   bool trace_clocks = false;
+  std::optional<std::string> log_bus;
+  std::vector<std::string> log_bus_filter;
+  std::optional<std::string> register_coverage;
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
   bool require_marker = false;
@@ -45,6 +49,14 @@ struct ConfigOptions {
   ConfigurationOptions configuration;
 };
 
+/// `markervp map`.
+struct MapOptions {
+  std::string device;      ///< empty: the memory map
+  bool registers = false;  ///< of all devices
+  bool markdown = false;   ///< the page of the documentation
+  ConfigurationOptions configuration;
+};
+
 /// `markervp completion`.
 struct CompletionOptions {
   std::string shell;
@@ -55,6 +67,7 @@ struct CommandLine {
   RunOptions run;
   ScenesOptions scenes;
   ConfigOptions config;
+  MapOptions map;
   CompletionOptions completion;
 };
 

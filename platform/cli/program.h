@@ -11,7 +11,7 @@ namespace platform::cli {
 /// Exit codes of the program (README).
 enum ExitCode {
   done = 0,
-  marker_missing = 1,
+  run_failed = 1,  ///< the program said so, or a required marker was not found
   wrong_input = 2,
   protocol_broken = 3,
   interrupted = 130,  ///< 128 + SIGINT, as shells count

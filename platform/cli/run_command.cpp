@@ -50,9 +50,18 @@ SimulationOptions simulation_options(const RunOptions& options) {
   if (traces && !options.trace) {
     throw vp::InputError("options of the trace without one: name its file with --trace");
   }
+  if (options.system && options.program) {
+    throw vp::InputError("--system names the program already: leave out --program");
+  }
   SimulationOptions result;
-  result.program = options.program;
+  result.program = options.system ? options.system : options.program;
   if (options.trace) result.trace = trace_options(options);
+  if (!options.log_bus_filter.empty() && !options.log_bus) {
+    throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
+  }
+  result.bus_log = options.log_bus;
+  result.bus_log_filter = options.log_bus_filter;
+  result.register_coverage = options.register_coverage;
   return result;
 }
 
@@ -173,23 +182,31 @@ class Warner {
 
 std::string written_text(const RunOptions& options, const FrameRunner& runner) {
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
-  if (!options.no_pictures)
+  if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
-  if (options.trace) text += ", " + *options.trace;
+  for (const auto& file : {options.trace, options.log_bus, options.register_coverage}) {
+    if (file) text += ", " + *file;
+  }
   return text + "\n";
 }
 
-int verdict(const RunOptions& options, const FrameRunner& runner, std::ostream& err) {
+int verdict(const RunOptions& options, const FrameRunner& runner, const report::RunFacts& facts,
+            std::ostream& err) {
   if (runner.error()) std::rethrow_exception(runner.error());
   if (InterruptGuard::interrupted()) {
     err << "markervp: interrupted; results up to here are kept" << std::endl;
     return interrupted;
   }
+  if (facts.end && facts.end->exit_code != 0) {
+    err << "markervp: program '" << facts.system << "' ended with exit code "
+        << facts.end->exit_code << std::endl;
+    return run_failed;
+  }
   if (options.require_marker && runner.without_marker() > 0) {
     err << "markervp: no marker in " << runner.without_marker() << " of "
         << report::counted(runner.frames(), "frame") << ", first in "
         << runner.first_without_marker() << std::endl;
-    return marker_missing;
+    return run_failed;
   }
   return done;
 }
@@ -231,7 +248,7 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   result.finish(facts, origin, warner.all(), incomplete(runner));
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
       << written_text(options, runner) << std::flush;
-  return verdict(options, runner, err);
+  return verdict(options, runner, facts, err);
 }
 
 }  // namespace platform::cli

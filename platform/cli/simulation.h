@@ -9,6 +9,7 @@
 
 #include <input/image_file.h>
 #include <input/input_frame.h>
+#include <report/hardware_map.h>
 #include <report/result.h>
 #include <vp/configuration.h>
 #include <vp/trace.h>
@@ -19,7 +20,10 @@ namespace platform::cli {
 struct SimulationOptions {
   std::optional<std::string>
       program;  ///< file or name of the PS program; none: the thesis' hybrid system
-  std::optional<vp::TraceOptions> trace;  ///< waveforms to record
+  std::optional<vp::TraceOptions> trace;    ///< waveforms to record
+  std::optional<std::string> bus_log;       ///< file of one line an access
+  std::vector<std::string> bus_log_filter;  ///< devices, addresses, ranges FIRST:LAST; none: all
+  std::optional<std::string> register_coverage;  ///< file: which registers the program used
 };
 
 /// The platform, elaborated and ready to run once.
@@ -37,6 +41,9 @@ class Simulation {
 
   /// What runs; `configuration` may be left empty.
   virtual report::RunFacts facts() const = 0;
+
+  /// Addresses, registers, interrupts and clocks, before it runs.
+  virtual report::HardwareMap map() = 0;
 
   /// Runs the PS program until `next` gives no more images. Neither function throws. `index` in a
   /// report counts the images given; it lacks `input`, `truth` and `camera`, which the caller

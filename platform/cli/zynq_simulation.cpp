@@ -1,10 +1,16 @@
 #include <cli/zynq_simulation.h>
 
 #include <filesystem>
+#include <iostream>
 
 #include <input/library_folder.h>
+#include <report/file_output.h>
 #include <vp/error.h>
 #include <vp/text.h>
+#include <zynq/bus_log.h>
+#include <zynq/debugger.h>
+#include <zynq/hardware_map.h>
+#include <zynq/register_coverage.h>
 #include <zynq/session.h>
 
 namespace platform::cli {
@@ -32,17 +38,66 @@ std::string program_file(const std::optional<std::string>& asked) {
                        ": give its file, or install markervp completely");
 }
 
+/// Prints what stands in the UARTs without line end, however the run ends.
+struct ConsoleFlush {
+  ProcessingSystem& ps;
+  ~ConsoleFlush() {
+    ps.uart0.console.flush();
+    ps.uart1.console.flush();
+  }
+};
+
+/// Writes which registers were used, however the run ends.
+class Coverage {
+ public:
+  Coverage(const std::optional<std::string>& file, Zynq& zynq) : zynq_(zynq) {
+    if (file) file_.emplace(*file);
+  }
+  ~Coverage() {
+    if (!file_) return;
+    try {
+      file_->write(register_coverage(zynq_));
+      file_->commit();
+    } catch (const vp::InputError& error) {
+      std::cerr << "markervp: " << error.what() << std::endl;
+    }
+  }
+  Coverage(const Coverage&) = delete;
+  Coverage& operator=(const Coverage&) = delete;
+
+ private:
+  Zynq& zynq_;
+  std::optional<report::AtomicFile> file_;
+};
+
 class ZynqSimulation : public Simulation {
  public:
   explicit ZynqSimulation(const SimulationOptions& options)
-      : session_({program_file(options.program), options.trace}) {}
+      : session_({program_file(options.program), options.trace}), options_(options) {
+    ProcessingSystem& ps = session_.zynq().ps;
+    const auto print = [](const std::string& line) { std::cout << line << std::endl; };
+    ps.cpu.console.connect(print);
+    ps.uart0.console.connect(print, "uart0: ");
+    ps.uart1.console.connect(print, "uart1: ");
+  }
 
   input::ImageSize image_size() const override { return session_.image_size(); }
   report::RunFacts facts() const override { return session_.facts(); }
-  void run(const NextFrame& next, const FrameDone& done) override { session_.run(next, done); }
+  report::HardwareMap map() override { return hardware_map(session_.zynq()); }
+  void run(const NextFrame& next, const FrameDone& done) override {
+    const ConsoleFlush flush{session_.zynq().ps};
+    const Debugged debugged(session_.zynq());
+    const Coverage coverage(options_.register_coverage, session_.zynq());
+    std::optional<BusLog> log;
+    if (options_.bus_log) {
+      log.emplace(BusLogOptions{*options_.bus_log, options_.bus_log_filter}, session_.zynq());
+    }
+    session_.run(next, done);
+  }
 
  private:
   Session session_;
+  SimulationOptions options_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <report/error_measure.h>
 #include <report/words.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 
 namespace platform::report {
 
@@ -144,6 +145,12 @@ std::string mean_error_text(const Summary& summary) {
       over);
 }
 
+std::string end_text(const RunFacts& facts) {
+  if (!facts.end) return "no frames: the program was stopped";
+  return fmt::format("no frames: the program ended at {} with exit code {}",
+                     vp::format_time(facts.end->ps), facts.end->exit_code);
+}
+
 }  // namespace
 
 std::string frame_text(const FrameReport& frame, std::optional<std::uint64_t> total) {
@@ -155,12 +162,13 @@ std::string frame_text(const FrameReport& frame, std::optional<std::uint64_t> to
 }
 
 std::string summary_text(const Summary& summary, const RunFacts& facts) {
+  const std::string point = fmt::format("   ({}, design {}, {}, profile {})\n", facts.system,
+                                        facts.design, facts.fidelity, facts.profile);
+  if (summary.frames() == 0) return end_text(facts) + point;
   std::string text =
       fmt::format("{}, {} with a marker", counted(summary.frames(), "frame"), summary.detected());
   if (summary.mistaken() > 0) text += fmt::format(", {} of them a wrong one", summary.mistaken());
-  text += fmt::format("   ({}, design {}, {}, profile {})\n", facts.system, facts.design,
-                      facts.fidelity, facts.profile);
-  if (summary.frames() == 0) return text;
+  text += point;
   text += fps_text(summary);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
   if (summary.warned() > 0) {

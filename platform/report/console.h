@@ -16,7 +16,8 @@ constexpr std::size_t console_width = 100;
 /// per stage. `total` is the number of frames of the run, where known.
 std::string frame_text(const FrameReport& frame, std::optional<std::uint64_t> total = std::nullopt);
 
-/// What the run amounts to: frames, FPS, latency, mean errors, and a table of the stages.
+/// What the run amounts to: frames, FPS, latency, mean errors, and a table of the stages. Of a
+/// program that reported no frame: when it ended, and how.
 std::string summary_text(const Summary& summary, const RunFacts& facts);
 
 }  // namespace platform::report

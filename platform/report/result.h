@@ -73,6 +73,12 @@ struct FrameReport {
   Features features;  ///< dropped once the picture is drawn
 };
 
+/// How the PS program ended.
+struct ProgramEnd {
+  int exit_code = 0;     ///< what it returned; 0: all went well
+  std::uint64_t ps = 0;  ///< when, in simulated time
+};
+
 /// The design point that ran.
 struct RunFacts {
   std::string fidelity;                              ///< "tlm" or "clocked"
@@ -80,6 +86,7 @@ struct RunFacts {
   std::string design;                                ///< which IP variants: "thesis"
   std::string profile;                               ///< cost table of the software
   std::map<std::string, std::string> configuration;  ///< path -> "value unit"
+  std::optional<ProgramEnd> end = std::nullopt;      ///< of the program; none: it was stopped
 };
 
 /// Everything that may differ between two runs of the same design point on the same inputs.

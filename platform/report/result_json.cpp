@@ -124,6 +124,13 @@ Json to_json(const Summary& summary) {
   return json;
 }
 
+Json to_json(const ProgramEnd& end) {
+  Json json;
+  json["exit_code"] = end.exit_code;
+  json["time_us"] = rounded(static_cast<double>(end.ps) / ps_per_us, us_places);
+  return json;
+}
+
 Json to_json(const Provenance& provenance) {
   Json json;
   json["program"] = provenance.program;

@@ -16,6 +16,7 @@ double rounded(double value, int places);
 /// One element of `frames`.
 Json to_json(const FrameReport& frame);
 Json to_json(const Summary& summary);
+Json to_json(const ProgramEnd& end);
 Json to_json(const Provenance& provenance);
 
 }  // namespace platform::report

@@ -59,6 +59,7 @@ void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
   for (const auto& [path, value] : facts.configuration) head["configuration"][path] = value;
   if (!warnings.empty()) head["warnings"] = warnings;
   if (incomplete) head["incomplete"] = *incomplete;
+  if (facts.end) head["program_end"] = to_json(*facts.end);
 
   AtomicFile file(path_);
   file.write(opened(head) + "  \"frames\": [");

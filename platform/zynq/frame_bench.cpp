@@ -5,6 +5,7 @@
 #include <vp/unit.h>
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 
 namespace platform {
 
@@ -40,7 +41,7 @@ report::Features features_of(const marker::FrameResult& result) {
 }  // namespace
 
 FrameBench::FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports)
-    : zynq_(zynq), options_(options), reports_(reports) {
+    : zynq_(zynq), cache_contract_(zynq), options_(options), reports_(reports) {
   const pl::Geometry geometry = zynq_.pl.geometry();
   const auto address = zynq_.ps.ddr.dma_memory().allocate(geometry.pixels(), 4096);
   if (!address) throw vp::InputError("ps.ddr.size leaves no memory for an image");
@@ -73,6 +74,7 @@ void FrameBench::place(const input::InputFrame& frame) {
   if (options_.value("upload", 1) < 0.5) zynq_.pl.bram.load(frame.image.pixels);
   std::memcpy(zynq_.ps.ddr.at(frame_.bus_address, frame.image.pixels.size()),
               frame.image.pixels.data(), frame.image.pixels.size());
+  cache_contract_.placed(frame_.bus_address, frame.image.pixels.size());
   frame_.index = frames_++;
   frame_.fx = frame.camera.fx;
   frame_.fy = frame.camera.fy;
@@ -90,13 +92,19 @@ void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   // Static: a result is too large for the stack of the program's thread.
   static marker::FrameResult result;
   std::memcpy(&result, data, size);
+  cache_contract_.published();
   report::FrameReport report = report_of(result, now_ps);
   add_counts(report);
+  if (result.has_threshold) report.counts.label_overflow = result.label_overflow;
   add_warnings(report, result);
   stop_ = !done_(std::move(report)) || stop_;
 }
 
-double FrameBench::option(std::uint32_t option, const hal_option_info&) {
+double FrameBench::option(std::uint32_t option, const hal_option_info& info) {
+  // On the chip the program is built for its clock. Here it may be any.
+  if (info.name == std::string_view("cpu_clock") && !options_.is_set(option)) {
+    return static_cast<double>(zynq_.ps.cpu_clk.clk.frequency_hz()) / 1e6;
+  }
   return options_.value(option);
 }
 
@@ -104,7 +112,7 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
                                           std::uint64_t now_ps) const {
   report::FrameReport report;
   report.index = result.frame;
-  report.threshold = threshold_;
+  report.threshold = result.has_threshold ? result.threshold : threshold_;
   report.counts.corners = result.features.corner_count + result.features.lost_corners;
   report.counts.blobs = result.features.blob_count + result.features.lost_blobs;
   report.counts.feature_words = result.feature_words;
@@ -123,6 +131,14 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
                   {"identification", duration(t.identification)},
                   {"pose", duration(t.pose)},
                   {"frame", duration(t.frame)}};
+  if (t.capture.end != 0) {
+    const std::vector<report::StageTime> parts = {
+        {"capture", duration(t.capture)},
+        {"corner_detection", duration(t.corner_detection)},
+        {"threshold", duration(t.threshold)},
+        {"blob_detection", duration(t.blob_detection)}};
+    report.times.insert(report.times.begin() + 1, parts.begin(), parts.end());
+  }
   report.end_ps = now_ps;
   report.start_ps = now_ps - duration(t.frame);
   report.upload_ps = duration(t.upload);
@@ -149,7 +165,9 @@ void FrameBench::add_warnings(report::FrameReport& report, const marker::FrameRe
   };
   lost(report.counts.feature_overflow,
        "features dropped: a buffer of pl.feature_packaging was full");
-  lost(report.counts.label_overflow, "dark pixels without label: pl.blob_detection has too few");
+  lost(report.counts.label_overflow,
+       result.has_threshold ? "dark pixels without label: sw.label_count is too small"
+                            : "dark pixels without label: pl.blob_detection has too few");
   lost(report.counts.bridge_overflow, "binary words dropped: DMA 1 was not armed again in time");
   lost(report.counts.crossing_overflow,
        "words lost between the clocks: the system clock is too slow");

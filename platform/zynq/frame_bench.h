@@ -10,6 +10,7 @@
 #include <ps/cpu/test_bench.h>
 #include <report/result.h>
 #include <vp/report.h>
+#include <zynq/cache_contract.h>
 #include <zynq/software_options.h>
 #include <zynq/zynq.h>
 
@@ -43,6 +44,7 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
   void add_warnings(report::FrameReport& report, const marker::FrameResult& result);
 
   Zynq& zynq_;
+  CacheContract cache_contract_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
   NextFrame next_;

@@ -1,15 +1,21 @@
 #include <zynq/processing_system.h>
 
+#include <gic_registers.h>
+#include <global_timer_registers.h>
+#include <private_timer_registers.h>
+#include <slcr_registers.h>
+#include <uart_registers.h>
+
 namespace platform {
 
 namespace {
 
 // UG585 table 4-1.
 constexpr std::uint64_t m_axi_gp0_base = 0x4000'0000, m_axi_gp0_size = 0x4000'0000;
-// UG585 appendix B: offsets from the private bus' base.
-constexpr std::uint64_t gic_cpu_interface = 0xF8F0'0100, global_timer_base = 0xF8F0'0200,
-                        gic_distributor = 0xF8F0'1000;
-constexpr std::uint32_t global_timer_interrupt = 27;
+// I/O peripherals, static memories and system registers, up to the private bus.
+constexpr std::uint64_t peripheral_base = 0xE000'0000;
+constexpr std::uint64_t peripheral_size = ps::PrivateBus::base - peripheral_base;
+constexpr std::uint64_t device_size = 0x1000, private_device_size = 0x100;
 
 }  // namespace
 
@@ -21,31 +27,86 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
                 "pixel clock (thesis table 4.2)"),
       cpu_clk("cpu_clk", scheduler, 666'666'667, vp::Source::published,
               "clock of the Cortex-A9 cores (CPU_6x4x)"),
+      uart0_ref_clk("uart0_ref_clk", scheduler, 0),  // the SLCR sets it
+      uart1_ref_clk("uart1_ref_clk", scheduler, 0),
+      poll_elision("poll_elision", true, vp::Source::decision,
+                   "polls pass over reads that cannot see anything new; false: every read is made "
+                   "(no result depends on it)"),
       cpu("cpu", cpu_clk.clk),
       interconnect("interconnect"),
       private_bus("private_bus", cpu_clk.clk),
       gic("gic", scheduler),
       global_timer("global_timer", cpu_clk.clk),
+      private_timer("private_timer", cpu_clk.clk),
+      peripheral_bus("peripheral_bus", cpu_clk.clk),
+      slcr("slcr", scheduler),
+      uart0("uart0", uart0_ref_clk),
+      uart1("uart1", uart1_ref_clk),
+      ocm("ocm", cpu_clk.clk),
       ddr("ddr"),
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
-      s_axi_hp0("s_axi_hp0") {
+      s_axi_hp0("s_axi_hp0"),
+      fclk_reset0_n(slcr.fclk_reset0_n) {
   using Addresses = vp::Router::Addresses;
   cpu.m_axi.socket.bind(interconnect.socket);
   interconnect.map("m_axi_gp0", m_axi_gp0_base, m_axi_gp0_size, Addresses::absolute)
       .bind(m_axi_gp0.socket);
-  interconnect.map("private_bus", ps::PrivateBus::base, ps::PrivateBus::size, Addresses::absolute)
-      .bind(private_bus.socket);
-  private_bus.devices.map("gic_cpu_interface", gic_cpu_interface, 0x100)
-      .bind(gic.cpu_interface.socket);
-  private_bus.devices.map("global_timer", global_timer_base, 0x100)
-      .bind(global_timer.registers.socket);
-  private_bus.devices.map("gic_distributor", gic_distributor, 0x1000).bind(gic.distributor.socket);
+  interconnect.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  map_private_bus();
+  map_peripherals();
   s_axi_hp0.map("ddr", ps::Ddr::base, ddr.size, Addresses::absolute).bind(ddr.socket);
 
-  gic.connect(global_timer_interrupt, global_timer.irq);
-  cpu.n_irq(gic.n_irq);
+  connect_interrupts();
+  connect_clocks();
+  slcr.level_shifters.guard(*interconnect.find(m_axi_gp0_base)->link);
   cpu.connect(ddr.dma_memory());
+  cpu.set_poll_elision(poll_elision);
   cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
+}
+
+void ProcessingSystem::map_private_bus() {
+  interconnect
+      .map("private_bus", ps::PrivateBus::base, ps::PrivateBus::size,
+           vp::Router::Addresses::absolute)
+      .bind(private_bus.socket);
+  vp::Router& devices = private_bus.devices;
+  devices.map("gic_cpu_interface", gic::cpu_interface_base, private_device_size)
+      .bind(gic.cpu_interface.socket);
+  devices.map("global_timer", global_timer::base, private_device_size)
+      .bind(global_timer.registers.socket);
+  devices.map("private_timer", private_timer::base, private_device_size)
+      .bind(private_timer.registers.socket);
+  devices.map("gic_distributor", gic::distributor_base, device_size).bind(gic.distributor.socket);
+}
+
+void ProcessingSystem::map_peripherals() {
+  interconnect
+      .map("peripheral_bus", peripheral_base, peripheral_size, vp::Router::Addresses::absolute)
+      .bind(peripheral_bus.socket);
+  vp::Router& devices = peripheral_bus.devices;
+  devices.map("uart0", uart::uart0_base, device_size).bind(uart0.registers.socket);
+  devices.map("uart1", uart::uart1_base, device_size).bind(uart1.registers.socket);
+  devices.map("slcr", slcr::base, device_size).bind(slcr.registers.socket);
+}
+
+void ProcessingSystem::connect_interrupts() {
+  interrupts_ = {{gic::global_timer_id, &global_timer.irq},
+                 {gic::private_timer_id, &private_timer.irq},
+                 {gic::watchdog_id, &private_timer.watchdog_irq},
+                 {uart::uart0_interrupt, &uart0.irq},
+                 {uart::uart1_interrupt, &uart1.irq}};
+  for (const Interrupt& interrupt : interrupts_) gic.connect(interrupt.id, *interrupt.source);
+  cpu.n_irq(gic.n_irq);
+}
+
+void ProcessingSystem::connect_clocks() {
+  slcr.drive_cpu(cpu_clk.clk);
+  slcr.drive_fclk(0, fclk_clk0.clk);
+  slcr.drive_fclk(1, fclk_clk1.clk);
+  slcr.drive_uart_ref(0, uart0_ref_clk);
+  slcr.drive_uart_ref(1, uart1_ref_clk);
+  uart0.rst(slcr.uart0_rst);
+  uart1.rst(slcr.uart1_rst);
 }
 
 std::string ProcessingSystem::device_at(std::uint32_t address) const {

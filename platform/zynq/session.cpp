@@ -1,20 +1,23 @@
 #include <zynq/session.h>
 
 #include <vp/error.h>
-#include <zynq/cost_profile.h>
 #include <exception>
 
 namespace platform {
 
-Session::Session(const Options& options)
-    : program_(ps::Program::load(options.program)), costs_(assumed_costs()) {
+Session::Session(const Options& options) : program_(ps::Program::load(options.program)) {
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
   zynq_ = std::make_unique<Zynq>(options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
-  options_ = std::make_unique<SoftwareOptions>("sw", program_->description());
+  profile_name_ = std::make_unique<vp::Parameter<std::string>>(
+      "profile", "thesis", vp::Source::decision,
+      "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
+      "or a file .json");
+  options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_);
+  costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
   trace_ = options.trace;
-  zynq_->ps.cpu.load(*program_, costs_);
+  zynq_->ps.cpu.load(*program_, costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
 }
 
@@ -28,7 +31,9 @@ report::RunFacts Session::facts() const {
   facts.fidelity = zynq_->fidelity.text();
   facts.system = program_->name();
   facts.design = "thesis";
-  facts.profile = costs_.profile();
+  facts.profile = costs_->costs.profile();
+  const ps::Cpu& cpu = zynq_->ps.cpu;
+  if (cpu.state() == ps::Cpu::State::finished) facts.end = {cpu.exit_code(), cpu.end_ps()};
   return facts;
 }
 

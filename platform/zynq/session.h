@@ -7,9 +7,10 @@
 #include <vector>
 
 #include <input/image_file.h>
-#include <ps/cpu/cost_table.h>
+#include <profiles/cost_profile.h>
 #include <ps/cpu/program.h>
 #include <report/result.h>
+#include <vp/parameter.h>
 #include <vp/report.h>
 #include <vp/trace.h>
 #include <zynq/frame_bench.h>
@@ -37,6 +38,9 @@ class Session {
   /// What runs; the configuration is left to the caller.
   report::RunFacts facts() const;
 
+  /// How long the software takes, and what that was fitted to.
+  const profiles::CostProfile& costs() const { return *costs_; }
+
   /// Runs the program until `next` gives no more images; `done` takes each frame's report and says
   /// whether to go on. Throws vp::ProtocolError if hardware or software broke a rule,
   /// vp::InputError if the trace cannot be written; the reports until then were handed over.
@@ -48,8 +52,9 @@ class Session {
  private:
   vp::ReportRouter reports_;
   std::unique_ptr<ps::Program> program_;
-  ps::CostTable costs_;
+  std::optional<profiles::CostProfile> costs_;
   std::unique_ptr<Zynq> zynq_;
+  std::unique_ptr<vp::Parameter<std::string>> profile_name_;
   std::unique_ptr<SoftwareOptions> options_;
   std::unique_ptr<FrameBench> bench_;
   std::optional<vp::TraceOptions> trace_;

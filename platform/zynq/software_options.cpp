@@ -6,6 +6,8 @@
 
 namespace platform {
 
+using profiles::Optimisation;
+
 namespace {
 
 /// The dimension a unit's name belongs to.
@@ -25,8 +27,13 @@ vp::Unit dimension_of(const std::string& unit, const hal_program& program, const
 
 }  // namespace
 
-SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program)
-    : sc_module(name) {
+SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
+                                 const std::string& profile)
+    : sc_module(name),
+      opt_("opt", profile == "a9-O2" ? Optimisation::o2 : Optimisation::o0,
+           {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
+           "how the software is compiled; the thesis' times are those of -O0, the vendor tool's "
+           "default") {
   for (std::uint32_t i = 0; i < program.option_count; ++i) {
     const hal_option_info& info = program.options[i];
     const vp::Unit dimension = dimension_of(info.unit, program, info.name);
@@ -41,6 +48,11 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
                                  vp::Source::decision, info.documentation);
     values_.push_back(parameter.get() / base);
   }
+}
+
+std::optional<Optimisation> SoftwareOptions::optimisation() const {
+  if (!opt_.is_set()) return std::nullopt;
+  return opt_.get();
 }
 
 double SoftwareOptions::value(const std::string& option, double otherwise) const {

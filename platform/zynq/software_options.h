@@ -1,28 +1,37 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include <hal/hal.h>
+#include <profiles/cost_profile.h>
 #include <vp/parameter.h>
 
 namespace platform {
 
-/// The options that a PS program declares, as parameters `sw.<name>`.
+/// How a PS program is compiled, and the options that it declares, as parameters `sw.<name>`.
 class SoftwareOptions : public sc_core::sc_module {
  public:
-  /// Throws vp::InputError for a value out of its range, and for a unit that the program's option
-  /// may not have.
-  SoftwareOptions(sc_core::sc_module_name name, const hal_program& program);
+  /// `profile`: the name of the cost profile, for the default of `opt`. Throws vp::InputError for a
+  /// value out of its range, and for a unit that the program's option may not have.
+  SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
+                  const std::string& profile);
+
+  /// What the user asked for; none: what the profile is for.
+  std::optional<profiles::Optimisation> optimisation() const;
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
-  /// The same by name; `otherwise` if the program has no such option.
+  /// True if the user set it.
+  bool is_set(std::uint32_t option) const { return parameters_.at(option).is_set(); }
+  /// The value by name; `otherwise` if the program has no such option.
   double value(const std::string& option, double otherwise) const;
 
  private:
+  vp::Parameter<profiles::Optimisation> opt_;
   std::deque<vp::Parameter<double>> parameters_;
   std::vector<double> values_;
 };

@@ -21,6 +21,16 @@ Zynq::Zynq(pl::Fidelity otherwise)
   ps.gic.irq_f2p(pl.concat.dout);
   pl.proc_sys_reset.ext_reset_in(ps.fclk_reset0_n);
   scheduler.set_batch(true);
+  ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
+}
+
+std::string Zynq::device_at(std::uint32_t address) const {
+  for (const vp::Router* bus :
+       {static_cast<const vp::Router*>(&pl.axi_interconnect), &ps.private_bus.devices,
+        &ps.peripheral_bus.devices, &ps.interconnect}) {
+    if (const vp::Router::Region* region = bus->find(address)) return region->name;
+  }
+  return {};
 }
 
 }  // namespace platform

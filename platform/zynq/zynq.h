@@ -18,6 +18,9 @@ struct Zynq {
   vp::ClockScheduler scheduler{"scheduler"};
   ProcessingSystem ps{"ps", scheduler};
   ProgrammableLogic pl{"pl", ps.fclk_clk0.clk, ps.fclk_clk1.clk, fidelity};
+
+  /// What the processor finds at an address; of several the nearest to the device. "" for nothing.
+  std::string device_at(std::uint32_t address) const;
 };
 
 }  // namespace platform

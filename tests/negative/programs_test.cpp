@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(programs_that_cannot_be_loaded) {
 }
 
 BOOST_AUTO_TEST_CASE(options_of_the_program_are_checked) {
-  run_refuses({"--program", MARKERVP_FAULTY, "--set", "sw.mistake=9"}, {"sw.mistake", "0 to 5"});
+  run_refuses({"--program", MARKERVP_FAULTY, "--set", "sw.mistake=9"}, {"sw.mistake", "0 to 7"});
   run_refuses({"--program", MARKERVP_FAULTY, "--set", "sw.margin=4 px"}, {"sw.margin"});
 }
 
@@ -89,6 +89,16 @@ BOOST_AUTO_TEST_CASE(a_program_that_sleeps_forever) {
 
 BOOST_AUTO_TEST_CASE(a_result_of_unknown_kind) {
   fails(5, {"unknown kind", "320 ns"});
+}
+
+BOOST_AUTO_TEST_CASE(a_buffer_that_was_not_flushed) {
+  for (const bool flushed : {false, true}) {
+    const kit::Outcome outcome =
+        start({"run", "z1.0", "z1.5", "--no-pictures", "--program", MARKERVP_FAULTY, "--set",
+               flushed ? "sw.mistake=7" : "sw.mistake=6"});
+    BOOST_TEST(outcome.exit_code == 0);
+    BOOST_TEST(contains(outcome.err, "never flushed") == !flushed, outcome.err);
+  }
 }
 
 /// Nothing was found before the mistake: still a result, with no frames.

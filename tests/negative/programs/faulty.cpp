@@ -15,8 +15,21 @@ enum class Mistake {
   reads_between,
   polls_forever,
   sleeps_forever,
-  publishes_rubbish
+  publishes_rubbish,
+  transfers_unflushed,
+  transfers_flushed
 };
+
+// An image for the PL, through DMA 0.
+void transfer(bool flushed) {
+  constexpr std::uint32_t dma = 0x4040'0000, bytes = 128;
+  const hal_dma_buffer buffer = hal_dma_allocate(bytes, 32);
+  if (flushed) hal_cache_flush(buffer.data, buffer.size);
+  hal_write32(dma, 1);
+  hal_write32(dma + 0x18, buffer.bus_address);
+  hal_write32(dma + 0x28, bytes);
+  for (int i = 0; i < 100; ++i) hal_read32(dma + 4);
+}
 
 void make(Mistake mistake) {
   switch (mistake) {
@@ -39,11 +52,17 @@ void make(Mistake mistake) {
     case Mistake::publishes_rubbish:
       hal_publish(HAL_KIND('R', 'U', 'B', '!'), &mistake, sizeof mistake);
       break;
+    case Mistake::transfers_unflushed:
+      transfer(false);
+      break;
+    case Mistake::transfers_flushed:
+      transfer(true);
+      break;
   }
 }
 
 const hal_option_info options[] = {
-    {"mistake", "", 0, 0, 5, "what the program does wrong after its first frame"}};
+    {"mistake", "", 0, 0, 7, "what the program does wrong after its first frame"}};
 
 int entry() {
   static marker::FrameResult result;

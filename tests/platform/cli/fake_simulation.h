@@ -17,6 +17,8 @@ class FakeSimulation : public platform::cli::Simulation {
     std::optional<std::uint32_t> break_at;     ///< vp::ProtocolError instead of this frame's report
     std::function<void(std::uint32_t)> after;  ///< called when a frame's report was handed over
     bool refuses = false;                      ///< vp::InputError as soon as it runs
+    bool takes_images = true;                  ///< false: the program never asks for one
+    std::optional<int> exit_code;              ///< of the program; none: it did not end
     std::uint32_t runs = 0;                    ///< times that run() was entered
   };
 
@@ -24,12 +26,37 @@ class FakeSimulation : public platform::cli::Simulation {
 
   platform::input::ImageSize image_size() const override { return behaviour_.size; }
   platform::report::RunFacts facts() const override {
-    return {"clocked", "hybrid", "thesis", "assumed", {}};
+    platform::report::RunFacts facts{"clocked", "hybrid", "thesis", "assumed", {}};
+    if (behaviour_.exit_code) facts.end = {*behaviour_.exit_code, 1'500'000};
+    return facts;
+  }
+
+  platform::report::HardwareMap map() override {
+    using Map = platform::report::HardwareMap;
+    static const int kind = 0;
+    Map::Device memory{"ddr",      "DDR memory",   "ps.ddr", 0x10'0000,
+                       511u << 20, "its own port", {},       {}};
+    Map::Device timer{"timer",
+                      "a timer",
+                      "ps.timer.registers",
+                      0xF000'0000,
+                      0x100,
+                      "bus",
+                      {{"LOAD", 0, 5, 0, true, 0x123, "rw", 0xFFFF, "Start value"},
+                       {"STATUS", 0xC, 1, 0, false, 0, "w1c", 0x1, "Event | flag"}},
+                      &kind};
+    Map::Device second = timer;
+    second.name = "timer_1";
+    second.base = 0xF000'1000;
+    return {{memory, timer, second},
+            {{29, "ps.timer.irq"}},
+            {{"ps.clk", 50'000'000, "CLK_CTRL", 50'000'000}, {"ps.odd", 7, "CLK_2", 8}}};
   }
 
   void run(const NextFrame& next, const FrameDone& done) override {
     ++behaviour_.runs;
     if (behaviour_.refuses) throw vp::InputError("the trace filter matches no signal");
+    if (!behaviour_.takes_images) return;
     for (std::uint32_t index = 0; const platform::input::InputFrame* frame = next(); ++index) {
       if (behaviour_.break_at == index) throw vp::ProtocolError("the DMA was not armed");
       if (!done(report_of(*frame, index))) return;

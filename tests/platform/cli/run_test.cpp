@@ -71,6 +71,33 @@ BOOST_AUTO_TEST_CASE(a_required_marker_that_is_missing_is_exit_code_1) {
   BOOST_TEST(Terminal().run_inputs({"z1.0", "--require-marker"}) == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_program_without_images) {
+  behaviour.takes_images = false;
+  behaviour.exit_code = 0;
+  BOOST_TEST(run_inputs({}) == 0);
+  BOOST_TEST(err.str() == "");
+  BOOST_TEST(contains(out.str(), "no frames: the program ended at 1.5 us with exit code 0"),
+             out.str());
+  BOOST_TEST(!contains(out.str(), "picture"), out.str());
+  BOOST_TEST(!contains(out.str(), "marker,"), out.str());
+  BOOST_TEST(Json::parse(result())["program_end"]["time_us"] == 1.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_program_that_fails_is_exit_code_1) {
+  behaviour.exit_code = 4;
+  BOOST_TEST(run_inputs({"z1.0"}) == 1);
+  BOOST_TEST(err.str() == "markervp: program 'hybrid' ended with exit code 4\n");
+  BOOST_TEST(Json::parse(result())["program_end"]["exit_code"] == 4);
+  BOOST_TEST(Json::parse(result())["frames"].size() == 1u, "its results are kept");
+}
+
+BOOST_AUTO_TEST_CASE(a_program_that_is_stopped_has_no_exit_code) {
+  behaviour.break_at = 0;
+  BOOST_TEST(run_inputs({"z1.0"}) == 3);
+  BOOST_TEST(contains(out.str(), "no frames: the program was stopped"), out.str());
+  BOOST_TEST(Json::parse(result()).count("program_end") == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(frames_and_repeat) {
   BOOST_TEST(run_inputs({"z1.0", "z2.0", "--repeat", "3", "--frames", "5", "--no-pictures"}) == 0);
   const Json frames = Json::parse(result())["frames"];

@@ -94,7 +94,11 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_run) {
-  BOOST_TEST(contains(report::summary_text({}, facts()), "0 frames, 0 with a marker"));
+  report::RunFacts run = facts();
+  BOOST_TEST(contains(report::summary_text({}, run), "no frames: the program was stopped   ("));
+  run.end = {7, 1'250'000'000};
+  BOOST_TEST(contains(report::summary_text({}, run),
+                      "no frames: the program ended at 1.25 ms with exit code 7   ("));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,93 @@
+# What `cmake --install` puts where, and the CMake package. Included last: it looks at targets of all folders.
+#   bin/markervp               the executable
+#   lib/markervp/              its plug-ins; programs/ has the PS programs that it finds by name
+#   lib/libmarkervp_*.a        the libraries
+#   include/markervp/<root>/   one include root for each layer, as in the source tree
+#   lib/cmake/markervp/        find_package(markervp)
+#   share/markervp/            program/ and platform/ are templates; markervp.gdb has commands for gdb
+include(CMakePackageConfigHelpers)
+set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/markervp")
+set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/markervp")
+set(data_folder "${CMAKE_INSTALL_DATADIR}/markervp")
+
+# Exports markervp_<NAME> as markervp::<NAME>, here as in the package. ROOT: of its headers, below include/markervp.
+function(markervp_export NAME)
+  cmake_parse_arguments(LIBRARY "" "COMPONENT;ROOT" "" ${ARGN})
+  set(target markervp_${NAME})
+  add_library(markervp::${NAME} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
+  # The folders of the source tree are of no use to others.
+  get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  if(folders)
+    set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "$<BUILD_INTERFACE:${folders}>")
+  endif()
+  set(includes "")
+  if(LIBRARY_ROOT)
+    set(includes INCLUDES DESTINATION "${header_folder}/${LIBRARY_ROOT}")
+  endif()
+  install(TARGETS ${target} EXPORT markervp_${LIBRARY_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${includes})
+endfunction()
+
+# For PS programs: no more than they see in the source tree.
+markervp_export(register_description COMPONENT programs ROOT registers)
+markervp_export(registers COMPONENT programs ROOT registers)
+markervp_export(hal COMPONENT programs ROOT hal)
+markervp_export(drivers COMPONENT programs ROOT sw)
+markervp_export(marker COMPONENT programs ROOT sw)
+markervp_export(compat COMPONENT programs ROOT compat)
+# For platforms.
+markervp_export(systemc COMPONENT models)
+markervp_export(vp COMPONENT models ROOT vp)
+markervp_export(xilinx COMPONENT models ROOT models)
+markervp_export(pl_cores COMPONENT models ROOT models)
+markervp_export(pl COMPONENT models ROOT models)
+markervp_export(ps COMPONENT models ROOT models)
+# What the headers ask of those who include them.
+foreach(library drivers marker vp)
+  target_compile_features(markervp_${library} PUBLIC cxx_std_17)
+endforeach()
+
+# Headers of the folder FROM, and what lies below but for the folders named SKIP, into the include root ROOT.
+function(markervp_install_headers FROM ROOT)
+  cmake_parse_arguments(HEADERS "" "" "SKIP" ${ARGN})
+  set(skip "")
+  foreach(name IN LISTS HEADERS_SKIP)
+    list(APPEND skip PATTERN "${name}" EXCLUDE)
+  endforeach()
+  install(DIRECTORY "${FROM}" DESTINATION "${header_folder}/${ROOT}" FILES_MATCHING PATTERN "*.h" ${skip})
+endfunction()
+
+get_target_property(register_folders markervp_registers INTERFACE_INCLUDE_DIRECTORIES)
+string(REGEX REPLACE "^\\$<BUILD_INTERFACE:(.*)>$" "\\1" register_folders "${register_folders}")
+foreach(folder IN LISTS register_folders)
+  markervp_install_headers("${folder}/" registers)
+endforeach()
+markervp_install_headers(vp/registers/include/ registers)
+markervp_install_headers(vp/include/ vp)
+foreach(group pl ps xilinx)
+  markervp_install_headers(models/${group} models SKIP registers)
+endforeach()
+markervp_install_headers(sw/hal/include/ hal)
+markervp_install_headers(sw/hal/compat/include/ compat)
+markervp_install_headers(sw/drivers sw)
+markervp_install_headers(sw/marker sw)
+
+install(TARGETS hybrid ps-only blink LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
+install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
+install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
+install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+foreach(component programs models)
+  install(EXPORT markervp_${component} NAMESPACE markervp:: DESTINATION "${package_folder}"
+    FILE markervp_${component}.cmake)
+endforeach()
+configure_package_config_file(cmake/markervpConfig.cmake.in "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
+  INSTALL_DESTINATION "${package_folder}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
+  "${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
+  cmake/MarkervpProgram.cmake
+  DESTINATION "${package_folder}")

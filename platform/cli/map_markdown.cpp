@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <cli/map_markdown.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform::cli {
+
+namespace {
+
+using report::HardwareMap;
+
+constexpr const char* head = R"(# Registers
+
+What software sees of the platform, as `markervp map --markdown` prints it; the program makes this page, a test keeps it
+up to date. Names, offsets, reset values and access come from the register descriptions (`models/*/*/registers/`), which
+the models and the PS software include, too.
+
+Access: `rw` read and write, `ro` read only, `wo` write only (reads 0), `w1c` writing 1 clears the bit, `w1t` writing 1
+inverts it. Writes change the bits of the column *writable* only. Reset values are those of an IP with all its build
+options; *at the start* is what boot code has left in this platform when the program begins. `markervp map DEVICE` shows
+the build and the values of one device of the platform as you configure it.
+)";
+
+/// A bar ends a cell of a table.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+/// 0x4120_0000, as the manuals write it.
+std::string address(std::uint64_t value) {
+  return fmt::format("0x{:04X}_{:04X}", value >> 16, value & 0xFFFF);
+}
+
+std::string devices(const HardwareMap& map) {
+  std::string text =
+      "\n## Memory map\n\n| Addresses | Size | Device | What | Reached through |\n"
+      "|---|---|---|---|---|\n";
+  for (const HardwareMap::Device& d : map.devices) {
+    text += fmt::format("| {} … {} | {} | `{}` | {} | {} |\n", address(d.base),
+                        address(d.base + d.size - 1),
+                        vp::format_quantity(vp::Decimal(d.size, 0), vp::Unit::bytes), d.name,
+                        cell(d.what), cell(d.way));
+  }
+  return text;
+}
+
+std::string interrupts(const HardwareMap& map) {
+  std::string text = "\n## Interrupts\n\n| Number | Raised by |\n|---|---|\n";
+  for (const HardwareMap::Interrupt& i : map.interrupts) {
+    text += fmt::format("| {} | `{}` |\n", i.id, i.source);
+  }
+  return text;
+}
+
+std::string clocks(const HardwareMap& map) {
+  std::string text = "\n## Clocks\n\n| Clock | At the start | Set by |\n|---|---|---|\n";
+  for (const HardwareMap::Clock& c : map.clocks) {
+    text +=
+        fmt::format("| `{}` | {} | {} |\n", c.name,
+                    vp::format_quantity(vp::Decimal(c.hertz, 0), vp::Unit::frequency), c.set_by);
+  }
+  return text;
+}
+
+/// Devices of one kind: the first stands for all.
+std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
+  std::vector<std::string> names;
+  for (const HardwareMap::Device* d : kind) {
+    names.push_back(fmt::format("`{}` at {}", d->name, address(d->base)));
+  }
+  const HardwareMap::Device& first = *kind.front();
+  std::string text = fmt::format("\n## {}\n\n{}.\n\n", first.what, vp::join(names, ", "));
+  text += "| Offset | Register | Access | Reset | Writable | What |\n|---|---|---|---|---|---|\n";
+  for (const HardwareMap::Register& r : first.registers) {
+    const std::string start =
+        r.at_start == r.reset ? "" : fmt::format("; {} at the start", address(r.at_start));
+    text +=
+        fmt::format("| 0x{:03X} | {} | {} | {} | {} | {}{} |\n", r.offset, r.name, r.access,
+                    address(r.declared_reset), address(r.writable), cell(r.documentation), start);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string map_as_markdown(const HardwareMap& map) {
+  std::string text = head + devices(map) + interrupts(map) + clocks(map);
+  std::vector<const void*> done;
+  for (const HardwareMap::Device& device : map.devices) {
+    if (device.registers.empty() ||
+        std::find(done.begin(), done.end(), device.description) != done.end()) {
+      continue;
+    }
+    done.push_back(device.description);
+    std::vector<const HardwareMap::Device*> kind;
+    for (const HardwareMap::Device& other : map.devices) {
+      if (other.description == device.description) kind.push_back(&other);
+    }
+    text += registers(kind);
+  }
+  return text;
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,116 @@
+#include <zynq/bus_log.h>
+
+#include <vp/error.h>
+#include <vp/hex.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+#include <zynq/hardware_map.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace platform {
+
+namespace {
+
+/// The number of all of `text`, decimal or hexadecimal; false if it is none.
+bool number(const std::string& text, std::uint64_t& value) {
+  char* end = nullptr;
+  errno = 0;
+  value = std::strtoull(text.c_str(), &end, 0);
+  return !text.empty() && text[0] >= '0' && text[0] <= '9' && *end == '\0' && errno == 0;
+}
+
+/// As AXI calls it.
+const char* answer_of(const tlm::tlm_generic_payload& payload) {
+  if (payload.is_response_ok()) return "OK";
+  return payload.get_response_status() == tlm::TLM_ADDRESS_ERROR_RESPONSE ? "DECERR" : "SLVERR";
+}
+
+std::string value_of(const tlm::tlm_generic_payload& payload) {
+  std::uint32_t word = 0;
+  if (payload.get_data_length() != sizeof word) {
+    return std::to_string(payload.get_data_length()) + " bytes";
+  }
+  if (payload.is_read() && !payload.is_response_ok()) return "-";
+  std::memcpy(&word, payload.get_data_ptr(), sizeof word);
+  return vp::hex(word);
+}
+
+}  // namespace
+
+BusLog::Observer::Observer(BusLog& log, vp::MmLink& link, std::string name, bool transactions)
+    : log_(log), link_(link), name_(std::move(name)), transactions_(transactions) {
+  link_.add_observer(*this);
+}
+
+void BusLog::Observer::before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) {
+  start_ps_ = log_.zynq_.scheduler.now_ps() + vp::to_ps(delay);
+}
+
+void BusLog::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+  if (!log_.wanted(payload.get_address(), payload.get_data_length())) return;
+  log_.write(start_ps_, name_, payload.is_read(), payload.get_address(), value_of(payload),
+             answer_of(payload));
+}
+
+void BusLog::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
+                              std::uint64_t bytes) {
+  if (!log_.wanted(address, bytes)) return;
+  log_.write(log_.zynq_.scheduler.now_ps(), name_, command == tlm::TLM_READ_COMMAND, address,
+             std::to_string(bytes) + " bytes", "OK");
+}
+
+BusLog::BusLog(const BusLogOptions& options, Zynq& zynq) : zynq_(zynq), names_(hardware_map(zynq)) {
+  for (const std::string& word : options.filter) ranges_.push_back(parse(word));
+  file_.open(options.file);
+  if (!file_) {
+    throw vp::InputError("cannot write bus log '" + options.file + "': " + std::strerror(errno) +
+                         "; name a file in a folder that exists and may be written");
+  }
+  const auto watch = [this](vp::MmLink& link, const char* name, bool transactions) {
+    observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
+  };
+  watch(zynq.ps.cpu.m_axi, "cpu", true);
+  watch(zynq.pl.axi_dma_0.mm2s().m_axi.link, "axi_dma_0", false);
+  watch(zynq.pl.axi_dma_1.s2mm().m_axi.link, "axi_dma_1", false);
+}
+
+BusLog::~BusLog() = default;
+
+BusLog::Range BusLog::parse(const std::string& word) const {
+  if (const auto* device = names_.find(word))
+    return {device->base, device->base + device->size - 1};
+  Range range{};
+  const std::size_t colon = word.find(':');
+  if (number(word.substr(0, colon), range.first)) {
+    range.last = range.first;
+    if (colon == std::string::npos ||
+        (number(word.substr(colon + 1), range.last) && range.last >= range.first)) {
+      return range;
+    }
+  }
+  throw vp::InputError("--log-bus-filter '" + word +
+                       "': neither an address (0x41200000), a range of them "
+                       "(0x41200000:0x4120FFFF), nor a device: " +
+                       vp::one_of(names_.names()));
+}
+
+bool BusLog::wanted(std::uint64_t address, std::uint64_t bytes) const {
+  return ranges_.empty() || std::any_of(ranges_.begin(), ranges_.end(), [&](const Range& range) {
+           return address <= range.last &&
+                  address + std::max<std::uint64_t>(bytes, 1) > range.first;
+         });
+}
+
+void BusLog::write(std::uint64_t ps, const std::string& initiator, bool read, std::uint64_t address,
+                   const std::string& value, const std::string& answer) {
+  const std::string name = names_.text(address);
+  file_ << vp::format_time(ps) << "  " << initiator << "  " << (read ? "read " : "write") << "  "
+        << vp::hex(address) << "  " << (name.empty() ? "-" : name) << "  " << value << "  "
+        << answer << '\n';
+}
+
+}  // namespace platform

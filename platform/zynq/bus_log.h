@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <vp/mm_link.h>
+#include <zynq/device_names.h>
+#include <zynq/zynq.h>
+
+namespace platform {
+
+/// What a bus log is to contain.
+struct BusLogOptions {
+  std::string file;
+  /// Devices ("axi_dma_0"), addresses ("0x41200000") or ranges of them, ends included
+  /// ("0x41200000:0x4120FFFF"). Empty: everything.
+  std::vector<std::string> filter;
+};
+
+/// Writes a line for each access of the processor and each burst of a DMA, while it lives:
+///
+///   320 ns  cpu  read  0x41200000  axi_gpio_0.GPIO_DATA  0x00000000  OK
+///
+/// The time is that at which the access leaves its initiator. The reads of a poll are all made, and
+/// logged, one by one: no time changes by that. Bursts have their size in place of a value.
+class BusLog {
+ public:
+  /// Throws vp::InputError if the file cannot be written or the filter names no device.
+  BusLog(const BusLogOptions& options, Zynq& zynq);
+  ~BusLog();
+  BusLog(const BusLog&) = delete;
+  BusLog& operator=(const BusLog&) = delete;
+
+ private:
+  struct Range {
+    std::uint64_t first, last;
+  };
+  /// One initiator. DMA engines may go on using direct access.
+  class Observer : public vp::MmObserver {
+   public:
+    Observer(BusLog& log, vp::MmLink& link, std::string name, bool transactions);
+    ~Observer() override { link_.remove_observer(*this); }
+    Observer(const Observer&) = delete;
+    Observer& operator=(const Observer&) = delete;
+    bool needs_transactions() const override { return transactions_; }
+    void before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
+    void after(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
+    void direct(vp::MmLink&, tlm::tlm_command, std::uint64_t address, std::uint64_t bytes) override;
+
+   private:
+    BusLog& log_;
+    vp::MmLink& link_;
+    std::string name_;
+    bool transactions_;
+    std::uint64_t start_ps_ = 0;
+  };
+
+  Range parse(const std::string& word) const;
+  bool wanted(std::uint64_t address, std::uint64_t bytes) const;
+  void write(std::uint64_t ps, const std::string& initiator, bool read, std::uint64_t address,
+             const std::string& value, const std::string& answer);
+
+  Zynq& zynq_;
+  DeviceNames names_;
+  std::vector<Range> ranges_;
+  std::ofstream file_;
+  std::vector<std::unique_ptr<Observer>> observers_;
+};
+
+}  // namespace platform

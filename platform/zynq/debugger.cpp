@@ -1,0 +1,88 @@
+#include <zynq/debugger.h>
+
+#include <vp/hex.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+#include <zynq/hardware_map.h>
+#include <cstring>
+#include <iostream>
+#include <optional>
+
+namespace platform {
+
+namespace {
+
+Zynq* debugged = nullptr;
+
+std::optional<std::uint32_t> word_at(std::uint32_t address) {
+  std::uint32_t word = 0;
+  unsigned char bytes[sizeof word] = {};
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  payload.set_address(address);
+  payload.set_data_ptr(bytes);
+  payload.set_data_length(sizeof bytes);
+  payload.set_streaming_width(sizeof bytes);
+  if (debugged->ps.cpu.m_axi.transport_debug(payload) != sizeof bytes) return std::nullopt;
+  std::memcpy(&word, bytes, sizeof word);
+  return word;
+}
+
+void print(const report::HardwareMap::Device& device) {
+  for (const report::HardwareMap::Register& r : device.registers) {
+    if (!r.built) continue;
+    const auto address = static_cast<std::uint32_t>(device.base + r.offset);
+    const std::optional<std::uint32_t> word = word_at(address);
+    std::cout << vp::hex(address) << "  " << (word ? vp::hex(*word) : "no answer ") << "  "
+              << r.name << "\n";
+  }
+}
+
+}  // namespace
+
+Debugged::Debugged(Zynq& zynq) {
+  debugged = &zynq;
+}
+
+Debugged::~Debugged() {
+  debugged = nullptr;
+}
+
+}  // namespace platform
+
+using platform::debugged;
+
+extern "C" {
+
+std::uint32_t markervp_peek(std::uint32_t address) {
+  return debugged ? platform::word_at(address).value_or(0xFFFF'FFFF) : 0xFFFF'FFFF;
+}
+
+void markervp_registers(const char* device) {
+  if (!debugged) return;
+  std::vector<std::string> names;
+  for (const auto& candidate : platform::hardware_map(*debugged).devices) {
+    if (candidate.registers.empty()) continue;
+    if (candidate.name == device) {
+      platform::print(candidate);
+      std::cout << std::flush;
+      return;
+    }
+    names.push_back(candidate.name);
+  }
+  std::cout << "no device '" << device << "' with registers: choose " << vp::one_of(names)
+            << std::endl;
+}
+
+void markervp_time() {
+  if (!debugged) return;
+  const ps::Cpu& cpu = debugged->ps.cpu;
+  std::cout << vp::format_time(debugged->scheduler.now_ps());
+  const std::uint32_t function = cpu.activity().function();
+  if (function != ps::Activity::none) {
+    std::cout << ", in '" << cpu.activity().functions().at(function).name << "'";
+  }
+  std::cout << std::endl;
+}
+
+}  // extern "C"
