@@ -1,0 +1,118 @@
+#include "programs.h"
+
+#include <utility>
+
+namespace bench {
+
+namespace {
+
+/// Frames per process that take some tenths of a second: long against the clock's resolution, short
+/// against what disturbs.
+struct FrameProgram {
+  const char* name;
+  const char* executable;
+  const char* mode;
+  int frames;
+};
+
+constexpr FrameProgram detectors[] = {
+    {"thesis", "bench_rtl_thesis_frames", "", 2},
+    {"clocked", "bench_clocked_frames", "ports", 15},
+    {"lean", "bench_rtl_lean_frames", "", 3},
+    {"registers", "bench_clocked_frames", "registers", 5},
+    {"vcd", "bench_clocked_frames", "vcd", 5},
+};
+
+constexpr FrameProgram functions[] = {
+    {"function", "bench_function_frames", "fast", 200},
+    {"naive", "bench_function_frames", "naive", 20},
+};
+
+/// The two activities stand in the columns of the quiet image and of the worst one.
+constexpr const char* vcd_modes[][2] = {
+    {"untraced/demo", "untraced"}, {"own/demo", "own"},
+    {"sc_trace/demo", "sc_trace"}, {"untraced/noise", "untraced-busy"},
+    {"own/noise", "own-busy"},     {"sc_trace/noise", "sc_trace-busy"},
+};
+
+class List {
+ public:
+  explicit List(const ProgramOptions& options) : options_(options) {}
+
+  void add_frames(const FrameProgram& program, const std::string& image,
+                  const std::vector<std::string>& settings = {}) {
+    Command arguments{"--image=" + image, "--frames=" + std::to_string(program.frames)};
+    if (*program.mode) arguments.push_back(std::string("--mode=") + program.mode);
+    for (const std::string& setting : settings) arguments.push_back("--set=" + setting);
+    add_benchmark(std::string(program.name) + "/" + image, program.executable, arguments);
+  }
+
+  void add_benchmark(const std::string& name, const std::string& executable,
+                     const Command& arguments) {
+    Command command{options_.folder + "/" + executable,
+                    std::string("--benchmark_out=") + json_file};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    programs_.push_back({name, Program::Kind::benchmark, command});
+  }
+
+  void add_run(const std::string& name, const Command& arguments) {
+    Command command{options_.folder + "/markervp",  "run", "demo", "--output", "out", "--set",
+                    "fidelity=" + options_.fidelity};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    programs_.push_back({name, Program::Kind::process, command});
+  }
+
+  std::vector<Program> take() { return std::move(programs_); }
+
+ private:
+  const ProgramOptions& options_;
+  std::vector<Program> programs_;
+};
+
+void add_systems(List& list, const ProgramOptions& options, const std::string& image) {
+  const bool fast = options.fidelity == "tlm";
+  const std::string fidelity = "fidelity=" + options.fidelity;
+  constexpr const char* executable = "bench_system_frames";
+  const int frames = fast ? 100 : 5;
+  list.add_frames({"preloaded", executable, "preload", frames}, image, {fidelity});
+  for (const FrameProgram& program : functions) list.add_frames(program, image);
+  list.add_frames({"uploaded", executable, "upload", frames}, image, {fidelity});
+  if (options.parts && fast) {
+    list.add_frames({"uploaded_clocked", executable, "upload", 5}, image, {"fidelity=clocked"});
+  }
+}
+
+}  // namespace
+
+std::vector<Program> programs(const ProgramOptions& options) {
+  List list(options);
+  for (const std::string& image : options.images) {
+    for (const FrameProgram& program : detectors) list.add_frames(program, image);
+    add_systems(list, options, image);
+  }
+  for (const auto& [name, mode] : vcd_modes) {
+    list.add_benchmark(name, "bench_vcd_writing", {"--frames=8", std::string("--mode=") + mode});
+  }
+  list.add_run("run/demo", {});
+  if (options.parts) list.add_benchmark("", "bench_kernels", {"--benchmark_min_time=0.1"});
+  return list.take();
+}
+
+Program memory_run(const ProgramOptions& options, const std::string& name, int frames) {
+  List list(options);
+  list.add_run(name, {"--repeat", std::to_string(frames), "--no-pictures", "--quiet"});
+  return list.take().front();
+}
+
+std::vector<std::vector<std::string>> equal_groups(const std::vector<std::string>& images) {
+  std::vector<std::vector<std::string>> groups;
+  for (const std::string& image : images) {
+    auto& group = groups.emplace_back();
+    for (const FrameProgram& program : detectors) {
+      group.push_back(std::string(program.name) + "/" + image);
+    }
+  }
+  return groups;
+}
+
+}  // namespace bench
