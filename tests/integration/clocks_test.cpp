@@ -51,12 +51,13 @@ void check_same_finds(const FrameReport& frame, const FrameReport& expected) {
   BOOST_TEST((frame.markers[0].pose.rotation == expected.markers[0].pose.rotation));
 }
 
-/// The end word is read within 2 us: a few reads of the feature register.
+/// The end word is read within 3 us: an interrupt handler and a few reads of the feature register
+/// may lie before.
 void check_feature_extraction(const FrameReport& frame, double pixel_mhz) {
   const double end_word_us = end_word_clocks / pixel_mhz;
   const double time = stage_us(frame, "feature_extraction");
   BOOST_TEST(time > end_word_us);
-  BOOST_TEST(time < end_word_us + 2);
+  BOOST_TEST(time < end_word_us + 3);
 }
 
 void check_same(const Settings& settings, double pixel_mhz) {
@@ -94,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_slower_processor_finds_the_same_later) {
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     // Half the clock, twice the time. Only stalls of the memory stay as they are.
     BOOST_TEST(stage_us(slow.frames[i], "pose") == 2 * stage_us(usual().frames[i], "pose"),
-               boost::test_tools::tolerance(0.01));
+               boost::test_tools::tolerance(0.03));
     BOOST_TEST(stage_us(slow.frames[i], "identification") >
                1.5 * stage_us(usual().frames[i], "identification"));
   }

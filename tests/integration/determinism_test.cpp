@@ -29,6 +29,19 @@ Json frames_of(const Arguments& arguments) {
   return result["frames"];
 }
 
+/// All of a result that does not say how it was made.
+Json outcome_with(const Arguments& settings) {
+  const Workplace place;
+  Arguments all{"demo", "roll30", "--repeat", "2", "--quiet", "--no-pictures"};
+  for (const std::string& setting : settings) all.insert(all.end(), {"--set", setting});
+  const kit::Outcome outcome = place.run(all);
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  Json result = place.result();
+  for (const char* member : {"configuration", "provenance"}) result.erase(member);
+  BOOST_TEST(result["frames"].size() == 4u);
+  return result;
+}
+
 std::vector<std::string> inputs_of(const Json& frames) {
   std::vector<std::string> names;
   for (const Json& frame : frames) names.push_back(frame["input"]);
@@ -82,10 +95,23 @@ BOOST_AUTO_TEST_CASE(host_and_paths_stand_in_the_provenance_only) {
 
 BOOST_AUTO_TEST_CASE(tracing_changes_no_result) {
   const Workplace traced, plain;
-  BOOST_TEST(traced.run({"demo", "--trace", "a.vcd", "--trace-window", "6ms:6.05ms"}).exit_code ==
-             0);
-  BOOST_TEST(plain.run({"demo"}).exit_code == 0);
+  BOOST_TEST(traced
+                 .run({"demo", "--set", "fidelity=clocked", "--trace", "a.vcd", "--trace-window",
+                       "6ms:6.05ms"})
+                 .exit_code == 0);
+  BOOST_TEST(plain.run({"demo", "--set", "fidelity=clocked"}).exit_code == 0);
   BOOST_TEST((without_provenance(traced.result_text()) == without_provenance(plain.result_text())));
+}
+
+BOOST_AUTO_TEST_CASE(what_only_saves_time_changes_no_result) {
+  const Json usual = outcome_with({});
+  BOOST_TEST((outcome_with({"ps.poll_elision=false"}) == usual));
+  for (const char* quantum : {"0 ps", "1 us", "10 ms"}) {
+    const std::string setting = std::string("ps.cpu.quantum=") + quantum;
+    BOOST_TEST((outcome_with({setting}) == usual), setting);
+    BOOST_TEST((outcome_with({setting, "ps.poll_elision=false"}) == usual), setting);
+  }
+  BOOST_TEST((outcome_with({"ps.m_axi_gp0.read_time=81 ns"}) != usual), "what costs time does");
 }
 
 BOOST_AUTO_TEST_CASE(frames_do_not_depend_on_what_comes_after_them) {

@@ -30,7 +30,7 @@ std::string difference(const Json& a, const Json& b) {
   return patch.empty() ? "" : patch[0].dump();
 }
 
-const Arguments inputs{"demo", "squares15", "roll45", "front7", "z4.5", "--repeat", "2"};
+const Arguments inputs{"demo", "squares15", "roll30", "front7", "z4.5", "--repeat", "2"};
 
 const Json& expected() {
   static const Json result = result_of(with(inputs, "fidelity=clocked"));

@@ -22,12 +22,13 @@ using platform::report::FrameReport;
 
 using Next = std::function<std::optional<InputFrame>()>;
 
-PlatformRun run(const Settings& settings, const std::function<Next(ImageSize)>& open) {
+PlatformRun run(const Settings& settings, System system,
+                const std::function<Next(ImageSize)>& open) {
   const kit::Simulation context;
   vp::Configuration configuration;
   for (const auto& [path, value] : settings) configuration.set(path, value);
   const vp::Configuration::Scope scope(configuration);
-  Session session({MARKERVP_HYBRID, std::nullopt});
+  Session session({system == System::hybrid ? MARKERVP_HYBRID : MARKERVP_PS_ONLY, std::nullopt});
   configuration.check_unused();
 
   PlatformRun result;
@@ -51,8 +52,9 @@ PlatformRun run(const Settings& settings, const std::function<Next(ImageSize)>& 
 
 }  // namespace
 
-PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings) {
-  return run(settings, [&](ImageSize size) -> Next {
+PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings,
+                       System system) {
+  return run(settings, system, [&](ImageSize size) -> Next {
     platform::input::InputOptions options;
     options.size = size;
     std::shared_ptr<platform::input::FrameSource> source =
@@ -61,8 +63,9 @@ PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& s
   });
 }
 
-PlatformRun run_images(const std::vector<platform::GreyImage>& images, const Settings& settings) {
-  return run(settings, [&](ImageSize size) -> Next {
+PlatformRun run_images(const std::vector<platform::GreyImage>& images, const Settings& settings,
+                       System system) {
+  return run(settings, system, [&](ImageSize size) -> Next {
     const auto camera = platform::Camera::for_resolution(size.width, size.height);
     return [&images, camera, given = std::size_t{0}]() mutable -> std::optional<InputFrame> {
       if (given == images.size()) return std::nullopt;

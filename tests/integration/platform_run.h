@@ -9,7 +9,7 @@
 
 namespace integration {
 
-/// A run of the whole platform with the program `hybrid`, in this process.
+/// A run of the whole platform in this process.
 struct PlatformRun {
   platform::report::RunFacts facts;
   /// With input, truth and camera filled in.
@@ -19,13 +19,17 @@ struct PlatformRun {
 /// Parameters by path: {"ps.fclk_clk1.frequency", "40 MHz"}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// The program that runs on the PS.
+enum class System { hybrid, ps_only };
+
 /// Runs scenes or groups of scenes, in the resolution that the settings ask for, one after the
 /// other.
-PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings = {});
+PlatformRun run_scenes(const std::vector<std::string>& scenes, const Settings& settings = {},
+                       System system = System::hybrid);
 
 /// Runs the same for images of the test's own.
 PlatformRun run_images(const std::vector<platform::GreyImage>& images,
-                       const Settings& settings = {});
+                       const Settings& settings = {}, System system = System::hybrid);
 
 /// Duration of one stage of a frame, us. Throws std::out_of_range if the frame has none of that
 /// name.
@@ -34,7 +38,7 @@ double stage_us(const platform::report::FrameReport& frame, const std::string& s
 /// The overflow counters together.
 std::uint64_t overflows(const platform::report::FrameReport& frame);
 
-/// What the PL found, in words that compare: "corner x y strength direction", "blob sx sy ex ey".
+/// What was found, in words that compare: "corner x y strength direction", "blob sx sy ex ey".
 std::vector<std::string> features(const platform::report::FrameReport& frame);
 
 }  // namespace integration

@@ -50,6 +50,7 @@ class Checker {
     one_of(json["fidelity"], "fidelity", {"tlm", "clocked"});
     one_of(json["system"], "system", {"hybrid", "ps-only"});
     provenance(json["provenance"]);
+    program_end(json);
     for (const auto& [path, value] : json["configuration"].items()) {
       expect(value.is_string() && !value.empty(), "configuration." + path + " is no text");
     }
@@ -111,6 +112,14 @@ class Checker {
           {"host", Kind::text},
           {"date", Kind::text},
           {"wall_time_s", Kind::number}});
+  }
+
+  /// A program that was stopped has none.
+  void program_end(const Json& json) {
+    if (!json.contains("program_end") && json.contains("incomplete")) return;
+    if (!keys(json, "result", {{"program_end", Kind::object}})) return;
+    keys(json["program_end"], "program_end",
+         {{"exit_code", Kind::number}, {"time_us", Kind::number}});
   }
 
   void frame(const Json& json, const std::string& where) {

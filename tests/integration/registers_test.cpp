@@ -1,0 +1,163 @@
+// One description of the registers: headers, models and documentation agree.
+#include <axi_dma_registers.h>
+#include <axi_gpio_registers.h>
+#include <cli/map_markdown.h>
+#include <gic_registers.h>
+#include <global_timer_registers.h>
+#include <private_timer_registers.h>
+#include <slcr_registers.h>
+#include <uart_registers.h>
+#include <vp/configuration.h>
+#include <zynq/hardware_map.h>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "simulation.h"
+#include "temporary_files.h"
+
+namespace {
+
+using platform::report::HardwareMap;
+namespace fs = std::filesystem;
+
+struct Description {
+  vp::RegisterTable table;
+  std::vector<std::string> devices;
+};
+
+const std::vector<Description>& descriptions() {
+  static const std::vector<Description> list{{axi_dma::registers, {"axi_dma_0", "axi_dma_1"}},
+                                             {axi_gpio::registers, {"axi_gpio_0", "axi_gpio_1"}},
+                                             {gic::cpu_interface_registers, {"gic_cpu_interface"}},
+                                             {gic::distributor_registers, {"gic_distributor"}},
+                                             {global_timer::registers, {"global_timer"}},
+                                             {private_timer::registers, {"private_timer"}},
+                                             {slcr::registers, {"slcr"}},
+                                             {uart::registers, {"uart0", "uart1"}}};
+  return list;
+}
+
+HardwareMap default_map() {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  const vp::Configuration::Scope scope(configuration);
+  platform::Zynq zynq;
+  return platform::hardware_map(zynq);
+}
+
+const HardwareMap::Device* find(const HardwareMap& map, const std::string& name) {
+  const auto found = std::find_if(map.devices.begin(), map.devices.end(),
+                                  [&](const auto& device) { return device.name == name; });
+  return found == map.devices.end() ? nullptr : &*found;
+}
+
+const fs::path source{MARKERVP_SOURCE};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(register_descriptions)
+
+BOOST_AUTO_TEST_CASE(the_documentation_is_what_the_program_prints) {
+  const std::string page = kit::read_file(source / "docs/registers.md");
+  BOOST_TEST((page == platform::cli::map_as_markdown(default_map())),
+             "docs/registers.md is old: markervp map --markdown > docs/registers.md");
+}
+
+BOOST_AUTO_TEST_CASE(every_model_has_the_registers_of_its_header) {
+  const HardwareMap map = default_map();
+  std::size_t with_registers = 0;
+  for (const Description& description : descriptions()) {
+    for (const std::string& name : description.devices) {
+      const HardwareMap::Device* device = find(map, name);
+      BOOST_TEST_REQUIRE(device, name << " is not in the map");
+      ++with_registers;
+      BOOST_TEST_REQUIRE(device->registers.size() == description.table.count);
+      for (std::size_t i = 0; i < description.table.count; ++i) {
+        const vp::RegisterInfo& info = description.table.first[i];
+        const HardwareMap::Register& r = device->registers[i];
+        BOOST_TEST(r.name == info.name);
+        BOOST_TEST(r.offset == info.offset, info.name);
+        BOOST_TEST(r.declared_reset == info.reset, info.name);
+        BOOST_TEST(r.writable == info.writable, info.name);
+        BOOST_TEST(r.documentation == info.documentation, info.name);
+      }
+    }
+  }
+  for (const HardwareMap::Device& device : map.devices) {
+    if (!device.registers.empty()) --with_registers;
+  }
+  BOOST_TEST(with_registers == 0u, "a device of the map has no description here");
+}
+
+BOOST_AUTO_TEST_CASE(descriptions_are_sound) {
+  for (const Description& description : descriptions()) {
+    std::set<std::string> names;
+    std::set<std::uint32_t> offsets;
+    for (std::size_t i = 0; i < description.table.count; ++i) {
+      const vp::RegisterInfo& info = description.table.first[i];
+      BOOST_TEST(names.insert(info.name).second, info.name << " is there twice");
+      BOOST_TEST(offsets.insert(info.offset).second, info.name << " is on top of another");
+      BOOST_TEST(info.offset % 4 == 0u, info.name);
+      const std::string text = info.documentation;
+      BOOST_TEST(!text.empty(), info.name);
+      BOOST_TEST(text.find('\n') == std::string::npos, info.name << ": one line");
+      if (info.access == vp::Access::read_only) BOOST_TEST(info.writable == 0u, info.name);
+      if (info.access != vp::Access::read_only) BOOST_TEST(info.writable != 0u, info.name);
+    }
+  }
+}
+
+/// A row {"NAME", NAME, …} that names another constant than its register would mislead software.
+BOOST_AUTO_TEST_CASE(a_row_has_the_name_of_its_constant) {
+  const std::regex row{R"re(\{\s*"(\w+)"\s*,\s*(\w+)(?:\((\d+)\))?\s*,)re"};
+  std::size_t headers = 0, rows = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / "models")) {
+    const std::string file = entry.path().filename().string();
+    if (file.size() < 12 || file.rfind("_registers.h") != file.size() - 12) continue;
+    ++headers;
+    const std::string text = kit::read_file(entry.path());
+    for (std::sregex_iterator i(text.begin(), text.end(), row), end; i != end; ++i, ++rows) {
+      BOOST_TEST((*i)[1].str() == (*i)[2].str() + (*i)[3].str(), file);
+    }
+  }
+  BOOST_TEST(headers == 7u);
+  BOOST_TEST(rows > 60u);
+}
+
+BOOST_AUTO_TEST_CASE(the_map_is_that_of_the_configuration) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  configuration.set("ps.fclk_clk1.frequency=74.25 MHz");
+  configuration.set("ps.ddr.size=383 MiB");
+  const vp::Configuration::Scope scope(configuration);
+  platform::Zynq zynq;
+  const HardwareMap map = platform::hardware_map(zynq);
+  BOOST_TEST(find(map, "ddr")->size == 383u << 20);
+  const auto clock = std::find_if(map.clocks.begin(), map.clocks.end(),
+                                  [](const auto& c) { return c.name == "ps.fclk_clk1.clk"; });
+  BOOST_TEST(clock->hertz == 74'250'000u);
+  BOOST_TEST(clock->programmed == 74'074'074u);
+  const HardwareMap::Device& mm2s_only = *find(map, "axi_dma_0");
+  BOOST_TEST(mm2s_only.registers.front().built);
+  BOOST_TEST(!mm2s_only.registers.back().built);
+  const std::map<std::uint32_t, std::string> expected{{27, "ps.global_timer.irq"},
+                                                      {29, "ps.private_timer.irq"},
+                                                      {30, "ps.private_timer.watchdog_irq"},
+                                                      {59, "ps.uart0.irq"},
+                                                      {61, "pl.axi_dma_0.mm2s_introut"},
+                                                      {62, "pl.axi_dma_1.s2mm_introut"},
+                                                      {82, "ps.uart1.irq"}};
+  BOOST_TEST(map.interrupts.size() == expected.size());
+  for (const auto& interrupt : map.interrupts) {
+    BOOST_TEST(expected.at(interrupt.id) == interrupt.source);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
