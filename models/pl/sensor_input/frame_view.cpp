@@ -39,8 +39,9 @@ std::uint32_t FrameView::sent() const {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(edges - first_cycle_, size_));
 }
 
-bool FrameView::watched() const {
-  return running_ && edges_before_now() < first_cycle_ + size_ + drain_clocks;
+bool FrameView::watched() {
+  if (running_) running_ = edges_before_now() < first_cycle_ + size_ + drain_clocks;
+  return running_;
 }
 
 void FrameView::before_write(std::uint32_t first, std::uint32_t) {

@@ -36,7 +36,7 @@ class FrameView : private xilinx::Bram::Listener {
   /// Pixels that left the sensor before the present instant.
   std::uint32_t sent() const;
   /// Somebody may look at the frame: from its begin until 8 clocks after its last pixel.
-  bool watched() const;
+  bool watched();
 
   void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 

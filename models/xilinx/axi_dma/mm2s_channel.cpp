@@ -81,6 +81,7 @@ void Mm2sChannel::request(std::uint64_t cycle) {
   const unsigned bytes = burst_bytes();
   Burst& burst = bursts_.emplace_back();
   burst.lead = static_cast<unsigned>(read_address_ % word_bytes);
+  burst.data = std::exchange(spare_, {});
   burst.data.resize(bytes);
   m_axi.read(read_address_, burst.data.data(), bytes, keyhole());
   to_request_ -= bytes;
@@ -190,6 +191,7 @@ void Mm2sChannel::completed() {
   if (whole_burst_.empty()) return;
   m_axis.send_burst(whole_burst_.data(), static_cast<std::uint32_t>(whole_burst_.size()), true);
   whole_burst_.clear();
+  spare_ = std::move(bursts_.front().data);
   bursts_.clear();
   to_send_ = buffered_ = 0;
 }

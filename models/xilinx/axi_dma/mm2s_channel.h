@@ -51,6 +51,7 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_size_;   ///< bytes
   std::deque<Burst> bursts_;
+  std::vector<unsigned char> spare_;  ///< memory for the data of another burst
   std::uint64_t read_address_ = 0;
   std::uint32_t to_request_ = 0;  ///< bytes of the transfer not requested yet
   std::uint32_t to_send_ = 0;     ///< bytes not offered yet
