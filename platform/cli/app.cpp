@@ -66,8 +66,8 @@ void add_input_options(CLI::App& command, RunOptions& target) {
 }
 
 void add_platform_options(CLI::App& command, RunOptions& target) {
-  command.add_option("--fidelity", target.fidelity, "how the PL is modelled: clocked")
-      ->type_name("LEVEL");
+  command.add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
+      ->type_name("tlm|clocked");
   command
       .add_option("--program", target.program,
                   "PS program: a file, or the name of an installed one")
