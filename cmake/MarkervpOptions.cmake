@@ -16,6 +16,12 @@ option(MARKERVP_SANITIZE "Build with address and undefined-behaviour sanitizers"
 option(MARKERVP_WERROR "Treat warnings as errors" OFF)
 
 add_compile_options(-Wall -Wextra -ffp-contract=off)
+# Nobody replaces a function of ours at load time: the compiler may inline across them in spite of -fPIC.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fno-semantic-interposition MARKERVP_HAS_NO_INTERPOSITION)
+if(MARKERVP_HAS_NO_INTERPOSITION)
+  add_compile_options(-fno-semantic-interposition)
+endif()
 if(MARKERVP_WERROR)
   add_compile_options(-Werror)
 endif()
