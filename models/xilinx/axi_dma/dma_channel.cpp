@@ -79,9 +79,9 @@ void DmaChannel::length_written(std::uint32_t word) {
   if (length == 0) {
     core_.warn("/markervp/axi_dma/length_zero", written() + ": a transfer of 0 bytes never starts");
   } else if (!running()) {
-    core_.warn(
-        "/markervp/axi_dma/length_while_halted",
-        written() + " written while the channel is halted: no transfer starts; set DMACR.RS before");
+    core_.warn("/markervp/axi_dma/length_while_halted",
+               written() +
+                   " written while the channel is halted: no transfer starts; set DMACR.RS before");
   } else if (phase_ != Phase::idle) {
     core_.warn(
         "/markervp/axi_dma/length_while_busy",
