@@ -1,7 +1,5 @@
 #include <pl/global_threshold/tlm.h>
 
-#include <algorithm>
-
 namespace pl {
 
 GlobalThresholdTlm::GlobalThresholdTlm(sc_core::sc_module_name name, vp::Clock& clk,

@@ -26,7 +26,8 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   bool awake() const;
   /// Runs edge() from the next edge of the clock on.
   void wake();
-  /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep.
+  /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep. It must lie
+  /// ahead: a model that keeps stamps looks whether one has passed. Clock::never: no alarm.
   void wake_at(std::uint64_t cycle);
   /// Wakes the module when a bound input changes.
   void wake_on(InBase& input);
