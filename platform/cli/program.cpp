@@ -38,6 +38,18 @@ int run_command(const CLI::App& app, const CommandLine& line,
 
 }  // namespace
 
+int exit_code_of(const std::function<int()>& work, std::ostream& err) {
+  try {
+    return work();
+  } catch (const vp::InputError& error) {
+    return fail(err, error.what(), wrong_input);
+  } catch (const vp::ProtocolError& error) {
+    return fail(err, error.what(), protocol_broken);
+  } catch (const std::exception& error) {
+    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+  }
+}
+
 int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
                 std::ostream& out, std::ostream& err) {
   CommandLine line;
@@ -48,15 +60,8 @@ int run_program(const std::vector<std::string>& arguments, const SimulationFacto
     if (error.get_exit_code() == 0) return app->exit(error, out, err);
     return fail(err, usage_error(*app, error, arguments), wrong_input);
   }
-  try {
-    return run_command(*app, line, arguments, make_simulation, out, err);
-  } catch (const vp::InputError& error) {
-    return fail(err, error.what(), wrong_input);
-  } catch (const vp::ProtocolError& error) {
-    return fail(err, error.what(), protocol_broken);
-  } catch (const std::exception& error) {
-    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
-  }
+  return exit_code_of([&] { return run_command(*app, line, arguments, make_simulation, out, err); },
+                      err);
 }
 
 }  // namespace platform::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ enum ExitCode {
   protocol_broken = 3,
   interrupted = 130,  ///< 128 + SIGINT, as shells count
 };
+
+/// What `work` returns, or the code of the error that it throws, after one line about it on `err`.
+int exit_code_of(const std::function<int()>& work, std::ostream& err);
 
 /// The whole program but main(): parses `arguments` (without the program's name), runs the command,
 /// writes what the user reads to `out` and one line on what went wrong to `err`. Returns the exit
