@@ -243,6 +243,9 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   warner.print(source->warnings());
   report::RunFacts facts = simulation->facts();
   facts.configuration = configuration.values();
+  if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
+  if (facts.resources) warner.print(report::resource_warnings(*facts.resources));
+  if (facts.power) warner.print(report::power_warnings(*facts.power));
   origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
   if (runner.error()) origin.details.emplace_back("error", message_of(runner.error()));
   result.finish(facts, origin, warner.all(), incomplete(runner));

@@ -171,6 +171,9 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   text += point;
   text += fps_text(summary);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
+  if (facts.power && facts.resources && facts.timing) {
+    text += design_text(*facts.power, *facts.resources, *facts.timing);
+  }
   if (summary.warned() > 0) {
     text +=
         fmt::format("warnings in {}, listed in result.json\n", counted(summary.warned(), "frame"));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <marker/packet.h>
+#include <report/design_report.h>
 #include <scene/camera.h>
 #include <scene/pose.h>
 #include <scene/scene.h>
@@ -68,6 +69,7 @@ struct FrameReport {
   std::uint64_t start_ps = 0;   ///< simulated time at which work on the frame began, upload done
   std::uint64_t end_ps = 0;     ///< simulated time of its last result
   std::uint64_t upload_ps = 0;  ///< time before `start_ps` in which the image was only uploaded
+  std::vector<GroupEnergy> energy;  ///< its period's, upload excluded; empty: not known
   std::vector<std::string> warnings;
   Camera camera;      ///< that took the image
   Features features;  ///< dropped once the picture is drawn
@@ -87,6 +89,10 @@ struct RunFacts {
   std::string profile;                               ///< cost table of the software
   std::map<std::string, std::string> configuration;  ///< path -> "value unit"
   std::optional<ProgramEnd> end = std::nullopt;      ///< of the program; none: it was stopped
+  // What the design costs; none: not known.
+  std::optional<PowerReport> power = std::nullopt;
+  std::optional<ResourceReport> resources = std::nullopt;
+  std::optional<TimingReport> timing = std::nullopt;
 };
 
 /// Everything that may differ between two runs of the same design point on the same inputs.

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdlib>
 
+#include <report/design_json.h>
 #include <report/error_measure.h>
 #include <vp/text.h>
 
@@ -106,6 +107,7 @@ Json to_json(const FrameReport& frame) {
   for (const StageTime& time : frame.times) {
     json["time_us"][time.name] = rounded(static_cast<double>(time.ps) / ps_per_us, us_places);
   }
+  if (!frame.energy.empty()) json["energy_mj"] = energy_json(frame.energy);
   if (!frame.warnings.empty()) json["warnings"] = frame.warnings;
   return json;
 }

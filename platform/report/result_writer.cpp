@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include <report/design_json.h>
 #include <report/file_output.h>
 #include <report/result_json.h>
 #include <vp/error.h>
@@ -73,6 +74,16 @@ void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
   }
   Json tail;
   tail["summary"] = to_json(summary_);
+  if (facts.power) {
+    tail["summary"]["power_w"] = power_summary_json(*facts.power);
+    if (facts.power->per_frame) {
+      tail["summary"]["energy_per_frame_mj"] =
+          rounded(facts.power->energy_per_frame_mj, energy_places);
+    }
+    tail["power"] = to_json(*facts.power);
+  }
+  if (facts.resources) tail["resources"] = to_json(*facts.resources);
+  if (facts.timing) tail["timing"] = to_json(*facts.timing);
   file.write(summary_.frames() == 0 ? "],\n" : "\n  ],\n");
   file.write(dump(tail, indent).substr(2) + "\n");
   file.commit();

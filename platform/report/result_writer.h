@@ -27,6 +27,12 @@ namespace platform::report {
 ///   | rotation_deg                                 | degree | 6      |
 ///   | time_us, latency_us (6 places are 1 ps)      | us     | 6      |
 ///   | fps                                          | 1/s    | 6      |
+///   | power: w, total_w, rails; power_w            | W      | 12     |
+///   | mj, energy_mj, energy_per_frame_mj           | mJ     | 12     |
+///   | ambient_c, junction_c                        | C      | 6      |
+///   | frequency_mhz, fmax_mhz                      | MHz    | 6      |
+///   | margin_percent                               | %      | 3      |
+///   | bram36                                       |        | 1      |
 ///   | provenance.wall_time_s                       | s      | 3      |
 ///
 /// A marker without pose has no `pose`, `reprojection_px` and `iterations`, and its error has

@@ -2,8 +2,16 @@
 
 #include <vp/error.h>
 #include <exception>
+#include <utility>
 
 namespace platform {
+
+namespace {
+
+/// The program that finds everything itself: its system needs no design in the PL.
+constexpr const char* program_without_pl = "ps-only";
+
+}  // namespace
 
 Session::Session(const Options& options) : program_(ps::Program::load(options.program)) {
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
@@ -16,7 +24,11 @@ Session::Session(const Options& options) : program_(ps::Program::load(options.pr
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_);
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
+  power_ = std::make_unique<ZynqPower>("power", *zynq_,
+                                       std::string(program_->name()) != program_without_pl);
+  timing_ = std::make_unique<TimingClosure>("timing", power_->design());
   trace_ = options.trace;
+  if (trace_) power_->follow();
   zynq_->ps.cpu.load(*program_, costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
 }
@@ -34,11 +46,22 @@ report::RunFacts Session::facts() const {
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   if (cpu.state() == ps::Cpu::State::finished) facts.end = {cpu.exit_code(), cpu.end_ps()};
+  facts.power = power_->power_report(zynq_->scheduler.now_ps());
+  facts.resources = power_->resource_report();
+  facts.timing = power_->timing_report(*timing_);
   return facts;
 }
 
 void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
-  bench_->start(std::move(next), std::move(done));
+  bench_->start(
+      [this, next = std::move(next)] {
+        power_->frame_begins();
+        return next();
+      },
+      [this, done = std::move(done)](report::FrameReport&& frame) {
+        power_->frame_ends(frame);
+        return done(std::move(frame));
+      });
   // Not earlier: it opens its file, and the user may have got something else wrong.
   std::unique_ptr<vp::Tracer> tracer;
   if (trace_) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace_);

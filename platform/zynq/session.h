@@ -15,7 +15,9 @@
 #include <vp/trace.h>
 #include <zynq/frame_bench.h>
 #include <zynq/software_options.h>
+#include <zynq/timing_closure.h>
 #include <zynq/zynq.h>
+#include <zynq/zynq_power.h>
 
 namespace platform {
 
@@ -47,6 +49,8 @@ class Session {
   void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
   Zynq& zynq() { return *zynq_; }
+  /// Energy of the run so far. Ask for its timeline before the run.
+  ZynqPower& power() { return *power_; }
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:
@@ -57,6 +61,8 @@ class Session {
   std::unique_ptr<vp::Parameter<std::string>> profile_name_;
   std::unique_ptr<SoftwareOptions> options_;
   std::unique_ptr<FrameBench> bench_;
+  std::unique_ptr<ZynqPower> power_;
+  std::unique_ptr<TimingClosure> timing_;
   std::optional<vp::TraceOptions> trace_;
 };
 

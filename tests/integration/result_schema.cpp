@@ -1,5 +1,7 @@
 #include "result_schema.h"
 
+#include "design_schema.h"
+
 namespace integration {
 
 namespace {
@@ -150,8 +152,6 @@ class Checker {
           {"pose", Kind::number},
           {"frame", Kind::number}});
     for (const Json& found : json["markers"]) marker(found, where + ".markers");
-    if (json.contains("energy_mj"))
-      keys(json["energy_mj"], where + ".energy_mj", {{"total", Kind::number}});
   }
 
   void marker(const Json& json, const std::string& where) {
@@ -204,13 +204,6 @@ class Checker {
     keys(json["fps"], "summary.fps",
          {{"mean", Kind::number}, {"min", Kind::number}, {"max", Kind::number}});
     keys(json["latency_us"], "summary.latency_us", {{"mean", Kind::number}, {"max", Kind::number}});
-    if (!json.contains("power_w")) return;
-    keys(json["power_w"], "summary.power_w",
-         {{"total", Kind::number},
-          {"ps", Kind::number},
-          {"pl", Kind::number},
-          {"static", Kind::number}});
-    keys(json, "summary", {{"energy_per_frame_mj", Kind::number}});
   }
 
   std::vector<std::string> problems_;
@@ -221,7 +214,9 @@ class Checker {
 std::vector<std::string> schema_problems(const Json& result) {
   Checker checker;
   checker.result(result);
-  return checker.take();
+  std::vector<std::string> problems = checker.take();
+  for (std::string& problem : design_problems(result)) problems.push_back(std::move(problem));
+  return problems;
 }
 
 }  // namespace integration

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <pl/blob_detection/blob_detection.h>
+#include <pl/common/estimate.h>
+#include <pl/common/geometry.h>
+
+namespace pl {
+
+/// Labels for which the thesis' figures are taken to hold (decision: it does not give the number).
+constexpr std::uint32_t thesis_labels = 128;
+constexpr std::uint32_t box_bits = 38;  ///< four coordinates
+
+/// LUT of the logic around the labels. Each has its box in registers, a comparison that finds out
+/// when it expires, a choice of what its box becomes, and its share of the multiplexers through
+/// which seven neighbours look up their widths.
+constexpr std::uint32_t logic_of_labels(std::uint32_t labels) {
+  constexpr std::uint32_t look_up = 42;  // 7 neighbours × 20 bits × 0.3 LUT an input
+  constexpr std::uint32_t read_out = 11, grow = 2 * box_bits, expire = 45, choose = 10;
+  return 600 + (look_up + read_out + grow + expire + choose) * labels;
+}
+
+/// Grows with the labels.
+inline vp::IpEstimate estimate(const BlobDetection& ip, const Geometry& geometry) {
+  const std::uint32_t labels = ip.label_count;
+  std::uint32_t label_bits = 1;
+  while ((std::uint64_t{1} << label_bits) < labels) ++label_bits;
+
+  vp::IpEstimate e;
+  e.lut = logic_of_labels(labels);
+  e.ff = 250 + (box_bits + 1) * labels;
+  e.bram36 = xilinx::block_ram_36(geometry.width, label_bits);  // labels of the line above
+  add_fifo(e, labels, label_bits);                              // free labels
+  e.uncertainty_percent = 50;
+  e.source = "derived from the structure of thesis 4.3.6: 184 LUT and 39 FF a label";
+  e.fmax_hz = 55 * mhz;
+  e.lower_bound = false;
+  e.fmax_source = vp::Source::published;
+  e.fmax_documentation = "the slowest module of the PL (thesis 4.6.1)";
+  return e;
+}
+
+}  // namespace pl

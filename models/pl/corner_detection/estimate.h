@@ -1,0 +1,33 @@
+#pragma once
+
+#include <pl/common/estimate.h>
+#include <pl/corner_detection/corner_detection.h>
+
+namespace pl {
+
+/// F_max of a corner detection whose non-maximum suppression compares nine strengths in one clock
+/// (thesis 4.3.4.4). The pipelined one of the thesis is what is modelled; to see what the other
+/// would allow, set timing.corner_detection.fmax to it.
+constexpr std::uint64_t fmax_single_cycle_nms = 36'630'000;
+
+/// Window, nine FAST modules side by side, and eight line FIFOs of a write depth of 1024.
+inline vp::IpEstimate estimate(const CornerDetection&) {
+  constexpr std::uint32_t fast_modules = 9, circle = 16, lines = 8, line_depth = 1024;
+  constexpr std::uint32_t compare_and_subtract = 25, sum = 150, contiguous = 60, direction = 40;
+  constexpr std::uint32_t fast_lut = circle * compare_and_subtract + sum + contiguous + direction;
+  constexpr std::uint32_t fast_ff = circle * 9 + 15;  // differences, then strength and direction
+  constexpr std::uint32_t window_ff = 9 * 9 * 8;
+
+  vp::IpEstimate e;
+  e.lut = fast_modules * fast_lut + lines * 45 + 250;
+  e.ff = fast_modules * fast_ff + window_ff + lines * 30 + 250;
+  e.bram36 = lines * xilinx::block_ram_36(line_depth, 8);
+  e.uncertainty_percent = 40;
+  e.source = "derived from the structure of thesis 4.3.4: 9 FAST modules of 650 LUT, 8 line FIFOs";
+  e.fmax_hz = 100 * mhz;
+  e.fmax_source = vp::Source::published;
+  e.fmax_documentation = "runs comfortably at it (thesis 4.6.1)";
+  return e;
+}
+
+}  // namespace pl

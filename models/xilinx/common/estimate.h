@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vp/ip_estimate.h>
+#include <vp/register_bank.h>
+
+/// What the estimates of the Xilinx IP share.
+namespace xilinx {
+
+/// Clocks in which an AXI4-Lite slave works for one access: the register stages of the IPIF from
+/// address to response (DS768).
+constexpr std::uint64_t clocks_per_access = 5;
+
+/// Reads and writes by software so far, those that a poll passed over included.
+inline std::uint64_t accesses(const vp::RegisterBank& bank) {
+  std::uint64_t sum = 0;
+  for (const vp::Register& r : bank.registers()) sum += r.use().reads + r.use().writes;
+  return sum;
+}
+
+/// A configuration like the thesis' as Vivado builds it. Public reports of designs with the PS, an
+/// interconnect, a reset and one or two such IP have 441 to 953 LUT and 607 to 1129 FF in all.
+inline vp::IpEstimate axi_estimate(std::uint32_t lut, std::uint32_t ff, double bram36) {
+  vp::IpEstimate e;
+  e.lut = lut;
+  e.ff = ff;
+  e.bram36 = bram36;
+  e.uncertainty_percent = 40;
+  e.source = "assumed from public utilisation reports of designs with this IP";
+  e.fmax_hz = 100'000'000;
+  e.fmax_source = vp::Source::derived;
+  e.fmax_documentation = "works at the thesis' system clock (table 4.2)";
+  return e;
+}
+
+}  // namespace xilinx

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// What a design costs: power, resources, and whether it meets its clocks.
+namespace platform::report {
+
+/// Energy of the modules of a group.
+struct GroupEnergy {
+  std::string group;  ///< "ps", "feature_extraction", "data_bridge", "image_memory", "static"
+  double mj = 0;
+};
+
+/// Mean power over the frames of a run, image upload excluded; over the whole run if there were no
+/// frames. Watts are on-chip power: the DDR chips are not in them.
+struct PowerReport {
+  struct Module {
+    std::string name;
+    std::string rail;
+    std::string kind;  ///< "static", "clock", "state", "event"
+    double w = 0;
+    double mj = 0;       ///< per frame
+    std::string source;  ///< of the coefficient
+  };
+
+  std::string mode;      ///< "vivado-default" or "activity"
+  std::string table;     ///< name of the coefficients
+  double ambient_c = 0;  ///< temperature around the board
+  double junction_c = 0;
+  double low_w = 0, total_w = 0, high_w = 0;
+  double ps_w = 0, pl_w = 0;  ///< without static power
+  double static_w = 0;        ///< of the whole device
+  std::map<std::string, double> rails;
+  std::vector<Module> modules;  ///< their sum is the total
+  bool per_frame = true;        ///< false: there were no frames
+  double energy_per_frame_mj = 0;
+};
+
+/// What the programmable logic takes of the device.
+struct ResourceReport {
+  struct Amount {
+    double lut = 0, ff = 0, bram36 = 0, dsp = 0;
+  };
+  struct Module {
+    std::string name;
+    Amount amount;
+    unsigned uncertainty_percent = 0;
+    std::string source;
+  };
+
+  std::string device;
+  std::vector<Module> modules;
+  Amount total;
+  Amount available;
+  std::vector<std::string> over;  ///< "lut", "ff", "bram36", "dsp": what there is not enough of
+};
+
+/// Whether each module is fast enough for its clock.
+struct TimingReport {
+  struct Module {
+    std::string name;
+    std::string clock;
+    double frequency_mhz = 0;  ///< the highest that the clock had
+    double fmax_mhz = 0;
+    bool lower_bound = false;  ///< it is known to work up to fmax, nobody says that it ends there
+    bool met = true;
+    double margin_percent = 0;  ///< by how much the clock could rise; negative: must fall
+    std::string source;
+  };
+
+  bool met = true;
+  std::vector<Module> modules;
+};
+
+/// One line a module that misses timing: "pl.blob_detection misses timing: …".
+std::vector<std::string> timing_warnings(const TimingReport& timing);
+/// One line for each kind of primitive that is short.
+std::vector<std::string> resource_warnings(const ResourceReport& resources);
+/// A junction above what the device is specified for.
+std::vector<std::string> power_warnings(const PowerReport& power);
+
+/// "power", "timing" and "resources" for the console, a line each.
+std::string design_text(const PowerReport& power, const ResourceReport& resources,
+                        const TimingReport& timing);
+
+}  // namespace platform::report

@@ -1,0 +1,264 @@
+#include <zynq/power_sources.h>
+
+#include <pl/blob_detection/estimate.h>
+#include <power/fabric_energy.h>
+#include <algorithm>
+#include <utility>
+
+namespace platform {
+
+namespace {
+
+using power::PowerTable;
+using vp::Band;
+using vp::PowerKind;
+
+constexpr double nano = 1e-9;  // nJ; mW/MHz is nJ a clock
+constexpr double pico = 1e-12;
+constexpr double hz_per_mhz = 1e6;
+constexpr double line_bytes = 32;      // of the L2 cache
+constexpr double hp_port_bytes = 8;    // a beat
+constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
+constexpr double cores = 2;
+constexpr double full_voltage = 1.5, low_voltage = 1.35;
+
+Band operator-(const Band& a, const Band& b) {
+  return {std::max(0.0, a.low - b.low), std::max(0.0, a.nominal - b.nominal),
+          std::max(0.0, a.high - b.high)};
+}
+Band operator*(const Band& a, const Band& b) {
+  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
+}
+
+class Builder {
+ public:
+  Builder(Zynq& zynq, const PowerOptions& options, const PowerTable& table,
+          const PowerStates& states)
+      : zynq_(zynq),
+        options_(options),
+        table_(table),
+        states_(states),
+        by_activity_(options.mode == PowerMode::activity) {}
+
+  void add_processing_system() {
+    add_cores();
+    state("ps.uncore", "Vccpint", wide("ps.uncore_"));
+    state("ps.pll", "Vccpll", "ps.pll");
+    state("ps.aux", "Vccpaux", wide("ps.aux_"));
+    state("ps.mio", "Vcco_mio", "ps.mio");
+    add_ddr();
+  }
+
+  void add_design(const std::vector<DesignIp>& design) {
+    for (const DesignIp& ip : design) add_ip(ip);
+    add_clock_root("pl.clocks.pixel", "feature_extraction", states_.pixel_hz);
+    add_clock_root("pl.clocks.system", "data_bridge", states_.system_hz);
+    add_hp_port();
+  }
+
+  std::vector<vp::PowerSource> take() { return std::move(sources_); }
+
+ private:
+  /// "ps.uncore_32" or "ps.uncore_16".
+  std::string wide(const std::string& name) const {
+    return name + (options_.ddr.width == 32 ? "32" : "16");
+  }
+  std::string origin(const std::string& coefficient) const {
+    const power::Coefficient& entry = table_.at(coefficient);
+    return coefficient + " (" + entry.status + ")";
+  }
+
+  void add(const std::string& module, const std::string& group, const std::string& rail,
+           PowerKind kind, const std::string& source, const Band& joules,
+           const vp::PiecewiseConstant* state, std::function<double()> count = nullptr) {
+    sources_.push_back({module, group, rail, kind, source, joules, state, std::move(count)});
+  }
+  void state(const std::string& module, const std::string& rail, const std::string& coefficient) {
+    add(module, "ps", rail, PowerKind::state, origin(coefficient), table_.value(coefficient),
+        &states_.always);
+  }
+
+  // Vendor: both cores are busy half of the time. Activity: core 0 is busy while the program does
+  // not wait for an interrupt, core 1 sleeps in WFE.
+  void add_cores() {
+    const Band cycle = table_.value("ps.core_cycle") * nano;
+    if (by_activity_) {
+      add("ps.cores", "ps", "Vccpint", PowerKind::state, origin("ps.core_cycle"), cycle,
+          &states_.cpu_awake_hz);
+    } else {
+      add("ps.cores", "ps", "Vccpint", PowerKind::state, origin("ps.core_cycle"),
+          cycle * table_.value("ps.default_load") * cores, &states_.cpu_hz);
+    }
+  }
+
+  /// DDR I/O of a bus that is always busy, W.
+  Band full_ddr() const {
+    const double volts = options_.ddr.voltage;
+    const double mhz = static_cast<double>(options_.ddr.frequency) / hz_per_mhz;
+    Band amperes = table_.value(wide("ps.ddr_current_"));
+    amperes += table_.value(wide("ps.ddr_slope_")) * mhz;
+    const double lower = (full_voltage - volts) / (full_voltage - low_voltage);
+    const Band& factor = table_.value("ps.ddr_low_voltage");
+    const Band scale{1 - (1 - factor.low) * lower, 1 - (1 - factor.nominal) * lower,
+                     1 - (1 - factor.high) * lower};
+    return amperes * scale * volts;
+  }
+
+  void add_ddr() {
+    const std::string source = origin(wide("ps.ddr_current_"));
+    if (!by_activity_) {
+      add("ps.ddr_io", "ps", "Vcco_ddr", PowerKind::state, source, full_ddr(), &states_.always);
+      return;
+    }
+    const Band& idle = table_.value("ps.ddr_idle_share");
+    const Band busy{1 - idle.low, 1 - idle.nominal, 1 - idle.high};
+    const double most_bytes_per_s =
+        2.0 * static_cast<double>(options_.ddr.frequency) * options_.ddr.width / 8;
+    add("ps.ddr_io", "ps", "Vcco_ddr", PowerKind::state, origin("ps.ddr_idle_share"),
+        full_ddr() * idle, &states_.always);
+    const double stall_ns = table_.value("ps.ddr_line_stall").nominal;
+    add("ps.ddr_io", "ps", "Vcco_ddr", PowerKind::event, source,
+        full_ddr() * busy * (1 / most_bytes_per_s), nullptr,
+        [&zynq = zynq_, stall_ns] { return ddr_bytes(zynq, stall_ns); });
+  }
+
+  /// What DMA and cache misses moved. Reads of a DMA only upload images here, which is no frame's.
+  static double ddr_bytes(const Zynq& zynq, double stall_ns_per_line) {
+    double stalls_ns = 0;
+    for (const ps::WorkCount& work : zynq.ps.cpu.work()) {
+      stalls_ns += work.stall_ns * static_cast<double>(work.count);
+    }
+    const double lines = stall_ns_per_line > 0 ? stalls_ns / stall_ns_per_line : 0;
+    return static_cast<double>(zynq.ps.ddr.bytes_written) + lines * line_bytes;
+  }
+
+  void add_hp_port() {
+    const Band clock = table_.value("ps.hp_port") * nano;
+    if (!by_activity_) {
+      add("ps.s_axi_hp0", "ps", "Vccpint", PowerKind::state, origin("ps.hp_port"), clock,
+          &states_.system_hz);
+      return;
+    }
+    const ps::Ddr& ddr = zynq_.ps.ddr;
+    add("ps.s_axi_hp0", "ps", "Vccpint", PowerKind::event, origin("ps.hp_port"),
+        clock * (1 / (hp_port_usage * hp_port_bytes)), nullptr,
+        [&ddr] { return static_cast<double>(ddr.bytes_written.get()); });
+  }
+
+  void add_clock_root(const char* module, const char* group, const vp::PiecewiseConstant& hz) {
+    add(module, group, "Vccint", PowerKind::clock, origin("pl.clock_root"),
+        power::clock_root_energy(table_), &hz);
+  }
+
+  void add_ip(const DesignIp& ip) {
+    const vp::IpEstimate& e = ip.estimate;
+    const bool pixel = ip.clock == &zynq_.ps.fclk_clk1.clk;
+    const vp::PiecewiseConstant& hz = pixel ? states_.pixel_hz : states_.system_hz;
+    const Band clock = power::clock_energy(table_, e.ff);
+    add(ip.module, ip.group, "Vccint", PowerKind::clock, origin("pl.clock"), clock, &hz);
+    const std::string coefficient = logic_coefficient(ip);
+    add_activity(ip, hz, "Vccint", coefficient, logic(ip, coefficient, clock));
+    if (e.dsp != 0) {
+      add_activity(ip, hz, "Vccint", "pl.dsp", power::dsp_energy(table_, e.dsp));
+    }
+    if (e.bram36 > 0) add_block_memory(ip, hz);
+  }
+
+  /// The coefficient of an IP that has one of its own; else that of logic in general.
+  std::string logic_coefficient(const DesignIp& ip) const {
+    if (ip.kind == "blob_detection" && options_.blob.figure_includes_static) {
+      return "ip.blob_detection_net";
+    }
+    for (const power::Coefficient& entry : table_.entries()) {
+      if (entry.name == "ip." + ip.kind) return entry.name;
+    }
+    return "pl.logic";
+  }
+
+  /// Energy of a clock in which the logic works. A coefficient of an IP is for all of it.
+  Band logic(const DesignIp& ip, const std::string& coefficient, const Band& clock) const {
+    if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut);
+    const Band value = table_.value(coefficient) * nano;
+    if (ip.kind != "blob_detection") return value - clock;
+    // The thesis' figure is that of its 128 labels; others in proportion to the logic.
+    const double scale =
+        static_cast<double>(pl::logic_of_labels(zynq_.pl.blob_detection.label_count)) /
+        pl::logic_of_labels(pl::thesis_labels);
+    const Band blocks = power::block_memory_energy(table_, ip.estimate.bram36);
+    return value * scale - clock - blocks;
+  }
+
+  void add_activity(const DesignIp& ip, const vp::PiecewiseConstant& hz, const char* rail,
+                    const std::string& coefficient, const Band& joules) {
+    if (!by_activity_) {
+      add(ip.module, ip.group, rail, PowerKind::state, origin(coefficient), joules, &hz);
+    } else if (ip.estimate.active_clocks) {
+      const auto& clocks = ip.estimate.active_clocks;
+      add(ip.module, ip.group, rail, PowerKind::event, origin(coefficient), joules, nullptr,
+          [clocks] { return static_cast<double>(clocks()); });
+    } else {
+      const bool pixel = &hz == &states_.pixel_hz;
+      add(ip.module, ip.group, rail, PowerKind::state, origin(coefficient), joules,
+          pixel ? &states_.pixel_frame_hz : &states_.system_frame_hz);
+    }
+  }
+
+  // The image memory: one block works at a time. Others: as their logic does.
+  void add_block_memory(const DesignIp& ip, const vp::PiecewiseConstant& hz) {
+    if (by_activity_ && ip.kind == "bram") {
+      const xilinx::Bram& bram = zynq_.pl.bram;
+      add(ip.module, ip.group, "Vccbram", PowerKind::event, origin("pl.bram_read"),
+          table_.value("pl.bram_read") * pico, nullptr,
+          [&bram] { return static_cast<double>(bram.reads_b.get()); });
+      return;
+    }
+    add_activity(ip, hz, "Vccbram", "pl.bram",
+                 power::block_memory_energy(table_, ip.estimate.bram36));
+  }
+
+  Zynq& zynq_;
+  const PowerOptions& options_;
+  const PowerTable& table_;
+  const PowerStates& states_;
+  const bool by_activity_;
+  std::vector<vp::PowerSource> sources_;
+};
+
+}  // namespace
+
+std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& options,
+                                           const PowerTable& table,
+                                           const std::vector<DesignIp>& design,
+                                           const PowerStates& states) {
+  Builder builder(zynq, options, table, states);
+  builder.add_processing_system();
+  if (options.pl_design) builder.add_design(design);
+  return builder.take();
+}
+
+vp::EnergyLedger static_energy(const PowerTable& table, const vp::ThermalPath& path,
+                               const Band& dynamic_w, double seconds, double& junction_c) {
+  const Band& base = table.value("static.base");
+  const auto point = [&](double Band::*estimate) {
+    return vp::find_static_point(power::leakage(table, estimate), path, dynamic_w.*estimate);
+  };
+  const vp::StaticPoint low = point(&Band::low), nominal = point(&Band::nominal),
+                        high = point(&Band::high);
+  junction_c = nominal.junction_c;
+  const Band whole{low.static_w * seconds, nominal.static_w * seconds, high.static_w * seconds};
+  const Band leaking = whole - base * seconds;
+  const std::string source = "static.leakage (" + table.at("static.leakage").status + ")";
+
+  vp::EnergyLedger ledger;
+  Band rest = whole;
+  for (const auto& [rail, share] :
+       {std::pair{"Vccpint", "static.share_vccpint"}, std::pair{"Vccint", "static.share_vccint"}}) {
+    const Band part = leaking * table.value(share);
+    ledger.add({"static", "static", rail, PowerKind::leakage, source, part});
+    rest = rest - part;
+  }
+  ledger.add({"static", "static", "Vccaux and others", PowerKind::leakage, source, rest});
+  return ledger;
+}
+
+}  // namespace platform

@@ -1,0 +1,174 @@
+#include <zynq/zynq_power.h>
+
+#include <algorithm>
+
+#include <zynq/power_sources.h>
+
+namespace platform {
+
+namespace {
+
+const std::vector<std::string>& groups() {
+  static const std::vector<std::string> names = {"ps", "feature_extraction", "data_bridge",
+                                                 "image_memory", "static"};
+  return names;
+}
+
+double nominal(const std::map<std::string, vp::Band>& sums, const std::string& key) {
+  const auto found = sums.find(key);
+  return found == sums.end() ? 0 : found->second.nominal;
+}
+
+bool inside(std::uint64_t ps, const std::vector<vp::Interval>& intervals) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [ps](const vp::Interval& i) { return i.from_ps <= ps && ps < i.to_ps; });
+}
+
+constexpr double mj_per_j = 1e3;
+
+}  // namespace
+
+ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
+    : sc_module(name),
+      options(uses_pl),
+      zynq_(zynq),
+      table_(power::PowerTable::load(options.table)),
+      design_(design_of(zynq)),
+      states_(zynq) {
+  for (vp::PowerSource& source : power_sources(zynq, options, table_, design_, states_)) {
+    meter_.add(std::move(source));
+  }
+  states_.set_observer(this);
+  timeline_.groups = groups();
+  const double watts = meter_.watts(0);
+  double junction_c = 0;
+  static_w_ = static_energy(table_, options.thermal_path(), {watts, watts, watts}, 1, junction_c)
+                  .total()
+                  .nominal;
+  show(0);
+}
+
+void ZynqPower::states_changed(std::uint64_t ps) {
+  if (follows_) show(ps);
+}
+
+void ZynqPower::show(std::uint64_t now_ps) {
+  const double all = meter_.watts(now_ps);
+  const double of_ps = meter_.watts(now_ps, "ps");
+  ps = of_ps;
+  pl = all - of_ps;
+  static_power = static_w_;
+  total = all + static_w_;
+}
+
+std::vector<vp::Interval> ZynqPower::period_of(const report::FrameReport& frame) const {
+  if (frames_ == 0) return {{frame.start_ps, frame.end_ps}};
+  const std::uint64_t upload = frame.start_ps - std::min(frame.start_ps, frame.upload_ps);
+  return {{last_end_ps_, std::max(last_end_ps_, upload)},
+          {std::max(last_end_ps_, frame.start_ps), frame.end_ps}};
+}
+
+vp::EnergyLedger ZynqPower::measure(const std::vector<vp::Interval>& period, double seconds,
+                                    double& junction_c) const {
+  vp::EnergyLedger ledger = meter_.measure(period);
+  ledger.add(static_energy(table_, options.thermal_path(), ledger.total() * (1 / seconds), seconds,
+                           junction_c));
+  return ledger;
+}
+
+void ZynqPower::frame_ends(report::FrameReport& frame) {
+  const std::vector<vp::Interval> period = period_of(frame);
+  double seconds = 0;
+  for (const vp::Interval& interval : period) seconds += interval.seconds();
+  if (seconds <= 0) return;
+  double junction_c = 0;
+  const vp::EnergyLedger ledger = measure(period, seconds, junction_c);
+  const auto sums = ledger.by_group();
+  for (const std::string& group : groups()) {
+    frame.energy.push_back({group, nominal(sums, group) * mj_per_j});
+  }
+  static_w_ = nominal(sums, "static") / seconds;
+  if (records_) record(ledger, period, seconds, frame.end_ps);
+  ledger_.add(ledger);
+  seconds_ += seconds;
+  junction_seconds_ += junction_c * seconds;
+  last_end_ps_ = frame.end_ps;
+  ++frames_;
+  states_.forget_before(frame.end_ps);
+  if (follows_) show(frame.end_ps);
+}
+
+/// What flowed since the frame before, event energy spread over the period.
+void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
+                       double seconds, std::uint64_t end_ps) {
+  std::vector<std::uint64_t> times = states_.changes(last_end_ps_, end_ps);
+  times.push_back(last_end_ps_);
+  for (const vp::Interval& interval : period) {
+    times.push_back(interval.from_ps);
+    times.push_back(interval.to_ps);
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::map<std::string, double> events_w;
+  for (const vp::EnergyEntry& entry : ledger.entries()) {
+    if (entry.kind == vp::PowerKind::event) events_w[entry.group] += entry.joules.nominal / seconds;
+  }
+  if (!timeline_.points.empty()) timeline_.points.pop_back();  // the end, which is none any more
+  for (const std::uint64_t ps : times) {
+    PowerTimeline::Point point{ps, std::vector<double>(groups().size(), 0)};
+    for (std::size_t i = 0; i < groups().size() && ps < end_ps; ++i) {
+      const std::string& group = groups()[i];
+      point.watts[i] = group == "static" ? static_w_ : meter_.watts(ps, group);
+      if (inside(ps, period)) point.watts[i] += events_w[group];
+    }
+    timeline_.points.push_back(std::move(point));
+  }
+}
+
+report::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
+  vp::EnergyLedger whole = ledger_;
+  double seconds = seconds_, junction_seconds = junction_seconds_;
+  if (frames_ == 0) {
+    const vp::Interval run{0, std::max<std::uint64_t>(end_ps, 1)};
+    seconds = run.seconds();
+    double junction_c = 0;
+    whole = measure({run}, seconds, junction_c);
+    junction_seconds = junction_c * seconds;
+  }
+  report::PowerReport report;
+  report.mode = options.mode.text();
+  report.table = table_.name();
+  report.ambient_c = options.ambient;
+  report.junction_c = junction_seconds / seconds;
+  const vp::Band total = whole.total();
+  report.low_w = total.low / seconds;
+  report.total_w = total.nominal / seconds;
+  report.high_w = total.high / seconds;
+  const auto sums = whole.by_group();
+  report.ps_w = nominal(sums, "ps") / seconds;
+  report.static_w = nominal(sums, "static") / seconds;
+  for (const auto& [group, band] : sums) {
+    if (group != "ps" && group != "static") report.pl_w += band.nominal / seconds;
+  }
+  for (const auto& [rail, band] : whole.by_rail()) report.rails[rail] = band.nominal / seconds;
+  const double mj = frames_ == 0 ? 0 : mj_per_j / static_cast<double>(frames_);
+  for (const vp::EnergyEntry& entry : whole.entries()) {
+    report.modules.push_back({entry.module, entry.rail, vp::to_string(entry.kind),
+                              entry.joules.nominal / seconds, entry.joules.nominal * mj,
+                              entry.source});
+  }
+  report.per_frame = frames_ != 0;
+  report.energy_per_frame_mj = total.nominal * mj;
+  return report;
+}
+
+report::ResourceReport ZynqPower::resource_report() const {
+  return platform::resource_report(options.pl_design ? design_ : std::vector<DesignIp>{});
+}
+
+report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {
+  if (!options.pl_design) return {};
+  return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); });
+}
+
+}  // namespace platform

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include <power/power_table.h>
+#include <report/design_report.h>
+#include <report/result.h>
+#include <vp/power_meter.h>
+#include <vp/signal.h>
+#include <zynq/design.h>
+#include <zynq/power_options.h>
+#include <zynq/power_states.h>
+#include <zynq/power_timeline.h>
+#include <zynq/timing_closure.h>
+#include <zynq/zynq.h>
+
+namespace platform {
+
+/// The energy of a run, frame by frame: an account of what the simulation counts anyway, made up
+/// when a frame is over.
+///
+/// A frame's energy is that of its period, as the frame rate sees it: from the last result before
+/// it to its own, without the upload of its image. So watts = millijoules a frame × frames a
+/// second. Static power is that of the temperature at which the chip would settle if the frame were
+/// repeated for ever.
+class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
+ public:
+  /// `uses_pl`: whether the program needs the design in the PL. Throws vp::InputError for a table
+  /// that cannot be used, and for thermal runaway.
+  ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl);
+
+  PowerOptions options;
+  // What flows now, W, for traces. Without the energy of events, which is known later (mode
+  // `activity`); static power as of the last frame.
+  vp::Signal<double> total{"total"};
+  vp::Signal<double> ps{"ps"};
+  vp::Signal<double> pl{"pl"};
+  vp::Signal<double> static_power{"static"};
+
+  /// Keeps the signals above up to date. Default: they show the start.
+  void follow() { follows_ = true; }
+  /// Keeps the power over time, which grows with the run.
+  void record_timeline() { records_ = true; }
+  const PowerTimeline& timeline() const { return timeline_; }
+
+  /// The program takes an image: events from here on are its frame's.
+  void frame_begins() { meter_.mark(); }
+  /// The program published a result, now: fills in `energy`.
+  void frame_ends(report::FrameReport& frame);
+
+  // The run so far.
+  /// `end_ps` of the run, for one without frames.
+  report::PowerReport power_report(std::uint64_t end_ps) const;
+  report::ResourceReport resource_report() const;
+  report::TimingReport timing_report(const TimingClosure& timing) const;
+  /// What was taken: by module, rail and kind.
+  const vp::EnergyLedger& ledger() const { return ledger_; }
+  const power::PowerTable& table() const { return table_; }
+  const std::vector<DesignIp>& design() const { return design_; }
+
+ private:
+  void states_changed(std::uint64_t ps) override;
+  std::vector<vp::Interval> period_of(const report::FrameReport& frame) const;
+  vp::EnergyLedger measure(const std::vector<vp::Interval>& period, double seconds,
+                           double& junction_c) const;
+  void record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
+              double seconds, std::uint64_t end_ps);
+  void show(std::uint64_t ps);
+
+  Zynq& zynq_;
+  power::PowerTable table_;
+  std::vector<DesignIp> design_;
+  PowerStates states_;
+  vp::PowerMeter meter_;
+  vp::EnergyLedger ledger_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t last_end_ps_ = 0;
+  double seconds_ = 0;           ///< of all periods
+  double junction_seconds_ = 0;  ///< C s
+  double static_w_ = 0;          ///< of the last frame
+  bool follows_ = false;
+  bool records_ = false;
+  PowerTimeline timeline_;
+};
+
+}  // namespace platform

@@ -1,0 +1,132 @@
+#include "design_schema.h"
+
+namespace integration {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Checker {
+ public:
+  std::vector<std::string> take() { return std::move(problems_); }
+
+  void result(const Json& json) {
+    for (const Json& frame : json.value("frames", Json::array())) {
+      numbers(frame, "energy_mj",
+              {"total", "ps", "feature_extraction", "data_bridge", "image_memory", "static"});
+    }
+    if (json.contains("summary")) {
+      numbers(json["summary"], "power_w", {"total", "ps", "pl", "static"});
+      number(json["summary"], "energy_per_frame_mj");
+    }
+    if (object(json, "power")) power(json["power"]);
+    if (object(json, "resources")) resources(json["resources"]);
+    if (object(json, "timing")) timing(json["timing"]);
+  }
+
+ private:
+  void expect(bool good, const std::string& problem) {
+    if (!good) problems_.push_back(problem);
+  }
+  bool object(const Json& json, const std::string& key) {
+    const bool good = json.contains(key) && json[key].is_object();
+    expect(good, key + " is missing or no object");
+    return good;
+  }
+  bool array(const Json& json, const std::string& key) {
+    const bool good = json.contains(key) && json[key].is_array();
+    expect(good, key + " is missing or no list");
+    return good;
+  }
+  void number(const Json& json, const std::string& key) {
+    expect(json.contains(key) && json[key].is_number() && json[key] >= 0,
+           key + " is missing or no number from 0 on");
+  }
+  void text(const Json& json, const std::string& key) {
+    expect(json.contains(key) && json[key].is_string() && json[key] != "",
+           key + " is missing or no text");
+  }
+  void truth(const Json& json, const std::string& key) {
+    expect(json.contains(key) && json[key].is_boolean(), key + " is missing or not true or false");
+  }
+  void numbers(const Json& json, const std::string& key, const std::vector<std::string>& names) {
+    if (!object(json, key)) return;
+    for (const std::string& name : names) number(json[key], name);
+  }
+  void one_of(const Json& json, const std::string& key, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      if (json.contains(key) && json[key] == name) return;
+    }
+    problems_.push_back(key + " is missing or unknown");
+  }
+
+  void power(const Json& json) {
+    one_of(json, "mode", {"vivado-default", "activity"});
+    text(json, "table");
+    for (const char* key : {"ambient_c", "junction_c"}) {
+      expect(json.contains(key) && json[key].is_number(), std::string(key) + " is missing");
+    }
+    numbers(json, "total_w", {"low", "nominal", "high"});
+    numbers(json, "rails",
+            {"Vccaux and others", "Vccbram", "Vccint", "Vcco_ddr", "Vcco_mio", "Vccpaux", "Vccpint",
+             "Vccpll"});
+    if (!array(json, "modules")) return;
+    expect(!json["modules"].empty(), "power.modules is empty");
+    for (const Json& module : json["modules"]) {
+      text(module, "name");
+      text(module, "rail");
+      one_of(module, "kind", {"static", "clock", "state", "event"});
+      number(module, "w");
+      number(module, "mj");
+      text(module, "source");
+    }
+  }
+
+  void amount(const Json& json) {
+    for (const char* key : {"lut", "ff", "bram36", "dsp"}) number(json, key);
+  }
+
+  void resources(const Json& json) {
+    text(json, "device");
+    for (const char* key : {"total", "available"}) {
+      if (object(json, key)) amount(json[key]);
+    }
+    truth(json, "fits");
+    array(json, "over");
+    if (!array(json, "modules")) return;
+    for (const Json& module : json["modules"]) {
+      text(module, "name");
+      amount(module);
+      number(module, "uncertainty_percent");
+      text(module, "source");
+    }
+  }
+
+  void timing(const Json& json) {
+    truth(json, "met");
+    if (!array(json, "modules")) return;
+    for (const Json& module : json["modules"]) {
+      text(module, "name");
+      text(module, "clock");
+      number(module, "frequency_mhz");
+      number(module, "fmax_mhz");
+      truth(module, "lower_bound");
+      truth(module, "met");
+      expect(module.contains("margin_percent") && module["margin_percent"].is_number(),
+             "margin_percent is missing");
+      text(module, "source");
+    }
+  }
+
+  std::vector<std::string> problems_;
+};
+
+}  // namespace
+
+std::vector<std::string> design_problems(const Json& result) {
+  Checker checker;
+  checker.result(result);
+  return checker.take();
+}
+
+}  // namespace integration
