@@ -19,6 +19,7 @@ constexpr const char* examples = R"(Examples:
   markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
   markervp scenes                           what can be run
   markervp config > platform.yaml           every parameter with its default
+  markervp report slower out                compare two runs in a page
   markervp map axi_dma_0                    addresses and registers that software sees
 
 Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 wrong usage,
@@ -27,6 +28,9 @@ configuration or input, 3 hardware or software broke a protocol rule.)";
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
 any the demo scene runs. Results: result.json and an annotated picture per frame.)";
+
+constexpr const char* report_examples =
+    R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
 constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash)
 For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
@@ -85,6 +89,7 @@ void add_output_options(CLI::App& command, RunOptions& target) {
   command.add_flag("--require-marker", target.require_marker,
                    "exit code 1 if a frame has no marker");
   command.add_flag("--no-pictures", target.no_pictures, "no annotated pictures");
+  command.add_flag("--no-report", target.no_report, "no page report.html");
   command.add_flag("-q,--quiet", target.quiet, "no report per frame");
 }
 
@@ -149,6 +154,18 @@ void add_map(CLI::App& app, MapOptions& target) {
   add_configuration_options(*command, target.configuration);
 }
 
+void add_report(CLI::App& app, ReportOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("report", "make the page of a result again, or compare two");
+  command->add_option("DIR", target.folders, "folder of a run, sweep or validation; two runs")
+      ->type_name("")
+      ->expected(1, 2)
+      ->required();
+  command->add_option("-o,--output", target.output, "file of a comparison (default: compare.html)")
+      ->type_name("FILE");
+  command->footer(report_examples);
+}
+
 void add_completion(CLI::App& app, CompletionOptions& target) {
   CLI::App* command =
       app.add_subcommand("completion", "print a script that completes the command line");
@@ -172,6 +189,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_scenes(*app, target.scenes);
   add_config(*app, target.config);
   add_map(*app, target.map);
+  add_report(*app, target.report);
   add_completion(*app, target.completion);
   return app;
 }

@@ -30,6 +30,9 @@ int print_configuration(const ConfigOptions& options, const SimulationFactory& m
 int print_map(const MapOptions& options, const SimulationFactory& make_simulation,
               std::ostream& out);
 
+/// Makes the page of a folder again, or one that compares two runs.
+int make_report(const ReportOptions& options, std::ostream& out);
+
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.

@@ -77,6 +77,7 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
         std::filesystem::path(outputs.folder) / picture::picture_name(report);
     write_png(picture::annotate(input.image, report), path.string());
   }
+  if (outputs.page) outputs.page->add(input.image, report);
   outputs.result.add(report);
   if (outputs.text) outputs.out << report::frame_text(report, source_.size()) << std::flush;
   if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;

@@ -10,6 +10,7 @@
 
 #include <cli/simulation.h>
 #include <input/frame_source.h>
+#include <page/run_extras.h>
 #include <report/result_writer.h>
 #include <vp/progress.h>
 
@@ -26,6 +27,7 @@ class FrameRunner {
     bool progress = false;  ///< a bar on stderr
     std::ostream& out;
     report::ResultWriter& result;
+    page::RunExtras* page = nullptr;  ///< gets images and features; null: no page
   };
 
   /// Makes the first frame, so that a bad input shows before anything else happens. Throws

@@ -35,6 +35,7 @@ struct RunOptions {
   std::uint64_t repeat = 1;
   bool require_marker = false;
   bool no_pictures = false;
+  bool no_report = false;
   bool quiet = false;
 };
 
@@ -57,6 +58,12 @@ struct MapOptions {
   ConfigurationOptions configuration;
 };
 
+/// `markervp report`.
+struct ReportOptions {
+  std::vector<std::string> folders;   ///< one: its page again; two: a comparison
+  std::optional<std::string> output;  ///< file of the comparison
+};
+
 /// `markervp completion`.
 struct CompletionOptions {
   std::string shell;
@@ -68,6 +75,7 @@ struct CommandLine {
   ScenesOptions scenes;
   ConfigOptions config;
   MapOptions map;
+  ReportOptions report;
   CompletionOptions completion;
 };
 

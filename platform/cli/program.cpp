@@ -33,6 +33,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "scenes") return list_scenes(line.scenes, out);
   if (command == "config") return print_configuration(line.config, make_simulation, out);
   if (command == "map") return print_map(line.map, make_simulation, out);
+  if (command == "report") return make_report(line.report, out);
   return print_completion(line.completion, app, out);
 }
 

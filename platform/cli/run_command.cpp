@@ -15,6 +15,9 @@
 #include <cli/program.h>
 #include <cli/trace_window.h>
 #include <cli/version.h>
+#include <page/page_file.h>
+#include <page/report_page.h>
+#include <page/run_extras.h>
 #include <report/console.h>
 #include <report/file_output.h>
 #include <report/words.h>
@@ -180,10 +183,11 @@ class Warner {
   std::vector<std::string> seen_;
 };
 
-std::string written_text(const RunOptions& options, const FrameRunner& runner) {
+std::string written_text(const RunOptions& options, const FrameRunner& runner, bool has_page) {
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
   if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
+  if (has_page) text += ", report.html to look at";
   for (const auto& file : {options.trace, options.log_bus, options.register_coverage}) {
     if (file) text += ", " + *file;
   }
@@ -233,7 +237,10 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   report::ResultWriter result(options.output);
   const InterruptGuard guard;
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
-  runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result});
+  page::RunExtras extras;
+  const bool page = !options.no_report && !page::page_template().empty();
+  runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result,
+                           page ? &extras : nullptr});
 
   if (runner.error() && runner.frames() == 0 && is_input_error(runner.error())) {
     std::error_code ignored;
@@ -249,8 +256,10 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
   if (runner.error()) origin.details.emplace_back("error", message_of(runner.error()));
   result.finish(facts, origin, warner.all(), incomplete(runner));
+  const bool has_page =
+      page && page::write_report(options.output, extras.json(configuration.parameters()));
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
-      << written_text(options, runner) << std::flush;
+      << written_text(options, runner, has_page) << std::flush;
   return verdict(options, runner, facts, err);
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <scene/grey_image.h>
+
 namespace platform::picture {
 
 /// A colour picture, three bytes a pixel (red, green, blue), row by row from the top left, no
@@ -13,6 +15,9 @@ struct Picture {
   int height = 0;  ///< px
   std::vector<std::uint8_t> rgb;
 };
+
+/// A PNG file's bytes of a grey image. Equal images give equal bytes.
+std::string encode_png(const GreyImage& image);
 
 /// Writes a PNG file, whole or not at all. Equal pictures give equal bytes. Throws vp::InputError
 /// if it cannot be written.

@@ -31,8 +31,9 @@ void check_results(const CommandLine& place) {
   std::size_t pictures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(place / "out")) {
     const std::string name = entry.path().filename().string();
-    BOOST_TEST((name == "result.json" || entry.path().extension() == ".png"),
-               name << " is left over");
+    BOOST_TEST(
+        (name == "result.json" || name == "report.html" || entry.path().extension() == ".png"),
+        name << " is left over");
     pictures += entry.path().extension() == ".png" ? 1 : 0;
   }
   BOOST_TEST(pictures == frames);

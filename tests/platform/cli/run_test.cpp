@@ -2,6 +2,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include <page/page_file.h>
+
 #include "cli_kit.h"
 
 using namespace cli_test;
@@ -38,7 +40,8 @@ BOOST_AUTO_TEST_CASE(a_run_reports_and_writes_result_and_pictures) {
   BOOST_TEST(contains(out.str(), "FPS      mean 125.0"), out.str());
   Names names;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "results")) {
-    names.push_back(entry.path().filename().string());
+    // A build without Node.js makes no page.
+    if (entry.path().filename() != "report.html") names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
   BOOST_TEST(names == (Names{"0000_z1.0.png", "0001_roll30.png", "result.json"}));
@@ -231,6 +234,23 @@ BOOST_AUTO_TEST_CASE(ctrl_c_ends_after_the_frame_and_keeps_the_results) {
   const Json json = Json::parse(result());
   BOOST_TEST(json["frames"].size() == 2u);
   BOOST_TEST(json["incomplete"] == "interrupted");
+}
+
+BOOST_AUTO_TEST_CASE(a_page_to_look_at_unless_it_is_not_wanted) {
+  const auto has_page = [&] { return std::filesystem::exists(folder / "results/report.html"); };
+  BOOST_TEST(run_inputs({"z1.0", "--no-report"}) == 0);
+  BOOST_TEST(!has_page());
+  BOOST_TEST(run({"report", folder / "nowhere"}) == 2);
+  if (platform::page::page_template().empty()) return;  // a build without Node.js
+  BOOST_TEST(run({"report", folder / "results"}) == 0);
+  BOOST_TEST(has_page());
+  BOOST_TEST(run({"report", folder / "results", folder / "results", "-o", folder / "both.html"}) ==
+             0);
+  BOOST_TEST(std::filesystem::exists(folder / "both.html"));
+  BOOST_TEST(run({"report", folder / "results", "-o", folder / "one.html"}) == 2);
+  std::filesystem::remove(folder / "results/report.html");
+  BOOST_TEST(run_inputs({"z1.0"}) == 0);
+  BOOST_TEST(has_page());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

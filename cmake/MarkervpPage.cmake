@@ -1,0 +1,43 @@
+# The page of report.html, made of web/ with Node.js and npm. Without them the program is built without it and says so.
+find_program(MARKERVP_NODE NAMES node nodejs)
+find_program(MARKERVP_NPM npm)
+set(page_default OFF)
+if(MARKERVP_NODE AND MARKERVP_NPM)
+  set(page_default ON)
+endif()
+option(MARKERVP_PAGE "Build report.html (needs Node.js and npm, and npm's registry once)" ${page_default})
+if(MARKERVP_PAGE AND NOT (MARKERVP_NODE AND MARKERVP_NPM))
+  message(FATAL_ERROR "MARKERVP_PAGE needs node and npm (Debian: nodejs npm); without report.html: -DMARKERVP_PAGE=OFF")
+endif()
+if(NOT MARKERVP_PAGE)
+  message(STATUS "report.html is left out: MARKERVP_PAGE is off (it needs node and npm; Debian: nodejs npm)")
+endif()
+
+set(MARKERVP_PAGE_FOLDER "${PROJECT_BINARY_DIR}/web")
+set(MARKERVP_PAGE_TEMPLATE "${MARKERVP_PAGE_FOLDER}/report-template.html")
+set(MARKERVP_PAGE_MODULES "${MARKERVP_PAGE_FOLDER}/node_modules")
+
+# Defines the rule that makes MARKERVP_PAGE_TEMPLATE. SOURCES: what it is made of, below web/.
+function(markervp_page_rule)
+  cmake_parse_arguments(PAGE "" "" "SOURCES" ${ARGN})
+  set(web "${PROJECT_SOURCE_DIR}/web")
+  list(TRANSFORM PAGE_SOURCES PREPEND "${web}/")
+  set(packages "")
+  if(NOT BUILD_TESTING)
+    set(packages --omit=dev)
+  endif()
+  set(installed "${MARKERVP_PAGE_FOLDER}/installed${packages}")
+  add_custom_command(OUTPUT "${installed}"
+    COMMAND "${CMAKE_COMMAND}" -E make_directory "${MARKERVP_PAGE_FOLDER}"
+    COMMAND "${CMAKE_COMMAND}" -E copy "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc" "${MARKERVP_PAGE_FOLDER}"
+    COMMAND "${MARKERVP_NPM}" --prefix "${MARKERVP_PAGE_FOLDER}" ci --ignore-scripts --silent ${packages}
+    COMMAND "${CMAKE_COMMAND}" -E touch "${installed}"
+    DEPENDS "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc"
+    COMMENT "Fetching the page's packages (npm; -DMARKERVP_PAGE=OFF builds without report.html)"
+    VERBATIM)
+  add_custom_command(OUTPUT "${MARKERVP_PAGE_TEMPLATE}"
+    COMMAND "${MARKERVP_NODE}" "${web}/build.js" "${MARKERVP_PAGE_TEMPLATE}" "${MARKERVP_PAGE_MODULES}"
+    DEPENDS "${installed}" "${web}/build.js" "${PROJECT_SOURCE_DIR}/data/published.csv" ${PAGE_SOURCES}
+    COMMENT "Bundling report.html"
+    VERBATIM)
+endfunction()

@@ -1,0 +1,119 @@
+#include <page/report_page.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <page/page_file.h>
+#include <report/result_json.h>
+#include <vp/error.h>
+
+namespace platform::page {
+
+namespace {
+
+namespace fs = std::filesystem;
+using report::Json;
+
+/// Of a longer run the page shows the first frames; the others stand in result.json.
+constexpr std::size_t most_frames = 2000;
+/// A result.json up to this size is put into the page as it is.
+constexpr std::size_t small_file = 4'000'000;  // bytes
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw vp::InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Json parse(const std::string& text, const fs::path& path) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw vp::InputError("'" + path.string() + "' is not whole JSON: " + error.what());
+  }
+}
+
+/// Without the frames for which the page has no room.
+std::string shortened(const std::string& text, const fs::path& path) {
+  if (text.size() <= small_file) return text;
+  Json json = parse(text, path);
+  const auto frames = json.find("frames");
+  if (frames != json.end() && frames->size() > most_frames) {
+    frames->erase(frames->begin() + most_frames, frames->end());
+  }
+  return json.dump();
+}
+
+std::string extras_of_page(const fs::path& folder) {
+  const fs::path page = folder / "report.html";
+  std::error_code ignored;
+  return fs::exists(page, ignored) ? block_of(read_file(page), "extras") : "";
+}
+
+/// The blocks of a run; their names end in `suffix`. A file that others wrote is checked.
+void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::string& suffix,
+             std::string extras) {
+  const fs::path path = folder / "result.json";
+  const std::string text = read_file(path);
+  if (extras.empty()) {
+    parse(text, path);
+    extras = extras_of_page(folder);
+  }
+  blocks.push_back({"result" + suffix, shortened(text, path)});
+  if (!extras.empty()) blocks.push_back({"extras" + suffix, std::move(extras)});
+}
+
+/// All points in the order of their names: one array.
+std::string points_json(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::string text = "[";
+  for (const fs::path& file : files) {
+    if (text.size() > 1) text += ",\n";
+    text += parse(read_file(file), file).dump();
+  }
+  return text + "]";
+}
+
+}  // namespace
+
+bool write_report(const std::string& folder, const std::string& extras) {
+  const fs::path root(folder);
+  std::error_code ignored;
+  std::vector<Block> blocks;
+  if (fs::exists(root / "validation.json", ignored)) {
+    const fs::path path = root / "validation.json";
+    blocks.push_back({"validation", parse(read_file(path), path).dump()});
+  } else if (fs::is_directory(root / "points", ignored)) {
+    blocks.push_back({"points", points_json(root / "points")});
+  } else if (fs::exists(root / "result.json", ignored)) {
+    add_run(blocks, root, "", extras);
+  } else {
+    throw vp::InputError("'" + folder +
+                         "' has neither result.json (a run), points/ (a sweep) nor "
+                         "validation.json: name a folder that markervp wrote");
+  }
+  return write_page((root / "report.html").string(), blocks);
+}
+
+bool write_comparison(const std::string& first, const std::string& second,
+                      const std::string& output) {
+  std::vector<Block> blocks;
+  add_run(blocks, first, "", "");
+  add_run(blocks, second, "-b", "");
+  Json names = Json::array({first, second});
+  blocks.push_back({"comparison", names.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  return write_page(output, blocks);
+}
+
+}  // namespace platform::page

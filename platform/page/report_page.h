@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace platform::page {
+
+/// Writes report.html into a folder that has result.json (a run), validation.json (a validation) or
+/// points/ (a sweep), from these files. Of a run, `extras` is the block that RunExtras made; empty:
+/// that of the page that is there already, if there is one. False if the program was built without
+/// the page. Throws vp::InputError if the folder has none of these, or a file is damaged.
+bool write_report(const std::string& folder, const std::string& extras = "");
+
+/// A page into `output` that compares the runs in two folders.
+bool write_comparison(const std::string& first, const std::string& second,
+                      const std::string& output);
+
+}  // namespace platform::page

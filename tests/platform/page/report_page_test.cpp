@@ -1,0 +1,116 @@
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+
+#include <page/page_file.h>
+#include <page/report_page.h>
+#include <vp/error.h>
+
+#include <report/result_writer.h>
+#include "../report/report_kit.h"
+#include "temporary_files.h"
+
+namespace page = platform::page;
+namespace report = platform::report;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder with the result of a run.
+struct Folder : kit::TemporaryFolder {
+  explicit Folder(const std::string& input = "z1.0", std::uint32_t frames = 1) {
+    report::ResultWriter writer(path());
+    for (std::uint32_t i = 0; i < frames; ++i) {
+      report::FrameReport frame = report_test::found_frame("z1.0", i);
+      frame.input = input;
+      writer.add(frame);
+    }
+    writer.finish(report_test::facts(), report_test::provenance(), {});
+  }
+  std::string page() const { return read(*this / "report.html"); }
+  Json block(const char* id) const { return Json::parse(page::block_of(page(), id)); }
+};
+
+bool names(const vp::InputError& error, const std::string& text) {
+  return std::string(error.what()).find(text) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report_page)
+
+BOOST_AUTO_TEST_CASE(a_run_has_its_result_in_the_page) {
+  const Folder folder;
+  if (!page::write_report(folder.path(), R"({"frames":{}})")) return;  // built without it
+  BOOST_TEST(folder.block("result") == Json::parse(read(folder / "result.json")));
+  BOOST_TEST(folder.block("extras") == Json::parse(R"({"frames":{}})"));
+}
+
+BOOST_AUTO_TEST_CASE(a_page_made_again_keeps_its_images) {
+  const Folder folder;
+  if (!page::write_report(folder.path(), R"({"frames":{"0":{"png":"AAAA"}}})")) return;
+  page::write_report(folder.path());
+  BOOST_TEST(folder.block("extras")["frames"]["0"]["png"] == "AAAA");
+}
+
+BOOST_AUTO_TEST_CASE(an_input_called_like_markup_stays_text) {
+  const std::string name = "</script><img src=x onerror=alert(1)>.png";
+  const Folder folder(name);
+  if (!page::write_report(folder.path())) return;
+  BOOST_TEST(folder.block("result")["frames"][0]["input"] == name);
+  BOOST_TEST(folder.page().find("<img src=x") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_long_run_shows_its_first_frames) {
+  const Folder folder("z1.0", 7000);
+  if (!page::write_report(folder.path())) return;
+  BOOST_TEST(folder.block("result")["frames"].size() == 2000);
+  BOOST_TEST(folder.block("result")["summary"]["frames"] == 7000);
+}
+
+BOOST_AUTO_TEST_CASE(two_runs_are_compared) {
+  const Folder first;
+  const Folder second("roll30");
+  const kit::TemporaryFolder folder;
+  if (!page::write_comparison(first.path(), second.path(), folder / "both.html")) return;
+  const std::string text = read(folder / "both.html");
+  BOOST_TEST(Json::parse(page::block_of(text, "result"))["frames"][0]["input"] == "z1.0");
+  BOOST_TEST(Json::parse(page::block_of(text, "result-b"))["frames"][0]["input"] == "roll30");
+  BOOST_TEST(Json::parse(page::block_of(text, "comparison")) ==
+             Json::array({first.path(), second.path()}));
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_without_results_is_refused) {
+  const kit::TemporaryFolder folder;
+  BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
+                        [](const auto& e) { return names(e, "result.json"); });
+  BOOST_CHECK_EXCEPTION(page::write_report("/no/such/folder"), vp::InputError,
+                        [](const auto& e) { return names(e, "/no/such/folder"); });
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_result_is_refused) {
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "result.json", "{\"schema\": 1, \"frames\": [");
+  BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
+                        [](const auto& e) { return names(e, "result.json' is not whole JSON"); });
+  BOOST_TEST(folder.entries() == std::vector<std::string>{"result.json"},
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_point_of_a_sweep_is_refused) {
+  const kit::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "points");
+  kit::write_file(folder / "points/a.json", "{}");
+  kit::write_file(folder / "points/b.json", "");
+  BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
+                        [](const auto& e) { return names(e, "b.json"); });
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,128 @@
+// A chart: drawn when scrolled to, with a text for those who do not see it, its numbers as a table, and exports.
+import { download, h, newId } from "./dom.js";
+import { echarts } from "./echarts.js";
+import { onTheme, palette } from "./theme.js";
+import { csvOf, dataTable } from "./table.js";
+
+const charts = [];
+
+/** What all charts share: quiet axes, one font. */
+export function base() {
+  const colour = palette();
+  return {
+    animation: false,
+    backgroundColor: "transparent",
+    textStyle: { fontFamily: "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif", color: colour.soft, fontSize: 12 },
+    grid: { left: 8, right: 20, top: 16, bottom: 8, containLabel: true },
+    tooltip: {
+      backgroundColor: colour.page, borderColor: colour.line, borderWidth: 1, padding: [8, 12], confine: true,
+      textStyle: { color: colour.ink, fontSize: 12 }, extraCssText: "box-shadow: 0 4px 16px rgb(0 0 0 / 12%); border-radius: 6px",
+      renderMode: "richText",
+    },
+  };
+}
+
+export function axis(options = {}) {
+  const colour = palette();
+  return {
+    axisLine: { lineStyle: { color: colour.line } },
+    axisTick: { show: false },
+    axisLabel: { color: colour.soft, hideOverlap: true, ...options.axisLabel },
+    splitLine: { lineStyle: { color: colour.line, width: 1, type: [2, 3] } },
+    nameTextStyle: { color: colour.soft, fontSize: 12 },
+    nameLocation: "middle",
+    nameGap: 32,
+    ...Object.fromEntries(Object.entries(options).filter(([key]) => key !== "axisLabel")),
+  };
+}
+
+const observer = new IntersectionObserver((entries) => {
+  for (const entry of entries) if (entry.isIntersecting) entry.target.draw?.();
+}, { rootMargin: "200px" });
+
+/**
+ * @param name      short, for file names
+ * @param title     heading of the figure
+ * @param summary   what one sees, in a sentence: read to those who cannot see it
+ * @param height    px
+ * @param option    function that gives ECharts' option for the present theme
+ * @param table     {columns, rows} of its numbers, as dataTable takes it
+ * @param canvas    true: many points
+ * @param ready     called with ECharts' instance once drawn
+ * @param screen    draws into the element instead of ECharts, and returns {redraw, resize}; exports use `option`
+ */
+export function chart({ name, title, summary, note, height = 280, option, table, canvas = false, ready, screen }) {
+  const target = h("div", { class: "chart-area", role: "img", "aria-label": `${title}. ${summary}`, style: { height: height + "px" } });
+  let instance = null;
+  const full = () => ({ ...base(), ...option() });
+  const draw = () => {
+    if (instance) return instance;
+    if (screen) {
+      instance = screen(target, height);
+      target.dataset.drawn = "true";
+      return instance;
+    }
+    instance = echarts.init(target, null, { renderer: canvas ? "canvas" : "svg" });
+    instance.setOption(full());
+    target.dataset.drawn = "true";
+    ready?.(instance);
+    return instance;
+  };
+  target.draw = draw;
+  observer.observe(target);
+  const entry = {
+    target, draw,
+    redraw() { if (screen) return instance?.redraw(); instance?.setOption(full(), { notMerge: true }); if (instance) ready?.(instance, true); },
+    resize() { instance?.resize(); },
+    instance: () => instance,
+  };
+  charts.push(entry);
+
+  const size = () => ({ width: target.clientWidth || 900, height });
+  const saveSvg = () => {
+    const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
+    copy.setOption({ ...full(), backgroundColor: palette().page });
+    download(name + ".svg", copy.renderToSVGString(), "image/svg+xml");
+    copy.dispose();
+  };
+  const savePng = () => {
+    const area = size();
+    const holder = document.createElement("div");
+    Object.assign(holder.style, { width: area.width + "px", height: area.height + "px" });
+    const copy = echarts.init(holder, null, { renderer: "canvas", devicePixelRatio: 2, ...area });
+    copy.setOption({ ...full(), backgroundColor: palette().page });
+    download(name + ".png", copy.getDataURL({ type: "png", pixelRatio: 2, backgroundColor: palette().page }), "image/png");
+    copy.dispose();
+  };
+
+  const tableId = newId("table");
+  let numbers = null;
+  const tableButton = table && h("button", {
+    type: "button", "aria-expanded": "false", "aria-controls": tableId,
+    onclick: () => {
+      const open = tableButton.getAttribute("aria-expanded") !== "true";
+      tableButton.setAttribute("aria-expanded", String(open));
+      holder.hidden = !open;
+      if (open && !numbers) holder.append((numbers = dataTable({ ...table(), name })));
+    },
+  }, "Table");
+  const holder = table && h("div", { id: tableId, hidden: true, class: "chart-table" });
+  return h("figure", { class: "chart" },
+    h("figcaption", {},
+      h("h3", {}, title),
+      h("div", { class: "tools", role: "group", "aria-label": `Export ${title}` },
+        tableButton,
+        h("button", { type: "button", onclick: saveSvg, "aria-label": `${title} as SVG` }, "SVG"),
+        h("button", { type: "button", onclick: savePng, "aria-label": `${title} as PNG` }, "PNG"),
+        table && h("button", { type: "button", "aria-label": `${title} as CSV`, onclick: () => { const t = table(); download(name + ".csv", csvOf(t), "text/csv"); } }, "CSV"))),
+    note && h("p", { class: "note" }, note),
+    target, holder);
+}
+
+onTheme(() => charts.forEach((each) => each.redraw()));
+let pending = 0;
+window.addEventListener("resize", () => {
+  cancelAnimationFrame(pending);
+  pending = requestAnimationFrame(() => charts.forEach((each) => each.resize()));
+});
+window.addEventListener("beforeprint", () => charts.forEach((each) => { each.draw(); each.resize(); }));

@@ -1,0 +1,50 @@
+// Numbers as people read them: as many digits as matter, thin spaces between thousands.
+const thin = "\u202f";
+
+export function fixed(value, places) {
+  const [whole, part] = Math.abs(value).toFixed(places).split(".");
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, thin) : whole;
+  const sign = value < 0 && Number(value.toFixed(places)) !== 0 ? "\u2212" : "";
+  return sign + grouped + (part ? "." + part : "");
+}
+
+/** About `digits` significant digits. */
+export function significant(value, digits = 3) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const places = Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value))));
+  return fixed(value, Math.min(places, 9));
+}
+
+export function signed(value, places) {
+  return (value > 0 ? "+" : "") + fixed(value, places);
+}
+
+/** A time given in µs, in the unit that suits it. */
+export function time(us) {
+  const size = Math.abs(us);
+  if (size >= 1e6) return significant(us / 1e6, 4) + " s";
+  if (size >= 1e3) return significant(us / 1e3, 4) + " ms";
+  if (size >= 1 || size === 0) return significant(us, 4) + " µs";
+  return significant(us * 1e3, 3) + " ns";
+}
+
+export const percent = (share, places = 1) => fixed(100 * share, places) + " %";
+
+export const counted = (count, what) => `${fixed(count, 0)} ${what}${count === 1 ? "" : "s"}`;
+
+/** "feature_extraction" → "feature extraction". */
+export const words = (name) => String(name).replaceAll("_", " ");
+
+export function mean(values) {
+  return values.length === 0 ? NaN : values.reduce((sum, value) => sum + value, 0) / values.length;
+}
+
+/** `values` in ascending order. */
+export function quantile(values, share) {
+  if (values.length === 0) return NaN;
+  const place = (values.length - 1) * share;
+  const low = Math.floor(place);
+  const high = Math.min(low + 1, values.length - 1);
+  return values[low] + (values[high] - values[low]) * (place - low);
+}

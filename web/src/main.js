@@ -1,0 +1,43 @@
+// Looks which data there are, and shows their page.
+import { h, s } from "./kit/dom.js";
+import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
+import { runPage } from "./run/page.js";
+
+function block(id) {
+  const element = document.getElementById(id);
+  return element ? JSON.parse(element.textContent) : undefined;
+}
+
+// A marker of 6 x 6 cells.
+const cells = "M0 0h6v6h-6zM1 1v1h1v-1zM3 1v1h2v-1zM2 2v2h1v-1h1v-1zM1 3v2h1v-2zM4 4v1h1v-1z";
+
+function themeButton() {
+  const button = h("button", { type: "button", onclick: toggleTheme });
+  const name = () => { button.textContent = isDark() ? "Light" : "Dark"; button.setAttribute("aria-label", `${button.textContent} colours`); };
+  onTheme(name);
+  name();
+  return button;
+}
+
+function frame({ title, subtitle, sections }) {
+  document.title = `${title} · markervp`;
+  const shown = sections.filter(Boolean);
+  const links = shown.map((section) => [section.id, section.querySelector("h2")?.textContent]).filter(([, name]) => name);
+  document.getElementById("page").replaceChildren(
+    h("header", { class: "bar" }, h("div", { class: "bar-inner" },
+      h("div", { class: "mark" }, s("svg", { viewBox: "0 0 6 6", "aria-hidden": "true" }, s("path", { d: cells, "fill-rule": "evenodd" })), h("span", {}, "markervp")),
+      h("nav", { "aria-label": "Sections" }, h("ul", {}, links.map(([id, name]) => h("li", {}, h("a", { href: "#" + id }, name))))),
+      h("div", { class: "tools" }, themeButton(), h("button", { type: "button", onclick: () => window.print() }, "Print")))),
+    h("main", {}, h("div", { class: "masthead" }, h("h1", {}, title), h("p", {}, subtitle)), shown),
+    h("footer", {}, "Made by markervp. This page is one file and loads nothing. Charts: Apache ECharts, µPlot, WaveDrom."));
+}
+
+function show() {
+  const result = block("result");
+  if (result) return frame(runPage(result, block("extras")));
+  return frame({ title: "Nothing to show", subtitle: "This page was made without data.", sections: [] });
+}
+
+const start = performance.now();
+show();
+document.documentElement.dataset.ready = String(Math.round(performance.now() - start));

@@ -1,0 +1,99 @@
+// What limits this design point, in sentences.
+import { h } from "../kit/dom.js";
+import { counted, fixed, percent, significant, words } from "../kit/format.js";
+import { value } from "../published.js";
+import { partsOf } from "./facts.js";
+
+const pixelClock = "ps.fclk_clk1.frequency";
+
+function limitingModule(run) {
+  const modules = (run.result.timing?.modules ?? []).filter((m) => m.fmax_mhz > 0);
+  if (modules.length > 0) return modules.reduce((worst, m) => (m.margin_percent < worst.margin_percent ? m : worst));
+  const clock = run.megahertz(pixelClock);
+  const fmax = value("fmax.blob");
+  if (!run.hybrid || !clock || !fmax) return null;
+  return { name: "blob_detection", clock: "pixel", frequency_mhz: clock, fmax_mhz: fmax, met: clock <= fmax, published: true };
+}
+
+function timing(run, say) {
+  const module = limitingModule(run);
+  if (!module) return;
+  const fmax = significant(module.fmax_mhz, 3);
+  const now = significant(module.frequency_mhz, 3);
+  if (!module.met) {
+    say("bad", `${words(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
+    return;
+  }
+  const stream = run.stageMean("feature_extraction");
+  const frame = run.stageMean("frame");
+  const gain = stream * (1 - module.frequency_mhz / module.fmax_mhz);
+  const more = Number.isFinite(gain) && module.clock?.includes("pix") !== false && run.hybrid && gain > 0
+    ? ` At ${fmax} MHz a frame would take about ${significant((frame - gain) / 1e3, 3)} ms: ${fixed(1e6 / (frame - gain), 0)} frames/s (derived).` : "";
+  say("info", `${words(module.name)}'s Fmax of ${fmax} MHz limits the ${words(module.clock ?? "pixel")} clock, now ${now} MHz.${more}`);
+}
+
+function stages(run, say) {
+  const whole = run.stageMean("frame");
+  const longest = partsOf(run).map((name) => ({ name, us: run.stageMean(name) })).sort((a, b) => b.us - a.us);
+  if (!(whole > 0) || longest.length === 0) return;
+  const [first, second] = longest;
+  const why = first.name === "feature_extraction" && run.hybrid && run.megahertz(pixelClock)
+    ? `: one pixel a clock at ${significant(run.megahertz(pixelClock), 3)} MHz, so it lasts as long as the image does` : "";
+  say("info", `${words(first.name)} takes ${percent(first.us / whole, 0)} of a frame${why}.`);
+  if (second && second.us / whole > 0.1) {
+    const tried = run.frames.reduce((sum, f) => sum + (f.counts?.candidates ?? 0), 0) / Math.max(1, run.frames.length);
+    const reason = second.name === "identification" ? `: ${fixed(tried, 1)} candidates a frame are tried one after the other until one is a marker` : "";
+    say("info", `${words(second.name)} comes second with ${percent(second.us / whole, 0)}${reason}.`);
+  }
+}
+
+const losses = {
+  feature_overflow: "features were dropped: raise pl.feature_packaging.buffer_depth, or let the software read them faster",
+  label_overflow: "dark pixels found no label: raise pl.blob_detection.label_count",
+  bridge_overflow: "binary words were dropped: DMA 1 was not armed again in time; raise pl.axi_threshold_bridge.fifo_depth",
+  crossing_overflow: "words were lost between the clocks: the system clock is too slow for the pixel clock",
+};
+
+function overflows(run, say) {
+  for (const [key, text] of Object.entries(losses)) {
+    const frames = run.frames.filter((frame) => frame.counts?.[key] > 0);
+    const total = frames.reduce((sum, frame) => sum + frame.counts[key], 0);
+    if (total > 0) say("bad", `${fixed(total, 0)} ${text} (${counted(frames.length, "frame")}, first ${frames[0].input}).`);
+  }
+}
+
+function markers(run, say) {
+  const without = run.frames.filter((frame) => frame.markers.length === 0);
+  if (without.length > 0) say("bad", `No marker in ${counted(without.length, "frame")}, first ${without[0].input}.`);
+}
+
+function budgets(run, say) {
+  const { resources, power } = run.result;
+  for (const kind of resources?.over ?? []) {
+    const name = typeof kind === "string" ? kind : kind.name;
+    say("bad", `The design needs more ${name.toUpperCase()} than ${resources.device} has: ${significant(resources.total[name], 4)} of ${significant(resources.available[name], 4)}.`);
+  }
+  const modules = (power?.modules ?? []).filter((m) => m.w > 0).sort((a, b) => b.w - a.w);
+  const total = run.summary.power_w?.total;
+  if (modules.length > 0 && total > 0) say("info", `${words(modules[0].name)} draws most: ${significant(modules[0].w, 3)} of ${significant(total, 3)} W.`);
+}
+
+export function guidanceOf(run) {
+  const list = [];
+  const say = (kind, text) => list.push({ kind, text: text[0].toUpperCase() + text.slice(1) });
+  markers(run, say);
+  overflows(run, say);
+  timing(run, say);
+  stages(run, say);
+  budgets(run, say);
+  for (const warning of run.result.warnings ?? []) say("bad", warning);
+  return list.sort((a, b) => (b.kind === "bad") - (a.kind === "bad"));
+}
+
+export function guidance(run) {
+  const list = guidanceOf(run);
+  if (list.length === 0) return null;
+  return h("section", { id: "guidance", class: "guidance", "aria-labelledby": "guidance-title" },
+    h("h2", { id: "guidance-title" }, "What limits it"),
+    h("ul", {}, list.map(({ kind, text }) => h("li", { class: kind }, text))));
+}

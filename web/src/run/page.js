@@ -1,0 +1,32 @@
+// The page of a run.
+import { counted } from "../kit/format.js";
+import { makeRun } from "./facts.js";
+import { frameView } from "./frame_view.js";
+import { guidance } from "./guidance.js";
+import { power } from "./power.js";
+import { resources } from "./resources.js";
+import { overTime } from "./over_time.js";
+import { configuration, frameTable, provenance } from "./tables.js";
+import { timing } from "./timeline.js";
+import { verdict } from "./verdict.js";
+
+function title(run) {
+  const names = [...new Set(run.frames.map((frame) => frame.input))];
+  if (names.length === 0) return "A run without frames";
+  return names.length <= 3 ? names.join(", ") : `${names[0]} to ${names.at(-1)}`;
+}
+
+function subtitle(run) {
+  const { system, design, fidelity, profile } = run.result;
+  return [run.summary.frames !== undefined && counted(run.summary.frames, "frame"), system === "ps-only" ? "everything on the PS" : "features from the PL",
+    design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
+}
+
+export function runPage(result, extras) {
+  const run = makeRun(result, extras);
+  run.overTime = () => overTime(run);
+  return {
+    title: title(run), subtitle: subtitle(run),
+    sections: [verdict(run), guidance(run), frameView(run), timing(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
+  };
+}

@@ -1,0 +1,113 @@
+// The answer before the details: figures with origin, band, and the thesis' value beside them.
+import { h } from "../kit/dom.js";
+import { counted, fixed, signed, significant } from "../kit/format.js";
+import { legend, origin } from "../kit/origin.js";
+import { value } from "../published.js";
+
+const target = 60; // frames per second: what the thesis calls real time
+
+function tile({ label, number, unit, band, source, detail, thesis, tone }) {
+  return h("div", { class: "tile" + (tone ? " " + tone : "") },
+    h("dt", {}, label),
+    h("dd", { class: "figure" }, h("span", { class: "value" }, number), unit && h("span", { class: "unit" }, " " + unit)),
+    h("dd", { class: "band" }, band ?? "\u00a0"),
+    h("dd", { class: "foot" }, origin(source, detail), thesis && h("span", { class: "thesis" }, thesis)));
+}
+
+function beside(ours, theirs, places, unit = "") {
+  if (!Number.isFinite(theirs) || !Number.isFinite(ours)) return null;
+  return `thesis ${fixed(theirs, places)}${unit} (${signed(100 * (ours / theirs - 1), 0)} %)`;
+}
+
+function thesisFps(run) {
+  const fps = value("fps.average");
+  return run.hybrid ? fps : fps / value("speedup.all");
+}
+
+function tiles(run) {
+  const { summary, result } = run;
+  const list = [];
+  if (summary.fps) {
+    list.push(tile({
+      label: "Frame rate", number: fixed(summary.fps.mean, 1), unit: "frames/s",
+      band: summary.frames > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one frame",
+      source: "simulated", detail: "frames over simulated time, image upload excluded as in the thesis; times of software from the cost profile",
+      thesis: beside(summary.fps.mean, thesisFps(run), run.hybrid ? 0 : 1),
+      tone: summary.fps.mean >= target ? "good" : "bad",
+    }));
+    list.push(tile({
+      label: "Latency", number: significant(summary.latency_us.mean / 1e3, 4), unit: "ms",
+      band: run.latency && run.frames.length > 1
+        ? `${significant(run.latency.low / 1e3, 4)} to ${significant(run.latency.high / 1e3, 4)}, 95 % within ${significant(run.latency.p95 / 1e3, 4)}`
+        : "from the frame's start to its result",
+      source: "simulated", detail: "from the frame's start to its result",
+      thesis: beside(summary.latency_us.mean / 1e3, 1e3 / thesisFps(run), run.hybrid ? 2 : 0),
+    }));
+  }
+  const power = summary.power_w;
+  if (power) {
+    const band = result.power?.total_w;
+    list.push(tile({
+      label: "Power", number: significant(power.total, 3), unit: "W",
+      band: band ? `${significant(band.low, 3)} to ${significant(band.high, 3)}` : null,
+      source: "derived", detail: "activity of this run times energy per event; the modules' sources stand in the table of power",
+      thesis: Number.isFinite(power.ps) ? `PS: thesis ${fixed(value("power.cpu"), 1)}, here ${significant(power.ps, 3)}` : null,
+    }));
+  }
+  if (Number.isFinite(summary.energy_per_frame_mj)) {
+    const band = result.power?.total_w;
+    const scale = band ? summary.energy_per_frame_mj / band.nominal : NaN;
+    list.push(tile({
+      label: "Energy per frame", number: significant(summary.energy_per_frame_mj, 3), unit: "mJ",
+      band: band ? `${significant(band.low * scale, 3)} to ${significant(band.high * scale, 3)}` : null, source: "derived",
+    }));
+  }
+  if (Number.isFinite(result.power?.junction_c)) {
+    list.push(tile({
+      label: "Junction", number: fixed(result.power.junction_c, 1), unit: "°C",
+      band: Number.isFinite(result.power.ambient_c) ? `at ${fixed(result.power.ambient_c, 0)} °C around it` : null,
+      source: "derived", tone: result.power.junction_c > 85 ? "bad" : null,
+    }));
+  }
+  if (run.error) {
+    list.push(tile({
+      label: "Error of the pose", number: fixed(run.error.translation, 1), unit: "mm",
+      band: `${fixed(run.error.rotation, 2)}°, corners ${fixed(run.error.corner, 2)} px`,
+      source: "simulated", detail: `mean over ${counted(run.error.count, "marker")} whose truth is known`,
+      thesis: `thesis ${value("pose.all.translation")} mm, ${value("pose.all.rotation")}°`,
+    }));
+  }
+  return list;
+}
+
+function chips(run) {
+  const { summary, result } = run;
+  const chip = (good, text) => h("li", { class: good ? "good" : "bad" }, h("span", { "aria-hidden": "true" }, good ? "✓" : "✕"), " ", text);
+  const list = [];
+  if (summary.frames) {
+    list.push(chip(summary.detected === summary.frames, `Marker found in ${summary.detected} of ${counted(summary.frames, "frame")}`));
+  }
+  if (summary.fps) list.push(chip(summary.fps.mean >= target, `${summary.fps.mean >= target ? "Reaches" : "Misses"} ${target} frames/s`));
+  if (result.timing) {
+    const missed = (result.timing.modules ?? []).filter((module) => module.met === false);
+    list.push(chip(result.timing.met, result.timing.met ? "Meets timing" : `Misses timing: ${missed.map((m) => m.name).join(", ")}`));
+  }
+  if (result.resources) {
+    const device = result.resources.device ?? "the device";
+    list.push(chip(result.resources.fits, result.resources.fits ? `Fits ${device}` : `Does not fit ${device}`));
+  }
+  const lost = run.frames.reduce((sum, frame) => sum + (frame.counts?.feature_overflow ?? 0) + (frame.counts?.label_overflow ?? 0) +
+    (frame.counts?.bridge_overflow ?? 0) + (frame.counts?.crossing_overflow ?? 0), 0);
+  if (summary.frames) list.push(chip(lost === 0, lost === 0 ? "Nothing lost in buffers" : `${counted(lost, "word")} lost in buffers`));
+  if (result.program_end && result.program_end.exit_code !== 0) list.push(chip(false, `Program ended with ${result.program_end.exit_code}`));
+  if (result.incomplete) list.push(chip(false, `Incomplete: ${result.incomplete}`));
+  return list;
+}
+
+export function verdict(run) {
+  const figures = tiles(run);
+  return h("section", { id: "verdict", "aria-label": "Verdict" },
+    h("ul", { class: "chips" }, chips(run)),
+    figures.length > 0 && h("dl", { class: "tiles" }, figures.map((each) => each)),
+    figures.length > 0 && legend());
+}
