@@ -37,13 +37,14 @@ markervp_export(marker COMPONENT programs ROOT sw)
 markervp_export(compat COMPONENT programs ROOT compat)
 # For platforms.
 markervp_export(systemc COMPONENT models)
+markervp_export(wave COMPONENT models ROOT vp)
 markervp_export(vp COMPONENT models ROOT vp)
 markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
 # What the headers ask of those who include them.
-foreach(library drivers marker vp)
+foreach(library drivers marker wave vp)
   target_compile_features(markervp_${library} PUBLIC cxx_std_17)
 endforeach()
 

@@ -94,7 +94,7 @@ void add_output_options(CLI::App& command, RunOptions& target) {
 }
 
 void add_trace_options(CLI::App& command, RunOptions& target) {
-  command.add_option("--trace", target.trace, "record waveforms as VCD")->type_name("FILE");
+  command.add_option("--trace", target.trace, "record waveforms, .vcd or .fst")->type_name("FILE");
   command.add_option("--trace-window", target.trace_window, "record only then: 6ms:7ms")
       ->type_name("FROM:TO");
   command
@@ -103,10 +103,32 @@ void add_trace_options(CLI::App& command, RunOptions& target) {
       ->type_name("GLOB")
       ->expected(1)
       ->take_all();
-  command.add_option("--trace-level", target.trace_level, "signals, or registers inside too")
-      ->type_name("ports|registers")
-      ->check(CLI::IsMember({"ports", "registers"}).description(""));
+  command
+      .add_option("--trace-level", target.trace_level,
+                  "signals; registers inside too; and bus accesses")
+      ->type_name("ports|registers|everything")
+      ->check(CLI::IsMember({"ports", "registers", "everything"}).description(""));
   command.add_flag("--trace-clocks", target.trace_clocks, "record the clocks too");
+  CLI::Option* trigger =
+      command
+          .add_option("--trace-trigger", target.trace_trigger,
+                      "keep the frames in which this comes true: 'feature_overflow rises'")
+          ->type_name("CONDITION");
+  command.add_option("--trace-before", target.trace_before, "and so many frames before them")
+      ->type_name("N")
+      ->needs(trigger)
+      ->check(CLI::Range(0u, 1000u).description(""));
+  command
+      .add_option("--trace-frame", target.trace_frame,
+                  "a frame begins when this signal changes (default: ps.cpu.frame)")
+      ->type_name("SIGNAL")
+      ->needs(trigger);
+  command
+      .add_option("--trace-buffer", target.trace_buffer,
+                  "MiB held until a frame is judged (default: 256)")
+      ->type_name("N")
+      ->needs(trigger)
+      ->check(CLI::Range(std::size_t{1}, std::size_t{65536}).description(""));
 }
 
 void add_debug_options(CLI::App& command, RunOptions& target) {

@@ -28,6 +28,10 @@ struct RunOptions {
   std::vector<std::string> trace_filter;
   std::string trace_level = "ports";
   bool trace_clocks = false;
+  std::optional<std::string> trace_trigger;
+  std::optional<std::string> trace_frame;
+  unsigned trace_before = 0;
+  std::size_t trace_buffer = 256;  ///< MiB
   std::optional<std::string> log_bus;
   std::vector<std::string> log_bus_filter;
   std::optional<std::string> register_coverage;

@@ -31,11 +31,32 @@ namespace {
 namespace fs = std::filesystem;
 using HostClock = std::chrono::steady_clock;
 
+vp::TraceLevel trace_level(const std::string& text) {
+  if (text == "ports") return vp::TraceLevel::ports;
+  return text == "registers" ? vp::TraceLevel::registers : vp::TraceLevel::everything;
+}
+
+vp::FrameTrigger trace_trigger(const RunOptions& options) {
+  vp::FrameTrigger trigger;
+  try {
+    trigger.condition = vp::WaveExpression(*options.trace_trigger);
+  } catch (const vp::InputError& error) {
+    throw vp::InputError(std::string("--trace-trigger ") + error.what());
+  }
+  trigger.frames_before = options.trace_before;
+  trigger.buffer = options.trace_buffer << 20;
+  if (options.trace_frame) trigger.frame = *options.trace_frame;
+  return trigger;
+}
+
 vp::TraceOptions trace_options(const RunOptions& options) {
   vp::TraceOptions trace;
   trace.file = *options.trace;
-  if (trace.file.extension() != ".vcd") {
-    throw vp::InputError("--trace '" + *options.trace + "': the file's name must end in .vcd");
+  const std::string format = trace.file.extension().string();
+  if (format != ".vcd" && (format != ".fst" || !vp::has_fst())) {
+    throw vp::InputError(
+        "--trace '" + *options.trace + "': the file's name must end in .vcd" +
+        (vp::has_fst() ? " or .fst" : "; this build has no FST (see scripts/setup)"));
   }
   if (options.trace_window) {
     const TimeWindow window = parse_trace_window(*options.trace_window);
@@ -43,13 +64,15 @@ vp::TraceOptions trace_options(const RunOptions& options) {
     trace.to_ps = window.to_ps;
   }
   trace.filter = vp::TraceFilter(options.trace_filter);
-  trace.level = options.trace_level == "ports" ? vp::TraceLevel::ports : vp::TraceLevel::registers;
+  trace.level = trace_level(options.trace_level);
   trace.clocks = options.trace_clocks;
+  if (options.trace_trigger) trace.trigger = trace_trigger(options);
   return trace;
 }
 
 SimulationOptions simulation_options(const RunOptions& options) {
-  const bool traces = options.trace_window || !options.trace_filter.empty() || options.trace_clocks;
+  const bool traces = options.trace_window || !options.trace_filter.empty() ||
+                      options.trace_clocks || options.trace_trigger;
   if (traces && !options.trace) {
     throw vp::InputError("options of the trace without one: name its file with --trace");
   }

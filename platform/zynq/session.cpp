@@ -1,6 +1,7 @@
 #include <zynq/session.h>
 
 #include <vp/error.h>
+#include <zynq/bus_trace.h>
 #include <exception>
 #include <utility>
 
@@ -64,6 +65,8 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
       });
   // Not earlier: it opens its file, and the user may have got something else wrong.
   std::unique_ptr<vp::Tracer> tracer;
+  std::optional<BusTrace> bus_trace;
+  if (trace_ && trace_->level == vp::TraceLevel::everything) bus_trace.emplace(*zynq_);
   if (trace_) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace_);
   std::exception_ptr error;
   try {
@@ -73,6 +76,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
     error = std::current_exception();
   }
   if (tracer) tracer->close();
+  tracer.reset();
   if (error) std::rethrow_exception(error);
 }
 

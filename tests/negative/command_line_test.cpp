@@ -41,10 +41,16 @@ BOOST_AUTO_TEST_CASE(values) {
 }
 
 BOOST_AUTO_TEST_CASE(trace_options) {
-  run_refuses({"--trace", "wave.fst"}, {"wave.fst", ".vcd"});
+  run_refuses({"--trace", "wave.fsdb"}, {"wave.fsdb", ".vcd"});
   run_refuses({"--trace", "wave"}, {"wave", ".vcd"});
   run_refuses({"--trace-window", "1ms:2ms"}, {"options of the trace", "--trace"});
   run_refuses({"--trace-filter", "pl.**"}, {"options of the trace", "--trace"});
+  run_refuses({"--trace-trigger", "a rises"}, {"options of the trace", "--trace"});
+  run_refuses({"--trace-before", "2"}, {"--trace-before", "--trace-trigger"});
+  run_refuses({"--trace", "a.vcd", "--trace-trigger", "a +"},
+              {"--trace-trigger 'a +', column 4", "a value is missing"});
+  run_refuses({"--trace", "a.vcd", "--trace-trigger", "feature_overflw rises"},
+              {"no signal 'feature_overflw'", "feature_overflow"});
   run_refuses({"--trace-clocks"}, {"options of the trace", "--trace"});
   run_refuses({"--trace", "a.vcd", "--trace-window", "5"}, {"--trace-window '5'", "6ms:7ms"});
   run_refuses({"--trace", "a.vcd", "--trace-window", "2ms:1ms"}, {"ends before it begins"});

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <vp/probe.h>
-#include <vp/vcd_writer.h>
+#include <vp/wave_writer.h>
 
 #include <cstdint>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace vp {
 /// without a call, which makes thousands of them bearable.
 class ProbePoll {
  public:
-  void add(const ProbeBase& probe, VcdWriter::Id id) {
+  void add(const ProbeBase& probe, WaveWriter::Id id) {
     if (!probe.address()) {
       called_.push_back({&probe, id});
       return;
@@ -50,11 +50,11 @@ class ProbePoll {
  private:
   struct InMemory {
     const void* address;
-    VcdWriter::Id id;
+    WaveWriter::Id id;
   };
   struct Called {
     const ProbeBase* probe;
-    VcdWriter::Id id;
+    WaveWriter::Id id;
   };
 
   template <class Word, class Changed>

@@ -16,21 +16,22 @@ namespace {
 
 constexpr std::uint64_t never = TraceOptions::never;
 
-VcdWriter::Kind kind_of(const TraceSource& source) {
-  if (source.real) return VcdWriter::Kind::real;
-  return source.probe ? VcdWriter::Kind::reg : VcdWriter::Kind::wire;
+WaveWriter::Kind kind_of(const TraceSource& source) {
+  if (source.text) return WaveWriter::Kind::text;
+  if (source.real) return WaveWriter::Kind::real;
+  return source.probe ? WaveWriter::Kind::reg : WaveWriter::Kind::wire;
 }
 
 }  // namespace
 
 // The hot path: for every change of a traced signal.
-inline void Tracer::mark(VcdWriter::Id id, std::uint64_t bits) {
+inline void Tracer::mark(WaveWriter::Id id, std::uint64_t bits) {
   values_[id] = bits;
   marked_[id / 64] |= std::uint64_t{1} << (id % 64);
 }
 
 // A new value of a variable now.
-inline void Tracer::record(VcdWriter::Id id, std::uint64_t bits) {
+inline void Tracer::record(WaveWriter::Id id, std::uint64_t bits) {
   if (!recording_) return;
   const std::uint64_t now = scheduler_.now_ps();
   if (now != instant_ps_) enter(now);
@@ -50,7 +51,12 @@ Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOpt
     throw InputError("the trace window from " + std::to_string(options_.from_ps) + " ps to " +
                      std::to_string(options_.to_ps) + " ps is empty; its end must come later");
   }
-  writer_ = std::make_unique<VcdWriter>(options_.file);
+  writer_ = open_wave_writer(options_.file);
+  if (options_.trigger) {
+    auto gate = std::make_unique<FrameGate>(std::move(writer_), *options_.trigger);
+    gate_ = gate.get();
+    writer_ = std::move(gate);
+  }
   SC_HAS_PROCESS(Tracer);
   SC_METHOD(open_window);
   sensitive << window_opens_;
@@ -83,7 +89,23 @@ void Tracer::close() {
          "no trace '" + options_.file.string() + "': the run ended at " + std::to_string(now) +
              " ps, before its window began at " + std::to_string(options_.from_ps) + " ps");
   }
+  const bool has_begun = writer->begun();
   writer->close(std::min(now, options_.to_ps));
+  if (gate_ && has_begun) warn_of_gate();
+  gate_ = nullptr;
+}
+
+void Tracer::warn_of_gate() const {
+  const std::string file = "'" + options_.file.string() + "'";
+  if (gate_->kept() == 0) {
+    warn(*this, "/markervp/trace/trigger",
+         "no trace " + file + ": in no frame '" + options_.trigger->condition.text() +
+             "' came true");
+  }
+  if (gate_->lost_bytes() != 0) {
+    warn(*this, "/markervp/trace/trigger",
+         "a frame does not fit into the trigger's buffer: the beginnings of frames were given up");
+  }
 }
 
 // The watchers of the clocks are modules: they must stand before the elaboration ends, when it is
@@ -110,10 +132,17 @@ void Tracer::start_of_simulation() {
 
 void Tracer::select_sources() {
   std::vector<std::string> visible, hidden;
-  for (TraceSource& source : find_trace_sources()) {
-    const bool shown = !source.probe || options_.level == TraceLevel::registers;
+  std::vector<TraceSource> all = find_trace_sources();
+  std::vector<std::string> needed;
+  if (gate_) {
+    for (const TraceSource& source : all) needed.push_back(source.path);
+    needed = gate_->needed(needed);
+  }
+  for (TraceSource& source : all) {
+    const bool shown = !source.probe || options_.level != TraceLevel::ports;
     (shown ? visible : hidden).push_back(source.path);
-    if (!shown || !options_.filter.selects(source.path)) continue;
+    const bool triggers = std::find(needed.begin(), needed.end(), source.path) != needed.end();
+    if (!triggers && (!shown || !options_.filter.selects(source.path))) continue;
     follow(source, writer_->add(source.path, kind_of(source), source.width));
     sources_.push_back(std::move(source));
   }
@@ -121,7 +150,7 @@ void Tracer::select_sources() {
   values_.assign(sources_.size(), 0);
 }
 
-void Tracer::follow(const TraceSource& source, VcdWriter::Id id) {
+void Tracer::follow(const TraceSource& source, WaveWriter::Id id) {
   if (source.probe) probes_->add(*source.probe, id);
   if (source.signal) return;
   sc_core::sc_spawn_options method;
@@ -139,9 +168,18 @@ void Tracer::select_clocks() {
       return writer && &writer->clock() == &clock->clock();
     });
     if (!clock->selected) continue;
-    clock->id = writer_->add(clock->clock().name(), VcdWriter::Kind::wire, 1);
+    clock->id = writer_->add(clock->clock().name(), WaveWriter::Kind::wire, 1);
     values_.push_back(0);
   }
+  for (const TraceSource& source : sources_) texts_.push_back(source.text);
+  texts_.resize(values_.size());
+}
+
+void Tracer::attach_to(const TraceSource& source, WaveWriter::Id id) {
+  if (!source.signal || source.probe) return;
+  source.signal->attach(*this, id);
+  if (!source.text) return;
+  for (SignalBase* followed : source.text->sources()) followed->attach(*this, id);
 }
 
 void Tracer::open_window() {
@@ -157,10 +195,8 @@ void Tracer::open_window() {
   }
   writer_->begin(instant_ps_, values_);
   for (std::size_t id = 0; id < sources_.size(); ++id) {
-    const TraceSource& source = sources_[id];
-    if (source.signal && !source.probe) {
-      source.signal->attach(*this, static_cast<std::uint32_t>(id));
-    }
+    attach_to(sources_[id], static_cast<WaveWriter::Id>(id));
+    if (texts_[id]) writer_->change_text(static_cast<WaveWriter::Id>(id), texts_[id]->text());
   }
   scheduler_.add_observer(*this);
   attached_ = recording_ = true;
@@ -171,7 +207,10 @@ void Tracer::leave_window() {
   if (!attached_) return;
   attached_ = false;
   for (const TraceSource& source : sources_) {
-    if (source.signal && !source.probe) source.signal->detach(*this);
+    if (!source.signal || source.probe) continue;
+    source.signal->detach(*this);
+    if (!source.text) continue;
+    for (SignalBase* followed : source.text->sources()) followed->detach(*this);
   }
   scheduler_.remove_observer(*this);
 }
@@ -186,7 +225,7 @@ void Tracer::stop_recording() {
 void Tracer::end_of_instant(std::uint64_t ps) {
   if (recording_) enter(ps);
   if (!recording_) return;
-  probes_->run(values_, [this](VcdWriter::Id id, std::uint64_t bits) { mark(id, bits); });
+  probes_->run(values_, [this](WaveWriter::Id id, std::uint64_t bits) { mark(id, bits); });
   flush();
 }
 
@@ -213,7 +252,12 @@ void Tracer::flush() {
     writer_->set_time(instant_ps_);
     for (; bits != 0; bits &= bits - 1) {
       const std::size_t id = word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits));
-      writer_->change(static_cast<VcdWriter::Id>(id), values_[id]);
+      const auto writer_id = static_cast<WaveWriter::Id>(id);
+      if (!texts_[id]) {
+        writer_->change(writer_id, values_[id]);
+      } else {
+        writer_->change_text(writer_id, texts_[id]->text());
+      }
     }
   }
 }

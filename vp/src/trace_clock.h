@@ -2,7 +2,7 @@
 
 #include <vp/clock.h>
 #include <vp/trace.h>
-#include <vp/vcd_writer.h>
+#include <vp/wave_writer.h>
 
 #include <cstdint>
 
@@ -29,7 +29,7 @@ class TraceClock final : public Clocked {
   std::uint64_t half_period_ps() const { return clock().duration_ps(0.5); }
 
   bool selected = false;
-  VcdWriter::Id id = 0;
+  WaveWriter::Id id = 0;
   std::uint64_t fall_ps = Clock::never;
 
  private:

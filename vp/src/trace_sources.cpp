@@ -41,6 +41,7 @@ std::vector<TraceSource> find_trace_sources() {
       source.real = signal->is_real();
       source.signal = signal;
       source.probe = dynamic_cast<const ProbeBase*>(signal);
+      source.text = dynamic_cast<const TextSignal*>(signal);
     } else if (!adopt_foreign(object, source)) {
       return;
     }

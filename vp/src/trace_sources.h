@@ -3,6 +3,7 @@
 #include <vp/clock.h>
 #include <vp/probe.h>
 #include <vp/signal.h>
+#include <vp/text_signal.h>
 
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,7 @@ struct TraceSource {
   bool real = false;
   SignalBase* signal = nullptr;                 ///< null for a standard sc_signal
   const ProbeBase* probe = nullptr;             ///< the same object, if it is a probe
+  const TextSignal* text = nullptr;             ///< the same object, if it is a text
   std::function<std::uint64_t()> foreign_bits;  ///< of a standard sc_signal
   const sc_core::sc_event* foreign_event = nullptr;
 

@@ -11,6 +11,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "wave_scope.h"
+
 namespace vp {
 
 namespace {
@@ -38,35 +40,12 @@ std::string identifier_code(VcdWriter::Id id) {
   return code;
 }
 
-void require_valid_path(std::string_view path) {
-  bool valid = !path.empty() && path.front() != '.' && path.back() != '.' &&
-               path.find("..") == std::string_view::npos;
-  for (const char c : path) valid = valid && c > ' ' && c <= '~';
-  if (!valid) throw std::invalid_argument("not a name for a VCD: '" + std::string(path) + "'");
-}
-
 [[noreturn]] void cannot_write(const std::filesystem::path& file, int error, const char* advice) {
   throw InputError("cannot write trace '" + file.string() + "': " + std::strerror(error) + "; " +
                    advice);
 }
 
 }  // namespace
-
-/// A level of the hierarchy, in the order of declaration.
-struct VcdWriter::Scope {
-  std::string name;
-  std::vector<std::pair<std::string, Id>> variables;
-  std::vector<std::unique_ptr<Scope>> children;
-
-  Scope& child(const std::string& child_name) {
-    for (auto it = children.rbegin(); it != children.rend(); ++it) {
-      if ((*it)->name == child_name) return **it;
-    }
-    children.push_back(std::make_unique<Scope>());
-    children.back()->name = child_name;
-    return *children.back();
-  }
-};
 
 VcdWriter::VcdWriter(const std::filesystem::path& file)
     : file_(file), written_(file), buffer_(buffer_size + longest_line) {
@@ -96,17 +75,15 @@ VcdWriter::~VcdWriter() {
 }
 
 VcdWriter::Id VcdWriter::add(std::string_view path, Kind kind, unsigned width) {
-  require_valid_path(path);
   if (begun_) throw std::logic_error("VcdWriter::add() after begin()");
-  if (kind == Kind::real) width = 64;
-  if (width < 1 || width > 64) {
-    throw std::invalid_argument("width of '" + std::string(path) + "' is not 1 to 64 bits");
-  }
+  const WaveDeclaration declaration = checked_declaration(path, kind, width);
+  width = declaration.width;
   const Id id = static_cast<Id>(variables_.size());
   Variable variable{};
-  variable.mask = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+  variable.mask = width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
   variable.real = kind == Kind::real;
-  variable.scalar = width == 1;
+  variable.text = kind == Kind::text;
+  variable.scalar = width == 1 && !variable.text;
   const std::string suffix = (variable.scalar ? "" : " ") + identifier_code(id) + "\n";
   variable.suffix_length = static_cast<std::uint8_t>(suffix.size());
   std::memcpy(variable.suffix, suffix.data(), suffix.size());
@@ -124,10 +101,7 @@ void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values
   time_ps_ = ps;
   write_stamp();
   write_text("$dumpvars\n");
-  for (std::size_t id = 0; id < variables_.size(); ++id) {
-    variables_[id].last = values[id] & variables_[id].mask;
-    write_value(variables_[id]);
-  }
+  write_all(values);
   write_text("$end\n");
 }
 
@@ -145,21 +119,72 @@ void VcdWriter::close(std::uint64_t end_ps) {
   cannot_write(file_, error_, "make room, or trace less: a time window, fewer signals");
 }
 
-void VcdWriter::write_header() {
-  Scope root;
-  for (std::size_t id = 0; id < declarations_.size(); ++id) {
-    std::vector<std::string> levels = split(declarations_[id].path, '.');
-    Scope* scope = &root;
-    for (std::size_t i = 0; i + 1 < levels.size(); ++i) scope = &scope->child(levels[i]);
-    scope->variables.emplace_back(levels.back(), static_cast<Id>(id));
+void VcdWriter::write_all(const std::vector<std::uint64_t>& values) {
+  for (std::size_t id = 0; id < variables_.size(); ++id) {
+    if (variables_[id].text) {
+      change_text(static_cast<Id>(id), {});
+      continue;
+    }
+    variables_[id].last = values[id] & variables_[id].mask;
+    write_value(variables_[id]);
   }
+}
+
+void VcdWriter::pause() {
+  if (stamp_due_) write_stamp();
+  write_text("$dumpoff\n");
+  for (std::size_t id = 0; id < variables_.size(); ++id) {
+    const Variable& variable = variables_[id];
+    if (variable.text) {
+      change_text(static_cast<Id>(id), {});
+    } else {
+      const char* value = variable.scalar ? "x" : variable.real ? "rnan" : "bx";
+      write_text(value);
+      write_text({variable.suffix, variable.suffix_length});
+    }
+  }
+  write_text("$end\n");
+}
+
+void VcdWriter::resume(const std::vector<std::uint64_t>& values) {
+  if (stamp_due_) write_stamp();
+  write_text("$dumpon\n");
+  write_all(values);
+  write_text("$end\n");
+}
+
+void VcdWriter::change_digits(Id id, std::string_view digits) {
+  if (stamp_due_) write_stamp();
+  const Variable& variable = variables_[id];
+  if (!variable.scalar) write_text(variable.real ? "r" : "b");
+  write_text(digits);
+  write_text({variable.suffix, variable.suffix_length});
+}
+
+void VcdWriter::change_text(Id id, std::string_view text) {
+  if (stamp_due_) write_stamp();
+  std::string line = "s";
+  for (const char c : text) {
+    if (c > ' ' && c <= '~' && c != '\\') {
+      line += c;
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      line += '\\';
+      for (const int shift : {6, 3, 0}) line += static_cast<char>('0' + (byte >> shift & 7));
+    }
+  }
+  write_text(line);
+  write_text({variables_[id].suffix, variables_[id].suffix_length});
+}
+
+void VcdWriter::write_header() {
   write_text("$version markervp $end\n$timescale 1ps $end\n");
-  write_scope(root);
+  write_scope(WaveScope::of(declarations_));
   write_text("$enddefinitions $end\n");
 }
 
-void VcdWriter::write_scope(const Scope& scope) {
-  for (const auto& [leaf, id] : scope.variables) write_declaration(declarations_[id], leaf, id);
+void VcdWriter::write_scope(const WaveScope& scope) {
+  for (const auto& [leaf, id] : scope.variables) write_declaration(id, leaf);
   for (const auto& child : scope.children) {
     write_text("$scope module " + child->name + " $end\n");
     write_scope(*child);
@@ -167,8 +192,9 @@ void VcdWriter::write_scope(const Scope& scope) {
   }
 }
 
-void VcdWriter::write_declaration(const Declaration& declaration, std::string_view leaf, Id id) {
-  static constexpr const char* words[] = {"wire", "reg", "real"};
+void VcdWriter::write_declaration(Id id, std::string_view leaf) {
+  static constexpr const char* words[] = {"wire", "reg", "real", "string"};
+  const WaveDeclaration& declaration = declarations_[id];
   std::string line = "$var " + std::string(words[static_cast<int>(declaration.kind)]) + " " +
                      std::to_string(declaration.width) + " " + identifier_code(id) + " ";
   line += leaf;

@@ -22,6 +22,7 @@
 #include <vp/parameter.h>
 #include <vp/register_route.h>
 #include <vp/signal.h>
+#include <vp/text_signal.h>
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -57,8 +58,13 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   vp::In<bool> n_irq{"n_irq"};  ///< from the interrupt controller, active low; may stay unbound
   vp::Signal<std::uint32_t> function{
       "function"};  ///< annotated function that runs, its number + 1; 0 none
-  vp::Signal<bool> in_handler{"in_handler"};  ///< from interrupt entry to exit
-  vp::Signal<bool> asleep{"asleep"};          ///< waits for an interrupt
+  vp::Signal<bool> in_handler{"in_handler"};     ///< from interrupt entry to exit
+  vp::Signal<bool> asleep{"asleep"};             ///< waits for an interrupt
+  vp::Signal<std::uint32_t> frame{"frame"};      ///< images that the program took
+  vp::Signal<std::uint32_t> results{"results"};  ///< results that it published
+  // For traces: names of the annotated function, and of the handler while it runs.
+  vp::TextSignal function_name{"function_name", [this] { return name_of_function(); }, {&function}};
+  vp::TextSignal handler_name{"handler_name", [this] { return name_of_handler(); }, {&in_handler}};
 
   vp::Parameter<std::uint64_t> stack_size;
   vp::Parameter<std::uint64_t> quantum;
@@ -167,6 +173,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   };
 
   void end_of_elaboration() override;
+  std::string name_of_function() const;
+  std::string name_of_handler() const;
   int call_program();
   [[noreturn]] void report(const Fault& fault);
   void call_handler();

@@ -60,19 +60,21 @@ void Cpu::write_console(const char* text, std::size_t length) {
 
 const hal_frame* Cpu::next_frame() {
   catch_up();
-  const hal_frame* frame = bench_ ? bench_->next_frame(now_ps()) : nullptr;
+  const hal_frame* next = bench_ ? bench_->next_frame(now_ps()) : nullptr;
   scheduler_.forget_horizon();
-  if (frame) {
+  if (next) {
+    frame = frame + 1;
     deadline_ps_ = now_ps() + timeout;
     start_ahead();
   }
-  return frame;
+  return next;
 }
 
 void Cpu::publish(std::uint32_t kind, const void* data, std::size_t size) {
   look_at(data, size);
   catch_up();
   if (bench_) bench_->publish(kind, data, size, now_ps());
+  results = results + 1;
   scheduler_.forget_horizon();
 }
 
@@ -83,6 +85,20 @@ double Cpu::option(std::uint32_t option) {
   }
   const hal_option_info& info = program.options[option];
   return bench_ ? bench_->option(option, info) : info.default_value;
+}
+
+std::string Cpu::name_of_function() const {
+  if (function == 0 || !program_) return {};
+  return program_->description().functions[function - 1];
+}
+
+// Without the place in the file, which changes with every build.
+std::string Cpu::name_of_handler() const {
+  if (!in_handler || !code_) return in_handler ? "handler" : "";
+  const std::string place = code_->text(reinterpret_cast<std::uintptr_t>(handler_));
+  const auto from = place.find(' '), to = place.rfind('+');
+  if (from == std::string::npos || to == std::string::npos || to < from) return "handler";
+  return place.substr(from + 1, to - from - 1);
 }
 
 }  // namespace ps

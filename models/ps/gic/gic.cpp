@@ -73,6 +73,7 @@ void Gic::update_outputs() {
   const InterruptLogic::Line line = logic_.signalled();
   n_irq = line != InterruptLogic::Line::irq;
   n_fiq = line != InterruptLogic::Line::fiq;
+  active = logic_.first_active();
 }
 
 void Gic::wire_cpu_interface() {

@@ -30,6 +30,9 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   vp::Signal<bool> n_irq{"n_irq", 1, true};  ///< to the CPU, active low
   vp::Signal<bool> n_fiq{"n_fiq", 1, true};  ///< to the CPU, active low
 
+  /// The interrupt that software acknowledged and has not ended; 1023 for none.
+  vp::Signal<std::uint16_t> active{"active", 10, 1023};
+
   vp::Counter acknowledged{"acknowledged", "interrupts acknowledged by reading ICCIAR"};
   vp::Counter spurious{"spurious", "reads of ICCIAR when no interrupt was signalled"};
 

@@ -52,6 +52,17 @@ std::uint32_t InterruptLogic::candidate() const {
   return best;
 }
 
+std::uint16_t InterruptLogic::first_active() const {
+  std::uint32_t found = gic::spurious_id;
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for (std::uint32_t word = active.word(n); word != 0; word &= word - 1) {
+      const std::uint32_t id = 32 * n + static_cast<std::uint32_t>(__builtin_ctz(word));
+      if (found == gic::spurious_id || priority[id] < priority[found]) found = id;
+    }
+  }
+  return static_cast<std::uint16_t>(found);
+}
+
 std::uint32_t InterruptLogic::running_priority() const {
   std::uint32_t running = idle_priority;
   for (unsigned n = 0; n < gic::bit_registers; ++n) {

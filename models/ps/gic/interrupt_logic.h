@@ -72,6 +72,8 @@ class InterruptLogic {
   /// ICCHPIR: like ICCIAR, without effects, and whatever the priorities of mask and running
   /// interrupt.
   std::uint32_t highest_pending() const;
+  /// The most urgent interrupt that is active, of equal ones the lowest; 1023 if none is.
+  std::uint16_t first_active() const;
   /// ICCRPR: priority of the most urgent active interrupt, 0xFF if idle.
   std::uint32_t running_priority() const;
 

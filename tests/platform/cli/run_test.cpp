@@ -131,6 +131,19 @@ BOOST_AUTO_TEST_CASE(trace_options_reach_the_platform) {
   BOOST_TEST(asked.trace->clocks);
 }
 
+BOOST_AUTO_TEST_CASE(a_trigger_reaches_the_platform) {
+  BOOST_TEST(run_inputs({"z1.0", "--trace", folder / "a.vcd", "--trace-trigger", "x rises",
+                         "--trace-before", "2", "--trace-buffer", "3", "--trace-frame", "y",
+                         "--trace-level", "everything"}) == 0);
+  BOOST_TEST_REQUIRE(asked.trace.has_value());
+  BOOST_TEST_REQUIRE(asked.trace->trigger.has_value());
+  BOOST_TEST(asked.trace->trigger->condition.text() == "x rises");
+  BOOST_TEST(asked.trace->trigger->frame == "y");
+  BOOST_TEST(asked.trace->trigger->frames_before == 2u);
+  BOOST_TEST(asked.trace->trigger->buffer == 3u << 20);
+  BOOST_TEST((asked.trace->level == vp::TraceLevel::everything));
+}
+
 BOOST_AUTO_TEST_CASE(equal_runs_have_equal_results) {
   Terminal other;
   BOOST_TEST(run_inputs({"z1.0", "yaw30"}) == 0);

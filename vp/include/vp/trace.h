@@ -1,13 +1,16 @@
 #pragma once
 
 #include <vp/clock_scheduler.h>
+#include <vp/frame_gate.h>
 #include <vp/signal.h>
+#include <vp/text_signal.h>
 #include <vp/trace_filter.h>
-#include <vp/vcd_writer.h>
+#include <vp/wave_writer.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -18,14 +21,15 @@ class TraceClock;
 struct TraceSource;
 
 enum class TraceLevel : std::uint8_t {
-  ports,      ///< signals
-  registers,  ///< and probes: the registers inside
+  ports,       ///< signals
+  registers,   ///< and probes: the registers inside
+  everything,  ///< and transactions, which the platform makes readable
 };
 
 struct TraceOptions {
   static constexpr std::uint64_t never = ~std::uint64_t{0};
 
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< .vcd or .fst
   TraceFilter filter;
   TraceLevel level = TraceLevel::ports;
   /// Traced is from <= time < to, in ps.
@@ -34,12 +38,14 @@ struct TraceOptions {
   /// Also the clocks of the modules whose signals are traced: event-driven clocks have no wire, so
   /// their waveform is made up (high in the first half of a period, also while the domain sleeps).
   bool clocks = false;
+  /// Keeps the frames in which something happens. Its signals are traced whatever the filter says.
+  std::optional<FrameTrigger> trigger;
 };
 
-/// Writes the signals, probes and clocks of the platform into a VCD.
+/// Writes the signals, probes and clocks of the platform into a VCD or FST.
 ///
 /// Models hold no trace code: when the simulation starts, the tracer walks the object hierarchy and
-/// takes what the options select. The names in the VCD are the names of the objects. Standard
+/// takes what the options select. The names in the file are the names of the objects. Standard
 /// sc_signal objects of bool and integers, as foreign modules have them, are traced like signals.
 /// What is not selected costs nothing, and nothing costs anything outside the time window. A signal
 /// that changes several times in an instant shows its last value.
@@ -55,9 +61,9 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   ~Tracer() override;
 
   /// Ends the trace and gives the file its name. Call it when the run is over, also after an error
-  /// (what was traced until then is a complete VCD), while the platform still stands. Throws
+  /// (what was traced until then is a complete file), while the platform still stands. Throws
   /// InputError if the file could not be written; then no file is left. Warns if the run ended
-  /// before the window began.
+  /// before the window began, and if no frame held what the trigger waits for.
   void close();
 
   /// Signals, probes and clocks in the trace; known when the simulation has started.
@@ -70,14 +76,16 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   void start_of_simulation() override;
   void select_sources();
   void select_clocks();
-  void follow(const TraceSource& source, VcdWriter::Id id);
+  void follow(const TraceSource& source, WaveWriter::Id id);
+  void attach_to(const TraceSource& source, WaveWriter::Id id);
+  void warn_of_gate() const;
   void open_window();
   void leave_window();
 
   void on_change(SignalBase& signal, std::uint32_t id) override;
   void end_of_instant(std::uint64_t ps) override;
-  void record(VcdWriter::Id id, std::uint64_t bits);
-  void mark(VcdWriter::Id id, std::uint64_t bits);
+  void record(WaveWriter::Id id, std::uint64_t bits);
+  void mark(WaveWriter::Id id, std::uint64_t bits);
   void enter(std::uint64_t ps);
   void flush();
   void rise(TraceClock& clock, std::uint64_t ps);
@@ -88,7 +96,8 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
 
   ClockScheduler& scheduler_;
   TraceOptions options_;
-  std::unique_ptr<VcdWriter> writer_;
+  std::unique_ptr<WaveWriter> writer_;
+  FrameGate* gate_ = nullptr;         ///< the writer, if there is a trigger
   std::vector<TraceSource> sources_;  ///< the place is the id
   std::vector<std::unique_ptr<TraceClock>> clocks_;
   std::unique_ptr<ProbePoll> probes_;
@@ -99,8 +108,9 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   bool attached_ = false;
   std::uint64_t instant_ps_ = 0;  ///< to which the marked changes belong
   std::uint64_t next_fall_ps_ = TraceOptions::never;
-  std::vector<std::uint64_t> values_;  ///< by id: the newest value
-  std::vector<std::uint64_t> marked_;  ///< a bit for each id that changed in this instant
+  std::vector<std::uint64_t> values_;     ///< by id: the newest value
+  std::vector<const TextSignal*> texts_;  ///< by id: of a text; null for numbers
+  std::vector<std::uint64_t> marked_;     ///< a bit for each id that changed in this instant
 };
 
 }  // namespace vp

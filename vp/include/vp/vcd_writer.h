@@ -7,45 +7,37 @@
 #include <string_view>
 #include <vector>
 
+#include <vp/wave_writer.h>
+
 namespace vp {
+
+struct WaveDeclaration;
+struct WaveScope;
 
 /// Writes a value change dump (IEEE 1364, 18.2), fast, and with nothing in it that depends on the
 /// host or the date: the same changes give the same bytes.
 ///
-/// Everything goes into "FILE.tmp" first; close() renames it. A FILE that exists and is no regular
-/// file (a pipe, /dev/null) is written directly. Timescale: 1 ps.
-///
-/// Order of calls: add() all variables, begin(), then set_time() and change(), close().
-class VcdWriter {
+/// A FILE that exists and is no regular file (a pipe, /dev/null) is written directly, without
+/// "FILE.tmp". Texts are written as GTKWave reads them ("$var string", "sTEXT id"), with blanks and
+/// backslashes as octal escapes.
+class VcdWriter final : public WaveWriter {
  public:
-  using Id = std::uint32_t;
-  enum class Kind : std::uint8_t { wire, reg, real };
-
   /// Opens the file. Throws InputError if it cannot be written.
   explicit VcdWriter(const std::filesystem::path& file);
   /// Without close(): keeps what was written as a valid file that ends with the comment
   /// "incomplete", or removes it if there is no value in it yet.
-  ~VcdWriter();
+  ~VcdWriter() override;
   VcdWriter(const VcdWriter&) = delete;
   VcdWriter& operator=(const VcdWriter&) = delete;
 
-  /// Declares a variable; ids count from 0. `path`: levels separated by '.', the last one is the
-  /// variable, the others are scopes. `width` 1 to 64 (ignored for real).
-  /// Throws std::invalid_argument for a path that a VCD cannot hold.
-  Id add(std::string_view path, Kind kind, unsigned width);
-
-  /// Writes the header and all values standing at `ps`, one per variable: right-aligned bits, or
-  /// the pattern of a double.
-  void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values);
-  bool begun() const { return begun_; }
-
-  /// Time of the following changes; not before the time of those before.
-  void set_time(std::uint64_t ps) {
+  Id add(std::string_view path, Kind kind, unsigned width) override;
+  void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) override;
+  bool begun() const override { return begun_; }
+  void set_time(std::uint64_t ps) override {
     stamp_due_ = stamp_due_ || ps != time_ps_;
     time_ps_ = ps;
   }
-  /// Writes nothing if the value is the last one.
-  void change(Id id, std::uint64_t bits) {
+  void change(Id id, std::uint64_t bits) override {
     Variable& variable = variables_[id];
     bits &= variable.mask;
     if (bits == variable.last) return;
@@ -53,33 +45,28 @@ class VcdWriter {
     if (stamp_due_) write_stamp();
     write_value(variable);
   }
-
-  /// True after a failed write, for example on a full disk: later changes are lost, close() throws.
-  bool failed() const { return error_ != 0; }
-
-  /// Ends the file at `end_ps` (the last values stand until then) and gives it its name. Throws
-  /// InputError if anything could not be written. Then, and without begin(), no file is left.
-  void close(std::uint64_t end_ps);
+  void change_digits(Id id, std::string_view digits) override;
+  void change_text(Id id, std::string_view text) override;
+  void pause() override;
+  void resume(const std::vector<std::uint64_t>& values) override;
+  bool failed() const override { return error_ != 0; }
+  void close(std::uint64_t end_ps) override;
 
  private:
   struct Variable {
     std::uint64_t last;
     std::uint64_t mask;
-    char suffix[8];  ///< identifier code and line end, after a blank if it is a vector or real
+    char suffix[8];  ///< identifier code and line end, after a blank unless it is a scalar
     std::uint8_t suffix_length;
     bool scalar;
     bool real;
+    bool text;
   };
-  struct Declaration {
-    std::string path;
-    Kind kind;
-    unsigned width;
-  };
-  struct Scope;
 
   void write_header();
-  void write_scope(const Scope& scope);
-  void write_declaration(const Declaration& declaration, std::string_view leaf, Id id);
+  void write_scope(const WaveScope& scope);
+  void write_declaration(Id id, std::string_view leaf);
+  void write_all(const std::vector<std::uint64_t>& values);
   void write_stamp();
   void write_value(const Variable& variable) {
     if (cursor_ >= limit_) flush();
@@ -107,7 +94,7 @@ class VcdWriter {
   bool begun_ = false;
   bool stamp_due_ = false;
   std::uint64_t time_ps_ = 0;
-  std::vector<Declaration> declarations_;
+  std::vector<WaveDeclaration> declarations_;
   std::vector<Variable> variables_;
   std::vector<char> buffer_;
   char* cursor_;

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <vp/wave_expression.h>
+#include <vp/wave_writer.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vp {
+
+/// Which frames a trace keeps.
+struct FrameTrigger {
+  WaveExpression condition;            ///< a frame in which it comes true is kept
+  std::string frame = "ps.cpu.frame";  ///< the signal whose changes begin a frame
+  unsigned frames_before = 0;          ///< frames kept before such a frame
+  /// Bytes of changes held until a frame is judged; about 4 a change. The oldest are given up.
+  std::size_t buffer = std::size_t{256} << 20;
+};
+
+/// A writer before another one that passes on the frames in which something happens. In between
+/// the file has a pause: everything is x there.
+class FrameGate final : public WaveWriter {
+ public:
+  FrameGate(std::unique_ptr<WaveWriter> target, FrameTrigger trigger);
+  ~FrameGate() override;
+
+  /// The trigger needs these signals, by their paths of all there are, whatever else is traced.
+  /// Throws InputError for a name that is none or not one only.
+  std::vector<std::string> needed(const std::vector<std::string>& paths) const;
+
+  Id add(std::string_view path, Kind kind, unsigned width) override;
+  /// Throws InputError for a trigger on signals that were not added.
+  void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) override;
+  bool begun() const override { return begun_; }
+  void set_time(std::uint64_t ps) override;
+  void change(Id id, std::uint64_t bits) override;
+  void change_digits(Id id, std::string_view digits) override;
+  void change_text(Id id, std::string_view text) override;
+  void pause() override;
+  void resume(const std::vector<std::uint64_t>& values) override;
+  bool failed() const override { return target_->failed(); }
+  void close(std::uint64_t end_ps) override;
+
+  /// Frames that were kept, and bytes of changes that were given up because the buffer was full.
+  std::uint64_t kept() const { return kept_; }
+  std::uint64_t lost_bytes() const { return lost_bytes_; }
+
+ private:
+  /// All values at its beginning, and the changes since.
+  struct Chunk {
+    std::uint64_t start_ps;
+    std::vector<std::uint64_t> values;
+    std::vector<std::string> texts;
+    std::vector<unsigned char> changes;
+  };
+  struct Frame {
+    std::deque<Chunk> chunks;
+    std::uint64_t end_ps = 0;
+  };
+  class Values;
+
+  void end_instant();
+  void end_frame(std::uint64_t ps);
+  void open_chunk(Frame& frame);
+  void keep_within_buffer();
+  void put(std::uint64_t number);
+  void put_time();
+  void play(const Frame& frame);
+  void play(const Chunk& chunk);
+
+  std::unique_ptr<WaveWriter> target_;
+  FrameTrigger trigger_;
+  std::vector<std::string> paths_;
+  std::vector<Kind> kinds_;
+  Id frame_id_ = 0;
+  std::vector<char> watched_;  ///< by id: the frame signal or in the condition
+  bool begun_ = false;
+  bool watched_changed_ = false;
+  bool triggered_ = false;
+  bool written_ = false;  ///< the target has begun
+  std::uint64_t time_ps_ = 0;
+  std::uint64_t chunk_time_ps_ = 0;  ///< of the last change in the open chunk
+  std::uint64_t target_ps_ = 0;      ///< up to where the target was written
+  std::vector<std::uint64_t> values_, before_;
+  std::vector<std::string> texts_;
+  std::deque<Frame> frames_;  ///< the last one is running
+  std::size_t held_ = 0;
+  std::uint64_t kept_ = 0;
+  std::uint64_t lost_bytes_ = 0;
+};
+
+}  // namespace vp

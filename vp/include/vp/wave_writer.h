@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace vp {
+
+/// Writes the values of variables over time into a file: VCD or FST.
+///
+/// Order of calls: add() all variables, begin(), then set_time(), change() and change_text(),
+/// close(). Timescale: 1 ps. Everything goes into "FILE.tmp" first; close() renames it.
+class WaveWriter {
+ public:
+  using Id = std::uint32_t;
+  enum class Kind : std::uint8_t { wire, reg, real, text };
+  static constexpr unsigned widest = 65536;  ///< bits; more than 64 for change_digits() only
+
+  virtual ~WaveWriter() = default;
+
+  /// Declares a variable; ids count from 0. `path`: levels separated by '.', the last one is the
+  /// variable, the others are scopes. `width` 1 to `widest` (ignored for real and text).
+  /// Throws std::invalid_argument for a path that a file cannot hold.
+  virtual Id add(std::string_view path, Kind kind, unsigned width) = 0;
+
+  /// All variables are there: writes the header and all values standing at `ps`, one per variable:
+  /// right-aligned bits, or the pattern of a double; texts are empty.
+  virtual void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) = 0;
+  /// A value was written already.
+  virtual bool begun() const = 0;
+
+  /// Time of the following changes; not before the time of those before.
+  virtual void set_time(std::uint64_t ps) = 0;
+  /// Writes nothing if the value is the last one.
+  virtual void change(Id id, std::uint64_t bits) = 0;
+  /// A value as digits 0 1 x z, the most significant first, written as it is.
+  virtual void change_digits(Id id, std::string_view digits) = 0;
+  /// The new value of a text, written even if it is the last one: an access may repeat.
+  virtual void change_text(Id id, std::string_view text) = 0;
+
+  /// From now on nothing is known: every variable becomes x (a real NaN, a text empty).
+  virtual void pause() = 0;
+  /// The end of a pause, at the time set: all values, as for begin().
+  virtual void resume(const std::vector<std::uint64_t>& values) = 0;
+
+  /// True after a failed write, for example on a full disk: later changes are lost, close() throws.
+  virtual bool failed() const = 0;
+
+  /// Ends the file at `end_ps` (the last values stand until then) and gives it its name. Throws
+  /// InputError if anything could not be written. Then, and without begin(), no file is left.
+  virtual void close(std::uint64_t end_ps) = 0;
+};
+
+/// A writer for the format that the name's extension tells: .vcd or .fst; a pipe or device takes a
+/// VCD. Opens the file. Throws
+/// InputError for another extension, if the file cannot be written, or for FST if this build has
+/// none.
+std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file);
+
+/// True if this build writes and reads FST.
+bool has_fst();
+
+}  // namespace vp

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "byte_source.h"
+
+namespace vp {
+
+/// Words between white space, out of a window that slides over the file.
+class VcdTokens {
+ public:
+  static constexpr std::size_t window = 1 << 18;
+
+  explicit VcdTokens(std::unique_ptr<ByteSource> source)
+      : source_(std::move(source)), buffer_(window + 1) {
+    cursor_ = end_ = buffer_.data();
+    *end_ = ' ';
+  }
+
+  /// The next word, empty at the end. Valid until the next call, or the one after keep().
+  std::string_view next() {
+    for (;;) {
+      while (static_cast<unsigned char>(*cursor_) <= ' ' && cursor_ != end_) {
+        line_ += *cursor_ == '\n';
+        ++cursor_;
+      }
+      if (cursor_ != end_) break;
+      if (!refill(cursor_)) return {};
+    }
+    char* from = cursor_;
+    char* to = cursor_ + 1;
+    for (;;) {
+      while (static_cast<unsigned char>(*to) > ' ') ++to;
+      if (to != end_) break;
+      const std::size_t length = static_cast<std::size_t>(to - from);
+      cut_ = !refill(from);  // the end of the file, and no white space before it
+      from = cursor_;
+      to = from + length;
+      if (cut_) break;
+    }
+    cursor_ = to;
+    return {from, static_cast<std::size_t>(to - from)};
+  }
+
+  /// The word just read stays valid over the next call, which may move it.
+  void keep(std::string_view word) { kept_ = const_cast<char*>(word.data()); }
+  std::string_view kept(std::size_t length) {
+    const char* from = std::exchange(kept_, nullptr);
+    return {from, length};
+  }
+
+  /// The word just read ends where the file ends, or is longer than the window.
+  bool cut() const { return cut_; }
+  bool too_long() const { return too_long_; }
+  std::uint64_t line() const { return line_; }
+  /// Of the byte after the word just read.
+  std::uint64_t offset() const { return read_ - static_cast<std::uint64_t>(end_ - cursor_); }
+  std::uint64_t bytes() const { return read_; }
+  bool has_lines() const { return source_->has_lines(); }
+
+ private:
+  /// Moves what is still needed, from `word` or the word kept before it, to the front, and reads
+  /// on behind it. `cursor_` is where the word is then. False at the end of the file.
+  bool refill(char* word) {
+    char* first = kept_ ? kept_ : word;
+    const auto held = static_cast<std::size_t>(end_ - first);
+    if (held == window) {
+      too_long_ = true;
+      return false;
+    }
+    std::memmove(buffer_.data(), first, held);
+    cursor_ = buffer_.data() + (word - first);
+    if (kept_) kept_ = buffer_.data();
+    end_ = buffer_.data() + held;
+    const std::size_t count = source_->read(end_, window - held);
+    read_ += count;
+    end_ += count;
+    *end_ = ' ';
+    return count != 0;
+  }
+
+  std::unique_ptr<ByteSource> source_;
+  std::vector<char> buffer_;
+  char* cursor_;
+  char* end_;
+  char* kept_ = nullptr;
+  bool cut_ = false;
+  bool too_long_ = false;
+  std::uint64_t line_ = 1;
+  std::uint64_t read_ = 0;
+};
+
+}  // namespace vp
