@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   markervp config > platform.yaml           every parameter with its default
   markervp report slower out                compare two runs in a page
   markervp map axi_dma_0                    addresses and registers that software sees
+  markervp validate                         the thesis' chapter 5, value by value
 
 Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 wrong usage,
 configuration or input, 3 hardware or software broke a protocol rule.)";
@@ -39,6 +40,7 @@ For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)"
 /// Larger numbers than anybody waits for. CLI11 takes what is too long for 64 bits as the largest
 /// number.
 constexpr std::uint64_t most_frames = 1'000'000'000;
+constexpr std::uint32_t most_repetitions = 10'000;
 
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
@@ -188,6 +190,28 @@ void add_report(CLI::App& app, ReportOptions& target) {
   command->footer(report_examples);
 }
 
+void add_validate(CLI::App& app, ValidateOptions& target) {
+  CLI::App* command = app.add_subcommand("validate", "compare with what the thesis measured");
+  command
+      ->add_option("-o,--output", target.output, "folder for the results (default: out/validation)")
+      ->type_name("DIR");
+  command->add_option("--profile", target.profile, "cost profile of the software: a name or a file")
+      ->type_name("NAME");
+  command->add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
+      ->type_name("tlm|clocked");
+  command
+      ->add_option("--repetitions", target.repetitions,
+                   "measure so often, with the published jitter (default: once, exactly)")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{1}, most_repetitions).description(""));
+  command->add_option("--jobs", target.jobs, "systems that run side by side (default: 2)")
+      ->type_name("1|2")
+      ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{2}).description(""));
+  command->add_option("--markdown", target.markdown, "write the page of the documentation too")
+      ->type_name("FILE");
+  add_configuration_options(*command, target.configuration);
+}
+
 void add_completion(CLI::App& app, CompletionOptions& target) {
   CLI::App* command =
       app.add_subcommand("completion", "print a script that completes the command line");
@@ -212,6 +236,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_config(*app, target.config);
   add_map(*app, target.map);
   add_report(*app, target.report);
+  add_validate(*app, target.validate);
   add_completion(*app, target.completion);
   return app;
 }

@@ -33,6 +33,11 @@ int print_map(const MapOptions& options, const SimulationFactory& make_simulatio
 /// Makes the page of a folder again, or one that compares two runs.
 int make_report(const ReportOptions& options, std::ostream& out);
 
+/// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
+/// them with what the thesis prints. run_failed: a gate failed.
+int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
+             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.

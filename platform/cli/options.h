@@ -68,6 +68,17 @@ struct ReportOptions {
   std::optional<std::string> output;  ///< file of the comparison
 };
 
+/// `markervp validate`.
+struct ValidateOptions {
+  ConfigurationOptions configuration;
+  std::string output = "out/validation";
+  std::optional<std::string> profile;
+  std::optional<std::string> fidelity;
+  std::optional<std::string> markdown;  ///< page of the documentation to write
+  std::uint32_t repetitions = 1;        ///< of each measurement, with jitter; 1: exact
+  std::uint32_t jobs = 2;               ///< runs side by side
+};
+
 /// `markervp completion`.
 struct CompletionOptions {
   std::string shell;
@@ -80,6 +91,7 @@ struct CommandLine {
   ConfigOptions config;
   MapOptions map;
   ReportOptions report;
+  ValidateOptions validate;
   CompletionOptions completion;
 };
 

@@ -34,6 +34,9 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "config") return print_configuration(line.config, make_simulation, out);
   if (command == "map") return print_map(line.map, make_simulation, out);
   if (command == "report") return make_report(line.report, out);
+  if (command == "validate") {
+    return validate(line.validate, arguments, make_simulation, out, err);
+  }
   return print_completion(line.completion, app, out);
 }
 

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <cli/program.h>
+#include <cli/run_child.h>
+#include <profiles/cost_profile.h>
+#include <report/file_output.h>
+#include <validation/console.h>
+#include <validation/markdown.h>
+#include <validation/plots.h>
+#include <validation/result_files.h>
+
+namespace platform::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using validation::Plot;
+
+constexpr const char* systems[] = {"hybrid", "ps-only"};
+/// Folder of the pictures beside a page of the documentation.
+constexpr const char* page_pictures = "images/validation";
+
+RunOptions run_options(const ValidateOptions& options, const std::string& system) {
+  RunOptions run;
+  run.inputs = validation::all_tests;
+  run.configuration = options.configuration;
+  if (options.profile) run.configuration.assignments.push_back("profile=" + *options.profile);
+  run.fidelity = options.fidelity;
+  run.system = system;
+  run.output = (fs::path(options.output) / system).string();
+  run.no_pictures = true;
+  run.quiet = true;
+  return run;
+}
+
+/// Exit code of a run that did not end well, after its messages; equal ones are printed once.
+int failure(const std::vector<ChildEnd>& ends, std::ostream& err) {
+  int code = done;
+  std::string printed;
+  for (const ChildEnd& end : ends) {
+    const std::string message =
+        end.signal != 0 ? "markervp: a run was ended by signal " + std::to_string(end.signal) + "\n"
+                        : end.err;
+    if (message != printed) err << message;
+    printed = message;
+    if (code == done) code = end.signal != 0 ? static_cast<int>(run_failed) : end.exit_code;
+  }
+  return code;
+}
+
+/// Both systems on all images, side by side if there are jobs enough.
+int run_systems(const ValidateOptions& options, const std::vector<std::string>& arguments,
+                const SimulationFactory& make_simulation, std::ostream& err) {
+  std::vector<RunChild> children;
+  std::vector<ChildEnd> ends;
+  for (const char* system : systems) {
+    const RunOptions run_it = run_options(options, system);
+    children.emplace_back([&, run_it](std::ostream& child_out, std::ostream& child_err) {
+      return run(run_it, arguments, make_simulation, child_out, child_err);
+    });
+    if (options.jobs == 1) ends.push_back(children.back().wait());
+  }
+  if (ends.empty()) {
+    for (RunChild& child : children) ends.push_back(child.wait());
+  }
+  return failure(ends, err);
+}
+
+validation::Measured read_runs(const ValidateOptions& options) {
+  const fs::path folder = options.output;
+  return {validation::read_run(folder / systems[0] / "result.json"),
+          validation::read_run(folder / systems[1] / "result.json")};
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  report::AtomicFile file(path.string());
+  file.write(text);
+  file.commit();
+}
+
+/// False: gnuplot is not installed.
+bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
+  report::prepare_output_folder(folder.string());
+  return std::all_of(plots.begin(), plots.end(),
+                     [&](const Plot& plot) { return validation::draw(plot, folder); });
+}
+
+/// What was written and what was not.
+std::string write_results(const ValidateOptions& options, const validation::Validation& result) {
+  const fs::path folder = options.output;
+  write_file(folder / "validation.json", validation::json_text(result));
+  write_file(folder / "validation.csv", validation::rows_csv(result));
+  write_file(folder / "frames.csv", validation::frames_csv(result));
+  const std::vector<Plot> plots = validation::all_plots(result);
+  bool drawn = draw_plots(plots, folder / "plots");
+  std::string text = "wrote validation.json, validation.csv, frames.csv in " + folder.string();
+  if (drawn)
+    text += ", " + std::to_string(plots.size()) + " plots in " + (folder / "plots").string();
+  if (options.markdown) {
+    const fs::path page = *options.markdown;
+    if (page.has_parent_path()) report::prepare_output_folder(page.parent_path().string());
+    drawn = drawn && draw_plots(plots, page.parent_path() / page_pictures);
+    write_file(page, validation::markdown_text(result, plots, page_pictures));
+    text += ", " + page.string();
+  }
+  return text + (drawn ? "\n" : "\nno plots: gnuplot is not installed (Debian: gnuplot-nox)\n");
+}
+
+}  // namespace
+
+int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
+             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  const auto published = validation::read_published(validation::published_file());
+  report::prepare_output_folder(options.output);
+  if (const int code = run_systems(options, arguments, make_simulation, err); code != done) {
+    return code;
+  }
+  const validation::Measured measured = read_runs(options);
+  const auto profile =
+      profiles::load_cost_profile(measured.hybrid.configuration.at("profile"), std::nullopt);
+  const validation::Validation result =
+      validation::validate_runs(measured, profile, published, options.repetitions);
+  const std::string written = write_results(options, result);
+  out << validation::console_text(result) << written << std::flush;
+  return result.passed() ? done : run_failed;
+}
+
+}  // namespace platform::cli

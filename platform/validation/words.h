@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <validation/judgement.h>
+#include <validation/validation.h>
+
+/// Phrases that console, files and the page of the documentation share.
+namespace platform::validation {
+
+/// "12.16 x", "6144.63 us"; percent and numbers without unit have none of their own.
+std::string published_text(const Published& published);
+/// The modelled value with two decimals more than the published one has; "-" for none.
+std::string modelled_text(const Row& row);
+/// "-4.1 %"; "-" without a value.
+std::string difference_text(const Row& row);
+/// "used for calibration", "follows from calibration" or "predicted"; empty where that says
+/// nothing.
+std::string use_text(const Row& row);
+/// "met", "met, as printed", "missed, known", "MISSED", "explained", "not modelled", "input".
+std::string verdict_text(Verdict verdict);
+std::string kind_text(Kind kind);
+
+/// One or two sentences each.
+std::string order_text(const OrderStudy& study);
+std::string turn_text(const TurnStudy& study);
+
+/// "validation passed: …" or "validation FAILED: …", with the gates that failed.
+std::string verdict_line(const Validation& validation);
+
+}  // namespace platform::validation
