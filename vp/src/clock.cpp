@@ -2,6 +2,9 @@
 
 #include <vp/clock_scheduler.h>
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace vp {
 
@@ -39,9 +42,14 @@ void Clocked::wake() {
 }
 
 void Clocked::wake_at(std::uint64_t cycle) {
-  clock_.places_[place_].alarm = cycle;
+  if (cycle < clock_.cycle()) {
+    throw std::logic_error(std::string(name()) + ": alarm for edge " + std::to_string(cycle) +
+                           ", which has run: now is " + std::to_string(clock_.cycle()));
+  }
+  Clock::Place& place = clock_.places_[place_];
+  const std::uint64_t before = std::exchange(place.alarm, cycle);
   clock_.attend_to(place_);
-  if (clock_.awake_ == 0) clock_.plan_next(clock_.scheduler().now_ps());
+  if (clock_.awake_ == 0) clock_.plan_alarm(before, cycle);
 }
 
 void Clocked::wake_on(InBase& input) {
@@ -187,28 +195,53 @@ void Clock::run_edge() {
   const std::uint64_t cycle = next_.cycle;
   cycle_ = cycle;
   cycle_ps_ = next_.ps;
+  next_alarm_ = never;
+  look_again_ = false;
   for_each_attended([&](std::size_t i) {
     Place& place = places_[i];
     const bool due = place.alarm == cycle;
     if (due) place.alarm = never;
     if (place.awake || due) place.module->edge();
-    attend_to(i);
+    next_alarm_ = std::min(next_alarm_, place.alarm);
+    if (place.alarm == never) attend_to(i);
   });
   in_edge_ = false;
   if (awake_ == 0) {
-    seek_alarm();
+    look_again_ ? seek_alarm() : go_to_alarm();
   } else if (next_.cycle == cycle) {
     step();
   }
 }
 
-void Clock::seek_alarm() {
-  std::uint64_t alarm = never;
-  for_each_attended([&](std::size_t i) { alarm = std::min(alarm, places_[i].alarm); });
-  if (alarm == never || hertz_ == 0) {
+void Clock::go_to_alarm() {
+  if (next_alarm_ == never || hertz_ == 0) {
     next_.ps = never;
   } else {
-    seek(alarm);
+    seek(next_alarm_);
+  }
+}
+
+void Clock::seek_alarm() {
+  next_alarm_ = never;
+  for_each_attended([&](std::size_t i) { next_alarm_ = std::min(next_alarm_, places_[i].alarm); });
+  go_to_alarm();
+}
+
+// A module's alarm has moved. Inside an edge it is enough to know the earliest later one: an edge
+// on which nobody runs, because an alarm was moved again, does no harm. One for this very edge is
+// served by it if the module comes later in the order.
+void Clock::plan_alarm(std::uint64_t before, std::uint64_t cycle) {
+  if (in_edge_) {
+    if (cycle > cycle_) {
+      next_alarm_ = std::min(next_alarm_, cycle);
+    } else {
+      look_again_ = true;
+    }
+  } else if (next_.ps != never && cycle >= next_.cycle) {
+    if (before == next_.cycle) plan_next(scheduler_.now_ps());
+  } else if (cycle != never && hertz_ != 0) {
+    seek(cycle);
+    scheduler_.reschedule();
   }
 }
 

@@ -1,6 +1,7 @@
 #include <vp/clock_scheduler.h>
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_set>
 
 namespace vp {
@@ -60,8 +61,10 @@ void ClockScheduler::start_of_simulation() {
   claim_signals(sc_core::sc_get_top_level_objects(), *this);
   order_modules();
   mark_deferred_signals();
+  std::copy_if(clocks_.begin(), clocks_.end(), std::back_inserter(ticking_),
+               [](const Clock* clock) { return !clock->places_.empty(); });
   started_ = true;
-  for (Clock* clock : clocks_) clock->plan_next(0);
+  for (Clock* clock : ticking_) clock->plan_next(0);
   find_next();
 }
 
@@ -69,7 +72,7 @@ void ClockScheduler::start_of_simulation() {
 void ClockScheduler::find_next() {
   if (!started_) return;
   std::uint64_t first = Clock::never;
-  for (const Clock* clock : clocks_) first = std::min(first, clock->next_.ps);
+  for (const Clock* clock : ticking_) first = std::min(first, clock->next_.ps);
   next_ps_ = first;
 }
 
@@ -77,13 +80,21 @@ void ClockScheduler::find_next() {
 // plain store is seen by the next edge only, as from a register.
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
-  for (Clock* clock : clocks_) {
+  moved_ = false;
+  std::uint64_t next = Clock::never;
+  for (Clock* clock : ticking_) {
     if (clock->next_.ps == ps) clock->run_edge();
+    next = std::min(next, clock->next_.ps);
   }
+  if (!deferred_.empty()) commit_deferred();
+  for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
+  next_ps_ = next;
+  if (moved_) find_next();
+}
+
+void ClockScheduler::commit_deferred() {
   for (std::size_t i = 0; i < deferred_.size(); ++i) deferred_[i]->commit();
   deferred_.clear();
-  for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
-  find_next();
 }
 
 void ClockScheduler::run_due_instants() {
@@ -187,7 +198,10 @@ void ClockScheduler::rejoin() {
 
 // A clock's next edge has moved. Who has run ahead wakes us when it waits.
 void ClockScheduler::reschedule() {
-  if (running_) return;  // run_instant() does
+  if (running_) {
+    moved_ = true;
+    return;
+  }
   find_next();
   if (instant_ps_ <= kernel_ps()) plan_wake_up();
 }

@@ -184,6 +184,7 @@ tlm::tlm_response_status RegisterBank::access(Register& target, bool read, std::
                                               std::uint32_t& word) {
   if (scheduler_) scheduler_->synchronise();
   if (held_in_reset_) return refuse_in_reset(address);
+  if (before_access_) before_access_();
   if (read) {
     word = target.read();
   } else {
@@ -222,6 +223,7 @@ bool RegisterBank::get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tl
 unsigned RegisterBank::transport_dbg(tlm::tlm_generic_payload& payload) {
   if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
   synchronise();
+  if (before_access_) before_access_();
   unsigned done = 0;
   for (; done < payload.get_data_length(); ++done) {
     const std::uint64_t address = payload.get_address() + done;

@@ -71,22 +71,27 @@ void RegisterRoute::follow(Access& access, std::uint64_t ps) const {
   }
 }
 
-// Looks again after waiting: a clock may have changed meanwhile.
-void RegisterRoute::wait_to_leave(Access& access) const {
-  const Stop& stop = stops_[access.stage_];
-  RouteStage::Passage& passage = access.passages_[access.stage_];
-  while (true) {
-    if (passage.leaves_ps == Clock::never) report_bus_hang(*stop.stage, access.read_, stop.address);
+// `changes` counts those of clocks until the access entered the stage.
+inline void RegisterRoute::wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
+                                         std::uint64_t& changes) const {
+  do {
+    if (passage.leaves_ps == Clock::never) report_bus_hang(*stop.stage, read, stop.address);
     scheduler_->pass_until(passage.leaves_ps);
-    if (access.changes_ == scheduler_->clock_changes()) return;
-    access.changes_ = scheduler_->clock_changes();
-    passage.leaves_ps = std::max(stop.stage->leaves(passage.earliest_ps), scheduler_->now_ps());
-  }
+  } while (changes != scheduler_->clock_changes() && look_again(stop, passage, changes));
+}
+
+// A clock has changed while the access waited. True: it leaves at another time.
+bool RegisterRoute::look_again(const Stop& stop, RouteStage::Passage& passage,
+                               std::uint64_t& changes) const {
+  changes = scheduler_->clock_changes();
+  passage.leaves_ps = std::max(stop.stage->leaves(passage.earliest_ps), scheduler_->now_ps());
+  return passage.leaves_ps > scheduler_->now_ps();
 }
 
 RegisterRoute::Answer RegisterRoute::complete(Access& access, std::uint32_t& word) {
   while (access.stage_ < stops_.size()) {
-    wait_to_leave(access);
+    wait_to_leave(stops_[access.stage_], access.passages_[access.stage_], access.read_,
+                  access.changes_);
     leave(access);
   }
   Answer answer{bank_->access(*register_, access.read_, address_, word), access.time_ps_};
@@ -98,10 +103,24 @@ RegisterRoute::Answer RegisterRoute::complete(Access& access, std::uint32_t& wor
   return answer;
 }
 
+// Nearly every route has one stage.
 RegisterRoute::Answer RegisterRoute::transfer(bool read, std::uint32_t& word) {
+  if (stops_.size() == 1) return transfer_through(stops_.front(), read, word);
   Access access;
   begin(access, read, scheduler_->now_ps());
   return complete(access, word);
+}
+
+RegisterRoute::Answer RegisterRoute::transfer_through(const Stop& stop, bool read,
+                                                      std::uint32_t& word) {
+  std::uint64_t changes = scheduler_->clock_changes();
+  RouteStage::Passage passage;
+  stop.stage->enter(read, scheduler_->now_ps(), passage);
+  wait_to_leave(stop, passage, read, changes);
+  Answer answer{bank_->access(*register_, read, address_, word), 0};
+  answer.ps = std::max(passage.leaves_ps + passage.rest_ps, passage.answer_ps);
+  count(read, answer.status != tlm::TLM_OK_RESPONSE);
+  return answer;
 }
 
 void RegisterRoute::count(bool read, bool failed) {

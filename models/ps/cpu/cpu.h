@@ -198,6 +198,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t reached_ps() { return std::max(now_ps(), access_end_ps_) + timeline().total_ps(); }
   Timeline& timeline() { return timelines_[in_handler_now_ ? 1 : 0]; }
   void spend_cycles(std::uint64_t cycles);
+  std::uint64_t take_work();
+  void work_for(std::uint64_t ps);
   void close_segment();
   void catch_up();
   void settle();

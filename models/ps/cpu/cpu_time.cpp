@@ -29,10 +29,15 @@ void Cpu::spend_cycles(std::uint64_t cycles) {
   local_time_.add_cycles(LocalTime::Wide{cycles} << LocalTime::fraction_bits);
 }
 
-void Cpu::close_segment() {
-  if (local_time_.empty()) return;
+// The time of what was counted since the last call.
+inline std::uint64_t Cpu::take_work() {
+  if (local_time_.empty()) return 0;
   follow_clock();
-  if (const std::uint64_t ps = local_time_.take_ps()) timeline().push(Timeline::Kind::work, ps);
+  return local_time_.take_ps();
+}
+
+void Cpu::close_segment() {
+  if (const std::uint64_t ps = take_work()) timeline().push(Timeline::Kind::work, ps);
 }
 
 // Nothing is counted since the simulation was looked at.
@@ -63,10 +68,13 @@ inline void Cpu::end_access() {
 
 // All that was done ahead passes, and interrupts that come run their handler.
 void Cpu::catch_up() {
-  if (!local_time_.empty()) close_segment();
+  const bool plain = timeline().empty();
+  const std::uint64_t ps = plain ? take_work() : 0;
+  if (!plain) close_segment();
   scheduler_.synchronise();
   end_access();
-  if (!timeline().empty()) play(Interrupts::take);
+  if (!plain) play(Interrupts::take);
+  if (ps != 0) work_for(ps);
   start_ahead();
   take_interrupts();
 }
@@ -83,6 +91,14 @@ void Cpu::settle() {
   end_access();
   play(Interrupts::leave);
   start_ahead();
+}
+
+// A stretch of work with nothing before it.
+void Cpu::work_for(std::uint64_t ps) {
+  while (ps > 0) {
+    take_interrupts();
+    ps -= pass(ps);
+  }
 }
 
 // False if an interrupt is due that was to be left.

@@ -21,14 +21,6 @@ void LocalTime::set_frequency(std::uint64_t hertz) {
   cycle_remainder_ = 0;  // less than a femtosecond
 }
 
-void LocalTime::add_cycles(Wide fraction_cycles) {
-  cycles_ = std::min(cycles_ + std::min(fraction_cycles, most_cycles), most_cycles);
-}
-
-void LocalTime::add_stall_fs(Wide femtoseconds) {
-  stall_fs_ = std::min(stall_fs_ + std::min(femtoseconds, most_stall_fs), most_stall_fs);
-}
-
 // Femtoseconds of the cycles, and what that cuts off.
 LocalTime::Wide LocalTime::take_cycles() {
   const std::uint64_t denominator = hertz_ << denominator_bits;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace ps {
@@ -25,10 +26,14 @@ class LocalTime {
   /// `hertz` 1 to 10^12: the frequency at which cycles added before are taken.
   void set_frequency(std::uint64_t hertz);
 
-  void add_cycles(Wide fraction_cycles);
-  void add_stall_fs(Wide femtoseconds);
+  void add_cycles(Wide fraction_cycles) {
+    cycles_ = std::min(cycles_ + std::min(fraction_cycles, most_cycles), most_cycles);
+  }
+  void add_stall_fs(Wide femtoseconds) {
+    stall_fs_ = std::min(stall_fs_ + std::min(femtoseconds, most_stall_fs), most_stall_fs);
+  }
 
-  bool empty() const { return cycles_ == 0 && stall_fs_ == 0; }
+  bool empty() const { return (cycles_ | stall_fs_) == 0; }
   /// Whole picoseconds added since the last call.
   std::uint64_t take_ps();
 

@@ -55,6 +55,11 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                          ": must be a power of two from 2 to 256");
   }
   build_channels();
+  s_axi_lite.before_access([this] {
+    for (const Interrupt& i : interrupts_) {
+      if (i.channel->finishing()) i.channel->bring_up_to(clock().cycle());
+    }
+  });
 }
 
 void AxiDma::build_channels() {
@@ -114,6 +119,10 @@ void AxiDma::on_change(vp::SignalBase& signal, std::uint32_t id) {
   s_axi_lite.hold_in_reset(!axi_resetn);
 }
 
+bool AxiDma::watched() const {
+  return clock().scheduler().observed();
+}
+
 void AxiDma::warn(const char* id, const std::string& message) const {
   vp::warn(*this, id, message);
 }
@@ -122,7 +131,11 @@ void AxiDma::warn(const char* id, const std::string& message) const {
 void AxiDma::edge() {
   const std::uint64_t cycle = clock().cycle();
   const bool was_stopped = stopped_;
-  std::uint64_t next = drive_interrupts() ? cycle + 1 : vp::Clock::never;
+  for (const Interrupt& i : interrupts_) {
+    if (i.channel->finishing()) i.channel->bring_up_to(cycle - 1);
+  }
+  drive_interrupts();
+  std::uint64_t next = vp::Clock::never;
   for (const Interrupt& i : interrupts_) next = std::min(next, i.channel->edge(cycle));
   if (resetting_) next = std::min(next, run_soft_reset(cycle));
   if (interrupts_differ()) next = cycle + 1;
@@ -151,16 +164,14 @@ void AxiDma::plan_interrupts() {
   if (interrupts_differ()) plan_edge(clock().cycle() + 1);
 }
 
-// A register behind status AND enable. True if an output changed.
-bool AxiDma::drive_interrupts() {
-  bool changed = false;
+// A register behind status AND enable.
+void AxiDma::drive_interrupts() {
   for (Interrupt& i : interrupts_) {
     const bool level = !resetting_ && i.channel->interrupt();
-    changed |= level != i.level;
+    if (level == i.level) continue;
     i.level = level;
     i.output->write(level);
   }
-  return changed;
 }
 
 void AxiDma::stop_channels() {

@@ -80,10 +80,11 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   void request_soft_reset() override;
   bool in_soft_reset() const override { return resetting_; }
   bool stopped() const override { return stopped_; }
+  bool watched() const override;
   void warn(const char* id, const std::string& message) const override;
 
   void build_channels();
-  bool drive_interrupts();
+  void drive_interrupts();
   bool interrupts_differ() const;
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();

@@ -123,8 +123,8 @@ std::uint64_t DmaChannel::edge(std::uint64_t cycle) {
   }
   if (phase_ == Phase::moving) {
     next = finish_at_ == never ? move(cycle) : never;
-    if (finish_at_ != never && cycle >= finish_at_) report_status(cycle);
-    next = std::min(next, finish_at_);
+    bring_up_to(cycle);
+    next = std::min(next, shows_at());
   }
   return std::min(next, run_and_halt(cycle));
 }
@@ -141,6 +141,13 @@ void DmaChannel::start(std::uint64_t cycle) {
   finish_at_ = never;
   error_ = 0;
   begin(from, requested_bytes_, cycle);
+}
+
+// The edge that has to run for the end of the transfer: the one on which the interrupt output
+// rises.
+std::uint64_t DmaChannel::shows_at() const {
+  const bool raises = error_ == 0 && running() && dmacr.any(dmacr::IOC_IrqEn) && !interrupt();
+  return finish_at_ == never || core_.watched() || !raises ? finish_at_ : finish_at_ + 1;
 }
 
 void DmaChannel::report_status(std::uint64_t cycle) {

@@ -32,6 +32,8 @@ class DmaChannel {
     virtual bool in_soft_reset() const = 0;
     /// An error was reported and the core was not reset since.
     virtual bool stopped() const = 0;
+    /// Somebody watches every edge.
+    virtual bool watched() const = 0;
     virtual void warn(const char* id, const std::string& message) const = 0;
   };
 
@@ -55,6 +57,13 @@ class DmaChannel {
 
   /// One clock edge. Returns the next one that the channel needs (signals may wake it earlier).
   std::uint64_t edge(std::uint64_t cycle);
+  /// The end of the transfer is known and not shown yet.
+  bool finishing() const { return finish_at_ != never; }
+  /// Shows an end up to edge `cycle`. Where an interrupt follows, it is shown on the edge of that,
+  /// unless somebody looks before.
+  void bring_up_to(std::uint64_t cycle) {
+    if (finishing() && cycle >= finish_at_) report_status(finish_at_);
+  }
   /// Status AND enable: what the interrupt output shows one clock later.
   bool interrupt() const { return (dmasr & dmacr & axi_dma::dmasr::interrupts) != 0; }
 
@@ -104,6 +113,7 @@ class DmaChannel {
   void latch_address();
   std::uint64_t starts_at() const;
   void start(std::uint64_t cycle);
+  std::uint64_t shows_at() const;
   void report_status(std::uint64_t cycle);
   void warn_of_bus_error() const;
   void set_interrupt(std::uint32_t bit, std::uint64_t cycle);

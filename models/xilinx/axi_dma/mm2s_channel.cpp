@@ -1,6 +1,7 @@
 #include <xilinx/axi_dma/mm2s_channel.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace xilinx {
@@ -178,11 +179,7 @@ bool Mm2sChannel::start_whole_burst(std::uint64_t cycle) {
   if (!sink->takes_bursts()) return false;
   whole_first_ = std::max(cycle, burst.first);
   whole_burst_.resize(to_send_ / word_bytes);
-  for (std::size_t i = 0; i < whole_burst_.size(); ++i) {
-    const unsigned char* byte = &burst.data[i * word_bytes];
-    whole_burst_[i] = byte[0] | std::uint32_t{byte[1]} << 8 | std::uint32_t{byte[2]} << 16 |
-                      std::uint32_t{byte[3]} << 24;
-  }
+  std::memcpy(whole_burst_.data(), burst.data.data(), burst.data.size());
   finish(whole_first_ + whole_burst_.size() + core_.timing().completion_latency);
   return true;
 }

@@ -1,6 +1,7 @@
 #include <xilinx/axi_dma/s2mm_channel.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace xilinx {
@@ -85,13 +86,7 @@ void S2mmChannel::take_words(const vp::BeatSource::Beats& beats, std::uint64_t c
 void S2mmChannel::append(const std::uint32_t* words, std::uint32_t count) {
   const std::size_t old = collected_.size();
   collected_.resize(old + count * word_bytes);
-  unsigned char* byte = &collected_[old];
-  for (const std::uint32_t* word = words; word != words + count; ++word, byte += word_bytes) {
-    byte[0] = static_cast<unsigned char>(*word);
-    byte[1] = static_cast<unsigned char>(*word >> 8);
-    byte[2] = static_cast<unsigned char>(*word >> 16);
-    byte[3] = static_cast<unsigned char>(*word >> 24);
-  }
+  std::memcpy(&collected_[old], words, count * word_bytes);
   collected_beats_ += count;
   received_ += count * word_bytes;
 }

@@ -1,6 +1,7 @@
 #include <xilinx/bram/bram.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -49,12 +50,7 @@ void Bram::store(std::uint32_t address, const std::uint32_t* words, std::uint32_
   const std::uint32_t first = address * word_bytes;
   if (listener_) listener_->before_write(first, count * word_bytes);
   writes_a.add(count);
-  std::uint8_t* byte = &bytes_[first];
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (unsigned lane = 0; lane < word_bytes; ++lane) {
-      *byte++ = static_cast<std::uint8_t>(words[i] >> (8 * lane));
-    }
-  }
+  std::memcpy(&bytes_[first], words, std::size_t{count} * word_bytes);
   if (listener_) listener_->after_write(first, count * word_bytes);
 }
 

@@ -107,6 +107,33 @@ BOOST_FIXTURE_TEST_CASE(an_alarm_runs_one_edge_of_a_sleeping_module, Fixture) {
   BOOST_TEST(recorder.times == (Times{10'000, 90'000}), boost::test_tools::per_element());
 }
 
+BOOST_FIXTURE_TEST_CASE(an_alarm_may_be_moved_and_taken_back, Fixture) {
+  vp::Clock clock{"clock", scheduler, 100'000'000};
+  Recorder first{"first", clock}, second{"second", clock};
+  first.sleep_after = second.sleep_after = 1;
+  run_to(15'000);
+  first.wake_at(9);
+  second.wake_at(6);
+  second.wake_at(12);
+  first.wake_at(4);
+  run_to(45'000);
+  first.wake_at(7);
+  first.wake_at(vp::Clock::never);
+  run_to(215'000);
+  BOOST_TEST(first.times == (Times{10'000, 40'000}), boost::test_tools::per_element());
+  BOOST_TEST(second.times == (Times{10'000, 120'000}), boost::test_tools::per_element());
+}
+
+BOOST_FIXTURE_TEST_CASE(an_alarm_in_the_past_is_refused, Fixture) {
+  vp::Clock clock{"clock", scheduler, 100'000'000};
+  Recorder recorder{"recorder", clock};
+  recorder.sleep_after = 1;
+  run_to(55'000);
+  BOOST_CHECK_EXCEPTION(recorder.wake_at(4), std::logic_error, [](const std::logic_error& error) {
+    return std::string(error.what()) == "recorder: alarm for edge 4, which has run: now is 5";
+  });
+}
+
 BOOST_FIXTURE_TEST_CASE(batches_change_nothing, Fixture) {
   vp::Clock a{"a", scheduler, 27'000'000}, b{"b", scheduler, 55'000'000};
   Recorder ra{"ra", a}, rb{"rb", b};

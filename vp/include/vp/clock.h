@@ -26,8 +26,9 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   bool awake() const;
   /// Runs edge() from the next edge of the clock on.
   void wake();
-  /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep. It must lie
-  /// ahead: a model that keeps stamps looks whether one has passed. Clock::never: no alarm.
+  /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep. Clock::never: no
+  /// alarm. Throws std::logic_error if that edge lies in the past: a model that keeps stamps looks
+  /// whether one has passed.
   void wake_at(std::uint64_t cycle);
   /// Wakes the module when a bound input changes.
   void wake_on(InBase& input);
@@ -115,6 +116,8 @@ class Clock : public sc_core::sc_object {
   void plan_next(std::uint64_t after_ps);
   void seek(std::uint64_t cycle) { next_ = exact_edge(cycle); }
   void seek_alarm();
+  void go_to_alarm();
+  void plan_alarm(std::uint64_t before, std::uint64_t cycle);
   void set_anchor(std::uint64_t cycle) const;
   std::uint64_t edges_from_anchor(std::uint64_t ps) const;
   Edge exact_edge(std::uint64_t cycle) const;
@@ -136,7 +139,9 @@ class Clock : public sc_core::sc_object {
   mutable std::uint64_t cycle_ps_ = never;  ///< the time that was last asked for,
   mutable std::uint64_t cycle_ = 0;         ///< and the number of edges then
   std::uint64_t edges_run_ = 0;
-  std::size_t awake_ = 0;  ///< modules that run on every edge
+  std::size_t awake_ = 0;             ///< modules that run on every edge
+  std::uint64_t next_alarm_ = never;  ///< or an earlier one that was moved
+  bool look_again_ = false;           ///< an alarm was set for the edge that runs
   bool in_edge_ = false;
   std::vector<Place> places_;            ///< in running order: consumers first
   std::vector<std::uint64_t> attended_;  ///< a bit for each place that is awake or has an alarm

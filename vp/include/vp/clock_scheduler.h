@@ -96,6 +96,7 @@ class ClockScheduler : public sc_core::sc_module {
   bool runs_before(const Clock& first, const Clock& second) const;
 
   void add_observer(InstantObserver& observer);
+  bool observed() const { return !observers_.empty(); }
   void remove_observer(InstantObserver& observer);
 
  private:
@@ -120,6 +121,7 @@ class ClockScheduler : public sc_core::sc_module {
   enum class Ahead { reached, met, stopped };
   Ahead run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
+  void commit_deferred();
   void order_modules();
   void mark_deferred_signals();
   void find_next();
@@ -128,6 +130,7 @@ class ClockScheduler : public sc_core::sc_module {
   void defer(SignalBase& signal) { deferred_.push_back(&signal); }
 
   std::vector<Clock*> clocks_;
+  std::vector<Clock*> ticking_;  ///< those with modules, in the same order
   std::vector<SignalBase*> deferred_;
   std::vector<InstantObserver*> observers_;
   sc_core::sc_event wake_up_;
@@ -144,6 +147,7 @@ class ClockScheduler : public sc_core::sc_module {
   sc_dt::uint64 horizon_delta_ = 0;
   std::uint64_t clock_changes_ = 0;
   bool running_ = false;
+  bool moved_ = false;  ///< the next edge of some clock, during the instant being run
   bool batch_ = false;
   bool stop_batch_ = false;
   bool started_ = false;

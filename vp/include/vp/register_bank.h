@@ -153,6 +153,10 @@ class RegisterBank : public sc_core::sc_module {
   /// All registers, in the table's order.
   const std::deque<Register>& registers() const { return registers_; }
 
+  /// Called before software reads or writes a register: who keeps state that follows from the time
+  /// brings it up to date.
+  void before_access(std::function<void()> effect) { before_access_ = std::move(effect); }
+
   /// An access by software, now: reads or writes `word`. `address` is for messages.
   tlm::tlm_response_status access(Register& target, bool read, std::uint64_t address,
                                   std::uint32_t& word);
@@ -178,6 +182,7 @@ class RegisterBank : public sc_core::sc_module {
   RegisterBankOptions options_;
   ClockScheduler* scheduler_;
   bool held_in_reset_ = false;
+  std::function<void()> before_access_;
   std::deque<Register> registers_;
   std::vector<Register*> by_word_;  ///< decode: word offset to register, null for a hole
 };

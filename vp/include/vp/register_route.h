@@ -125,7 +125,10 @@ class RegisterRoute {
     ++access.stage_;
     enter(access, ps);
   }
-  void wait_to_leave(Access& access) const;
+  void wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
+                     std::uint64_t& changes) const;
+  bool look_again(const Stop& stop, RouteStage::Passage& passage, std::uint64_t& changes) const;
+  Answer transfer_through(const Stop& stop, bool read, std::uint32_t& word);
   void count(bool read, bool failed);
 
   std::vector<MmLink*> links_;
