@@ -212,6 +212,13 @@ void add_validate(CLI::App& app, ValidateOptions& target) {
   add_configuration_options(*command, target.configuration);
 }
 
+void add_power(CLI::App& app, PowerTableOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("power", "print the coefficients of the power model, or check others");
+  command->add_option("TABLE", target.table, "an own table, a file .json")->type_name("FILE");
+  command->add_flag("--markdown", target.markdown, "with the source of each");
+}
+
 void add_completion(CLI::App& app, CompletionOptions& target) {
   CLI::App* command =
       app.add_subcommand("completion", "print a script that completes the command line");
@@ -237,6 +244,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_map(*app, target.map);
   add_report(*app, target.report);
   add_validate(*app, target.validate);
+  add_power(*app, target.power);
   add_completion(*app, target.completion);
   return app;
 }

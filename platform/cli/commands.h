@@ -38,6 +38,9 @@ int make_report(const ReportOptions& options, std::ostream& out);
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
              const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
 
+/// Prints the coefficients of the power model.
+int print_power_table(const PowerTableOptions& options, std::ostream& out);
+
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.

@@ -79,6 +79,12 @@ struct ValidateOptions {
   std::uint32_t jobs = 2;               ///< runs side by side
 };
 
+/// `markervp power`.
+struct PowerTableOptions {
+  std::string table = "zynq7020";  ///< installed, or a file .json
+  bool markdown = false;           ///< with the sources, as in the documentation
+};
+
 /// `markervp completion`.
 struct CompletionOptions {
   std::string shell;
@@ -92,6 +98,7 @@ struct CommandLine {
   MapOptions map;
   ReportOptions report;
   ValidateOptions validate;
+  PowerTableOptions power;
   CompletionOptions completion;
 };
 

@@ -37,6 +37,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "validate") {
     return validate(line.validate, arguments, make_simulation, out, err);
   }
+  if (command == "power") return print_power_table(line.power, out);
   return print_completion(line.completion, app, out);
 }
 

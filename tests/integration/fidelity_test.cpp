@@ -112,6 +112,17 @@ BOOST_AUTO_TEST_CASE(nothing_differs_at_other_clocks) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(energy_by_activity_does_not_differ) {
+  for (const char* program : {"hybrid", "ps-only"}) {
+    const Arguments arguments =
+        with({"demo", "squares15", "roll30", "--system", program}, "power.mode=activity");
+    const Json usual = result_of(arguments);
+    BOOST_TEST(difference(usual, result_of(with(arguments, "fidelity=clocked"))) == "");
+    BOOST_TEST(difference(usual, result_of(with(arguments, "ps.cpu.quantum=1 us"))) == "");
+    BOOST_TEST(difference(usual, result_of(with(arguments, "ps.poll_elision=false"))) == "");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_differs_when_the_image_is_there_already) {
   const Arguments arguments = with({"demo", "--repeat", "2"}, "sw.upload=0");
   BOOST_TEST(difference(result_of(arguments), result_of(with(arguments, "fidelity=clocked"))) ==

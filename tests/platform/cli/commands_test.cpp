@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_CASE(version) {
 
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{}, "a command is missing: run, scenes, config, map, report, validate or completion"},
+      {{}, "a command is missing: run, scenes, config, map, report, validate, power or completion"},
       {{"rnu"}, "did you mean 'run'?"},
       {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
       {{"--verison"}, "did you mean '--version'?"},
@@ -55,6 +55,16 @@ BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
   BOOST_TEST(run({"scenes", "--names"}) == 0);
   BOOST_TEST(contains(out.str(), "\nroll330\n"));
   BOOST_TEST(contains(out.str(), "\ndemo\n"));
+}
+
+BOOST_AUTO_TEST_CASE(power_prints_the_coefficients_and_checks_others) {
+  BOOST_TEST(run({"power"}) == 0);
+  BOOST_TEST(contains(out.str(), "ps.core_cycle"), out.str());
+  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+  BOOST_TEST(run({"power", "--markdown"}) == 0);
+  BOOST_TEST(contains(out.str(), "| `ps.core_cycle` |"));
+  BOOST_TEST(run({"power", "none.json"}) == 2);
+  BOOST_TEST(is_one_line_with(err.str(), "none.json"), err.str());
 }
 
 BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {

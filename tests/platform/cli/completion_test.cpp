@@ -50,7 +50,7 @@ BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(offered({"markervp", "\"\""}) ==
-             "run scenes config map report validate completion --help --version ");
+             "run scenes config map report validate power completion --help --version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
              "--trace-window --trace-filter --trace-level --trace-clocks --trace-trigger "
