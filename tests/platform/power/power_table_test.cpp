@@ -127,4 +127,11 @@ BOOST_AUTO_TEST_CASE(the_table_in_markdown_has_a_row_each) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_documentation_has_the_table) {
+  const std::string page = kit::read_file(std::string(MARKERVP_DATA) + "/../docs/power.md");
+  const std::string text = as_markdown(PowerTable::load(installed_file));
+  BOOST_TEST((page.find("\n" + text + "\n") != std::string::npos),
+             "docs/power.md is old: put what 'markervp power --markdown' prints into it");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
