@@ -53,12 +53,14 @@ void ZynqPower::states_changed(std::uint64_t ps) {
 }
 
 void ZynqPower::show(std::uint64_t now_ps) {
-  const double all = meter_.watts(now_ps);
-  const double of_ps = meter_.watts(now_ps, "ps");
-  ps = of_ps;
-  pl = all - of_ps;
+  double of_pl = 0;
+  for (const std::string& group : groups()) {
+    if (group != "ps" && group != "static") of_pl += meter_.watts(now_ps, group);
+  }
+  ps = meter_.watts(now_ps, "ps");
+  pl = of_pl;
   static_power = static_w_;
-  total = all + static_w_;
+  total = ps + pl + static_power;
 }
 
 std::vector<vp::Interval> ZynqPower::period_of(const report::FrameReport& frame) const {
