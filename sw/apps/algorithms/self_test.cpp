@@ -1,5 +1,5 @@
 #include <apps/algorithms/self_test.h>
-#include <apps/hybrid/message.h>
+#include <apps/common/message.h>
 #include <hal/hal.h>
 #include <marker/marker_search.h>
 
@@ -8,7 +8,7 @@
 namespace algorithms {
 namespace {
 
-using hybrid::Message;
+using apps::Message;
 
 /// The camera of the scenes (thesis chapter 5).
 constexpr marker::Camera camera{381.36, 381.36, width / 2.0, height / 2.0};

@@ -1,6 +1,6 @@
+#include <apps/common/message.h>
+#include <apps/common/search.h>
 #include <apps/hybrid/application.h>
-#include <apps/hybrid/message.h>
-#include <marker/marker_search.h>
 #include <marker/work.h>
 
 namespace hybrid {
@@ -46,7 +46,7 @@ bool Application::initialise() {
   binary_ = hal_dma_allocate(max_width * max_height / 8, BurstChain::burst_bytes);
   if (binary_.data != nullptr) hal_cache_flush(binary_.data, binary_.size);
   if (link_.initialise()) return true;
-  Message().text("hybrid: a DMA engine does not leave reset").write();
+  apps::Message().text("hybrid: a DMA engine does not leave reset").write();
   return false;
 }
 
@@ -62,11 +62,7 @@ Status Application::admit(const hal_frame& frame) const {
 }
 
 void Application::process(const hal_frame& frame) {
-  marker::work(marker::Work::frames, 1);
-  marker::clear(result_);
-  result_.frame = frame.index;
-  result_.width = frame.width;
-  result_.height = frame.height;
+  apps::begin(frame, result_);
   result_.status = admit(frame);
   if (result_.status == Status::ok) result_.status = receive(frame);
   if (result_.status == Status::ok) {
@@ -108,32 +104,13 @@ Status Application::receive(const hal_frame& frame) {
 }
 
 void Application::find_marker(const hal_frame& frame) {
-  marker::StageTimes& times = result_.times;
-  times.evaluation.start = times.receive.end;
-  marker::evaluate_features(result_.features, {options_.margin}, result_.candidates);
-  times.evaluation.end = times.identification.start = link_.now();
-
   const marker::BinaryImage image{static_cast<const std::uint32_t*>(binary_.data), frame.width,
                                   frame.height, true};
-  const marker::FoundMarker found = marker::find_first_marker(result_.features, result_.candidates,
-                                                              image, options_.canonical_width);
-  result_.examined = found.examined;
-  times.identification.end = times.pose.start = link_.now();
-
-  if (found.found) {
-    marker::Marker& marker = result_.markers[result_.marker_count++];
-    marker.candidate = found.candidate;
-    marker.identity = found.identity;
-    marker.corners = found.corners;
-    marker.pose = marker::estimate_pose(
-        found.corners, {frame.fx, frame.fy, frame.cx, frame.cy},
-        {options_.marker_side, options_.reprojection_stop, options_.iteration_limit});
-  }
-  times.pose.end = times.frame.end = link_.now();
+  apps::find_marker(frame, image, options_, result_.times.receive.end, result_);
 }
 
 void Application::report(Status status) const {
-  Message message;
+  apps::Message message;
   message.text("hybrid: frame ")
       .number(result_.frame)
       .text(": ")

@@ -1,5 +1,4 @@
 #include <apps/hybrid/options.h>
-#include <marker/rectification.h>
 
 namespace hybrid {
 namespace {
@@ -28,11 +27,7 @@ const std::uint32_t option_count = static_cast<std::uint32_t>(Option::count);
 
 Options read_options() {
   Options options{};
-  options.margin = value(Option::margin);
-  options.canonical_width = marker::canonical_width(value(Option::canonical_width));
-  options.marker_side = value(Option::marker_side);
-  options.reprojection_stop = value(Option::reprojection_stop);
-  options.iteration_limit = static_cast<std::uint32_t>(value(Option::iteration_limit));
+  static_cast<apps::SearchOptions&>(options) = apps::read_search_options();
   options.upload = value(Option::upload) >= 0.5;
   options.timeout = value(Option::timeout);
   options.binary_timeout = value(Option::binary_timeout);

@@ -1,6 +1,6 @@
-#include <apps/hybrid/message.h>
+#include <apps/common/message.h>
+#include <apps/common/search.h>
 #include <apps/ps_only/application.h>
-#include <marker/marker_search.h>
 #include <marker/work.h>
 
 namespace ps_only {
@@ -48,14 +48,10 @@ void Application::on_alarm(void* self) {
 }
 
 void Application::process(const hal_frame& frame) {
-  marker::work(marker::Work::frames, 1);
-  marker::clear(result_);
-  result_.frame = frame.index;
-  result_.width = frame.width;
-  result_.height = frame.height;
+  apps::begin(frame, result_);
   if (!is_supported(frame.width, frame.height)) {
     result_.status = Status::unsupported_size;
-    hybrid::Message()
+    apps::Message()
         .text("ps-only: frame ")
         .number(frame.index)
         .text(": ")
@@ -114,27 +110,8 @@ void Application::find_features(const hal_frame& frame) {
 }
 
 void Application::find_marker(const hal_frame& frame) {
-  marker::StageTimes& times = result_.times;
-  times.evaluation.start = times.feature_extraction.end;
-  marker::evaluate_features(result_.features, {options_.margin}, result_.candidates);
-  times.evaluation.end = times.identification.start = timer_.now();
-
   const marker::BinaryImage binary{binary_.data(), frame.width, frame.height, false};
-  const marker::FoundMarker found = marker::find_first_marker(result_.features, result_.candidates,
-                                                              binary, options_.canonical_width);
-  result_.examined = found.examined;
-  times.identification.end = times.pose.start = timer_.now();
-
-  if (found.found) {
-    marker::Marker& marker = result_.markers[result_.marker_count++];
-    marker.candidate = found.candidate;
-    marker.identity = found.identity;
-    marker.corners = found.corners;
-    marker.pose = marker::estimate_pose(
-        found.corners, {frame.fx, frame.fy, frame.cx, frame.cy},
-        {options_.marker_side, options_.reprojection_stop, options_.iteration_limit});
-  }
-  times.pose.end = times.frame.end = timer_.now();
+  apps::find_marker(frame, binary, options_, result_.times.feature_extraction.end, result_);
 }
 
 }  // namespace ps_only

@@ -1,5 +1,4 @@
 #include <apps/ps_only/options.h>
-#include <marker/rectification.h>
 
 namespace ps_only {
 namespace {
@@ -32,11 +31,7 @@ const std::uint32_t option_count = static_cast<std::uint32_t>(Option::count);
 
 Options read_options() {
   Options options{};
-  options.margin = value(Option::margin);
-  options.canonical_width = marker::canonical_width(value(Option::canonical_width));
-  options.marker_side = value(Option::marker_side);
-  options.reprojection_stop = value(Option::reprojection_stop);
-  options.iteration_limit = whole(Option::iteration_limit);
+  static_cast<apps::SearchOptions&>(options) = apps::read_search_options();
   options.pixel_clock = value(Option::pixel_clock);
   options.cpu_clock = value(Option::cpu_clock);
   options.corner_threshold = whole(Option::corner_threshold);

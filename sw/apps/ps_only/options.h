@@ -1,41 +1,29 @@
 #pragma once
 
+#include <apps/common/search_options.h>
 #include <hal/hal.h>
 
 #include <cstdint>
 
 /// X(name, unit, default, minimum, maximum, documentation). The order is that of
 /// hal_program.options. What the hybrid system has, too, is called the same there.
-#define PS_ONLY_OPTIONS(X)                                                                         \
-  X(margin, "px", 4, 0, 64,                                                                        \
-    "how far outside its bounding box a blob's corner may lie (thesis 3.5.1; 4 px is a decision)") \
-  X(canonical_width, "px", 60, 18, 600,                                                            \
-    "width of the rectified marker, rounded to a multiple of 6; 24 suffices (thesis 3.5.2)")       \
-  X(marker_side, "m", 0.30, 0.001, 100, "side of the marker's black square (thesis chapter 5)")    \
-  X(reprojection_stop, "px", 2, 0, 1000,                                                           \
-    "POSIT stops when the mean reprojection error is below (thesis 4.5.6)")                        \
-  X(iteration_limit, "", 100, 1, 100000,                                                           \
-    "POSIT refines a solution at most so many times (thesis 4.5.6)")                               \
-  X(pixel_clock, "MHz", 50, 0.1, 1000,                                                             \
-    "the camera's pixel clock: an image takes one clock a pixel into memory (thesis 5.4)")         \
-  X(cpu_clock, "MHz", 666.666687, 1, 10000,                                                        \
-    "the CPU's clock; the global timer counts every other cycle (the platform tells its own)")     \
-  X(corner_threshold, "", 30, 0, 255,                                                              \
-    "grey levels by which the circle must be brighter than a corner (decision, as in the PL)")     \
-  X(label_count, "", 128, 4, 1024,                                                                 \
-    "labels of the blob grouping, the background's included (decision, as in the PL)")             \
-  X(minimum_side, "px", 24, 1, 1023,                                                               \
+#define PS_ONLY_OPTIONS(X)                                                                     \
+  SEARCH_OPTIONS(X)                                                                            \
+  X(pixel_clock, "MHz", 50, 0.1, 1000,                                                         \
+    "the camera's pixel clock: an image takes one clock a pixel into memory (thesis 5.4)")     \
+  X(cpu_clock, "MHz", 666.666687, 1, 10000,                                                    \
+    "the CPU's clock; the global timer counts every other cycle (the platform tells its own)") \
+  X(corner_threshold, "", 30, 0, 255,                                                          \
+    "grey levels by which the circle must be brighter than a corner (decision, as in the PL)") \
+  X(label_count, "", 128, 4, 1024,                                                             \
+    "labels of the blob grouping, the background's included (decision, as in the PL)")         \
+  X(minimum_side, "px", 24, 1, 1023,                                                           \
     "smallest Ex - Sx and Ey - Sy of a blob that is reported (thesis 4.3.6.4)")
 
 namespace ps_only {
 
 /// The options as values in the units above.
-struct Options {
-  double margin;
-  std::uint32_t canonical_width;
-  double marker_side;
-  double reprojection_stop;
-  std::uint32_t iteration_limit;
+struct Options : apps::SearchOptions {
   double pixel_clock;
   double cpu_clock;
   std::uint32_t corner_threshold;

@@ -1,6 +1,6 @@
 // What a program relies on before it does anything of its own: static objects, floating point, DMA
 // memory, interrupts. Prints only what must be the same on the virtual platform and on the chip.
-#include <apps/hybrid/message.h>
+#include <apps/common/message.h>
 #include <drivers/gic.h>
 #include <drivers/global_timer.h>
 #include <gic_registers.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-using hybrid::Message;
+using apps::Message;
 
 enum Option : std::uint32_t { rounds_option, factor_option, publish_option };
 const hal_option_info options[] = {

@@ -1,4 +1,4 @@
-#include <apps/hybrid/message.h>
+#include <apps/common/message.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -8,7 +8,7 @@ BOOST_AUTO_TEST_SUITE(message)
 
 BOOST_AUTO_TEST_CASE(text_and_numbers) {
   fake_hal::reset();
-  hybrid::Message()
+  apps::Message()
       .text("a ")
       .number(0)
       .text(" ")
@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(text_and_numbers) {
 
 BOOST_AUTO_TEST_CASE(long_lines_are_cut) {
   fake_hal::reset();
-  hybrid::Message line;
+  apps::Message line;
   for (int i = 0; i < 30; ++i) line.text("0123456789");
   line.write();
   BOOST_TEST(fake_hal::state().console.size() == 129u);

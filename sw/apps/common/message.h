@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hybrid {
+namespace apps {
 
 /// One line for the console, put together without the standard library's formatting. Cut at 128
 /// characters.
@@ -25,4 +25,4 @@ class Message {
   std::size_t length_ = 0;
 };
 
-}  // namespace hybrid
+}  // namespace apps

@@ -1,7 +1,7 @@
-#include <apps/hybrid/message.h>
+#include <apps/common/message.h>
 #include <hal/hal.h>
 
-namespace hybrid {
+namespace apps {
 
 void Message::put(char character) {
   if (length_ < capacity) line_[length_++] = character;
@@ -35,4 +35,4 @@ void Message::write() {
   length_ = 0;
 }
 
-}  // namespace hybrid
+}  // namespace apps
