@@ -53,6 +53,7 @@ void judge_value(Row& row, bool lower_bound) {
 }
 
 Use use_of(const RowRule& rule, const std::set<std::string>& fitted_to) {
+  if (rule.taken) return Use::taken;
   if (fitted_to.count(rule.id) != 0) return Use::calibration;
   const auto& parts = rule.follows_from;
   const auto fitted = [&](const std::string& id) { return fitted_to.count(id) != 0; };

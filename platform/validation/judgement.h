@@ -18,6 +18,7 @@ inline constexpr double band_percent = 5;
 enum class Use {
   calibration,  ///< a constant of the profile was fitted to it
   follows,      ///< plain sum, difference or ratio of such values
+  taken,        ///< put in as data
   predicted,
 };
 

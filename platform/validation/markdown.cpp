@@ -21,7 +21,7 @@ page up to date.
 ```
 markervp validate                              # rows, plots and verdict in out/validation
 markervp validate --repetitions 20             # with the published jitter, each test 20 times
-markervp validate --profile a9-O2              # nothing fitted to the thesis
+markervp validate --profile a9-O2              # nothing fitted to the thesis: tells how far off that is
 markervp validate --markdown docs/validation.md
 ```
 
@@ -32,8 +32,8 @@ counts, times, errors), the two systems' `result.json` and the plots.
 ## What the numbers are
 
 * **Published**: printed in the thesis (`data/published.csv`, with section). *Used for calibration* are those that a constant
-  of the profile was fitted to; *follows from calibration* are sums, differences and ratios of such values; all others are
-  *predicted*.
+  of the profile was fitted to; *follows from calibration* are sums, differences and ratios of such values; *taken from the
+  thesis* are figures that the platform has as data; all others are *predicted*.
 * **Measured**: on the platform, in simulated time, with the program's own time stamps: one tick of the global timer is two
   cycles of the CPU.
 * **Derived**: the cost of each unit of work, from the code compiled for a Cortex-A9 ([calibration.md](calibration.md)).

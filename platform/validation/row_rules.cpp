@@ -37,20 +37,16 @@ Result in_us(Result ms) {
   return ms;
 }
 
-/// A member of the element of this name in a list of result.json; names may have parts before.
-Result module_value(const Run& run, const char* section, const std::string& module,
-                    const char* key) {
+/// Sum of a member over the entries of a module in a list of result.json.
+Result module_value(const Run& run, const char* section, const char* module, const char* key) {
   const auto part = run.root.find(section);
   if (part == run.root.end() || !part->contains("modules")) return std::nullopt;
+  Result sum;
   for (const auto& entry : part->at("modules")) {
-    const std::string name = entry.value("name", "");
-    const bool ends = name.size() >= module.size() &&
-                      name.compare(name.size() - module.size(), module.size(), module) == 0;
-    if (ends && entry.contains(key) && entry.at(key).is_number()) {
-      return Measurement{entry.at(key).get<double>()};
-    }
+    if (entry.at("name") != module) continue;
+    sum = Measurement{(sum ? sum->value : 0) + entry.at(key).get<double>()};
   }
-  return std::nullopt;
+  return sum;
 }
 
 Result ps_watts(const Run& run) {
@@ -185,35 +181,28 @@ std::vector<RowRule> identification_rules() {
 }
 
 std::vector<RowRule> hardware_rules() {
-  return {
-      {"fmax.corner",
-       Kind::estimate,
-       "timing.modules",
+  std::vector<RowRule> rules{
+      {"fmax.corner", Kind::estimate, "timing, pl.corner_detection",
        [](const Measured& m) {
-         return module_value(m.hybrid, "timing", "corner_detection", "fmax_mhz");
-       },
-       {},
-       true},
-      {"fmax.threshold",
-       Kind::estimate,
-       "timing.modules",
+         return module_value(m.hybrid, "timing", "pl.corner_detection", "fmax_mhz");
+       }},
+      {"fmax.threshold", Kind::estimate, "timing, pl.global_threshold",
        [](const Measured& m) {
-         return module_value(m.hybrid, "timing", "global_threshold", "fmax_mhz");
-       },
-       {},
-       true},
-      {"fmax.blob", Kind::estimate, "timing.modules",
+         return module_value(m.hybrid, "timing", "pl.global_threshold", "fmax_mhz");
+       }},
+      {"fmax.blob", Kind::estimate, "timing, pl.blob_detection",
        [](const Measured& m) {
-         return module_value(m.hybrid, "timing", "blob_detection", "fmax_mhz");
+         return module_value(m.hybrid, "timing", "pl.blob_detection", "fmax_mhz");
        }},
       {"fmax.nms.unpipelined", Kind::estimate, "a part that was not built", absent},
-      {"power.blob", Kind::estimate, "power.modules",
-       [](const Measured& m) {
-         return module_value(m.hybrid, "power", "blob_detection", "power_w");
-       }},
+      {"power.blob", Kind::estimate, "power, sum of pl.blob_detection",
+       [](const Measured& m) { return module_value(m.hybrid, "power", "pl.blob_detection", "w"); }},
       {"power.cpu", Kind::estimate, "summary.power_w.ps",
        [](const Measured& m) { return ps_watts(m.hybrid); }},
   };
+  rules[0].lower_bound = rules[1].lower_bound = true;
+  for (RowRule& rule : rules) rule.taken = rule.id != "power.cpu";
+  return rules;
 }
 
 template <int tenths>

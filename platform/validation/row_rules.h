@@ -27,6 +27,7 @@ struct RowRule {
   /// for calibration, this one is no prediction of its own.
   std::vector<std::string> follows_from = {};
   bool lower_bound = false;  ///< the thesis says "at least"
+  bool taken = false;        ///< what the run has is the thesis' figure, put in as data
 };
 
 /// One for each published value, in their order.

@@ -43,6 +43,8 @@ std::string use_text(const Row& row) {
       return "used for calibration";
     case Use::follows:
       return "follows from calibration";
+    case Use::taken:
+      return "taken from the thesis";
     default:
       return "predicted";
   }

@@ -14,8 +14,8 @@ std::string published_text(const Published& published);
 std::string modelled_text(const Row& row);
 /// "-4.1 %"; "-" without a value.
 std::string difference_text(const Row& row);
-/// "used for calibration", "follows from calibration" or "predicted"; empty where that says
-/// nothing.
+/// "used for calibration", "follows from calibration", "taken from the thesis" or "predicted";
+/// empty where that says nothing.
 std::string use_text(const Row& row);
 /// "met", "met, as printed", "missed, known", "MISSED", "explained", "not modelled", "input".
 std::string verdict_text(Verdict verdict);

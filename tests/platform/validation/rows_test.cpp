@@ -129,13 +129,19 @@ BOOST_AUTO_TEST_CASE(power_and_clocks_are_read_where_a_run_has_them) {
   synthetic::Measured measured = synthetic::all_images();
   measured.hybrid.root = nlohmann::json::parse(R"({
     "summary": {"power_w": {"ps": 1.5}},
-    "power": {"modules": [{"name": "pl.blob_detection", "power_w": 0.3}]},
+    "power": {"modules": [{"name": "pl.blob_detection", "w": 0.1},
+                          {"name": "pl.blob_detection_2", "w": 0.1},
+                          {"name": "pl.blob_detection", "w": 0.2}]},
     "timing": {"modules": [{"name": "pl.corner_detection", "fmax_mhz": 110},
                            {"name": "pl.blob_detection", "fmax_mhz": 55}]}})");
   const auto rows = judge_rows(synthetic::published(), measured, {});
   BOOST_TEST((synthetic::row(rows, "power.cpu").verdict == Verdict::met));
+  BOOST_TEST((synthetic::row(rows, "power.cpu").use == Use::predicted));
   BOOST_TEST((synthetic::row(rows, "power.blob").verdict == Verdict::missed));
+  BOOST_TEST(synthetic::row(rows, "power.blob").modelled->value == 0.3,
+             boost::test_tools::tolerance(1e-12));
   BOOST_TEST((synthetic::row(rows, "fmax.blob").verdict == Verdict::met));
+  BOOST_TEST((synthetic::row(rows, "fmax.blob").use == Use::taken));
   BOOST_TEST((synthetic::row(rows, "fmax.corner").verdict == Verdict::met), "a lower bound");
   BOOST_TEST((synthetic::row(rows, "fmax.threshold").verdict == Verdict::absent));
 }
