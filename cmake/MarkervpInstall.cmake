@@ -4,7 +4,8 @@
 #   lib/libmarkervp_*.a        the libraries
 #   include/markervp/<root>/   one include root for each layer, as in the source tree
 #   lib/cmake/markervp/        find_package(markervp)
-#   share/markervp/            program/ and platform/ are templates; markervp.gdb has commands for gdb
+#   share/markervp/            program/ and platform/ are templates; chip/ builds programs for the chip; markervp.gdb has
+#                              commands for gdb
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/markervp")
 set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/markervp")
@@ -76,6 +77,17 @@ markervp_install_headers(sw/marker sw)
 install(TARGETS hybrid ps-only blink LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
 install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
+# The chip has a compiler of its own: what a program needs there is installed as source.
+install(DIRECTORY sw/chip/ DESTINATION "${data_folder}/chip")
+install(DIRECTORY sw/hal sw/marker sw/drivers DESTINATION "${data_folder}/chip/source/sw")
+foreach(folder IN LISTS register_folders)
+  cmake_path(NORMAL_PATH folder)
+  cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE place)
+  install(DIRECTORY "${folder}/" DESTINATION "${data_folder}/chip/source/${place}")
+endforeach()
+install(FILES models/registers/CMakeLists.txt DESTINATION "${data_folder}/chip/source/models/registers")
+install(DIRECTORY vp/registers DESTINATION "${data_folder}/chip/source/vp")
+install(FILES cmake/toolchain-arm-none-eabi.cmake DESTINATION "${data_folder}/chip/source/cmake")
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

@@ -175,6 +175,8 @@ void add_map(CLI::App& app, MapOptions& target) {
   command->add_option("DEVICE", target.device, "the registers of this device")->type_name("");
   command->add_flag("--registers", target.registers, "the registers of all devices");
   command->add_flag("--markdown", target.markdown, "everything, as a page of the documentation");
+  command->add_flag("--xparameters", target.xparameters,
+                    "xparameters.h, as bare-metal code includes it");
   add_configuration_options(*command, target.configuration);
 }
 

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include <cli/commands.h>
+#include <cli/map_fields.h>
 #include <cli/map_markdown.h>
 #include <cli/program.h>
 #include <vp/error.h>
@@ -51,9 +52,17 @@ void print_clocks(const HardwareMap& map, std::ostream& out) {
   }
 }
 
-std::string remark(const HardwareMap::Register& r) {
+std::string remark(const HardwareMap::Register& r, const FieldsOnce::Found& fields) {
   if (!r.built) return " [not in this build]";
-  return r.at_start == r.reset ? "" : fmt::format(" [0x{:08X} at the start]", r.at_start);
+  const std::string bits = fields.as.empty() ? "" : " [bits as in " + fields.as + "]";
+  return r.at_start == r.reset ? bits : fmt::format("{} [0x{:08X} at the start]", bits, r.at_start);
+}
+
+void print_fields(const FieldsOnce::Found& found, std::ostream& out) {
+  for (const HardwareMap::Field& field : found.fields) {
+    out << fmt::format("{:>16}  {:<18} {:<4} 0x{:<8X}  {}\n", bits_text(field.mask), field.name,
+                       field.access, field.reset, field.documentation);
+  }
 }
 
 void print_registers(const HardwareMap::Device& device, std::ostream& out) {
@@ -65,9 +74,12 @@ void print_registers(const HardwareMap::Device& device, std::ostream& out) {
   }
   out << fmt::format("\n{:<10}  {:<22} {:<6} {:<10}  {:<10}  {}\n", "address", "register", "access",
                      "reset", "writable", "what");
+  FieldsOnce shown;
   for (const HardwareMap::Register& r : device.registers) {
+    const FieldsOnce::Found found = shown.find(r);
     out << fmt::format("0x{:08X}  {:<22} {:<6} 0x{:08X}  0x{:08X}  {}{}\n", device.base + r.offset,
-                       r.name, r.access, r.reset, r.writable, r.documentation, remark(r));
+                       r.name, r.access, r.reset, r.writable, r.documentation, remark(r, found));
+    print_fields(found, out);
   }
 }
 
@@ -107,6 +119,8 @@ int print_map(const MapOptions& options, const SimulationFactory& make_simulatio
   const HardwareMap map = build(configuration, {}, make_simulation)->map();
   if (options.markdown) {
     out << map_as_markdown(map);
+  } else if (options.xparameters) {
+    out << map.xparameters;
   } else if (!options.device.empty()) {
     print_registers(find_device(map, options.device), out);
   } else {

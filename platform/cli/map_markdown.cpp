@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <cli/map_fields.h>
 #include <cli/map_markdown.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -19,10 +20,10 @@ What software sees of the platform, as `markervp map --markdown` prints it; the 
 up to date. Names, offsets, reset values and access come from the register descriptions (`models/*/*/registers/`), which
 the models and the PS software include, too.
 
-Access: `rw` read and write, `ro` read only, `wo` write only (reads 0), `w1c` writing 1 clears the bit, `w1t` writing 1
-inverts it. Writes change the bits of the column *writable* only. Reset values are those of an IP with all its build
-options; *at the start* is what boot code has left in this platform when the program begins. `markervp map DEVICE` shows
-the build and the values of one device of the platform as you configure it.
+Access: `rw` read and write, `ro` read only, `wo` write only (reads 0), `w1c` writing 1 clears the bit, `w1s` writing 1
+sets it, `w1t` writing 1 inverts it. Writes change the bits of the column *writable* only; bits without field read 0. Reset
+values are those of an IP with all its build options; *at the start* is what boot code has left in this platform when the
+program begins. `markervp map DEVICE` shows the build and the values of one device of the platform as you configure it.
 )";
 
 /// A bar ends a cell of a table.
@@ -71,6 +72,24 @@ std::string clocks(const HardwareMap& map) {
   return text;
 }
 
+/// The fields of a device's registers; "" if none has any.
+std::string fields(const HardwareMap::Device& device) {
+  std::string text;
+  FieldsOnce shown;
+  for (const HardwareMap::Register& r : device.registers) {
+    const FieldsOnce::Found found = shown.find(r);
+    for (const HardwareMap::Field& field : found.fields) {
+      const std::uint32_t lowest = field.mask & (~field.mask + 1);
+      text += fmt::format("| {} | {} | {} | {} | 0x{:X} | {} |\n", r.name, bits_text(field.mask),
+                          field.name, field.access, (r.declared_reset & field.mask) / lowest,
+                          cell(field.documentation));
+    }
+  }
+  if (text.empty()) return text;
+  return "\n| Register | Bits | Field | Access | Reset | What |\n|---|---|---|---|---|---|\n" +
+         text;
+}
+
 /// Devices of one kind: the first stands for all.
 std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
   std::vector<std::string> names;
@@ -79,15 +98,17 @@ std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
   }
   const HardwareMap::Device& first = *kind.front();
   std::string text = fmt::format("\n## {}\n\n{}.\n\n", first.what, vp::join(names, ", "));
+  FieldsOnce shown;
   text += "| Offset | Register | Access | Reset | Writable | What |\n|---|---|---|---|---|---|\n";
   for (const HardwareMap::Register& r : first.registers) {
     const std::string start =
         r.at_start == r.reset ? "" : fmt::format("; {} at the start", address(r.at_start));
-    text +=
-        fmt::format("| 0x{:03X} | {} | {} | {} | {} | {}{} |\n", r.offset, r.name, r.access,
-                    address(r.declared_reset), address(r.writable), cell(r.documentation), start);
+    const std::string as = shown.find(r).as;
+    text += fmt::format("| 0x{:03X} | {} | {} | {} | {} | {}{}{} |\n", r.offset, r.name, r.access,
+                        address(r.declared_reset), address(r.writable), cell(r.documentation),
+                        as.empty() ? "" : "; bits as in " + as, start);
   }
-  return text;
+  return text + fields(first);
 }
 
 }  // namespace

@@ -56,9 +56,10 @@ struct ConfigOptions {
 
 /// `markervp map`.
 struct MapOptions {
-  std::string device;      ///< empty: the memory map
-  bool registers = false;  ///< of all devices
-  bool markdown = false;   ///< the page of the documentation
+  std::string device;        ///< empty: the memory map
+  bool registers = false;    ///< of all devices
+  bool markdown = false;     ///< the page of the documentation
+  bool xparameters = false;  ///< the header of a board support package
   ConfigurationOptions configuration;
 };
 

@@ -278,7 +278,10 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   if (facts.power) warner.print(report::power_warnings(*facts.power));
   origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
   if (runner.error()) origin.details.emplace_back("error", message_of(runner.error()));
-  result.finish(facts, origin, warner.all(), incomplete(runner));
+  // They were printed when they came.
+  std::vector<std::string> warnings = warner.all();
+  warnings.insert(warnings.end(), facts.warnings.begin(), facts.warnings.end());
+  result.finish(facts, origin, warnings, incomplete(runner));
   const bool has_page =
       page && page::write_report(options.output, extras.json(configuration.parameters()));
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)

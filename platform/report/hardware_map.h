@@ -8,6 +8,14 @@ namespace platform::report {
 
 /// What software sees of the platform: addresses, registers, interrupts, clocks.
 struct HardwareMap {
+  /// Some bits of a register.
+  struct Field {
+    std::string name;
+    std::uint32_t mask = 0;
+    std::string access;
+    std::uint32_t reset = 0;  ///< of this build, shifted down
+    std::string documentation;
+  };
   struct Register {
     std::string name;
     std::uint32_t offset = 0;
@@ -15,9 +23,11 @@ struct HardwareMap {
     std::uint32_t reset = 0;           ///< of this build
     bool built = true;                 ///< false: reads 0, ignores writes
     std::uint32_t at_start = 0;        ///< when the program starts: boot code has run
-    std::string access;                ///< "rw", "ro", "wo", "w1c", "w1t"
+    std::string access;                ///< "rw", "ro", "wo", "w1c", "w1s", "w1t"
     std::uint32_t writable = 0;        ///< bits that a write can change
     std::string documentation;
+    std::vector<Field> fields = {};        ///< from the lowest bit on; none: all bits are alike
+    const void* fields_of_kind = nullptr;  ///< the same for registers with the same fields
   };
   /// A range of addresses of the processor.
   struct Device {
@@ -44,6 +54,7 @@ struct HardwareMap {
   std::vector<Device> devices;  ///< by address
   std::vector<Interrupt> interrupts;
   std::vector<Clock> clocks;
+  std::string xparameters = {};  ///< the text of xparameters.h
 };
 
 }  // namespace platform::report

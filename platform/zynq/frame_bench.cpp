@@ -41,7 +41,12 @@ report::Features features_of(const marker::FrameResult& result) {
 }  // namespace
 
 FrameBench::FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports)
-    : zynq_(zynq), cache_contract_(zynq), options_(options), reports_(reports) {
+    : zynq_(zynq),
+      cache_contract_(zynq),
+      handshake_(zynq),
+      spin_watch_(zynq),
+      options_(options),
+      reports_(reports) {
   const pl::Geometry geometry = zynq_.pl.geometry();
   const auto address = zynq_.ps.ddr.dma_memory().allocate(geometry.pixels(), 4096);
   if (!address) throw vp::InputError("ps.ddr.size leaves no memory for an image");
@@ -85,9 +90,10 @@ void FrameBench::place(const input::InputFrame& frame) {
 void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
                          std::uint64_t now_ps) {
   if (kind != marker::frame_result_kind || size != sizeof(marker::FrameResult)) {
-    throw vp::ProtocolError("the program published a result of unknown kind or size at " +
-                            vp::format_time(now_ps) +
-                            ": build it against the HAL and marker headers of this version");
+    throw vp::ProtocolError(
+        "the program published a result of unknown kind or size: build it against the HAL and "
+        "marker headers of this version" +
+        zynq_.ps.cpu.where());
   }
   // Static: a result is too large for the stack of the program's thread.
   static marker::FrameResult result;
@@ -172,12 +178,27 @@ void FrameBench::add_warnings(report::FrameReport& report, const marker::FrameRe
   lost(report.counts.crossing_overflow,
        "words lost between the clocks: the system clock is too slow");
   lost(result.lost_words, "feature words without room in the software");
+  const std::uint64_t stray = handshake_.finish_frame();
+  spin_watch_.finish();
+  if (stray > 1) lost(stray, "toggles of `ready` with nothing to acknowledge");
+  take_new_warnings(report.warnings);
+}
+
+void FrameBench::take_new_warnings(std::vector<std::string>& list) {
   const auto& all = reports_.warnings();
   for (; warnings_reported_ < all.size(); ++warnings_reported_) {
     const vp::Warning& w = all[warnings_reported_];
-    report.warnings.push_back(w.where + ": " + w.message + " (" + w.id + " at " +
-                              vp::format_time(w.time_ps) + ")");
+    list.push_back(w.where + ": " + w.message + " (" + w.id + " at " + vp::format_time(w.time_ps) +
+                   ")");
   }
+}
+
+std::vector<std::string> FrameBench::finish() {
+  handshake_.finish_frame();
+  spin_watch_.finish();
+  std::vector<std::string> list;
+  take_new_warnings(list);
+  return list;
 }
 
 }  // namespace platform

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <hal/hal.h>
 #include <input/input_frame.h>
@@ -11,7 +13,9 @@
 #include <report/result.h>
 #include <vp/report.h>
 #include <zynq/cache_contract.h>
+#include <zynq/handshake_watch.h>
 #include <zynq/software_options.h>
+#include <zynq/spin_watch.h>
 #include <zynq/zynq.h>
 
 namespace platform {
@@ -29,6 +33,8 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
 
   /// Where frames come from and reports go to, for one run.
   void start(NextFrame next, FrameDone done);
+  /// The run is over, however it ended. Returns the warnings that stand in no frame's report.
+  std::vector<std::string> finish();
 
   // ps::TestBench
   const hal_frame* next_frame(std::uint64_t now_ps) override;
@@ -42,9 +48,12 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
   report::FrameReport report_of(const marker::FrameResult& result, std::uint64_t now_ps) const;
   void add_counts(report::FrameReport& report) const;
   void add_warnings(report::FrameReport& report, const marker::FrameResult& result);
+  void take_new_warnings(std::vector<std::string>& list);
 
   Zynq& zynq_;
   CacheContract cache_contract_;
+  HandshakeWatch handshake_;
+  SpinWatch spin_watch_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
   NextFrame next_;

@@ -3,6 +3,7 @@
 #include <gic_registers.h>
 #include <slcr_registers.h>
 #include <vp/register_bank.h>
+#include <zynq/xparameters.h>
 #include <algorithm>
 #include <string>
 
@@ -41,6 +42,8 @@ std::string access_text(vp::Access access) {
       return "wo";
     case vp::Access::write_1_to_clear:
       return "w1c";
+    case vp::Access::write_1_to_set:
+      return "w1s";
     case vp::Access::write_1_to_toggle:
       return "w1t";
   }
@@ -68,12 +71,23 @@ const sc_core::sc_object* object_of(const std::string& parent, const std::string
   return nullptr;
 }
 
+std::vector<HardwareMap::Field> fields_of(const vp::Register& r) {
+  std::vector<HardwareMap::Field> list;
+  for (const vp::RegisterField& field : r.info().fields) {
+    const std::uint32_t lowest = field.mask & (~field.mask + 1);
+    list.push_back({field.name, field.mask, access_text(field.access),
+                    (r.reset_value() & field.mask) / lowest, field.documentation});
+  }
+  return list;
+}
+
 std::vector<HardwareMap::Register> registers_of(const vp::RegisterBank& bank) {
   std::vector<HardwareMap::Register> list;
   for (const vp::Register& r : bank.registers()) {
     const vp::RegisterInfo& info = r.info();
     list.push_back({info.name, info.offset, info.reset, r.reset_value(), !r.removed(), r.value(),
-                    access_text(info.access), info.writable, info.documentation});
+                    access_text(info.access), info.writable, info.documentation, fields_of(r),
+                    info.fields.first});
   }
   return list;
 }
@@ -143,6 +157,7 @@ report::HardwareMap hardware_map(Zynq& zynq) {
             [](const auto& a, const auto& b) { return a.base < b.base; });
   add_interrupts(map, zynq);
   add_clocks(map, ps);
+  map.xparameters = xparameters_header(zynq, map);
   return map;
 }
 

@@ -46,6 +46,7 @@ report::RunFacts Session::facts() const {
   facts.design = "thesis";
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
+  facts.warnings = late_warnings_;
   if (cpu.state() == ps::Cpu::State::finished) facts.end = {cpu.exit_code(), cpu.end_ps()};
   facts.power = power_->power_report(zynq_->scheduler.now_ps());
   facts.resources = power_->resource_report();
@@ -77,6 +78,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   }
   if (tracer) tracer->close();
   tracer.reset();
+  late_warnings_ = bench_->finish();
   if (error) std::rethrow_exception(error);
 }
 

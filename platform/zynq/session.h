@@ -64,6 +64,7 @@ class Session {
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
   std::optional<vp::TraceOptions> trace_;
+  std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };
 
 }  // namespace platform

@@ -71,6 +71,9 @@ void Register::apply_policy(std::uint32_t word) {
     case Access::write_1_to_clear:
       value_ &= ~(word & writable_);
       break;
+    case Access::write_1_to_set:
+      value_ |= word & writable_;
+      break;
     case Access::write_1_to_toggle:
       value_ ^= word & writable_;
       break;

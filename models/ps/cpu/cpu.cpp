@@ -122,6 +122,7 @@ void Cpu::end(State state) {
   end_ps_ = now_ps();
   running_ = nullptr;
   ProgramWatch::stop();
+  memory_watch_.lift();
   console.flush();
   ended_.notify(sc_core::SC_ZERO_TIME);
   if (pause_at_end_) sc_core::sc_pause();

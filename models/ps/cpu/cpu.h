@@ -8,6 +8,7 @@
 #include <ps/cpu/cost_table.h>
 #include <ps/cpu/fault_trap.h>
 #include <ps/cpu/local_time.h>
+#include <ps/cpu/memory_watch.h>
 #include <ps/cpu/poll_skip.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
@@ -95,6 +96,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// Told of each cache operation of the program, when it is over. Null: nobody is.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
   void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
+  /// Told of a loop without HAL call, each time that time has jumped for it; `memory` is there to
+  /// find out what it reads. Null: nobody is.
+  using LoopListener = std::function<void(MemoryWatch& memory)>;
+  void on_loop(LoopListener listener) { loop_listener_ = std::move(listener); }
+  /// Where the program is, as messages end: ", at 320 ns in function 'f' of program 'p', pc …".
+  std::string where() const;
   /// False: polls make every read. Default: those that cannot see anything new only take their
   /// time, and are counted like the others.
   void set_poll_elision(bool elide) { poll_elision_ = elide; }
@@ -223,7 +230,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer);
   void transport(bool read, std::uint32_t address, std::uint32_t& value);
   [[noreturn]] void refuse(tlm::tlm_response_status status, bool read, std::uint32_t address);
-  std::string where() const;
   std::string device_at(std::uint32_t address) const;
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
@@ -241,6 +247,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::function<std::string(std::uint32_t)> device_;
   std::string cost_profile_;
   CacheListener cache_listener_;
+  LoopListener loop_listener_;
   bool pause_at_end_ = true;
   bool poll_elision_ = true;
 
@@ -277,6 +284,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   unsigned char data_[4] = {};
 
   FaultTrap trap_;
+  MemoryWatch memory_watch_;
   std::optional<CodeLocator> code_;  ///< of a plug-in
   std::uintptr_t fault_pc_ = 0;      ///< in the program, of the fault that ended it
 

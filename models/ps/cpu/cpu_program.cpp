@@ -34,6 +34,7 @@ int Cpu::call_program() {
       },
       &call);
   ProgramWatch::stop();
+  memory_watch_.lift();
   if (fault) report(*fault);
   return call.result;
 }
@@ -107,11 +108,14 @@ void Cpu::look_at(const void* data, std::size_t size) const {
 
 // An interrupt ends the jump: the program may have waited for what its handler does.
 void Cpu::notice_loop(unsigned before) {
+  memory_watch_.lift();
   const std::uint64_t taken = interrupts;
   catch_up();
-  if (interrupts != taken) return;
-  pass(first_jump_ps << std::min(before, most_doublings));
-  catch_up();
+  if (interrupts == taken) {
+    pass(first_jump_ps << std::min(before, most_doublings));
+    catch_up();
+  }
+  if (loop_listener_) loop_listener_(memory_watch_);
 }
 
 // ", pc 0x1a2b make()+0x1c": where the program is, if that can be told.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <ps/cpu/fault_trap.h>
+#include <ps/cpu/memory_watch.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/hex.h>
 
@@ -188,6 +189,11 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   FaultTrap& trap = *active_;
   Fault& fault = trap.fault_;
   const bool sent = info->si_code <= 0;
+  if (signal == SIGSEGV && !sent &&
+      MemoryWatch::on_fault(reinterpret_cast<std::uintptr_t>(info->si_addr),
+                            ProgramWatch::runs && ProgramWatch::suspicions != 0)) {
+    return;
+  }
   const bool by_others = sent && info->si_pid != getpid();
   if (trap.landed_ || !ProgramWatch::runs || by_others) {
     trap.give_back(signal);

@@ -20,6 +20,12 @@ void Gic::wire_distributor() {
   for (unsigned n = 0; n < gic::byte_registers; ++n) wire_priorities(n);
   for (unsigned n = gic::first_spi / 4; n < gic::byte_registers; ++n) wire_targets(n);
   for (unsigned n = gic::first_spi / 16; n < gic::sense_registers; ++n) wire_sensitivities(n);
+  // Whatever their sensitivity, enabled or not.
+  distributor[gic::PPI_STATUS].computed_by(
+      [this] { return logic_.wire.word(0) >> gic::sgi_count; });
+  for (unsigned n = 0; n < 2; ++n) {
+    distributor[gic::SPI_STATUS(n)].computed_by([this, n] { return logic_.wire.word(n + 1); });
+  }
   distributor[gic::ICDSGIR].after_write(
       [this](std::uint32_t word) { raise_software_interrupt(word); });
 }

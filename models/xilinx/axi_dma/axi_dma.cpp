@@ -179,13 +179,17 @@ void AxiDma::stop_channels() {
   for (const Interrupt& i : interrupts_) i.channel->stop();
 }
 
-// The reset of either channel resets the core.
+// The reset of either channel resets the core, and shows in both until it is done (HDL of v7.1; the
+// other channel's bit rises a clock later, which no bus access can see).
 void AxiDma::request_soft_reset() {
   if (resetting_) return;
   resetting_ = true;
   reset_done_at_ = vp::Clock::never;
   plan_edge(clock().cycle() + 1);
-  for (const Interrupt& i : interrupts_) i.channel->drop();
+  for (const Interrupt& i : interrupts_) {
+    i.channel->dmacr.set_bits(dmacr::Reset);
+    i.channel->drop();
+  }
 }
 
 std::uint64_t AxiDma::run_soft_reset(std::uint64_t cycle) {

@@ -39,6 +39,7 @@ void DmaChannel::configure(std::uint32_t length_width, bool unaligned) {
 void DmaChannel::control_written(std::uint32_t word) {
   if ((dmacr & dmacr::IRQThreshold) == 0) dmacr.set_bits(1u << dmacr::IRQThreshold_shift);
   if (word & dmacr::Reset) core_.request_soft_reset();
+  if (core_.in_soft_reset()) dmacr.set_bits(dmacr::Reset);  // a write does not take it back
   if (core_.stopped() || core_.in_soft_reset()) {
     dmacr.clear_bits(dmacr::RS);  // an error holds RS at 0 until a reset
   } else if (running()) {

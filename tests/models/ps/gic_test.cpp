@@ -249,6 +249,31 @@ BOOST_AUTO_TEST_CASE(the_binary_point_limits_preemption) {
   });
 }
 
+/// Cortex-A9 MPCore TRM 3.2 and the offsets of the vendor's driver (xscugic_hw.h): 0xD00, 0xD04 ….
+/// They show the wires, whatever their sensitivity, enabled or not.
+BOOST_AUTO_TEST_CASE(status_registers_show_the_wires) {
+  GicBench b;
+  b.run([&] {
+    const auto status = [](unsigned n) { return hal_read32(icd + gic::SPI_STATUS(n)); };
+    b.timer = true;
+    BOOST_TEST(hal_read32(icd + gic::PPI_STATUS) == 1u << (gic::global_timer_id - 16));
+    for (unsigned bit = 0; bit < 16; ++bit) {
+      const std::uint32_t id = bit < 8 ? 61 + bit : 84 + (bit - 8);
+      b.irq_f2p = 1u << bit;
+      BOOST_TEST(status(0) == (id < 64 ? 1u << (id - 32) : 0u), "wire " << bit);
+      BOOST_TEST(status(1) == (id < 64 ? 0u : 1u << (id - 64)), "wire " << bit);
+    }
+    // An edge that was latched is not a level.
+    b.irq_f2p = 1;
+    hal_write32(icd + gic::ICDICFR(3), 0xFFFF'FFFF);
+    b.irq_f2p = 0;
+    BOOST_TEST(status(0) == 0u);
+    b.timer = false;
+    BOOST_TEST(hal_read32(icd + gic::PPI_STATUS) == 0u);
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(all_sixteen_wires_of_the_pl) {
   GicBench b;
   b.run([&] {

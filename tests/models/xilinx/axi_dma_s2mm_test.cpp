@@ -259,6 +259,14 @@ BOOST_FIXTURE_TEST_CASE(decode_and_slave_errors, S2mmBench) {
       BOOST_TEST(read(S2MM_DMASR) == dmasr::Halted);
     }
   });
+  BOOST_TEST(warnings("bus_error") == 2u);
+  for (const char* part :
+       {"S2MM transfer of 128 bytes at 0x30000000 leaves the memory that the DMA reaches "
+        "(DECERR): ",
+        "S2MM transfer of 128 bytes at 0x20000000 is refused by the memory (SLVERR): take DMA "
+        "buffers from hal_dma_allocate and use their bus_address"}) {
+    BOOST_TEST(text.str().find(part) != std::string::npos, text.str());
+  }
 }
 
 BOOST_FIXTURE_TEST_CASE(length_is_not_queued, S2mmBench) {

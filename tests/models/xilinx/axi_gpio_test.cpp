@@ -306,6 +306,21 @@ BOOST_FIXTURE_TEST_CASE(a_pulse_between_two_edges_is_no_change, Dual) {
   });
 }
 
+/// The HDL of v2.0 compares all pins of the channel with what they were: TRI is not in it. (PG144
+/// speaks of "inputs" only.) A bit that is driven interrupts if its pin is wired back.
+BOOST_FIXTURE_TEST_CASE(a_pin_of_an_output_bit_interrupts_all_the_same, Dual) {
+  simulate([&] {
+    master.write(GPIO_TRI, 0);
+    BusMaster::wait_until(10 * period);
+    pins = 0x100;
+    BOOST_TEST(read_at(17 * period, IP_ISR) == channel::Channel_1);
+    BOOST_TEST(master.read(GPIO_DATA) == 0u, "the output register, not the pin");
+    master.write(IP_ISR, channel::Channel_1);
+    master.write(GPIO_DATA, 0xFF);
+    BOOST_TEST(read_at(60 * period, IP_ISR) == 0u, "the output itself is no pin");
+  });
+}
+
 BOOST_FIXTURE_TEST_CASE(reset_restores_everything, Dual) {
   expected_warnings = 1;
   simulate([&] {

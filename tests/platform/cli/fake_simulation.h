@@ -33,24 +33,30 @@ class FakeSimulation : public platform::cli::Simulation {
 
   platform::report::HardwareMap map() override {
     using Map = platform::report::HardwareMap;
-    static const int kind = 0;
+    static const int kind = 0, bits = 0;
+    const std::vector<Map::Field> fields{{"ON", 0x8000'0001, "rw", 1, "On | off"},
+                                         {"LEVEL", 0x0000'0FF0, "w1c", 0x12, "How much"}};
     Map::Device memory{"ddr",      "DDR memory",   "ps.ddr", 0x10'0000,
                        511u << 20, "its own port", {},       {}};
-    Map::Device timer{"timer",
-                      "a timer",
-                      "ps.timer.registers",
-                      0xF000'0000,
-                      0x100,
-                      "bus",
-                      {{"LOAD", 0, 5, 0, true, 0x123, "rw", 0xFFFF, "Start value"},
-                       {"STATUS", 0xC, 1, 0, false, 0, "w1c", 0x1, "Event | flag"}},
-                      &kind};
+    Map::Device timer{
+        "timer",
+        "a timer",
+        "ps.timer.registers",
+        0xF000'0000,
+        0x100,
+        "bus",
+        {{"CONTROL", 0x10, 0x121, 0x121, true, 0x121, "rw", 0xF, "Control", fields, &bits},
+         {"CONTROL_2", 0x14, 0, 0, true, 0, "rw", 0xF, "Control", fields, &bits},
+         {"LOAD", 0, 5, 0, true, 0x123, "rw", 0xFFFF, "Start value"},
+         {"STATUS", 0xC, 1, 0, false, 0, "w1c", 0x1, "Event | flag"}},
+        &kind};
     Map::Device second = timer;
     second.name = "timer_1";
     second.base = 0xF000'1000;
     return {{memory, timer, second},
             {{29, "ps.timer.irq"}},
-            {{"ps.clk", 50'000'000, "CLK_CTRL", 50'000'000}, {"ps.odd", 7, "CLK_2", 8}}};
+            {{"ps.clk", 50'000'000, "CLK_CTRL", 50'000'000}, {"ps.odd", 7, "CLK_2", 8}},
+            "#define XPAR_TIMER_BASEADDR 0xF0000000U\n"};
   }
 
   void run(const NextFrame& next, const FrameDone& done) override {

@@ -1,3 +1,4 @@
+#include <cli/map_fields.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
 
@@ -28,6 +29,35 @@ BOOST_AUTO_TEST_CASE(one_device) {
   BOOST_TEST(!contains(out.str(), "DDR memory"));
   BOOST_TEST(run({"map", "ddr"}) == 0);
   BOOST_TEST(contains(out.str(), "memory, no registers"));
+}
+
+BOOST_AUTO_TEST_CASE(fields) {
+  BOOST_TEST(run({"map", "timer"}) == 0);
+  BOOST_TEST(
+      contains(out.str(), "           31, 0  ON                 rw   0x1         On | off\n"),
+      out.str());
+  BOOST_TEST(
+      contains(out.str(), "            11:4  LEVEL              w1c  0x12        How much\n"));
+  BOOST_TEST(contains(out.str(), "Control [bits as in CONTROL]\n"), "once for registers alike");
+  BOOST_TEST(run({"map", "--markdown"}) == 0);
+  BOOST_TEST(contains(out.str(), "\n| CONTROL | 31, 0 | ON | rw | 0x1 | On \\| off |\n"),
+             out.str());
+  BOOST_TEST(contains(
+      out.str(),
+      "| 0x014 | CONTROL_2 | rw | 0x0000_0000 | 0x0000_000F | Control; bits as in CONTROL |"));
+}
+
+BOOST_AUTO_TEST_CASE(bits_of_a_field) {
+  using platform::cli::bits_text;
+  BOOST_TEST(bits_text(1) == "0");
+  BOOST_TEST(bits_text(0xFFFFFFFF) == "31:0");
+  BOOST_TEST(bits_text(0x80F0000C) == "31, 23:20, 3:2");
+  BOOST_TEST(bits_text(0xAAAAAAAA) == "0xAAAAAAAA", "too many to name");
+}
+
+BOOST_AUTO_TEST_CASE(xparameters) {
+  BOOST_TEST(run({"map", "--xparameters"}) == 0);
+  BOOST_TEST(out.str() == "#define XPAR_TIMER_BASEADDR 0xF0000000U\n");
 }
 
 BOOST_AUTO_TEST_CASE(all_registers) {

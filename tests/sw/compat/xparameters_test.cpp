@@ -2,77 +2,13 @@
 #include <boost/test/unit_test.hpp>
 
 #include <drivers/global_timer.h>
-#include <drivers/platform_addresses.h>
 #include <vp/configuration.h>
 #include <xparameters_writer.h>
+#include <zynq/hardware_map.h>
 #include <zynq/session.h>
-
-#include <algorithm>
-#include <cctype>
 
 #include "simulation.h"
 #include "temporary_files.h"
-
-namespace {
-
-using xparameters::Device;
-
-std::string capitals(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
-Device device(const platform::Zynq& zynq, const std::string& name, const std::string& driver) {
-  for (const auto& region : zynq.pl.axi_interconnect.regions()) {
-    if (region.name != name) continue;
-    return {capitals(name),
-            driver,
-            static_cast<std::uint32_t>(region.base),
-            static_cast<std::uint32_t>(region.last()),
-            {},
-            {}};
-  }
-  throw std::runtime_error("no device " + name);
-}
-
-Device dma(const platform::Zynq& zynq, const std::string& name, const xilinx::AxiDma& model,
-           std::uint32_t interrupt) {
-  Device result = device(zynq, name, "AXIDMA");
-  const bool sends = model.include_mm2s;
-  result.options = {{"INCLUDE_MM2S", sends},
-                    {"INCLUDE_S2MM", model.include_s2mm.get()},
-                    {"INCLUDE_SG", 0},
-                    {"SG_LENGTH_WIDTH", model.length_width},
-                    {"M_AXI_MM2S_DATA_WIDTH", 32},
-                    {"M_AXI_S2MM_DATA_WIDTH", 32}};
-  result.interrupts = {{sends ? "MM2S_INTROUT" : "S2MM_INTROUT", interrupt}};
-  return result;
-}
-
-Device gpio(const platform::Zynq& zynq, const std::string& name, const xilinx::AxiGpio& model) {
-  Device result = device(zynq, name, "GPIO");
-  result.options = {{"IS_DUAL", model.is_dual.get()},
-                    {"INTERRUPT_PRESENT", model.interrupt_present.get()}};
-  return result;
-}
-
-xparameters::Platform describe(const platform::Zynq& zynq) {
-  xparameters::Platform platform;
-  // What Vivado states for its 666.67 MHz; the driver's value is half of it.
-  platform.cpu_hz = 2 * drivers::GlobalTimer::counts_per_second + 1;
-  platform.ps_clock_hz = 33'333'333;
-  platform.ddr_base = ps::Ddr::base;
-  platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
-  platform.console_uart = 0xE000'1000;
-  platform.devices = {
-      dma(zynq, "axi_dma_0", zynq.pl.axi_dma_0, drivers::addresses::dma_image_interrupt),
-      dma(zynq, "axi_dma_1", zynq.pl.axi_dma_1, drivers::addresses::dma_binary_interrupt),
-      gpio(zynq, "axi_gpio_0", zynq.pl.axi_gpio_0), gpio(zynq, "axi_gpio_1", zynq.pl.axi_gpio_1)};
-  return platform;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_SUITE(xparameters_header)
 
@@ -81,9 +17,31 @@ BOOST_AUTO_TEST_CASE(is_that_of_the_platform) {
   vp::Configuration configuration;
   const vp::Configuration::Scope scope(configuration);
   platform::Session session({MARKERVP_HYBRID, std::nullopt});
-  BOOST_CHECK_EQUAL(kit::read_file(MARKERVP_XPARAMETERS),
-                    xparameters::header(describe(session.zynq())));
+  const std::string text = platform::hardware_map(session.zynq()).xparameters;
+  BOOST_CHECK_EQUAL(kit::read_file(MARKERVP_XPARAMETERS), text);
+  // The driver's constant is half of it.
+  const auto counts = std::to_string(2 * drivers::GlobalTimer::counts_per_second + 1);
+  BOOST_CHECK(text.find("CPU_CLK_FREQ_HZ " + counts + "\n") != std::string::npos);
   BOOST_CHECK_EQUAL(session.zynq().pl.axi_interconnect.regions().size(), 4);
+}
+
+// `markervp map --xparameters`: the configuration in use, not the default one.
+BOOST_AUTO_TEST_CASE(follows_the_configuration) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  configuration.set("ps.cpu_clk.frequency=866 MHz");
+  configuration.set("ps.ddr.size=383 MiB");
+  configuration.set("pl.axi_dma_0.length_width=20");
+  const vp::Configuration::Scope scope(configuration);
+  platform::Zynq zynq;
+  const std::string text = platform::hardware_map(zynq).xparameters;
+  for (const char* line :
+       {"XPAR_CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ 866000000",
+        "XPAR_PS7_DDR_0_S_AXI_HIGHADDR 0x17FFFFFFU", "XPAR_AXI_DMA_0_SG_LENGTH_WIDTH 20",
+        "XPAR_AXI_DMA_1_SG_LENGTH_WIDTH 14"}) {
+    BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
+                        line << " in " << text);
+  }
 }
 
 // Each driver counts its own devices.

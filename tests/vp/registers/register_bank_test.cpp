@@ -18,6 +18,7 @@ constexpr vp::RegisterInfo table[] = {
     {"COMMAND", 0x08, 0x00000000, vp::Access::write_only, 0xFFFFFFFF, ""},
     {"EVENT", 0x10, 0x000000FF, vp::Access::write_1_to_clear, 0x0000000F, ""},
     {"TOGGLE", 0x14, 0x00000000, vp::Access::write_1_to_toggle, 0x00000003, ""},
+    {"SET", 0x18, 0x00000010, vp::Access::write_1_to_set, 0x0000000F, ""},
 };
 constexpr std::uint32_t hole = 0x0C;
 
@@ -68,6 +69,10 @@ BOOST_FIXTURE_TEST_CASE(reset_values_and_access_policies, Bench) {
 
     master.write(0x10, 0xFFFFFFF5);
     BOOST_TEST(master.read(0x10) == 0xFAu, "ones clear within the writable bits");
+
+    master.write(0x18, 0xFFFFFFF5);
+    master.write(0x18, 0x00000002);
+    BOOST_TEST(master.read(0x18) == 0x17u, "ones set within the writable bits, zeros keep");
 
     master.write(0x14, 0x7);
     BOOST_TEST(master.read(0x14) == 0x3u);

@@ -66,8 +66,8 @@ class Register {
   }
 
   /// Reads return what a read now would before the time that `until` tells (in ps), if the inputs
-  /// of the device stay as they are. A poll may then skip reads; so the register has no
-  /// after_read().
+  /// of the device stay as they are. A poll may then skip reads: it credits them to use(), but
+  /// after_read() is not called for them.
   void stable_until(std::function<std::uint64_t()> until) { stable_until_ = std::move(until); }
 
   /// What software did with the register, for the coverage report.

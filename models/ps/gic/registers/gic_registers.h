@@ -7,6 +7,10 @@
 /// The interrupt controller of the Cortex-A9 MPCore (PL390, GICv1) as a Zynq-7000 builds it (UG585
 /// appendix B.24): 96 interrupts, 32 priorities, two CPUs. Names are those of the ARM and Xilinx
 /// manuals. The list of registers is that of one CPU that runs in secure state, as after reset.
+///
+/// Checked against what others took from UG585 appendix B.24 and the Cortex-A9 MPCore TRM: ICDICTR,
+/// ICDIIDR, ICCIIDR, ICDICFR0 to 5 and ICDIPTR0 to 7 (SkyEye's Zynq model; ICDICFR0 and 1 also by a
+/// self-test that ran on the silicon), the offsets of the status registers (driver scugic).
 namespace gic {
 
 /// Bus addresses on the Zynq-7000.
@@ -71,6 +75,10 @@ constexpr std::uint32_t ICDIPTR(unsigned n) {
 constexpr std::uint32_t ICDICFR(unsigned n) {
   return 0xC00 + 4 * n;
 }  ///< 16 interrupts each
+constexpr std::uint32_t PPI_STATUS = 0xD00;
+constexpr std::uint32_t SPI_STATUS(unsigned n) {
+  return 0xD04 + 4 * n;
+}  ///< 32 interrupts each, from 32 on
 constexpr std::uint32_t ICDSGIR = 0xF00;
 constexpr std::uint32_t ICPIDR(unsigned n) {
   return n < 4 ? 0xFE0 + 4 * n : 0xFC0 + 4 * n;
@@ -117,6 +125,7 @@ constexpr std::uint32_t rising_edge = 3;
 /// Fields of ICDSGIR.
 namespace icdsgir {
 constexpr std::uint32_t SGIINTID = 0xF;
+constexpr std::uint32_t SATT = 1u << 15;
 constexpr unsigned CPUTargetList_shift = 16;
 constexpr std::uint32_t CPUTargetList = 0xFFu << CPUTargetList_shift;
 constexpr unsigned TargetListFilter_shift = 24;
@@ -126,23 +135,105 @@ constexpr std::uint32_t filter_others = 1;  ///< all but the one that writes
 constexpr std::uint32_t filter_self = 2;    ///< the one that writes
 }  // namespace icdsgir
 
+inline constexpr vp::RegisterField iccicr_fields[] = {
+    {"EnableS", iccicr::EnableS, vp::Access::read_write, "1: secure interrupts reach the CPU"},
+    {"EnableNS", iccicr::EnableNS, vp::Access::read_write,
+     "1: non-secure interrupts reach the CPU"},
+    {"AckCtl", iccicr::AckCtl, vp::Access::read_write,
+     "1: a secure read of ICCIAR may acknowledge a non-secure interrupt"},
+    {"FIQEn", iccicr::FIQEn, vp::Access::read_write, "1: secure interrupts use nFIQ"},
+    {"SBPR", iccicr::SBPR, vp::Access::read_write, "1: ICCBPR serves non-secure interrupts, too"},
+};
+inline constexpr vp::RegisterField icciar_fields[] = {
+    {"ACKINTID", icciar::ACKINTID, vp::Access::read_only,
+     "number; 1023 nothing, 1022 only a non-secure one, and AckCtl is 0"},
+    {"CPUID", icciar::CPUID, vp::Access::read_only, "the CPU that raised a software interrupt"},
+};
+inline constexpr vp::RegisterField icceoir_fields[] = {
+    {"EOIINTID", 0x03FF, vp::Access::write_only, "number that ICCIAR gave"},
+    {"CPUID", 0x1C00, vp::Access::write_only, "CPU that ICCIAR gave"},
+};
+inline constexpr vp::RegisterField icciidr_fields[] = {
+    {"Implementer", 0xFFF, vp::Access::read_only, "0x43B: ARM"},
+    {"Revision", 0xF000, vp::Access::read_only, "of the controller"},
+    {"Architecture", 0xF0000, vp::Access::read_only, "1: GICv1"},
+    {"Part_number", 0xFFF00000, vp::Access::read_only, "0x390"},
+};
+inline constexpr vp::RegisterField icddcr_fields[] = {
+    {"EnableS", icddcr::EnableS, vp::Access::read_write, "1: secure interrupts are forwarded"},
+    {"EnableNS", icddcr::EnableNS, vp::Access::read_write,
+     "1: non-secure interrupts are forwarded"},
+};
+inline constexpr vp::RegisterField icdictr_fields[] = {
+    {"IT_Lines_Number", 0x1F, vp::Access::read_only, "2: 32 * (2 + 1) interrupts"},
+    {"CPU_Number", 0xE0, vp::Access::read_only, "1: two CPUs"},
+    {"SecurityExtn", 0x400, vp::Access::read_only, "1: two security domains"},
+    {"LSPI", 0xF800, vp::Access::read_only, "31 shared interrupts can be locked"},
+};
+inline constexpr vp::RegisterField icdiidr_fields[] = {
+    {"Implementer", 0xFFF, vp::Access::read_only, "0x43B: ARM"},
+    {"Revision", 0xFFF000, vp::Access::read_only, "0x020"},
+    {"Version", 0xFF000000, vp::Access::read_only, "1"},
+};
+inline constexpr vp::RegisterField enable_fields[] = {
+    {"SGI", 0x0000FFFF, vp::Access::read_only, "software interrupts are always enabled"},
+    {"PPI", 0xFFFF0000, vp::Access::write_1_to_set, "private interrupts, a bit each"},
+};
+inline constexpr vp::RegisterField disable_fields[] = {
+    {"SGI", 0x0000FFFF, vp::Access::read_only, "software interrupts are always enabled"},
+    {"PPI", 0xFFFF0000, vp::Access::write_1_to_clear, "private interrupts, a bit each"},
+};
+inline constexpr vp::RegisterField icdipr_fields[] = {
+    {"Priority_0", 0xF8, vp::Access::read_write, "of interrupt 4 n; 0 is the most urgent"},
+    {"Priority_1", 0xF800, vp::Access::read_write, "of interrupt 4 n + 1"},
+    {"Priority_2", 0xF80000, vp::Access::read_write, "of interrupt 4 n + 2"},
+    {"Priority_3", 0xF8000000, vp::Access::read_write, "of interrupt 4 n + 3"},
+};
+inline constexpr vp::RegisterField icdiptr_fields[] = {
+    {"Targets_0", 0x3, vp::Access::read_write, "of interrupt 4 n: bit 0 CPU 0, bit 1 CPU 1"},
+    {"Targets_1", 0x300, vp::Access::read_write, "of interrupt 4 n + 1"},
+    {"Targets_2", 0x30000, vp::Access::read_write, "of interrupt 4 n + 2"},
+    {"Targets_3", 0x3000000, vp::Access::read_write, "of interrupt 4 n + 3"},
+};
+inline constexpr vp::RegisterField icdicfr_fields[] = {
+    {"N_N", 0x55555555, vp::Access::read_only, "always 1: any CPU may handle it"},
+    {"Edge", 0xAAAAAAAA, vp::Access::read_write,
+     "bit 2 m + 1 of interrupt 16 n + m: 0 level high, 1 rising edge"},
+};
+inline constexpr vp::RegisterField ppi_status_fields[] = {
+    {"Global_timer", 1u << 11, vp::Access::read_only, "level of interrupt 27"},
+    {"nFIQ", 1u << 12, vp::Access::read_only, "level of interrupt 28: not wired"},
+    {"Private_timer", 1u << 13, vp::Access::read_only, "level of interrupt 29"},
+    {"Watchdog", 1u << 14, vp::Access::read_only, "level of interrupt 30"},
+    {"nIRQ", 1u << 15, vp::Access::read_only, "level of interrupt 31: not wired"},
+};
+inline constexpr vp::RegisterField icdsgir_fields[] = {
+    {"SGIINTID", icdsgir::SGIINTID, vp::Access::write_only, "number"},
+    {"SATT", icdsgir::SATT, vp::Access::write_only, "security: no effect here"},
+    {"CPUTargetList", icdsgir::CPUTargetList, vp::Access::write_only, "a bit for each CPU"},
+    {"TargetListFilter", icdsgir::TargetListFilter, vp::Access::write_only,
+     "0 those of the list, 1 all others, 2 only this CPU"},
+};
+
 inline constexpr vp::RegisterInfo cpu_interface_registers[] = {
-    {"ICCICR", ICCICR, 0x00000000, vp::Access::read_write, 0x0000001F, "CPU interface control"},
+    {"ICCICR", ICCICR, 0x00000000, vp::Access::read_write, 0x0000001F, "CPU interface control",
+     iccicr_fields},
     {"ICCPMR", ICCPMR, 0x00000000, vp::Access::read_write, 0x000000F8,
      "Priority mask: only interrupts more urgent than this reach the CPU"},
     {"ICCBPR", ICCBPR, 0x00000002, vp::Access::read_write, 0x00000007,
      "Binary point: bits above it decide about preemption (at least 2)"},
     {"ICCIAR", ICCIAR, 0x000003FF, vp::Access::read_only, 0x00000000,
-     "Acknowledge: reading makes the most urgent pending interrupt active"},
+     "Acknowledge: reading makes the most urgent pending interrupt active", icciar_fields},
     {"ICCEOIR", ICCEOIR, 0x00000000, vp::Access::write_only, 0x00001FFF,
-     "End of interrupt: write the value read from ICCIAR"},
+     "End of interrupt: write the value read from ICCIAR", icceoir_fields},
     {"ICCRPR", ICCRPR, 0x000000FF, vp::Access::read_only, 0x00000000,
      "Priority of the active interrupt; 0xFF when idle"},
     {"ICCHPIR", ICCHPIR, 0x000003FF, vp::Access::read_only, 0x00000000,
-     "The most urgent pending interrupt, without acknowledging it"},
+     "The most urgent pending interrupt, without acknowledging it", icciar_fields},
     {"ICCABPR", ICCABPR, 0x00000003, vp::Access::read_write, 0x00000007,
      "Binary point of non-secure interrupts (at least 3)"},
-    {"ICCIIDR", ICCIIDR, 0x3901243B, vp::Access::read_only, 0x00000000, "Implementer and revision"},
+    {"ICCIIDR", ICCIIDR, 0x3901243B, vp::Access::read_only, 0x00000000, "Implementer and revision",
+     icciidr_fields},
 };
 
 #define GIC_ROW_3(name, ...)                                              \
@@ -168,30 +259,41 @@ inline constexpr vp::RegisterInfo cpu_interface_registers[] = {
 #name "7", name(7), __VA_ARGS__                                         \
   }
 
+// There are no interrupts 16 to 26: neither target nor sensitivity (UG585 appendix B.24).
+#define GIC_TARGET_ROW(n, reset, text) \
+  { "ICDIPTR" #n, ICDIPTR(n), reset, vp::Access::read_only, 0x00000000, text }
+#define GIC_PRIVATE_TARGETS(text)                                               \
+  GIC_TARGET_ROW(0, 0x01010101, text), GIC_TARGET_ROW(1, 0x01010101, text),     \
+      GIC_TARGET_ROW(2, 0x01010101, text), GIC_TARGET_ROW(3, 0x01010101, text), \
+      GIC_TARGET_ROW(4, 0x00000000, text), GIC_TARGET_ROW(5, 0x00000000, text), \
+      GIC_TARGET_ROW(6, 0x01000000, text), GIC_TARGET_ROW(7, 0x01010101, text)
+
 inline constexpr vp::RegisterInfo distributor_registers[] = {
-    {"ICDDCR", ICDDCR, 0x00000000, vp::Access::read_write, 0x00000003, "Distributor control"},
+    {"ICDDCR", ICDDCR, 0x00000000, vp::Access::read_write, 0x00000003, "Distributor control",
+     icddcr_fields},
     {"ICDICTR", ICDICTR, 0x0000FC22, vp::Access::read_only, 0x00000000,
-     "What was built: 96 interrupts, 2 CPUs, security, 31 lockable"},
-    {"ICDIIDR", ICDIIDR, 0x0102043B, vp::Access::read_only, 0x00000000, "Implementer and revision"},
+     "What was built: 96 interrupts, 2 CPUs, security, 31 lockable", icdictr_fields},
+    {"ICDIIDR", ICDIIDR, 0x0102043B, vp::Access::read_only, 0x00000000, "Implementer and revision",
+     icdiidr_fields},
     GIC_ROW_3(ICDISR, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
               "Security: 1 is non-secure; 32 interrupts"),
-    {"ICDISER0", ICDISER(0), 0x0000FFFF, vp::Access::read_write, 0xFFFF0000,
-     "Enable: writing 1 sets; software interrupts are always enabled"},
-    {"ICDISER1", ICDISER(1), 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
+    {"ICDISER0", ICDISER(0), 0x0000FFFF, vp::Access::write_1_to_set, 0xFFFF0000,
+     "Enable: writing 1 sets; software interrupts are always enabled", enable_fields},
+    {"ICDISER1", ICDISER(1), 0x00000000, vp::Access::write_1_to_set, 0xFFFFFFFF,
      "Enable: writing 1 sets"},
-    {"ICDISER2", ICDISER(2), 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
+    {"ICDISER2", ICDISER(2), 0x00000000, vp::Access::write_1_to_set, 0xFFFFFFFF,
      "Enable: writing 1 sets"},
     {"ICDICER0", ICDICER(0), 0x0000FFFF, vp::Access::write_1_to_clear, 0xFFFF0000,
-     "Enable: writing 1 clears"},
+     "Enable: writing 1 clears", disable_fields},
     {"ICDICER1", ICDICER(1), 0x00000000, vp::Access::write_1_to_clear, 0xFFFFFFFF,
      "Enable: writing 1 clears"},
     {"ICDICER2", ICDICER(2), 0x00000000, vp::Access::write_1_to_clear, 0xFFFFFFFF,
      "Enable: writing 1 clears"},
-    {"ICDISPR0", ICDISPR(0), 0x00000000, vp::Access::read_write, 0xFFFF0000,
+    {"ICDISPR0", ICDISPR(0), 0x00000000, vp::Access::write_1_to_set, 0xFFFF0000,
      "Pending: writing 1 sets; software interrupts are raised by ICDSGIR"},
-    {"ICDISPR1", ICDISPR(1), 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
+    {"ICDISPR1", ICDISPR(1), 0x00000000, vp::Access::write_1_to_set, 0xFFFFFFFF,
      "Pending: writing 1 sets"},
-    {"ICDISPR2", ICDISPR(2), 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
+    {"ICDISPR2", ICDISPR(2), 0x00000000, vp::Access::write_1_to_set, 0xFFFFFFFF,
      "Pending: writing 1 sets"},
     {"ICDICPR0", ICDICPR(0), 0x00000000, vp::Access::write_1_to_clear, 0xFFFF0000,
      "Pending: writing 1 clears; software interrupts end by acknowledge"},
@@ -201,27 +303,32 @@ inline constexpr vp::RegisterInfo distributor_registers[] = {
      "Pending: writing 1 clears"},
     GIC_ROW_3(ICDABR, 0x00000000, vp::Access::read_only, 0x00000000, "Active: 32 interrupts"),
     GIC_PRIVATE_BYTES(ICDIPR, 0x00000000, vp::Access::read_write, 0xF8F8F8F8,
-                      "Priority, a byte per interrupt"),
+                      "Priority, a byte per interrupt", icdipr_fields),
     GIC_SPI_BYTES(ICDIPR, 0x00000000, vp::Access::read_write, 0xF8F8F8F8,
-                  "Priority, a byte per interrupt"),
-    GIC_PRIVATE_BYTES(ICDIPTR, 0x01010101, vp::Access::read_only, 0x00000000,
-                      "Target of private interrupts: the CPU that reads"),
+                  "Priority, a byte per interrupt", icdipr_fields),
+    GIC_PRIVATE_TARGETS("Target of private interrupts: the CPU that reads; 0 where there is none"),
     GIC_SPI_BYTES(ICDIPTR, 0x00000000, vp::Access::read_write, 0x03030303,
-                  "Targets, a byte per interrupt, a bit per CPU"),
+                  "Targets, a byte per interrupt, a bit per CPU", icdiptr_fields),
     {"ICDICFR0", ICDICFR(0), 0xAAAAAAAA, vp::Access::read_only, 0x00000000,
      "Sensitivity of software interrupts: edge"},
     {"ICDICFR1", ICDICFR(1), 0x7DC00000, vp::Access::read_only, 0x00000000,
      "Sensitivity of private interrupts"},
     {"ICDICFR2", ICDICFR(2), 0x55555555, vp::Access::read_write, 0xAAAAAAAA,
-     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge"},
+     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge", icdicfr_fields},
     {"ICDICFR3", ICDICFR(3), 0x55555555, vp::Access::read_write, 0xAAAAAAAA,
-     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge"},
+     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge", icdicfr_fields},
     {"ICDICFR4", ICDICFR(4), 0x55555555, vp::Access::read_write, 0xAAAAAAAA,
-     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge"},
+     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge", icdicfr_fields},
     {"ICDICFR5", ICDICFR(5), 0x55555555, vp::Access::read_write, 0xAAAAAAAA,
-     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge"},
+     "Sensitivity, 2 bits per interrupt: 01 level high, 11 rising edge", icdicfr_fields},
+    {"PPI_STATUS", PPI_STATUS, 0x00000000, vp::Access::read_only, 0x00000000,
+     "Levels of the inputs of private interrupts, bit n of interrupt 16 + n", ppi_status_fields},
+    {"SPI_STATUS0", SPI_STATUS(0), 0x00000000, vp::Access::read_only, 0x00000000,
+     "Levels of the inputs of shared interrupts 32 to 63"},
+    {"SPI_STATUS1", SPI_STATUS(1), 0x00000000, vp::Access::read_only, 0x00000000,
+     "Levels of the inputs of shared interrupts 64 to 95"},
     {"ICDSGIR", ICDSGIR, 0x00000000, vp::Access::write_only, 0x03FF800F,
-     "Raises a software interrupt"},
+     "Raises a software interrupt", icdsgir_fields},
     {"ICPIDR4", ICPIDR(4), 0x00000004, vp::Access::read_only, 0x00000000, "Peripheral id 4"},
     {"ICPIDR5", ICPIDR(5), 0x00000000, vp::Access::read_only, 0x00000000, "Peripheral id 5"},
     {"ICPIDR6", ICPIDR(6), 0x00000000, vp::Access::read_only, 0x00000000, "Peripheral id 6"},
@@ -239,5 +346,7 @@ inline constexpr vp::RegisterInfo distributor_registers[] = {
 #undef GIC_ROW_3
 #undef GIC_SPI_BYTES
 #undef GIC_PRIVATE_BYTES
+#undef GIC_PRIVATE_TARGETS
+#undef GIC_TARGET_ROW
 
 }  // namespace gic

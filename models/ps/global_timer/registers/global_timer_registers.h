@@ -40,6 +40,20 @@ constexpr std::uint32_t Event_Flag =
     1u << 0;  ///< the counter reached the comparator; writing 1 clears
 }
 
+inline constexpr vp::RegisterField control_fields[] = {
+    {"Timer_Enable", control::Timer_Enable, vp::Access::read_write,
+     "1: the counter runs; shared by both CPUs"},
+    {"Comp_Enable", control::Comp_Enable, vp::Access::read_write, "1: the comparator compares"},
+    {"IRQ_Enable", control::IRQ_Enable, vp::Access::read_write, "1: events raise interrupt 27"},
+    {"Auto_Increment", control::Auto_Increment, vp::Access::read_write,
+     "1: an event moves the comparator on by AUTO_INCREMENT"},
+    {"Prescaler", control::Prescaler, vp::Access::read_write, "a count every Prescaler + 1 ticks"},
+};
+inline constexpr vp::RegisterField status_fields[] = {
+    {"Event_Flag", status::Event_Flag, vp::Access::write_1_to_clear,
+     "the counter reached the comparator"},
+};
+
 /// The boot code leaves the counter running: CONTROL reads 1 then, and the counter has moved.
 inline constexpr vp::RegisterInfo registers[] = {
     {"COUNTER_LOW", COUNTER_LOW, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
@@ -47,9 +61,9 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"COUNTER_HIGH", COUNTER_HIGH, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
      "Counter, upper half; read high, low, high until both highs agree"},
     {"CONTROL", CONTROL, 0x00000000, vp::Access::read_write, 0x0000FF0F,
-     "Enables, auto-increment and prescaler"},
+     "Enables, auto-increment and prescaler", control_fields},
     {"INTERRUPT_STATUS", INTERRUPT_STATUS, 0x00000000, vp::Access::write_1_to_clear, 0x00000001,
-     "Event flag of the comparator"},
+     "Event flag of the comparator", status_fields},
     {"COMPARATOR_LOW", COMPARATOR_LOW, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
      "Comparator, lower half; write it with the comparator disabled"},
     {"COMPARATOR_HIGH", COMPARATOR_HIGH, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,

@@ -51,24 +51,48 @@ constexpr std::uint32_t Reset_Flag = 1u << 0;  ///< the watchdog expired; writin
 constexpr std::uint32_t disable_key_1 = 0x12345678;
 constexpr std::uint32_t disable_key_2 = 0x87654321;
 
+inline constexpr vp::RegisterField control_fields[] = {
+    {"Enable", control::Enable, vp::Access::read_write, "1: the counter runs"},
+    {"Auto_Reload", control::Auto_Reload, vp::Access::read_write,
+     "1: at 0 it starts again from LOAD"},
+    {"IRQ_Enable", control::IRQ_Enable, vp::Access::read_write, "1: the event raises interrupt 29"},
+    {"Prescaler", control::Prescaler, vp::Access::read_write, "a count every Prescaler + 1 ticks"},
+};
+inline constexpr vp::RegisterField wdt_control_fields[] = {
+    {"Enable", control::Enable, vp::Access::read_write, "1: the counter runs"},
+    {"Auto_Reload", control::Auto_Reload, vp::Access::read_write,
+     "1: at 0 it starts again from WDT_LOAD (timer mode)"},
+    {"IRQ_Enable", control::IRQ_Enable, vp::Access::read_write,
+     "1: the event raises interrupt 30 (timer mode)"},
+    {"Watchdog_Mode", control::Watchdog_Mode, vp::Access::read_write,
+     "1: at 0 the CPU is reset; writing 0 does not clear it, WDT_DISABLE does"},
+    {"Prescaler", control::Prescaler, vp::Access::read_write, "a count every Prescaler + 1 ticks"},
+};
+inline constexpr vp::RegisterField status_fields[] = {
+    {"Event_Flag", status::Event_Flag, vp::Access::write_1_to_clear, "the counter reached 0"},
+};
+inline constexpr vp::RegisterField reset_status_fields[] = {
+    {"Reset_Flag", reset_status::Reset_Flag, vp::Access::write_1_to_clear, "the watchdog expired"},
+};
+
 inline constexpr vp::RegisterInfo registers[] = {
     {"LOAD", LOAD, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
      "Start value; writing it sets the counter, too"},
     {"COUNTER", COUNTER, 0x00000000, vp::Access::read_write, 0xFFFFFFFF, "Counts down to 0"},
     {"CONTROL", CONTROL, 0x00000000, vp::Access::read_write, 0x0000FF07,
-     "Enable, auto-reload, interrupt enable and prescaler"},
+     "Enable, auto-reload, interrupt enable and prescaler", control_fields},
     {"INTERRUPT_STATUS", INTERRUPT_STATUS, 0x00000000, vp::Access::write_1_to_clear, 0x00000001,
-     "Event flag: the counter reached 0"},
+     "Event flag: the counter reached 0", status_fields},
     {"WDT_LOAD", WDT_LOAD, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
      "Watchdog: start value; writing it sets the counter, too"},
     {"WDT_COUNTER", WDT_COUNTER, 0x00000000, vp::Access::read_write, 0xFFFFFFFF,
      "Watchdog: counts down to 0; read only in watchdog mode"},
     {"WDT_CONTROL", WDT_CONTROL, 0x00000000, vp::Access::read_write, 0x0000FF0F,
-     "Watchdog: enable, auto-reload, interrupt enable, mode and prescaler"},
+     "Watchdog: enable, auto-reload, interrupt enable, mode and prescaler", wdt_control_fields},
     {"WDT_INTERRUPT_STATUS", WDT_INTERRUPT_STATUS, 0x00000000, vp::Access::write_1_to_clear,
-     0x00000001, "Watchdog in timer mode: event flag"},
+     0x00000001, "Watchdog in timer mode: event flag", status_fields},
     {"WDT_RESET_STATUS", WDT_RESET_STATUS, 0x00000000, vp::Access::write_1_to_clear, 0x00000001,
-     "Watchdog in watchdog mode: it reached 0"},
+     "Watchdog in watchdog mode: it reached 0", reset_status_fields},
     {"WDT_DISABLE", WDT_DISABLE, 0x00000000, vp::Access::write_only, 0xFFFFFFFF,
      "Writing 0x12345678 and then 0x87654321 leaves watchdog mode"},
 };

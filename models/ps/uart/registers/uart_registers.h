@@ -112,28 +112,95 @@ constexpr std::uint32_t FCMS = 1u << 8;
 /// Least BAUD_DIV that divides; smaller values are not taken.
 constexpr std::uint32_t smallest_baud_div = 4;
 
+inline constexpr vp::RegisterField cr_fields[] = {
+    {"RXRES", cr::RXRES, vp::Access::write_only, "1 empties the receiver; clears itself"},
+    {"TXRES", cr::TXRES, vp::Access::write_only, "1 empties the transmitter; clears itself"},
+    {"RXEN", cr::RXEN, vp::Access::read_write, "receiver on, if RXDIS is 0"},
+    {"RXDIS", cr::RXDIS, vp::Access::read_write, "receiver off"},
+    {"TXEN", cr::TXEN, vp::Access::read_write, "transmitter on, if TXDIS is 0"},
+    {"TXDIS", cr::TXDIS, vp::Access::read_write, "transmitter off"},
+    {"TORST", cr::TORST, vp::Access::write_only,
+     "1 restarts the receiver's time-out; clears itself"},
+    {"STTBRK", cr::STTBRK, vp::Access::read_write, "starts a break: stored only"},
+    {"STPBRK", cr::STPBRK, vp::Access::read_write, "ends a break: stored only"},
+};
+inline constexpr vp::RegisterField mr_fields[] = {
+    {"CLKS", mr::CLKS, vp::Access::read_write, "1: reference clock divided by 8"},
+    {"CHRL", mr::CHRL, vp::Access::read_write, "data bits: 0 and 1 eight, 2 seven, 3 six"},
+    {"PAR", mr::PAR, vp::Access::read_write,
+     "parity: 0 even, 1 odd, 2 space, 3 mark, 4 and more none"},
+    {"NBSTOP", mr::NBSTOP, vp::Access::read_write, "stop bits: 0 one, 1 one and a half, 2 two"},
+    {"CHMODE", mr::CHMODE, vp::Access::read_write,
+     "0 normal, 1 echo, 2 local loopback, 3 remote loopback"},
+};
+#define UART_EVENT_FIELDS(access)                                                                \
+  {"RTRIG", event::RTRIG, access, "the receive FIFO filled to RXWM"},                            \
+      {"REMPTY", event::REMPTY, access, "the last byte was read from the receive FIFO"},         \
+      {"RFUL", event::RFUL, access, "the receive FIFO became full"},                             \
+      {"TEMPTY", event::TEMPTY, access, "the last byte left the transmit FIFO for the shifter"}, \
+      {"TFUL", event::TFUL, access, "the transmit FIFO became full"},                            \
+      {"ROVR", event::ROVR, access, "a byte came with the receive FIFO full, and is lost"},      \
+      {"FRAME", event::FRAME, access, "framing error: never on this line"},                      \
+      {"PARE", event::PARE, access, "parity error: never on this line"},                         \
+      {"TIMEOUT", event::TIMEOUT, access, "nothing came for the time of RXTOUT"},                \
+      {"DMSI", event::DMSI, access, "modem status changed: never, no modem lines here"},         \
+      {"TTRIG", event::TTRIG, access, "the transmit FIFO filled to TX_FIFO_LEVEL"},              \
+      {"TNFUL", event::TNFUL, access, "room for one byte only in the transmit FIFO"}, {          \
+    "TOVR", event::TOVR, access, "written with the transmit FIFO full: a byte is lost"           \
+  }
+inline constexpr vp::RegisterField set_event_fields[] = {UART_EVENT_FIELDS(vp::Access::write_only)};
+inline constexpr vp::RegisterField mask_event_fields[] = {UART_EVENT_FIELDS(vp::Access::read_only)};
+inline constexpr vp::RegisterField status_event_fields[] = {
+    UART_EVENT_FIELDS(vp::Access::write_1_to_clear)};
+#undef UART_EVENT_FIELDS
+inline constexpr vp::RegisterField modemcr_fields[] = {
+    {"DTR", modemcr::DTR, vp::Access::read_write, "stored only"},
+    {"RTS", modemcr::RTS, vp::Access::read_write, "stored only"},
+    {"FCM", modemcr::FCM, vp::Access::read_write, "automatic flow control: shown in MODEMSR"},
+};
+inline constexpr vp::RegisterField modemsr_fields[] = {
+    {"deltas", modemsr::deltas, vp::Access::write_1_to_clear, "changes of the modem lines"},
+    {"FCMS", modemsr::FCMS, vp::Access::read_only, "automatic flow control is on"},
+};
+inline constexpr vp::RegisterField sr_fields[] = {
+    {"RTRIG", sr::RTRIG, vp::Access::read_only, "receive FIFO at RXWM or above (RXWM not 0)"},
+    {"REMPTY", sr::REMPTY, vp::Access::read_only, "receive FIFO empty"},
+    {"RFUL", sr::RFUL, vp::Access::read_only, "receive FIFO full"},
+    {"TEMPTY", sr::TEMPTY, vp::Access::read_only, "transmit FIFO empty"},
+    {"TFUL", sr::TFUL, vp::Access::read_only, "transmit FIFO full"},
+    {"RACTIVE", sr::RACTIVE, vp::Access::read_only, "a byte is coming"},
+    {"TACTIVE", sr::TACTIVE, vp::Access::read_only, "a byte is going"},
+    {"FDELT", sr::FDELT, vp::Access::read_only, "receive FIFO at FLOW_DELAY or above (4 or more)"},
+    {"TTRIG", sr::TTRIG, vp::Access::read_only, "transmit FIFO at TX_FIFO_LEVEL or above (not 0)"},
+    {"TNFUL", sr::TNFUL, vp::Access::read_only, "room for one byte in the transmit FIFO"},
+};
+
 /// SR reads 0x0000000A at rest: it shows the FIFOs (both empty), its own bits reset to 0.
 inline constexpr vp::RegisterInfo registers[] = {
     {"CR", CR, 0x00000128, vp::Access::read_write, 0x000001FF,
-     "Control: enables and resets of receiver and transmitter, break"},
+     "Control: enables and resets of receiver and transmitter, break", cr_fields},
     {"MR", MR, 0x00000000, vp::Access::read_write, 0x000003FF,
-     "Mode: channel mode, data, parity and stop bits, clock"},
+     "Mode: channel mode, data, parity and stop bits, clock", mr_fields},
     {"IER", IER, 0x00000000, vp::Access::write_only, 0x00001FFF,
-     "Interrupt enable: writing 1 sets the bit in IMR"},
+     "Interrupt enable: writing 1 sets the bit in IMR", set_event_fields},
     {"IDR", IDR, 0x00000000, vp::Access::write_only, 0x00001FFF,
-     "Interrupt disable: writing 1 clears the bit in IMR"},
-    {"IMR", IMR, 0x00000000, vp::Access::read_only, 0x00000000, "Events that interrupt"},
+     "Interrupt disable: writing 1 clears the bit in IMR", set_event_fields},
+    {"IMR", IMR, 0x00000000, vp::Access::read_only, 0x00000000, "Events that interrupt",
+     mask_event_fields},
     {"ISR", ISR, 0x00000000, vp::Access::write_1_to_clear, 0x00001FFF,
-     "Events that happened, whatever IMR says"},
+     "Events that happened, whatever IMR says", status_event_fields},
     {"BAUDGEN", BAUDGEN, 0x0000028B, vp::Access::read_write, 0x0000FFFF,
      "Baud rate = reference clock / (BAUDGEN * (BAUD_DIV + 1)); 0 stops"},
     {"RXTOUT", RXTOUT, 0x00000000, vp::Access::read_write, 0x000000FF,
      "Receiver's time-out in units of 4 bits; 0: none"},
     {"RXWM", RXWM, 0x00000020, vp::Access::read_write, 0x0000003F,
      "Fill of the receive FIFO that triggers; 0: none"},
-    {"MODEMCR", MODEMCR, 0x00000000, vp::Access::read_write, 0x00000023, "Modem control"},
-    {"MODEMSR", MODEMSR, 0x00000000, vp::Access::write_1_to_clear, 0x0000000F, "Modem status"},
-    {"SR", SR, 0x00000000, vp::Access::read_only, 0x00000000, "Channel status: FIFOs and shifters"},
+    {"MODEMCR", MODEMCR, 0x00000000, vp::Access::read_write, 0x00000023, "Modem control",
+     modemcr_fields},
+    {"MODEMSR", MODEMSR, 0x00000000, vp::Access::write_1_to_clear, 0x0000000F, "Modem status",
+     modemsr_fields},
+    {"SR", SR, 0x00000000, vp::Access::read_only, 0x00000000, "Channel status: FIFOs and shifters",
+     sr_fields},
     {"FIFO", FIFO, 0x00000000, vp::Access::read_write, 0x000000FF,
      "Writing sends a byte, reading takes one"},
     {"BAUD_DIV", BAUD_DIV, 0x0000000F, vp::Access::read_write, 0x000000FF,

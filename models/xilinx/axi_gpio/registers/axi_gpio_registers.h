@@ -26,6 +26,21 @@ constexpr std::uint32_t Channel_1 = 1u << 0;
 constexpr std::uint32_t Channel_2 = 1u << 1;
 }  // namespace channel
 
+inline constexpr vp::RegisterField gier_fields[] = {
+    {"Global_Interrupt_Enable", gier::Global_Interrupt_Enable, vp::Access::read_write,
+     "1: ip2intc_irpt shows IP_ISR & IP_IER"},
+};
+inline constexpr vp::RegisterField ip_isr_fields[] = {
+    {"Channel_1", channel::Channel_1, vp::Access::write_1_to_toggle,
+     "a pin of channel 1 changed, whatever its direction; writing 1 inverts the bit"},
+    {"Channel_2", channel::Channel_2, vp::Access::write_1_to_toggle,
+     "a pin of channel 2 changed, whatever its direction; writing 1 inverts the bit"},
+};
+inline constexpr vp::RegisterField ip_ier_fields[] = {
+    {"Channel_1", channel::Channel_1, vp::Access::read_write, "1: channel 1 may interrupt"},
+    {"Channel_2", channel::Channel_2, vp::Access::read_write, "1: channel 2 may interrupt"},
+};
+
 /// Address bits that the slave decodes: the registers repeat every 512 bytes of its window.
 constexpr unsigned address_bits = 9;
 
@@ -41,12 +56,12 @@ inline constexpr vp::RegisterInfo registers[] = {
      "Channel 2 data: outputs as written, inputs as synchronised from the pins"},
     {"GPIO2_TRI", GPIO2_TRI, 0xFFFFFFFF, vp::Access::read_write, 0xFFFFFFFF,
      "Channel 2 direction of each bit: 0 output, 1 input"},
-    {"GIER", GIER, 0x00000000, vp::Access::read_write, 0x80000000,
-     "Global interrupt enable (bit 31)"},
+    {"GIER", GIER, 0x00000000, vp::Access::read_write, 0x80000000, "Global interrupt enable",
+     gier_fields},
     {"IP_ISR", IP_ISR, 0x00000000, vp::Access::write_1_to_toggle, 0x00000003,
-     "Interrupt status of channel 1 (bit 0) and 2 (bit 1): an input changed"},
+     "Interrupt status of both channels: an input changed", ip_isr_fields},
     {"IP_IER", IP_IER, 0x00000000, vp::Access::read_write, 0x00000003,
-     "Interrupt enable of channel 1 (bit 0) and 2 (bit 1)"},
+     "Interrupt enable of both channels", ip_ier_fields},
 };
 
 }  // namespace axi_gpio

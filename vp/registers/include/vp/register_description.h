@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace vp {
@@ -11,7 +12,28 @@ enum class Access : std::uint8_t {
   read_only,          ///< writes are acknowledged and ignored
   write_only,         ///< reads return 0
   write_1_to_clear,   ///< a 1 clears the bit (within `writable`), a 0 keeps it
+  write_1_to_set,     ///< a 1 sets the bit (within `writable`), a 0 keeps it
   write_1_to_toggle,  ///< a 1 inverts the bit (within `writable`), a 0 keeps it
+};
+
+/// Some bits of a register that belong together: how they answer software may differ from the rest.
+struct RegisterField {
+  const char* name;    ///< the datasheet's name
+  std::uint32_t mask;  ///< the bits
+  Access access;
+  const char* documentation;  ///< one line
+};
+
+/// The fields of a register, from the lowest bit on. None: the register is one field, or a bit for
+/// each of something. Bits that no field has read 0.
+struct RegisterFields {
+  constexpr RegisterFields() = default;
+  template <std::size_t N>
+  constexpr RegisterFields(const RegisterField (&table)[N]) : first(table), count(N) {}
+  constexpr const RegisterField* begin() const { return first; }
+  constexpr const RegisterField* end() const { return first + count; }
+  const RegisterField* first = nullptr;
+  std::size_t count = 0;
 };
 
 /// One register of a device, declared once: the model, the software's header and the documentation
@@ -23,6 +45,7 @@ struct RegisterInfo {
   Access access;
   std::uint32_t writable;     ///< bits that a write can change
   const char* documentation;  ///< one line
+  RegisterFields fields = {};
 };
 
 }  // namespace vp

@@ -1,0 +1,11 @@
+# find_package(markervp) of a program that is built for the chip: all that it gives is there already.
+foreach(_library hal registers drivers marker compat)
+  if(NOT TARGET markervp::${_library})
+    add_library(markervp::${_library} ALIAS markervp_${_library})
+  endif()
+endforeach()
+set(markervp_programs_FOUND TRUE)
+if("models" IN_LIST markervp_FIND_COMPONENTS)
+  set(markervp_FOUND FALSE)
+  set(markervp_NOT_FOUND_MESSAGE "the models are for the virtual platform; a program for the chip needs COMPONENTS programs")
+endif()
