@@ -33,6 +33,7 @@ RunOptions run_options(const ValidateOptions& options, const std::string& system
   run.system = system;
   run.output = (fs::path(options.output) / system).string();
   run.no_pictures = true;
+  run.no_report = true;
   run.quiet = true;
   return run;
 }
