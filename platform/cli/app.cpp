@@ -131,6 +131,13 @@ void add_trace_options(CLI::App& command, RunOptions& target) {
       ->type_name("N")
       ->needs(trigger)
       ->check(CLI::Range(std::size_t{1}, std::size_t{65536}).description(""));
+  command.add_option("--timeline", target.timeline, "write a timeline for ui.perfetto.dev")
+      ->type_name("FILE");
+  command
+      .add_option("--timeline-frames", target.timeline_frames,
+                  "record so many frames in timeline and report (default: 2)")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1'000'000}).description(""));
 }
 
 void add_debug_options(CLI::App& command, RunOptions& target) {

@@ -32,6 +32,8 @@ struct RunOptions {
   std::optional<std::string> trace_frame;
   unsigned trace_before = 0;
   std::size_t trace_buffer = 256;  ///< MiB
+  std::optional<std::string> timeline;
+  std::uint32_t timeline_frames = 2;
   std::optional<std::string> log_bus;
   std::vector<std::string> log_bus_filter;
   std::optional<std::string> register_coverage;

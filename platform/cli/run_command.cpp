@@ -85,6 +85,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   if (!options.log_bus_filter.empty() && !options.log_bus) {
     throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
   }
+  result.timeline_frames = options.timeline_frames;
   result.bus_log = options.log_bus;
   result.bus_log_filter = options.log_bus_filter;
   result.register_coverage = options.register_coverage;
@@ -211,7 +212,8 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner, b
   if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
-  for (const auto& file : {options.trace, options.log_bus, options.register_coverage}) {
+  for (const auto& file :
+       {options.trace, options.timeline, options.log_bus, options.register_coverage}) {
     if (file) text += ", " + *file;
   }
   return text + "\n";
@@ -246,13 +248,17 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
   if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
-  const SimulationOptions asked = simulation_options(options);
+  SimulationOptions asked = simulation_options(options);
+  const bool page = !options.no_report && !page::page_template().empty();
+  if (!page && !options.timeline) asked.timeline_frames = 0;
   const std::unique_ptr<Simulation> simulation = build(configuration, asked, make_simulation);
   const auto source =
       input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
   FrameRunner runner(*source);
   check_trace_folder(options);
   const bool made_folder = report::prepare_output_folder(options.output);
+  std::optional<report::AtomicFile> timeline_file;
+  if (options.timeline) timeline_file.emplace(*options.timeline);
   report::Provenance origin = provenance(options, arguments, configuration);
   Warner warner(err);
   warner.print(source->warnings());
@@ -261,7 +267,6 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   const InterruptGuard guard;
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
-  const bool page = !options.no_report && !page::page_template().empty();
   runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result,
                            page ? &extras : nullptr});
 
@@ -282,6 +287,12 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments,
   std::vector<std::string> warnings = warner.all();
   warnings.insert(warnings.end(), facts.warnings.begin(), facts.warnings.end());
   result.finish(facts, origin, warnings, incomplete(runner));
+  const report::Timeline timeline = simulation->timeline();
+  if (timeline_file) {
+    timeline_file->write(report::trace_event_json(timeline));
+    timeline_file->commit();
+  }
+  if (page && !timeline.empty()) extras.add_member("timeline", report::page_json(timeline));
   const bool has_page =
       page && page::write_report(options.output, extras.json(configuration.parameters()));
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)

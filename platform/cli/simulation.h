@@ -11,6 +11,7 @@
 #include <input/input_frame.h>
 #include <report/hardware_map.h>
 #include <report/result.h>
+#include <report/timeline.h>
 #include <vp/configuration.h>
 #include <vp/trace.h>
 
@@ -23,6 +24,7 @@ struct SimulationOptions {
   std::optional<vp::TraceOptions> trace;    ///< waveforms to record
   std::optional<std::string> bus_log;       ///< file of one line an access
   std::vector<std::string> bus_log_filter;  ///< devices, addresses, ranges FIRST:LAST; none: all
+  std::uint32_t timeline_frames = 0;        ///< to record a timeline of
   std::optional<std::string> register_coverage;  ///< file: which registers the program used
 };
 
@@ -44,6 +46,9 @@ class Simulation {
 
   /// Addresses, registers, interrupts and clocks, before it runs.
   virtual report::HardwareMap map() = 0;
+
+  /// Of the first frames, after it ran; empty if none was asked for.
+  virtual report::Timeline timeline() const { return {}; }
 
   /// Runs the PS program until `next` gives no more images. Neither function throws. `index` in a
   /// report counts the images given; it lacks `input`, `truth` and `camera`, which the caller

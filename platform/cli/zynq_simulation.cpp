@@ -73,7 +73,8 @@ class Coverage {
 class ZynqSimulation : public Simulation {
  public:
   explicit ZynqSimulation(const SimulationOptions& options)
-      : session_({program_file(options.program), options.trace}), options_(options) {
+      : session_({program_file(options.program), options.trace, options.timeline_frames}),
+        options_(options) {
     ProcessingSystem& ps = session_.zynq().ps;
     const auto print = [](const std::string& line) { std::cout << line << std::endl; };
     ps.cpu.console.connect(print);
@@ -84,6 +85,7 @@ class ZynqSimulation : public Simulation {
   input::ImageSize image_size() const override { return session_.image_size(); }
   report::RunFacts facts() const override { return session_.facts(); }
   report::HardwareMap map() override { return hardware_map(session_.zynq()); }
+  report::Timeline timeline() const override { return session_.timeline(); }
   void run(const NextFrame& next, const FrameDone& done) override {
     const ConsoleFlush flush{session_.zynq().ps};
     const Debugged debugged(session_.zynq());

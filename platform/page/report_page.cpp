@@ -1,15 +1,11 @@
 #include <page/report_page.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include <page/json_file.h>
 #include <page/page_file.h>
-#include <report/result_json.h>
+#include <page/sweep_block.h>
 #include <vp/error.h>
 
 namespace platform::page {
@@ -18,32 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using report::Json;
+constexpr auto replace = Json::error_handler_t::replace;
 
 /// Of a longer run the page shows the first frames; the others stand in result.json.
 constexpr std::size_t most_frames = 2000;
 /// A result.json up to this size is put into the page as it is.
 constexpr std::size_t small_file = 4'000'000;  // bytes
 
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw vp::InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
-  }
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-Json parse(const std::string& text, const fs::path& path) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw vp::InputError("'" + path.string() + "' is not whole JSON: " + error.what());
-  }
-}
-
 /// Without the frames for which the page has no room.
 std::string shortened(const std::string& text, const fs::path& path) {
   if (text.size() <= small_file) return text;
-  Json json = parse(text, path);
+  Json json = parse_json(text, path);
   const auto frames = json.find("frames");
   if (frames != json.end() && frames->size() > most_frames) {
     frames->erase(frames->begin() + most_frames, frames->end());
@@ -63,26 +44,11 @@ void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::stri
   const fs::path path = folder / "result.json";
   const std::string text = read_file(path);
   if (extras.empty()) {
-    parse(text, path);
+    parse_json(text, path);
     extras = extras_of_page(folder);
   }
   blocks.push_back({"result" + suffix, shortened(text, path)});
   if (!extras.empty()) blocks.push_back({"extras" + suffix, std::move(extras)});
-}
-
-/// All points in the order of their names: one array.
-std::string points_json(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  std::string text = "[";
-  for (const fs::path& file : files) {
-    if (text.size() > 1) text += ",\n";
-    text += parse(read_file(file), file).dump();
-  }
-  return text + "]";
 }
 
 }  // namespace
@@ -93,9 +59,13 @@ bool write_report(const std::string& folder, const std::string& extras) {
   std::vector<Block> blocks;
   if (fs::exists(root / "validation.json", ignored)) {
     const fs::path path = root / "validation.json";
-    blocks.push_back({"validation", parse(read_file(path), path).dump()});
+    blocks.push_back({"validation", parse_json(read_file(path), path).dump()});
+    const fs::path frames = root / "frames.csv";
+    if (fs::exists(frames, ignored)) {
+      blocks.push_back({"frames", Json(read_file(frames)).dump(-1, ' ', false, replace)});
+    }
   } else if (fs::is_directory(root / "points", ignored)) {
-    blocks.push_back({"points", points_json(root / "points")});
+    blocks.push_back({"sweep", sweep_json(folder)});
   } else if (fs::exists(root / "result.json", ignored)) {
     add_run(blocks, root, "", extras);
   } else {

@@ -55,6 +55,7 @@ struct Features {
 struct StageTime {
   std::string name;
   std::uint64_t ps = 0;
+  std::uint64_t start_ps = 0;  ///< when it began; not part of result.json
 };
 
 /// One image and what came of it.

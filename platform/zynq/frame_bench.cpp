@@ -130,23 +130,29 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
     return zynq_.ps.cpu_clk.clk.duration_ps(2.0 * static_cast<double>(stage.end - stage.start));
   };
   const marker::StageTimes& t = result.times;
-  report.times = {{"upload", duration(t.upload)},
-                  {"feature_extraction", duration(t.feature_extraction)},
-                  {"receive", duration(t.receive)},
-                  {"evaluation", duration(t.evaluation)},
-                  {"identification", duration(t.identification)},
-                  {"pose", duration(t.pose)},
-                  {"frame", duration(t.frame)}};
+  const std::uint64_t start_ps = now_ps - duration(t.frame);
+  auto stage = [&](const char* name, const marker::StageTime& time) -> report::StageTime {
+    // The upload begins before the frame.
+    const bool before = time.start < t.frame.start;
+    const std::uint64_t away =
+        before ? duration({time.start, t.frame.start}) : duration({t.frame.start, time.start});
+    return {name, duration(time), before ? start_ps - std::min(start_ps, away) : start_ps + away};
+  };
+  report.times = {stage("upload", t.upload),
+                  stage("feature_extraction", t.feature_extraction),
+                  stage("receive", t.receive),
+                  stage("evaluation", t.evaluation),
+                  stage("identification", t.identification),
+                  stage("pose", t.pose),
+                  stage("frame", t.frame)};
   if (t.capture.end != 0) {
     const std::vector<report::StageTime> parts = {
-        {"capture", duration(t.capture)},
-        {"corner_detection", duration(t.corner_detection)},
-        {"threshold", duration(t.threshold)},
-        {"blob_detection", duration(t.blob_detection)}};
+        stage("capture", t.capture), stage("corner_detection", t.corner_detection),
+        stage("threshold", t.threshold), stage("blob_detection", t.blob_detection)};
     report.times.insert(report.times.begin() + 1, parts.begin(), parts.end());
   }
   report.end_ps = now_ps;
-  report.start_ps = now_ps - duration(t.frame);
+  report.start_ps = start_ps;
   report.upload_ps = duration(t.upload);
   report.features = features_of(result);
   return report;

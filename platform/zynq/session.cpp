@@ -3,6 +3,7 @@
 #include <vp/error.h>
 #include <zynq/bus_trace.h>
 #include <exception>
+#include <numeric>
 #include <utility>
 
 namespace platform {
@@ -28,6 +29,8 @@ Session::Session(const Options& options) : program_(ps::Program::load(options.pr
   power_ = std::make_unique<ZynqPower>("power", *zynq_,
                                        std::string(program_->name()) != program_without_pl);
   timing_ = std::make_unique<TimingClosure>("timing", power_->design());
+  recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options.timeline_frames);
+  power_->record_timeline(recorder_->records());
   trace_ = options.trace;
   if (trace_) power_->follow();
   zynq_->ps.cpu.load(*program_, costs_->costs);
@@ -54,6 +57,17 @@ report::RunFacts Session::facts() const {
   return facts;
 }
 
+report::Timeline Session::timeline() const {
+  report::Timeline timeline = recorder_->timeline();
+  report::Timeline::Counter power{"Power", "W", 0, {}};
+  for (const PowerTimeline::Point& point : power_->timeline().points) {
+    power.points.push_back(
+        {point.ps, std::accumulate(point.watts.begin(), point.watts.end(), 0.0)});
+  }
+  if (!power.points.empty()) timeline.counters.push_back(std::move(power));
+  return timeline;
+}
+
 void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
       [this, next = std::move(next)] {
@@ -62,6 +76,8 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
       },
       [this, done = std::move(done)](report::FrameReport&& frame) {
         power_->frame_ends(frame);
+        recorder_->frame_done(frame);
+        if (!recorder_->records()) power_->record_timeline(false);
         return done(std::move(frame));
       });
   // Not earlier: it opens its file, and the user may have got something else wrong.

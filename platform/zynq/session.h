@@ -16,6 +16,7 @@
 #include <zynq/frame_bench.h>
 #include <zynq/software_options.h>
 #include <zynq/timing_closure.h>
+#include <zynq/timeline_recorder.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>
 
@@ -28,6 +29,7 @@ class Session {
   struct Options {
     std::string program;                    ///< file of the PS program
     std::optional<vp::TraceOptions> trace;  ///< waveforms to record
+    std::uint32_t timeline_frames = 0;      ///< of so many frames
   };
 
   /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws
@@ -48,6 +50,9 @@ class Session {
   /// vp::InputError if the trace cannot be written; the reports until then were handed over.
   void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
+  /// Of the first frames, as many as asked for.
+  report::Timeline timeline() const;
+
   Zynq& zynq() { return *zynq_; }
   /// Energy of the run so far. Ask for its timeline before the run.
   ZynqPower& power() { return *power_; }
@@ -63,6 +68,7 @@ class Session {
   std::unique_ptr<FrameBench> bench_;
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
+  std::unique_ptr<TimelineRecorder> recorder_;
   std::optional<vp::TraceOptions> trace_;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };

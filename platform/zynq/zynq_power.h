@@ -43,8 +43,8 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
   /// Keeps the signals above up to date. Default: they show the start.
   void follow() { follows_ = true; }
-  /// Keeps the power over time, which grows with the run.
-  void record_timeline() { records_ = true; }
+  /// Keeps the power over time from here on, which grows with the run; or stops.
+  void record_timeline(bool record = true) { records_ = record; }
   const PowerTimeline& timeline() const { return timeline_; }
 
   /// The program takes an image: events from here on are its frame's.

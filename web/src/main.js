@@ -1,7 +1,10 @@
 // Looks which data there are, and shows their page.
 import { h, s } from "./kit/dom.js";
 import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
+import { comparePage } from "./compare/page.js";
 import { runPage } from "./run/page.js";
+import { sweepPage } from "./sweep/page.js";
+import { validationPage } from "./validation/page.js";
 
 function block(id) {
   const element = document.getElementById(id);
@@ -29,11 +32,17 @@ function frame({ title, subtitle, sections }) {
       h("nav", { "aria-label": "Sections" }, h("ul", {}, links.map(([id, name]) => h("li", {}, h("a", { href: "#" + id }, name))))),
       h("div", { class: "tools" }, themeButton(), h("button", { type: "button", onclick: () => window.print() }, "Print")))),
     h("main", {}, h("div", { class: "masthead" }, h("h1", {}, title), h("p", {}, subtitle)), shown),
-    h("footer", {}, "Made by markervp. This page is one file and loads nothing. Charts: Apache ECharts, µPlot, WaveDrom."));
+    h("footer", {}, "Made by markervp. This page is one file and loads nothing. Charts: Apache ECharts, µPlot."));
 }
 
 function show() {
   const result = block("result");
+  const sweep = block("sweep");
+  if (sweep) return frame(sweepPage(sweep));
+  const validation = block("validation");
+  if (validation) return frame(validationPage(validation, block("frames")));
+  const folders = block("comparison");
+  if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
   if (result) return frame(runPage(result, block("extras")));
   return frame({ title: "Nothing to show", subtitle: "This page was made without data.", sections: [] });
 }

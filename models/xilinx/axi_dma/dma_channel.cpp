@@ -93,6 +93,7 @@ void DmaChannel::length_written(std::uint32_t word) {
     accepted_at_ = now();
     sampled_address_ = address;
     dmasr.clear_bits(dmasr::Idle);
+    if (transfer_listener_) transfer_listener_(true);
     core_.plan_edge(std::max(accepted_at_ + 1, starts_at()));
   }
 }
@@ -153,6 +154,7 @@ std::uint64_t DmaChannel::shows_at() const {
 
 void DmaChannel::report_status(std::uint64_t cycle) {
   finish_at_ = never;
+  if (transfer_listener_) transfer_listener_(false);
   if (error_ != 0) {
     warn_of_bus_error();
     dmasr.set_bits(error_);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <axi_dma_registers.h>
 #include <vp/clock.h>
@@ -54,6 +56,11 @@ class DmaChannel {
 
   /// Bits of LENGTH, and whether the address may be unaligned (data realignment engine).
   void configure(std::uint32_t length_width, bool unaligned);
+
+  /// Told when a transfer is accepted (true) and when its end shows in the status register (false),
+  /// at these very times. Null: nobody is.
+  using TransferListener = std::function<void(bool begins)>;
+  void on_transfer(TransferListener listener) { transfer_listener_ = std::move(listener); }
 
   /// One clock edge. Returns the next one that the channel needs (signals may wake it earlier).
   std::uint64_t edge(std::uint64_t cycle);
@@ -124,6 +131,7 @@ class DmaChannel {
   bool running() const { return dmacr.any(axi_dma::dmacr::RS); }
 
   std::string name_;
+  TransferListener transfer_listener_;
   bool unaligned_ = false;
   Phase phase_ = Phase::idle;
   std::uint32_t requested_bytes_ = 0;

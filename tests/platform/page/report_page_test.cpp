@@ -104,10 +104,42 @@ BOOST_AUTO_TEST_CASE(a_damaged_result_is_refused) {
              boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
+  const kit::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "points");
+  kit::write_file(folder / "manifest.json", R"({"title":"clocks","swept":["a.b"],"points":[
+    {"key":"p","swept":{"a.b":"50 MHz"}},{"key":"q","swept":{"a.b":"60 MHz"}},
+    {"key":"r","swept":{"a.b":"0 Hz"}},{"key":"not_yet","swept":{"a.b":"70 MHz"}}]})");
+  kit::write_file(folder / "points/p.json", R"({"outcome":{"status":"done","result":{
+    "summary":{"fps":{"mean":140.5}},"frames":[{"markers":[{"error":{"corner_px":1}}]},
+    {"markers":[{"error":{"corner_px":2}},{}]}]}}})");
+  kit::write_file(folder / "points/q.json", R"({"outcome":{"status":"done","result":{
+    "timing":{"modules":[{"name":"pl.blob_detection","met":false},{"name":"x","met":true}]},
+    "resources":{"over":["lut"]}}}})");
+  kit::write_file(folder / "points/r.json",
+                  R"({"outcome":{"status":"failed","failure":{"message":"it stood"}}})");
+  if (!page::write_report(folder.path())) return;  // built without it
+  const Json sweep = Json::parse(page::block_of(read(folder / "report.html"), "sweep"));
+  BOOST_TEST(sweep["title"] == "clocks");
+  BOOST_TEST(sweep["missing"] == 1);
+  BOOST_REQUIRE(sweep["points"].size() == 3u);
+  const Json& first = sweep["points"][0];
+  BOOST_TEST(first["swept"] == Json::parse(R"(["50 MHz"])"));
+  BOOST_TEST(first["metrics"].size() == sweep["metrics"].size());
+  BOOST_TEST(first["metrics"][0] == 140.5);
+  BOOST_TEST(first["metrics"][11] == 1.5);
+  BOOST_TEST(first["metrics"][2].is_null(), "no zero for what is not known");
+  BOOST_TEST(first["reasons"].empty());
+  BOOST_TEST(sweep["points"][1]["reasons"] ==
+             Json::parse(R"(["misses timing: pl.blob_detection","too large: lut"])"));
+  BOOST_TEST(sweep["points"][2]["reasons"] == Json::parse(R"(["failed: it stood"])"));
+}
+
 BOOST_AUTO_TEST_CASE(a_damaged_point_of_a_sweep_is_refused) {
   const kit::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "points");
-  kit::write_file(folder / "points/a.json", "{}");
+  kit::write_file(folder / "manifest.json",
+                  R"({"swept":["a"],"points":[{"key":"b","swept":{"a":"1 MHz"}}]})");
   kit::write_file(folder / "points/b.json", "");
   BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
                         [](const auto& e) { return names(e, "b.json"); });

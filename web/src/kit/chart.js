@@ -78,10 +78,16 @@ export function chart({ name, title, summary, note, height = 280, option, table,
   };
   charts.push(entry);
 
+  // All at once: what is drawn bit by bit would not be there yet.
+  const whole = () => {
+    const complete = { ...full(), backgroundColor: palette().page };
+    for (const series of [complete.series ?? []].flat()) series.progressive = 0;
+    return complete;
+  };
   const size = () => ({ width: target.clientWidth || 900, height });
   const saveSvg = () => {
     const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
-    copy.setOption({ ...full(), backgroundColor: palette().page });
+    copy.setOption(whole());
     download(name + ".svg", copy.renderToSVGString(), "image/svg+xml");
     copy.dispose();
   };
@@ -90,7 +96,7 @@ export function chart({ name, title, summary, note, height = 280, option, table,
     const holder = document.createElement("div");
     Object.assign(holder.style, { width: area.width + "px", height: area.height + "px" });
     const copy = echarts.init(holder, null, { renderer: "canvas", devicePixelRatio: 2, ...area });
-    copy.setOption({ ...full(), backgroundColor: palette().page });
+    copy.setOption(whole());
     download(name + ".png", copy.getDataURL({ type: "png", pixelRatio: 2, backgroundColor: palette().page }), "image/png");
     copy.dispose();
   };

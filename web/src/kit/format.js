@@ -16,6 +16,9 @@ export function significant(value, digits = 3) {
   return fixed(value, Math.min(places, 9));
 }
 
+/** The same, but whole numbers stay whole. */
+export const tidy = (value, digits = 4) => (Number.isInteger(value) ? fixed(value, 0) : significant(value, digits));
+
 export function signed(value, places) {
   return (value > 0 ? "+" : "") + fixed(value, places);
 }

@@ -76,5 +76,5 @@ export function dataTable({ columns, rows, caption, name = "table", onrow, sorta
   return h("div", { class: "table-block" },
     exportable && h("div", { class: "tools right" },
       h("button", { type: "button", "aria-label": `${caption ?? name} as CSV`, onclick: () => download(name + ".csv", csvOf({ columns, rows: order }), "text/csv") }, "CSV")),
-    h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": caption ?? name }, table), more);
+    h("div", { class: "table-scroll", tabindex: "0", role: "group", "aria-label": caption ?? name }, table), more);
 }

@@ -140,8 +140,8 @@ export function gantt(run) {
     surface.on("globalout", () => { held = null; });
   }
   const controls = h("div", { class: "tools", role: "group", "aria-label": "Part of the timeline" },
-    frames.map((frame) => button(`Frame ${frame.index + 1}`, `Show frame ${frame.index + 1}`, () => look(around(frame)))),
-    button("All", "Show everything", () => look(whole)), button("−", "Zoom out", () => zoom(2)), button("+", "Zoom in", () => zoom(0.5)),
+    frames.map((frame) => button(`Frame ${frame.index + 1}`, `Frame ${frame.index + 1} in the timeline`, () => look(around(frame)))),
+    button("All", "All, show everything", () => look(whole)), button("−", "Zoom out", () => zoom(2)), button("+", "Zoom in", () => zoom(0.5)),
     button("‹", "Earlier", () => pan(-0.4)), button("›", "Later", () => pan(0.4)));
   figure.querySelector("figcaption").after(controls);
   return figure;

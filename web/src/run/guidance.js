@@ -4,11 +4,13 @@ import { counted, fixed, percent, significant, words } from "../kit/format.js";
 import { value } from "../published.js";
 import { partsOf } from "./facts.js";
 
+const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
 const pixelClock = "ps.fclk_clk1.frequency";
 
 function limitingModule(run) {
   const modules = (run.result.timing?.modules ?? []).filter((m) => m.fmax_mhz > 0);
-  if (modules.length > 0) return modules.reduce((worst, m) => (m.margin_percent < worst.margin_percent ? m : worst));
+  const known = modules.filter((m) => !m.lower_bound || m.met === false);
+  if (known.length > 0) return known.reduce((worst, m) => (m.margin_percent < worst.margin_percent ? m : worst));
   const clock = run.megahertz(pixelClock);
   const fmax = value("fmax.blob");
   if (!run.hybrid || !clock || !fmax) return null;
@@ -21,15 +23,15 @@ function timing(run, say) {
   const fmax = significant(module.fmax_mhz, 3);
   const now = significant(module.frequency_mhz, 3);
   if (!module.met) {
-    say("bad", `${words(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
+    say("bad", `${plain(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
     return;
   }
   const stream = run.stageMean("feature_extraction");
   const frame = run.stageMean("frame");
   const gain = stream * (1 - module.frequency_mhz / module.fmax_mhz);
-  const more = Number.isFinite(gain) && module.clock?.includes("pix") !== false && run.hybrid && gain > 0
+  const more = Number.isFinite(gain) && run.hybrid && gain > 0
     ? ` At ${fmax} MHz a frame would take about ${significant((frame - gain) / 1e3, 3)} ms: ${fixed(1e6 / (frame - gain), 0)} frames/s (derived).` : "";
-  say("info", `${words(module.name)}'s Fmax of ${fmax} MHz limits the ${words(module.clock ?? "pixel")} clock, now ${now} MHz.${more}`);
+  say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits the pixel clock, now ${now} MHz.${more}`);
 }
 
 function stages(run, say) {
@@ -75,7 +77,7 @@ function budgets(run, say) {
   }
   const modules = (power?.modules ?? []).filter((m) => m.w > 0).sort((a, b) => b.w - a.w);
   const total = run.summary.power_w?.total;
-  if (modules.length > 0 && total > 0) say("info", `${words(modules[0].name)} draws most: ${significant(modules[0].w, 3)} of ${significant(total, 3)} W.`);
+  if (modules.length > 0 && total > 0) say("info", `${plain(modules[0].name)} draws most: ${significant(modules[0].w, 3)} of ${significant(total, 3)} W.`);
 }
 
 export function guidanceOf(run) {

@@ -1,0 +1,115 @@
+#include <page/sweep_block.h>
+
+#include <array>
+#include <filesystem>
+
+#include <page/json_file.h>
+#include <vp/error.h>
+
+namespace platform::page {
+
+namespace {
+
+namespace fs = std::filesystem;
+using report::Json;
+
+/// Figures of every point, as paths into its result.
+constexpr std::array figures{"/summary/fps/mean",      "/summary/latency_us/mean",
+                             "/summary/power_w/total", "/summary/energy_per_frame_mj",
+                             "/power/junction_c",      "/summary/detected",
+                             "/summary/frames",        "/resources/total/lut",
+                             "/resources/total/ff",    "/resources/total/bram36",
+                             "/resources/total/dsp"};
+/// Mean over the markers whose truth is known.
+constexpr std::array errors{"corner_px", "translation_mm", "rotation_deg"};
+
+Json number_at(const Json& json, const char* path) {
+  const Json::json_pointer pointer(path);
+  return json.contains(pointer) && json.at(pointer).is_number() ? json.at(pointer) : Json();
+}
+
+Json mean_error(const Json& result, const char* name) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const Json& frame : result.value("frames", Json::array())) {
+    for (const Json& marker : frame.value("markers", Json::array())) {
+      const Json value = number_at(marker, (std::string("/error/") + name).c_str());
+      if (value.is_null()) continue;
+      sum += value.get<double>();
+      ++count;
+    }
+  }
+  return count == 0 ? Json() : Json(sum / static_cast<double>(count));
+}
+
+/// Why the point cannot be built, or what went wrong.
+Json reasons_of(const Json& outcome) {
+  Json reasons = Json::array();
+  if (outcome.value("status", "") == "failed") {
+    reasons.push_back("failed: " + outcome.value(Json::json_pointer("/failure/message"), ""));
+    return reasons;
+  }
+  const Json result = outcome.value("result", Json::object());
+  for (const Json& module : result.value(Json::json_pointer("/timing/modules"), Json::array())) {
+    if (!module.value("met", true)) reasons.push_back("misses timing: " + module.value("name", ""));
+  }
+  for (const Json& kind : result.value(Json::json_pointer("/resources/over"), Json::array())) {
+    reasons.push_back("too large: " + (kind.is_string() ? kind.get<std::string>() : kind.dump()));
+  }
+  return reasons;
+}
+
+Json point_json(const Json& planned, const Json& swept, const Json& record) {
+  Json point;
+  point["key"] = planned.at("key");
+  point["swept"] = Json::array();
+  for (const Json& path : swept) {
+    point["swept"].push_back(planned.at("swept").value(path.get<std::string>(), Json()));
+  }
+  const Json outcome = record.value("outcome", Json::object());
+  const Json result = outcome.value("result", Json::object());
+  point["metrics"] = Json::array();
+  for (const char* figure : figures) point["metrics"].push_back(number_at(result, figure));
+  for (const char* error : errors) point["metrics"].push_back(mean_error(result, error));
+  point["reasons"] = reasons_of(outcome);
+  return point;
+}
+
+Json block_of_manifest(const Json& manifest, const fs::path& folder) {
+  Json json;
+  for (const char* key : {"name", "title", "text", "swept", "effects"}) {
+    if (manifest.contains(key)) json[key] = manifest[key];
+  }
+  json["folder"] = folder.string();
+  json["metrics"] = Json::array();
+  for (const char* figure : figures) json["metrics"].push_back(std::string(figure).substr(1));
+  for (const char* error : errors) json["metrics"].push_back(std::string("error/") + error);
+  json["points"] = Json::array();
+  std::size_t missing = 0;
+  for (const Json& planned : manifest.at("points")) {
+    const fs::path file = folder / "points" / (planned.at("key").get<std::string>() + ".json");
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) {
+      ++missing;
+      continue;
+    }
+    json["points"].push_back(
+        point_json(planned, manifest.at("swept"), parse_json(read_file(file), file)));
+  }
+  json["missing"] = missing;
+  return json;
+}
+
+}  // namespace
+
+std::string sweep_json(const std::string& folder) {
+  const fs::path path = fs::path(folder) / "manifest.json";
+  const Json manifest = parse_json(read_file(path), path);
+  try {
+    return block_of_manifest(manifest, folder).dump(-1, ' ', false, Json::error_handler_t::replace);
+  } catch (const Json::exception& error) {
+    throw vp::InputError("'" + folder + "' is not the folder of a sweep: " + error.what());
+  }
+}
+
+}  // namespace platform::page

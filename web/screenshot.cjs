@@ -1,0 +1,15 @@
+// Takes the picture of a report for the documentation:
+//   NODE_PATH=build/release/web/node_modules node web/screenshot.cjs out/report.html docs/images/report.png
+"use strict";
+const path = require("node:path");
+const { chromium } = require("playwright-core");
+
+(async () => {
+  const [, , page, picture, scheme = "light"] = process.argv;
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+  const view = await browser.newPage({ viewport: { width: 1280, height: 1180 }, deviceScaleFactor: 1.25, colorScheme: scheme });
+  await view.goto("file://" + path.resolve(page));
+  await view.waitForTimeout(300);
+  await view.screenshot({ path: picture });
+  await browser.close();
+})();

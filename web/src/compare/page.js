@@ -1,0 +1,95 @@
+// Two runs beside each other.
+import { axis, chart } from "../kit/chart.js";
+import { h } from "../kit/dom.js";
+import { fixed, significant, signed, tidy, time, words } from "../kit/format.js";
+import { dataTable } from "../kit/table.js";
+import { palette, seriesColour, stageColour } from "../kit/theme.js";
+import { makeRun, partsOf } from "../run/facts.js";
+import { gantt } from "../run/gantt.js";
+
+function figures(a, b) {
+  const pick = (title, unit, of, better) => ({ title, unit, a: of(a), b: of(b), better });
+  const counts = (key) => (run) => run.frames.reduce((sum, f) => sum + (f.counts?.[key] ?? 0), 0) / run.frames.length;
+  const stages = [...new Set([...a.stages, ...b.stages])];
+  return [
+    pick("Frame rate", "frames/s", (r) => r.summary.fps?.mean, 1), pick("Latency", "ms", (r) => r.summary.latency_us?.mean / 1e3, -1),
+    pick("Power", "W", (r) => r.summary.power_w?.total, -1), pick("Energy per frame", "mJ", (r) => r.summary.energy_per_frame_mj, -1), pick("Junction", "°C", (r) => r.result.power?.junction_c, -1),
+    pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1), pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1),
+    ...stages.map((name) => pick(`Stage: ${words(name)}`, "µs", (r) => r.stageMean(name), -1)),
+    ...["lut", "ff", "bram36", "dsp"].map((kind) => pick(kind.toUpperCase(), "", (r) => r.result.resources?.total?.[kind], -1)),
+    pick("Corners a frame", "", counts("corners"), 0), pick("Candidates a frame", "", counts("candidates"), 0),
+  ].filter((row) => Number.isFinite(row.a) || Number.isFinite(row.b));
+}
+
+function deltaTable(rows, names) {
+  const share = (r) => (Number.isFinite(r.a) && Number.isFinite(r.b) && r.a !== 0 ? 100 * (r.b / r.a - 1) : undefined);
+  const mood = (r) => { const d = share(r) * r.better; return !Number.isFinite(d) || Math.abs(d) < 0.005 ? "" : d > 0 ? "good" : "bad"; };
+  const number = (v) => (Number.isFinite(v) ? tidy(v, 5) : "–");
+  return dataTable({ caption: "Figures of both runs", name: "comparison", exportable: true, rows, columns: [
+    { title: "Figure", head: true, value: (r) => r.title }, { title: "Unit", value: (r) => r.unit }, { title: names[0], number: true, value: (r) => r.a, show: number }, { title: names[1], number: true, value: (r) => r.b, show: number },
+    { title: "Change", unit: "%", csv: "Change percent", number: true, value: share, node: (r) => (share(r) === undefined ? "" : h("span", { class: "tag " + mood(r) }, `${signed(share(r), 2)} %`)) }] });
+}
+
+function stageBars(runs, names) {
+  const stages = [...new Set(runs.flatMap(partsOf))];
+  return chart({
+    name: "stages", title: "Stages of a frame, ms", height: 170, summary: runs.map((run, i) => `${names[i]}: ${time(run.stageMean("frame"))}`).join(", "),
+    option: () => ({
+      legend: { top: 0, left: 0, icon: "roundRect", itemWidth: 10, itemHeight: 10, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true },
+      xAxis: axis({ type: "value" }), yAxis: axis({ type: "category", data: names.slice().reverse(), splitLine: { show: false }, axisLabel: { width: 180, overflow: "truncate" } }),
+      tooltip: { show: true, formatter: (p) => `${p.seriesName}\n${time(p.value * 1e3)}` },
+      series: stages.map((name, i) => ({ name: words(name), type: "bar", stack: "all", barMaxWidth: 22, itemStyle: { color: stageColour(name, i) }, data: runs.slice().reverse().map((run) => (run.stageMean(name) || 0) / 1e3) })),
+    }),
+    table: () => ({ caption: "Stages", rows: stages, columns: [{ title: "Stage", value: (s) => s, show: words }, ...runs.map((run, i) => ({ title: names[i], unit: "µs", number: true, value: (s) => run.stageMean(s), show: (v) => fixed(v, 1) }))] }),
+  });
+}
+
+function latencies(runs, names) {
+  if (Math.max(...runs.map((run) => run.frames.length)) < 2) return null;
+  return chart({
+    name: "latency", title: "Latency of each frame, ms", height: 240, canvas: true, summary: runs.map((run, i) => `${names[i]}: mean ${time(run.latency.mean)}`).join(", "),
+    option: () => ({
+      legend: { top: 0, left: 0, icon: "circle", itemWidth: 8, itemHeight: 8, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true }, xAxis: axis({ type: "value", min: 1 }), yAxis: axis({ type: "value", scale: true }),
+      tooltip: { show: true, trigger: "axis", valueFormatter: (v) => significant(v, 4) },
+      series: runs.map((run, i) => ({ name: names[i], type: "line", symbolSize: 5, showSymbol: run.frames.length < 60, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) }, data: run.frames.map((f) => [f.index + 1, f.time_us.frame / 1e3]) })),
+    }),
+  });
+}
+
+/** Both timelines on one axis that begins with the first frame: every track twice. */
+function overlaid(runs, names) {
+  const timelines = runs.map((run) => run.extras.timeline);
+  if (!timelines.every((timeline) => timeline?.frames?.length)) return null;
+  const all = { names: [], tracks: [], counters: [], frames: [] };
+  timelines.forEach((timeline, which) => {
+    const zero = timeline.frames[0].start;
+    const offset = all.names.length;
+    all.names.push(...timeline.names);
+    timeline.tracks.forEach((track, i) => {
+      const spans = track.spans.filter((span) => span[0] + span[1] > zero).map(([start, length, name, hot]) => [Math.max(0, start - zero), Math.min(length, start + length - zero), name + offset, hot]);
+      all.tracks.push({ ...track, order: i * 2 + which, name: `${track.name} ${which ? "B" : "A"}`, spans });
+    });
+    if (all.frames.length === 0 || timeline.frames[0].end - zero > all.frames[0].end) all.frames = [{ index: timeline.frames[0].index, start: 0, end: timeline.frames[0].end - zero }];
+  });
+  all.tracks.sort((p, q) => p.order - q.order);
+  return gantt({ extras: { timeline: all } });
+}
+
+export function comparePage(first, firstExtras, second, secondExtras, folders) {
+  const runs = [makeRun(first, firstExtras), makeRun(second, secondExtras)];
+  const short = folders.map((folder) => folder.replace(/\/$/, "").split("/").at(-1) || folder);
+  const names = short[0] === short[1] ? folders : short;
+  const labels = names.map((name, i) => `${"AB"[i]}  ${name}`);
+  const changed = [...new Set([...Object.keys(first.configuration ?? {}), ...Object.keys(second.configuration ?? {})])].filter((path) => first.configuration?.[path] !== second.configuration?.[path])
+    .map((path) => ({ path, a: first.configuration?.[path], b: second.configuration?.[path] }));
+  for (const key of ["system", "fidelity", "profile", "design"]) if (first[key] !== second[key] && !changed.some((c) => c.path === key)) changed.push({ path: key, a: first[key], b: second[key] });
+  const section = (id, title, ...content) => h("section", { id, "aria-labelledby": `${id}-title` }, h("h2", { id: `${id}-title` }, title), h("div", { class: "stack" }, content));
+  return {
+    title: `${names[0]} and ${names[1]}`, subtitle: `Two runs compared  ·  A is ${folders[0]}, B is ${folders[1]}`,
+    sections: [
+      section("configuration", "What differs", changed.length ? dataTable({ caption: "Parameters that differ", name: "changed", rows: changed, columns: [{ title: "Parameter", head: true, value: (r) => r.path }, { title: labels[0], value: (r) => r.a }, { title: labels[1], value: (r) => r.b }] }) : h("p", { class: "note" }, "The configurations are equal.")),
+      section("figures", "Figures", deltaTable(figures(...runs), labels)),
+      section("time", "Time", stageBars(runs, labels), latencies(runs, labels), overlaid(runs, labels)),
+    ],
+  };
+}

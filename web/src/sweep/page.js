@@ -1,0 +1,62 @@
+// The page of a sweep.
+import { h } from "../kit/dom.js";
+import { counted, fixed, significant } from "../kit/format.js";
+import { dataTable } from "../kit/table.js";
+import { shellWord } from "../run/tables.js";
+import { columnsOf, heatMap, parallel, tornado, tradeOff } from "./charts.js";
+import { makeSweep } from "./facts.js";
+
+function pointPanel(sweep) {
+  const panel = h("section", { id: "point", class: "panel", "aria-label": "Point", tabindex: "-1", hidden: true });
+  panel.show = (point) => {
+    panel.hidden = false;
+    const file = `${sweep.folder.replace(/\/$/, "")}/points/${point.key}.json`;
+    const fact = (name, text) => h("div", {}, h("dt", {}, name), h("dd", {}, text));
+    panel.replaceChildren(
+      h("div", { class: "section-head" }, h("h2", {}, "Point ", h("code", {}, point.key.slice(0, 12))),
+        h("div", { class: "tools" }, h("button", { type: "button", onclick: () => { panel.hidden = true; } }, "Close"))),
+      point.reasons.length > 0 && h("ul", { class: "chips" }, point.reasons.map((reason) => h("li", { class: "bad" }, reason))),
+      h("div", { class: "columns" },
+        h("dl", { class: "facts wide" }, sweep.parameters.map((p) => fact(p.name, p.text(point)))),
+        h("dl", { class: "facts wide" }, sweep.metrics.filter((m) => Number.isFinite(m.of(point))).map((m) => fact(m.name, `${significant(m.of(point), 5)} ${m.unit}`)))),
+      h("p", { class: "note", style: { margin: "18px 0 6px" } }, "To run it again, with its own report:"),
+      h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, `markervp run --point ${shellWord(file)}`)));
+    panel.focus({ preventScroll: true });
+    panel.scrollIntoView({ block: "nearest" });
+  };
+  return panel;
+}
+
+function verdict(sweep) {
+  const best = (metric, better) => {
+    const list = sweep.feasible.filter((p) => metric && Number.isFinite(metric.of(p)));
+    return list.length ? list.reduce((a, b) => ((metric.of(b) - metric.of(a)) * better > 0 ? b : a)) : null;
+  };
+  const energy = sweep.metrics.find((m) => m.id === "summary/energy_per_frame_mj");
+  const tile = (label, metric, better) => {
+    const point = best(metric, better);
+    return point && h("div", { class: "tile" }, h("dt", {}, label),
+      h("dd", { class: "figure" }, h("span", { class: "value" }, significant(metric.of(point), 4)), h("span", { class: "unit" }, " " + metric.unit)),
+      h("dd", { class: "band" }, sweep.parameters.slice(0, 3).map((p) => `${p.name.split(".").slice(-2).join(".")} ${p.text(point)}`).join(", ")));
+  };
+  const bad = sweep.points.length - sweep.feasible.length;
+  return h("section", { id: "verdict", "aria-label": "Verdict" },
+    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} infeasible or failed`),
+      sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
+    h("dl", { class: "tiles" }, tile("Fastest", sweep.fps, 1), tile("Least power", sweep.power, -1), tile("Least energy per frame", energy, -1)));
+}
+
+export function sweepPage(data) {
+  const sweep = makeSweep(data);
+  const panel = pointPanel(sweep);
+  const section = (id, title, ...content) => (content.some(Boolean) ? h("section", { id, "aria-labelledby": `${id}-title` }, h("h2", { id: `${id}-title` }, title), h("div", { class: "stack" }, content)) : null);
+  const open = panel.show;
+  return {
+    title: sweep.title || (sweep.name ? `Sweep ${sweep.name}` : "Sweep"),
+    subtitle: [counted(sweep.points.length, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
+    sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
+      section("trade-off", "Trade-off", tradeOff(sweep, open)), panel,
+      section("space", "Design space", parallel(sweep, open)), section("maps", "Map", heatMap(sweep, open)), section("influence", "Influence", tornado(sweep)),
+      section("points", "Points", dataTable({ columns: [{ title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) }, ...columnsOf(sweep)], rows: sweep.points, caption: "All points", name: "points", exportable: true, limit: 20 }))],
+  };
+}

@@ -1,0 +1,195 @@
+// The page in headless Chromium: draws, says what it shows, loads nothing, opens quickly, can be used by everybody.
+//   MARKERVP_PAGE_TEMPLATE=… NODE_PATH=…/node_modules node --test report.test.cjs
+"use strict";
+const assert = require("node:assert/strict");
+const fs = require("node:fs");
+const os = require("node:os");
+const path = require("node:path");
+const { after, before, test } = require("node:test");
+const { chromium } = require("playwright-core");
+const AxeBuilder = require("@axe-core/playwright").default;
+const samples = require("./samples.cjs");
+
+const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
+const blocks = {
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), validation: samples.validation(), comparison: samples.comparison(),
+  hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
+};
+let browser;
+
+before(async () => {
+  for (const [name, data] of Object.entries(blocks)) fs.writeFileSync(path.join(folder, name + ".html"), samples.page(template, data));
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+});
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+/** Opens a page, runs `use`, and checks that nothing went wrong meanwhile. */
+async function open(name, use, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  const problems = [];
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
+  page.on("pageerror", (error) => problems.push(String(error)));
+  page.on("request", (request) => { if (!/^(file|data|blob):/.test(request.url())) problems.push("request " + request.url()); });
+  await page.goto("file://" + path.join(folder, name + ".html"));
+  await use(page);
+  assert.deepEqual(problems, []);
+  await context.close();
+}
+
+async function scrollThrough(page) {
+  const height = await page.evaluate(() => document.body.scrollHeight);
+  for (let y = 0; y <= height; y += 600) {
+    await page.evaluate((to) => window.scrollTo({ top: to, behavior: "instant" }), y);
+    await page.waitForTimeout(30);
+  }
+  await page.waitForTimeout(150);
+}
+
+const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3 };
+for (const [name, least] of Object.entries(charts)) {
+  for (const colorScheme of ["light", "dark"]) {
+    test(`${name}, ${colorScheme}: every chart draws, and axe finds nothing`, () => open(name, async (page) => {
+      await scrollThrough(page);
+      const drawn = await page.$$eval(".chart-area", (areas) => areas.map((area) => {
+        const svg = area.querySelectorAll("svg path, svg rect").length;
+        const canvas = [...area.querySelectorAll("canvas")].some((c) => {
+          const pixels = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+          return pixels.some((value) => value !== 0);
+        });
+        return { name: area.getAttribute("aria-label"), ok: area.dataset.drawn === "true" && (svg > 2 || canvas) };
+      }));
+      assert.ok(drawn.length >= least, `${drawn.length} charts`);
+      assert.deepEqual(drawn.filter((chart) => !chart.ok), []);
+      const { violations } = await new AxeBuilder({ page }).analyze();
+      assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(" | ")}`), []);
+    }, { colorScheme }));
+  }
+}
+
+// The target is 1 s on a desk; a machine that builds at the same time gets five times that.
+for (const name of ["run", "sweep"]) {
+  test(`${name}: opens quickly`, () => open(name, async (page) => {
+    const took = await page.evaluate(() => {
+      const [entry] = performance.getEntriesByType("navigation");
+      return entry.domContentLoadedEventEnd - entry.startTime;
+    });
+    console.log(`${name}: ${Math.round(took)} ms`);
+    assert.ok(took < 5000, `${took} ms`);
+  }));
+}
+
+test("narrow screens do not scroll sideways", async () => {
+  for (const name of Object.keys(charts)) {
+    await open(name, async (page) => {
+      await scrollThrough(page);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390, name);
+    }, { viewport: { width: 390, height: 800 } });
+  }
+});
+
+test("layers of the frame switch", () => open("run", async (page) => {
+  const layer = page.locator('g[data-layer="corners"]');
+  await assert.doesNotReject(layer.waitFor());
+  assert.ok(await layer.isVisible());
+  await page.locator('input[data-layer="corners"]').uncheck();
+  assert.ok(!(await layer.isVisible()));
+  await page.getByLabel("Next frame").click();
+  assert.ok(!(await layer.isVisible()), "the choice stays");
+  await page.getByRole("button", { name: "Zoom to marker" }).click();
+  assert.equal(await page.getByRole("button", { name: "Zoom to marker" }).getAttribute("aria-pressed"), "true");
+}));
+
+test("a bar says what it is", () => open("run", async (page) => {
+  const area = page.locator('.chart-area[aria-label^="Stages of a frame"]');
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await area.boundingBox();
+  const before = await area.locator("svg").evaluate((svg) => svg.textContent);
+  await page.mouse.move(box.x + box.width * 0.14, box.y + 76);
+  await page.waitForTimeout(200);
+  const after = await area.locator("svg").evaluate((svg) => svg.textContent);
+  assert.match(after.replace(before, ""), /ms/);
+}));
+
+test("charts and tables are exported", () => open("run", async (page) => {
+  await scrollThrough(page);
+  const figure = page.locator("figure", { has: page.locator('.chart-area[aria-label^="Stages of a frame"]') });
+  const save = async (label) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), figure.getByRole("button", { name: label }).click()]);
+    return { name: download.suggestedFilename(), bytes: fs.readFileSync(await download.path()) };
+  };
+  const svg = await save("Stages of a frame, ms as SVG");
+  assert.equal(svg.name, "stages.svg");
+  assert.match(svg.bytes.toString(), /^<svg[\s\S]*<\/svg>$/);
+  const png = await save("Stages of a frame, ms as PNG");
+  assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
+  const csv = await save("Stages of a frame, ms as CSV");
+  assert.match(csv.bytes.toString(), /^System,Stage,Time us\r\nThis run,/);
+}));
+
+test("every chart is exported", async () => {
+  for (const name of ["run", "sweep", "validation", "comparison"]) {
+    await open(name, async (page) => {
+      await scrollThrough(page);
+      const buttons = page.locator('figure .tools button[aria-label$=" as SVG"], figure .tools button[aria-label$=" as PNG"]');
+      for (let i = 0; i < Math.min(await buttons.count(), 12); i += 1) {
+        const [download] = await Promise.all([page.waitForEvent("download"), buttons.nth(i).click()]);
+        assert.ok(fs.statSync(await download.path()).size > 1000, await buttons.nth(i).getAttribute("aria-label"));
+      }
+    });
+  }
+});
+
+test("a table sorts, by keyboard too", () => open("run", async (page) => {
+  const head = page.locator("#frames thead th", { hasText: "identification" });
+  await head.getByRole("button").focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await head.getAttribute("aria-sort"), "ascending");
+  await page.keyboard.press("Enter");
+  assert.equal(await head.getAttribute("aria-sort"), "descending");
+}));
+
+test("the timeline is moved by keyboard, and has its numbers as a table", () => open("run", async (page) => {
+  await page.getByRole("button", { name: "All, show everything" }).press("Enter");
+  await page.getByRole("button", { name: "Zoom in" }).press("Enter");
+  await page.getByRole("button", { name: "Later" }).press("Enter");
+  const figure = page.locator("figure", { has: page.locator('.chart-area[aria-label^="Timeline"]') });
+  await figure.getByRole("button", { name: "Table", exact: true }).press("Enter");
+  assert.match(await figure.locator("table").textContent(), /Sensor input/);
+}));
+
+test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
+  await page.locator("#points tbody button").nth(4).click();
+  assert.match(await page.locator("#point pre").textContent(), /^markervp run --point 'out\/a sweep\/points\/00000004cafe.json'$/);
+  await page.locator("#maps select").first().selectOption({ label: "Power" });
+  assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);
+}));
+
+test("colours switch and survive", () => open("run", async (page) => {
+  await scrollThrough(page);
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const first = await background();
+  await page.getByRole("button", { name: "Dark colours" }).click();
+  assert.notEqual(await background(), first);
+}));
+
+test("sections without data are not there", () => open("short", async (page) => {
+  assert.equal(await page.locator('.chart-area[aria-label^="Latency of each frame"]').count(), 0);
+}));
+
+test("a name like markup stays text", () => open("hostile", async (page) => {
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.match(await page.locator("h1").textContent(), /<\/script><img/);
+  assert.equal(await page.locator("img").count(), 0);
+}));
+
+test("it prints", () => open("short", async (page) => {
+  await page.emulateMedia({ media: "print" });
+  assert.ok(!(await page.locator(".bar").isVisible()));
+  assert.ok((await page.pdf()).length > 20000);
+}));

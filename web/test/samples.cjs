@@ -1,0 +1,128 @@
+// Data like those that the program writes, made here so that every section of the page has something to show.
+"use strict";
+
+/** Always the same numbers, 0 to 1. */
+function randomFrom(seed) {
+  let state = seed;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+// A grey picture of 8 x 8 px.
+const png = "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAAAAADhZOFXAAAAE0lEQVR4nGNoYGBgYGD4z8DAAAAHBgGAkFFZ4QAAAABJRU5ErkJggg==";
+const marker = (random) => {
+  const x = 300 + 40 * random();
+  const y = 200 + 30 * random();
+  const square = [[x, y], [x + 60, y + 2], [x + 58, y + 62], [x - 2, y + 60]];
+  const pose = { rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], translation_m: [0, 0, 2] };
+  return { id: 7, rotation: 1, corners_px: square, pose, reprojection_px: 0.4, iterations: 2,
+    truth: { corners_px: square, pose }, error: { corner_px: 0.5 + random(), translation_mm: 20 + 20 * random(), rotation_deg: 3 * random() } };
+};
+
+function frameOf(index, random, input) {
+  const identification = 800 + 3000 * random();
+  const evaluation = 20 + 200 * random();
+  return {
+    input, index, threshold: 128,
+    counts: { corners: 40, blobs: 6, feature_words: 53, candidates: 3, feature_overflow: index === 3 ? 12 : 0, label_overflow: 0, bridge_overflow: 0, crossing_overflow: 0 },
+    markers: index === 5 ? [] : [marker(random)],
+    time_us: { upload: 4801.2, feature_extraction: 6146.1, receive: 41.2, evaluation, identification, pose: 41.2, frame: 6146.1 + 41.2 + evaluation + identification + 41.2 },
+    energy_mj: { total: 16.5, ps: 11.7, feature_extraction: 3, data_bridge: 0.2, image_memory: 0.1, static: 1.5 },
+  };
+}
+
+/** The blocks of a run's page. `name`: of its first input. */
+function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = true } = {}) {
+  const random = randomFrom(seed);
+  const list = Array.from({ length: frames }, (_, i) => frameOf(i, random, i === 0 ? name : `roll${i}`));
+  const latency = list.map((f) => f.time_us.frame);
+  const mean = latency.reduce((a, b) => a + b, 0) / frames;
+  const result = {
+    schema: 1,
+    provenance: { program: "markervp", version: "0.1.0", configuration_hash: "0123456789abcdef", command_line: ["run", name], host: "here", date: "2026-01-02T03:04:05Z", wall_time_s: 1.5 },
+    fidelity: "tlm", system: "hybrid", design: "thesis", profile: "thesis",
+    configuration: { fidelity: "tlm", "pl.width": "640 px", "ps.fclk_clk1.frequency": clock, "ps.cpu_clk.frequency": "666.666667 MHz" },
+    frames: list,
+    summary: { frames, detected: frames - (frames > 5 ? 1 : 0), fps: { mean: 1e6 / mean, min: 1e6 / Math.max(...latency), max: 1e6 / Math.min(...latency) }, latency_us: { mean, max: Math.max(...latency) },
+      power_w: { total: 2.27, ps: 1.53, pl: 0.59, static: 0.15 }, energy_per_frame_mj: 16.4 },
+    timing: { met: fits, modules: [
+      { name: "pl.corner_detection", clock: "ps.fclk_clk1", frequency_mhz: 50, fmax_mhz: 100, lower_bound: true, met: true, margin_percent: 100, source: "published: runs comfortably at it (thesis 4.6.1)" },
+      { name: "pl.blob_detection", clock: "ps.fclk_clk1", frequency_mhz: fits ? 50 : 60, fmax_mhz: 55, lower_bound: false, met: fits, margin_percent: fits ? 10 : -8.3, source: "published: the slowest module (thesis 4.6.1)" }] },
+    resources: { device: "xc7z020", total: { lut: 37456, ff: 18863, bram36: 82, dsp: 0 }, available: { lut: 53200, ff: 106400, bram36: 140, dsp: 220 }, fits, over: fits ? [] : ["lut"],
+      modules: [{ name: "pl.corner_detection", lut: 6460, ff: 2569, bram36: 4, dsp: 0, uncertainty_percent: 40, source: "derived from the structure of thesis 4.3.4" },
+        { name: "pl.blob_detection", lut: 24206, ff: 5279, bram36: 0.5, dsp: 0, uncertainty_percent: 50, source: "derived from the structure of thesis 4.3.6" }] },
+    power: { mode: "vivado-default", table: "zynq7020", ambient_c: 25, junction_c: 51.2, total_w: { low: 2.03, nominal: 2.27, high: 2.61 }, rails: { VCCINT: 0.8, VCCPINT: 0.7 },
+      modules: [{ name: "ps.cpu", rail: "VCCPINT", kind: "dynamic", w: 1.2, mj: 9, source: "published: thesis 4.6.3" }, { name: "pl.blob_detection", rail: "VCCINT", kind: "dynamic", w: 0.4, mj: 3, source: "published: thesis 4.6.1" },
+        { name: "pl.corner_detection", rail: "VCCINT", kind: "dynamic", w: 0.1, mj: 0.8, source: "derived: from its size" }, { name: "pl", rail: "VCCINT", kind: "static", w: 0.15, mj: 1.1, source: "assumed: typical" }] },
+  };
+  const view = { width: 640, height: 480, camera: { fx: 381.36, fy: 381.36, cx: 320, cy: 240 }, png,
+    corners: Array.from({ length: 40 }, () => [Math.floor(640 * random()), Math.floor(480 * random()), Math.floor(4 * random())]), blobs: [[300, 200, 362, 262]], candidates: [[[300, 200], [360, 202], [358, 262], [298, 260]]] };
+  return { result, extras: { frames: Object.fromEntries(list.slice(0, 3).map((f) => [f.index, view])), timeline: timeline(list[0].time_us),
+    parameters: [["fidelity", "tlm", "decision", "how the logic is modelled"], ["pl.width", "640 px", "published", "width of a frame"], ["ps.fclk_clk1.frequency", "50 MHz", "published", "pixel clock"], ["ps.cpu_clk.frequency", "666.666667 MHz", "published", "clock of the cores"]] } };
+}
+
+function timeline(times) {
+  const start = times.upload;
+  const many = (from, count, step, length, name) => Array.from({ length: count }, (_, i) => [from + i * step, length, name, 0]);
+  let at = start;
+  const stages = ["feature_extraction", "receive", "evaluation", "identification", "pose"].map((name, i) => {
+    const span = [at, times[name], i + 1, i > 0 ? 1 : 0];
+    at += times[name];
+    return span;
+  });
+  return {
+    names: ["frame", "feature_extraction", "receive", "evaluation", "identification", "pose", "transfer", "handler"],
+    tracks: [{ group: "Frame", name: "Frame", spans: [[start, times.frame, 0, 0]] }, { group: "PL", name: "Sensor input", spans: [[start, 6144, 0, 1]] },
+      { group: "DMA", name: "DMA 0, image in", spans: many(0, 2400, 2, 1.2, 6) }, { group: "DMA", name: "DMA 1, binary out", spans: many(start, 300, 20.4, 20, 6) },
+      { group: "Interrupts", name: "Handler", spans: many(1, 2400, 2, 0.6, 7) }, { group: "PS", name: "PS stage", spans: stages }],
+    counters: [{ name: "Corner buffer", unit: "words", limit: 100, points: Array.from({ length: 200 }, (_, i) => [start + i * 30, i % 7]) }, { name: "Power", unit: "W", limit: 0, points: [[0, 2.1], [start, 2.4], [start + 6144, 1.9]] }],
+    frames: [{ index: 0, start, end: start + times.frame }],
+  };
+}
+
+/** The block of a sweep's page. */
+function sweep({ points = 5000, seed = 2 } = {}) {
+  const random = randomFrom(seed);
+  const swept = ["ps.fclk_clk1.frequency", "ps.cpu_clk.frequency", "pl.blob_detection.label_count", "profile"];
+  const list = Array.from({ length: points }, (_, i) => {
+    const pixel = 30 + 5 * (i % 15);
+    const cpu = [333, 400, 500, 600, 667, 800][Math.floor(i / 15) % 6];
+    const labels = [32, 64, 96, 128, 256][Math.floor(i / 90) % 5];
+    const profile = ["thesis", "a9-O2"][Math.floor(i / 450) % 2];
+    const ms = 307.2 / pixel + (profile === "thesis" ? 950 : 300) / cpu * (1 + 0.4 * random());
+    const watts = 0.7 + cpu * 0.00125 + pixel * 0.008 + labels * 0.0012 + 0.03 * random();
+    const reasons = pixel > 55 ? ["misses timing: pl.blob_detection"] : labels > 200 ? ["too large: lut"] : [];
+    return { key: `${i.toString(16).padStart(8, "0")}cafe`, swept: [`${pixel} MHz`, `${cpu} MHz`, `${labels}`, profile], reasons,
+      metrics: i === 7 ? new Array(14).fill(null) : [1e3 / ms, ms * 1e3, watts, watts * ms, 25 + watts * 11.5, 41, 41, 9000 + labels * 184, 12000 + labels * 39, 82, 0, 1.2 + random() * 0.1, 40 + random() * 10, 4 + random()] };
+  });
+  return { sweep: { name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, effects: [], missing: 3, points: list,
+    metrics: ["summary/fps/mean", "summary/latency_us/mean", "summary/power_w/total", "summary/energy_per_frame_mj", "power/junction_c", "summary/detected", "summary/frames", "resources/total/lut", "resources/total/ff", "resources/total/bram36", "resources/total/dsp", "error/corner_px", "error/translation_mm", "error/rotation_deg"] } };
+}
+
+/** The blocks of a validation's page. */
+function validation() {
+  const row = (id, unit, published, modelled, use, verdict, kind = "timing") => ({ id, section: "5.4.1", system: "hybrid", kind, unit, published, modelled, difference_percent: 100 * (modelled / published - 1), use, how: "mean over 15 images", verdict });
+  const rows = [row("fps.average", "1/s", 134, 128.5, "predicted", "met"), row("corner.delta", "ms", 45.16, 45.2, "used for calibration", "met"), row("speedup.all", "x", 12.16, 11.03, "predicted", "missed, known"),
+    row("pose.x.translation", "mm", 63.6, 60.1, undefined, "explained", "accuracy")];
+  const lines = ["system,test,image,threshold,corners,feature_extraction_us,identification_us,pose_us,frame_us,corner_px,translation_mm,rotation_deg"];
+  for (const system of ["hybrid", "ps-only"]) for (let i = 1; i <= 15; i += 1) lines.push(`${system},squares,squares${i},128,${i * 4},6144.6,${300 * i},41.35,${system === "hybrid" ? 7000 + 300 * i : 90000 + 200 * i},1.2,30,${i % 3}`);
+  return { validation: { schema: 1, profile: "thesis", fidelity: "tlm", design: "thesis", images: 316, repetitions: 20, band_percent: 5, rows, passed: true,
+    fitted: [{ name: "scale of threshold", value: 0.879, published: ["threshold.ps"] }], gates: [{ name: "predicted times within 5 %", passed: true, text: "13 of 17" }] }, frames: lines.join("\n") + "\n" };
+}
+
+/** The blocks of a page that compares two runs. */
+function comparison() {
+  const a = run({ frames: 40, seed: 5 });
+  const b = run({ frames: 40, seed: 6, clock: "60 MHz", fits: false });
+  return { result: a.result, extras: a.extras, "result-b": b.result, "extras-b": b.extras, comparison: ["out/a", "out/b"] };
+}
+
+/** `template` with blocks, as the program puts them in. */
+function page(template, blocks) {
+  const scripts = Object.entries(blocks).map(([id, value]) => `<script type="application/json" id="${id}">${JSON.stringify(value).replaceAll("<", "\\u003c")}</script>\n`);
+  return template.replace("<!--DATA-->", () => scripts.join(""));
+}
+
+module.exports = { run, sweep, validation, comparison, page };
