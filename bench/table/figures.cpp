@@ -77,6 +77,8 @@ std::vector<Figure> figures(const std::string& fidelity) {
        faster("own", "sc_trace")},
       {system + ", image preloaded, against the plain function", 0.5, 0.8, "×", higher,
        faster("preloaded", "function")},
+      {system + ", image preloaded, against the same pixel by pixel", none, none, "×", higher,
+       faster("preloaded", "naive")},
       {system + ", image uploaded, against the plain function", none, none, "×", higher,
        faster("uploaded", "function")},
       {system + ", image uploaded, against the hardware's real time", 8, 15, "×", higher,

@@ -1,5 +1,6 @@
 // The same result.json at either fidelity, with every instruction set, quantum and way of polling,
 // outside `fidelity`, `configuration` and `provenance`.
+#include <pl/common/simd_target.h>
 #include <boost/test/unit_test.hpp>
 
 #include "executable.h"
@@ -96,6 +97,22 @@ BOOST_AUTO_TEST_CASE(nothing_differs_for_any_quantum) {
                             expected()) == "");
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_with_any_instruction_set) {
+  for (const std::string& target : pl::simd_targets()) {
+    BOOST_TEST_CONTEXT(target) {
+      BOOST_TEST(difference(result_of(with(inputs, "pl.simd=" + target)), expected()) == "");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_instruction_set_that_is_not_there_is_refused) {
+  const Workplace place;
+  const kit::Outcome outcome = place.run({"demo", "--set", "pl.simd=NEON"});
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(outcome.err.find("pl.simd = NEON: this host and build have best") != std::string::npos,
+             outcome.err);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_differs_when_every_poll_is_made) {

@@ -4,6 +4,7 @@
 #include <pl/axi_threshold_bridge/tlm.h>
 #include <pl/blob_detection/clocked.h>
 #include <pl/blob_detection/tlm.h>
+#include <pl/common/simd_target.h>
 #include <pl/corner_detection/clocked.h>
 #include <pl/corner_detection/tlm.h>
 #include <pl/global_threshold/clocked.h>
@@ -11,7 +12,9 @@
 #include <pl/sensor_input/clocked.h>
 #include <pl/sensor_input/tlm.h>
 #include <vp/error.h>
+#include <vp/text.h>
 #include <string>
+#include <vector>
 
 namespace pl {
 
@@ -26,6 +29,14 @@ void check_holds_a_frame(const xilinx::Bram& bram, const Geometry& geometry) {
                        ": a frame of " + std::to_string(geometry.width) + "x" +
                        std::to_string(geometry.height) + " px needs " + std::to_string(words) +
                        " words");
+}
+
+void choose_simd(const vp::Parameter<std::string>& simd) {
+  if (use_simd_target(simd.get() == "best" ? "" : simd.get())) return;
+  std::vector<std::string> targets = simd_targets();
+  targets.insert(targets.begin(), "best");
+  throw vp::InputError(std::string(simd.name()) + " = " + simd.get() +
+                       ": this host and build have " + vp::one_of(targets));
 }
 
 }  // namespace
@@ -44,6 +55,7 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
       global_threshold_(make_global_threshold(pixel_clk)),
       blob_detection_(make_blob_detection(pixel_clk)),
       axi_threshold_bridge_(make_threshold_bridge(system_clk, pixel_clk)) {
+  choose_simd(simd);
   check_holds_a_frame(bram, geometry());
 }
 

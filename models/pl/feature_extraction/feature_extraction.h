@@ -34,6 +34,9 @@ class FeatureExtraction : public sc_core::sc_module {
                     Fidelity fidelity = Fidelity::clocked);
 
   FidelityChoice fidelity;
+  vp::Parameter<std::string> simd{
+      "simd", "best", vp::Source::decision,
+      "instruction set of the transaction level, among those of the host; no result depends on it"};
 
   vp::Parameter<std::uint32_t> width{"width", 640, vp::Unit::pixels, vp::Source::published,
                                      "width of a frame (thesis 4.3.1)"};
