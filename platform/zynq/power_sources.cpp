@@ -2,6 +2,7 @@
 
 #include <pl/blob_detection/estimate.h>
 #include <power/fabric_energy.h>
+#include <vp/error.h>
 #include <algorithm>
 #include <utility>
 
@@ -240,7 +241,12 @@ vp::EnergyLedger static_energy(const PowerTable& table, const vp::ThermalPath& p
                                const Band& dynamic_w, double seconds, double& junction_c) {
   const Band& base = table.value("static.base");
   const auto point = [&](double Band::*estimate) {
-    return vp::find_static_point(power::leakage(table, estimate), path, dynamic_w.*estimate);
+    try {
+      return vp::find_static_point(power::leakage(table, estimate), path, dynamic_w.*estimate);
+    } catch (const vp::InputError& error) {
+      if (estimate != &Band::high) throw;
+      throw vp::InputError(std::string(error.what()) + " (by the high estimate of the table)");
+    }
   };
   const vp::StaticPoint low = point(&Band::low), nominal = point(&Band::nominal),
                         high = point(&Band::high);

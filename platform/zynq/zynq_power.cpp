@@ -40,11 +40,9 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
   }
   states_.set_observer(this);
   timeline_.groups = groups();
-  const double watts = meter_.watts(0);
   double junction_c = 0;
-  static_w_ = static_energy(table_, options.thermal_path(), {watts, watts, watts}, 1, junction_c)
-                  .total()
-                  .nominal;
+  static_w_ =
+      static_energy(table_, options.thermal_path(), meter_.power(0), 1, junction_c).total().nominal;
   show(0);
 }
 

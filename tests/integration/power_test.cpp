@@ -152,6 +152,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_before_anything_is_written) {
                                          {"power.table=nothing", "no power table 'nothing'"},
                                          {"power.mode=guess", "vivado-default or activity"},
                                          {"power.theta_ja=60", "thermal runaway"},
+                                         {"power.theta_ja=28", "by the high estimate"},
                                          {"power.theta_ja=-1", "power.theta_ja"},
                                          {"power.ddr.width=20", "give 16 or 32"},
                                          {"timing.blob_detektion.fmax=60 MHz", "blob_detection"}}) {

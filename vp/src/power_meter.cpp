@@ -37,6 +37,14 @@ EnergyLedger PowerMeter::measure(const std::vector<Interval>& intervals) const {
   return ledger;
 }
 
+Band PowerMeter::power(std::uint64_t ps) const {
+  Band sum;
+  for (const PowerSource& source : sources_) {
+    if (source.state) sum += source.joules * source.state->at(ps);
+  }
+  return sum;
+}
+
 double PowerMeter::watts(std::uint64_t ps, const std::string& group) const {
   double sum = 0;
   for (const PowerSource& source : sources_) {

@@ -74,6 +74,9 @@ BOOST_AUTO_TEST_CASE(watts_are_those_of_the_moment) {
   BOOST_TEST(meter.watts(4 * ms) == 2 + 0.05, near);
   BOOST_TEST(meter.watts(5 * ms, "pl") == 0.01, near);
   BOOST_TEST(meter.watts(5 * ms, "none") == 0.0);
+  BOOST_TEST(meter.power(5 * ms).low == 1.0);
+  BOOST_TEST(meter.power(5 * ms).nominal == meter.watts(5 * ms), near);
+  BOOST_TEST(meter.power(5 * ms).high == 3.0);
 }
 
 BOOST_AUTO_TEST_CASE(a_source_is_a_state_or_events) {

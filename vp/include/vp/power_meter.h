@@ -45,7 +45,9 @@ class PowerMeter {
   void mark();
   /// What was taken in these intervals; the events since mark().
   EnergyLedger measure(const std::vector<Interval>& intervals) const;
-  /// Power of states and clocks of a group at a time, W; of all groups if it is empty.
+  /// Power of all states and clocks at a time, W.
+  Band power(std::uint64_t ps) const;
+  /// The nominal one of a group; of all groups if it is empty.
   double watts(std::uint64_t ps, const std::string& group = "") const;
 
  private:
