@@ -89,6 +89,7 @@ install(FILES models/registers/CMakeLists.txt DESTINATION "${data_folder}/chip/s
 install(DIRECTORY vp/registers DESTINATION "${data_folder}/chip/source/vp")
 install(FILES cmake/toolchain-arm-none-eabi.cmake DESTINATION "${data_folder}/chip/source/cmake")
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
+install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 foreach(component programs models)

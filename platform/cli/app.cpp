@@ -20,6 +20,7 @@ constexpr const char* examples = R"(Examples:
   markervp scenes                           what can be run
   markervp config > platform.yaml           every parameter with its default
   markervp report slower out                compare two runs in a page
+  markervp trace stats run.vcd              what a trace says: handshakes, buffers, stages
   markervp map axi_dma_0                    addresses and registers that software sees
   markervp validate                         the thesis' chapter 5, value by value
 
@@ -254,6 +255,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_report(*app, target.report);
   add_validate(*app, target.validate);
   add_power(*app, target.power);
+  add_trace_command(*app, target.trace);
   add_completion(*app, target.completion);
   return app;
 }

@@ -17,4 +17,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target);
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
                         const std::vector<std::string>& arguments);
 
+/// Adds `trace` and its commands.
+void add_trace_command(CLI::App& app, TraceCommandOptions& target);
+
 }  // namespace platform::cli

@@ -41,6 +41,9 @@ int validate(const ValidateOptions& options, const std::vector<std::string>& arg
 /// Prints the coefficients of the power model.
 int print_power_table(const PowerTableOptions& options, std::ostream& out);
 
+/// Asks a recorded trace: statistics, checks, differences, parts, pictures.
+int ask_trace(const TraceCommandOptions& options, std::ostream& out);
+
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.

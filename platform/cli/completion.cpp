@@ -43,6 +43,11 @@ std::vector<CommandDescription> describe_commands(const CLI::App& app) {
   std::vector<CommandDescription> commands;
   for (const CLI::App* command : app.get_subcommands({})) {
     CommandDescription description{command->get_name(), command->get_description(), {}, {}};
+    // `trace` has commands of its own: their names come first.
+    for (const CLI::App* inner : command->get_subcommands({})) {
+      description.positional.kind = ValueKind::Kind::choice;
+      description.positional.choices.push_back(inner->get_name());
+    }
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_positional()) {
         description.positional = value_kind(*option);

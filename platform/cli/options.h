@@ -88,6 +88,19 @@ struct PowerTableOptions {
   bool markdown = false;           ///< with the sources, as in the documentation
 };
 
+/// `markervp trace COMMAND`.
+struct TraceCommandOptions {
+  std::string command;  ///< "list", "stats", "check", "diff", "cut", "convert", "plot", "gtkw"
+  std::string file;
+  std::string other;   ///< the second trace of diff; the file that cut and convert write
+  std::string checks;  ///< the file of check
+  std::optional<std::string> map, window, clock, frame, output, marker;
+  std::vector<std::string> filter;
+  std::vector<std::string> signals;
+  std::string align = "time";
+  bool json = false, csv = false, skip_missing = false;
+};
+
 /// `markervp completion`.
 struct CompletionOptions {
   std::string shell;
@@ -102,6 +115,7 @@ struct CommandLine {
   ReportOptions report;
   ValidateOptions validate;
   PowerTableOptions power;
+  TraceCommandOptions trace;
   CompletionOptions completion;
 };
 

@@ -38,6 +38,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
     return validate(line.validate, arguments, make_simulation, out, err);
   }
   if (command == "power") return print_power_table(line.power, out);
+  if (command == "trace") return ask_trace(line.trace, out);
   return print_completion(line.completion, app, out);
 }
 

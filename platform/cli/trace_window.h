@@ -12,7 +12,8 @@ struct TimeWindow {
 };
 
 /// Reads "6ms:7ms", "6 ms : 7.5 ms", ":100us" (from the start) or "2ms:" (to the end).
-/// Throws vp::InputError if it is malformed or ends before it begins.
-TimeWindow parse_trace_window(const std::string& text);
+/// Throws vp::InputError, naming `option`, if it is malformed or ends before it begins.
+TimeWindow parse_trace_window(const std::string& text,
+                              const std::string& option = "--trace-window");
 
 }  // namespace platform::cli

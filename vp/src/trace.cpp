@@ -40,6 +40,8 @@ inline void Tracer::record(WaveWriter::Id id, std::uint64_t bits) {
 
 void Tracer::on_change(SignalBase& signal, std::uint32_t id) {
   record(id, signal.bits());
+  // At once: when the instant's changes are written, the next one may have begun.
+  if (texts_[id]) text_values_[id] = texts_[id]->text();
 }
 
 Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOptions options)
@@ -173,6 +175,7 @@ void Tracer::select_clocks() {
   }
   for (const TraceSource& source : sources_) texts_.push_back(source.text);
   texts_.resize(values_.size());
+  text_values_.resize(values_.size());
 }
 
 void Tracer::attach_to(const TraceSource& source, WaveWriter::Id id) {
@@ -256,7 +259,7 @@ void Tracer::flush() {
       if (!texts_[id]) {
         writer_->change(writer_id, values_[id]);
       } else {
-        writer_->change_text(writer_id, texts_[id]->text());
+        writer_->change_text(writer_id, text_values_[id]);
       }
     }
   }

@@ -194,6 +194,12 @@ void WaveExpression::bind(const std::function<std::uint32_t(const std::string& n
   for (const std::string& name : names_) signals_.push_back(number_of(name));
 }
 
+bool WaveExpression::is_event() const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
+    return node.operation >= Operation::rises && node.operation <= Operation::changes;
+  });
+}
+
 std::optional<WaveNumber> WaveExpression::value(const WaveValues& values) const {
   return evaluate(root_, values, false);
 }

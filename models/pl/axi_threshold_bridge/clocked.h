@@ -32,6 +32,7 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
       "fifo_depth",         64,
       vp::Unit::none,       {1, 65536},
       vp::Source::decision, "words that wait for the DMA, besides the output register"};
+  vp::Signal<std::uint32_t> depth{"depth", 17, fifo_depth};  ///< for traces: what is full
   vp::Parameter<std::uint32_t> burst_words{
       "burst_words",         32,
       vp::Unit::none,        {1, 256},

@@ -41,6 +41,7 @@ class FeaturePackagingClocked : public vp::Clocked {
       "buffer_depth",        100,
       vp::Unit::none,        {2, 65536},
       vp::Source::published, "words in each of the two feature buffers (thesis 4.4.3)"};
+  vp::Signal<std::uint32_t> depth{"depth", 17, buffer_depth};  ///< for traces: what is full
 
  private:
   void edge() override;

@@ -50,11 +50,12 @@ BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(offered({"markervp", "\"\""}) ==
-             "run scenes config map report validate power completion --help --version ");
+             "run scenes config map report validate power trace completion --help --version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
              "--trace-window --trace-filter --trace-level --trace-clocks --trace-trigger "
              "--trace-before --trace-frame --trace-buffer ");
+  BOOST_TEST(offered({"markervp", "trace", "c"}) == "check cut convert ");
   BOOST_TEST(offered({"markervp", "run", "--fit", "\"\""}) == "crop scale ");
   BOOST_TEST(offered({"markervp", "run", "z1"}) == "z1.0 ");
   BOOST_TEST(offered({"markervp", "run", "demo", "--repeat", "\"\""}) == " ",

@@ -13,8 +13,7 @@ namespace vp {
 /// it is not traced.
 class TextSignal final : public SignalBase {
  public:
-  /// `text` is asked at the end of an instant in which a source changed or touch() was called. It
-  /// must not change anything.
+  /// `text` is asked when a source changes or touch() is called. It must not change anything.
   TextSignal(const char* name, std::function<std::string()> text,
              std::vector<SignalBase*> sources = {})
       : SignalBase(name), text_(std::move(text)), sources_(std::move(sources)) {}

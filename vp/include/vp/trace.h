@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -110,6 +111,7 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   std::uint64_t next_fall_ps_ = TraceOptions::never;
   std::vector<std::uint64_t> values_;     ///< by id: the newest value
   std::vector<const TextSignal*> texts_;  ///< by id: of a text; null for numbers
+  std::vector<std::string> text_values_;  ///< by id: the newest text
   std::vector<std::uint64_t> marked_;     ///< a bit for each id that changed in this instant
 };
 

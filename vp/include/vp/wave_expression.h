@@ -44,6 +44,8 @@ class WaveExpression {
   const std::vector<std::uint32_t>& signals() const { return signals_; }
 
   std::optional<WaveNumber> value(const WaveValues& values) const;
+  /// True if it has rises, falls or changes in it: it speaks of an instant, not of a state.
+  bool is_event() const;
   bool holds(const WaveValues& values) const {
     const auto result = value(values);
     return result && *result != 0;

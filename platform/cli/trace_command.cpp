@@ -1,0 +1,235 @@
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <cli/program.h>
+#include <cli/trace_window.h>
+#include <trace/checks.h>
+#include <trace/cut.h>
+#include <trace/difference.h>
+#include <trace/plot.h>
+#include <trace/save_file.h>
+#include <trace/statistics.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform::cli {
+
+namespace {
+
+using trace::TraceFile;
+
+trace::NameMap name_map(const TraceCommandOptions& options) {
+  return options.map ? trace::read_name_map(*options.map) : trace::NameMap{};
+}
+
+TimeWindow window(const TraceCommandOptions& options) {
+  return options.window ? parse_trace_window(*options.window, "--window") : TimeWindow{};
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.flush();
+  if (!stream) {
+    throw vp::InputError("cannot write '" + file + "': " + std::strerror(errno) +
+                         "; name a file in a folder that exists and may be written");
+  }
+}
+
+int list(const TraceCommandOptions& options, std::ostream& out) {
+  const TraceFile file(options.file, name_map(options));
+  const vp::TraceFilter filter(options.filter);
+  filter.check(file.paths(), {});
+  for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
+    if (!filter.selects(file.paths()[i])) continue;
+    const vp::WaveVariable& variable = file.variable(i);
+    const bool is_bits = variable.kind == vp::WaveVariable::Kind::bits;
+    out << file.paths()[i] << "  "
+        << (is_bits ? std::to_string(variable.width) + (variable.width == 1 ? " bit" : " bits")
+            : variable.kind == vp::WaveVariable::Kind::real ? "real"
+                                                            : "text")
+        << "\n";
+  }
+  return done;
+}
+
+int stats(const TraceCommandOptions& options, std::ostream& out) {
+  TraceFile file(options.file, name_map(options));
+  trace::StatisticsOptions asked;
+  if (options.clock) {
+    const auto hertz = vp::parse_quantity(*options.clock, vp::Unit::frequency).whole();
+    constexpr vp::Decimal::Whole most = 1'000'000'000'000;
+    if (!hertz || *hertz <= 0 || *hertz > most) {
+      throw vp::InputError("--clock '" + *options.clock + "' is no frequency of a clock");
+    }
+    asked.system_hz = static_cast<std::uint64_t>(*hertz);
+  }
+  const auto tables = trace::statistics(file, asked);
+  out << (options.json  ? trace::tables_as_json(tables)
+          : options.csv ? trace::tables_as_csv(tables)
+                        : trace::tables_as_text(tables));
+  return done;
+}
+
+/// A page with the signals of the first check that failed, at that time.
+void write_failure(const TraceFile& file, const trace::CheckResult& result, const std::string& to) {
+  std::vector<std::string> paths;
+  for (const vp::WaveExpression* expression : {&result.check->first, &result.check->second}) {
+    for (const std::string& name : expression->names()) {
+      paths.push_back(file.paths()[vp::find_path(name, file.paths(), "")]);
+    }
+  }
+  trace::SaveFile page;
+  constexpr std::uint64_t margin_ps = 1'000'000;
+  page.comment = result.check->name + ": " + result.check->text;
+  page.lines = trace::save_lines(file, paths);
+  page.marker_ps = result.first_ps;
+  page.start_ps = result.first_ps > margin_ps ? result.first_ps - margin_ps : 0;
+  page.ps_per_pixel = 2048;
+  write_file(to, trace::save_file_text(page));
+}
+
+int check(const TraceCommandOptions& options, std::ostream& out) {
+  const auto checks = trace::read_checks(options.checks);
+  TraceFile file(options.file, name_map(options));
+  const auto results = trace::run_checks(file, checks, options.checks, options.skip_missing);
+  const trace::CheckResult* first = nullptr;
+  std::size_t failed = 0, skipped = 0;
+  for (const trace::CheckResult& result : results) {
+    if (result.skipped) {
+      ++skipped;
+      out << "SKIP " << result.check->name << ": " << result.missing << "\n";
+    } else if (result.failures == 0) {
+      out << "PASS " << result.check->name << " (" << result.occasions << " looked at)\n";
+    } else {
+      ++failed;
+      if (!first || result.first_ps < first->first_ps) first = &result;
+      out << "FAIL " << result.check->name << " at " << vp::format_time(result.first_ps) << ": "
+          << result.check->text << " (" << result.detail
+          << (result.failures > 1 ? "; " + std::to_string(result.failures) + " times" : "")
+          << ")\n";
+    }
+  }
+  out << results.size() - failed - skipped << " passed, " << failed << " failed";
+  if (skipped > 0) out << ", " << skipped << " skipped";
+  out << "\n";
+  if (!first) return done;
+  const std::string page = options.output.value_or(options.file + ".failed.gtkw");
+  write_failure(file, *first, page);
+  out << "look at it: gtkwave " << options.file << " " << page << "\n";
+  return run_failed;
+}
+
+void print_events(std::ostream& out, const std::string& title,
+                  const std::vector<trace::Difference::Event>& before,
+                  const std::vector<trace::Difference::Event>& after) {
+  out << title << "\n";
+  const auto print = [&](const auto& events, const char* sign) {
+    for (const auto& event : events) {
+      out << sign << vp::format_time(event.ps) << "  " << event.path << " = " << event.value
+          << "\n";
+    }
+  };
+  print(before, "    ");
+  print(after, "  > ");
+}
+
+int diff(const TraceCommandOptions& options, std::ostream& out) {
+  TraceFile a(options.file, name_map(options)), b(options.other);
+  trace::DifferenceOptions asked;
+  asked.by_frame = options.align == "frame";
+  if (options.frame) asked.frame = *options.frame;
+  asked.filter = vp::TraceFilter(options.filter);
+  const trace::Difference result = trace::difference(a, b, asked);
+  const auto note = [&](const std::vector<std::string>& names, const std::string& file) {
+    if (names.empty()) return;
+    out << names.size() << (names.size() == 1 ? " signal" : " signals") << " in " << file
+        << " only, for example " << names.front() << "\n";
+  };
+  note(result.only_in_a, options.file);
+  note(result.only_in_b, options.other);
+  if (!result.differ) {
+    out << "no difference in " << result.compared << " signals\n";
+    return done;
+  }
+  out << "first difference at " << vp::format_time(result.a_ps) << " in " << options.file << ", "
+      << vp::format_time(result.b_ps) << " in " << options.other;
+  if (asked.by_frame) {
+    out << ": frame " << result.frame << ", " << vp::format_time(result.in_frame_ps) << " into it";
+  }
+  out << "\n";
+  constexpr std::size_t most = 10;
+  for (std::size_t i = 0; i < result.values.size() && i < most; ++i) {
+    const auto& value = result.values[i];
+    out << "  " << value.path << ": " << (value.in_a.empty() ? "-" : value.in_a) << " against "
+        << (value.in_b.empty() ? "-" : value.in_b) << "\n";
+  }
+  if (result.values.size() > most) out << "  and " << result.values.size() - most << " more\n";
+  print_events(out, options.file + ":", result.a_before, result.a_after);
+  print_events(out, options.other + ":", result.b_before, result.b_after);
+  return run_failed;
+}
+
+int cut(const TraceCommandOptions& options, std::ostream& out) {
+  TraceFile file(options.file, name_map(options));
+  trace::CutOptions asked;
+  const TimeWindow times = window(options);
+  asked.from_ps = times.from_ps;
+  asked.to_ps = times.to_ps;
+  asked.filter = vp::TraceFilter(options.filter);
+  trace::cut(file, options.other, asked);
+  out << "wrote " << options.other << "\n";
+  return done;
+}
+
+int plot(const TraceCommandOptions& options, std::ostream& out) {
+  const trace::NameMap map = name_map(options);
+  TraceFile file(options.file, map);
+  trace::PlotOptions asked;
+  asked.signals = options.signals;
+  const TimeWindow times = window(options);
+  asked.from_ps = times.from_ps;
+  asked.to_ps = times.to_ps;
+  if (times.to_ps == TimeWindow{}.to_ps) {
+    struct Nothing : vp::WaveHandler {
+      bool at(std::uint64_t) override { return true; }
+      void change(std::uint32_t, const vp::WaveValue&) override {}
+    } nothing;
+    TraceFile first_look(options.file);
+    first_look.reader().read(nothing);
+    asked.to_ps = first_look.reader().now_ps() + 1;
+  }
+  if (asked.to_ps <= asked.from_ps) throw vp::InputError("the trace ends before --window begins");
+  if (options.marker)
+    asked.marker_ps = parse_trace_window(*options.marker + ":", "--marker").from_ps;
+  const std::string picture = trace::plot_as_svg(file, asked);
+  write_file(options.output.value_or("plot.svg"), picture);
+  out << "wrote " << options.output.value_or("plot.svg") << "\n";
+  return done;
+}
+
+int gtkw(const TraceCommandOptions& options, std::ostream& out) {
+  TraceFile file(options.file, name_map(options));
+  for (const std::string& name : trace::write_save_files(file, options.output.value_or("."))) {
+    out << "wrote " << name << "\n";
+  }
+  return done;
+}
+
+}  // namespace
+
+int ask_trace(const TraceCommandOptions& options, std::ostream& out) {
+  if (options.command == "list") return list(options, out);
+  if (options.command == "stats") return stats(options, out);
+  if (options.command == "check") return check(options, out);
+  if (options.command == "diff") return diff(options, out);
+  if (options.command == "plot") return plot(options, out);
+  if (options.command == "gtkw") return gtkw(options, out);
+  return cut(options, out);  // and convert, which takes no part
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,248 @@
+#include <trace/checks.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+#include <trace/replay.h>
+#include <trace/sample_clock.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::trace {
+
+namespace {
+
+std::string shown(const std::optional<vp::WaveNumber>& number) {
+  if (!number) return "x";
+  const auto whole = static_cast<std::uint64_t>(*number);
+  if (static_cast<vp::WaveNumber>(whole) == *number) return std::to_string(whole);
+  return vp::format_fixed(static_cast<double>(*number), 6);
+}
+
+/// A check at work. Conditions are looked at when a signal of theirs was written.
+class Judge {
+ public:
+  Judge(const Check& check, Replay& replay, TraceFile& trace)
+      : check_(check), replay_(replay), first_(check.first), second_(check.second) {
+    result.check = &check;
+    const auto number_of = [&](const std::string& name) {
+      const Replay::Slot slot = replay.watch(name, "check '" + check.name + "': ");
+      if (replay.kind(slot) == vp::WaveVariable::Kind::text) {
+        throw vp::InputError("check '" + check.name + "': '" + name + "' is a text, no number");
+      }
+      slots.push_back(slot);
+      return slot;
+    };
+    first_.bind(number_of);
+    if (!second_.text().empty()) second_.bind(number_of);
+    if (check.restart) {
+      restart_ = *check.restart;
+      restart_.bind(number_of);
+    }
+    if (check.kind == Check::Kind::bursts) {
+      clock_ = std::make_unique<SampleClock>(replay, trace, "ps.fclk_clk0.clk", check.clock_hz);
+    }
+  }
+
+  /// Something of it was written, or it waits.
+  void instant(std::uint64_t ps);
+  /// In every instant: time passes.
+  void pass(std::uint64_t ps) {
+    if (clock_) clock_->instant(ps);
+    if (!waiting_.empty() && ps > waiting_.front()) miss(waiting_.front());
+  }
+  void finish(std::uint64_t ps) {
+    pass(ps);
+    if (clock_) bursts(ps);
+  }
+
+  CheckResult result;
+  std::vector<Replay::Slot> slots;
+
+ private:
+  void fail(std::uint64_t ps, const std::string& detail) {
+    if (result.failures++ != 0) return;
+    result.first_ps = ps;
+    result.detail = detail;
+  }
+  void miss(std::uint64_t deadline) {
+    fail(deadline, "not until then");
+    waiting_.pop_front();
+  }
+  /// True in the instant in which it becomes true; an edge is true in its instant only.
+  bool comes_true(const vp::WaveExpression& condition, bool& stood) const {
+    const bool holds = condition.holds(replay_);
+    const bool comes = holds && (!stood || condition.is_event());
+    stood = holds;
+    return comes;
+  }
+  /// Values as they were before this instant, for those who sample them on a clock edge.
+  struct Past final : vp::WaveValues {
+    explicit Past(const Replay& replay) : replay(replay) {}
+    std::optional<vp::WaveNumber> now(std::uint32_t slot) const override {
+      return replay.before(slot);
+    }
+    std::optional<vp::WaveNumber> before(std::uint32_t slot) const override {
+      return replay.before(slot);
+    }
+    const Replay& replay;
+  };
+
+  void increases(std::uint64_t ps);
+  void bursts(std::uint64_t ps);
+
+  const Check& check_;
+  Replay& replay_;
+  vp::WaveExpression first_, second_, restart_;
+  bool first_stood_ = false, second_stood_ = false, restart_stood_ = false;
+  std::deque<std::uint64_t> waiting_;  ///< deadlines
+  std::optional<vp::WaveNumber> last_;
+  std::unique_ptr<SampleClock> clock_;
+  bool sampled_ = false;
+  std::uint64_t edges_ = 0, beats_ = 0;
+};
+
+void Judge::instant(std::uint64_t ps) {
+  switch (check_.kind) {
+    case Check::Kind::always:
+    case Check::Kind::never: {
+      const auto value = first_.value(replay_);
+      if (!value) return;
+      ++result.occasions;
+      const bool wrong = (*value != 0) == (check_.kind == Check::Kind::never);
+      if (wrong && !first_stood_)
+        fail(ps, check_.kind == Check::Kind::never ? "it holds" : "it does not hold");
+      first_stood_ = wrong;
+      return;
+    }
+    case Check::Kind::at:
+      if (!comes_true(first_, first_stood_)) return;
+      ++result.occasions;
+      if (!second_.holds(replay_)) fail(ps, "it does not hold");
+      return;
+    case Check::Kind::within:
+      if (comes_true(first_, first_stood_)) {
+        ++result.occasions;
+        // More than anybody asks for at a time: one failure says enough.
+        if (waiting_.size() < 1000) waiting_.push_back(ps + check_.limit_ps);
+      }
+      if (second_.holds(replay_)) waiting_.clear();
+      return;
+    case Check::Kind::stable: {
+      const Past past(replay_);
+      if (!second_.holds(past)) return;
+      ++result.occasions;
+      const auto now = first_.value(replay_), before = first_.value(past);
+      if (now && before && *now != *before) fail(ps, shown(*now) + " after " + shown(*before));
+      return;
+    }
+    case Check::Kind::increases:
+      increases(ps);
+      return;
+    case Check::Kind::bursts:
+      bursts(ps);
+      return;
+  }
+}
+
+void Judge::increases(std::uint64_t ps) {
+  if (check_.restart && comes_true(restart_, restart_stood_)) last_.reset();
+  const bool comes = comes_true(second_, second_stood_);
+  if (!second_stood_) return;
+  const auto value = first_.value(replay_);
+  // While the condition stands, only another value is another one.
+  if (!value || (!comes && last_ && *value == *last_)) return;
+  ++result.occasions;
+  if (last_ && *value <= *last_) fail(ps, shown(*value) + " after " + shown(*last_));
+  last_ = value;
+}
+
+// All edges since the last look saw what stood before this instant.
+void Judge::bursts(std::uint64_t ps) {
+  const std::uint64_t edges = sampled_ ? clock_->edges() - edges_ : 0;
+  sampled_ = true;
+  edges_ = clock_->edges();
+  const Past past(replay_);
+  if (edges == 0 || !second_.holds(past)) return;
+  const bool last = first_.holds(past);
+  for (std::uint64_t i = 0; i < edges; ++i) {
+    ++beats_;
+    if (last) {
+      ++result.occasions;
+      if (beats_ != check_.limit) fail(ps, std::to_string(beats_) + " beats");
+      beats_ = 0;
+    } else if (beats_ == check_.limit) {
+      fail(ps, "not the last of " + std::to_string(beats_) + " beats");
+    }
+  }
+}
+
+struct Court : Replay::Listener {
+  explicit Court(Replay& replay) : replay(replay) {}
+  bool instant(std::uint64_t ps) override {
+    for (Judge& judge : judges) judge.pass(ps);
+    for (const Replay::Slot slot : replay.changed()) {
+      if (slot >= by_slot.size()) continue;
+      for (const std::size_t i : by_slot[slot]) {
+        if (seen[i] == ps + 1) continue;
+        seen[i] = ps + 1;
+        judges[i].instant(ps);
+      }
+    }
+    return true;
+  }
+  void index() {
+    for (std::size_t i = 0; i < judges.size(); ++i) {
+      for (const Replay::Slot slot : judges[i].slots) {
+        if (slot >= by_slot.size()) by_slot.resize(slot + 1);
+        by_slot[slot].push_back(i);
+      }
+    }
+    seen.assign(judges.size(), 0);
+  }
+  Replay& replay;
+  std::deque<Judge> judges;
+  std::vector<std::vector<std::size_t>> by_slot;
+  std::vector<std::uint64_t> seen;  ///< instant + 1 of the last look
+};
+
+}  // namespace
+
+std::vector<CheckResult> run_checks(TraceFile& trace, const std::vector<Check>& checks,
+                                    const std::string& file, bool skip_missing) {
+  Replay replay(trace);
+  Court court(replay);
+  std::vector<CheckResult> skipped;
+  for (const Check& check : checks) {
+    try {
+      court.judges.emplace_back(check, replay, trace);
+    } catch (const vp::InputError& error) {
+      if (!skip_missing) {
+        throw vp::InputError("checks '" + file + "', line " + std::to_string(check.line) + ": " +
+                             error.what() + " (in '" + trace.name() + "')");
+      }
+      CheckResult result;
+      result.check = &check;
+      result.skipped = true;
+      result.missing = error.what();
+      skipped.push_back(std::move(result));
+    }
+  }
+  if (court.judges.empty()) {
+    throw vp::InputError("trace '" + trace.name() + "' has the signals of none of the " +
+                         std::to_string(checks.size()) + " checks: " + skipped.front().missing);
+  }
+  court.index();
+  replay.run(court);
+  std::vector<CheckResult> results = std::move(skipped);
+  for (Judge& judge : court.judges) {
+    judge.finish(replay.last_ps());
+    results.push_back(judge.result);
+  }
+  std::sort(results.begin(), results.end(),
+            [](const auto& a, const auto& b) { return a.check->line < b.check->line; });
+  return results;
+}
+
+}  // namespace platform::trace

@@ -1,0 +1,182 @@
+#include <trace/statistics.h>
+
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace platform::trace {
+
+namespace {
+
+constexpr double ps_per_us = 1e6;
+constexpr double ps_per_s = 1e12;
+
+// Packets of table 4.4 of the thesis.
+constexpr std::uint64_t end_word = 0xFFFF'FFFF;
+constexpr std::uint64_t corner_bit = 0x8000'0000;
+constexpr std::uint64_t blob_start_bit = 0x4000'0000;
+
+constexpr std::pair<const char*, const char*> counters[] = {
+    {"feature_overflow", "pl.feature_packaging.feature_overflow"},
+    {"label_overflow", "pl.blob_detection.label_overflow"},
+    {"bridge_overflow", "pl.axi_threshold_bridge.bridge_overflow"},
+    {"crossing_overflow", "pl.clock_crossing.crossing_overflow"}};
+
+struct Function {
+  std::uint64_t calls = 0;
+  std::uint64_t self_ps = 0;
+};
+
+struct Frame {
+  std::uint64_t taken_ps = 0;
+  std::optional<std::uint64_t> start_ps, end_ps;
+  std::uint64_t corners = 0, blobs = 0, words = 0;
+  std::vector<std::uint64_t> lost;  ///< by counter
+  std::map<std::string, Function> functions;
+};
+
+class FrameStatistic final : public Statistic {
+ public:
+  FrameStatistic(Replay& replay, TraceFile& file) : replay_(replay) {
+    const auto follow = [&](const char* path) -> std::optional<Replay::Slot> {
+      const int variable = file.find(path);
+      if (variable < 0) return std::nullopt;
+      return replay.watch(static_cast<std::uint32_t>(variable));
+    };
+    frame_ = follow("ps.cpu.frame");
+    results_ = follow("ps.cpu.results");
+    start_ = follow("pl.control_block.ena");
+    feature_ = follow("pl.feature_packaging.feature");
+    function_ = follow("ps.cpu.function");
+    name_ = follow("ps.cpu.function_name");
+    for (const auto& counter : counters) counters_.push_back(follow(counter.second));
+  }
+  bool found() const override { return frame_ || results_ || function_; }
+
+  void instant(std::uint64_t ps) override {
+    pass_function(ps);
+    if (frame_ && (rises(*frame_) || (!started_ && value(*frame_) > 0))) begin(ps);
+    started_ = true;
+    if (frames_.empty()) begin(ps);
+    Frame& frame = frames_.back();
+    if (start_ && rises(*start_) && !frame.start_ps) frame.start_ps = ps;
+    if (feature_ && changes(*feature_)) count_word(frame, value(*feature_));
+    if (results_ && rises(*results_)) finish_frame(frame, ps);
+  }
+  void finish(std::uint64_t ps) override {
+    if (started_ && !frames_.empty()) add_time(ps);
+  }
+  void report(std::vector<Table>& tables) const override;
+
+ private:
+  std::uint64_t value(Replay::Slot slot) const {
+    return replay_.known(slot) ? replay_.bits(slot) : 0;
+  }
+  bool changes(Replay::Slot slot) const {
+    return replay_.known(slot) && replay_.was_known(slot) &&
+           replay_.bits(slot) != replay_.bits_before(slot);
+  }
+  bool rises(Replay::Slot slot) const {
+    return changes(slot) && replay_.bits(slot) > replay_.bits_before(slot);
+  }
+
+  void begin(std::uint64_t ps) {
+    frames_.emplace_back();
+    frames_.back().taken_ps = ps;
+  }
+  static void count_word(Frame& frame, std::uint64_t word) {
+    if (word == 0) return;  // what a reset shows
+    ++frame.words;
+    if (word == end_word) return;
+    if ((word & corner_bit) != 0) {
+      ++frame.corners;
+    } else {
+      frame.blobs += (word & blob_start_bit) != 0;
+    }
+  }
+  void finish_frame(Frame& frame, std::uint64_t ps) {
+    frame.end_ps = ps;
+    frame.lost.clear();
+    for (const auto& counter : counters_) frame.lost.push_back(counter ? value(*counter) : 0);
+  }
+  void pass_function(std::uint64_t ps) {
+    if (!function_) return;
+    if (!frames_.empty()) add_time(ps);
+    function_ps_ = ps;
+    const std::uint64_t number = value(*function_);
+    if (number == running_) return;
+    running_ = number;
+    running_name_ = name_ ? replay_.text(*name_) : "function " + std::to_string(number);
+    if (number != 0 && !frames_.empty()) ++frames_.back().functions[running_name_].calls;
+  }
+  void add_time(std::uint64_t ps) {
+    if (running_ != 0) frames_.back().functions[running_name_].self_ps += ps - function_ps_;
+  }
+
+  Replay& replay_;
+  std::optional<Replay::Slot> frame_, results_, start_, feature_, function_, name_;
+  std::vector<std::optional<Replay::Slot>> counters_;
+  std::vector<Frame> frames_;
+  bool started_ = false;
+  std::uint64_t running_ = 0;
+  std::string running_name_;
+  std::uint64_t function_ps_ = 0;
+};
+
+void FrameStatistic::report(std::vector<Table>& tables) const {
+  Table summary{
+      "summary", "Frames", {"frames", "fps_mean", "latency_mean_us", "latency_max_us"}, {}, false};
+  Table frames{
+      "frames", "Each frame", {"frame", "taken_us", "start_us", "end_us", "latency_us"}, {}, false};
+  Table functions{"functions",
+                  "Software: time inside each function, without those it calls",
+                  {"frame", "function", "entries", "self_us"},
+                  {},
+                  false};
+  if (feature_) frames.columns.insert(frames.columns.end(), {"corners", "blobs", "feature_words"});
+  for (std::size_t i = 0; i < counters_.size(); ++i) {
+    if (counters_[i]) frames.columns.push_back(counters[i].first);
+  }
+  double sum_ps = 0, most_ps = 0;
+  std::uint64_t complete = 0, number = 0;
+  for (const Frame& frame : frames_) {
+    const bool any = frame.end_ps || !frame.functions.empty();
+    if (!any || (frame_ && frame.taken_ps == 0 && !frame.end_ps)) continue;
+    for (const auto& [name, function] : frame.functions) {
+      functions.rows.push_back(
+          {number, name, function.calls, static_cast<double>(function.self_ps) / ps_per_us});
+    }
+    if (frame.end_ps) {
+      const std::uint64_t start = frame.start_ps.value_or(frame.taken_ps);
+      const auto latency = static_cast<double>(*frame.end_ps - start);
+      ++complete;
+      sum_ps += latency;
+      most_ps = std::max(most_ps, latency);
+      std::vector<Table::Cell> row = {number, static_cast<double>(frame.taken_ps) / ps_per_us,
+                                      static_cast<double>(start) / ps_per_us,
+                                      static_cast<double>(*frame.end_ps) / ps_per_us,
+                                      latency / ps_per_us};
+      if (feature_) row.insert(row.end(), {frame.corners, frame.blobs, frame.words});
+      for (std::size_t i = 0; i < counters_.size(); ++i) {
+        if (counters_[i]) row.emplace_back(frame.lost[i]);
+      }
+      frames.rows.push_back(std::move(row));
+    }
+    ++number;
+  }
+  if (complete > 0) {
+    const double mean = sum_ps / static_cast<double>(complete);
+    summary.rows.push_back({complete, ps_per_s / mean, mean / ps_per_us, most_ps / ps_per_us});
+  }
+  tables.push_back(std::move(summary));
+  tables.push_back(std::move(frames));
+  tables.push_back(std::move(functions));
+}
+
+}  // namespace
+
+std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file) {
+  return std::make_unique<FrameStatistic>(replay, file);
+}
+
+}  // namespace platform::trace

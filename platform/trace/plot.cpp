@@ -1,0 +1,226 @@
+#include <trace/plot.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trace/replay.h>
+#include <trace/stepper.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform::trace {
+
+namespace {
+
+using Kind = vp::WaveVariable::Kind;
+
+constexpr int row_height = 30, wave_height = 18, top = 34, character = 7;
+
+/// What a signal shows from one change to the next.
+struct Piece {
+  double x;
+  std::string text;
+  bool known;
+  double number;
+  bool busy = false;  ///< several changes within a pixel
+};
+
+struct Row {
+  std::string name;
+  Replay::Slot slot;
+  Kind kind;
+  unsigned width;
+  std::vector<Piece> pieces;
+};
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') {
+      result += "&lt;";
+    } else if (c == '&') {
+      result += "&amp;";
+    } else {
+      result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+  }
+  return result;
+}
+
+std::string px(double value) {
+  return vp::format_fixed(value, 1);
+}
+
+class Plotter final : public Replay::Listener {
+ public:
+  Plotter(TraceFile& file, const PlotOptions& options) : options_(options), replay_(file) {
+    replay_.keep_texts();
+    std::size_t longest = 0;
+    for (const std::string& name : options.signals) {
+      const auto place = vp::find_path(name, file.paths(), "plot: ");
+      const vp::WaveVariable& variable = file.variable(place);
+      rows_.push_back(
+          {file.paths()[place], replay_.watch(place), variable.kind, variable.width, {}});
+      longest = std::max(longest, rows_.back().name.size());
+    }
+    left_ = 16 + static_cast<double>(longest) * character;
+    scale_ = (options.width - left_ - 12) /
+             static_cast<double>(std::max<std::uint64_t>(options.to_ps - options.from_ps, 1));
+  }
+
+  std::string svg() {
+    replay_.run(*this);
+    end_ps_ = std::min(options_.to_ps, std::max(replay_.last_ps(), options_.from_ps));
+    const double height = top + static_cast<double>(rows_.size()) * row_height + 8;
+    std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
+                       std::to_string(options_.width) + "\" height=\"" + px(height) +
+                       "\" font-family=\"DejaVu Sans Mono, monospace\" font-size=\"11\">\n"
+                       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+    text += axis(height);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      text += row(rows_[i], top + static_cast<double>(i) * row_height + 6);
+    }
+    if (options_.marker_ps) {
+      const double x = place(*options_.marker_ps);
+      text += "<path d=\"M" + px(x) + " " + std::to_string(top - 8) + "V" + px(height - 4) +
+              "\" stroke=\"#d55e00\" stroke-width=\"1.5\"/>\n";
+    }
+    return text + "</svg>\n";
+  }
+
+ private:
+  bool instant(std::uint64_t ps) override {
+    if (ps >= options_.to_ps) return false;
+    for (Row& row : rows_) {
+      const auto& changed = replay_.changed();
+      if (std::find(changed.begin(), changed.end(), row.slot) == changed.end()) continue;
+      add(row, ps);
+    }
+    return true;
+  }
+  double place(std::uint64_t ps) const {
+    const std::uint64_t inside = std::max(ps, options_.from_ps) - options_.from_ps;
+    return left_ + static_cast<double>(inside) * scale_;
+  }
+  void add(Row& row, std::uint64_t ps) {
+    const auto number = replay_.now(row.slot);
+    Piece piece{place(ps), readable(replay_.text(row.slot), row.kind, row.width),
+                replay_.known(row.slot), number ? static_cast<double>(*number) : 0};
+    if (ps <= options_.from_ps) row.pieces.clear();  // stood before the window
+    if (!row.pieces.empty() && piece.x - row.pieces.back().x < 1) {
+      piece.x = row.pieces.back().x;
+      piece.busy = true;
+      row.pieces.back() = piece;
+    } else {
+      row.pieces.push_back(piece);
+    }
+  }
+
+  std::string axis(double height) const {
+    const double span = static_cast<double>(options_.to_ps - options_.from_ps);
+    double step = std::pow(10, std::floor(std::log10(span / 5)));
+    if (span / step > 25) step *= 5;
+    if (span / step > 12) step *= 2;
+    std::string text;
+    const auto whole_step = std::max<std::uint64_t>(static_cast<std::uint64_t>(step), 1);
+    const std::uint64_t first = (options_.from_ps + whole_step - 1) / whole_step * whole_step;
+    for (std::uint64_t ps = first; ps <= options_.to_ps; ps += whole_step) {
+      const double x = place(ps);
+      text += "<path d=\"M" + px(x) + " 22V" + px(height - 4) +
+              "\" stroke=\"#dddddd\"/><text x=\"" + px(x) +
+              "\" y=\"16\" text-anchor=\"middle\" fill=\"#555555\">" + vp::format_time(ps) +
+              "</text>\n";
+    }
+    return text;
+  }
+
+  std::string row(const Row& row, double y) const {
+    std::string text = "<text x=\"8\" y=\"" + px(y + 13) + "\" fill=\"#111111\">" +
+                       escaped(row.name) + "</text>\n";
+    const double end = place(end_ps_);
+    double least = 0, most = 0;
+    for (const Piece& piece : row.pieces) {
+      least = std::min(least, piece.number);
+      most = std::max(most, piece.number);
+    }
+    double before = y + wave_height;
+    for (std::size_t i = 0; i < row.pieces.size(); ++i) {
+      const Piece& piece = row.pieces[i];
+      const double to = i + 1 < row.pieces.size() ? row.pieces[i + 1].x : end;
+      if (row.kind == Kind::real || (row.kind == Kind::bits && row.width == 1)) {
+        const double range = row.kind == Kind::real ? std::max(most - least, 1e-12) : 1;
+        const double level = y + wave_height * (1 - (piece.number - least) / range);
+        text += piece.known ? line(piece, before, level, to) : unknown(piece.x, to, y);
+        before = level;
+      } else {
+        text += box(row, piece, to, y);
+      }
+    }
+    return text;
+  }
+  static std::string line(const Piece& piece, double before, double level, double to) {
+    const std::string width = piece.busy ? "2.5" : "1.4";
+    return "<path d=\"M" + px(piece.x) + " " + px(before) + "V" + px(level) + "H" + px(to) +
+           "\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"" + width + "\"/>\n";
+  }
+  static std::string unknown(double from, double to, double y) {
+    return "<rect x=\"" + px(from) + "\" y=\"" + px(y) + "\" width=\"" +
+           px(std::max(to - from, 1.0)) + "\" height=\"" + std::to_string(wave_height) +
+           "\" fill=\"#f3d4c4\" stroke=\"#d55e00\"/>\n";
+  }
+  static std::string box(const Row& row, const Piece& piece, double to, double y) {
+    if (!piece.known) return unknown(piece.x, to, y);
+    const double width = to - piece.x;
+    const bool quiet = row.kind == Kind::text && piece.text.empty();
+    std::string text = "<rect x=\"" + px(piece.x) + "\" y=\"" +
+                       px(quiet ? y + wave_height / 2.0 : y) + "\" width=\"" +
+                       px(std::max(width, 1.0)) + "\" height=\"" +
+                       (quiet ? "1" : std::to_string(wave_height)) + "\" fill=\"" +
+                       (piece.busy ? "#9cc7e0" : "#eaf4fa") + "\" stroke=\"#0072b2\"/>\n";
+    const auto room = static_cast<std::size_t>(std::max(width - 6, 0.0)) / character;
+    if (quiet || room == 0) return text;
+    std::string shown = piece.text;
+    if (shown.size() > room) {
+      if (room < 4) return text;
+      shown = shown.substr(0, room - 1) + "…";
+    }
+    return text + "<text x=\"" + px(piece.x + 4) + "\" y=\"" + px(y + 13) + "\" fill=\"#111111\">" +
+           escaped(shown) + "</text>\n";
+  }
+
+  const PlotOptions& options_;
+  Replay replay_;
+  std::vector<Row> rows_;
+  double left_ = 0, scale_ = 1;
+  std::uint64_t end_ps_ = 0;
+};
+
+}  // namespace
+
+std::string plot_as_svg(TraceFile& file, const PlotOptions& options) {
+  return Plotter(file, options).svg();
+}
+
+std::string readable(const std::string& text, Kind kind, unsigned width) {
+  if (kind != Kind::bits || width == 1) return text;
+  std::string padded((4 - text.size() % 4) % 4, '0');
+  padded += text;
+  std::string result;
+  for (std::size_t i = 0; i < padded.size(); i += 4) {
+    const std::string_view digits = std::string_view(padded).substr(i, 4);
+    unsigned value = 0;
+    bool known = true;
+    for (const char c : digits) {
+      known = known && c <= '1';
+      value = value * 2 + (c & 1u);
+    }
+    if (!known) {
+      result += 'x';
+    } else if (value != 0 || !result.empty() || i + 4 == padded.size()) {
+      result += "0123456789ABCDEF"[value];
+    }
+  }
+  return result;
+}
+
+}  // namespace platform::trace

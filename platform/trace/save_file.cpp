@@ -1,0 +1,244 @@
+#include <trace/save_file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <trace/replay.h>
+#include <vp/error.h>
+
+namespace platform::trace {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = vp::WaveVariable::Kind;
+
+/// Formats of GTKWave's save files: right-justified, and how the value is shown.
+constexpr const char *as_title = "@200", *as_bit = "@28", *as_hex = "@22", *as_decimal = "@24",
+                     *as_translated = "@2022", *as_curve = "@8420";
+
+/// The signals of the system's page, by group. Those that a trace lacks are left out.
+struct Group {
+  const char* title;
+  std::vector<const char*> paths;
+};
+const std::vector<Group>& system_groups() {
+  static const std::vector<Group> groups = {
+      {"Software",
+       {"ps.cpu.frame", "ps.cpu.results", "ps.cpu.function", "ps.cpu.function_name",
+        "ps.cpu.handler_name", "ps.cpu.in_handler", "ps.cpu.asleep", "ps.cpu.m_axi.access"}},
+      {"Interrupts",
+       {"pl.axi_dma_0.mm2s_introut", "pl.axi_dma_1.s2mm_introut", "ps.gic.n_irq", "ps.gic.active"}},
+      {"Control",
+       {"pl.control_block.rst_out", "pl.control_block.ena", "pl.control_block.ready",
+        "pl.frame_status.busy", "pl.frame_status.done"}},
+      {"Pixels",
+       {"pl.sensor_input.frame_ena", "pl.sensor_input.pixel_x", "pl.sensor_input.pixel_y",
+        "pl.sensor_input.pixel", "pl.global_threshold.active_threshold"}},
+      {"Features",
+       {"pl.corner_detection.corner_out", "pl.corner_detection.corner_data",
+        "pl.blob_detection.blob_out", "pl.feature_packaging.corner_count",
+        "pl.feature_packaging.blob_count", "pl.feature_packaging.feature_overflow",
+        "pl.feature_packaging.feature"}},
+      {"Binary image",
+       {"pl.binary_stream.tvalid", "pl.binary_stream.tready", "pl.binary_stream.tlast",
+        "pl.binary_stream.tdata", "pl.axi_threshold_bridge.fifo_count",
+        "pl.axi_threshold_bridge.bridge_overflow"}},
+      {"Image upload",
+       {"pl.image_stream.tvalid", "pl.image_stream.tready", "pl.image_stream.tlast",
+        "pl.image_stream.tdata"}},
+      {"Power", {"power.total", "power.ps", "power.pl"}}};
+  return groups;
+}
+
+/// Signals whose values have names, and the file that says them.
+const std::map<std::string, std::string>& translated() {
+  static const std::map<std::string, std::string> files = {
+      {"ps.cpu.function", "function.flt"},
+      {"ps.gic.active", "interrupt.flt"},
+      {"pl.feature_packaging.feature", "feature.flt"}};
+  return files;
+}
+
+bool is_count(const std::string& path) {
+  static const char* const endings[] = {"_count",    "_x",     "_y",    "threshold",
+                                        "_overflow", "depth",  "frame", "results",
+                                        "pixel",     "bursts", "_bytes"};
+  return std::any_of(std::begin(endings), std::end(endings), [&](const std::string& ending) {
+    return path.size() > ending.size() &&
+           path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  });
+}
+
+std::string hex_of(std::uint64_t value, unsigned width) {
+  std::string text((width + 3) / 4, '0');
+  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, value >>= 4) {
+    *digit = "0123456789ABCDEF"[value & 0xF];
+  }
+  return text;
+}
+
+/// Names of functions are in the trace itself.
+struct FunctionNames : Replay::Listener {
+  FunctionNames(TraceFile& file, Replay& replay_) : replay(replay_) {
+    const int number = file.find("ps.cpu.function"), name = file.find("ps.cpu.function_name");
+    known = number >= 0 && name >= 0;
+    if (!known) return;
+    width = file.variable(static_cast<std::uint32_t>(number)).width;
+    function = replay.watch(static_cast<std::uint32_t>(number));
+    text = replay.watch(static_cast<std::uint32_t>(name));
+  }
+  bool instant(std::uint64_t ps) override {
+    first_ps = std::min(first_ps, ps);
+    if (known && replay.known(function) && replay.bits(function) != 0) {
+      names[replay.bits(function)] = replay.text(text);
+    }
+    return true;
+  }
+  std::string file() const {
+    static const char* const colours[] = {"dark blue", "dark green", "dark red", "brown",
+                                          "purple4",   "dark cyan",  "gray30",   "sienna"};
+    std::string result = hex_of(0, width) + " -\n";
+    std::size_t i = 0;
+    for (const auto& [value, name] : names) {
+      result += hex_of(value, width) + " ?" + colours[i++ % std::size(colours)] + "?" + name + "\n";
+    }
+    return result;
+  }
+
+  Replay& replay;
+  bool known = false;
+  unsigned width = 32;
+  Replay::Slot function = 0, text = 0;
+  std::map<std::uint64_t, std::string> names;
+  std::uint64_t first_ps = ~std::uint64_t{0};
+};
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.flush();
+  if (!stream) {
+    throw vp::InputError("cannot write '" + file.string() + "': " + std::strerror(errno) +
+                         "; name a folder that exists and may be written");
+  }
+}
+
+/// "pl.corner_detection" of "pl.corner_detection.corner_out"; "" for what is in no IP.
+std::string ip_of(const std::string& path) {
+  const auto first = path.find('.');
+  const auto second = first == std::string::npos ? first : path.find('.', first + 1);
+  return second == std::string::npos ? "" : path.substr(0, second);
+}
+
+}  // namespace
+
+std::string save_file_text(const SaveFile& save) {
+  std::string text = "[*] " + save.comment + "\n[timestart] " + std::to_string(save.start_ps) +
+                     "\n[size] 1400 900\n[pos] -1 -1\n";
+  const double zoom =
+      -std::round(std::log2(static_cast<double>(std::max<std::uint64_t>(save.ps_per_pixel, 1))));
+  text +=
+      "*" + std::to_string(zoom) + " " + (save.marker_ps ? std::to_string(*save.marker_ps) : "-1");
+  for (int i = 0; i < 26; ++i) text += " -1";  // the named markers
+  text += "\n[sst_width] 200\n[signals_width] 320\n[sst_expanded] 0\n";
+  for (const SaveFile::Line& line : save.lines) {
+    if (line.title) {
+      text += std::string(as_title) + "\n-" + line.path + "\n";
+      continue;
+    }
+    const bool vector = line.kind == Kind::bits && line.width > 1;
+    const char* format = line.kind == Kind::real   ? as_curve
+                         : !line.translate.empty() ? as_translated
+                         : !vector                 ? as_bit
+                         : line.decimal            ? as_decimal
+                                                   : as_hex;
+    text += std::string(format) + "\n";
+    if (!line.translate.empty()) text += "^1 " + line.translate + "\n";
+    text += line.path + (vector ? "[" + std::to_string(line.width - 1) + ":0]" : "") + "\n";
+  }
+  return text;
+}
+
+std::vector<SaveFile::Line> save_lines(const TraceFile& file,
+                                       const std::vector<std::string>& paths) {
+  std::vector<SaveFile::Line> lines;
+  for (const std::string& path : paths) {
+    const int place = file.find(path);
+    if (place < 0) continue;
+    const vp::WaveVariable& variable = file.variable(static_cast<std::uint32_t>(place));
+    SaveFile::Line line;
+    line.path = variable.path;  // as the file has it
+    line.width = variable.width;
+    line.kind = variable.kind;
+    line.decimal = is_count(path);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::vector<std::string> write_save_files(TraceFile& file, const std::string& folder) {
+  Replay replay(file);
+  FunctionNames functions(file, replay);
+  replay.watch(0u);
+  replay.run(functions);
+  const fs::path root(folder);
+  std::vector<std::string> written;
+  const auto put = [&](const std::string& name, const std::string& text) {
+    write(root / name, text);
+    written.push_back((root / name).string());
+  };
+
+  const auto with_names = [&](std::vector<SaveFile::Line> lines) {
+    for (SaveFile::Line& line : lines) {
+      const auto found = translated().find(line.path);
+      if (found != translated().end() && (found->second != "function.flt" || functions.known)) {
+        line.translate = found->second;
+      }
+    }
+    return lines;
+  };
+  SaveFile page;
+  constexpr std::uint64_t pixels = 1000;
+  page.start_ps = replay.first_ps();
+  page.ps_per_pixel = (replay.last_ps() - replay.first_ps()) / pixels;
+
+  page.comment = "The whole system: software, interrupts, control, pixels, features, streams.";
+  for (const Group& group : system_groups()) {
+    const auto lines = with_names(save_lines(file, {group.paths.begin(), group.paths.end()}));
+    if (lines.empty()) continue;
+    SaveFile::Line title;
+    title.path = group.title;
+    title.title = true;
+    page.lines.push_back(title);
+    page.lines.insert(page.lines.end(), lines.begin(), lines.end());
+  }
+  if (!page.lines.empty()) put("system.gtkw", save_file_text(page));
+
+  std::map<std::string, std::vector<std::string>> ips;
+  for (const std::string& path : file.paths()) {
+    if (!ip_of(path).empty()) ips[ip_of(path)].push_back(path);
+  }
+  for (const auto& [ip, paths] : ips) {
+    page.comment = "All traced signals of " + ip + ".";
+    page.lines = with_names(save_lines(file, paths));
+    put(ip.substr(ip.find('.') + 1) + ".gtkw", save_file_text(page));
+  }
+  if (functions.known) put("function.flt", functions.file());
+  if (file.find("ps.gic.active") >= 0) {
+    put("interrupt.flt",
+        "3FF -\n01B ?dark green?global timer\n01D ?dark green?private timer\n"
+        "03D ?dark blue?DMA 0: image\n03E ?dark red?DMA 1: binary image\n");
+  }
+  if (file.find("pl.feature_packaging.feature") >= 0) {
+    put("feature.flt", "00000000 -\nFFFFFFFF ?dark red?end of frame\n");
+  }
+  return written;
+}
+
+}  // namespace platform::trace

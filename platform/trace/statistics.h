@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <trace/replay.h>
+#include <trace/sample_clock.h>
+#include <trace/table.h>
+#include <trace/trace_file.h>
+
+namespace platform::trace {
+
+/// What the statistics must know of the hardware.
+struct StatisticsOptions {
+  /// Of the links, for a trace without the wire ps.fclk_clk0.clk (see --trace-clocks).
+  std::uint64_t system_hz = 100'000'000;
+};
+
+/// One kind of statistics. It follows the signals it finds in the trace.
+class Statistic {
+ public:
+  virtual ~Statistic() = default;
+  /// False if the trace has nothing of this kind.
+  virtual bool found() const = 0;
+  virtual void instant(std::uint64_t ps) = 0;
+  /// The trace is over at `ps`.
+  virtual void finish(std::uint64_t ps) = 0;
+  virtual void report(std::vector<Table>& tables) const = 0;
+};
+
+/// AXI-Streams and other links with `…valid` and `…ready`: beats, packets, stalls (the master
+/// waits), starved edges (the slave waits), waits from VALID to the beat, bursts.
+std::unique_ptr<Statistic> link_statistic(Replay& replay, TraceFile& file,
+                                          const StatisticsOptions& options);
+/// Buffers: time-weighted occupancy, high-water mark, time full and empty; overflow counters.
+std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file);
+/// Interrupts: from the line's rise to the acknowledgement.
+std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file);
+/// Frames: latency, FPS, feature words and overflows; and the functions' time in each.
+std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file);
+
+/// All of them. Throws vp::InputError for a trace that has nothing of ours, or whose links do not
+/// run on the clock.
+std::vector<Table> statistics(TraceFile& file, const StatisticsOptions& options = {});
+
+}  // namespace platform::trace

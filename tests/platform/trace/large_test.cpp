@@ -1,0 +1,49 @@
+// 200 MB pass through the statistics in constant memory.
+#include <sys/resource.h>
+#include <vp/wave_writer.h>
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+
+#include <trace/statistics.h>
+
+#include "temporary_files.h"
+
+namespace {
+
+/// The most memory this process has had, KiB.
+long peak_kib() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_trace) {
+  constexpr std::uintmax_t bytes = 200'000'000;
+  constexpr long allowed_kib = 8 * 1024;
+  const kit::TemporaryFolder folder;
+  using Kind = vp::WaveWriter::Kind;
+  const auto writer = vp::open_wave_writer(folder / "large.vcd");
+  writer->add("pl.s.tvalid", Kind::wire, 1);
+  writer->add("pl.s.tready", Kind::wire, 1);
+  writer->add("pl.s.tdata", Kind::wire, 32);
+  writer->add("pl.feature_packaging.corner_count", Kind::wire, 16);
+  writer->begin(0, {0, 1, 0, 0});
+  std::uint64_t beats = 0;
+  for (std::uint64_t i = 1;
+       i % 4096 != 0 || std::filesystem::file_size(folder / "large.vcd.tmp") < bytes; ++i) {
+    writer->set_time(i * 10'000);
+    writer->change(0, i % 2);
+    writer->change(2, static_cast<std::uint32_t>(i * 2654435761u));
+    writer->change(3, i % 50);
+    beats += i % 2 == 0;
+  }
+  writer->close(1ull << 50);
+  const long before = peak_kib();
+  platform::trace::TraceFile file(folder / "large.vcd");
+  const auto tables = platform::trace::statistics(file);
+  BOOST_TEST(peak_kib() - before < allowed_kib);
+  BOOST_TEST(std::get<std::uint64_t>(tables.front().rows[0][1]) > beats / 2);
+}

@@ -1,0 +1,130 @@
+// Numbers of waveforms that were counted by hand. The clock has 10 ns; edges see what stood before.
+#include <boost/test/unit_test.hpp>
+
+#include <trace/statistics.h>
+
+#include "waves.h"
+
+namespace {
+
+using platform::trace::Table;
+
+struct Numbers {
+  explicit Numbers(const Waves& waves, std::uint64_t hertz = 100'000'000) {
+    platform::trace::TraceFile file(waves.file);
+    tables = platform::trace::statistics(file, {hertz});
+  }
+  Table::Cell at(const std::string& table, std::size_t row, const std::string& column) const {
+    for (const Table& t : tables) {
+      if (t.name != table) continue;
+      for (std::size_t c = 0; c < t.columns.size(); ++c) {
+        if (t.columns[c] == column) return t.rows.at(row).at(c);
+      }
+    }
+    throw std::runtime_error("no " + table + "." + column);
+  }
+  std::uint64_t whole(const std::string& table, std::size_t row, const std::string& column) const {
+    return std::get<std::uint64_t>(at(table, row, column));
+  }
+  double real(const std::string& table, std::size_t row, const std::string& column) const {
+    return std::get<double>(at(table, row, column));
+  }
+  std::vector<Table> tables;
+};
+
+const std::string link_signals = "pl.s.tvalid 1, pl.s.tready 1, pl.s.tlast 1, pl.s.tdata 32";
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(statistics)
+
+// tvalid from 10 on, tready from 40 to 70: edges 20, 30, 40 stall; beats at 50, 60, 70; tlast on
+// the last; then tready alone from 100 to 120: two starved edges.
+BOOST_AUTO_TEST_CASE(a_link) {
+  const Waves waves(link_signals,
+                    "#0 0! 0\" 0# b0 $\n#10 1!\n#40 1\"\n#60 1#\n#70 0! 0\" 0#\n#100 1\"\n#120 "
+                    "0\"\n#130\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("links", 0, "beats") == 3u);
+  BOOST_TEST(n.whole("links", 0, "packets") == 1u);
+  BOOST_TEST(n.whole("links", 0, "stalls") == 3u);
+  BOOST_TEST(n.whole("links", 0, "starved") == 2u);
+  BOOST_TEST(n.whole("links", 0, "longest_stall_cycles") == 3u);
+  BOOST_TEST(n.real("links", 0, "longest_stall_at_us") == 0.01, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.whole("bursts", 0, "beats") == 3u);
+  BOOST_TEST(n.whole("waits", 0, "wait_cycles") == 0u);
+  BOOST_TEST(n.whole("waits", 0, "beats") == 2u);
+  BOOST_TEST(n.whole("waits", 1, "wait_cycles") == 3u);
+}
+
+BOOST_AUTO_TEST_CASE(the_clocks_wire_counts_if_it_is_there) {
+  const Waves waves("pl.s.tvalid 1, pl.s.tready 1, ps.fclk_clk0.clk 1",
+                    "#0 0! 1\" 0#\n#7 1! 1#\n#9 0#\n#21 1#\n#22 0#\n#50 1# 0!\n#60\n");
+  BOOST_TEST(Numbers(waves).whole("links", 0, "beats") == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(links_that_do_not_run_on_the_clock_are_refused) {
+  const Waves waves(link_signals, "#0 0! 0\" 0#\n#13 1!\n#26 0!\n#39 1!\n#52 0!\n");
+  BOOST_TEST(complaint([&] { Numbers{waves}; }).find("--clock") != std::string::npos);
+  BOOST_TEST(complaint([&] { Numbers{waves, 1'000'000'000}; }) == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_buffer_with_its_overflow) {
+  const Waves waves(
+      "pl.feature_packaging.corner_count 16, pl.feature_packaging.depth 17, "
+      "pl.feature_packaging.feature_overflow 32",
+      "#0 b0 ! b10 \" b0 #\n#10 b1 !\n#30 b10 !\n#40 b1 #\n#50 b11 #\n#60 b0 !\n#70 b0 #\n#100\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("buffers", 0, "depth") == 2u);
+  BOOST_TEST(n.whole("buffers", 0, "high_water") == 2u);
+  BOOST_TEST(n.real("buffers", 0, "full_us") == 0.03, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("buffers", 0, "empty_us") == 0.05, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("buffers", 0, "mean") == 0.8, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.whole("overflows", 0, "lost") == 3u);
+  BOOST_TEST(std::get<double>(n.at("overflows", 0, "first_at_us")) == 0.04,
+             boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(interrupts_from_line_to_acknowledgement) {
+  const Waves waves("pl.axi_dma_0.mm2s_introut 1, ps.gic.active 10",
+                    "#0 0! b1111111111 \"\n#10 1!\n#25 b111101 \"\n#30 0! b1111111111 \"\n"
+                    "#40 1!\n#45 b111101 \"\n#60\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("interrupts", 0, "served") == 2u);
+  BOOST_TEST(n.real("interrupts", 0, "min_us") == 0.005, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("interrupts", 0, "max_us") == 0.015, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(frames_words_and_functions) {
+  const Waves waves(
+      "ps.cpu.frame 32, ps.cpu.results 32, ps.cpu.function 32, ps.cpu.function_name string, "
+      "pl.control_block.ena 1, pl.feature_packaging.feature 32",
+      "#0 b0 ! b0 \" b0 # s $ 0% b0 &\n#10 b1 ! b1 # sload $\n#20 1% b10 # srun $\n"
+      "#30 b10000000000000000000000000000001 &\n#31 b1000000000000000000000000000001 &\n"
+      "#32 b1 &\n#33 b11111111111111111111111111111111 &\n#60 b0 # s $ b1 \"\n#70\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("frames", 0, "corners") == 1u);
+  BOOST_TEST(n.whole("frames", 0, "blobs") == 1u);
+  BOOST_TEST(n.whole("frames", 0, "feature_words") == 4u);
+  BOOST_TEST(n.real("frames", 0, "latency_us") == 0.04, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("summary", 0, "fps_mean") == 25e6, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(std::get<std::string>(n.at("functions", 0, "function")) == "load");
+  BOOST_TEST(n.real("functions", 1, "self_us") == 0.04, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(a_trace_of_something_else_is_refused_with_what_is_missing) {
+  const Waves waves("top.a 1, top.b 2", "#0 0! b0 \"\n");
+  const std::string message = complaint([&] { Numbers{waves}; });
+  BOOST_TEST(message.find("has nothing that markervp knows") != std::string::npos);
+  BOOST_TEST(message.find("top.a, top.b") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(tables_in_three_forms) {
+  const std::vector<Table> tables = {
+      {"t", "Title", {"name", "n", "x"}, {{std::string("a,b"), std::uint64_t{7}, 1.5}}, false}};
+  BOOST_TEST(tables_as_text(tables) == "Title\n  name  n      x\n  a,b   7  1.500\n");
+  BOOST_TEST(tables_as_csv(tables) == "t\nname,n,x\n\"a,b\",7,1.500000\n");
+  BOOST_TEST(tables_as_json(tables).find("\"n\": 7") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,169 @@
+// diff, cut, plot, names and save files.
+#include <boost/test/unit_test.hpp>
+
+#include <trace/cut.h>
+#include <trace/difference.h>
+#include <trace/plot.h>
+#include <trace/save_file.h>
+#include <vp/wave_writer.h>
+
+#include "waves.h"
+
+using namespace platform::trace;
+
+BOOST_AUTO_TEST_SUITE(tools)
+
+namespace {
+
+const std::string signals = "ps.cpu.frame 8, pl.x 8, pl.y 1";
+
+Difference compare(const std::string& a, const std::string& b, bool by_frame = false) {
+  const Waves left(signals, a), right(signals, b);
+  TraceFile left_file(left.file), right_file(right.file);
+  DifferenceOptions options;
+  options.by_frame = by_frame;
+  return difference(left_file, right_file, options);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(equal_traces_do_not_differ) {
+  const std::string a = "#0 b0 ! b0 \" 0#\n#10 b1 !\n#20 b101 \"\n";
+  BOOST_TEST(!compare(a, a).differ);
+  BOOST_TEST(!compare(a, "#0 b0 ! b0000 \" 0#\n#10 b1 !\n#15 0#\n#20 b00000101 \"\n").differ,
+             "zeros in front and values written again are no difference");
+}
+
+BOOST_AUTO_TEST_CASE(the_first_difference_and_what_is_around_it) {
+  const Difference d = compare("#0 b0 ! b0 \" 0#\n#10 b1 \"\n#20 b10 \"\n#30 b11 \"\n",
+                               "#0 b0 ! b0 \" 0#\n#10 b1 \"\n#20 b100 \"\n#30 1#\n");
+  BOOST_TEST(d.differ);
+  BOOST_TEST(d.a_ps == 20'000u);
+  BOOST_TEST(d.values.size() == 1u);
+  BOOST_TEST(d.values[0].path == "pl.x");
+  BOOST_TEST(d.values[0].in_a == "2");
+  BOOST_TEST(d.values[0].in_b == "4");
+  BOOST_TEST(d.a_before.back().value == "2");
+  BOOST_TEST(d.a_after.front().ps == 30'000u);
+  BOOST_TEST(d.b_after.front().path == "pl.y");
+}
+
+BOOST_AUTO_TEST_CASE(frames_are_aligned_whenever_they_begin) {
+  const std::string a = "#0 b0 ! b0 \" 0#\n#10 b1 !\n#15 b1 \"\n#20 b10 !\n#27 b11 \"\n";
+  const std::string later = "#0 b0 ! b0 \" 0#\n#100 b1 !\n#105 b1 \"\n#130 b10 !\n#137 b11 \"\n";
+  BOOST_TEST(compare(a, later).differ);
+  BOOST_TEST(!compare(a, later, true).differ);
+  const Difference d =
+      compare(a, "#0 b0 ! b0 \" 0#\n#100 b1 !\n#105 b1 \"\n#130 b10 !\n#138 b11 \"\n#140\n", true);
+  BOOST_TEST(d.differ);
+  BOOST_TEST(d.frame == 2u);
+  BOOST_TEST(d.in_frame_ps == 7'000u);
+  BOOST_TEST(d.a_ps == 27'000u);
+  BOOST_TEST(d.b_ps == 137'000u);
+}
+
+BOOST_AUTO_TEST_CASE(traces_without_common_signals_are_refused) {
+  const Waves a("x 1", "#0 0!\n"), b("y 1", "#0 0!\n");
+  TraceFile left(a.file), right(b.file);
+  BOOST_TEST(complaint([&] { difference(left, right); }).find("no signal in common") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_part_has_the_values_that_stood_before_it) {
+  const Waves waves(signals, "#0 b1 ! b10 \"\n#10 b11 \"\n#20 b100 \"\n#30 1#\n#40\n");
+  for (const char* name : {"part.vcd", "part.fst"}) {
+    if (std::string(name) == "part.fst" && !vp::has_fst()) continue;
+    TraceFile file(waves.file);
+    CutOptions options;
+    options.from_ps = 15'000;
+    options.to_ps = 30'000;
+    options.filter = vp::TraceFilter({"pl.**"});
+    cut(file, waves / name, options);
+    TraceFile part(waves / name);
+    BOOST_TEST(part.paths().size() == 2u);
+    BOOST_TEST(part.find("ps.cpu.frame") == -1);
+    struct Reader : vp::WaveHandler {
+      bool at(std::uint64_t ps) override {
+        now = ps;
+        return true;
+      }
+      void change(std::uint32_t net, const vp::WaveValue& value) override {
+        if (net == 0) text += std::to_string(now) + ":" + std::to_string(value.bits) + " ";
+        if (net == 1) known = known || value.known;
+      }
+      std::uint64_t now = 0;
+      std::string text;
+      bool known = false;
+    } reader;
+    part.reader().select_all();
+    part.reader().read(reader);
+    BOOST_TEST(reader.text == "15000:3 20000:4 ");
+    BOOST_TEST(part.reader().now_ps() == 30'000u);
+  }
+  TraceFile file(waves.file);
+  CutOptions late;
+  late.from_ps = 1'000'000;
+  BOOST_TEST(complaint([&] { cut(file, waves / "late.vcd", late); }).find("before the window") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(names_of_others_become_ours) {
+  const Waves waves("ila.slot_0_tvalid 1, ila.slot_0_tready 1", "#0 0! 0\"\n");
+  kit::write_file(
+      waves / "m.map",
+      "# ours = theirs\npl.s.tvalid = ila.slot_0_tvalid\npl.s.tready = slot_0_tready\n");
+  const TraceFile file(waves.file, read_name_map(waves / "m.map"));
+  BOOST_TEST(file.find("pl.s.tvalid") == 0);
+  BOOST_TEST(file.find("pl.s.tready") == 1);
+  const auto refused = [&](const std::string& text) {
+    kit::write_file(waves / "m.map", text);
+    return complaint([&] { TraceFile(waves.file, read_name_map(waves / "m.map")); });
+  };
+  BOOST_TEST(refused("a = slot_0_tvald\n").find("line 1: in '") != std::string::npos);
+  BOOST_TEST(refused("a = slot_0_tvald\n").find("did you mean 'ila.slot_0_tvalid'") !=
+             std::string::npos);
+  BOOST_TEST(refused("\na\n").find("line 2: 'a' should be 'ours = theirs'") != std::string::npos);
+  BOOST_TEST(refused("a = slot_0_tvalid\na = slot_0_tready\n").find("line 1 already") !=
+             std::string::npos);
+  BOOST_TEST(complaint([&] { read_name_map(waves / "none.map"); }).find("cannot read map") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_plot_shows_names_values_and_what_is_unknown) {
+  const Waves waves("pl.flag 1, pl.word 16, ps.text string",
+                    "#0 0! b11111111 \" sone<two #\n#40 1! bx \"\n#80 0! b1 \"\n#100\n");
+  TraceFile file(waves.file);
+  PlotOptions options;
+  options.signals = {"flag", "pl.word", "text"};
+  options.to_ps = 100'000;
+  options.marker_ps = 40'000;
+  const std::string svg = plot_as_svg(file, options);
+  for (const char* part : {"pl.flag", ">FF<", "one&lt;two", "#f3d4c4", "#d55e00", "40 ns"}) {
+    BOOST_TEST(svg.find(part) != std::string::npos, part);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
+  const Waves waves(
+      "ps.cpu.function 32, ps.cpu.function_name string, ps.gic.active 10, "
+      "pl.corner_detection.corner_out 1, pl.corner_detection.corner_data 32",
+      "#0 b0 ! s \" b1 # 0$ b0 %\n#10 b11 ! swork \"\n#20\n");
+  TraceFile file(waves.file);
+  const kit::TemporaryFolder folder;
+  write_save_files(file, folder.path());
+  const std::string system = kit::read_file(folder / "system.gtkw");
+  BOOST_TEST(system.find("@2022\n^1 function.flt\nps.cpu.function[31:0]\n") != std::string::npos);
+  BOOST_TEST(system.find("pl.corner_detection.corner_out\n") != std::string::npos);
+  BOOST_TEST(system.find("tvalid") == std::string::npos);
+  BOOST_TEST(kit::read_file(folder / "function.flt").find("00000003 ?dark blue?work") !=
+             std::string::npos);
+  const std::vector<std::string> expected = {"corner_detection.gtkw", "cpu.gtkw",
+                                             "function.flt",          "gic.gtkw",
+                                             "interrupt.flt",         "system.gtkw"};
+  BOOST_TEST((folder.entries() == expected));
+  BOOST_TEST(complaint([&] {
+               TraceFile again(waves.file);
+               write_save_files(again, "/nowhere");
+             }).find("cannot write") == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
