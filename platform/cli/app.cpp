@@ -219,6 +219,7 @@ void add_validate(CLI::App& app, ValidateOptions& target) {
       ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{2}).description(""));
   command->add_option("--markdown", target.markdown, "write the page of the documentation too")
       ->type_name("FILE");
+  command->add_flag("--no-report", target.no_report, "no page report.html");
   add_configuration_options(*command, target.configuration);
 }
 

@@ -80,6 +80,7 @@ struct ValidateOptions {
   std::optional<std::string> markdown;  ///< page of the documentation to write
   std::uint32_t repetitions = 1;        ///< of each measurement, with jitter; 1: exact
   std::uint32_t jobs = 2;               ///< runs side by side
+  bool no_report = false;
 };
 
 /// `markervp power`.

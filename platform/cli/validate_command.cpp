@@ -6,6 +6,7 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/run_child.h>
+#include <page/report_page.h>
 #include <profiles/cost_profile.h>
 #include <report/file_output.h>
 #include <validation/console.h>
@@ -101,6 +102,7 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
   std::string text = "wrote validation.json, validation.csv, frames.csv in " + folder.string();
   if (drawn)
     text += ", " + std::to_string(plots.size()) + " plots in " + (folder / "plots").string();
+  if (!options.no_report && page::write_report(folder.string())) text += ", report.html to look at";
   if (options.markdown) {
     const fs::path page = *options.markdown;
     if (page.has_parent_path()) report::prepare_output_folder(page.parent_path().string());

@@ -14,6 +14,7 @@ const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
   run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), validation: samples.validation(), comparison: samples.comparison(),
+  hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
 };
 let browser;
@@ -108,10 +109,15 @@ test("a bar says what it is", () => open("run", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Stages of a frame"]');
   await area.scrollIntoViewIfNeeded();
   await page.waitForTimeout(200);
-  const box = await area.boundingBox();
   const before = await area.locator("svg").evaluate((svg) => svg.textContent);
-  await page.mouse.move(box.x + box.width * 0.14, box.y + 76);
-  await page.waitForTimeout(200);
+  const bars = await area.locator('svg path[fill="#0072b2"]').evaluateAll((paths) => paths.map((path) => {
+    const { x, y, width, height } = path.getBoundingClientRect();
+    return { x: x + width / 2, y: y + height / 2, width };
+  }));
+  const widest = bars.reduce((a, b) => (b.width > a.width ? b : a));
+  await page.mouse.move(widest.x - 3, widest.y);
+  await page.mouse.move(widest.x, widest.y);
+  await page.waitForTimeout(400);
   const after = await area.locator("svg").evaluate((svg) => svg.textContent);
   assert.match(after.replace(before, ""), /ms/);
 }));
@@ -185,6 +191,17 @@ test("sections without data are not there", () => open("short", async (page) => 
 test("a name like markup stays text", () => open("hostile", async (page) => {
   assert.equal(await page.evaluate(() => window.hacked), undefined);
   assert.match(await page.locator("h1").textContent(), /<\/script><img/);
+  assert.equal(await page.locator("img").count(), 0);
+}));
+
+test("a tooltip does not read names as markup", () => open("hostileComparison", async (page) => {
+  const area = page.locator('.chart-area[aria-label^="Latency of each frame"]');
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await area.boundingBox();
+  for (let x = 0.2; x < 0.9; x += 0.1) await page.mouse.move(box.x + box.width * x, box.y + 120);
+  await page.waitForTimeout(300);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
   assert.equal(await page.locator("img").count(), 0);
 }));
 

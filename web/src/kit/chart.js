@@ -54,7 +54,12 @@ const observer = new IntersectionObserver((entries) => {
 export function chart({ name, title, summary, note, height = 280, option, table, canvas = false, ready, screen }) {
   const target = h("div", { class: "chart-area", role: "img", "aria-label": `${title}. ${summary}`, style: { height: height + "px" } });
   let instance = null;
-  const full = () => ({ ...base(), ...option() });
+  // Tooltips are drawn, not HTML: names of files stand in them.
+  const full = () => {
+    const common = base();
+    const own = option();
+    return { ...common, ...own, tooltip: own.tooltip ? { ...common.tooltip, ...own.tooltip } : { show: false } };
+  };
   const draw = () => {
     if (instance) return instance;
     if (screen) {

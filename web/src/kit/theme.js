@@ -36,7 +36,7 @@ apply();
 
 const stageColours = {
   upload: "grey", capture: "grey", feature_extraction: "blue", receive: "sky", evaluation: "orange",
-  identification: "green", pose: "purple", corner_detection: "blue", threshold: "sky", blob_detection: "yellow",
+  identification: "green", pose: "purple", corner_detection: "vermillion", threshold: "yellow", blob_detection: "soft",
 };
 const spare = ["blue", "orange", "green", "purple", "sky", "vermillion", "yellow", "grey"];
 

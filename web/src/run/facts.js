@@ -34,5 +34,12 @@ export function makeRun(result, extras = {}) {
   };
 }
 
+/** Power of each module over all its entries, most first: [{name, w}]. */
+export function powerByModule(power) {
+  const sums = new Map();
+  for (const entry of power?.modules ?? []) if (entry.w > 0) sums.set(entry.name, (sums.get(entry.name) ?? 0) + entry.w);
+  return [...sums].map(([name, w]) => ({ name, w })).sort((a, b) => b.w - a.w);
+}
+
 /** Names of stages that follow one another within a frame. */
 export const partsOf = (run) => run.stages.filter((name) => name !== "frame" && name !== "upload");

@@ -2,13 +2,20 @@
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
 import { counted, fixed, significant, time, words } from "../kit/format.js";
-import { palette } from "../kit/theme.js";
+import { isDark, palette } from "../kit/theme.js";
 
 const groupColours = { PL: "blue", DMA: "orange", Interrupts: "vermillion", PS: "green", Frame: "grey" };
 const row = 26; // px
 const below = 96; // px of a counter's plot
 
-function spanItem(tracks, marked) {
+/** The name of a bar in it, where it says more than the track's and there is room. */
+function label(track, name, width, colour, count) {
+  const text = words(name);
+  if (track.group !== "PS" || count > 1 || width < text.length * 7 + 8) return {};
+  return { textContent: { style: { text, fill: colour, fontSize: 11 } }, textConfig: { position: "inside" } };
+}
+
+function spanItem(tracks, marked, nameOf) {
   return (params, api) => {
     const index = api.value(0);
     const from = api.coord([api.value(1), index]);
@@ -22,6 +29,7 @@ function spanItem(tracks, marked) {
     const hot = api.value(4) === 1;
     return {
       type: "rect", shape: { x, y: from[1] - height / 2, width: right - x, height, r: right - x > 6 ? 2 : 0 },
+      ...label(tracks[index], nameOf(api.value(3)), right - x, hot || !marked ? (isDark() ? "#14171b" : "#ffffff") : colour.ink, api.value(5)),
       style: { fill: colour[groupColours[tracks[index].group] ?? "blue"], opacity: hot || !marked ? 1 : 0.42, stroke: hot ? colour.ink : undefined, lineWidth: hot ? 1.2 : 0 },
     };
   };
@@ -76,13 +84,13 @@ export function gantt(run) {
     });
     return {
       axisPointer: { link: [{ xAxisIndex: "all" }] },
-      grid: [{ left, right: 16, top: 6, height: row * tracks.length },
-        ...counters.map((_, i) => ({ left, right: 16, top: axisTop + 40 + i * (below + 34), height: below }))],
+      grid: [{ left, right: 24, outerBoundsMode: "none", top: 6, height: row * tracks.length },
+        ...counters.map((_, i) => ({ left, right: 24, outerBoundsMode: "none", top: axisTop + 40 + i * (below + 34), height: below }))],
       xAxis: [x(0, true), ...counters.map((_, i) => x(i + 1, false))],
       yAxis: [axis({ type: "category", inverse: true, data: tracks.map((track) => track.name), splitLine: { show: false }, axisLine: { show: false }, axisLabel: { color: colour.ink, hideOverlap: false, interval: 0 } }),
-        ...counters.map((counter, i) => axis({ type: "value", gridIndex: i + 1, min: counter.from ?? 0, splitNumber: 2, scale: counter.from === null, name: `${counter.name}, ${counter.unit}`, nameLocation: "end", nameGap: 8, nameTextStyle: { color: colour.soft, align: "left", padding: [0, 0, 0, -left + 40] } }))],
+        ...counters.map((counter, i) => axis({ type: "value", gridIndex: i + 1, min: counter.from ?? 0, splitNumber: 2, scale: counter.from === null, name: `${counter.name}, ${counter.unit}`, nameLocation: "end", nameGap: 14, nameTextStyle: { color: colour.soft, align: "left", padding: [0, 0, 0, -left + 40] } }))],
       tooltip: { show: true, trigger: "item", formatter: (p) => (p.seriesType === "custom" ? tip(p) : `${p.seriesName}: ${significant(p.value[1], 4)}\nat ${time(p.value[0])}`) },
-      series: [{ type: "custom", data: bars(), renderItem: spanItem(tracks, marked), encode: { x: [1], y: 0 }, clip: true },
+      series: [{ type: "custom", data: bars(), renderItem: spanItem(tracks, marked, nameOf), encode: { x: [1], y: 0 }, clip: true },
         ...counters.map((counter, i) => ({
           name: counter.name, type: "line", xAxisIndex: i + 1, yAxisIndex: i + 1, step: counter.step === false ? false : "end", symbol: "none", sampling: "max", data: held(counter.points, end),
           lineStyle: { width: 1.3, color: colour[i % 2 ? "purple" : "blue"] }, areaStyle: { opacity: 0.12, color: colour[i % 2 ? "purple" : "blue"] },
@@ -123,7 +131,7 @@ export function gantt(run) {
     let held = null;
     surface.on("mousewheel", (event) => {
       if (!event.event.ctrlKey) return;
-      const share = (event.offsetX - left) / (chartInstance.getWidth() - left - 16);
+      const share = (event.offsetX - left) / (chartInstance.getWidth() - left - 24);
       if (share < 0 || share > 1) return;
       event.stop();
       const at = view[0] + share * (view[1] - view[0]);
@@ -133,7 +141,7 @@ export function gantt(run) {
     surface.on("mousedown", (event) => { held = { x: event.offsetX, view }; });
     surface.on("mousemove", (event) => {
       if (!held) return;
-      const move = (held.x - event.offsetX) / (chartInstance.getWidth() - left - 16) * (held.view[1] - held.view[0]);
+      const move = (held.x - event.offsetX) / (chartInstance.getWidth() - left - 24) * (held.view[1] - held.view[0]);
       if (move !== 0) look(held.view.map((edge) => edge + move));
     });
     surface.on("mouseup", () => { held = null; });

@@ -1,8 +1,8 @@
 // What limits this design point, in sentences.
 import { h } from "../kit/dom.js";
-import { counted, fixed, percent, significant, words } from "../kit/format.js";
+import { counted, fixed, percent, significant, tidy, words } from "../kit/format.js";
 import { value } from "../published.js";
-import { partsOf } from "./facts.js";
+import { partsOf, powerByModule } from "./facts.js";
 
 const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
 const pixelClock = "ps.fclk_clk1.frequency";
@@ -20,8 +20,8 @@ function limitingModule(run) {
 function timing(run, say) {
   const module = limitingModule(run);
   if (!module) return;
-  const fmax = significant(module.fmax_mhz, 3);
-  const now = significant(module.frequency_mhz, 3);
+  const fmax = tidy(module.fmax_mhz);
+  const now = tidy(module.frequency_mhz);
   if (!module.met) {
     say("bad", `${plain(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
     return;
@@ -40,7 +40,7 @@ function stages(run, say) {
   if (!(whole > 0) || longest.length === 0) return;
   const [first, second] = longest;
   const why = first.name === "feature_extraction" && run.hybrid && run.megahertz(pixelClock)
-    ? `: one pixel a clock at ${significant(run.megahertz(pixelClock), 3)} MHz, so it lasts as long as the image does` : "";
+    ? `: one pixel a clock at ${tidy(run.megahertz(pixelClock))} MHz, so it lasts as long as the image does` : "";
   say("info", `${words(first.name)} takes ${percent(first.us / whole, 0)} of a frame${why}.`);
   if (second && second.us / whole > 0.1) {
     const tried = run.frames.reduce((sum, f) => sum + (f.counts?.candidates ?? 0), 0) / Math.max(1, run.frames.length);
@@ -75,7 +75,7 @@ function budgets(run, say) {
     const name = typeof kind === "string" ? kind : kind.name;
     say("bad", `The design needs more ${name.toUpperCase()} than ${resources.device} has: ${significant(resources.total[name], 4)} of ${significant(resources.available[name], 4)}.`);
   }
-  const modules = (power?.modules ?? []).filter((m) => m.w > 0).sort((a, b) => b.w - a.w);
+  const modules = powerByModule(power);
   const total = run.summary.power_w?.total;
   if (modules.length > 0 && total > 0) say("info", `${plain(modules[0].name)} draws most: ${significant(modules[0].w, 3)} of ${significant(total, 3)} W.`);
 }

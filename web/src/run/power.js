@@ -5,15 +5,17 @@ import { fixed, significant, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour } from "../kit/theme.js";
+import { powerByModule } from "./facts.js";
 import { thesisStages } from "./thesis.js";
 
 function moduleChart(run) {
-  const rows = run.result.power.modules.filter((m) => m.w > 0).sort((a, b) => a.w - b.w);
+  const rows = run.result.power.modules.filter((m) => m.w > 0);
+  const modules = powerByModule(run.result.power);
   const kinds = [...new Set(rows.map((m) => m.kind))];
-  const names = [...new Set(rows.map((m) => m.name))];
+  const names = modules.map((m) => m.name).reverse();
   return chart({
     name: "power-by-module", title: "Power by module, W", height: Math.max(180, 26 * names.length + 60),
-    summary: `Most is drawn by ${rows.slice(-3).reverse().map((m) => `${words(m.name)} with ${significant(m.w, 3)} W`).join(", ")}.`,
+    summary: `Most is drawn by ${modules.slice(0, 3).map((m) => `${words(m.name)} with ${significant(m.w, 3)} W`).join(", ")}.`,
     option: () => ({
       legend: kinds.length > 1 ? { top: 0, left: 0, icon: "roundRect", itemWidth: 10, itemHeight: 10, textStyle: { color: palette().soft } } : undefined,
       grid: { left: 8, right: 24, top: kinds.length > 1 ? 32 : 8, bottom: 8, containLabel: true },
