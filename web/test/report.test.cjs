@@ -143,7 +143,8 @@ test("every chart is exported", async () => {
     await open(name, async (page) => {
       await scrollThrough(page);
       const buttons = page.locator('figure .tools button[aria-label$=" as SVG"], figure .tools button[aria-label$=" as PNG"]');
-      for (let i = 0; i < Math.min(await buttons.count(), 12); i += 1) {
+      // Chromium asks before a page's eleventh download.
+      for (let i = 0; i < Math.min(await buttons.count(), 10); i += 1) {
         const [download] = await Promise.all([page.waitForEvent("download"), buttons.nth(i).click()]);
         assert.ok(fs.statSync(await download.path()).size > 1000, await buttons.nth(i).getAttribute("aria-label"));
       }
