@@ -17,6 +17,7 @@ constexpr const char* examples = R"(Examples:
   markervp run clip.avi --fit scale --camera camera.yaml
   markervp run --trace run.vcd --trace-window 6ms:7ms
   markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
+  markervp sweep pixel-clock                many design points, a ready study
   markervp scenes                           what can be run
   markervp config > platform.yaml           every parameter with its default
   markervp report slower out                compare two runs in a page
@@ -84,6 +85,11 @@ void add_platform_options(CLI::App& command, RunOptions& target) {
                   "features from the PL (default), or everything on the PS")
       ->type_name("hybrid|ps-only")
       ->check(CLI::IsMember({"hybrid", "ps-only"}).description(""));
+}
+
+void add_point_option(CLI::App& command, RunOptions& target) {
+  command.add_option("--point", target.point, "run a sweep's point again (points/KEY.json)")
+      ->type_name("FILE");
 }
 
 void add_output_options(CLI::App& command, RunOptions& target) {
@@ -159,6 +165,7 @@ void add_run(CLI::App& app, RunOptions& target) {
   CLI::App* command = app.add_subcommand("run", "run the platform on images");
   add_input_options(*command, target);
   add_platform_options(*command, target);
+  add_point_option(*command, target);
   add_configuration_options(*command, target.configuration);
   add_output_options(*command, target);
   add_trace_options(*command, target);
@@ -257,6 +264,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_validate(*app, target.validate);
   add_power(*app, target.power);
   add_trace_command(*app, target.trace);
+  add_exploration(*app, target);
   add_completion(*app, target.completion);
   return app;
 }

@@ -46,6 +46,19 @@ int ask_trace(const TraceCommandOptions& options, std::ostream& out);
 
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
+/// Computes the points of a sweep, and merges their results.
+int sweep_points(const SweepOptions& options, const SimulationFactory& make_simulation,
+                 std::ostream& out, std::ostream& err);
+
+/// Computes the points of one task of a sweep on a cluster.
+int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation);
+
+int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err);
+
+int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err);
+
+int compare_runs(const CompareOptions& options, std::ostream& out);
+
 /// Reads --config and --set into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
 

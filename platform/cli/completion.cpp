@@ -42,6 +42,7 @@ OptionDescription describe(const CLI::Option& option) {
 std::vector<CommandDescription> describe_commands(const CLI::App& app) {
   std::vector<CommandDescription> commands;
   for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_group().empty()) continue;  // hidden
     CommandDescription description{command->get_name(), command->get_description(), {}, {}};
     // `trace` has commands of its own: their names come first.
     for (const CLI::App* inner : command->get_subcommands({})) {

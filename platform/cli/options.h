@@ -23,6 +23,7 @@ struct RunOptions {
   std::optional<std::string> fidelity;
   std::optional<std::string> program;
   std::optional<std::string> system;
+  std::optional<std::string> point;  ///< file of a sweep's point, to run it again
   std::optional<std::string> trace;
   std::optional<std::string> trace_window;
   std::vector<std::string> trace_filter;
@@ -107,6 +108,48 @@ struct CompletionOptions {
   std::string shell;
 };
 
+/// `markervp sweep`.
+struct SweepOptions {
+  std::string file;  ///< or the name of a study
+  bool list = false;
+  std::optional<std::string> output;
+  std::optional<std::uint32_t> jobs;
+  std::string engine = "local";
+  std::optional<std::uint64_t> limit;
+  bool yes = false;
+  bool dry_run = false;
+  bool retry_failed = false;
+  std::uint32_t chunk = 0;    ///< 0: some seconds' worth
+  std::uint32_t at_once = 0;  ///< 0: all that fit
+  std::vector<std::string> sbatch;
+};
+
+/// `markervp sweep-worker`: what a cluster calls.
+struct SweepWorkerOptions {
+  std::string folder;
+  std::uint32_t submission = 0;
+  std::uint32_t task = 0;
+};
+
+/// `markervp pareto`.
+struct ParetoOptions {
+  std::string folder;
+  std::vector<std::string> objectives;
+  std::vector<std::string> constraints;
+};
+
+/// `markervp sensitivity`.
+struct SensitivityOptions {
+  std::string folder;
+  std::vector<std::string> figures;
+};
+
+/// `markervp compare`.
+struct CompareOptions {
+  std::string first;
+  std::string second;
+};
+
 /// Everything the user typed.
 struct CommandLine {
   RunOptions run;
@@ -118,6 +161,11 @@ struct CommandLine {
   PowerTableOptions power;
   TraceCommandOptions trace;
   CompletionOptions completion;
+  SweepOptions sweep;
+  SweepWorkerOptions sweep_worker;
+  ParetoOptions pareto;
+  SensitivityOptions sensitivity;
+  CompareOptions compare;
 };
 
 }  // namespace platform::cli

@@ -39,6 +39,11 @@ int run_command(const CLI::App& app, const CommandLine& line,
   }
   if (command == "power") return print_power_table(line.power, out);
   if (command == "trace") return ask_trace(line.trace, out);
+  if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);
+  if (command == "sweep-worker") return sweep_worker(line.sweep_worker, make_simulation);
+  if (command == "pareto") return find_pareto(line.pareto, out, err);
+  if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
+  if (command == "compare") return compare_runs(line.compare, out);
   return print_completion(line.completion, app, out);
 }
 

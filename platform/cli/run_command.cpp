@@ -12,6 +12,7 @@
 #include <cli/commands.h>
 #include <cli/frame_runner.h>
 #include <cli/interrupt.h>
+#include <cli/point_options.h>
 #include <cli/program.h>
 #include <cli/trace_window.h>
 #include <cli/version.h>
@@ -242,9 +243,10 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
 
 }  // namespace
 
-int run(const RunOptions& options, const std::vector<std::string>& arguments,
+int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
         const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
   const HostClock::time_point start = HostClock::now();
+  const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
   if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");

@@ -1,12 +1,10 @@
 #include <cli/zynq_simulation.h>
 
-#include <filesystem>
 #include <iostream>
 
-#include <input/library_folder.h>
+#include <cli/program_file.h>
 #include <report/file_output.h>
 #include <vp/error.h>
-#include <vp/text.h>
 #include <zynq/bus_log.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
@@ -16,27 +14,6 @@
 namespace platform::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char* usual_program = "hybrid";
-
-/// A word without folder and extension names an installed program, unless a file is called so.
-std::string program_file(const std::optional<std::string>& asked) {
-  const std::string name = asked.value_or(usual_program);
-  const bool is_name = fs::path(name).filename() == name && !fs::path(name).has_extension();
-  std::error_code ignored;
-  if (asked && (!is_name || fs::exists(name, ignored))) return name;
-  std::vector<std::string> folders;
-  for (const std::string& folder : input::library_folders()) {
-    const fs::path programs = fs::path(folder) / "programs";
-    const fs::path file = programs / (name + ".so");
-    if (fs::exists(file, ignored)) return file.string();
-    folders.push_back(programs.string());
-  }
-  throw vp::InputError("no program '" + name + "' in " + vp::one_of(folders) +
-                       ": give its file, or install markervp completely");
-}
 
 /// Prints what stands in the UARTs without line end, however the run ends.
 struct ConsoleFlush {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <input/input_list.h>
+#include <input/kept_scenes.h>
 #include <input/media.h>
 #include <scene/catalogue.h>
 #include <scene/renderer.h>
@@ -103,6 +104,7 @@ class ListedFrames : public FrameSource {
 
   InputFrame scene_frame(const InputItem& item) {
     const Camera camera = camera_of(options_, options_.size);
+    if (const InputFrame* kept = kept_scene(item.source, camera)) return *kept;
     const Scene scene = make_scene(item.source, camera);
     return {item.name, render(scene), camera, ground_truth(scene)};
   }

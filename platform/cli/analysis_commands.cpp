@@ -1,0 +1,106 @@
+#include <filesystem>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <cli/program.h>
+#include <report/words.h>
+#include <sweep/compare.h>
+#include <sweep/durable_file.h>
+#include <sweep/pareto.h>
+#include <sweep/sensitivity.h>
+#include <sweep/text_table.h>
+#include <vp/error.h>
+
+namespace platform::cli {
+
+namespace {
+
+/// The results of a sweep's folder, which must exist.
+sweep::Results results_of(const std::string& folder, std::ostream& err) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw vp::InputError("there is no folder '" + folder + "': run a sweep first");
+  if (!std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored))
+    throw vp::InputError("'" + folder + "' is no folder of a sweep: it has no manifest.json");
+  const sweep::Store store(folder);
+  sweep::Results results = sweep::read_results(store, store.read_manifest());
+  if (results.missing != 0)
+    err << "markervp: warning: " << report::counted(results.missing, "point") << " not computed yet"
+        << std::endl;
+  return results;
+}
+
+std::vector<sweep::Objective> objectives_of(const std::vector<std::string>& asked,
+                                            const sweep::Results& results) {
+  const std::vector<std::string>& texts = asked.empty() ? results.manifest.objectives : asked;
+  if (texts.empty())
+    throw vp::InputError("the sweep names no objectives: give --objective 'max summary.fps.mean'");
+  std::vector<sweep::Objective> objectives;
+  for (const std::string& text : texts)
+    objectives.emplace_back(text, asked.empty() ? results.manifest.name : "--objective");
+  return objectives;
+}
+
+}  // namespace
+
+int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err) {
+  const sweep::Results results = results_of(options.folder, err);
+  const std::vector<sweep::Objective> objectives = objectives_of(options.objectives, results);
+  std::vector<sweep::Expression> constraints;
+  for (const std::string& text : options.constraints)
+    constraints.emplace_back(text, "--constraint");
+  const sweep::Pareto pareto = sweep::rank(results, objectives, constraints);
+  const std::filesystem::path folder = options.folder;
+  const std::string csv = (folder / "pareto.csv").string();
+  const std::string svg = (folder / "pareto.svg").string();
+  std::string wrote = csv;
+  try {
+    sweep::write_durably(csv, sweep::pareto_csv(results, objectives, pareto));
+    const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
+    if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
+    if (!problem) wrote += ", " + svg;
+  } catch (const sweep::StorageError& error) {
+    throw vp::InputError(error.what());
+  }
+  out << sweep::pareto_table(results, objectives, pareto) << "\nwrote " << wrote << std::endl;
+  return done;
+}
+
+int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
+  const sweep::Results results = results_of(options.folder, err);
+  std::vector<sweep::Expression> figures;
+  for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
+  if (figures.empty()) {
+    for (const sweep::Objective& objective : objectives_of({}, results))
+      figures.push_back(objective.figure());
+  }
+  std::string csv;
+  for (const sweep::Expression& figure : figures) {
+    const sweep::SensitivityReport report = sweep::sensitivity(results, figure);
+    out << figure.text() << "   (" << report.method << "; "
+        << (report.method == "one-at-a-time" ? "base " : "mean ") << sweep::readable(report.base)
+        << ")\n\n"
+        << sweep::sensitivity_table(report) << "\n";
+    if (report.skipped != 0)
+      err << "markervp: warning: " << report::counted(report.skipped, "effect")
+          << " left out: a point failed or is missing" << std::endl;
+    const std::string lines = sweep::sensitivity_csv(figure.text(), report);
+    csv += csv.empty() ? lines : lines.substr(lines.find('\n') + 1);
+  }
+  const std::string file = (std::filesystem::path(options.folder) / "sensitivity.csv").string();
+  try {
+    sweep::write_durably(file, csv);
+  } catch (const sweep::StorageError& error) {
+    throw vp::InputError(error.what());
+  }
+  out << "wrote " << file << std::endl;
+  return done;
+}
+
+int compare_runs(const CompareOptions& options, std::ostream& out) {
+  out << sweep::compare(sweep::read_comparable(options.first),
+                        sweep::read_comparable(options.second));
+  return done;
+}
+
+}  // namespace platform::cli

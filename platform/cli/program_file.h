@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace platform::cli {
+
+/// The file of a PS program: `asked` itself, or the installed program of that name; none is the
+/// thesis' hybrid system. A word without folder and extension names an installed program, unless a
+/// file is called so. Throws vp::InputError if there is no program of that name.
+std::string program_file(const std::optional<std::string>& asked);
+
+}  // namespace platform::cli

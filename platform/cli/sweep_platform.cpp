@@ -1,0 +1,141 @@
+#include <cli/sweep_platform.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include <cli/commands.h>
+#include <cli/program.h>
+#include <cli/program_file.h>
+#include <cli/run_child.h>
+#include <cli/version.h>
+#include <input/kept_scenes.h>
+#include <sweep/parameter_table.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Memory for scenes that were rendered before: 200 at 640×480.
+constexpr std::size_t most_scene_bytes = std::size_t{64} << 20;
+
+std::optional<std::string> if_named(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+std::string last_line(const std::string& text) {
+  return text.substr(text.rfind('\n') + 1);
+}
+
+Json to_json(const std::vector<vp::ParameterDescription>& parameters, input::ImageSize size) {
+  Json json;
+  json["size"] = {size.width, size.height};
+  json["parameters"] = Json::array();
+  for (const vp::ParameterDescription& p : parameters)
+    json["parameters"].push_back({p.path, p.value, p.default_value, p.allowed});
+  return json;
+}
+
+sweep::Elaborated elaborated_from(const Json& json) {
+  sweep::Elaborated result;
+  result.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+  for (const Json& p : json.at("parameters")) {
+    vp::ParameterDescription description;
+    description.path = p.at(0).get<std::string>();
+    description.value = p.at(1).get<std::string>();
+    description.default_value = p.at(2).get<std::string>();
+    description.allowed = p.at(3).get<std::string>();
+    result.parameters.push_back(description);
+  }
+  return result;
+}
+
+sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin,
+                            const SimulationFactory& make_simulation) {
+  RunChild child([&](std::ostream& out, std::ostream&) {
+    vp::Configuration configuration;
+    for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
+    SimulationOptions options;
+    options.program = if_named(build.program);
+    const auto simulation = cli::build(configuration, options, make_simulation);
+    out << "\n" << to_json(configuration.parameters(), simulation->image_size()).dump();
+    return done;
+  });
+  const ChildEnd end = child.wait();
+  const Json description = Json::parse(last_line(end.out), nullptr, false);
+  if (end.exit_code == done && description.is_object()) return elaborated_from(description);
+  const std::string name = "markervp: ";
+  std::string message(vp::trim(end.err));
+  message = last_line(message);
+  if (message.rfind(name, 0) == 0) message.erase(0, name.size());
+  if (message.empty()) message = "the platform cannot be built: its process was ended";
+  throw vp::InputError(message);
+}
+
+}  // namespace
+
+sweep::Platform sweep_platform(const SimulationFactory& make_simulation) {
+  sweep::Platform platform;
+  platform.elaborate = [&make_simulation](const sweep::Build& build, const std::string& origin) {
+    return elaborate(build, origin, make_simulation);
+  };
+  platform.program_file = [](const std::string& program) {
+    return program_file(if_named(program));
+  };
+  platform.version = program_version();
+  platform.revision = source_revision();
+  return platform;
+}
+
+sweep::RunPoint point_runner(const SimulationFactory& make_simulation) {
+  return [&make_simulation](const sweep::PointRun& point, const std::string& folder,
+                            std::ostream& err) {
+    RunOptions options;
+    options.inputs = point.inputs;
+    options.program = if_named(point.program);
+    options.camera = point.input.camera;
+    options.fit = point.input.fit;
+    options.frames = point.input.frames;
+    options.repeat = point.input.repeat;
+    for (const auto& [path, value] : point.settings)
+      options.configuration.assignments.push_back(path + "=" + value);
+    options.output = folder;
+    options.no_pictures = true;
+    options.quiet = true;
+    std::ostringstream unread;
+    return run(options, {}, make_simulation, unread, err);
+  };
+}
+
+void warm_up(const sweep::Manifest& manifest, const std::vector<std::size_t>& positions) {
+  std::set<std::tuple<std::size_t, std::string, std::string>> seen;
+  for (const std::size_t position : positions) {
+    const sweep::PlannedPoint& point = manifest.points[position];
+    const auto& configuration = manifest.families[point.family].configuration;
+    const auto width = configuration.find("pl.width");
+    const auto height = configuration.find("pl.height");
+    if (width == configuration.end() || height == configuration.end()) return;
+    if (!seen.emplace(point.input_set, width->second, height->second).second) continue;
+    input::InputOptions options;
+    options.size = {
+        static_cast<int>(vp::parse_quantity(width->second, vp::Unit::pixels).to_double()),
+        static_cast<int>(vp::parse_quantity(height->second, vp::Unit::pixels).to_double())};
+    if (manifest.input.camera) options.camera = input::read_camera_file(*manifest.input.camera);
+    if (manifest.input.fit)
+      options.fit = *manifest.input.fit == "crop" ? input::Fit::crop : input::Fit::scale;
+    try {
+      input::keep_scenes(manifest.input_sets[point.input_set].inputs, options, most_scene_bytes);
+    } catch (const vp::InputError&) {
+      // The points fail then, and say why.
+    }
+  }
+}
+
+}  // namespace platform::cli

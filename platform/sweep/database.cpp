@@ -1,0 +1,197 @@
+#include <sweep/database.h>
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include <sweep/durable_file.h>
+
+namespace platform::sweep {
+
+namespace {
+
+constexpr const char* tables = R"(
+CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
+CREATE TABLE points(key TEXT PRIMARY KEY, position INTEGER, status TEXT, exit_code INTEGER,
+                    signal INTEGER, message TEXT, program TEXT, inputs TEXT);
+CREATE TABLE parameters(key TEXT REFERENCES points, path TEXT, value TEXT, number REAL,
+                        PRIMARY KEY(key, path)) WITHOUT ROWID;
+CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
+CREATE TABLE metrics(key TEXT REFERENCES points, name TEXT, value REAL,
+                     PRIMARY KEY(key, name)) WITHOUT ROWID;
+CREATE TABLE runs(key TEXT REFERENCES points, engine TEXT, host TEXT, date TEXT, attempt INTEGER,
+                  wall_s REAL, cpu_s REAL);
+)";
+
+class Database {
+ public:
+  explicit Database(const std::string& path) : path_(path) {
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open(path.c_str(), &opened);
+    handle_.reset(opened);
+    check(code);
+  }
+
+  void execute(const char* sql) {
+    check(sqlite3_exec(handle_.get(), sql, nullptr, nullptr, nullptr));
+  }
+
+  void check(int code) const {
+    if (code == SQLITE_OK || code == SQLITE_DONE || code == SQLITE_ROW) return;
+    throw StorageError("'" + path_ + "' cannot be written: " + sqlite3_errmsg(handle_.get()));
+  }
+
+  sqlite3* get() const { return handle_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const { sqlite3_close(handle); }
+  };
+
+  std::string path_;
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// INSERT with the values of a row.
+class Insert {
+ public:
+  Insert(const Database& database, const std::string& table, int columns) : database_(database) {
+    std::string sql = "INSERT OR REPLACE INTO " + table + " VALUES(?";
+    for (int i = 1; i < columns; ++i) sql += ",?";
+    sql += ")";
+    sqlite3_stmt* statement = nullptr;
+    database_.check(sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr));
+    statement_.reset(statement);
+  }
+
+  template <class... Values>
+  void row(const Values&... values) {
+    int column = 0;
+    (bind(++column, values), ...);
+    database_.check(sqlite3_step(statement_.get()));
+    database_.check(sqlite3_reset(statement_.get()));
+  }
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+
+  void bind(int column, const std::string& text) {
+    database_.check(sqlite3_bind_text(statement_.get(), column, text.data(),
+                                      static_cast<int>(text.size()), SQLITE_STATIC));
+  }
+  void bind(int column, std::int64_t value) {
+    database_.check(sqlite3_bind_int64(statement_.get(), column, value));
+  }
+  void bind(int column, double value) {
+    database_.check(sqlite3_bind_double(statement_.get(), column, value));
+  }
+  void bind(int column, std::nullptr_t) {
+    database_.check(sqlite3_bind_null(statement_.get(), column));
+  }
+
+  const Database& database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// Parameters that do not have one value everywhere, and those that are swept.
+std::set<std::string> varying(const Results& results) {
+  std::set<std::string> paths(results.manifest.swept.begin(), results.manifest.swept.end());
+  for (const ResultRow& row : results.rows) {
+    const auto& first = results.rows.front().configuration;
+    for (const auto& [path, value] : row.configuration) {
+      const auto found = first.find(path);
+      if (found == first.end() || found->second != value) paths.insert(path);
+    }
+    for (const auto& [path, value] : first) {
+      if (row.configuration.count(path) == 0) paths.insert(path);
+    }
+  }
+  return paths;
+}
+
+void add_parameters(const Database& database, const Results& results) {
+  const std::set<std::string> differing = varying(results);
+  Insert parameters(database, "parameters", 4);
+  for (const ResultRow& row : results.rows) {
+    for (const std::string& path : differing) {
+      const std::string text = row.value(path);
+      if (text.empty()) continue;
+      const ParameterKind kind = kind_of({path, text, text, "", {}, ""});
+      if (kind.kind == ParameterKind::Kind::quantity) {
+        parameters.row(row.key, path, text, number_of(kind, text));
+      } else {
+        parameters.row(row.key, path, text, nullptr);
+      }
+    }
+  }
+  Insert constants(database, "constants", 2);
+  if (results.rows.empty()) return;
+  for (const auto& [path, value] : results.rows.front().configuration) {
+    if (differing.count(path) == 0) constants.row(path, value);
+  }
+}
+
+void add_points(const Database& database, const Results& results) {
+  Insert points(database, "points", 8);
+  Insert metrics(database, "metrics", 3);
+  std::int64_t position = 0;
+  for (const ResultRow& row : results.rows) {
+    const std::string status = row.failed ? "failed" : "done";
+    points.row(row.key, position++, status, std::int64_t{row.failed ? row.failure.exit_code : 0},
+               std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs);
+    for (const auto& [name, value] : row.metrics) metrics.row(row.key, name, value);
+  }
+}
+
+void add_runs(const Database& database, const Results& results,
+              const std::vector<RunEntry>& entries) {
+  std::set<std::string> keys;
+  for (const ResultRow& row : results.rows) keys.insert(row.key);
+  Insert runs(database, "runs", 7);
+  for (const RunEntry& run : entries) {
+    if (keys.count(run.key) != 0)
+      runs.row(run.key, run.engine, run.host, run.date, std::int64_t{run.attempt}, run.wall_s,
+               run.cpu_s);
+  }
+}
+
+}  // namespace
+
+void write_database(const std::string& path, const Results& results,
+                    const std::vector<RunEntry>& runs) {
+  const std::string part = path + ".part-" + std::to_string(::getpid());
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  try {
+    Database database(part);
+    // It appears under its name when it is whole: no journal is needed.
+    database.execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");
+    database.execute(tables);
+    {
+      Insert facts(database, "sweep", 2);
+      const Manifest& manifest = results.manifest;
+      facts.row(std::string("name"), manifest.name);
+      facts.row(std::string("title"), manifest.title);
+      facts.row(std::string("file"), manifest.source);
+      facts.row(std::string("markervp"), manifest.program.dump());
+    }
+    add_points(database, results);
+    add_parameters(database, results);
+    add_runs(database, results, runs);
+    database.execute("COMMIT");
+  } catch (...) {
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) throw StorageError("'" + path + "' cannot be written: " + error.message());
+}
+
+}  // namespace platform::sweep

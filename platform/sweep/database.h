@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sweep/results.h>
+#include <sweep/run_log.h>
+
+namespace platform::sweep {
+
+/// Writes the results as a SQLite database, anew:
+///
+///   points(key, position, status, exit_code, signal, message, program, inputs)
+///   parameters(key, path, value, number)  those that differ between points; number in base units
+///   constants(path, value)                those that all points share
+///   metrics(key, name, value)
+///   runs(key, engine, host, date, attempt, wall_s, cpu_s)
+///   sweep(name, value)                    its title, file, program version
+///
+/// Throws StorageError.
+void write_database(const std::string& path, const Results& results,
+                    const std::vector<RunEntry>& runs);
+
+}  // namespace platform::sweep

@@ -1,0 +1,211 @@
+#include <sweep/engine_slurm.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <ostream>
+#include <thread>
+
+#include <cli/interrupt.h>
+#include <cli/program.h>
+#include <report/file_output.h>
+#include <sweep/durable_file.h>
+#include <sweep/host_command.h>
+#include <sweep/slurm_job.h>
+#include <vp/error.h>
+
+namespace platform::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+using HostClock = std::chrono::steady_clock;
+
+/// Slurm takes about half a second to start a task: one should last much longer.
+constexpr double task_seconds = 8;
+constexpr auto poll_period = std::chrono::milliseconds(500);
+constexpr int most_rounds = 2;
+
+std::string submission_folder(const Store& store, std::uint32_t number) {
+  return store.path("slurm/" + std::to_string(number));
+}
+
+Json read_json(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Json json = Json::parse(text, nullptr, false);
+  if (!file || json.is_discarded())
+    throw vp::InputError("'" + path + "' cannot be read, or is damaged");
+  return json;
+}
+
+std::vector<std::size_t> missing(const Store& store, const Manifest& manifest,
+                                 const std::vector<std::size_t>& positions) {
+  std::vector<std::size_t> result;
+  std::copy_if(positions.begin(), positions.end(), std::back_inserter(result),
+               [&](std::size_t position) { return !store.has(manifest.points[position].key); });
+  return result;
+}
+
+class Cluster {
+ public:
+  Cluster(const Store& store, const Manifest& manifest, const SlurmOptions& options,
+          const RunPoint& run, const OnProgress& progress, std::ostream& err)
+      : store_(store),
+        manifest_(manifest),
+        options_(options),
+        run_(run),
+        progress_(progress),
+        err_(err) {}
+
+  Tally compute(const std::vector<std::size_t>& positions) {
+    report::prepare_output_folder(store_.path("slurm"));
+    total_ = positions.size();
+    largest_ = largest_array();
+    wait_for_earlier(positions);
+    std::vector<std::size_t> wanted = missing(store_, manifest_, positions);
+    if (!wanted.empty() && !tally_.interrupted) measure(wanted);
+    for (int round = 0; round < most_rounds && !tally_.interrupted; ++round) {
+      wanted = missing(store_, manifest_, positions);
+      if (wanted.empty()) break;
+      watch(submit_chunks(wanted), wanted);
+    }
+    if (!tally_.interrupted) give_up(missing(store_, manifest_, positions));
+    tally_.computed = total_ - missing(store_, manifest_, positions).size();
+    return tally_;
+  }
+
+ private:
+  std::string job_file() const { return store_.path("slurm/job.json"); }
+
+  /// An earlier call may have been killed, and its job be still in the queue.
+  void wait_for_earlier(const std::vector<std::size_t>& positions) {
+    std::error_code ignored;
+    if (!fs::exists(job_file(), ignored)) return;
+    const std::string job = read_json(job_file()).value("job", "");
+    if (job.empty() || !JobWatch(job).active()) return;
+    err_ << "markervp: job " << job << " of an earlier call is still in the queue: waiting for it"
+         << std::endl;
+    watch(job, positions);
+  }
+
+  /// Runs one point here to see how many make a task.
+  void measure(const std::vector<std::size_t>& wanted) {
+    chunk_ = options_.chunk;
+    if (chunk_ != 0) return;
+    const HostClock::time_point begin = HostClock::now();
+    const Tally tally = run_local(store_, manifest_, {wanted.front()}, {1, "local"}, run_, nullptr);
+    tally_.interrupted = tally.interrupted;
+    const double seconds = std::chrono::duration<double>(HostClock::now() - begin).count();
+    chunk_ = static_cast<std::uint32_t>(
+        std::clamp(std::ceil(task_seconds / std::max(seconds, 1e-3)), 1.0, 100'000.0));
+  }
+
+  std::string submit_chunks(const std::vector<std::size_t>& wanted) {
+    const std::size_t least = (wanted.size() + largest_ - 1) / largest_;
+    const std::size_t size = std::max<std::size_t>(chunk_, least);
+    Json chunks = Json::array();
+    for (std::size_t i = 0; i < wanted.size(); i += size) {
+      Json keys = Json::array();
+      for (std::size_t j = i; j < std::min(i + size, wanted.size()); ++j)
+        keys.push_back(manifest_.points[wanted[j]].key);
+      chunks.push_back(keys);
+    }
+    std::uint32_t number = 1;
+    std::error_code ignored;
+    while (fs::exists(submission_folder(store_, number), ignored)) ++number;
+    const std::string folder = submission_folder(store_, number);
+    report::prepare_output_folder(folder);
+    write_durably(folder + "/tasks.json", chunks.dump());
+    write_durably(folder + "/manifest.json", to_json(manifest_).dump());
+    const std::string executable = fs::read_symlink("/proc/self/exe").string();
+    const std::string job = submit({"markervp-" + options_.name, fs::current_path().string(),
+                                    fs::absolute(folder).string() + "/task-%a.log",
+                                    static_cast<std::uint32_t>(chunks.size()), options_.at_once,
+                                    "exec " + shell_quoted(executable) + " sweep-worker " +
+                                        shell_quoted(fs::absolute(store_.folder()).string()) + " " +
+                                        std::to_string(number) + " $SLURM_ARRAY_TASK_ID",
+                                    options_.options});
+    write_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
+    err_ << "markervp: job " << job << ": " << chunks.size() << " tasks of " << size
+         << " points; logs in " << folder << std::endl;
+    logs_ = folder;
+    return job;
+  }
+
+  void watch(const std::string& job, const std::vector<std::size_t>& wanted) {
+    JobWatch queue(job);
+    for (;;) {
+      const std::size_t left = missing(store_, manifest_, wanted).size();
+      if (progress_) progress_(total_ - left);
+      if (left == 0) return;
+      if (cli::InterruptGuard::interrupted()) {
+        tally_.interrupted = true;
+        cancel(job);
+        return;
+      }
+      const bool active = queue.active();
+      // What was completed after we looked, and before the job ended, is seen by the next round.
+      if (!active) return;
+      std::this_thread::sleep_for(poll_period);
+    }
+  }
+
+  void give_up(const std::vector<std::size_t>& positions) {
+    for (const std::size_t position : positions) {
+      const PlannedPoint& point = manifest_.points[position];
+      if (!store_.has(point.key))
+        store_.write(failed_record(manifest_, point,
+                                   {-1, 0,
+                                    "no task of Slurm completed the point: see the logs of "
+                                    "its tasks in the folder 'slurm' of the sweep"}));
+    }
+  }
+
+  const Store& store_;
+  const Manifest& manifest_;
+  const SlurmOptions& options_;
+  const RunPoint& run_;
+  const OnProgress& progress_;
+  std::ostream& err_;
+  std::uint64_t total_ = 0;
+  std::uint32_t largest_ = 0;
+  std::uint32_t chunk_ = 0;
+  std::string logs_;
+  Tally tally_;
+};
+
+}  // namespace
+
+Tally run_slurm(const Store& store, const Manifest& manifest,
+                const std::vector<std::size_t>& positions, const SlurmOptions& options,
+                const RunPoint& run, const OnProgress& progress, std::ostream& err) {
+  return Cluster(store, manifest, options, run, progress, err).compute(positions);
+}
+
+int run_slurm_task(
+    const Store& store, std::uint32_t submission, std::uint32_t task,
+    const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
+    const RunPoint& run) {
+  const std::string folder = submission_folder(store, submission);
+  const Manifest manifest =
+      manifest_from(read_json(folder + "/manifest.json"), folder + "/manifest.json");
+  const Json chunks = read_json(folder + "/tasks.json");
+  if (!chunks.is_array() || task >= chunks.size())
+    throw vp::InputError("submission " + std::to_string(submission) + " has no task " +
+                         std::to_string(task));
+  std::map<std::string, std::size_t> position_of;
+  for (std::size_t i = 0; i < manifest.points.size(); ++i) position_of[manifest.points[i].key] = i;
+  std::vector<std::size_t> positions;
+  for (const Json& key : chunks[task]) positions.push_back(position_of.at(key.get<std::string>()));
+  positions = missing(store, manifest, positions);
+  warm(manifest, positions);
+  const Tally tally = run_local(store, manifest, positions, {1, "slurm"}, run, nullptr);
+  return tally.interrupted ? cli::interrupted : cli::done;
+}
+
+}  // namespace platform::sweep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace platform::sweep {
+
+struct CommandEnd {
+  int exit_code = -1;  ///< 127: there is no such command; -1: a signal ended it
+  std::string out;     ///< what it printed, errors too
+};
+
+/// Runs a command of the host and waits for it. Ctrl-C does not reach it. Throws
+/// std::system_error if the host has no process left.
+CommandEnd run_command(const std::vector<std::string>& arguments);
+
+/// A word for the shell, in quotes.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace platform::sweep

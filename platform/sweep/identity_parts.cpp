@@ -1,0 +1,134 @@
+#include <sweep/identity_parts.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <input/camera_file.h>
+#include <input/input_list.h>
+#include <input/library_folder.h>
+#include <scene/catalogue.h>
+#include <sweep/content_hash.h>
+
+namespace platform::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Parts of an installation that are no data tables.
+bool is_table(const fs::path& relative) {
+  const std::string first = relative.begin()->string();
+  return first != "programs" && first != "studies" && relative.has_parent_path() &&
+         relative.extension() != ".so";
+}
+
+Json scene_json(const Scene& scene) {
+  Json json;
+  json["marker"] = scene.marker_id;
+  json["camera"] = {scene.camera.fx, scene.camera.fy, scene.camera.cx, scene.camera.cy};
+  json["rotation"] = scene.pose.rotation;
+  json["translation"] = scene.pose.translation;
+  json["squares"] = Json::array();
+  for (const Square& square : scene.squares)
+    json["squares"].push_back({square.u, square.v, square.side, square.word});
+  const Brightness& light = scene.brightness;
+  json["brightness"] = {light.black, light.border,  light.wall,
+                        light.floor, light.ceiling, light.side_walls};
+  json["room"] = {scene.room.wall_w, scene.room.floor_v, scene.room.ceiling_v, scene.room.side_u};
+  json["noise"] = scene.noise_sigma;
+  json["blur"] = scene.blur_sigma_px;
+  json["seed"] = scene.seed;
+  return json;
+}
+
+input::InputOptions options_of(const InputChoice& choice, input::ImageSize size) {
+  input::InputOptions options;
+  options.size = size;
+  if (choice.fit) options.fit = *choice.fit == "crop" ? input::Fit::crop : input::Fit::scale;
+  if (choice.camera) options.camera = input::read_camera_file(*choice.camera);
+  return options;
+}
+
+/// The tables that a scaled cost profile refers to stand beside it.
+void add_named_tables(const fs::path& file, Json& contents) {
+  std::ifstream stream(file);
+  const Json root = Json::parse(stream, nullptr, false);
+  if (!root.is_object() || !root.contains("tables") || !root["tables"].is_object()) return;
+  for (const auto& [unused, name] : root["tables"].items()) {
+    if (!name.is_string()) continue;
+    const fs::path table = file.parent_path() / (name.get<std::string>() + ".json");
+    std::error_code ignored;
+    if (fs::is_regular_file(table, ignored))
+      contents[table.filename().string()] = file_hash(table.string());
+  }
+}
+
+}  // namespace
+
+Json program_identity(const std::string& version, const std::string& revision) {
+  Json json;
+  json["version"] = version;
+  json["revision"] = revision;
+  if (revision.empty() || ends_with(revision, "-dirty"))
+    json["executable"] = file_hash("/proc/self/exe");
+  return json;
+}
+
+Json table_contents() {
+  Json json = Json::object();
+  std::error_code ignored;
+  for (const std::string& folder : input::library_folders()) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
+      const fs::path relative = entry.path().lexically_relative(folder);
+      if (entry.is_regular_file(ignored) && is_table(relative)) files.push_back(relative);
+    }
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files)
+      json[file.generic_string()] = file_hash((fs::path(folder) / file).string());
+    if (!files.empty()) break;
+  }
+  return json;
+}
+
+Json file_contents(const std::string& program_file,
+                   const std::map<std::string, std::string>& configuration) {
+  Json json;
+  json["program"] = fs::path(program_file).stem().string();
+  json["program_file"] = program_file.empty() ? "" : file_hash(program_file);
+  json["files"] = Json::object();
+  for (const auto& [path, value] : configuration) {
+    std::error_code ignored;
+    if (fs::path(value).extension().empty() || !fs::is_regular_file(value, ignored)) continue;
+    json["files"][path] = file_hash(value);
+    add_named_tables(value, json["files"]);
+  }
+  return json;
+}
+
+Json input_contents(const std::vector<std::string>& inputs, const InputChoice& choice,
+                    input::ImageSize size) {
+  const input::InputOptions options = options_of(choice, size);
+  const std::vector<std::string> asked = inputs.empty() ? std::vector<std::string>{"demo"} : inputs;
+  Json json = Json::array();
+  for (const input::InputItem& item : input::list_inputs(asked, options)) {
+    Json entry;
+    entry["name"] = item.name;
+    if (item.kind == input::InputItem::Kind::scene) {
+      const Scene scene = make_scene(item.source, camera_of(options, size));
+      entry["scene"] = content_hash(scene_json(scene).dump());
+    } else {
+      entry["file"] = file_hash(item.source);
+    }
+    json.push_back(entry);
+  }
+  if (choice.camera) json.push_back({{"camera", file_hash(*choice.camera)}});
+  return json;
+}
+
+}  // namespace platform::sweep

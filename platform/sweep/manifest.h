@@ -1,0 +1,91 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sweep/expansion.h>
+#include <sweep/spec.h>
+
+namespace platform::sweep {
+
+using Json = nlohmann::ordered_json;
+
+/// How inputs become frames, for all points.
+struct InputChoice {
+  std::optional<std::string> camera;
+  std::optional<std::string> fit;
+  std::optional<std::uint64_t> frames;
+  std::uint64_t repeat = 1;
+};
+
+/// Points of one program whose other parameters follow from the same choices: their effective
+/// configurations differ only in numbers that were set.
+struct Family {
+  std::string program;                               ///< name or file
+  std::map<std::string, std::string> configuration;  ///< effective, complete
+  std::map<std::string, std::string> defaults;       ///< of the same parameters
+  Json contents;                                     ///< hashes of the program and of table files
+};
+
+/// Inputs as they are named and as they are.
+struct InputSet {
+  std::vector<std::string> inputs;
+  Json contents;  ///< name and hash of each
+};
+
+/// One point.
+struct PlannedPoint {
+  std::string key;  ///< hash of what decides its result
+  std::size_t family = 0;
+  std::size_t input_set = 0;
+  std::map<std::string, std::string> changes;  ///< to the family's configuration
+  Assignment swept;                            ///< as the sweep's file has it
+};
+
+/// A step of a sensitivity analysis, by the keys of its points.
+struct KeyedEffect {
+  std::string from;
+  std::string to;
+  std::string path;
+  double delta = 0;
+};
+
+/// A sweep that was checked: all its points. It goes to manifest.json, from which any engine works.
+struct Manifest {
+  std::string name;
+  std::string title;
+  std::string text;
+  std::string source;  ///< the sweep's file
+  Json program;        ///< version, revision of markervp
+  Json tables;         ///< hashes of the installed data tables
+  InputChoice input;
+  std::string sampling;            ///< "grid", "morris", …
+  std::vector<std::string> swept;  ///< paths in order
+  std::vector<std::string> metrics;
+  std::vector<std::string> objectives;
+  std::vector<Family> families;
+  std::vector<InputSet> input_sets;
+  std::vector<PlannedPoint> points;  ///< without duplicates, in the order of the sweep
+  std::vector<KeyedEffect> effects;
+
+  /// Everything that decides the point's result.
+  Json identity(const PlannedPoint& point) const;
+  /// Its complete effective configuration.
+  std::map<std::string, std::string> configuration(const PlannedPoint& point) const;
+  /// What is set to get it: the values that are not their defaults.
+  std::map<std::string, std::string> settings(const PlannedPoint& point) const;
+};
+
+/// The hash of an identity.
+std::string key_of(const Json& identity);
+
+Json to_json(const Manifest& manifest);
+/// Throws vp::InputError if it is no manifest of this version; `origin` names it.
+Manifest manifest_from(const Json& json, const std::string& origin);
+
+const char* to_string(Sampling::Method method);
+
+}  // namespace platform::sweep

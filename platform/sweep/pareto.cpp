@@ -1,0 +1,173 @@
+#include <sweep/pareto.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <sweep/csv_line.h>
+#include <sweep/text_table.h>
+#include <vp/error.h>
+
+namespace platform::sweep {
+
+namespace {
+
+bool dominates(const std::vector<double>& a, const std::vector<double>& b,
+               const std::vector<bool>& maximise) {
+  bool better = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double x = maximise[i] ? a[i] : -a[i];
+    const double y = maximise[i] ? b[i] : -b[i];
+    if (x < y) return false;
+    better = better || x > y;
+  }
+  return better;
+}
+
+std::vector<bool> directions(const std::vector<Objective>& objectives) {
+  std::vector<bool> maximise;
+  for (const Objective& objective : objectives) maximise.push_back(objective.maximise());
+  return maximise;
+}
+
+std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
+                                   const std::vector<bool>& maximise) {
+  std::vector<double> low(maximise.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> high(maximise.size(), -std::numeric_limits<double>::infinity());
+  for (const RankedPoint& point : points) {
+    if (point.front != 1) continue;
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      low[i] = std::min(low[i], point.figures[i]);
+      high[i] = std::max(high[i], point.figures[i]);
+    }
+  }
+  std::optional<std::size_t> knee;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (points[p].front != 1) continue;
+    double distance = 0;
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      if (high[i] == low[i]) continue;
+      const double best = maximise[i] ? high[i] : low[i];
+      const double part = (points[p].figures[i] - best) / (high[i] - low[i]);
+      distance += part * part;
+    }
+    if (distance < nearest) {
+      nearest = distance;
+      knee = p;
+    }
+  }
+  return knee;
+}
+
+std::vector<std::string> texts(const std::vector<Objective>& objectives) {
+  std::vector<std::string> result;
+  for (const Objective& objective : objectives) result.push_back(objective.figure().text());
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
+                                const std::vector<bool>& maximise) {
+  std::vector<std::size_t> front(figures.size(), 0);
+  std::vector<std::size_t> left(figures.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
+  for (std::size_t number = 1; !left.empty(); ++number) {
+    std::vector<std::size_t> dominated;
+    for (const std::size_t i : left) {
+      const bool is_dominated = std::any_of(left.begin(), left.end(), [&](std::size_t j) {
+        return dominates(figures[j], figures[i], maximise);
+      });
+      if (is_dominated) {
+        dominated.push_back(i);
+      } else {
+        front[i] = number;
+      }
+    }
+    left = std::move(dominated);
+  }
+  return front;
+}
+
+Pareto rank(const Results& results, const std::vector<Objective>& objectives,
+            const std::vector<Expression>& constraints) {
+  Pareto pareto;
+  for (const ResultRow& row : results.rows) {
+    if (row.failed) continue;
+    RankedPoint point;
+    point.row = &row;
+    for (const Objective& objective : objectives) {
+      const auto lookup = [&](const std::string& name) {
+        return value_in(results, row, name, "objective '" + objective.figure().text() + "'");
+      };
+      point.figures.push_back(objective.figure().evaluate(lookup).number);
+    }
+    for (const Expression& constraint : constraints) {
+      const auto lookup = [&](const std::string& name) {
+        return value_in(results, row, name, "constraint '" + constraint.text() + "'");
+      };
+      point.feasible = point.feasible && constraint.holds(lookup);
+    }
+    pareto.points.push_back(std::move(point));
+  }
+  if (pareto.points.empty()) throw vp::InputError("the sweep has no point with a result");
+  std::vector<std::vector<double>> figures;
+  std::vector<RankedPoint*> feasible;
+  for (RankedPoint& point : pareto.points) {
+    if (!point.feasible) continue;
+    feasible.push_back(&point);
+    figures.push_back(point.figures);
+  }
+  if (feasible.empty()) throw vp::InputError("no point meets the constraints");
+  const std::vector<bool> maximise = directions(objectives);
+  const std::vector<std::size_t> front = fronts(figures, maximise);
+  for (std::size_t i = 0; i < feasible.size(); ++i) feasible[i]->front = front[i];
+  pareto.knee = knee_of(pareto.points, maximise);
+  return pareto;
+}
+
+std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
+                         const Pareto& pareto) {
+  std::vector<std::string> names = results.manifest.swept;
+  for (const std::string& text : texts(objectives)) names.push_back(text);
+  std::vector<std::string> head = short_names(names);
+  head.emplace_back("");
+  TextTable table(head);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
+    if (pareto.points[i].front == 1) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return pareto.points[a].figures[0] < pareto.points[b].figures[0];
+  });
+  for (const std::size_t i : order) {
+    std::vector<std::string> row;
+    for (const std::string& path : results.manifest.swept)
+      row.push_back(pareto.points[i].row->value(path));
+    for (const double figure : pareto.points[i].figures) row.push_back(readable(figure));
+    row.emplace_back(pareto.knee == i ? "knee" : "");
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
+                       const Pareto& pareto) {
+  std::vector<std::string> head{"key", "front", "knee", "feasible"};
+  for (const std::string& path : results.manifest.swept) head.push_back(path);
+  for (const Objective& objective : objectives)
+    head.push_back((objective.maximise() ? "max " : "min ") + objective.figure().text());
+  std::string text = csv_line(head);
+  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
+    const RankedPoint& point = pareto.points[i];
+    std::vector<std::string> fields{point.row->key, std::to_string(point.front),
+                                    pareto.knee == i ? "1" : "0", point.feasible ? "1" : "0"};
+    for (const std::string& path : results.manifest.swept) fields.push_back(point.row->value(path));
+    for (const double figure : point.figures) fields.push_back(csv_number(figure));
+    text += csv_line(fields);
+  }
+  return text;
+}
+
+}  // namespace platform::sweep

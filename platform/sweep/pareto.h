@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sweep/objective.h>
+#include <sweep/results.h>
+
+namespace platform::sweep {
+
+/// A point in an analysis by objectives.
+struct RankedPoint {
+  const ResultRow* row = nullptr;
+  std::vector<double> figures;  ///< of each objective
+  bool feasible = true;         ///< all constraints hold
+  std::size_t front = 0;        ///< 1: nothing is better in all objectives; 2: once the first front
+                                ///< is taken away; … 0: infeasible
+};
+
+struct Pareto {
+  std::vector<RankedPoint> points;  ///< failed ones left out, in the order of the sweep
+  std::optional<std::size_t> knee;  ///< position in `points`
+};
+
+/// Sorts the points into fronts: one dominates another if it is no worse in every objective and
+/// better in one. The knee is the point of the first front nearest to the best value of every
+/// objective, each objective scaled to 0 … 1 over that front. Throws vp::InputError for an unknown
+/// metric or no point.
+Pareto rank(const Results& results, const std::vector<Objective>& objectives,
+            const std::vector<Expression>& constraints);
+
+/// The fronts of figures alone, 1 for the best; `maximise` says which way each objective goes.
+std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
+                                const std::vector<bool>& maximise);
+
+/// The first front as a table, the knee marked.
+std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
+                         const Pareto& pareto);
+/// All points: key, front, knee, feasible, swept parameters, objectives.
+std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
+                       const Pareto& pareto);
+
+/// Draws the first two objectives as an SVG picture with gnuplot. Returns why not, if it cannot.
+std::optional<std::string> plot_pareto(const std::string& file, const Results& results,
+                                       const std::vector<Objective>& objectives,
+                                       const Pareto& pareto);
+
+}  // namespace platform::sweep

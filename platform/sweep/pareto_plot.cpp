@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include <sweep/csv_line.h>
+#include <sweep/durable_file.h>
+#include <sweep/host_command.h>
+#include <sweep/pareto.h>
+#include <vp/text.h>
+
+namespace platform::sweep {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string axis_label(const Objective& objective) {
+  return objective.figure().text() +
+         (objective.maximise() ? "  (more is better)" : "  (less is better)");
+}
+
+/// Points for which `wanted` holds, as a data block of gnuplot.
+template <class Wanted>
+std::string block(const std::string& name, const Pareto& pareto, const Wanted& wanted) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
+    if (wanted(i)) points.emplace_back(pareto.points[i].figures[0], pareto.points[i].figures[1]);
+  }
+  std::sort(points.begin(), points.end());
+  std::string text = "$" + name + " << EOD\n";
+  for (const auto& [x, y] : points) text += csv_number(x) + " " + csv_number(y) + "\n";
+  // A block must not be empty: not a number is not drawn.
+  if (points.empty()) text += "NaN NaN\n";
+  return text + "EOD\n";
+}
+
+}  // namespace
+
+std::optional<std::string> plot_pareto(const std::string& file, const Results& results,
+                                       const std::vector<Objective>& objectives,
+                                       const Pareto& pareto) {
+  if (objectives.size() < 2) return "a plot needs two objectives";
+  const auto& points = pareto.points;
+  std::ostringstream script;
+  script << "set encoding utf8\n"
+         << "set terminal svg size 800,560 font 'sans,14' noenhanced background rgb 'white'\n"
+         << "set output " << quoted(file) << "\n"
+         << block("infeasible", pareto, [&](std::size_t i) { return !points[i].feasible; })
+         << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
+         << block("front", pareto, [&](std::size_t i) { return points[i].front == 1; })
+         << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
+         << quoted(results.manifest.title.empty() ? results.manifest.name : results.manifest.title)
+         << "\nset xlabel " << quoted(axis_label(objectives[0])) << "\nset ylabel "
+         << quoted(axis_label(objectives[1])) << "\n"
+         << "set grid lc rgb '#dddddd'\nset key outside below horizontal\nset offsets "
+            "graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+         // Okabe and Ito's palette: every eye tells them apart.
+         << "plot $infeasible with points pt 2 ps 0.8 lc rgb '#999999' title 'infeasible', "
+            "$dominated with points pt 7 ps 0.6 lc rgb '#56b4e9' title 'dominated', "
+            "$front with linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2' title 'Pareto front', "
+            "$knee with points pt 6 ps 2 lw 3 lc rgb '#d55e00' title 'knee'\n";
+  const std::string script_file = file + ".gnuplot";
+  write_durably(script_file, script.str());
+  const CommandEnd end = run_command({"gnuplot", script_file});
+  std::error_code ignored;
+  std::filesystem::remove(script_file, ignored);
+  if (end.exit_code == 0) return std::nullopt;
+  if (end.exit_code == 127) return "gnuplot is not installed (package gnuplot-nox)";
+  std::string said(vp::trim(end.out));
+  std::replace(said.begin(), said.end(), '\n', ' ');
+  return "gnuplot: " + said;
+}
+
+}  // namespace platform::sweep

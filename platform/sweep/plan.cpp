@@ -1,0 +1,316 @@
+#include <sweep/plan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <sweep/expansion.h>
+#include <sweep/expression.h>
+#include <sweep/identity_parts.h>
+#include <sweep/objective.h>
+#include <vp/decimal.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::sweep {
+
+namespace {
+
+using Kind = ParameterKind::Kind;
+
+bool is_program(const std::string& path) {
+  return path == "system" || path == "program";
+}
+
+/// Not a parameter of the platform, but of the run.
+bool is_special(const std::string& path) {
+  return is_program(path) || path == "inputs";
+}
+
+const std::string* find(const Assignment& point, const std::string& path) {
+  for (const auto& [name, value] : point) {
+    if (name == path) return &value;
+  }
+  return nullptr;
+}
+
+class Planner {
+ public:
+  Planner(const Spec& spec, const PlanOptions& options, const Platform& platform)
+      : spec_(spec), options_(options), platform_(platform) {}
+
+  Manifest plan() {
+    check_objectives();
+    find_programs();
+    make_axes();
+    const double count = point_count(spec_, groups_);
+    ask_about(count);
+    for (const AxisGroup& group : groups_) {
+      for (const AxisValues& axis : group) check_values(axis);
+    }
+    for (const Condition& condition : spec_.constraints)
+      constraints_.emplace_back(condition.text, condition.where);
+    const Expansion expansion = expand(
+        spec_, groups_, [this](const Assignment& point) { return allowed(point); },
+        options_.limit.value_or(static_cast<std::uint64_t>(most_points)));
+    describe();
+    add_points(expansion);
+    return std::move(manifest_);
+  }
+
+ private:
+  void check_objectives() const {
+    for (const std::string& objective : spec_.objectives) Objective(objective, spec_.origin);
+  }
+
+  // Each program has its own options; what is swept must exist in all.
+  void find_programs() {
+    programs_ = {spec_.program};
+    for (const Dimension& dimension : spec_.dimensions) {
+      for (const Axis& axis : dimension.axes) {
+        if (!is_program(axis.path)) continue;
+        if (!spec_.program.empty())
+          throw vp::InputError(axis.where + ": the PS program is swept and fixed: leave out one");
+        if (axis.range) throw vp::InputError(axis.where + ": " + axis.path + " takes no range");
+        if (programs_ != std::vector<std::string>{""})
+          throw vp::InputError(axis.where + ": 'system' and 'program' both name the PS program");
+        programs_ = axis.values;
+      }
+    }
+    for (const std::string& program : programs_) {
+      const Build build{program, spec_.set};
+      tables_.emplace_back(platform_.elaborate(build, spec_.set_where));
+    }
+  }
+
+  void make_axes() {
+    for (const Dimension& dimension : spec_.dimensions) {
+      AxisGroup group;
+      for (const Axis& axis : dimension.axes) {
+        manifest_.swept.push_back(axis.path);
+        ParameterKind kind;
+        if (!is_special(axis.path)) {
+          for (const ParameterTable& table : tables_) table.find(axis.path, axis.where);
+          if (spec_.set.count(axis.path) != 0)
+            throw vp::InputError(axis.where + ": '" + axis.path + "' is swept, and fixed by 'set'");
+          kind = tables_.front().kind(axis.path);
+        }
+        group.emplace_back(axis, kind);
+      }
+      groups_.push_back(std::move(group));
+    }
+  }
+
+  void ask_about(double count) const {
+    if (options_.limit) return;
+    const std::string number = count < 1e15 ? vp::format_fixed(count, 0)
+                                            : "about 10^" + vp::format_fixed(std::log10(count), 0);
+    const std::string start = spec_.origin + ": the sweep has " + number + " points: ";
+    if (count > most_points)
+      throw vp::InputError(start +
+                           "no machine gets through them; take some with --limit N, or draw "
+                           "a sample ('sample: {method: sobol, points: 1000}')");
+    if (count > most_points_unasked && !options_.yes)
+      throw vp::InputError(start + "run them all with --yes, or some with --limit N");
+  }
+
+  /// Builds the platform with values of the axis, so that a wrong one shows now. Finds out whether
+  /// other parameters, or the picture's size, follow from it.
+  void check_values(const AxisValues& axis) {
+    if (is_special(axis.path())) return;
+    const ParameterKind kind = tables_.front().kind(axis.path());
+    std::vector<std::string> values = axis.values();
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    if (kind.kind == Kind::quantity) values = extremes(values, kind);
+    bool influences = kind.kind != Kind::quantity;
+    for (const std::string& value : values) {
+      for (std::size_t i = 0; i < programs_.size(); ++i) {
+        Build build{programs_[i], spec_.set};
+        build.settings[axis.path()] = value;
+        try {
+          if (changes_others(platform_.elaborate(build, axis.where()), tables_[i], axis.path()))
+            influences = true;
+        } catch (const vp::InputError& error) {
+          // Other errors come from values together; such a point fails, and says why.
+          if (std::string(error.what()).rfind(axis.path() + ":", 0) == 0) throw;
+          influences = true;
+        }
+      }
+    }
+    if (influences) influential_.insert(axis.path());
+  }
+
+  /// The smallest, the largest, and one that is not whole.
+  static std::vector<std::string> extremes(const std::vector<std::string>& values,
+                                           const ParameterKind& kind) {
+    const auto less = [&](const std::string& a, const std::string& b) {
+      return number_of(kind, a) < number_of(kind, b);
+    };
+    std::set<std::string> chosen{*std::min_element(values.begin(), values.end(), less),
+                                 *std::max_element(values.begin(), values.end(), less)};
+    for (const std::string& value : values) {
+      if (!vp::parse_quantity(value, kind.unit).whole()) {
+        chosen.insert(value);
+        break;
+      }
+    }
+    return {chosen.begin(), chosen.end()};
+  }
+
+  static bool changes_others(const Elaborated& built, const ParameterTable& base,
+                             const std::string& path) {
+    if (built.size.width != base.size().width || built.size.height != base.size().height)
+      return true;
+    const std::map<std::string, std::string> before = base.values();
+    for (const vp::ParameterDescription& parameter : built.parameters) {
+      const auto found = before.find(parameter.path);
+      if (parameter.path != path && (found == before.end() || found->second != parameter.value))
+        return true;
+    }
+    return built.parameters.size() != before.size();
+  }
+
+  bool allowed(const Assignment& point) const {
+    const auto lookup = [&](const std::string& name) { return value_of(point, name); };
+    return std::all_of(constraints_.begin(), constraints_.end(),
+                       [&](const Expression& condition) { return condition.holds(lookup); });
+  }
+
+  Value value_of(const Assignment& point, const std::string& name) const {
+    Value value;
+    const std::string* swept = find(point, name);
+    if (is_special(name)) {
+      value.is_text = true;
+      value.text = swept != nullptr ? *swept : spec_.program;
+      return value;
+    }
+    const ParameterTable& table = tables_.front();
+    const std::string text =
+        swept != nullptr ? *swept : table.find(name, spec_.origin + ": constraints").value;
+    const ParameterKind kind = table.kind(name);
+    if (kind.kind == Kind::text) {
+      value.is_text = true;
+      value.text = text;
+    } else {
+      value.unit = kind.unit;
+      value.number = number_of(kind, text);
+    }
+    return value;
+  }
+
+  void describe() {
+    manifest_.name = spec_.name;
+    manifest_.title = spec_.title;
+    manifest_.text = spec_.text;
+    manifest_.source = spec_.source;
+    manifest_.program = program_identity(platform_.version, platform_.revision);
+    manifest_.tables = table_contents();
+    manifest_.input = {spec_.camera, spec_.fit, spec_.frames, spec_.repeat};
+    manifest_.sampling = to_string(spec_.sampling.method);
+    manifest_.metrics = spec_.metrics;
+    manifest_.objectives = spec_.objectives;
+  }
+
+  void add_points(const Expansion& expansion) {
+    std::vector<std::string> keys;
+    std::set<std::string> seen;
+    for (const Assignment& assignment : expansion.points) {
+      PlannedPoint point = planned(assignment);
+      keys.push_back(point.key);
+      if (seen.insert(point.key).second) manifest_.points.push_back(std::move(point));
+    }
+    for (const Effect& effect : expansion.effects) {
+      manifest_.effects.push_back({keys[effect.from], keys[effect.to], effect.path, effect.delta});
+    }
+  }
+
+  PlannedPoint planned(const Assignment& assignment) {
+    PlannedPoint point;
+    point.swept = assignment;
+    Build build{spec_.program, spec_.set};
+    for (const auto& [path, value] : assignment) {
+      if (is_program(path)) build.program = value;
+      if (is_special(path)) continue;
+      if (influential_.count(path) != 0) {
+        build.settings[path] = value;
+      } else {
+        point.changes[path] = value;
+      }
+    }
+    const BuiltFamily& family = family_of(build);
+    point.family = family.index;
+    const std::string* label = find(assignment, "inputs");
+    point.input_set = input_set_of(label != nullptr ? *label : "", family.size);
+    for (auto change = point.changes.begin(); change != point.changes.end();) {
+      const auto& configuration = manifest_.families[point.family].configuration;
+      const auto found = configuration.find(change->first);
+      const bool same = found != configuration.end() && found->second == change->second;
+      change = same ? point.changes.erase(change) : std::next(change);
+    }
+    point.key = key_of(manifest_.identity(point));
+    return point;
+  }
+
+  struct BuiltFamily {
+    std::size_t index;
+    input::ImageSize size;
+  };
+
+  const BuiltFamily& family_of(const Build& build) {
+    const auto known = families_.find({build.program, build.settings});
+    if (known != families_.end()) return known->second;
+    Family family{build.program, {}, {}, {}};
+    input::ImageSize size{};
+    try {
+      const ParameterTable table(platform_.elaborate(build, spec_.origin));
+      family.configuration = table.values();
+      family.defaults = table.defaults();
+      size = table.size();
+    } catch (const vp::InputError&) {
+      // These values do not go together: the points run, fail and say why.
+      const std::size_t program =
+          std::find(programs_.begin(), programs_.end(), build.program) - programs_.begin();
+      family.configuration = tables_[program].values();
+      family.defaults = tables_[program].defaults();
+      size = tables_[program].size();
+      for (const auto& [path, value] : build.settings) family.configuration[path] = value;
+    }
+    family.contents = file_contents(platform_.program_file(build.program), family.configuration);
+    manifest_.families.push_back(std::move(family));
+    const BuiltFamily built{manifest_.families.size() - 1, size};
+    return families_.emplace(std::pair(build.program, build.settings), built).first->second;
+  }
+
+  std::size_t input_set_of(const std::string& label, input::ImageSize size) {
+    const auto id = std::make_tuple(label, size.width, size.height);
+    const auto known = input_sets_.find(id);
+    if (known != input_sets_.end()) return known->second;
+    const std::vector<std::string>& inputs =
+        label.empty() ? spec_.inputs : spec_.input_sets.at(label);
+    manifest_.input_sets.push_back({inputs, input_contents(inputs, manifest_.input, size)});
+    return input_sets_[id] = manifest_.input_sets.size() - 1;
+  }
+
+  const Spec& spec_;
+  const PlanOptions& options_;
+  const Platform& platform_;
+  std::vector<std::string> programs_;
+  std::vector<ParameterTable> tables_;  ///< of each program
+  std::vector<AxisGroup> groups_;
+  std::vector<Expression> constraints_;
+  std::set<std::string> influential_;  ///< parameters from which others follow
+  std::map<std::pair<std::string, std::map<std::string, std::string>>, BuiltFamily> families_;
+  std::map<std::tuple<std::string, int, int>, std::size_t> input_sets_;
+  Manifest manifest_;
+};
+
+}  // namespace
+
+Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform) {
+  return Planner(spec, options, platform).plan();
+}
+
+}  // namespace platform::sweep

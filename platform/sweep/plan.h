@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <sweep/manifest.h>
+#include <sweep/parameter_table.h>
+#include <sweep/spec.h>
+
+namespace platform::sweep {
+
+/// What planning asks of the platform.
+struct Platform {
+  /// Builds it in a process of its own. Throws vp::InputError that says what the user got wrong.
+  std::function<Elaborated(const Build&, const std::string& origin)> elaborate;
+  /// The file of a PS program that is named; empty if there are no files.
+  std::function<std::string(const std::string& program)> program_file;
+  std::string version;
+  std::string revision;
+};
+
+struct PlanOptions {
+  std::optional<std::uint64_t> limit;  ///< points at most
+  bool yes = false;                    ///< the user wants many
+};
+
+/// More points need --yes or --limit.
+inline constexpr double most_points_unasked = 100'000;
+/// More points no machine gets through.
+inline constexpr double most_points = 10'000'000;
+
+/// Checks all keys, units, ranges, names and inputs, and finds every point. Throws vp::InputError.
+Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform);
+
+}  // namespace platform::sweep

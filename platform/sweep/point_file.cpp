@@ -1,0 +1,101 @@
+#include <sweep/point_file.h>
+
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <sweep/content_hash.h>
+#include <vp/error.h>
+
+namespace platform::sweep {
+
+namespace {
+
+constexpr int schema = 1;
+constexpr const char* mark = "markervp_point";
+
+PointRecord new_record(const Manifest& manifest, const PlannedPoint& point) {
+  PointRecord record;
+  record.key = point.key;
+  record.identity = manifest.identity(point);
+  record.run["program"] = manifest.families[point.family].program;
+  record.run["inputs"] = manifest.input_sets[point.input_set].inputs;
+  record.run["settings"] = manifest.settings(point);
+  if (manifest.input.camera) record.run["camera"] = *manifest.input.camera;
+  return record;
+}
+
+void erase_what_stands_elsewhere(Json& result) {
+  for (const char* elsewhere : {"provenance", "configuration"}) result.erase(elsewhere);
+}
+
+/// File names may hold any bytes; JSON holds UTF-8 only.
+std::string dump(const Json& json, int spaces = -1) {
+  return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+PointRecord done_record(const Manifest& manifest, const PlannedPoint& point, Json result) {
+  PointRecord record = new_record(manifest, point);
+  erase_what_stands_elsewhere(result);
+  record.outcome["status"] = "done";
+  record.outcome["result"] = std::move(result);
+  return record;
+}
+
+PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
+                          const Failure& failure, Json result) {
+  PointRecord record = new_record(manifest, point);
+  record.outcome["status"] = "failed";
+  record.outcome["failure"] = {
+      {"exit_code", failure.exit_code}, {"signal", failure.signal}, {"message", failure.message}};
+  if (result.is_object()) {
+    erase_what_stands_elsewhere(result);
+    record.outcome["result"] = std::move(result);
+  }
+  return record;
+}
+
+std::string point_text(const PointRecord& record) {
+  Json json;
+  json[mark] = schema;
+  json["key"] = record.key;
+  json["identity"] = record.identity;
+  json["run"] = record.run;
+  json["digest"] = content_hash(dump(record.outcome));
+  json["outcome"] = record.outcome;
+  return dump(json, 1) + "\n";
+}
+
+PointRecord read_point(const std::string& path, bool verify) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw vp::InputError("point '" + path + "' cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Json json = Json::parse(text, nullptr, false);
+  const std::string start = "'" + path + "' ";
+  if (json.is_discarded())
+    throw vp::InputError(start +
+                         "is damaged, or no file of a sweep's point: remove it, and the "
+                         "sweep computes it again");
+  if (!json.is_object() || !json.contains(mark))
+    throw vp::InputError(start + "is no point of a sweep: move it elsewhere");
+  if (json[mark] != schema) {
+    throw vp::InputError(start + "has version " + json[mark].dump() +
+                         " of the format, this program reads version " + std::to_string(schema) +
+                         ": remove it, and the sweep computes it again");
+  }
+  try {
+    PointRecord record{json.at("key").get<std::string>(), json.at("identity"), json.at("run"),
+                       json.at("outcome")};
+    const bool whole = !verify || (key_of(record.identity) == record.key &&
+                                   content_hash(dump(record.outcome)) == json.at("digest"));
+    if (whole && (record.failed() || record.outcome.contains("result"))) return record;
+  } catch (const Json::exception&) {
+  }
+  throw vp::InputError(start +
+                       "was changed or is damaged: remove it, and the sweep computes it "
+                       "again");
+}
+
+}  // namespace platform::sweep

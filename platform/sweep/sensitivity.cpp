@@ -1,0 +1,211 @@
+#include <sweep/sensitivity.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <sweep/csv_line.h>
+#include <sweep/text_table.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::sweep {
+
+namespace {
+
+constexpr int bar_length = 24;
+
+class Analysis {
+ public:
+  Analysis(const Results& results, const Expression& figure) : results_(results), figure_(figure) {
+    for (const ResultRow& row : results.rows) rows_[row.key] = &row;
+  }
+
+  SensitivityReport report() {
+    if (results_.manifest.sampling == "morris") {
+      morris();
+    } else if (results_.manifest.sampling == "one-at-a-time") {
+      one_at_a_time();
+    } else {
+      main_effects();
+    }
+    if (report_.rows.empty())
+      throw vp::InputError("sensitivity: too few points have a result for '" + figure_.text() +
+                           "'");
+    std::stable_sort(report_.rows.begin(), report_.rows.end(), stronger);
+    return std::move(report_);
+  }
+
+ private:
+  static bool stronger(const Sensitivity& a, const Sensitivity& b) {
+    return std::max(a.mean_size, a.swing()) > std::max(b.mean_size, b.swing());
+  }
+
+  std::optional<double> figure(const std::string& key) const {
+    const auto found = rows_.find(key);
+    if (found == rows_.end() || found->second->failed) return std::nullopt;
+    return figure(*found->second);
+  }
+
+  double figure(const ResultRow& row) const {
+    return figure_
+        .evaluate(
+            [&](const std::string& name) { return value_in(results_, row, name, "sensitivity"); })
+        .number;
+  }
+
+  void morris() {
+    report_.method = "morris";
+    std::map<std::string, std::vector<double>> effects;
+    for (const KeyedEffect& effect : results_.manifest.effects) {
+      const std::optional<double> from = figure(effect.from);
+      const std::optional<double> to = figure(effect.to);
+      if (!from || !to) {
+        ++report_.skipped;
+        continue;
+      }
+      effects[effect.path].push_back((*to - *from) / effect.delta);
+    }
+    for (const auto& [path, values] : effects) {
+      Sensitivity row;
+      row.path = path;
+      row.count = values.size();
+      const auto count = static_cast<double>(values.size());
+      for (const double value : values) {
+        row.mean += value / count;
+        row.mean_size += std::fabs(value) / count;
+      }
+      double squares = 0;
+      for (const double value : values) squares += (value - row.mean) * (value - row.mean);
+      row.deviation = values.size() > 1 ? std::sqrt(squares / (count - 1)) : 0;
+      report_.rows.push_back(row);
+    }
+    report_.base = mean_of_all();
+  }
+
+  void one_at_a_time() {
+    report_.method = "one-at-a-time";
+    const auto& effects = results_.manifest.effects;
+    const std::optional<double> base =
+        effects.empty() ? std::nullopt : figure(effects.front().from);
+    if (!base) throw vp::InputError("sensitivity: the base point failed, or is not computed yet");
+    report_.base = *base;
+    std::map<std::string, Sensitivity> rows;
+    for (const KeyedEffect& effect : effects) {
+      const std::optional<double> value = figure(effect.to);
+      if (!value) {
+        ++report_.skipped;
+        continue;
+      }
+      add(rows, effect.path, *value, swept_text(*rows_.at(effect.to)));
+    }
+    for (auto& [path, row] : rows) {
+      extend(row, *base, "base");
+      report_.rows.push_back(row);
+    }
+  }
+
+  void main_effects() {
+    report_.method = "main effects";
+    report_.base = mean_of_all();
+    for (const std::string& path : results_.manifest.swept) {
+      std::map<std::string, std::pair<double, double>> sums;  // value -> sum, count
+      for (const ResultRow& row : results_.rows) {
+        if (row.failed) continue;
+        auto& [sum, count] = sums[row.value(path)];
+        sum += figure(row);
+        ++count;
+      }
+      std::map<std::string, Sensitivity> rows;
+      for (const auto& [value, sum] : sums) add(rows, path, sum.first / sum.second, value);
+      for (auto& [unused, row] : rows) report_.rows.push_back(row);
+    }
+  }
+
+  double mean_of_all() const {
+    double sum = 0;
+    double count = 0;
+    for (const ResultRow& row : results_.rows) {
+      if (row.failed) continue;
+      sum += figure(row);
+      ++count;
+    }
+    return count == 0 ? 0 : sum / count;
+  }
+
+  static std::string swept_text(const ResultRow& row) {
+    std::vector<std::string> values;
+    for (const auto& [path, value] : row.swept) values.push_back(value);
+    return vp::join(values, " / ");
+  }
+
+  static void add(std::map<std::string, Sensitivity>& rows, const std::string& path, double value,
+                  const std::string& at) {
+    const auto [found, is_new] = rows.try_emplace(path);
+    Sensitivity& row = found->second;
+    row.path = path;
+    ++row.count;
+    if (is_new) {
+      row.low = row.high = value;
+      row.low_at = row.high_at = at;
+    } else {
+      extend(row, value, at);
+    }
+  }
+
+  static void extend(Sensitivity& row, double value, const std::string& at) {
+    if (value < row.low) {
+      row.low = value;
+      row.low_at = at;
+    }
+    if (value > row.high) {
+      row.high = value;
+      row.high_at = at;
+    }
+  }
+
+  const Results& results_;
+  const Expression& figure_;
+  std::map<std::string, const ResultRow*> rows_;
+  SensitivityReport report_;
+};
+
+std::string bar(double size, double largest) {
+  if (!(largest > 0)) return "";
+  return std::string(static_cast<std::size_t>(std::lround(bar_length * size / largest)), '#');
+}
+
+}  // namespace
+
+SensitivityReport sensitivity(const Results& results, const Expression& figure) {
+  return Analysis(results, figure).report();
+}
+
+std::string sensitivity_table(const SensitivityReport& report) {
+  if (report.method == "morris") {
+    TextTable table({"parameter", "mean size", "mean", "deviation", "effects", ""});
+    for (const Sensitivity& row : report.rows)
+      table.add({row.path, readable(row.mean_size), readable(row.mean), readable(row.deviation),
+                 std::to_string(row.count), bar(row.mean_size, report.rows.front().mean_size)});
+    return table.text();
+  }
+  TextTable table({"parameter", "swing", "lowest", "at", "highest", "at", ""});
+  for (const Sensitivity& row : report.rows)
+    table.add({row.path, readable(row.swing()), readable(row.low), row.low_at, readable(row.high),
+               row.high_at, bar(row.swing(), report.rows.front().swing())});
+  return table.text();
+}
+
+std::string sensitivity_csv(const std::string& figure, const SensitivityReport& report) {
+  std::string text = csv_line({"figure", "method", "parameter", "count", "mean_size", "mean",
+                               "deviation", "low", "low_at", "high", "high_at"});
+  for (const Sensitivity& row : report.rows) {
+    text += csv_line({figure, report.method, row.path, std::to_string(row.count),
+                      csv_number(row.mean_size), csv_number(row.mean), csv_number(row.deviation),
+                      csv_number(row.low), row.low_at, csv_number(row.high), row.high_at});
+  }
+  return text;
+}
+
+}  // namespace platform::sweep

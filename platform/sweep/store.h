@@ -1,0 +1,67 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <sweep/manifest.h>
+#include <sweep/point_file.h>
+
+namespace platform::sweep {
+
+/// A file lock that ends with its process.
+class FileLock {
+ public:
+  FileLock() = default;
+  ~FileLock();
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept;
+
+  /// Locks a byte of a file, which is made if missing. Without `wait`, false if somebody else has
+  /// it. Throws StorageError.
+  bool take(const std::string& path, std::uint64_t byte, bool wait);
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// The folder of a sweep:
+///
+///   manifest.json  the points of the last sweep in it; points.csv the same as a table
+///   points/        KEY.json of every point that was ever computed in it
+///   runs/          who computed what when: lines of JSON, one file a process
+///   sweep.csv, sweep.sqlite  results of the last sweep
+class Store {
+ public:
+  /// Makes the folder if missing. Throws vp::InputError if that cannot be.
+  explicit Store(const std::string& folder);
+
+  /// Keeps other sweeps out of the folder until this ends. Throws vp::InputError that names who has
+  /// it.
+  void lock();
+
+  const std::string& folder() const { return folder_; }
+  std::string path(const std::string& name) const;
+  std::string point_path(const std::string& key) const;
+
+  bool has(const std::string& key) const;
+  /// Throws StorageError.
+  void write(const PointRecord& record) const;
+  /// Throws vp::InputError for a damaged one, or one of another name.
+  PointRecord read(const std::string& key, bool verify = true) const;
+
+  void write_manifest(const Manifest& manifest) const;
+  Manifest read_manifest() const;
+
+  /// Keys of all points in the folder, sorted. Names what stands there and is no point.
+  std::vector<std::string> keys(std::vector<std::string>& foreign) const;
+
+  /// So that one point is computed by one process at a time, whoever works here. Waits.
+  FileLock claim(const std::string& key) const;
+
+ private:
+  std::string folder_;
+  FileLock lock_;
+};
+
+}  // namespace platform::sweep

@@ -1,0 +1,100 @@
+#include <sweep/objective.h>
+#include <sweep/pareto.h>
+#include <sweep/sensitivity.h>
+
+#include "sweep_kit.h"
+
+using namespace platform::sweep;
+using sweep_test::complaint;
+using sweep_test::contains;
+
+namespace {
+
+/// FPS and watts of five points, one of which failed.
+Results example() {
+  Results results;
+  results.manifest.name = "example";
+  results.manifest.swept = {"clock"};
+  const double fps[] = {50, 100, 150, 90};
+  const double watts[] = {1, 1.1, 3, 2};
+  for (int i = 0; i < 4; ++i) {
+    ResultRow row;
+    row.key = std::to_string(i);
+    row.swept = {{"clock", std::to_string(50 * (i + 1)) + " MHz"}};
+    row.metrics = {{"fps", fps[i]}, {"watts", watts[i]}};
+    results.rows.push_back(row);
+  }
+  ResultRow failed;
+  failed.failed = true;
+  failed.swept = {{"clock", "1 MHz"}};
+  results.rows.push_back(failed);
+  return results;
+}
+
+std::vector<Objective> fps_and_watts() {
+  return {Objective("max fps", "here"), Objective("min watts", "here")};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(analysis)
+
+BOOST_AUTO_TEST_CASE(objectives_say_which_way_is_better) {
+  BOOST_TEST(Objective("max a / b", "x").maximise());
+  BOOST_TEST(!Objective("min a", "x").maximise());
+  for (const char* wrong : {"a", "maximum a", "max ", ""})
+    BOOST_TEST(contains(complaint([&] { Objective(wrong, "x"); }), "max METRIC"), wrong);
+}
+
+BOOST_AUTO_TEST_CASE(fronts_are_peeled_one_by_one) {
+  const std::vector<std::size_t> front =
+      fronts({{1, 1}, {2, 2}, {3, 3}, {2, 4}, {2, 2}}, {true, false});
+  BOOST_TEST(front == (std::vector<std::size_t>{1, 1, 1, 2, 1}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(the_knee_is_near_the_best_of_everything) {
+  const Results results = example();
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points.size() == 4u);
+  BOOST_TEST(pareto.points[3].front == 2u);
+  BOOST_REQUIRE(pareto.knee.has_value());
+  BOOST_TEST(*pareto.knee == 1u);
+  BOOST_TEST(contains(pareto_table(results, fps_and_watts(), pareto), "knee"));
+}
+
+BOOST_AUTO_TEST_CASE(constraints_take_points_out) {
+  const Results results = example();
+  const Pareto pareto = rank(results, fps_and_watts(), {Expression("clock >= 150 MHz", "here")});
+  BOOST_TEST(!pareto.points[0].feasible);
+  BOOST_TEST(pareto.points[2].front == 1u);
+  BOOST_TEST(pareto.points[3].front == 1u);
+  BOOST_TEST(contains(
+      complaint([&] { rank(results, fps_and_watts(), {Expression("fps > 1000", "here")}); }),
+      "no point meets"));
+  BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max fsp", "here")}, {}); }),
+                      "did you mean 'fps'"));
+}
+
+BOOST_AUTO_TEST_CASE(elementary_effects_are_averaged) {
+  Results results = example();
+  results.manifest.sampling = "morris";
+  results.manifest.effects = {{"0", "1", "clock", 0.5}, {"3", "1", "clock", -0.5}};
+  const SensitivityReport report = sensitivity(results, Expression("fps", "here"));
+  BOOST_REQUIRE(report.rows.size() == 1u);
+  BOOST_TEST(report.rows[0].mean == 40);  // 100 and -20
+  BOOST_TEST(report.rows[0].mean_size == 60);
+  BOOST_TEST(report.rows[0].count == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_tornado_has_low_and_high) {
+  Results results = example();
+  results.manifest.sampling = "one-at-a-time";
+  results.manifest.effects = {{"1", "0", "clock", 0}, {"1", "2", "clock", 0}};
+  const SensitivityReport report = sensitivity(results, Expression("fps", "here"));
+  BOOST_TEST(report.base == 100);
+  BOOST_TEST(report.rows.at(0).low == 50);
+  BOOST_TEST(report.rows.at(0).high == 150);
+  BOOST_TEST(report.rows.at(0).high_at == "150 MHz");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

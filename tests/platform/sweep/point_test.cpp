@@ -1,0 +1,122 @@
+#include <sweep/content_hash.h>
+#include <sweep/metrics.h>
+#include <sweep/point_file.h>
+#include <sweep/store.h>
+
+#include "sweep_kit.h"
+#include "temporary_files.h"
+
+using namespace platform::sweep;
+using sweep_test::complaint;
+using sweep_test::contains;
+
+namespace {
+
+Manifest one_point() {
+  Manifest manifest;
+  manifest.name = "one";
+  manifest.program = {{"version", "1"}};
+  manifest.families.push_back({"hybrid", {{"a", "1"}, {"b", "2"}}, {{"a", "1"}, {"b", "1"}}, {}});
+  manifest.input_sets.push_back({{"demo"}, {{"name", "demo"}}});
+  PlannedPoint point;
+  point.changes = {{"a", "5"}};
+  point.swept = {{"a", "5"}};
+  point.key = key_of(manifest.identity(point));
+  manifest.points.push_back(point);
+  return manifest;
+}
+
+PointRecord record_of(const Manifest& manifest) {
+  return done_record(manifest, manifest.points[0],
+                     {{"provenance", {{"host", "h"}}}, {"summary", {{"frames", 1}}}});
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(points)
+
+BOOST_AUTO_TEST_CASE(the_hash_is_sha_256) {
+  BOOST_TEST(content_hash("abc") ==
+             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+BOOST_AUTO_TEST_CASE(what_decides_the_result_decides_the_key) {
+  const Manifest manifest = one_point();
+  Manifest other = manifest;
+  other.program["version"] = "2";
+  BOOST_TEST(key_of(other.identity(other.points[0])) != manifest.points[0].key);
+  other = manifest;
+  other.families[0].configuration["b"] = "3";
+  BOOST_TEST(key_of(other.identity(other.points[0])) != manifest.points[0].key);
+  other = manifest;
+  other.name = other.text = "another";
+  BOOST_TEST(key_of(other.identity(other.points[0])) == manifest.points[0].key);
+}
+
+BOOST_AUTO_TEST_CASE(only_what_is_no_default_is_set) {
+  const Manifest manifest = one_point();
+  const std::map<std::string, std::string> expected{{"a", "5"}, {"b", "2"}};
+  BOOST_TEST((manifest.settings(manifest.points[0]) == expected));
+}
+
+BOOST_AUTO_TEST_CASE(a_manifest_reads_back) {
+  const Manifest manifest = one_point();
+  const Manifest again = manifest_from(to_json(manifest), "m");
+  BOOST_TEST(to_json(again).dump() == to_json(manifest).dump());
+  BOOST_TEST(contains(complaint([] { manifest_from(Json::object(), "m"); }), "no manifest"));
+}
+
+BOOST_AUTO_TEST_CASE(a_point_reads_back_without_provenance) {
+  const kit::TemporaryFolder folder;
+  const Store store(folder.path());
+  const Manifest manifest = one_point();
+  store.write(record_of(manifest));
+  const PointRecord read = store.read(manifest.points[0].key);
+  BOOST_TEST(!read.failed());
+  BOOST_TEST(!contains(kit::read_file(store.point_path(read.key)), "host"));
+  BOOST_TEST(metrics_of(read.outcome["result"]).at("summary.frames") == 1);
+}
+
+BOOST_AUTO_TEST_CASE(damage_is_noticed) {
+  const kit::TemporaryFolder folder;
+  const Store store(folder.path());
+  const Manifest manifest = one_point();
+  store.write(record_of(manifest));
+  const std::string path = store.point_path(manifest.points[0].key);
+  const std::string whole = kit::read_file(path);
+  const auto said = [&](const std::string& text) {
+    kit::write_file(path, text);
+    return complaint([&] { store.read(manifest.points[0].key); });
+  };
+  BOOST_TEST(contains(said(whole.substr(0, whole.size() / 2)), "damaged"));
+  std::string changed = whole;
+  changed.replace(changed.find("\"frames\": 1"), 11, "\"frames\": 2");
+  BOOST_TEST(contains(said(changed), "was changed"));
+  BOOST_TEST(contains(said("{}"), "no point of a sweep"));
+  BOOST_TEST(contains(said("{\"markervp_point\": 99}"), "version 99"));
+  BOOST_TEST(said(whole) == "");
+}
+
+BOOST_AUTO_TEST_CASE(one_sweep_a_folder) {
+  const kit::TemporaryFolder folder;
+  Store first(folder.path());
+  first.lock();
+  Store second(folder.path());
+  BOOST_TEST(contains(complaint([&] { second.lock(); }), "another sweep works in"));
+}
+
+BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
+  const Metrics metrics = metrics_of(Json::parse(R"({
+    "timing": {"met": false, "modules": [{"name": "blob", "fmax_mhz": 55}]},
+    "frames": [{"index": 0, "counts": {"corners": 2}, "markers": []},
+               {"index": 1, "counts": {"corners": 4},
+                "markers": [{"id": 1, "error": {"corner_px": 0.5}}]}]})"));
+  BOOST_TEST(metrics.at("timing.met") == 0);
+  BOOST_TEST(metrics.at("timing.modules.blob.fmax_mhz") == 55);
+  BOOST_TEST(metrics.at("frames.counts.corners.mean") == 3);
+  BOOST_TEST(metrics.at("frames.counts.corners.max") == 4);
+  BOOST_TEST(metrics.at("frames.markers.mean") == 0.5);
+  BOOST_TEST(metrics.at("frames.error.corner_px.mean") == 0.5);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,67 @@
+#include <sweep/spec.h>
+
+#include "sweep_kit.h"
+
+using platform::sweep::parse_spec;
+using platform::sweep::Sampling;
+using platform::sweep::Spec;
+using sweep_test::complaint;
+using sweep_test::contains;
+
+namespace {
+
+std::string problem(const std::string& text) {
+  return complaint([&] { parse_spec(text, "s.yaml"); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(spec_files)
+
+BOOST_AUTO_TEST_CASE(everything_has_its_place) {
+  const Spec spec = parse_spec(R"(
+title: T
+inputs: [z1.0, roll]
+system: hybrid
+fidelity: tlm
+set: {sw: {upload: 0}}
+parameters:
+  a.b: [1, 2]
+  c: {start: 1 MHz, stop: 8 MHz, count: 4, scale: log}
+  inputs: {near: [z1.0], far: [z4.0, z4.5]}
+zip:
+  - {d: [1, 2], e: [3, 4]}
+sample: {method: sobol, points: 5, seed: 2}
+constraints: [a.b < c]
+objectives: [max summary.fps.mean]
+)",
+                               "folder/s.yaml");
+  BOOST_TEST(spec.name == "s");
+  BOOST_TEST(spec.set.at("sw.upload") == "0");
+  BOOST_TEST(spec.set.at("fidelity") == "tlm");
+  BOOST_REQUIRE(spec.dimensions.size() == 4u);
+  BOOST_TEST(spec.dimensions[1].axes[0].range->logarithmic);
+  BOOST_TEST(spec.dimensions[3].axes.size() == 2u);
+  BOOST_TEST(spec.input_sets.at("far").size() == 2u);
+  BOOST_TEST((spec.sampling.method == Sampling::Method::sobol));
+  BOOST_TEST(spec.constraints[0].where == "folder/s.yaml:14");
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_are_named_with_their_line) {
+  BOOST_TEST(contains(problem("parametres: {a: 1}"), "did you mean 'parameters'"));
+  BOOST_TEST(contains(problem("title: x\nparameters: {a: []}"), "s.yaml:2"));
+  BOOST_TEST(contains(problem("parameters: {a: []}"), "no values"));
+  BOOST_TEST(contains(problem("parameters: {a: {start: 1}}"), "'start' and 'stop'"));
+  BOOST_TEST(contains(problem("parameters: {a: {start: 1, stop: 2, step: 1, count: 2}}"),
+                      "leave out one"));
+  BOOST_TEST(contains(problem("parameters: {a: 1}\nzip: [{a: 2}]"), "swept twice"));
+  BOOST_TEST(contains(problem("sample: {method: sobl, points: 3}"), "did you mean 'sobol'"));
+  BOOST_TEST(contains(problem("sample: {method: random}"), "needs 'points'"));
+  BOOST_TEST(contains(problem("sample: {method: morris, levels: 3}"), "even"));
+  BOOST_TEST(contains(problem("a: [1"), "s.yaml:"));
+  BOOST_TEST(contains(problem("repeat: -1"), "whole number"));
+  BOOST_TEST(contains(problem("system: a\nprogram: b"), "both name the PS program"));
+  BOOST_TEST(contains(complaint([] { platform::sweep::read_spec("/nowhere.yaml"); }), "--list"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

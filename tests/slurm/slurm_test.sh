@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# A sweep on a real Slurm of three nodes, of which one is lost in the middle: every point is computed once, and the
+# results are those of the local engine, byte for byte.
+#   slurm_test.sh MARKERVP
+# Exit code 77: skipped, because Slurm is not installed or may not be started.
+set -euo pipefail
+markervp=$(realpath "$1")
+here=$(dirname "$(realpath "$0")")
+
+skip() { echo "SKIPPED: $1"; exit 77; }
+for tool in slurmctld slurmd munged sbatch squeue scontrol; do
+  command -v "$tool" >/dev/null || PATH=$PATH:/usr/sbin:/sbin command -v "$tool" >/dev/null \
+    || skip "$tool is not installed (scripts/setup --test installs slurm-wlm and munge)"
+done
+[ "$(id -u)" -eq 0 ] || skip "starting a private Slurm needs root"
+export PATH=$PATH:/usr/sbin:/sbin
+
+work=$(mktemp -d /tmp/markervp_slurm_XXXXXX)
+finish() {
+  "$here/slurm_local.sh" stop "$work/slurm" || true
+  sleep 1
+  rm -rf "$work"
+}
+chmod 755 "$work"  # munge looks at all folders above its socket
+trap finish EXIT
+fail() { echo "FAILED: $1"; tail -n 20 "$work"/*.log "$work"/slurm/log/slurmctld.log 2>/dev/null; exit 1; }
+
+port=$((20000 + $$ % 20000))
+SLURM_CONF=$("$here/slurm_local.sh" start "$work/slurm" 3 "$port") || fail "Slurm does not start"
+export SLURM_CONF
+cd "$work"
+cat >s.yaml <<'Y'
+repeat: 10
+parameters:
+  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 79 MHz, step: 1 MHz}
+Y
+
+"$markervp" sweep s.yaml --output local >local.log 2>&1 || fail "the local sweep"
+"$markervp" sweep s.yaml --output cluster --engine slurm --chunk 5 >cluster.log 2>&1 &
+sweep=$!
+count() { find cluster/points -name '*.json' 2>/dev/null | wc -l; }
+for _ in $(seq 600); do [ "$(count)" -ge 6 ] && break; sleep .1; done
+[ "$(count)" -ge 6 ] || fail "no points arrive"
+# The node is lost, with what ran on it.
+kill -9 "$(cat slurm/run/slurmd.n1.pid)"
+scontrol update NodeName=n1 State=DOWN Reason=test
+wait "$sweep" || fail "the sweep on the cluster"
+
+diff -r local/points cluster/points || fail "points differ from those of the local engine"
+cmp local/sweep.csv cluster/sweep.csv || fail "sweep.csv differs"
+computed=$(cat cluster/runs/*.jsonl | wc -l)
+different=$(cat cluster/runs/*.jsonl | sed 's/.*"key":"\([0-9a-f]*\)".*/\1/' | sort -u | wc -l)
+[ "$different" = 60 ] && [ "$computed" = 60 ] || fail "$computed computations of $different points, not 60"
+grep -q '"engine":"slurm"' cluster/runs/*.jsonl || fail "nothing was computed on the cluster"
+"$markervp" sweep s.yaml --output cluster --engine slurm >again.log 2>&1 || fail "the sweep again"
+grep -q '0 computed now, 60 there before' again.log || fail "points were computed again"
+echo "60 points, each once, on $(cat cluster/runs/*.jsonl | sed 's/.*"host":"\([^"]*\)".*/\1/' | sort -u | tr '\n' ' ')"
