@@ -108,6 +108,7 @@ sweep::RunPoint point_runner(const SimulationFactory& make_simulation) {
       options.configuration.assignments.push_back(path + "=" + value);
     options.output = folder;
     options.no_pictures = true;
+    options.no_report = true;
     options.quiet = true;
     std::ostringstream unread;
     return run(options, {}, make_simulation, unread, err);

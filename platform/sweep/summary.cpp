@@ -64,9 +64,8 @@ std::string sweep_text(const Results& results, std::size_t most_rows) {
     for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
     for (const std::string& name : figures) {
       const auto found = row.metrics.find(name);
-      fields.push_back(row.failed                   ? "failed"
-                       : found == row.metrics.end() ? "-"
-                                                    : readable(found->second));
+      const std::string none = row.failed ? "failed" : "-";
+      fields.push_back(found == row.metrics.end() ? none : readable(found->second));
     }
     table.add(fields);
   }
