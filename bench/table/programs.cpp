@@ -100,7 +100,8 @@ std::vector<Program> programs(const ProgramOptions& options) {
 
 Program memory_run(const ProgramOptions& options, const std::string& name, int frames) {
   List list(options);
-  list.add_run(name, {"--repeat", std::to_string(frames), "--no-pictures", "--quiet"});
+  list.add_run(name,
+               {"--repeat", std::to_string(frames), "--no-pictures", "--no-report", "--quiet"});
   return list.take().front();
 }
 

@@ -1,6 +1,7 @@
 #include <page/report_page.h>
 
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include <page/json_file.h>
@@ -22,14 +23,12 @@ constexpr std::size_t most_frames = 2000;
 constexpr std::size_t small_file = 4'000'000;  // bytes
 
 /// Without the frames for which the page has no room.
-std::string shortened(const std::string& text, const fs::path& path) {
-  if (text.size() <= small_file) return text;
-  Json json = parse_json(text, path);
-  const auto frames = json.find("frames");
-  if (frames != json.end() && frames->size() > most_frames) {
-    frames->erase(frames->begin() + most_frames, frames->end());
+std::string result_of(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > small_file && !ignored) {
+    return parse_first(path, "frames", most_frames).dump();
   }
-  return json.dump();
+  return read_file(path);
 }
 
 std::string extras_of_page(const fs::path& folder) {
@@ -42,12 +41,12 @@ std::string extras_of_page(const fs::path& folder) {
 void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::string& suffix,
              std::string extras) {
   const fs::path path = folder / "result.json";
-  const std::string text = read_file(path);
+  std::string result = result_of(path);
   if (extras.empty()) {
-    parse_json(text, path);
+    parse_json(result, path);
     extras = extras_of_page(folder);
   }
-  blocks.push_back({"result" + suffix, shortened(text, path)});
+  blocks.push_back({"result" + suffix, std::move(result)});
   if (!extras.empty()) blocks.push_back({"extras" + suffix, std::move(extras)});
 }
 

@@ -37,6 +37,14 @@ std::uint64_t PowerStates::fastest_hz(const vp::Clock& clock) const {
   return &clock == &zynq_.ps.fclk_clk1.clk ? fastest_pixel_hz_ : fastest_system_hz_;
 }
 
+// The processor falls asleep and wakes with every burst of an upload: nothing else is looked at.
+void PowerStates::on_change(vp::SignalBase& signal, std::uint32_t) {
+  if (&signal != &zynq_.ps.cpu.asleep) return update();
+  const std::uint64_t now = zynq_.scheduler.now_ps();
+  cpu_awake_hz.set(now, awake() ? hz(zynq_.ps.cpu_clk.clk) : 0);
+  if (observer_) observer_->states_changed(now);
+}
+
 void PowerStates::update() {
   const std::uint64_t now = zynq_.scheduler.now_ps();
   const double cpu = hz(zynq_.ps.cpu_clk.clk);

@@ -48,7 +48,7 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
  private:
   void before_change(vp::Clock&) override {}
   void after_change(vp::Clock&) override { update(); }
-  void on_change(vp::SignalBase&, std::uint32_t) override { update(); }
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void update();
 
   Zynq& zynq_;

@@ -42,7 +42,7 @@ void Clocked::wake() {
 }
 
 void Clocked::wake_at(std::uint64_t cycle) {
-  if (cycle < clock_.cycle()) {
+  if (cycle < (clock_.in_edge_ ? clock_.cycle_ : clock_.cycle())) {
     throw std::logic_error(std::string(name()) + ": alarm for edge " + std::to_string(cycle) +
                            ", which has run: now is " + std::to_string(clock_.cycle()));
   }

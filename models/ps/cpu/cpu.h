@@ -207,6 +207,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void spend_cycles(std::uint64_t cycles);
   std::uint64_t take_work();
   void work_for(std::uint64_t ps);
+  void pass_in_handler(std::uint64_t ps);
   void close_segment();
   void catch_up();
   void settle();

@@ -66,12 +66,28 @@ inline void Cpu::end_access() {
   if (end >= deadline_ps_) time_out("no end");
 }
 
+// No interrupt comes in a handler: the rest of an access and the work after it are one stretch.
+inline void Cpu::pass_in_handler(std::uint64_t ps) {
+  const std::uint64_t start = now_ps();
+  const std::uint64_t reached = std::max(access_end_ps_, start) + ps;
+  const std::uint64_t end = std::min(reached, std::max(deadline_ps_, start));
+  if (end <= start) return;
+  scheduler_.pass_until(end);
+  activity_.busy(end - start);
+  if (end >= deadline_ps_) time_out("no end");
+}
+
 // All that was done ahead passes, and interrupts that come run their handler.
 void Cpu::catch_up() {
   const bool plain = timeline().empty();
   const std::uint64_t ps = plain ? take_work() : 0;
   if (!plain) close_segment();
   scheduler_.synchronise();
+  if (plain && in_handler_now_) {
+    pass_in_handler(ps);
+    start_ahead();
+    return;
+  }
   end_access();
   if (!plain) play(Interrupts::take);
   if (ps != 0) work_for(ps);
