@@ -8,7 +8,7 @@
 /// show them.
 namespace platform::page {
 
-/// A block of data: a <script type="application/json"> with this id.
+/// A block of data: a script element of type `application/json` with this id.
 struct Block {
   std::string id;    ///< letters and '-'
   std::string json;  ///< a whole JSON text

@@ -12,7 +12,7 @@
 
 namespace platform {
 
-/// Whether each IP can be built for its clock: parameters `timing.<ip>.fmax`. A design that cannot
+/// Whether each IP can be built for its clock: a parameter `fmax` for each. A design that cannot
 /// runs all the same.
 class TimingClosure : public sc_core::sc_module {
  public:

@@ -145,8 +145,8 @@ void hal_function_leave(void);
  * -------------------------------------------------------------------------------------------------
  */
 
-/** An option that a user of the program may set, and sweeps may vary: `sw.<name>` in the
- * configuration. */
+/** An option that a user of the program may set, and sweeps may vary: below `sw` in the
+ * configuration, by its name. */
 typedef struct hal_option_info {
   const char* name;
   const char* unit; /**< "px", "m" … or "" */
