@@ -28,8 +28,10 @@ struct Function {
 };
 
 struct Frame {
+  std::uint64_t number = 0;  ///< as in result.json
   std::uint64_t taken_ps = 0;
   std::optional<std::uint64_t> start_ps, end_ps;
+  std::optional<std::uint64_t> upload_ps, upload_end_ps;
   std::uint64_t corners = 0, blobs = 0, words = 0;
   std::vector<std::uint64_t> lost;  ///< by counter
   std::map<std::string, Function> functions;
@@ -55,13 +57,14 @@ class FrameStatistic final : public Statistic {
 
   void instant(std::uint64_t ps) override {
     pass_function(ps);
+    // The result of a frame and the next frame come in one instant.
+    if (results_ && rises(*results_) && !frames_.empty()) finish_frame(frames_.back(), ps);
     if (frame_ && (rises(*frame_) || (!started_ && value(*frame_) > 0))) begin(ps);
     started_ = true;
     if (frames_.empty()) begin(ps);
     Frame& frame = frames_.back();
     if (start_ && rises(*start_) && !frame.start_ps) frame.start_ps = ps;
     if (feature_ && changes(*feature_)) count_word(frame, value(*feature_));
-    if (results_ && rises(*results_)) finish_frame(frame, ps);
   }
   void finish(std::uint64_t ps) override {
     if (started_ && !frames_.empty()) add_time(ps);
@@ -81,8 +84,11 @@ class FrameStatistic final : public Statistic {
   }
 
   void begin(std::uint64_t ps) {
-    frames_.emplace_back();
-    frames_.back().taken_ps = ps;
+    Frame frame;
+    const std::uint64_t taken = frame_ ? value(*frame_) : frames_.size() + 1;
+    frame.number = taken == 0 ? 0 : taken - 1;
+    frame.taken_ps = ps;
+    frames_.push_back(std::move(frame));
   }
   static void count_word(Frame& frame, std::uint64_t word) {
     if (word == 0) return;  // what a reset shows
@@ -107,7 +113,11 @@ class FrameStatistic final : public Statistic {
     if (number == running_) return;
     running_ = number;
     running_name_ = name_ ? replay_.text(*name_) : "function " + std::to_string(number);
-    if (number != 0 && !frames_.empty()) ++frames_.back().functions[running_name_].calls;
+    if (frames_.empty()) return;
+    Frame& frame = frames_.back();
+    if (number != 0) ++frame.functions[running_name_].calls;
+    if (running_name_ == "upload" && !frame.upload_ps) frame.upload_ps = ps;
+    if (number == 0 && frame.upload_ps && !frame.upload_end_ps) frame.upload_end_ps = ps;
   }
   void add_time(std::uint64_t ps) {
     if (running_ != 0) frames_.back().functions[running_name_].self_ps += ps - function_ps_;
@@ -137,14 +147,15 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
   for (std::size_t i = 0; i < counters_.size(); ++i) {
     if (counters_[i]) frames.columns.push_back(counters[i].first);
   }
-  double sum_ps = 0, most_ps = 0;
-  std::uint64_t complete = 0, number = 0;
+  double sum_ps = 0, most_ps = 0, busy_ps = 0;
+  std::uint64_t complete = 0;
+  std::optional<std::uint64_t> last_end_ps;
   for (const Frame& frame : frames_) {
     const bool any = frame.end_ps || !frame.functions.empty();
     if (!any || (frame_ && frame.taken_ps == 0 && !frame.end_ps)) continue;
     for (const auto& [name, function] : frame.functions) {
       functions.rows.push_back(
-          {number, name, function.calls, static_cast<double>(function.self_ps) / ps_per_us});
+          {frame.number, name, function.calls, static_cast<double>(function.self_ps) / ps_per_us});
     }
     if (frame.end_ps) {
       const std::uint64_t start = frame.start_ps.value_or(frame.taken_ps);
@@ -152,7 +163,14 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
       ++complete;
       sum_ps += latency;
       most_ps = std::max(most_ps, latency);
-      std::vector<Table::Cell> row = {number, static_cast<double>(frame.taken_ps) / ps_per_us,
+      // As the run's report counts: from result to result, the upload excluded.
+      const std::uint64_t upload =
+          frame.upload_end_ps ? *frame.upload_end_ps - *frame.upload_ps : 0;
+      busy_ps += last_end_ps ? static_cast<double>(*frame.end_ps - *last_end_ps) -
+                                   static_cast<double>(upload)
+                             : latency;
+      last_end_ps = frame.end_ps;
+      std::vector<Table::Cell> row = {frame.number, static_cast<double>(frame.taken_ps) / ps_per_us,
                                       static_cast<double>(start) / ps_per_us,
                                       static_cast<double>(*frame.end_ps) / ps_per_us,
                                       latency / ps_per_us};
@@ -162,11 +180,11 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
       }
       frames.rows.push_back(std::move(row));
     }
-    ++number;
   }
   if (complete > 0) {
     const double mean = sum_ps / static_cast<double>(complete);
-    summary.rows.push_back({complete, ps_per_s / mean, mean / ps_per_us, most_ps / ps_per_us});
+    summary.rows.push_back({complete, ps_per_s * static_cast<double>(complete) / busy_ps,
+                            mean / ps_per_us, most_ps / ps_per_us});
   }
   tables.push_back(std::move(summary));
   tables.push_back(std::move(frames));

@@ -37,6 +37,7 @@ std::vector<Table> statistics(TraceFile& file, const StatisticsOptions& options)
   Replay replay(file);
   Collector collector;
   collector.all.push_back(frame_statistic(replay, file));
+  collector.all.push_back(stage_statistic(replay, file));
   collector.all.push_back(link_statistic(replay, file, options));
   collector.all.push_back(buffer_statistic(replay, file));
   collector.all.push_back(interrupt_statistic(replay, file));

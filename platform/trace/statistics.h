@@ -38,6 +38,8 @@ std::unique_ptr<Statistic> link_statistic(Replay& replay, TraceFile& file,
 std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file);
 /// Interrupts: from the line's rise to the acknowledgement.
 std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file);
+/// The stages of our programs in each frame, as in result.json.
+std::unique_ptr<Statistic> stage_statistic(Replay& replay, TraceFile& file);
 /// Frames: latency, FPS, feature words and overflows; and the functions' time in each.
 std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file);
 

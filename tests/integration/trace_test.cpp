@@ -1,6 +1,7 @@
 // What a trace says is what the simulation counted.
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <filesystem>
 
 #include "executable.h"
@@ -8,6 +9,9 @@
 namespace {
 
 using integration::Json;
+
+// The software's stamps lie a reading of the timer beside the edges of the trace.
+constexpr double stamp_us = 0.3;
 
 struct Traced : integration::Workplace {
   kit::Outcome ask(const integration::Arguments& arguments) const {
@@ -19,8 +23,13 @@ struct Traced : integration::Workplace {
     arguments.insert(arguments.end(), {"-q", "--no-pictures", "--trace", "t.vcd"});
     BOOST_TEST_REQUIRE(run(arguments).exit_code == 0);
   }
-  const integration::Arguments overflowing{"demo", "--set", "pl.feature_packaging.buffer_depth=2",
-                                           "--set", "ps.m_axi_gp0.read_time=3 us"};
+  const integration::Arguments overflowing{"demo",
+                                           "z0.5",
+                                           "z1.0",
+                                           "--set",
+                                           "pl.feature_packaging.buffer_depth=2",
+                                           "--set",
+                                           "ps.m_axi_gp0.read_time=3 us"};
   const std::string checks = MARKERVP_SOURCE "/traces/checks/system.checks";
 };
 
@@ -34,21 +43,36 @@ BOOST_AUTO_TEST_CASE(statistics_are_the_simulations_own_numbers_overflows_too) {
   BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
   const Json stats = Json::parse(outcome.out);
   const Json run = result();
-  const Json counts = run["frames"][0]["counts"];
-  BOOST_TEST(counts["feature_overflow"].get<int>() > 0);
-  for (const char* count : {"corners", "blobs", "feature_words", "feature_overflow",
-                            "label_overflow", "bridge_overflow", "crossing_overflow"}) {
-    BOOST_TEST(stats["frames"][0][count] == counts[count], count);
+  BOOST_TEST_REQUIRE(stats["frames"].size() == 3u);
+  BOOST_TEST(run["frames"][0]["counts"]["feature_overflow"].get<int>() > 0);
+  BOOST_TEST(run["frames"][2]["counts"]["feature_overflow"].get<int>() == 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    BOOST_TEST_CONTEXT("frame " << i) {
+      const Json& counts = run["frames"][i]["counts"];
+      BOOST_TEST(stats["frames"][i]["frame"] == i);
+      for (const char* count : {"corners", "blobs", "feature_words", "feature_overflow",
+                                "label_overflow", "bridge_overflow", "crossing_overflow"}) {
+        BOOST_TEST(stats["frames"][i][count] == counts[count], count);
+      }
+      BOOST_TEST(stats["stages"][i]["frame"] == i);
+      const Json& times = run["frames"][i]["time_us"];
+      for (const char* stage :
+           {"upload", "feature_extraction", "receive", "evaluation", "identification", "pose"}) {
+        const double seen = stats["stages"][i][std::string(stage) + "_us"].get<double>();
+        BOOST_TEST(std::abs(seen - times[stage].get<double>()) < stamp_us, stage);
+      }
+      const double latency = stats["stages"][i]["latency_us"].get<double>();
+      BOOST_TEST(std::abs(latency - times["frame"].get<double>()) < stamp_us);
+      BOOST_TEST(stats["frames"][i]["latency_us"].get<double>() == latency);
+    }
   }
-  // The software's stamps lie a register access beside the edges of the trace.
-  constexpr double part = 1e-4;
   BOOST_TEST(
       stats["summary"][0]["fps_mean"].get<double>() == run["summary"]["fps"]["mean"].get<double>(),
-      boost::test_tools::tolerance(part));
-  BOOST_TEST(stats["links"][0]["beats"] == 640 * 480 / 4);
-  BOOST_TEST(stats["links"][0]["packets"] == 2400);
-  BOOST_TEST(stats["links"][1]["beats"] == 640 * 480 / 32);
-  BOOST_TEST(stats["links"][1]["packets"] == 300);
+      boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(stats["links"][0]["beats"] == 3 * 640 * 480 / 4);
+  BOOST_TEST(stats["links"][0]["packets"] == 3 * 2400);
+  BOOST_TEST(stats["links"][1]["beats"] == 3 * 640 * 480 / 32);
+  BOOST_TEST(stats["links"][1]["packets"] == 3 * 300);
 }
 
 BOOST_AUTO_TEST_CASE(our_checks_pass_and_say_where_something_is_lost) {

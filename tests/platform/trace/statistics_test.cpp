@@ -112,6 +112,34 @@ BOOST_AUTO_TEST_CASE(frames_words_and_functions) {
   BOOST_TEST(n.real("functions", 1, "self_us") == 0.04, boost::test_tools::tolerance(1e-9));
 }
 
+// The software publishes a frame and takes the next without time passing.
+BOOST_AUTO_TEST_CASE(the_next_frame_comes_in_the_instant_of_the_result) {
+  const Waves waves(
+      "ps.cpu.frame 32, ps.cpu.results 32, ps.cpu.function 32, ps.cpu.function_name string, "
+      "pl.control_block.ena 1, pl.axi_threshold_bridge.bridge_overflow 32",
+      "#0 b0 ! b0 \" b0 # s $ 0% b0 &\n#10 b1 !\n#12 b1 # supload $\n#14 b0 # s $\n#20 1% b1 &\n"
+      "#21 b10 # sreceive $\n#25 b11 # sdma_interrupt $\n#27 b10 # sreceive $\n#40 b0 # s $\n"
+      "#45 b100 # sfeature_evaluation $\n#52 b101 # srectification $\n"
+      "#60 b0 # s $\n#61 b110 # spose_estimation $\n"
+      "#70 b10 ! b1 \" b0 # s $\n#71 0% b0 &\n#80 1%\n#100 b10 \"\n#110\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("frames", 0, "frame") == 0u);
+  BOOST_TEST(n.whole("frames", 1, "frame") == 1u);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.real("frames", 0, "latency_us") == 0.05, same);
+  BOOST_TEST(n.real("frames", 1, "latency_us") == 0.02, same);
+  BOOST_TEST(n.whole("frames", 0, "bridge_overflow") == 1u);
+  BOOST_TEST(n.whole("frames", 1, "bridge_overflow") == 0u);
+  BOOST_TEST(n.real("stages", 0, "upload_us") == 0.002, same);
+  BOOST_TEST(n.real("stages", 0, "feature_extraction_us") == 0.02, same);
+  BOOST_TEST(n.real("stages", 0, "receive_us") == 0.005, same);
+  BOOST_TEST(n.real("stages", 0, "evaluation_us") == 0.007, same);
+  BOOST_TEST(n.real("stages", 0, "identification_us") == 0.009, same);
+  BOOST_TEST(n.real("stages", 0, "pose_us") == 0.009, same);
+  BOOST_TEST(n.real("stages", 0, "latency_us") == 0.05, same);
+  BOOST_TEST(n.real("stages", 1, "latency_us") == 0.02, same);
+}
+
 BOOST_AUTO_TEST_CASE(a_trace_of_something_else_is_refused_with_what_is_missing) {
   const Waves waves("top.a 1, top.b 2", "#0 0! b0 \"\n");
   const std::string message = complaint([&] { Numbers{waves}; });
