@@ -30,7 +30,7 @@ function(markervp_page_rule)
   add_custom_command(OUTPUT "${installed}"
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${MARKERVP_PAGE_FOLDER}"
     COMMAND "${CMAKE_COMMAND}" -E copy "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc" "${MARKERVP_PAGE_FOLDER}"
-    COMMAND "${MARKERVP_NPM}" --prefix "${MARKERVP_PAGE_FOLDER}" ci --ignore-scripts --silent ${packages}
+    COMMAND "${MARKERVP_NPM}" --prefix "${MARKERVP_PAGE_FOLDER}" ci --ignore-scripts --loglevel=error ${packages}
     COMMAND "${CMAKE_COMMAND}" -E touch "${installed}"
     DEPENDS "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc"
     COMMENT "Fetching the page's packages (npm; -DMARKERVP_PAGE=OFF builds without report.html)"
