@@ -61,6 +61,7 @@ void add_sweep(CLI::App& app, SweepOptions& target) {
       ->check(number_range(std::uint64_t{1}, most_points));
   command->add_flag("--yes", target.yes, "run even a very large sweep");
   command->add_flag("--dry-run", target.dry_run, "check everything, show the points, run nothing");
+  command->add_flag("--no-report", target.no_report, "no page report.html");
   add_run_options(*command, target);
   command->footer(sweep_help);
 }

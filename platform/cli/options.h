@@ -119,6 +119,7 @@ struct SweepOptions {
   bool yes = false;
   bool dry_run = false;
   bool retry_failed = false;
+  bool no_report = false;
   std::uint32_t chunk = 0;    ///< 0: some seconds' worth
   std::uint32_t at_once = 0;  ///< 0: all that fit
   std::vector<std::string> sbatch;

@@ -11,6 +11,7 @@
 #include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/sweep_platform.h>
+#include <page/report_page.h>
 #include <report/words.h>
 #include <sweep/database.h>
 #include <sweep/durable_file.h>
@@ -132,16 +133,27 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   return run_local(store, manifest, pending, local, run, progress);
 }
 
-int conclude(const sweep::Store& store, const sweep::Manifest& manifest, const sweep::Tally& tally,
-             std::size_t pending, std::ostream& out, std::ostream& err) {
-  const sweep::Results results = sweep::read_results(store, manifest, false);
+/// What was done, and what stands in the folder for it.
+void write_results(const SweepOptions& options, const sweep::Store& store,
+                   const sweep::Results& results, const sweep::Tally& tally, std::size_t pending,
+                   std::ostream& out) {
   sweep::write_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results, sweep::read_runs(store));
+  const bool page = !options.no_report && page::write_report(store.folder());
   out << sweep::sweep_text(results) << "\n"
       << report::counted(results.rows.size(), "point") << ": " << tally.computed
-      << " computed now, " << manifest.points.size() - pending << " there before, "
+      << " computed now, " << results.manifest.points.size() - pending << " there before, "
       << results.failed() << " failed\n"
-      << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and points/ beside it" << std::endl;
+      << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and points/ beside it";
+  if (page) out << ", report.html to look at";
+  out << std::endl;
+}
+
+int conclude(const SweepOptions& options, const sweep::Store& store,
+             const sweep::Manifest& manifest, const sweep::Tally& tally, std::size_t pending,
+             std::ostream& out, std::ostream& err) {
+  const sweep::Results results = sweep::read_results(store, manifest, false);
+  write_results(options, store, results, tally, pending, out);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
         << report::counted(manifest.points.size(), "point")
@@ -175,7 +187,7 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
     mention_others(store, manifest, err);
     store.write_manifest(manifest);
     const sweep::Tally tally = compute(options, store, manifest, pending, make_simulation, err);
-    return conclude(store, manifest, tally, pending.size(), out, err);
+    return conclude(options, store, manifest, tally, pending.size(), out, err);
   } catch (const sweep::StorageError& error) {
     throw vp::InputError(error.what());
   }

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <page/json_file.h>
 #include <vp/error.h>
+#include <vp/text.h>
 
 namespace platform::page {
 
@@ -42,20 +45,27 @@ Json mean_error(const Json& result, const char* name) {
   return count == 0 ? Json() : Json(sum / static_cast<double>(count));
 }
 
-/// Why the point cannot be built, or what went wrong.
+/// Adds "what: a, b" if there are any.
+void add_reason(Json& reasons, const char* what, const std::vector<std::string>& names) {
+  if (!names.empty()) reasons.push_back(what + vp::join(names, ", "));
+}
+
+/// What went wrong, and why the point cannot be built.
 Json reasons_of(const Json& outcome) {
   Json reasons = Json::array();
   if (outcome.value("status", "") == "failed") {
     reasons.push_back("failed: " + outcome.value(Json::json_pointer("/failure/message"), ""));
-    return reasons;
   }
   const Json result = outcome.value("result", Json::object());
+  std::vector<std::string> slow, large;
   for (const Json& module : result.value(Json::json_pointer("/timing/modules"), Json::array())) {
-    if (!module.value("met", true)) reasons.push_back("misses timing: " + module.value("name", ""));
+    if (!module.value("met", true)) slow.push_back(module.value("name", ""));
   }
   for (const Json& kind : result.value(Json::json_pointer("/resources/over"), Json::array())) {
-    reasons.push_back("too large: " + (kind.is_string() ? kind.get<std::string>() : kind.dump()));
+    large.push_back(kind.is_string() ? kind.get<std::string>() : kind.dump());
   }
+  add_reason(reasons, "misses timing: ", slow);
+  add_reason(reasons, "too large: ", large);
   return reasons;
 }
 
@@ -71,6 +81,7 @@ Json point_json(const Json& planned, const Json& swept, const Json& record) {
   point["metrics"] = Json::array();
   for (const char* figure : figures) point["metrics"].push_back(number_at(result, figure));
   for (const char* error : errors) point["metrics"].push_back(mean_error(result, error));
+  point["failed"] = outcome.value("status", "") == "failed";
   point["reasons"] = reasons_of(outcome);
   return point;
 }

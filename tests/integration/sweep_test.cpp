@@ -92,6 +92,20 @@ BOOST_FIXTURE_TEST_CASE(a_sweep_goes_on_where_it_stopped, Sweeps) {
   for (const auto& [key, count] : computations("out/s")) BOOST_TEST(count == 1);
 }
 
+BOOST_FIXTURE_TEST_CASE(the_page_of_a_sweep_has_all_its_points, Sweeps) {
+  write("s.yaml", clocks);
+  const std::string page = *this / "out/s/report.html";
+  const kit::Outcome first = run({"sweep", "s.yaml", "--limit", "2", "--no-report"});
+  BOOST_TEST(first.exit_code == 0);
+  BOOST_TEST(!std::filesystem::exists(page));
+  BOOST_TEST(!contains(first.out, "report.html"));
+  const kit::Outcome second = run({"sweep", "s.yaml"});
+  if (!contains(second.out, "report.html to look at")) return;  // built without it
+  const std::string text = kit::read_file(page);
+  for (const auto& [file, unused] : points("out/s"))
+    BOOST_TEST(contains(text, '"' + file.substr(0, file.find('.')) + '"'));
+}
+
 BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_the_number_of_workers, Sweeps) {
   write("s.yaml", clocks);
   run({"sweep", "s.yaml", "--jobs", "1", "--output", "one"});

@@ -177,6 +177,40 @@ test("a point of a sweep opens, with its command", () => open("sweep", async (pa
   assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);
 }));
 
+test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {
+  assert.match(await page.locator("#verdict").textContent(), /cannot be built/);
+  assert.match(await page.locator("#verdict").textContent(), /56 failed/);
+  assert.match(await page.locator("#trade-off .note").textContent(), /56 points that failed are left out here/);
+  assert.match(await page.locator("#maps .note").textContent(), /Crossed cells failed/);
+}));
+
+test("a click on a point of the trade-off opens it", () => open("sweep", async (page) => {
+  const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await area.boundingBox();
+  search: for (let y = 0.2; y < 0.8; y += 0.05) {
+    for (let x = 0.2; x < 0.9; x += 0.03) {
+      await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+      if (await page.locator("#point").isVisible()) break search;
+    }
+  }
+  assert.match(await page.locator("#point pre").textContent(), /^markervp run --point /);
+}));
+
+test("a cell of the map says what it is", () => open("sweep", async (page) => {
+  const area = page.locator('.chart-area[aria-label*="over two parameters"]');
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await area.boundingBox();
+  const before = await area.locator("svg").evaluate((svg) => svg.textContent);
+  await page.mouse.move(box.x + box.width / 2, box.y + 60);
+  await page.mouse.move(box.x + box.width / 2 + 2, box.y + 62);
+  await page.waitForTimeout(400);
+  const after = await area.locator("svg").evaluate((svg) => svg.textContent);
+  assert.match(after.replace(before, ""), /Frame rate/);
+}));
+
 test("colours switch and survive", () => open("run", async (page) => {
   await scrollThrough(page);
   const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);

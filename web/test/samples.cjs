@@ -94,7 +94,9 @@ function sweep({ points = 5000, seed = 2 } = {}) {
     const ms = 307.2 / pixel + (profile === "thesis" ? 950 : 300) / cpu * (1 + 0.4 * random());
     const watts = 0.7 + cpu * 0.00125 + pixel * 0.008 + labels * 0.0012 + 0.03 * random();
     const reasons = pixel > 55 ? ["misses timing: pl.blob_detection"] : labels > 200 ? ["too large: lut"] : [];
-    return { key: `${i.toString(16).padStart(8, "0")}cafe`, swept: [`${pixel} MHz`, `${cpu} MHz`, `${labels}`, profile], reasons,
+    const failed = pixel === 100 && cpu === 333;
+    if (failed) reasons.unshift("failed: the binary image timed out");
+    return { key: `${i.toString(16).padStart(8, "0")}cafe`, swept: [`${pixel} MHz`, `${cpu} MHz`, `${labels}`, profile], reasons, failed,
       metrics: i === 7 ? new Array(14).fill(null) : [1e3 / ms, ms * 1e3, watts, watts * ms, 25 + watts * 11.5, 41, 41, 9000 + labels * 184, 12000 + labels * 39, 82, 0, 1.2 + random() * 0.1, 40 + random() * 10, 4 + random()] };
   });
   return { sweep: { name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, effects: [], missing: 3, points: list,

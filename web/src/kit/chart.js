@@ -45,14 +45,15 @@ const observer = new IntersectionObserver((entries) => {
  * @param title     heading of the figure
  * @param summary   what one sees, in a sentence: read to those who cannot see it
  * @param height    px
+ * @param least     px of width below which it is scrolled instead of squeezed
  * @param option    function that gives ECharts' option for the present theme
  * @param table     {columns, rows} of its numbers, as dataTable takes it
  * @param canvas    true: many points
  * @param ready     called with ECharts' instance once drawn
  * @param screen    draws into the element instead of ECharts, and returns {redraw, resize}; exports use `option`
  */
-export function chart({ name, title, summary, note, height = 280, option, table, canvas = false, ready, screen }) {
-  const target = h("div", { class: "chart-area", role: "img", "aria-label": `${title}. ${summary}`, style: { height: height + "px" } });
+export function chart({ name, title, summary, note, height = 280, least, option, table, canvas = false, ready, screen }) {
+  const target = h("div", { class: "chart-area", role: "img", "aria-label": `${title}. ${summary}`, style: { height: height + "px", minWidth: least ? least + "px" : "" } });
   let instance = null;
   // Tooltips are drawn, not HTML: names of files stand in them.
   const full = () => {
@@ -127,7 +128,7 @@ export function chart({ name, title, summary, note, height = 280, option, table,
         h("button", { type: "button", onclick: savePng, "aria-label": `${title} as PNG` }, "PNG"),
         table && h("button", { type: "button", "aria-label": `${title} as CSV`, onclick: () => { const t = table(); download(name + ".csv", csvOf(t), "text/csv"); } }, "CSV"))),
     note && h("p", { class: "note" }, note),
-    target, holder);
+    least ? h("div", { class: "chart-scroll", tabindex: "0", role: "group", "aria-label": title }, target) : target, holder);
 }
 
 onTheme(() => charts.forEach((each) => each.redraw()));

@@ -2,7 +2,7 @@
 
 const names = {
   "summary/fps/mean": ["Frame rate", "frames/s", 1], "summary/latency_us/mean": ["Latency", "ms", -1, 1e-3], "summary/power_w/total": ["Power", "W", -1],
-  "summary/energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power/junction_c": ["Junction", "°C", -1], "summary/detected": ["Frames with marker", "", 1],
+  "summary/energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power/junction_c": ["Junction", "°C", -1], "summary/detected": ["Frames with marker", "", 1], "summary/frames": ["Frames", "", 1],
   "resources/total/lut": ["LUT", "", -1], "resources/total/ff": ["Flip-flops", "", -1], "resources/total/bram36": ["BRAM 36 Kb", "", -1],
   "resources/total/dsp": ["DSP", "", -1], "error/corner_px": ["Corner error", "px", -1], "error/translation_mm": ["Translation error", "mm", -1],
   "error/rotation_deg": ["Rotation error", "°", -1],
@@ -47,7 +47,12 @@ function paretoFront(points, fps, power) {
   return front;
 }
 
+/** Names of values on an axis: those that differ, and the unit. */
+export const shortName = (a, separator = " ") => a.name.split(".").slice(-2).join(separator) + (a.unit ? `, ${a.unit}` : "");
+
 export function makeSweep(sweep) {
+  // A run that failed stopped early: its means are not those of a whole one.
+  const whole = sweep.points.filter((p) => !p.failed);
   const parameters = sweep.swept.map((_, index) => parameterAxis(sweep, index)).filter((axis) => axis.words.length > 1);
   const metrics = sweep.metrics.map((_, index) => metricAxis(sweep, index)).filter((axis) => sweep.points.some((p) => Number.isFinite(axis.of(p))));
   const find = (id) => metrics.find((axis) => axis.id === id);
@@ -55,6 +60,7 @@ export function makeSweep(sweep) {
   const power = find("summary/power_w/total");
   return {
     ...sweep, parameters, metrics, fps, power,
+    whole,
     feasible: sweep.points.filter((p) => p.reasons.length === 0),
     front: fps && power ? paretoFront(sweep.points, fps, power) : [],
     label: (axis) => axis.name + (axis.unit ? `, ${axis.unit}` : ""),

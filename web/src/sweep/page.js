@@ -39,9 +39,11 @@ function verdict(sweep) {
       h("dd", { class: "figure" }, h("span", { class: "value" }, significant(metric.of(point), 4)), h("span", { class: "unit" }, " " + metric.unit)),
       h("dd", { class: "band" }, sweep.parameters.slice(0, 3).map((p) => `${p.name.split(".").slice(-2).join(".")} ${p.text(point)}`).join(", ")));
   };
-  const bad = sweep.points.length - sweep.feasible.length;
+  const failed = sweep.points.length - sweep.whole.length;
+  const bad = sweep.whole.length - sweep.feasible.length;
   return h("section", { id: "verdict", "aria-label": "Verdict" },
-    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} infeasible or failed`),
+    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} cannot be built`),
+      failed > 0 && h("li", { class: "bad" }, `${fixed(failed, 0)} failed`),
       sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
     h("dl", { class: "tiles" }, tile("Fastest", sweep.fps, 1), tile("Least power", sweep.power, -1), tile("Least energy per frame", energy, -1)));
 }
