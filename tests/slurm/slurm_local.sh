@@ -50,6 +50,8 @@ SchedulerParameters=sched_min_interval=50000,sched_interval=1,batch_sched_delay=
 NodeName=n[1-$nodes] NodeHostname=$host NodeAddr=127.0.0.1 Port=[$((port + 1))-$((port + nodes))] CPUs=1 RealMemory=1000 State=UNKNOWN
 PartitionName=test Nodes=n[1-$nodes] Default=YES MaxTime=INFINITE State=UP
 C
+# Nothing uses cgroups, but slurmd looks for them; this plugin starts without any mounted, as in a container.
+echo 'CgroupPlugin=cgroup/v1' >"$dir/cgroup.conf"
 munged --key-file="$dir/run/munge.key" --socket="$dir/run/munge.socket" --pid-file="$dir/run/munged.pid" \
   --log-file="$dir/log/munged.log" --seed-file="$dir/run/munged.seed" >&2
 export SLURM_CONF=$dir/slurm.conf
