@@ -9,6 +9,7 @@
 #include <map>
 
 #include <trace/replay.h>
+#include <trace/translation.h>
 #include <vp/error.h>
 
 namespace platform::trace {
@@ -56,15 +57,6 @@ const std::vector<Group>& system_groups() {
   return groups;
 }
 
-/// Signals whose values have names, and the file that says them.
-const std::map<std::string, std::string>& translated() {
-  static const std::map<std::string, std::string> files = {
-      {"ps.cpu.function", "function.flt"},
-      {"ps.gic.active", "interrupt.flt"},
-      {"pl.feature_packaging.feature", "feature.flt"}};
-  return files;
-}
-
 bool is_count(const std::string& path) {
   static const char* const endings[] = {"_count",    "_x",     "_y",    "threshold",
                                         "_overflow", "depth",  "frame", "results",
@@ -74,50 +66,6 @@ bool is_count(const std::string& path) {
            path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
   });
 }
-
-std::string hex_of(std::uint64_t value, unsigned width) {
-  std::string text((width + 3) / 4, '0');
-  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, value >>= 4) {
-    *digit = "0123456789ABCDEF"[value & 0xF];
-  }
-  return text;
-}
-
-/// Names of functions are in the trace itself.
-struct FunctionNames : Replay::Listener {
-  FunctionNames(TraceFile& file, Replay& replay_) : replay(replay_) {
-    const int number = file.find("ps.cpu.function"), name = file.find("ps.cpu.function_name");
-    known = number >= 0 && name >= 0;
-    if (!known) return;
-    width = file.variable(static_cast<std::uint32_t>(number)).width;
-    function = replay.watch(static_cast<std::uint32_t>(number));
-    text = replay.watch(static_cast<std::uint32_t>(name));
-  }
-  bool instant(std::uint64_t ps) override {
-    first_ps = std::min(first_ps, ps);
-    if (known && replay.known(function) && replay.bits(function) != 0) {
-      names[replay.bits(function)] = replay.text(text);
-    }
-    return true;
-  }
-  std::string file() const {
-    static const char* const colours[] = {"dark blue", "dark green", "dark red", "brown",
-                                          "purple4",   "dark cyan",  "gray30",   "sienna"};
-    std::string result = hex_of(0, width) + " -\n";
-    std::size_t i = 0;
-    for (const auto& [value, name] : names) {
-      result += hex_of(value, width) + " ?" + colours[i++ % std::size(colours)] + "?" + name + "\n";
-    }
-    return result;
-  }
-
-  Replay& replay;
-  bool known = false;
-  unsigned width = 32;
-  Replay::Slot function = 0, text = 0;
-  std::map<std::uint64_t, std::string> names;
-  std::uint64_t first_ps = ~std::uint64_t{0};
-};
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
@@ -184,9 +132,9 @@ std::vector<SaveFile::Line> save_lines(const TraceFile& file,
 
 std::vector<std::string> write_save_files(TraceFile& file, const std::string& folder) {
   Replay replay(file);
-  FunctionNames functions(file, replay);
+  Translation translation(file, replay);
   replay.watch(0u);
-  replay.run(functions);
+  replay.run(translation);
   const fs::path root(folder);
   std::vector<std::string> written;
   const auto put = [&](const std::string& name, const std::string& text) {
@@ -195,12 +143,7 @@ std::vector<std::string> write_save_files(TraceFile& file, const std::string& fo
   };
 
   const auto with_names = [&](std::vector<SaveFile::Line> lines) {
-    for (SaveFile::Line& line : lines) {
-      const auto found = translated().find(line.path);
-      if (found != translated().end() && (found->second != "function.flt" || functions.known)) {
-        line.translate = found->second;
-      }
-    }
+    for (SaveFile::Line& line : lines) line.translate = translation.file_for(line.path);
     return lines;
   };
   SaveFile page;
@@ -229,15 +172,7 @@ std::vector<std::string> write_save_files(TraceFile& file, const std::string& fo
     page.lines = with_names(save_lines(file, paths));
     put(ip.substr(ip.find('.') + 1) + ".gtkw", save_file_text(page));
   }
-  if (functions.known) put("function.flt", functions.file());
-  if (file.find("ps.gic.active") >= 0) {
-    put("interrupt.flt",
-        "3FF -\n01B ?dark green?global timer\n01D ?dark green?private timer\n"
-        "03D ?dark blue?DMA 0: image\n03E ?dark red?DMA 1: binary image\n");
-  }
-  if (file.find("pl.feature_packaging.feature") >= 0) {
-    put("feature.flt", "00000000 -\nFFFFFFFF ?dark red?end of frame\n");
-  }
+  for (const auto& [name, text] : translation.files()) put(name, text);
   return written;
 }
 

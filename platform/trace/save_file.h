@@ -29,8 +29,8 @@ struct SaveFile {
 std::string save_file_text(const SaveFile& save);
 
 /// Save files for what is in the trace: `system.gtkw`, one `<ip>.gtkw` for each IP with its
-/// signals, and the translate files they use (`*.flt`: functions, interrupts, words that mean
-/// something). Reads the trace. Returns the names of the files written. Throws vp::InputError.
+/// signals, and the translate files they use (`*.flt`: functions, interrupts, directions,
+/// features). Reads the trace. Returns the names of the files written. Throws vp::InputError.
 std::vector<std::string> write_save_files(TraceFile& file, const std::string& folder);
 
 /// The lines for these signals, as save files show them.

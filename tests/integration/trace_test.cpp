@@ -1,8 +1,10 @@
 // What a trace says is what the simulation counted.
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "executable.h"
 
@@ -96,25 +98,57 @@ BOOST_AUTO_TEST_CASE(a_run_does_not_differ_from_itself_but_from_another) {
   BOOST_TEST(ask({"diff", "a.vcd", "t.vcd"}).exit_code == 1);
 }
 
-BOOST_AUTO_TEST_CASE(gtkwave_shows_our_page,
+/// Pixels of one colour in a PNG, by red, green, blue.
+std::size_t pixels_of(const std::string& file, const std::array<int, 3>& colour) {
+  const cv::Mat picture = cv::imread(file, cv::IMREAD_COLOR);
+  std::size_t count = 0;
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const auto& pixel = picture.at<cv::Vec3b>(y, x);
+      count += pixel[2] == colour[0] && pixel[1] == colour[1] && pixel[0] == colour[2];
+    }
+  }
+  return count;
+}
+
+constexpr std::array<int, 3> wave_green = {0, 255, 0}, dark_blue = {0, 0, 139},
+                             dark_green = {0, 100, 0}, dark_red = {139, 0, 0};
+
+// Around the instant at which two corners arrive and a packet's interrupt is served. The boxes in
+// colours come from the translate files: function, feature, interrupt.
+BOOST_AUTO_TEST_CASE(gtkwave_shows_our_page_with_names_in_place_of_numbers,
                      *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
                        return std::filesystem::exists("/usr/bin/xvfb-run");
                      })) {
-  record({"z1.0", "--trace-filter", "ps.cpu,ps.gic,pl.feature_packaging"});
+  record({"z1.0", "--trace-window", "7995us:8005us"});
   BOOST_TEST(ask({"gtkw", "t.vcd"}).exit_code == 0);
-  kit::write_file(*this / "p.tcl",
-                  "gtkwave::/Time/Zoom/Zoom_Full\ngtkwave::/File/Grab_To_File p.png\n"
-                  "set f [open shown w]\nputs $f [gtkwave::getDisplayedSignals]\nclose $f\n"
-                  "gtkwave::/File/Quit\n");
-  kit::run_process(
-      "/usr/bin/xvfb-run",
-      {"-a", "-s", "-screen 0 1400x900x24", "gtkwave", "-S", "p.tcl", "t.vcd", "system.gtkw"},
-      path());
-  BOOST_TEST(std::filesystem::file_size(*this / "p.png") > 20'000u, "an empty one has 12 000");
+  const auto grab = [&](const std::string& name) {
+    kit::write_file(*this / "p.tcl", "gtkwave::/Time/Zoom/Zoom_Full\ngtkwave::/File/Grab_To_File " +
+                                         name +
+                                         "\nset f [open shown w]\n"
+                                         "puts $f [gtkwave::getDisplayedSignals]\nclose $f\n"
+                                         "gtkwave::/File/Quit\n");
+    kit::run_process(
+        "/usr/bin/xvfb-run",
+        {"-a", "-s", "-screen 0 1400x900x24", "gtkwave", "-S", "p.tcl", "t.vcd", "system.gtkw"},
+        path());
+    return *this / name;
+  };
+  const std::string picture = grab("p.png");
   const std::string shown = kit::read_file(*this / "shown");
   for (const char* name : {"ps.cpu.function_name", "ps.gic.active", "feature_overflow"}) {
     BOOST_TEST(shown.find(name) != std::string::npos, name);
   }
+  BOOST_TEST(pixels_of(picture, wave_green) > 20'000u);
+  BOOST_TEST(pixels_of(picture, dark_blue) > 10'000u, "function and features");
+  BOOST_TEST(pixels_of(picture, dark_green) > 300u, "the handler's function");
+  BOOST_TEST(pixels_of(picture, dark_red) > 300u, "the interrupt");
+  for (const char* file : {"function.flt", "feature.flt", "interrupt.flt"}) {
+    std::filesystem::remove(*this / file);
+  }
+  const std::string without = grab("w.png");
+  BOOST_TEST(pixels_of(without, wave_green) > 20'000u);
+  BOOST_TEST(pixels_of(without, dark_blue) == 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -146,7 +146,8 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
   const Waves waves(
       "ps.cpu.function 32, ps.cpu.function_name string, ps.gic.active 10, "
       "pl.corner_detection.corner_out 1, pl.corner_detection.corner_data 32",
-      "#0 b0 ! s \" b1 # 0$ b0 %\n#10 b11 ! swork \"\n#20\n");
+      "#0 b0 ! s \" b1 # 0$ b0 %\n#10 b11 ! swork \" b10000000010100000000110000000111 %\n"
+      "#20 b11111111111111111111111111111111 %\n#21 b01000000000010000000110000000111 %\n#30\n");
   TraceFile file(waves.file);
   const kit::TemporaryFolder folder;
   write_save_files(file, folder.path());
@@ -156,9 +157,15 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
   BOOST_TEST(system.find("tvalid") == std::string::npos);
   BOOST_TEST(kit::read_file(folder / "function.flt").find("00000003 ?dark blue?work") !=
              std::string::npos);
-  const std::vector<std::string> expected = {"corner_detection.gtkw", "cpu.gtkw",
-                                             "function.flt",          "gic.gtkw",
-                                             "interrupt.flt",         "system.gtkw"};
+  BOOST_TEST(
+      kit::read_file(folder / "feature.flt") ==
+      "00000000 -\n40080C07 ?dark green?blob 1 from 7,3\n80500C07 ?dark blue?corner 7,3 E 2\n"
+      "FFFFFFFF ?dark red?end of frame\n");
+  BOOST_TEST(system.find("^1 feature.flt\npl.corner_detection.corner_data[31:0]\n") !=
+             std::string::npos);
+  const std::vector<std::string> expected = {
+      "corner_detection.gtkw", "cpu.gtkw",   "feature.flt", "function.flt", "gic.gtkw",
+      "interrupt.flt",         "system.gtkw"};
   BOOST_TEST((folder.entries() == expected));
   BOOST_TEST(complaint([&] {
                TraceFile again(waves.file);
