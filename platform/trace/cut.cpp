@@ -29,11 +29,12 @@ class Cutter final : public vp::WaveHandler {
   }
 
   bool at(std::uint64_t ps) override {
+    if (!first_ps_) first_ps_ = ps;
     if (ps >= options_.to_ps) {
       end_ps_ = options_.to_ps;
       return false;
     }
-    if (begun_ || ps > options_.from_ps) begin();
+    if (begun_ || ps > start_ps()) begin();
     if (begun_) writer_->set_time(ps);
     now_ps_ = end_ps_ = ps;
     return true;
@@ -50,8 +51,12 @@ class Cutter final : public vp::WaveHandler {
       throw vp::InputError("trace '" + file_.name() + "' ends at " + vp::format_time(now_ps_) +
                            ", before the window begins");
     }
+    if (!begun_ && (!first_ps_ || *first_ps_ >= options_.to_ps)) {
+      throw vp::InputError("trace '" + file_.name() + "' has nothing before " +
+                           vp::format_time(options_.to_ps) + ", the end of the window");
+    }
     begin();
-    writer_->close(std::max(end_ps_, options_.from_ps));
+    writer_->close(std::max(end_ps_, start_ps()));
   }
 
  private:
@@ -66,6 +71,7 @@ class Cutter final : public vp::WaveHandler {
   void add(std::uint32_t i) {
     const vp::WaveVariable& variable = file_.variable(i);
     file_.reader().select(variable.net);
+    last_[variable.net].kind = variable.kind;
     const auto kind = variable.kind == Kind::real   ? Writer::Kind::real
                       : variable.kind == Kind::text ? Writer::Kind::text
                                                     : Writer::Kind::wire;
@@ -77,6 +83,8 @@ class Cutter final : public vp::WaveHandler {
     net_of_id_.push_back(variable.net);
   }
 
+  /// A trace of a window has nothing before its first instant.
+  std::uint64_t start_ps() const { return std::max(options_.from_ps, first_ps_.value_or(0)); }
   /// With the values that stand at the window's start.
   void begin() {
     if (begun_) return;
@@ -88,15 +96,14 @@ class Cutter final : public vp::WaveHandler {
         std::memcpy(&values.back(), &last_[net].real, sizeof(double));
       }
     }
-    const std::uint64_t start = options_.from_ps == 0 ? now_ps_ : options_.from_ps;
-    writer_->begin(start, values);
+    writer_->begin(start_ps(), values);
     for (std::uint32_t net = 0; net < ids_.size(); ++net) {
       const Last& last = last_[net];
       const bool wide = last.text && last.text->size() > 64;
       if (last.kind == Kind::text) {
         if (last.text) write(net, Kind::text, *last.text);
       } else if (!last.known || wide) {
-        write(net, last.kind, last.text ? *last.text : "x");
+        write(net, last.kind, last.text ? *last.text : last.kind == Kind::real ? "nan" : "x");
       }
     }
   }
@@ -117,6 +124,7 @@ class Cutter final : public vp::WaveHandler {
   std::vector<std::uint32_t> net_of_id_;
   std::vector<Last> last_;
   bool begun_ = false;
+  std::optional<std::uint64_t> first_ps_;
   std::uint64_t now_ps_ = 0, end_ps_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include <trace/difference.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <deque>
 #include <map>
 #include <tuple>
@@ -84,6 +86,17 @@ struct Side {
   const DifferenceOptions& options_;
 };
 
+/// Reals of an FST come with 16 digits, those of a VCD with all.
+bool same(const std::string& a, const std::string& b, vp::WaveVariable::Kind kind) {
+  if (a == b) return true;
+  if (kind != vp::WaveVariable::Kind::real) return false;
+  constexpr double digits = 1e-15;
+  double in_a = 0, in_b = 0;
+  const bool numbers = std::from_chars(a.data(), a.data() + a.size(), in_a).ec == std::errc() &&
+                       std::from_chars(b.data(), b.data() + b.size(), in_b).ec == std::errc();
+  return numbers && std::abs(in_a - in_b) <= digits * std::max(std::abs(in_a), std::abs(in_b));
+}
+
 std::vector<std::string> missing(const TraceFile& from, const TraceFile& in,
                                  const vp::TraceFilter& filter) {
   std::vector<std::string> others = in.paths(), result;
@@ -147,7 +160,7 @@ Difference difference(TraceFile& a, TraceFile& b, const DifferenceOptions& optio
     std::sort(touched.begin(), touched.end());
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const std::size_t signal : touched) {
-      if (left.values[signal] == right.values[signal]) continue;
+      if (same(left.values[signal], right.values[signal], left.variables[signal]->kind)) continue;
       result.values.push_back({paths[signal], left.shown(signal, left.values[signal]),
                                right.shown(signal, right.values[signal])});
     }

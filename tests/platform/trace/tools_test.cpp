@@ -107,6 +107,33 @@ BOOST_AUTO_TEST_CASE(a_part_has_the_values_that_stood_before_it) {
              std::string::npos);
 }
 
+// A trace that begins late, with a text that says nothing at first.
+BOOST_AUTO_TEST_CASE(a_part_of_a_window_begins_where_the_window_began) {
+  const Waves waves("pl.x 8, ps.text string", "#70 b1 !\n#80 sone \"\n#90 b11 !\n#95\n");
+  TraceFile file(waves.file);
+  cut(file, waves / "all.vcd");
+  TraceFile again(waves.file), all(waves / "all.vcd");
+  BOOST_TEST(!difference(again, all).differ);
+  struct First : vp::WaveHandler {
+    bool at(std::uint64_t ps) override {
+      now = ps;
+      return false;
+    }
+    void change(std::uint32_t, const vp::WaveValue&) override {}
+    std::uint64_t now = 0;
+  } first;
+  TraceFile once_more(waves / "all.vcd");
+  once_more.reader().select_all();
+  once_more.reader().read(first);
+  BOOST_TEST(first.now == 70'000u);
+  TraceFile early(waves.file);
+  CutOptions options;
+  options.to_ps = 60'000;
+  BOOST_TEST(complaint([&] {
+               cut(early, waves / "none.vcd", options);
+             }).find("has nothing before 60 ns") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(names_of_others_become_ours) {
   const Waves waves("ila.slot_0_tvalid 1, ila.slot_0_tready 1", "#0 0! 0\"\n");
   kit::write_file(
