@@ -32,6 +32,15 @@ Value faster_than_hardware(const std::string& name) {
   };
 }
 
+Value read_per_second(const std::string& name) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto sample = find(round, name + "/" + image);
+    if (!sample) return std::nullopt;
+    constexpr double ms_per_s = 1000;
+    return sample->counters.at("read_mb") / sample->cpu_ms * ms_per_s;
+  };
+}
+
 Value processor_time(const std::string& name) {
   return [=](const Round& round, const std::string& image) -> std::optional<double> {
     const auto sample = find(round, name + "/" + image);
@@ -75,6 +84,8 @@ std::vector<Figure> figures(const std::string& fidelity) {
        faster("vcd", "lean")},
       {"own VCD writer against sc_trace, 130 signals (few change; half change)", 4, 7, "×", higher,
        faster("own", "sc_trace")},
+      {"VCD read by `markervp trace`, 130 signals (few change; half change)", 100, none, "MB/s",
+       higher, read_per_second("reading")},
       {system + ", image preloaded, against the plain function", 0.5, 0.8, "×", higher,
        faster("preloaded", "function")},
       {system + ", image preloaded, against the same pixel by pixel", none, none, "×", higher,

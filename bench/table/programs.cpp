@@ -93,6 +93,8 @@ std::vector<Program> programs(const ProgramOptions& options) {
   for (const auto& [name, mode] : vcd_modes) {
     list.add_benchmark(name, "bench_vcd_writing", {"--frames=8", std::string("--mode=") + mode});
   }
+  list.add_benchmark("reading/demo", "bench_trace_reading", {"--frames=3", "--mode=quiet"});
+  list.add_benchmark("reading/noise", "bench_trace_reading", {"--frames=3", "--mode=busy"});
   list.add_run("run/demo", {});
   if (options.parts) list.add_benchmark("", "bench_kernels", {"--benchmark_min_time=0.1"});
   return list.take();
