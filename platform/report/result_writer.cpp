@@ -1,5 +1,7 @@
 #include <report/result_writer.h>
 
+#include <fcntl.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -29,10 +31,18 @@ std::string opened(const Json& json) {
   return text + ",\n";
 }
 
+/// A file without a name, where the results go: a system's folder for temporary files may be small
+/// or slow. Not every file system has such files.
+std::FILE* nameless_file(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  return descriptor < 0 ? std::tmpfile() : ::fdopen(descriptor, "w+");
+}
+
 }  // namespace
 
 ResultWriter::ResultWriter(const std::string& folder)
-    : path_((std::filesystem::path(folder) / "result.json").string()), frames_(std::tmpfile()) {
+    : path_((std::filesystem::path(folder) / "result.json").string()),
+      frames_(nameless_file(folder)) {
   if (!frames_) throw vp::InputError(std::string("no temporary file: ") + std::strerror(errno));
 }
 

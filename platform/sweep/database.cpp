@@ -3,9 +3,11 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include <sweep/durable_file.h>
@@ -115,10 +117,21 @@ std::set<std::string> varying(const Results& results) {
   return paths;
 }
 
+/// In the order of the tables' keys: a table then grows at its end only.
+std::vector<std::size_t> by_key(const Results& results) {
+  std::vector<std::size_t> order(results.rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return results.rows[a].key < results.rows[b].key;
+  });
+  return order;
+}
+
 void add_parameters(const Database& database, const Results& results) {
   const std::set<std::string> differing = varying(results);
   Insert parameters(database, "parameters", 4);
-  for (const ResultRow& row : results.rows) {
+  for (const std::size_t position : by_key(results)) {
+    const ResultRow& row = results.rows[position];
     for (const std::string& path : differing) {
       const std::string text = row.value(path);
       if (text.empty()) continue;
@@ -140,10 +153,11 @@ void add_parameters(const Database& database, const Results& results) {
 void add_points(const Database& database, const Results& results) {
   Insert points(database, "points", 8);
   Insert metrics(database, "metrics", 3);
-  std::int64_t position = 0;
-  for (const ResultRow& row : results.rows) {
+  for (const std::size_t position : by_key(results)) {
+    const ResultRow& row = results.rows[position];
     const std::string status = row.failed ? "failed" : "done";
-    points.row(row.key, position++, status, std::int64_t{row.failed ? row.failure.exit_code : 0},
+    points.row(row.key, static_cast<std::int64_t>(position), status,
+               std::int64_t{row.failed ? row.failure.exit_code : 0},
                std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs);
     for (const auto& [name, value] : row.metrics) metrics.row(row.key, name, value);
   }

@@ -1,5 +1,4 @@
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -21,6 +20,7 @@
 #include <sweep/durable_file.h>
 #include <sweep/engine.h>
 #include <sweep/run_log.h>
+#include <sweep/scratch.h>
 
 namespace platform::sweep {
 
@@ -51,45 +51,6 @@ double cpu_seconds() {
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-/// Folders for runs that are under way, one for each that runs at the same time, gone with this. In
-/// memory, so that a run does not wait for the disk, nor fails because it is full.
-class Scratch {
- public:
-  explicit Scratch(std::uint32_t slots) {
-    std::error_code ignored;
-    const fs::path memory = "/dev/shm";
-    const bool usable =
-        fs::is_directory(memory, ignored) && ::access(memory.c_str(), W_OK | X_OK) == 0;
-    std::string name =
-        ((usable ? memory : fs::temp_directory_path()) / "markervp-sweep-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw StorageError("'" + name + "' cannot be made: " + std::strerror(errno));
-    path_ = name;
-    for (std::uint32_t slot = 0; slot < slots; ++slot) free_.push_back(folder(slot));
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  std::string take() {
-    std::string folder = free_.back();
-    free_.pop_back();
-    return folder;
-  }
-  void give_back(const std::string& folder) { free_.push_back(folder); }
-
- private:
-  std::string folder(std::uint32_t slot) const {
-    return (fs::path(path_) / std::to_string(slot)).string();
-  }
-
-  std::string path_;
-  std::vector<std::string> free_;
-};
 
 Json read_result(const std::string& folder) {
   std::ifstream file(fs::path(folder) / "result.json", std::ios::binary);

@@ -30,8 +30,8 @@ void erase_what_stands_elsewhere(Json& result) {
 }
 
 /// File names may hold any bytes; JSON holds UTF-8 only.
-std::string dump(const Json& json, int spaces = -1) {
-  return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -57,22 +57,24 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
   return record;
 }
 
+// A member a line. The outcome is most of it, and is put into words once, for the digest and the
+// file.
 std::string point_text(const PointRecord& record) {
-  Json json;
-  json[mark] = schema;
-  json["key"] = record.key;
-  json["identity"] = record.identity;
-  json["run"] = record.run;
-  json["digest"] = content_hash(dump(record.outcome));
-  json["outcome"] = record.outcome;
-  return dump(json, 1) + "\n";
+  const std::string outcome = dump(record.outcome);
+  std::string text = "{\"" + std::string(mark) + "\":" + std::to_string(schema);
+  text += ",\n\"key\":" + dump(record.key);
+  text += ",\n\"identity\":" + dump(record.identity);
+  text += ",\n\"run\":" + dump(record.run);
+  text += ",\n\"digest\":" + dump(content_hash(outcome));
+  text += ",\n\"outcome\":" + outcome + "}\n";
+  return text;
 }
 
 PointRecord read_point(const std::string& path, bool verify) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw vp::InputError("point '" + path + "' cannot be read");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const Json json = Json::parse(text, nullptr, false);
+  Json json = Json::parse(text, nullptr, false);
   const std::string start = "'" + path + "' ";
   if (json.is_discarded())
     throw vp::InputError(start +
@@ -86,8 +88,8 @@ PointRecord read_point(const std::string& path, bool verify) {
                          ": remove it, and the sweep computes it again");
   }
   try {
-    PointRecord record{json.at("key").get<std::string>(), json.at("identity"), json.at("run"),
-                       json.at("outcome")};
+    PointRecord record{json.at("key").get<std::string>(), std::move(json.at("identity")),
+                       std::move(json.at("run")), std::move(json.at("outcome"))};
     const bool whole = !verify || (key_of(record.identity) == record.key &&
                                    content_hash(dump(record.outcome)) == json.at("digest"));
     if (whole && (record.failed() || record.outcome.contains("result"))) return record;

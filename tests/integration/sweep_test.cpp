@@ -7,6 +7,8 @@
 #include <sstream>
 #include <thread>
 
+#include <sweep/point_file.h>
+
 #include "executable.h"
 
 namespace {
@@ -77,6 +79,26 @@ class Sweeps : public kit::TemporaryFolder {
 void wait_until(const std::function<bool()>& happened) {
   while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
+
+/// Kills the process of the sweep's point that runs now, `times` times, each another one.
+void kill_points(kit::ChildProcess& sweep, int times) {
+  const std::string file =
+      "/proc/" + std::to_string(sweep.pid()) + "/task/" + std::to_string(sweep.pid()) + "/children";
+  pid_t before = 0;
+  while (times > 0 && !sweep.ended()) {
+    pid_t child = 0;
+    std::ifstream(file) >> child;
+    if (child != 0 && child != before && ::kill(child, SIGKILL) == 0) {
+      before = child;
+      --times;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+/// A point that takes long enough to be killed in the midst of it, and long ones only: the plan's
+/// processes have come and gone when its folder appears.
+constexpr const char* long_point = "repeat: 3000\nparameters: {ps.fclk_clk1.frequency: [50 MHz]}\n";
 
 }  // namespace
 
@@ -157,6 +179,48 @@ BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {
   BOOST_TEST(contains(outcome.out, "1 point failed: "), outcome.out);
   BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now, 2 there before, 1 failed"));
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--retry-failed"}).out, "1 computed now"));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_killed_point_is_tried_once_more, Sweeps) {
+  write("s.yaml", long_point);
+  kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml"}, path());
+  wait_until([&] { return std::filesystem::exists(*this / "out/s/points.csv") || sweep.ended(); });
+  kill_points(sweep, 1);
+  const kit::Outcome outcome = sweep.wait();
+  BOOST_TEST(outcome.exit_code == 0);
+  BOOST_TEST(contains(outcome.out, "1 point: 1 computed now, 0 there before, 0 failed"),
+             outcome.out);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_point_killed_twice_is_recorded_with_the_signal, Sweeps) {
+  write("s.yaml", long_point);
+  kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml"}, path());
+  wait_until([&] { return std::filesystem::exists(*this / "out/s/points.csv") || sweep.ended(); });
+  kill_points(sweep, 2);
+  const kit::Outcome outcome = sweep.wait();
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.out, "1 point failed: the process was ended by a signal: Killed"),
+             outcome.out);
+  const Json failure = Json::parse(kit::read_file(a_point("out/s")))["outcome"]["failure"];
+  BOOST_TEST(failure["signal"] == SIGKILL);
+  BOOST_TEST(computations("out/s").begin()->second == 1);
+}
+
+BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, Sweeps) {
+  write("s.yaml", "parameters: {ps.fclk_clk1.frequency: [50 MHz]}");
+  run({"sweep", "s.yaml"});
+  const std::string file = a_point("out/s");
+  platform::sweep::PointRecord older = platform::sweep::read_point(file);
+  older.identity["markervp"]["version"] = "0.0.1";
+  older.key = platform::sweep::key_of(older.identity);
+  std::filesystem::remove(file);
+  kit::write_file(*this / ("out/s/points/" + older.key + ".json"),
+                  platform::sweep::point_text(older));
+  const kit::Outcome outcome = run({"sweep", "s.yaml"});
+  BOOST_TEST(contains(outcome.out, "1 point: 1 computed now, 0 there before"), outcome.out);
+  BOOST_TEST(contains(outcome.err, "1 point of another version of the program (0.0.1"),
+             outcome.err);
+  BOOST_TEST(count_points("out/s") == 2u);
 }
 
 BOOST_FIXTURE_TEST_CASE(mistakes_cost_no_time, Sweeps) {

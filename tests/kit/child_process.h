@@ -52,6 +52,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  pid_t pid() const { return process_; }
   void send(int signal) { ::kill(process_, signal); }
   /// What it printed to its standard output until now.
   std::string out() const { return read_file(files_ / "out"); }

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(damage_is_noticed) {
   };
   BOOST_TEST(contains(said(whole.substr(0, whole.size() / 2)), "damaged"));
   std::string changed = whole;
-  changed.replace(changed.find("\"frames\": 1"), 11, "\"frames\": 2");
+  changed.replace(changed.find("\"frames\":1"), 10, "\"frames\":2");
   BOOST_TEST(contains(said(changed), "was changed"));
   BOOST_TEST(contains(said("{}"), "no point of a sweep"));
   BOOST_TEST(contains(said("{\"markervp_point\": 99}"), "version 99"));
