@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
@@ -62,7 +63,13 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   } catch (const sweep::StorageError& error) {
     throw vp::InputError(error.what());
   }
-  out << sweep::pareto_table(results, objectives, pareto) << "\nwrote " << wrote << std::endl;
+  const auto unknown = std::count_if(pareto.points.begin(), pareto.points.end(),
+                                     [](const sweep::RankedPoint& point) { return point.unknown; });
+  out << sweep::pareto_table(results, objectives, pareto);
+  if (unknown != 0)
+    out << "\nleft out: " << report::counted(static_cast<std::uint64_t>(unknown), "point")
+        << " of unknown timing: clocked above limits of which only a lower bound is known\n";
+  out << "\nwrote " << wrote << std::endl;
   return done;
 }
 

@@ -72,6 +72,18 @@ void add_frames(const Json& frames, Metrics& metrics) {
   }
 }
 
+/// A limit that is only known to be no lower says nothing about a clock above it.
+void add_timing(const Json& modules, Metrics& metrics) {
+  double failed = 0;
+  double unknown = 0;
+  for (const Json& module : modules) {
+    if (module.value("met", true)) continue;
+    (module.value("lower_bound", false) ? unknown : failed) += 1;
+  }
+  metrics["timing.failed"] = failed;
+  metrics["timing.unknown"] = unknown;
+}
+
 }  // namespace
 
 Metrics metrics_of(const Json& result) {
@@ -83,6 +95,7 @@ Metrics metrics_of(const Json& result) {
     } else {
       walk(value, name, [&](const std::string& path, double number) { metrics[path] = number; });
     }
+    if (name == "timing" && value.contains("modules")) add_timing(value["modules"], metrics);
   }
   return metrics;
 }

@@ -60,6 +60,24 @@ std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
   return knee;
 }
 
+/// Decides whether the point is feasible.
+void judge(RankedPoint& point, const Results& results, const std::vector<Expression>& constraints) {
+  Value granted;
+  granted.number = 1;
+  const auto hold = [&](bool timing_granted) {
+    return std::all_of(constraints.begin(), constraints.end(), [&](const Expression& constraint) {
+      return constraint.holds([&](const std::string& name) {
+        if (timing_granted && name == "timing.met") return granted;
+        return value_in(results, *point.row, name, "constraint '" + constraint.text() + "'");
+      });
+    });
+  };
+  point.feasible = hold(false);
+  const auto failed = point.row->metrics.find("timing.failed");
+  const bool only_bounds = failed != point.row->metrics.end() && failed->second == 0;
+  point.unknown = !point.feasible && only_bounds && hold(true);
+}
+
 std::vector<std::string> texts(const std::vector<Objective>& objectives) {
   std::vector<std::string> result;
   for (const Objective& objective : objectives) result.push_back(objective.figure().text());
@@ -103,12 +121,7 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives,
       };
       point.figures.push_back(objective.figure().evaluate(lookup).number);
     }
-    for (const Expression& constraint : constraints) {
-      const auto lookup = [&](const std::string& name) {
-        return value_in(results, row, name, "constraint '" + constraint.text() + "'");
-      };
-      point.feasible = point.feasible && constraint.holds(lookup);
-    }
+    judge(point, results, constraints);
     pareto.points.push_back(std::move(point));
   }
   if (pareto.points.empty()) throw vp::InputError("the sweep has no point with a result");
@@ -162,7 +175,10 @@ std::string pareto_csv(const Results& results, const std::vector<Objective>& obj
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     const RankedPoint& point = pareto.points[i];
     std::vector<std::string> fields{point.row->key, std::to_string(point.front),
-                                    pareto.knee == i ? "1" : "0", point.feasible ? "1" : "0"};
+                                    pareto.knee == i ? "1" : "0",
+                                    point.unknown    ? "unknown"
+                                    : point.feasible ? "1"
+                                                     : "0"};
     for (const std::string& path : results.manifest.swept) fields.push_back(point.row->value(path));
     for (const double figure : point.figures) fields.push_back(csv_number(figure));
     text += csv_line(fields);

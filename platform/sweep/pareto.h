@@ -14,6 +14,8 @@ struct RankedPoint {
   const ResultRow* row = nullptr;
   std::vector<double> figures;  ///< of each objective
   bool feasible = true;         ///< all constraints hold
+  bool unknown = false;         ///< infeasible, but only because `timing.met` is false, and that
+                                ///< only by limits that are lower bounds: it may be feasible
   std::size_t front = 0;        ///< 1: nothing is better in all objectives; 2: once the first front
                                 ///< is taken away; … 0: infeasible
 };
@@ -37,7 +39,7 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
 /// The first front as a table, the knee marked.
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto);
-/// All points: key, front, knee, feasible, swept parameters, objectives.
+/// All points: key, front, knee, feasible (1, 0 or unknown), swept parameters, objectives.
 std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
                        const Pareto& pareto);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 
 #include <sweep/csv_line.h>
 #include <sweep/durable_file.h>
@@ -18,8 +19,26 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+/// The unit that the metric's name ends with, as " / W"; empty for a count or an expression.
+std::string unit_of(const std::string& metric) {
+  constexpr std::pair<const char*, const char*> units[] = {
+      {"fps", "1/s"}, {"_w", "W"},   {"_us", "µs"}, {"_mj", "mJ"},   {"_mm", "mm"},
+      {"_px", "px"},  {"_deg", "°"}, {"_c", "°C"},  {"_mhz", "MHz"}, {"_percent", "%"}};
+  if (metric.find_first_of(" */+-()") != std::string::npos) return "";
+  for (const std::string& part : vp::split(metric, '.')) {
+    for (const auto& [end, unit] : units) {
+      const std::string_view wanted = end;
+      if (part.size() >= wanted.size() &&
+          part.compare(part.size() - wanted.size(), wanted.size(), wanted) == 0)
+        return std::string(" / ") + unit;
+    }
+  }
+  return "";
+}
+
 std::string axis_label(const Objective& objective) {
-  return objective.figure().text() +
+  const std::string text = objective.figure().text();
+  return text + unit_of(text) +
          (objective.maximise() ? "  (more is better)" : "  (less is better)");
 }
 
@@ -49,17 +68,21 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
   script << "set encoding utf8\n"
          << "set terminal svg size 800,560 font 'sans,14' noenhanced background rgb 'white'\n"
          << "set output " << quoted(file) << "\n"
-         << block("infeasible", pareto, [&](std::size_t i) { return !points[i].feasible; })
+         << block("infeasible", pareto,
+                  [&](std::size_t i) { return !points[i].feasible && !points[i].unknown; })
+         << block("unknown", pareto, [&](std::size_t i) { return points[i].unknown; })
          << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
          << block("front", pareto, [&](std::size_t i) { return points[i].front == 1; })
          << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
          << quoted(results.manifest.title.empty() ? results.manifest.name : results.manifest.title)
          << "\nset xlabel " << quoted(axis_label(objectives[0])) << "\nset ylabel "
          << quoted(axis_label(objectives[1])) << "\n"
-         << "set grid lc rgb '#dddddd'\nset key outside below horizontal\nset offsets "
+         << "set grid lc rgb '#dddddd'\nset bmargin 6\nset key at screen 0.5, screen 0.03 center "
+            "bottom horizontal\nset offsets "
             "graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
          // Okabe and Ito's palette: every eye tells them apart.
          << "plot $infeasible with points pt 2 ps 0.8 lc rgb '#999999' title 'infeasible', "
+            "$unknown with points pt 8 ps 0.9 lc rgb '#e69f00' title 'timing unknown', "
             "$dominated with points pt 7 ps 0.6 lc rgb '#56b4e9' title 'dominated', "
             "$front with linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2' title 'Pareto front', "
             "$knee with points pt 6 ps 2 lw 3 lc rgb '#d55e00' title 'knee'\n";

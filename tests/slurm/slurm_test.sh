@@ -48,10 +48,36 @@ wait "$sweep" || fail "the sweep on the cluster"
 
 diff -r local/points cluster/points || fail "points differ from those of the local engine"
 cmp local/sweep.csv cluster/sweep.csv || fail "sweep.csv differs"
-computed=$(cat cluster/runs/*.jsonl | wc -l)
-different=$(cat cluster/runs/*.jsonl | sed 's/.*"key":"\([0-9a-f]*\)".*/\1/' | sort -u | wc -l)
-[ "$different" = 60 ] && [ "$computed" = 60 ] || fail "$computed computations of $different points, not 60"
+# each_once FOLDER POINTS
+each_once() {
+  local computed different
+  computed=$(cat "$1"/runs/*.jsonl | wc -l)
+  different=$(cat "$1"/runs/*.jsonl | sed 's/.*"key":"\([0-9a-f]*\)".*/\1/' | sort -u | wc -l)
+  [ "$different" = "$2" ] && [ "$computed" = "$2" ] || fail "$1: $computed computations of $different points, not $2"
+}
+each_once cluster 60
 grep -q '"engine":"slurm"' cluster/runs/*.jsonl || fail "nothing was computed on the cluster"
 "$markervp" sweep s.yaml --output cluster --engine slurm >again.log 2>&1 || fail "the sweep again"
 grep -q '0 computed now, 60 there before' again.log || fail "points were computed again"
+
+# Without --chunk the first point says how many make a task: some run here, the rest on the cluster.
+scontrol update NodeName=n1 State=RESUME || true
+"$markervp" sweep s.yaml --limit 12 --output measured --engine slurm >measured.log 2>&1 || fail "the sweep without --chunk"
+each_once measured 12
+for point in measured/points/*.json; do cmp "$point" "local/points/${point##*/}" || fail "points differ"; done
+grep -q '"engine":"local"' measured/runs/*.jsonl || fail "the first point was not measured here"
+grep -q '"engine":"slurm"' measured/runs/*.jsonl || fail "nothing but the first point was computed"
+
+# The terminal is gone, the job goes on: the same command waits for it.
+"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >left.log 2>&1 &
+sweep=$!
+for _ in $(seq 600); do [ -n "$(find left/points -name '*.json' 2>/dev/null)" ] && break; sleep .1; done
+kill -9 "$sweep"
+wait "$sweep" 2>/dev/null || true
+"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >attached.log 2>&1 || fail "the sweep that was left"
+grep -q 'of an earlier call is still in the queue: waiting for it' attached.log || fail "the job was not found again"
+[ "$(ls left/slurm | grep -c '^[0-9]*$')" = 1 ] || fail "the points were handed in again"
+each_once left 60
+diff -r local/points left/points || fail "points differ from those of the local engine"
+
 echo "60 points, each once, on $(cat cluster/runs/*.jsonl | sed 's/.*"host":"\([^"]*\)".*/\1/' | sort -u | tr '\n' ' ')"

@@ -62,6 +62,27 @@ BOOST_AUTO_TEST_CASE(the_knee_is_near_the_best_of_everything) {
   BOOST_TEST(contains(pareto_table(results, fps_and_watts(), pareto), "knee"));
 }
 
+BOOST_AUTO_TEST_CASE(above_a_mere_lower_bound_timing_is_unknown) {
+  Results results = example();
+  const double met[] = {1, 0, 0, 0};
+  const double failed[] = {0, 0, 1, 0};
+  for (int i = 0; i < 4; ++i) {
+    results.rows[i].metrics["timing.met"] = met[i];
+    results.rows[i].metrics["timing.failed"] = failed[i];
+  }
+  const std::vector<Expression> constraints{Expression("timing.met == 1", "here"),
+                                            Expression("fps != 90", "here")};
+  const Pareto pareto = rank(results, fps_and_watts(), constraints);
+  BOOST_TEST(pareto.points[0].feasible);
+  BOOST_TEST(!pareto.points[0].unknown);
+  BOOST_TEST(pareto.points[1].unknown);
+  BOOST_TEST(pareto.points[1].front == 0u);
+  BOOST_TEST(!pareto.points[2].unknown);
+  // It breaks another constraint, too.
+  BOOST_TEST(!pareto.points[3].unknown);
+  BOOST_TEST(contains(pareto_csv(results, fps_and_watts(), pareto), "1,0,0,unknown,100 MHz"));
+}
+
 BOOST_AUTO_TEST_CASE(constraints_take_points_out) {
   const Results results = example();
   const Pareto pareto = rank(results, fps_and_watts(), {Expression("clock >= 150 MHz", "here")});

@@ -107,12 +107,16 @@ BOOST_AUTO_TEST_CASE(one_sweep_a_folder) {
 
 BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
   const Metrics metrics = metrics_of(Json::parse(R"({
-    "timing": {"met": false, "modules": [{"name": "blob", "fmax_mhz": 55}]},
+    "timing": {"met": false, "modules": [
+        {"name": "blob", "fmax_mhz": 55, "met": false, "lower_bound": false},
+        {"name": "corner", "met": false, "lower_bound": true}, {"name": "bram", "met": true}]},
     "frames": [{"index": 0, "counts": {"corners": 2}, "markers": []},
                {"index": 1, "counts": {"corners": 4},
                 "markers": [{"id": 1, "error": {"corner_px": 0.5}}]}]})"));
   BOOST_TEST(metrics.at("timing.met") == 0);
   BOOST_TEST(metrics.at("timing.modules.blob.fmax_mhz") == 55);
+  BOOST_TEST(metrics.at("timing.failed") == 1);
+  BOOST_TEST(metrics.at("timing.unknown") == 1);
   BOOST_TEST(metrics.at("frames.counts.corners.mean") == 3);
   BOOST_TEST(metrics.at("frames.counts.corners.max") == 4);
   BOOST_TEST(metrics.at("frames.markers.mean") == 0.5);
