@@ -81,6 +81,11 @@ BOOST_AUTO_TEST_CASE(a_loop_without_hal_call) {
         {"--set", "ps.cpu.timeout=10 ms"});
 }
 
+BOOST_AUTO_TEST_CASE(a_loop_without_a_statement) {
+  fails(16, {"no end within 10 ms", "ps.cpu.timeout", "function 'crash'", "stand_still()+"},
+        {"--set", "ps.cpu.timeout=10 ms"});
+}
+
 BOOST_AUTO_TEST_CASE(a_bus_error_names_who_asked) {
   fails(15, {"read of 0x50000000", "DECERR", "function 'crash'", "read_unmapped()+"});
 }

@@ -161,11 +161,13 @@ void FaultTrap::arm() {
   old_terminate_ = std::set_terminate(&FaultTrap::on_terminate);
   active_ = this;
   armed_ = true;
+  empty_loops_.arm();
 }
 
 void FaultTrap::disarm() {
   if (!armed_) return;
   armed_ = false;
+  empty_loops_.disarm();
   active_ = nullptr;
   std::set_terminate(old_terminate_);
   for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &old_actions_[i], nullptr);

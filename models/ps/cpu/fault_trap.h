@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include <ps/cpu/empty_loop.h>
+
 namespace ps {
 
 /// What the host's processor refused to do for the program.
@@ -66,6 +68,7 @@ class FaultTrap {
   std::unique_ptr<char[]> signal_stack_;
   stack_t old_stack_{};
   struct sigaction old_actions_[signal_count] = {};
+  EmptyLoopWatch empty_loops_;
   std::terminate_handler old_terminate_ = nullptr;
   bool armed_ = false;
   bool landed_ = false;

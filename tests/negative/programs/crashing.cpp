@@ -99,6 +99,10 @@ __attribute__((noinline)) void spin() {
   while (!flag) continue;
 }
 
+__attribute__((noinline)) void stand_still() {
+  while (true) continue;
+}
+
 __attribute__((noinline)) void read_unmapped() {
   hal_read32(0x5000'0000);
 }
@@ -108,7 +112,7 @@ void (*const ways[])() = {dereference_device, write_null,     [] { sink = recurs
                           divide_floating,    give_up,        leave,
                           throw_through,      throw_noexcept, publish_nothing,
                           fault_in_handler,   destroy_stack,  spin,
-                          read_unmapped};
+                          read_unmapped,      stand_still};
 constexpr int last_way = sizeof ways / sizeof ways[0] - 1;
 
 const hal_option_info options[] = {{"way", "", 0, 0, last_way, "how the program crashes"}};
