@@ -255,7 +255,6 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   app->set_version_flag("--version", version_text());
   app->set_help_flag("-h,--help", "print this help");
   app->require_subcommand(1);
-  app->footer(examples);
   add_run(*app, target.run);
   add_scenes(*app, target.scenes);
   add_config(*app, target.config);
@@ -266,6 +265,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
   add_completion(*app, target.completion);
+  app->footer(examples);  // last: commands would take it over
   return app;
 }
 

@@ -41,6 +41,11 @@ std::string extras_of_page(const fs::path& folder) {
 void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::string& suffix,
              std::string extras) {
   const fs::path path = folder / "result.json";
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    throw vp::InputError("'" + folder.string() +
+                         "' has no result.json: name a folder that `markervp run` wrote");
+  }
   std::string result = result_of(path);
   if (extras.empty()) {
     parse_json(result, path);

@@ -72,7 +72,7 @@ void Configuration::set(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) {
     throw InputError("--set '" + std::string(assignment) +
-                     "': write path=value, such as --set pl.clock='50 MHz'");
+                     "': write path=value, such as --set pl.width='320 px'");
   }
   set(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
@@ -113,7 +113,9 @@ std::string Configuration::unknown_key(const std::string& key, const Setting& se
   }
   if (!inside.empty()) return start + "it stands for several, such as '" + inside.front() + "'";
   const std::string nearest = nearest_match(key, paths);
-  if (nearest.empty()) return start + "the configuration has nothing like it";
+  if (nearest.empty()) {
+    return start + "the configuration has nothing like it; `markervp config` prints its keys";
+  }
   return start + "did you mean '" + nearest + "'?";
 }
 

@@ -31,7 +31,8 @@ const WorkCost& CostTable::at(const std::string& work, const std::string& progra
   for (const auto& [name, cost] : entries_) names.push_back(name);
   const std::string nearest = vp::nearest_match(work, names);
   throw vp::InputError("cost table '" + profile_ + "' has no entry for '" + work +
-                       "', a unit of work of program '" + program + "': add it" +
+                       "', a unit of work of program '" + program +
+                       "': add it to other_units of a profile of your own" +
                        (nearest.empty() ? "" : " (nearest entry: '" + nearest + "')"));
 }
 

@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(a_unit_of_work_without_cost) {
   BOOST_CHECK_EXCEPTION(b.cpu.load(*program, table), vp::InputError, [](const auto& error) {
     return std::string(error.what()) ==
            "cost table 'sparse' has no entry for 'load', a unit of work of program 'bench': add it "
-           "(nearest entry: 'loads')";
+           "to other_units of a profile of your own (nearest entry: 'loads')";
   });
 }
 

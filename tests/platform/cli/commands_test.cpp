@@ -15,6 +15,9 @@ BOOST_AUTO_TEST_CASE(help_has_examples_and_exit_codes) {
   BOOST_TEST(run({"run", "--help"}) == 0);
   BOOST_TEST(contains(out.str(), "--trace-window"));
   BOOST_TEST(contains(out.str(), "--fit crop|scale"), out.str());
+  out.str("");
+  BOOST_TEST(run({"scenes", "--help"}) == 0);
+  BOOST_TEST(!contains(out.str(), "markervp run"), "the help of a command is about that command");
   BOOST_TEST(err.str() == "");
 }
 

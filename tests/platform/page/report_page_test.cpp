@@ -91,6 +91,9 @@ BOOST_AUTO_TEST_CASE(a_folder_without_results_is_refused) {
   const kit::TemporaryFolder folder;
   BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
                         [](const auto& e) { return names(e, "result.json"); });
+  BOOST_CHECK_EXCEPTION(
+      page::write_comparison(folder.path(), folder.path(), folder / "both.html"), vp::InputError,
+      [](const auto& e) { return names(e, "has no result.json: name a folder that"); });
   BOOST_CHECK_EXCEPTION(page::write_report("/no/such/folder"), vp::InputError,
                         [](const auto& e) { return names(e, "/no/such/folder"); });
 }

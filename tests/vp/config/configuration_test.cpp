@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(the_last_set_wins) {
 
 BOOST_AUTO_TEST_CASE(a_set_without_value_or_key_is_refused) {
   BOOST_TEST(input_error([this] { configuration.set("pl.clock"); }) ==
-             "--set 'pl.clock': write path=value, such as --set pl.clock='50 MHz'");
+             "--set 'pl.clock': write path=value, such as --set pl.width='320 px'");
   BOOST_TEST(input_error([this] { configuration.set("=5"); }) ==
              "'' (--set) is not a key: write names joined by dots");
   BOOST_TEST(input_error([this] { configuration.set("pl..clock=5"); }) ==
@@ -130,7 +130,9 @@ BOOST_AUTO_TEST_CASE(a_key_in_the_wrong_place_is_found_by_its_last_part) {
 
 BOOST_AUTO_TEST_CASE(an_unknown_key_without_a_near_one) {
   configuration.set("resolution=640 px");
-  BOOST_TEST(unused() == "unknown key 'resolution' (--set): the configuration has nothing like it");
+  BOOST_TEST(unused() ==
+             "unknown key 'resolution' (--set): the configuration has nothing like it; `markervp "
+             "config` prints its keys");
 }
 
 BOOST_AUTO_TEST_CASE(a_module_is_not_a_parameter) {
