@@ -217,6 +217,8 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner, b
        {options.trace, options.timeline, options.log_bus, options.register_coverage}) {
     if (file) text += ", " + *file;
   }
+  if (!options.no_report && page::page_template().empty())
+    text += "\nno report.html: this markervp was built without it (needs Node.js and npm)";
   return text + "\n";
 }
 

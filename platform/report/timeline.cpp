@@ -104,7 +104,8 @@ std::string page_json(const Timeline& timeline) {
     return fmt::format("[{},{}]", brief_us(p.ps), p.value);
   };
   return fmt::format(
-      R"({{"names":{},"tracks":{},"counters":{},"frames":{}}})", list(timeline.names, quoted),
+      R"({{"names":{},"tracks":{},"counters":{},"frames":{},"handshakes":{}}})",
+      list(timeline.names, quoted),
       list(timeline.tracks,
            [&](const Timeline::Track& t) {
              return fmt::format(R"({{"group":{},"name":{},"spans":{}}})", quoted(t.group),
@@ -115,9 +116,17 @@ std::string page_json(const Timeline& timeline) {
              return fmt::format(R"({{"name":{},"unit":{},"limit":{},"points":{}}})", quoted(c.name),
                                 quoted(c.unit), c.limit, list(c.points, point));
            }),
-      list(timeline.frames, [](const Timeline::Frame& f) {
-        return fmt::format(R"({{"index":{},"start":{},"end":{}}})", f.index, brief_us(f.start_ps),
-                           brief_us(f.end_ps));
+      list(timeline.frames,
+           [](const Timeline::Frame& f) {
+             return fmt::format(R"({{"index":{},"start":{},"end":{}}})", f.index,
+                                brief_us(f.start_ps), brief_us(f.end_ps));
+           }),
+      list(timeline.handshakes, [&](const Timeline::Handshake& h) {
+        return fmt::format(R"({{"name":{},"signals":{}}})", quoted(h.name),
+                           list(h.signals, [&](const Timeline::Handshake::Line& l) {
+                             return fmt::format(R"({{"name":{},"bits":{},"points":{}}})",
+                                                quoted(l.name), l.bits, list(l.points, point));
+                           }));
       }));
 }
 

@@ -31,6 +31,16 @@ struct Timeline {
     double limit = 0;  ///< what it can be at most; 0: none
     std::vector<Point> points;
   };
+  /// How signals hand something over, change by change.
+  struct Handshake {
+    struct Line {
+      std::string name;
+      std::uint32_t bits = 1;
+      std::vector<Point> points;
+    };
+    std::string name;
+    std::vector<Line> signals;
+  };
   struct Frame {
     std::uint32_t index = 0;
     std::uint64_t start_ps = 0, end_ps = 0;
@@ -40,6 +50,7 @@ struct Timeline {
   std::vector<Track> tracks;
   std::vector<Counter> counters;
   std::vector<Frame> frames;
+  std::vector<Handshake> handshakes;
 
   bool empty() const { return frames.empty(); }
   /// Index of a name, added if it is new.
@@ -52,7 +63,8 @@ std::string trace_event_json(const Timeline& timeline);
 
 /// The same for the page: {"names": […], "tracks": [{"group", "name", "spans": [[start us, length
 /// us, name, critical]…]}], "counters": [{"name", "unit", "limit", "points": [[us, value]…]}],
-/// "frames": [{"index", "start", "end"}]}, with 3 decimal places (1 ns).
+/// "frames": [{"index", "start", "end"}], "handshakes": [{"name", "signals": [{"name", "bits",
+/// "points": [[us, value]…]}]}]}, with 3 decimal places (1 ns).
 std::string page_json(const Timeline& timeline);
 
 }  // namespace platform::report

@@ -43,7 +43,10 @@ TimelineRecorder::TimelineRecorder(Zynq& zynq, std::uint32_t frames) : zynq_(zyn
     timeline_.tracks.push_back({name.group, name.name, {}});
   }
   const auto depth = static_cast<double>(zynq_.pl.feature_packaging.buffer_depth);
-  timeline_.counters = {{"Corner buffer", "words", depth, {}}, {"Blob buffer", "words", depth, {}}};
+  const auto bridge_depth = static_cast<double>(zynq_.pl.axi_threshold_bridge.fifo_depth);
+  timeline_.counters = {{"Corner buffer", "words", depth, {}},
+                        {"Blob buffer", "words", depth, {}},
+                        {"Bridge FIFO, most in a burst", "words", bridge_depth, {}}};
   watch(zynq_.pl.sensor_input.frame_ena, sensor);
   watch(zynq_.pl.frame_status.busy, corners);
   watch(zynq_.pl.blob_detection.idle, blobs);
@@ -55,6 +58,7 @@ TimelineRecorder::TimelineRecorder(Zynq& zynq, std::uint32_t frames) : zynq_(zyn
   watch(zynq_.pl.feature_packaging.blob_count, level_id + blob_buffer);
   watch_transfers(zynq_.pl.axi_dma_0.mm2s(), dma_0);
   watch_transfers(zynq_.pl.axi_dma_1.s2mm(), dma_1);
+  handshake_.emplace(zynq);
 }
 
 void TimelineRecorder::watch(vp::SignalBase& signal, std::uint32_t id) {
@@ -65,13 +69,29 @@ void TimelineRecorder::watch(vp::SignalBase& signal, std::uint32_t id) {
 void TimelineRecorder::watch_transfers(xilinx::DmaChannel& channel, Engine engine) {
   channels_.push_back(&channel);
   channel.on_transfer([this, engine](bool begins) {
+    if (engine == dma_1) {
+      if (begins) bridge_burst_done();
+      (begins ? burst_ : burst_end_) = zynq_.scheduler.now_ps();
+    }
     if (begins) return begin(engine, "transfer");
     end(engine);
   });
 }
 
+// At the next transfer: its packet cannot have passed yet, at either fidelity.
+void TimelineRecorder::bridge_burst_done() {
+  if (!burst_ || !burst_end_) return;
+  pl::AxiThresholdBridgeClocked& bridge = zynq_.pl.axi_threshold_bridge;
+  bridge.settle();
+  const auto peak = static_cast<double>(bridge.packet_peak());
+  timeline_.counters[bridge_fifo].points.push_back({*burst_, peak});
+  burst_.reset();
+  burst_end_.reset();
+}
+
 void TimelineRecorder::stop() {
   left_ = 0;
+  if (handshake_) handshake_->stop();
   for (vp::SignalBase* signal : watched_) signal->detach(*this);
   for (xilinx::DmaChannel* channel : channels_) channel->on_transfer(nullptr);
   watched_.clear();
@@ -123,6 +143,10 @@ void TimelineRecorder::add_span(Engine engine, const std::string& name, std::uin
 
 void TimelineRecorder::frame_done(const report::FrameReport& done) {
   if (left_ == 0) return;
+  if (const auto last_end = burst_end_) {
+    bridge_burst_done();
+    timeline_.counters[bridge_fifo].points.push_back({*last_end, 0});
+  }
   timeline_.frames.push_back({done.index, done.start_ps, done.end_ps});
   for (const report::StageTime& stage : done.times) {
     if (stage.name == "upload")
@@ -130,6 +154,7 @@ void TimelineRecorder::frame_done(const report::FrameReport& done) {
   }
   add_span(frame, "frame", done.start_ps, done.end_ps);
   mark_critical_path(done);
+  if (!handshake_->empty()) timeline_.handshakes = {handshake_->handshake()};
   if (--left_ == 0) stop();
 }
 

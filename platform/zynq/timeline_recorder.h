@@ -8,6 +8,7 @@
 #include <report/result.h>
 #include <report/timeline.h>
 #include <vp/signal.h>
+#include <zynq/handshake_recorder.h>
 #include <zynq/zynq.h>
 
 namespace platform {
@@ -45,7 +46,7 @@ class TimelineRecorder : private vp::SignalListener {
     functions,
     engines
   };
-  enum Level : std::uint32_t { corner_buffer, blob_buffer, levels };
+  enum Level : std::uint32_t { corner_buffer, blob_buffer, bridge_fifo, levels };
 
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void watch(vp::SignalBase& signal, std::uint32_t id);
@@ -55,6 +56,7 @@ class TimelineRecorder : private vp::SignalListener {
   void end(Engine engine);
   void add_span(Engine engine, const std::string& name, std::uint64_t start_ps,
                 std::uint64_t end_ps, bool critical = false);
+  void bridge_burst_done();
   void mark_critical_path(const report::FrameReport& frame);
 
   Zynq& zynq_;
@@ -65,6 +67,9 @@ class TimelineRecorder : private vp::SignalListener {
     std::uint32_t name;
   };
   std::optional<Open> open_[engines];
+  std::optional<std::uint64_t> burst_;  ///< when DMA 1's transfer began that is not recorded yet
+  std::optional<std::uint64_t> burst_end_;
+  std::optional<HandshakeRecorder> handshake_;
   std::vector<vp::SignalBase*> watched_;
   std::vector<xilinx::DmaChannel*> channels_;
 };

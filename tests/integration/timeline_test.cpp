@@ -1,6 +1,8 @@
 // The timeline: the same at both fidelities, and one that ui.perfetto.dev shows whole.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "executable.h"
@@ -63,6 +65,42 @@ BOOST_AUTO_TEST_CASE(the_check_finds_overlaps) {
 BOOST_AUTO_TEST_CASE(both_fidelities_give_the_same) {
   const Json tlm = timeline({"demo", "roll30"});
   BOOST_TEST((tlm == timeline({"demo", "roll30", "--fidelity", "clocked"})));
+}
+
+// The bridge keeps up at 100 MHz; at 20 MHz words wait in its FIFO.
+BOOST_AUTO_TEST_CASE(the_bridge_fifo_is_the_same_at_both_fidelities) {
+  const Arguments slow{"demo", "--set", "ps.fclk_clk0.frequency=20MHz", "--set",
+                       "ps.fclk_clk1.frequency=75MHz"};
+  double most[2] = {};
+  for (const Arguments& arguments : {Arguments{"demo"}, slow}) {
+    Arguments clocked = arguments;
+    clocked.insert(clocked.end(), {"--fidelity", "clocked"});
+    const Json json = timeline(arguments);
+    BOOST_TEST((json == timeline(clocked)));
+    double& peak = most[arguments.size() > 1];
+    for (const Json& event : json["traceEvents"]) {
+      if (event["ph"] == "C" && event["name"] == "Bridge FIFO, most in a burst, words")
+        peak = std::max(peak, event["args"]["value"].get<double>());
+    }
+  }
+  BOOST_TEST(most[0] >= 1);
+  BOOST_TEST(most[0] < most[1]);
+  BOOST_TEST(most[1] <= 64);
+}
+
+// The handshake stands in the page only.
+BOOST_AUTO_TEST_CASE(the_page_has_the_same_handshake_at_both_fidelities) {
+  std::string found[2];
+  for (const bool clocked : {false, true}) {
+    const Workplace place;
+    place.run({"demo", "--no-pictures", "--quiet", "--fidelity", clocked ? "clocked" : "tlm"});
+    if (!std::filesystem::exists(place / "out/report.html")) return;  // built without it
+    const std::string page = kit::read_file(place / "out/report.html");
+    const std::size_t at = page.find(R"("handshakes":[{"name":"Feature words")");
+    BOOST_REQUIRE(at != std::string::npos);
+    found[clocked] = page.substr(at, page.find("}]}]", at) - at);
+  }
+  BOOST_TEST(found[0] == found[1]);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_overlaps_on_a_track) {

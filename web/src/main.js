@@ -32,7 +32,7 @@ function frame({ title, subtitle, sections }) {
       h("nav", { "aria-label": "Sections" }, h("ul", {}, links.map(([id, name]) => h("li", {}, h("a", { href: "#" + id }, name))))),
       h("div", { class: "tools" }, themeButton(), h("button", { type: "button", onclick: () => window.print() }, "Print")))),
     h("main", {}, h("div", { class: "masthead" }, h("h1", {}, title), h("p", {}, subtitle)), shown),
-    h("footer", {}, "Made by markervp. This page is one file and loads nothing. Charts: Apache ECharts, µPlot."));
+    h("footer", {}, "Made by markervp. This page is one file and loads nothing. Charts: Apache ECharts, µPlot, WaveDrom."));
 }
 
 function show() {

@@ -211,6 +211,15 @@ test("a cell of the map says what it is", () => open("sweep", async (page) => {
   assert.match(after.replace(before, ""), /Frame rate/);
 }));
 
+test("the handshake is drawn from the run's changes", () => open("run", async (page) => {
+  const area = page.locator("#handshakes .wave");
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const text = await area.locator("svg").first().evaluate((svg) => svg.textContent);
+  for (const part of ["feature", "ready", "80000C05", "40080401", "13.250"]) assert.ok(text.includes(part), part);
+  assert.match(await page.locator("#handshakes table").textContent(), /corner 5, 3/);
+}));
+
 test("colours switch and survive", () => open("run", async (page) => {
   await scrollThrough(page);
   const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);

@@ -79,6 +79,8 @@ function timeline(times) {
       { group: "Interrupts", name: "Handler", spans: many(1, 2400, 2, 0.6, 7) }, { group: "PS", name: "PS stage", spans: stages }],
     counters: [{ name: "Corner buffer", unit: "words", limit: 100, points: Array.from({ length: 200 }, (_, i) => [start + i * 30, i % 7]) }, { name: "Power", unit: "W", limit: 0, points: [[0, 2.1], [start, 2.4], [start + 6144, 1.9]] }],
     frames: [{ index: 0, start, end: start + times.frame }],
+    handshakes: [{ name: "Feature words", signals: [{ name: "ena", bits: 1, points: [[start, 1]] },
+      { name: "feature", bits: 32, points: [[start, 0], [start + 12.5, 0x80000c05], [start + 14, 0x40080401]] }, { name: "ready", bits: 2, points: [[start, 0], [start + 13.25, 1]] }] }],
   };
 }
 

@@ -1,5 +1,8 @@
 #include <pl/axi_threshold_bridge/clocked.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace pl {
 
 AxiThresholdBridgeClocked::AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk)
@@ -22,6 +25,8 @@ void AxiThresholdBridgeClocked::edge() {
   const std::uint32_t waiting = fifo_.count();
   const bool arrived = thresh_in != thresh_seen;
   if (m.free()) {
+    const bool passes = m.tvalid.written();
+    if (passes && in_packet_ == 0) packet_peak_ = std::exchange(peak_, 0);
     if (waiting != 0) {
       const bool last = ++in_packet_ == burst_words;
       if (last) in_packet_ = 0;
@@ -39,6 +44,7 @@ void AxiThresholdBridgeClocked::edge() {
       bridge_overflow = bridge_overflow + 1;
     }
   }
+  peak_ = std::max(peak_, fifo_.count());
   fifo_count = static_cast<std::uint16_t>(fifo_.count());
   const bool stuck = m.tvalid.written() && !m.tready.read();
   const bool empty = !m.tvalid.written() && fifo_.count() == 0;
@@ -48,6 +54,7 @@ void AxiThresholdBridgeClocked::edge() {
 void AxiThresholdBridgeClocked::reset() {
   fifo_.clear();
   in_packet_ = 0;
+  peak_ = packet_peak_ = 0;
   m.withdraw();
   thresh_seen = false;
   fifo_count = 0;

@@ -43,6 +43,10 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
   virtual bool direct() const { return false; }
   /// Brings the counters up to now.
   virtual void settle() {}
+  /// The most words that waited in the FIFO after any clock in which the packet that passed last
+  /// was under way: from the clock in which the one before was through. 0 after a reset. settle()
+  /// first.
+  virtual std::uint32_t packet_peak() const { return packet_peak_; }
 
  protected:
   void edge() override;
@@ -52,6 +56,7 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
 
   FeatureBuffer fifo_;
   std::uint32_t in_packet_ = 0;
+  std::uint32_t peak_ = 0, packet_peak_ = 0;
   vp::Probe<std::uint32_t> in_packet_probe_{"in_packet", in_packet_, 9};
 };
 

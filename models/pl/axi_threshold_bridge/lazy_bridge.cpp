@@ -102,6 +102,7 @@ void LazyBridge::step(std::uint64_t edge) {
   if (valid_ && ready_) pass();
   if (!valid_ && waiting != 0) offer();
   if (edge == arrives_) arrive(waiting);
+  peak_ = std::max(peak_, fifo_.count());
 }
 
 // A word that arrives in an empty bridge is offered one edge later and passes after another.
@@ -110,6 +111,7 @@ void LazyBridge::run_through(std::uint64_t edge) {
   if (waiting != 0) return step(edge);
   cycle_ = edge;
   arrive(waiting);
+  peak_ = std::max(peak_, fifo_.count());
   if (fifo_.count() == 0 || arrives_ <= edge + 2) return;
   cycle_ = edge + 1;
   offer();
@@ -129,14 +131,20 @@ bool LazyBridge::run_many_through(std::uint64_t cycle) {
   next_ += count;
   in_packet_ += count;
   counts_.beats += count;
+  peak_ = std::max(peak_, 1u);  // each waits for one clock
   if (in_packet_ == burst_words_) {
     in_packet_ = 0;
-    ends_.push_back(passed_.size());
-    ++counts_.packets;
+    end_packet();
   }
   cycle_ = arrival(binary_.leaves_at(next_ - 1) + 1) + 2;
   plan();
   return true;
+}
+
+void LazyBridge::end_packet() {
+  ends_.push_back(passed_.size());
+  ++counts_.packets;
+  packet_peak_ = std::exchange(peak_, 0);
 }
 
 void LazyBridge::offer() {
@@ -150,10 +158,9 @@ void LazyBridge::offer() {
 
 void LazyBridge::pass() {
   passed_.push_back(out_);
-  if (last_) ends_.push_back(passed_.size());
+  if (last_) end_packet();
   valid_ = false;
   ++counts_.beats;
-  counts_.packets += last_;
   counts_.stalls += cycle_ - offered_ - 1;
 }
 
@@ -182,6 +189,7 @@ void LazyBridge::hold_in_reset(bool hold) {
   valid_ = false;
   in_packet_ = 0;
   overflow_ = 0;
+  peak_ = packet_peak_ = 0;
 }
 
 std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {

@@ -42,6 +42,8 @@ class LazyBridge {
   vp::BeatSource::Beats take();
 
   std::uint32_t overflow() const { return overflow_; }
+  /// See AxiThresholdBridgeClocked::packet_peak().
+  std::uint32_t packet_peak() const { return packet_peak_; }
   /// What happened since the last call.
   struct Counts {
     std::uint64_t beats = 0, packets = 0;  ///< that passed
@@ -64,6 +66,7 @@ class LazyBridge {
   void step(std::uint64_t edge);
   void run_through(std::uint64_t edge);
   bool run_many_through(std::uint64_t cycle);
+  void end_packet();
   void offer();
   void pass();
   void arrive(std::uint32_t waiting);
@@ -92,6 +95,7 @@ class LazyBridge {
   bool in_reset_ = false;
   std::uint64_t cycle_ = 0;  ///< edge that was run last
   std::uint32_t overflow_ = 0;
+  std::uint32_t peak_ = 0, packet_peak_ = 0;
   Counts counts_;
 
   std::uint64_t ratio_ = 0;  ///< system clocks a pixel clock, if whole since time 0; else 0

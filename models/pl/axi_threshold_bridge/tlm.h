@@ -21,6 +21,9 @@ class AxiThresholdBridgeTlm : public AxiThresholdBridgeClocked,
 
   bool direct() const override { return m.slave_takes_source(); }
   void settle() override;
+  std::uint32_t packet_peak() const override {
+    return direct() ? bridge_.packet_peak() : AxiThresholdBridgeClocked::packet_peak();
+  }
 
  private:
   void edge() override;
