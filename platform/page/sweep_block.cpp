@@ -57,14 +57,16 @@ Json reasons_of(const Json& outcome) {
     reasons.push_back("failed: " + outcome.value(Json::json_pointer("/failure/message"), ""));
   }
   const Json result = outcome.value("result", Json::object());
-  std::vector<std::string> slow, large;
+  std::vector<std::string> slow, unknown, large;
   for (const Json& module : result.value(Json::json_pointer("/timing/modules"), Json::array())) {
-    if (!module.value("met", true)) slow.push_back(module.value("name", ""));
+    if (module.value("met", true)) continue;
+    (module.value("lower_bound", false) ? unknown : slow).push_back(module.value("name", ""));
   }
   for (const Json& kind : result.value(Json::json_pointer("/resources/over"), Json::array())) {
     large.push_back(kind.is_string() ? kind.get<std::string>() : kind.dump());
   }
   add_reason(reasons, "misses timing: ", slow);
+  add_reason(reasons, "timing not proven: ", unknown);
   add_reason(reasons, "too large: ", large);
   return reasons;
 }

@@ -178,7 +178,7 @@ test("a point of a sweep opens, with its command", () => open("sweep", async (pa
 }));
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {
-  assert.match(await page.locator("#verdict").textContent(), /cannot be built/);
+  assert.match(await page.locator("#verdict").textContent(), /not feasible or not proven/);
   assert.match(await page.locator("#verdict").textContent(), /56 failed/);
   assert.match(await page.locator("#trade-off .note").textContent(), /56 points that failed are left out here/);
   assert.match(await page.locator("#maps .note").textContent(), /Crossed cells failed/);

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
     {"markers":[{"error":{"corner_px":2}},{}]}]}}})");
   kit::write_file(folder / "points/q.json", R"({"outcome":{"status":"done","result":{
     "timing":{"modules":[{"name":"pl.a","met":false},{"name":"x","met":true},
-    {"name":"pl.b","met":false}]},
+    {"name":"pl.b","met":false},{"name":"pl.c","met":false,"lower_bound":true}]},
     "resources":{"over":["lut"]}}}})");
   kit::write_file(folder / "points/r.json",
                   R"({"outcome":{"status":"failed","failure":{"message":"it stood"}}})");
@@ -134,8 +134,9 @@ BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
   BOOST_TEST(first["metrics"][11] == 1.5);
   BOOST_TEST(first["metrics"][2].is_null(), "no zero for what is not known");
   BOOST_TEST(first["reasons"].empty());
-  BOOST_TEST(sweep["points"][1]["reasons"] ==
-             Json::parse(R"(["misses timing: pl.a, pl.b","too large: lut"])"));
+  BOOST_TEST(
+      sweep["points"][1]["reasons"] ==
+      Json::parse(R"(["misses timing: pl.a, pl.b","timing not proven: pl.c","too large: lut"])"));
   BOOST_TEST(sweep["points"][1]["failed"] == false);
   BOOST_TEST(sweep["points"][2]["failed"] == true);
   BOOST_TEST(sweep["points"][2]["reasons"] == Json::parse(R"(["failed: it stood"])"));

@@ -58,7 +58,7 @@ export function tradeOff(sweep, open) {
     const c = palette();
     return [
       { name: "Feasible", points: known.filter((p) => p.reasons.length === 0 && !onFront.has(p)), symbol: "circle", size: 6, style: { color: c.blue, opacity: 0.55 } },
-      { name: "Cannot be built", points: known.filter((p) => p.reasons.length > 0), symbol: "path://M1 0L5 4L9 0L10 1L6 5L10 9L9 10L5 6L1 10L0 9L4 5L0 1Z", size: 7, style: { color: c.vermillion, opacity: 0.6 } },
+      { name: "Not feasible or not proven", points: known.filter((p) => p.reasons.length > 0), symbol: "path://M1 0L5 4L9 0L10 1L6 5L10 9L9 10L5 6L1 10L0 9L4 5L0 1Z", size: 7, style: { color: c.vermillion, opacity: 0.6 } },
       { name: "Pareto front", points: front, symbol: "diamond", size: 10, style: { color: c.green } },
     ].filter((group) => group.points.length > 0);
   };
@@ -66,8 +66,8 @@ export function tradeOff(sweep, open) {
   const failed = sweep.points.length - sweep.whole.length;
   return chart({
     name: "trade-off", title: "Frame rate and power", height: 440, canvas: true,
-    note: `On the front no feasible point is both faster and thriftier. Grey lines: equal energy a frame.${reasons.length ? " Crossed: cannot be built (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
-    summary: `${counted(known.length, "point")}, ${fixed(known.filter((p) => p.reasons.length).length, 0)} of them cannot be built. The front has ${counted(front.length, "point")}` +
+    note: `On the front no feasible point is both faster and thriftier. Grey lines: equal energy a frame.${reasons.length ? " Crossed: not feasible, or not proven (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
+    summary: `${counted(known.length, "point")}, ${fixed(known.filter((p) => p.reasons.length).length, 0)} of them not feasible or not proven. The front has ${counted(front.length, "point")}` +
       (front.length ? `, from ${value(fps, front[0])} at ${value(power, front[0])} to ${value(fps, front.at(-1))} at ${value(power, front.at(-1))}.` : "."),
     option: () => {
       const c = palette();
@@ -168,7 +168,7 @@ export function heatMap(sweep, open) {
     const wide = Math.max(...ys.map((e) => e[1].length)) * 6.6 + 16;
     figure = chart({
       name: "heat-map", title: `${sweep.label(z)} over two parameters`, height: Math.min(560, Math.max(260, ys.length * 26 + 126)), least: Math.min(900, xs.length * 54 + wide + 60), canvas: data.length > 900,
-      note: ["Mean where several points share a cell.", data.some((cell) => cell.bad) && "Outlined cells cannot be built.", failed.length > 0 && "Crossed cells failed."].filter(Boolean).join(" "),
+      note: ["Mean where several points share a cell.", data.some((cell) => cell.bad) && "Outlined cells are not feasible or not proven.", failed.length > 0 && "Crossed cells failed."].filter(Boolean).join(" "),
       summary: means.length ? `From ${significant(least, 4)} to ${significant(most, 4)}.` : "No values.",
       option: () => {
         const c = palette();

@@ -42,7 +42,7 @@ function verdict(sweep) {
   const failed = sweep.points.length - sweep.whole.length;
   const bad = sweep.whole.length - sweep.feasible.length;
   return h("section", { id: "verdict", "aria-label": "Verdict" },
-    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} cannot be built`),
+    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} not feasible or not proven`),
       failed > 0 && h("li", { class: "bad" }, `${fixed(failed, 0)} failed`),
       sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
     h("dl", { class: "tiles" }, tile("Fastest", sweep.fps, 1), tile("Least power", sweep.power, -1), tile("Least energy per frame", energy, -1)));
