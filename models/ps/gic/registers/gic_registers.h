@@ -9,8 +9,8 @@
 /// manuals. The list of registers is that of one CPU that runs in secure state, as after reset.
 ///
 /// Checked against what others took from UG585 appendix B.24 and the Cortex-A9 MPCore TRM: ICDICTR,
-/// ICDIIDR, ICCIIDR, ICDICFR0 to 5 and ICDIPTR0 to 7 (SkyEye's Zynq model; ICDICFR0 and 1 also by the
-/// code of a self-test for the chip), the offsets of the status registers (driver scugic).
+/// ICDIIDR, ICCIIDR, ICDICFR0 to 5 and ICDIPTR0 to 7 (SkyEye's Zynq model; ICDICFR0 and 1 also by
+/// the code of a self-test for the chip), the offsets of the status registers (driver scugic).
 namespace gic {
 
 /// Bus addresses on the Zynq-7000.
