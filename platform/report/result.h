@@ -94,7 +94,7 @@ struct RunFacts {
   std::optional<PowerReport> power = std::nullopt;
   std::optional<ResourceReport> resources = std::nullopt;
   std::optional<TimingReport> timing = std::nullopt;
-  std::vector<std::string> warnings = {};            ///< that belong to no frame
+  std::vector<std::string> warnings = {};  ///< that belong to no frame
 };
 
 /// Everything that may differ between two runs of the same design point on the same inputs.
