@@ -202,8 +202,11 @@ void Clock::run_edge() {
     const bool due = place.alarm == cycle;
     if (due) place.alarm = never;
     if (place.awake || due) place.module->edge();
-    next_alarm_ = std::min(next_alarm_, place.alarm);
-    if (place.alarm == never) attend_to(i);
+    if (place.alarm != never) {
+      next_alarm_ = std::min(next_alarm_, place.alarm);
+    } else if (!place.awake) {
+      attend_to(i);
+    }
   });
   in_edge_ = false;
   if (awake_ == 0) {

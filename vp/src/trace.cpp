@@ -1,6 +1,7 @@
 #include <vp/error.h>
 #include <vp/report.h>
 #include <vp/trace.h>
+#include <vp/vcd_writer.h>
 
 #include <algorithm>
 #include <string>
@@ -41,7 +42,7 @@ inline void Tracer::record(WaveWriter::Id id, std::uint64_t bits) {
 void Tracer::on_change(SignalBase& signal, std::uint32_t id) {
   record(id, signal.bits());
   // At once: when the instant's changes are written, the next one may have begun.
-  if (texts_[id]) text_values_[id] = texts_[id]->text();
+  if (has_texts_ && texts_[id]) text_values_[id] = texts_[id]->text();
 }
 
 Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOptions options)
@@ -54,6 +55,7 @@ Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOpt
                      std::to_string(options_.to_ps) + " ps is empty; its end must come later");
   }
   writer_ = open_wave_writer(options_.file);
+  if (!options_.trigger) vcd_ = dynamic_cast<VcdWriter*>(writer_.get());
   if (options_.trigger) {
     auto gate = std::make_unique<FrameGate>(std::move(writer_), *options_.trigger);
     gate_ = gate.get();
@@ -70,6 +72,7 @@ Tracer::Tracer(sc_core::sc_module_name name, ClockScheduler& scheduler, TraceOpt
 
 Tracer::~Tracer() {
   if (!writer_ || !writer_->begun()) return;
+  vcd_ = nullptr;
   writer_.reset();
   try {
     warn(*this, "/markervp/trace/incomplete",
@@ -86,6 +89,7 @@ void Tracer::close() {
   recording_ = false;
   leave_window();
   const auto writer = std::move(writer_);
+  vcd_ = nullptr;
   if (started_ && !writer->begun()) {
     warn(*this, "/markervp/trace/window",
          "no trace '" + options_.file.string() + "': the run ended at " + std::to_string(now) +
@@ -173,7 +177,10 @@ void Tracer::select_clocks() {
     clock->id = writer_->add(clock->clock().name(), WaveWriter::Kind::wire, 1);
     values_.push_back(0);
   }
-  for (const TraceSource& source : sources_) texts_.push_back(source.text);
+  for (const TraceSource& source : sources_) {
+    texts_.push_back(source.text);
+    has_texts_ |= source.text != nullptr;
+  }
   texts_.resize(values_.size());
   text_values_.resize(values_.size());
 }
@@ -239,7 +246,7 @@ void Tracer::enter(std::uint64_t ps) {
   flush();
   write_falls_before(std::min(ps, options_.to_ps));
   instant_ps_ = ps;
-  if (ps >= options_.to_ps || writer_->failed()) {
+  if (ps >= options_.to_ps || (vcd_ ? vcd_->failed() : writer_->failed())) {
     stop_recording();
   } else {
     write_falls_at(ps);
@@ -248,18 +255,27 @@ void Tracer::enter(std::uint64_t ps) {
 
 // In the order of the ids, whoever changed first.
 void Tracer::flush() {
+  if (vcd_) {
+    flush_to(*vcd_);
+  } else {
+    flush_to(*writer_);
+  }
+}
+
+template <class Writer>
+inline void Tracer::flush_to(Writer& writer) {
   for (std::size_t word = 0; word < marked_.size(); ++word) {
     std::uint64_t bits = marked_[word];
     if (bits == 0) continue;
     marked_[word] = 0;
-    writer_->set_time(instant_ps_);
+    writer.set_time(instant_ps_);
     for (; bits != 0; bits &= bits - 1) {
       const std::size_t id = word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits));
       const auto writer_id = static_cast<WaveWriter::Id>(id);
-      if (!texts_[id]) {
-        writer_->change(writer_id, values_[id]);
+      if (!has_texts_ || !texts_[id]) {
+        writer.change(writer_id, values_[id]);
       } else {
-        writer_->change_text(writer_id, text_values_[id]);
+        writer.change_text(writer_id, text_values_[id]);
       }
     }
   }

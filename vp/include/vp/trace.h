@@ -19,6 +19,7 @@ namespace vp {
 
 class ProbePoll;
 class TraceClock;
+class VcdWriter;
 struct TraceSource;
 
 enum class TraceLevel : std::uint8_t {
@@ -89,6 +90,8 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   void mark(WaveWriter::Id id, std::uint64_t bits);
   void enter(std::uint64_t ps);
   void flush();
+  template <class Writer>
+  void flush_to(Writer& writer);
   void rise(TraceClock& clock, std::uint64_t ps);
   void fall_later(TraceClock& clock, std::uint64_t ps);
   void write_falls_before(std::uint64_t ps);
@@ -98,6 +101,7 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   ClockScheduler& scheduler_;
   TraceOptions options_;
   std::unique_ptr<WaveWriter> writer_;
+  VcdWriter* vcd_ = nullptr;          ///< the same, where it is one: its calls are inlined
   FrameGate* gate_ = nullptr;         ///< the writer, if there is a trigger
   std::vector<TraceSource> sources_;  ///< the place is the id
   std::vector<std::unique_ptr<TraceClock>> clocks_;
@@ -109,7 +113,8 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   bool attached_ = false;
   std::uint64_t instant_ps_ = 0;  ///< to which the marked changes belong
   std::uint64_t next_fall_ps_ = TraceOptions::never;
-  std::vector<std::uint64_t> values_;     ///< by id: the newest value
+  std::vector<std::uint64_t> values_;  ///< by id: the newest value
+  bool has_texts_ = false;
   std::vector<const TextSignal*> texts_;  ///< by id: of a text; null for numbers
   std::vector<std::string> text_values_;  ///< by id: the newest text
   std::vector<std::uint64_t> marked_;     ///< a bit for each id that changed in this instant
