@@ -15,8 +15,8 @@
 #include <vp/trace.h>
 #include <zynq/frame_bench.h>
 #include <zynq/software_options.h>
-#include <zynq/timing_closure.h>
 #include <zynq/timeline_recorder.h>
+#include <zynq/timing_closure.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>
 
