@@ -66,7 +66,7 @@ export function provenance(run) {
   const rows = Object.entries(rest);
   const command = ["markervp", ...(words_ ?? [])].map(shellWord).join(" ");
   return h("section", { id: "provenance", "aria-labelledby": "provenance-title" },
-    h("h2", { id: "provenance-title" }, "How to get this again"),
+    h("h2", { id: "provenance-title" }, "Reproduce"),
     words_ && h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, command)),
     h("dl", { class: "facts wide" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, words(name)), h("dd", {}, String(value)))),
       ["fidelity", "system", "design", "profile"].map((name) => run.result[name] && h("div", {}, h("dt", {}, name), h("dd", {}, run.result[name])))));
