@@ -31,6 +31,8 @@ function(markervp_page_rule)
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${MARKERVP_PAGE_FOLDER}"
     COMMAND "${CMAKE_COMMAND}" -E copy "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc" "${MARKERVP_PAGE_FOLDER}"
     COMMAND "${MARKERVP_NPM}" --prefix "${MARKERVP_PAGE_FOLDER}" ci --ignore-scripts --loglevel=error ${packages}
+    # What is there is one of the two: the other is out of date.
+    COMMAND "${CMAKE_COMMAND}" -E rm -f "${MARKERVP_PAGE_FOLDER}/installed" "${MARKERVP_PAGE_FOLDER}/installed--omit=dev"
     COMMAND "${CMAKE_COMMAND}" -E touch "${installed}"
     DEPENDS "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc"
     COMMENT "Fetching the page's packages (npm; -DMARKERVP_PAGE=OFF builds without report.html)"
