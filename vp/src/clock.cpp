@@ -11,11 +11,21 @@ namespace vp {
 namespace {
 
 constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
-/// Edges this far from a known one are computed in 64 bits: the product with the period still fits.
-constexpr std::uint64_t reach_cycles = std::uint64_t{1} << 23;
+/// How far an anchor lies before what is looked for, in edges.
+constexpr std::uint64_t anchor_margin = std::uint64_t{1} << 16;
 using Wide = unsigned __int128;
 
 }  // namespace
+
+// A module's alarm has moved, outside of an edge.
+inline void Clock::plan_alarm(std::uint64_t before, std::uint64_t cycle) {
+  if (next_.ps != never && cycle >= next_.cycle) {
+    if (before == next_.cycle) plan_next(scheduler_.now_ps());
+  } else if (cycle != never && hertz_ != 0) {
+    seek(cycle);
+    scheduler_.reschedule_earlier(*this);
+  }
+}
 
 Clocked::Clocked(sc_core::sc_module_name name, Clock& clock)
     : sc_module(name), clock_(clock), place_(clock.places_.size()) {
@@ -42,14 +52,17 @@ void Clocked::wake() {
 }
 
 void Clocked::wake_at(std::uint64_t cycle) {
-  if (cycle < (clock_.in_edge_ ? clock_.cycle_ : clock_.cycle())) {
-    throw std::logic_error(std::string(name()) + ": alarm for edge " + std::to_string(cycle) +
-                           ", which has run: now is " + std::to_string(clock_.cycle()));
-  }
+  if (cycle < (clock_.in_edge_ ? clock_.cycle_ : clock_.cycle())) refuse_alarm(cycle);
   Clock::Place& place = clock_.places_[place_];
   const std::uint64_t before = std::exchange(place.alarm, cycle);
   clock_.attend_to(place_);
-  if (clock_.awake_ == 0) clock_.plan_alarm(before, cycle);
+  clock_.note_alarm(place_, cycle);
+  if (clock_.awake_ == 0 && !clock_.in_edge_) clock_.plan_alarm(before, cycle);
+}
+
+void Clocked::refuse_alarm(std::uint64_t cycle) const {
+  throw std::logic_error(std::string(name()) + ": alarm for edge " + std::to_string(cycle) +
+                         ", which has run: now is " + std::to_string(clock_.cycle()));
 }
 
 void Clocked::wake_on(InBase& input) {
@@ -89,6 +102,7 @@ void Clock::start(std::uint64_t hertz) {
   hertz_ = hertz;
   cycle_ps_ = never;
   next_ = {origin_cycle_ + 1, never, 0};
+  reach_ps_ = 0;
   if (hertz_ == 0) return;
   period_ps_ = ps_per_second / hertz_;
   period_remainder_ = ps_per_second % hertz_;
@@ -97,22 +111,13 @@ void Clock::start(std::uint64_t hertz) {
   seek(origin_cycle_ + 1);
 }
 
+// Some way before `cycle`, as the next question may be about an earlier time.
 void Clock::set_anchor(std::uint64_t cycle) const {
-  const Wide numerator = Wide(cycle - origin_cycle_) * ps_per_second + hertz_ / 2;
-  anchor_ = {cycle, origin_ps_ + static_cast<std::uint64_t>(numerator / hertz_),
+  const std::uint64_t from_origin = cycle - origin_cycle_;
+  const std::uint64_t edges = from_origin - std::min(from_origin, anchor_margin);
+  const Wide numerator = Wide(edges) * ps_per_second + hertz_ / 2;
+  anchor_ = {origin_cycle_ + edges, origin_ps_ + static_cast<std::uint64_t>(numerator / hertz_),
              static_cast<std::uint64_t>(numerator % hertz_)};
-}
-
-Clock::Edge Clock::exact_edge(std::uint64_t cycle) const {
-  if (cycle - anchor_.cycle > reach_cycles) set_anchor(cycle);
-  const std::uint64_t n = cycle - anchor_.cycle;
-  Edge edge{cycle, anchor_.ps + n * period_ps_, anchor_.remainder};
-  if (period_remainder_ != 0) {
-    const std::uint64_t cut_off = n * period_remainder_ + anchor_.remainder;
-    edge.ps += cut_off / hertz_;
-    edge.remainder = cut_off % hertz_;
-  }
-  return edge;
 }
 
 // The first edge at or after `ps`, which is past the origin, counted from an anchor near it.
@@ -135,7 +140,7 @@ std::uint64_t Clock::cycle_at_or_after(std::uint64_t ps) const {
   return std::max(anchor_.cycle + n, origin_cycle_ + 1);
 }
 
-std::uint64_t Clock::edge_at_or_after(std::uint64_t ps) const {
+std::uint64_t Clock::far_edge_at_or_after(std::uint64_t ps) const {
   if (hertz_ == 0) return never;
   if (ps <= origin_ps_) return exact_edge(origin_cycle_ + 1).ps;
   const std::uint64_t n = edges_from_anchor(ps);
@@ -173,13 +178,15 @@ inline void Clock::step() {
 
 // A module that is woken meanwhile by one before it is visited too.
 template <class Visit>
-void Clock::for_each_attended(Visit visit) const {
-  for (std::size_t word = 0; word < attended_.size(); ++word) {
-    std::uint64_t left = attended_[word];
-    while (left != 0) {
+void Clock::for_each_attended(std::size_t from, Visit visit) const {
+  const std::uint64_t* const words = attended_.data();
+  const std::size_t count = attended_.size();
+  std::uint64_t rest = ~std::uint64_t{0} << from % 64;
+  for (std::size_t word = from / 64; word < count; ++word, rest = ~std::uint64_t{0}) {
+    for (std::uint64_t left = words[word] & rest; left != 0;) {
       const unsigned bit = static_cast<unsigned>(__builtin_ctzll(left));
       visit(64 * word + bit);
-      left = attended_[word] & ~std::uint64_t{1} << bit;
+      left = words[word] & ~std::uint64_t{1} << bit;
     }
   }
 }
@@ -187,65 +194,73 @@ void Clock::for_each_attended(Visit visit) const {
 void Clock::attend_to_all() {
   attended_.assign((places_.size() + 63) / 64, 0);
   for (std::size_t i = 0; i < places_.size(); ++i) attend_to(i);
+  alarm_place_ = 0;
+  others_alarm_ = 0;
 }
 
+inline void Clock::run_alarm(std::size_t at) {
+  Place& place = places_[at];
+  if (place.alarm != cycle_) return;  // it was moved
+  place.alarm = never;
+  place.module->edge();
+}
+
+inline void Clock::go_to_alarm(std::uint64_t cycle) {
+  if (cycle == never || hertz_ == 0) {
+    next_.ps = never;
+  } else {
+    seek(cycle);
+  }
+}
+
+// Nearly always, a clock whose modules sleep runs an edge for the alarm of a single one.
 void Clock::run_edge() {
   ++edges_run_;
   in_edge_ = true;
   const std::uint64_t cycle = next_.cycle;
   cycle_ = cycle;
   cycle_ps_ = next_.ps;
-  next_alarm_ = never;
-  look_again_ = false;
-  for_each_attended([&](std::size_t i) {
-    Place& place = places_[i];
-    const bool due = place.alarm == cycle;
-    if (due) place.alarm = never;
-    if (place.awake || due) place.module->edge();
-    if (place.alarm != never) {
-      next_alarm_ = std::min(next_alarm_, place.alarm);
-    } else if (!place.awake) {
-      attend_to(i);
-    }
-  });
+  const bool single = awake_ == 0 && others_alarm_ > cycle;
+  if (single) {
+    const std::size_t place = alarm_place_;
+    run_alarm(place);
+    const std::uint64_t next = std::min(others_alarm_, places_[alarm_place_].alarm);
+    if (awake_ != 0 || next <= cycle) run_attended(place + 1);
+  } else {
+    run_attended(0);
+  }
   in_edge_ = false;
-  if (awake_ == 0) {
-    look_again_ ? seek_alarm() : go_to_alarm();
-  } else if (next_.cycle == cycle) {
-    step();
+  if (awake_ != 0) {
+    if (next_.cycle == cycle) step();
+  } else if (places_[alarm_place_].alarm <= others_alarm_) {
+    go_to_alarm(places_[alarm_place_].alarm);
+  } else {
+    seek_alarm();
   }
 }
 
-void Clock::go_to_alarm() {
-  if (next_alarm_ == never || hertz_ == 0) {
-    next_.ps = never;
-  } else {
-    seek(next_alarm_);
-  }
+void Clock::run_attended(std::size_t from) {
+  for_each_attended(from, [&](std::size_t i) {
+    Place& place = places_[i];
+    const bool due = place.alarm == cycle_;
+    if (due) place.alarm = never;
+    if (place.awake || due) place.module->edge();
+    if (place.alarm == never && !place.awake) attend_to(i);
+  });
 }
 
 void Clock::seek_alarm() {
-  next_alarm_ = never;
-  for_each_attended([&](std::size_t i) { next_alarm_ = std::min(next_alarm_, places_[i].alarm); });
-  go_to_alarm();
-}
-
-// A module's alarm has moved. Inside an edge it is enough to know the earliest later one: an edge
-// on which nobody runs, because an alarm was moved again, does no harm. One for this very edge is
-// served by it if the module comes later in the order.
-void Clock::plan_alarm(std::uint64_t before, std::uint64_t cycle) {
-  if (in_edge_) {
-    if (cycle > cycle_) {
-      next_alarm_ = std::min(next_alarm_, cycle);
-    } else {
-      look_again_ = true;
+  std::uint64_t first = never;
+  others_alarm_ = never;
+  for_each_attended(0, [&](std::size_t i) {
+    const std::uint64_t alarm = places_[i].alarm;
+    others_alarm_ = std::min(others_alarm_, std::max(first, alarm));
+    if (alarm < first) {
+      first = alarm;
+      alarm_place_ = i;
     }
-  } else if (next_.ps != never && cycle >= next_.cycle) {
-    if (before == next_.cycle) plan_next(scheduler_.now_ps());
-  } else if (cycle != never && hertz_ != 0) {
-    seek(cycle);
-    scheduler_.reschedule();
-  }
+  });
+  go_to_alarm(first);
 }
 
 // A module woke or set an alarm: the clock runs again from its first edge after `after_ps`.

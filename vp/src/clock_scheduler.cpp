@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <unordered_set>
+#include <utility>
 
 namespace vp {
 
@@ -63,6 +64,7 @@ void ClockScheduler::start_of_simulation() {
   mark_deferred_signals();
   std::copy_if(clocks_.begin(), clocks_.end(), std::back_inserter(ticking_),
                [](const Clock* clock) { return !clock->places_.empty(); });
+  for (std::size_t i = 0; i < ticking_.size(); ++i) ticking_[i]->number_ = i;
   started_ = true;
   for (Clock* clock : ticking_) clock->plan_next(0);
   find_next();
@@ -71,9 +73,24 @@ void ClockScheduler::start_of_simulation() {
 // Before the simulation starts there is no next instant.
 void ClockScheduler::find_next() {
   if (!started_) return;
-  std::uint64_t first = Clock::never;
-  for (const Clock* clock : ticking_) first = std::min(first, clock->next_.ps);
-  next_ps_ = first;
+  next_ps_ = others_ps_ = Clock::never;
+  for (const Clock* clock : ticking_) {
+    const std::uint64_t ps = clock->next_.ps;
+    if (ps < next_ps_) {
+      others_ps_ = std::exchange(next_ps_, ps);
+      second_ = std::exchange(soonest_, clock->number_);
+    } else if (ps < others_ps_) {
+      others_ps_ = ps;
+      second_ = clock->number_;
+    }
+  }
+}
+
+// No look at all clocks as long as the second is not due.
+inline void ClockScheduler::go_to_second() {
+  if (ticking_[second_]->next_.ps != others_ps_) return find_next();
+  next_ps_ = others_ps_;
+  soonest_ = second_;
 }
 
 // Clocks run in the order in which they were made; inside one, consumers before producers. So a
@@ -81,15 +98,26 @@ void ClockScheduler::find_next() {
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
   moved_ = false;
-  std::uint64_t next = Clock::never;
-  for (Clock* clock : ticking_) {
-    if (clock->next_.ps == ps) clock->run_edge();
-    next = std::min(next, clock->next_.ps);
+  if (others_ps_ > ps) {
+    ticking_[soonest_]->run_edge();
+    if (moved_) run_edges(soonest_ + 1, ps);
+  } else {
+    run_edges(0, ps);
   }
   if (!deferred_.empty()) commit_deferred();
   for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
-  next_ps_ = next;
-  if (moved_) find_next();
+  next_ps_ = ticking_[soonest_]->next_.ps;
+  if (moved_) {
+    find_next();
+  } else if (next_ps_ > others_ps_) {
+    go_to_second();
+  }
+}
+
+void ClockScheduler::run_edges(std::size_t from, std::uint64_t ps) {
+  for (std::size_t i = from; i < ticking_.size(); ++i) {
+    if (ticking_[i]->next_.ps == ps) ticking_[i]->run_edge();
+  }
 }
 
 void ClockScheduler::commit_deferred() {
@@ -121,23 +149,31 @@ void ClockScheduler::run() {
 }
 
 // What happens at the time of an event may come before or after it: that is left to the kernel.
-std::uint64_t ClockScheduler::find_horizon() {
-  if (const std::uint64_t known = known_horizon()) return known;
+inline std::uint64_t ClockScheduler::find_horizon() {
+  const std::uint64_t known = known_horizon();
+  return known != 0 ? known : look_for_horizon();
+}
+
+std::uint64_t ClockScheduler::look_for_horizon() {
   // Our own wake-up is no reason to stop: the edges it stands for are run here.
   wake_up_.cancel();
   const std::uint64_t pending =
       to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
-  horizon_kernel_ps_ = kernel_ps();
-  horizon_delta_ = sc_core::sc_delta_count();
-  horizon_ps_ = horizon_kernel_ps_ + std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
+  horizon_delta_ = kernel_delta();
+  horizon_ps_ = kernel_ps() + std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
   return horizon_ps_;
 }
 
-void ClockScheduler::pass_instants(std::uint64_t ps, Condition condition, const void* context) {
-  while (now_ps() < ps) {
-    if (run_ahead_until(ps, condition, context) || now_ps() >= ps) return;
+void ClockScheduler::pass_instants(std::uint64_t now, std::uint64_t ps, Condition condition,
+                                   const void* context) {
+  while (true) {
+    const std::uint64_t reachable = std::max(now, std::min(ps, find_horizon()));
+    const Ahead end = run_ahead(reachable, condition, context);
+    if (end == Ahead::met || (end == Ahead::reached && reachable == ps) || now_ps() >= ps) return;
     wait_in_kernel(ps - kernel_ps(), condition, context);
     if (condition && condition(context)) return;
+    now = now_ps();
+    if (now >= ps) return;
   }
 }
 

@@ -183,20 +183,6 @@ tlm::tlm_response_status RegisterBank::access(tlm::tlm_generic_payload& payload)
   return status;
 }
 
-tlm::tlm_response_status RegisterBank::access(Register& target, bool read, std::uint64_t address,
-                                              std::uint32_t& word) {
-  if (scheduler_) scheduler_->synchronise();
-  if (held_in_reset_) return refuse_in_reset(address);
-  if (before_access_) before_access_();
-  if (read) {
-    word = target.read();
-  } else {
-    if (target.ignores_writes()) warn_of_ignored_write(target, word);
-    target.write(word);
-  }
-  return tlm::TLM_OK_RESPONSE;
-}
-
 tlm::tlm_response_status RegisterBank::refuse_in_reset(std::uint64_t address) const {
   warn(*this, "/markervp/register_bank/in_reset",
        hex(address) + " accessed while the device is held in reset: release its reset first");

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
-#include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/hex.h>
-#include <vp/mm_link.h>
-#include <vp/register_bank.h>
 
 namespace vp {
 
 namespace {
-
-constexpr std::uint64_t word_bytes = 4;
 
 /// Turns a request for direct memory into one for a route.
 struct RouteRequest : tlm::tlm_extension<RouteRequest> {
@@ -43,6 +38,19 @@ RegisterRoute::RegisterRoute(MmLink& first, std::uint64_t address) {
   first.direct_memory(payload, dmi);
   payload.clear_extension(&request);
   if (stops_.size() > most_stages) register_ = nullptr;
+  if (stops_.size() == 1) single_stage_ = stops_.front().stage;
+  if (register_) count_on_links();
+}
+
+void RegisterRoute::count_on_links() {
+  const std::shared_ptr<const std::uint64_t> reads(counts_, &counts_->reads);
+  const std::shared_ptr<const std::uint64_t> writes(counts_, &counts_->writes);
+  for (MmLink* link : links_) {
+    link->reads.include(reads, 1);
+    link->bytes_read.include(reads, word_bytes);
+    link->writes.include(writes, 1);
+    link->bytes_written.include(writes, word_bytes);
+  }
 }
 
 RegisterRoute* RegisterRoute::asked_for(const tlm::tlm_generic_payload& payload) {
@@ -72,8 +80,8 @@ void RegisterRoute::follow(Access& access, std::uint64_t ps) const {
 }
 
 // `changes` counts those of clocks until the access entered the stage.
-inline void RegisterRoute::wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
-                                         std::uint64_t& changes) const {
+void RegisterRoute::wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
+                                  std::uint64_t& changes) const {
   do {
     if (passage.leaves_ps == Clock::never) report_bus_hang(*stop.stage, read, stop.address);
     scheduler_->pass_until(passage.leaves_ps);
@@ -103,29 +111,11 @@ RegisterRoute::Answer RegisterRoute::complete(Access& access, std::uint32_t& wor
   return answer;
 }
 
-// Nearly every route has one stage.
-RegisterRoute::Answer RegisterRoute::transfer(bool read, std::uint32_t& word) {
-  if (stops_.size() == 1) return transfer_through(stops_.front(), read, word);
+RegisterRoute::Answer RegisterRoute::transfer_through_all(std::uint64_t now_ps, bool read,
+                                                          std::uint32_t& word) {
   Access access;
-  begin(access, read, scheduler_->now_ps());
+  begin(access, read, now_ps);
   return complete(access, word);
-}
-
-RegisterRoute::Answer RegisterRoute::transfer_through(const Stop& stop, bool read,
-                                                      std::uint32_t& word) {
-  std::uint64_t changes = scheduler_->clock_changes();
-  RouteStage::Passage passage;
-  stop.stage->enter(read, scheduler_->now_ps(), passage);
-  wait_to_leave(stop, passage, read, changes);
-  Answer answer{bank_->access(*register_, read, address_, word), 0};
-  answer.ps = std::max(passage.leaves_ps + passage.rest_ps, passage.answer_ps);
-  count(read, answer.status != tlm::TLM_OK_RESPONSE);
-  return answer;
-}
-
-void RegisterRoute::count(bool read, bool failed) {
-  const auto command = read ? tlm::TLM_READ_COMMAND : tlm::TLM_WRITE_COMMAND;
-  for (MmLink* link : links_) link->count(command, word_bytes, failed);
 }
 
 // Constant where the first stage holds the answer back longer than anything behind it can.
@@ -165,10 +155,7 @@ std::uint32_t RegisterRoute::peek() const {
 }
 
 void RegisterRoute::credit_reads(std::uint64_t reads, std::uint32_t word) {
-  for (MmLink* link : links_) {
-    link->reads.add(reads);
-    link->bytes_read.add(reads * word_bytes);
-  }
+  counts_->reads += reads;
   register_->credit_reads(reads, word);
 }
 

@@ -17,15 +17,18 @@ void SignalBase::detach(SignalListener& listener) {
   listeners_.erase(std::remove_if(listeners_.begin(), listeners_.end(),
                                   [&](const Listener& l) { return l.listener == &listener; }),
                    listeners_.end());
-  observed_ = deferred_ || events_[any_change] || events_[rising] || events_[falling] ||
-              !listeners_.empty();
+  observed_ = deferred_ || has_events_ || !listeners_.empty();
 }
 
 void SignalBase::changed() {
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
     listeners_[i].listener->on_change(*this, listeners_[i].id);
   }
-  change_stamp_ = sc_core::sc_delta_count() + 1;
+  change_stamp_ = ClockScheduler::kernel_delta() + 1;
+  if (has_events_) notify_events();
+}
+
+void SignalBase::notify_events() {
   if (events_[any_change]) notify(*events_[any_change]);
   const EventKind edge = bits() != 0 ? rising : falling;
   if (events_[edge]) notify(*events_[edge]);
@@ -59,7 +62,7 @@ Clocked* SignalBase::writer() const {
 sc_core::sc_event& SignalBase::event_of(EventKind kind) const {
   if (!events_[kind]) {
     events_[kind] = std::make_unique<sc_core::sc_event>();
-    observed_ = true;
+    observed_ = has_events_ = true;
   }
   return *events_[kind];
 }

@@ -185,9 +185,9 @@ std::string Cpu::device_at(std::uint32_t address) const {
 }
 
 std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value) {
-  catch_up();
+  const std::uint64_t now = catch_up();
   if (vp::RegisterRoute* route = routes_.find(address)) {
-    on_bus(now_ps(), read, address, [&] { return route->transfer(read, value); });
+    on_bus(now, read, address, [&] { return route->transfer(now, read, value); });
   } else {
     transport(read, address, value);
   }

@@ -202,23 +202,29 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t now_ps() const { return scheduler_.now_ps(); }
   static bool irq_is_low(const void* cpu);
   /// When what was done so far will be over.
-  std::uint64_t reached_ps() { return std::max(now_ps(), access_end_ps_) + timeline().total_ps(); }
-  Timeline& timeline() { return timelines_[in_handler_now_ ? 1 : 0]; }
+  std::uint64_t reached_ps() const {
+    return std::max(now_ps(), access_end_ps_) + (in_handler_now_ ? 0 : timeline_.total_ps());
+  }
   void spend_cycles(std::uint64_t cycles);
   std::uint64_t take_work();
   void work_for(std::uint64_t ps);
-  void pass_in_handler(std::uint64_t ps);
+  [[gnu::noinline]] std::uint64_t pass_busy(std::uint64_t start_ps, std::uint64_t end_ps);
   void close_segment();
-  void catch_up();
+  std::uint64_t catch_up();
+  [[gnu::noinline]] std::uint64_t catch_up_slowly();
+  void catch_up_in_steps();
   void settle();
   bool play(Interrupts interrupts);
   std::uint64_t pass(std::uint64_t ps);
+  void entered(std::uint32_t number, std::uint64_t now_ps);
+  void left(std::uint64_t now_ps);
   void end_access();
   void follow_clock();
   void start_ahead();
   bool far_ahead();
   bool interrupt_pending() const { return n_irq.bound() && !n_irq.read(); }
-  bool interrupt_due() const { return !masked_ && !in_handler_now_ && interrupt_pending(); }
+  bool interruptible() const { return !masked_ && !in_handler_now_; }
+  bool interrupt_due() const { return interruptible() && interrupt_pending(); }
   void take_interrupts() {
     while (interrupt_due()) run_handler();
   }
@@ -266,8 +272,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 
   std::uint64_t hertz_ = 0;
   LocalTime local_time_;
-  std::uint64_t access_end_ps_ = 0;  ///< of the last bus access: an interrupt waits for it
-  Timeline timelines_[2];  ///< what comes after it: of the program, of a handler that interrupts it
+  std::uint64_t access_end_ps_ = 0;   ///< of the last bus access: an interrupt waits for it
+  Timeline timeline_;                 ///< what the program does after it
   LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
   std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
   std::uint64_t deadline_ps_ = 0;

@@ -61,8 +61,7 @@ Cpu::Skipped Cpu::skip_reads(std::uint32_t address, std::uint32_t previous, std:
   }
   const PollGrid grid(*route, start, *read_ps, cycles, local_time_, hertz_);
   const std::uint64_t last = grid.one_before(deadline_ps_, limit - 1);
-  const bool interruptible = !masked_ && !in_handler_now_;
-  PollSkip skip(*route, grid, last, scheduler_, interruptible ? irq_is_low : nullptr, this);
+  PollSkip skip(*route, grid, last, scheduler_, interruptible() ? irq_is_low : nullptr, this);
   {
     const Shown shown(skip_, skip);
     skip.run();
@@ -82,7 +81,9 @@ Cpu::Skipped Cpu::skip_reads(std::uint32_t address, std::uint32_t previous, std:
 void Cpu::go_on_between(std::uint64_t end_ps, std::uint64_t leave_ps) {
   access_end_ps_ = end_ps;
   const std::uint64_t loop_from = std::max(end_ps, now_ps());
-  if (leave_ps > loop_from) timeline().push(Timeline::Kind::work, leave_ps - loop_from);
+  if (leave_ps > loop_from) {
+    local_time_.add_stall_fs(LocalTime::Wide{leave_ps - loop_from} * LocalTime::fs_per_ps);
+  }
 }
 
 // A clock that changes in the middle of an edge: what follows is not on the poll grid.

@@ -15,7 +15,6 @@ constexpr std::size_t longest_timeline = 4096;
 
 // The cost of a unit is kept in cycles; its upper bound in time follows the clock.
 void Cpu::follow_clock() {
-  if (hertz_ == clock_.frequency_hz()) return;
   hertz_ = clock_.frequency_hz();
   if (hertz_ == 0) fail("the clock of the CPU was stopped");
   local_time_.set_frequency(hertz_);
@@ -32,12 +31,12 @@ void Cpu::spend_cycles(std::uint64_t cycles) {
 // The time of what was counted since the last call.
 inline std::uint64_t Cpu::take_work() {
   if (local_time_.empty()) return 0;
-  follow_clock();
+  if (hertz_ != clock_.frequency_hz()) follow_clock();
   return local_time_.take_ps();
 }
 
 void Cpu::close_segment() {
-  if (const std::uint64_t ps = take_work()) timeline().push(Timeline::Kind::work, ps);
+  if (const std::uint64_t ps = take_work()) timeline_.push(Timeline::Kind::work, ps);
 }
 
 // Nothing is counted since the simulation was looked at.
@@ -59,35 +58,56 @@ bool Cpu::far_ahead() {
 // The rest of the last bus access passes. An interrupt waits for its end.
 inline void Cpu::end_access() {
   const std::uint64_t start = now_ps();
-  if (access_end_ps_ <= start) return;
-  const std::uint64_t end = std::min(access_end_ps_, std::max(deadline_ps_, start));
-  scheduler_.pass_until(end);
-  activity_.busy(end - start);
-  if (end >= deadline_ps_) time_out("no end");
+  if (access_end_ps_ > start) pass_busy(start, access_end_ps_);
 }
 
-// No interrupt comes in a handler: the rest of an access and the work after it are one stretch.
-inline void Cpu::pass_in_handler(std::uint64_t ps) {
+// All that was done ahead passes, and interrupts that come run their handler. Returns the present
+// time. Usually no interrupt can come, and nothing happens meanwhile: that is kept short.
+std::uint64_t Cpu::catch_up() {
+  const bool in_one = in_handler_now_ || (masked_ && timeline_.empty());
   const std::uint64_t start = now_ps();
-  const std::uint64_t reached = std::max(access_end_ps_, start) + ps;
-  const std::uint64_t end = std::min(reached, std::max(deadline_ps_, start));
-  if (end <= start) return;
-  scheduler_.pass_until(end);
+  if (!in_one || !scheduler_.up_to_date(start) || !local_time_.little() ||
+      hertz_ != clock_.frequency_hz()) {
+    return catch_up_slowly();
+  }
+  const std::uint64_t work = local_time_.empty() ? 0 : local_time_.take_little();
+  const std::uint64_t end = std::max(access_end_ps_, start) + work;
+  start_ahead();
+  if (end <= start) return start;
+  if (end >= deadline_ps_ || !scheduler_.pass_quietly(end)) return pass_busy(start, end);
   activity_.busy(end - start);
-  if (end >= deadline_ps_) time_out("no end");
+  return end;
 }
 
-// All that was done ahead passes, and interrupts that come run their handler.
-void Cpu::catch_up() {
-  const bool plain = timeline().empty();
+std::uint64_t Cpu::catch_up_slowly() {
+  if (!in_handler_now_ && (!masked_ || !timeline_.empty())) {
+    const std::uint64_t now = now_ps();
+    const bool ahead = !timeline_.empty() || !local_time_.empty() || access_end_ps_ > now;
+    if (!ahead && scheduler_.up_to_date(now) && !interrupt_pending()) return now;
+    catch_up_in_steps();
+    return now_ps();
+  }
+  const std::uint64_t ps = take_work();
+  const std::uint64_t start = scheduler_.synchronised_ps();
+  const std::uint64_t end = std::max(access_end_ps_, start) + ps;
+  start_ahead();
+  return end > start ? pass_busy(start, end) : start;
+}
+
+// The rest of an access and the work after it, in one stretch. Returns the end.
+std::uint64_t Cpu::pass_busy(std::uint64_t start_ps, std::uint64_t end_ps) {
+  const std::uint64_t end = std::min(end_ps, std::max(deadline_ps_, start_ps));
+  scheduler_.pass_from(start_ps, end);
+  activity_.busy(end - start_ps);
+  if (end >= deadline_ps_) time_out("no end");
+  return end;
+}
+
+void Cpu::catch_up_in_steps() {
+  const bool plain = timeline_.empty();
   const std::uint64_t ps = plain ? take_work() : 0;
   if (!plain) close_segment();
   scheduler_.synchronise();
-  if (plain && in_handler_now_) {
-    pass_in_handler(ps);
-    start_ahead();
-    return;
-  }
   end_access();
   if (!plain) play(Interrupts::take);
   if (ps != 0) work_for(ps);
@@ -97,7 +117,12 @@ void Cpu::catch_up() {
 
 // The simulation follows, up to an interrupt at most: handlers run inside HAL calls that catch up,
 // not between two statements of the program. There it waits until the program comes to such a call.
+// A handler is not interrupted: it catches up.
 void Cpu::settle() {
+  if (in_handler_now_) {
+    catch_up();
+    return;
+  }
   close_segment();
   if (reached_ps() >= deadline_ps_) {
     catch_up();
@@ -119,9 +144,8 @@ void Cpu::work_for(std::uint64_t ps) {
 
 // False if an interrupt is due that was to be left.
 bool Cpu::play(Interrupts interrupts) {
-  Timeline& line = timeline();
-  while (!line.empty()) {
-    const Timeline::Segment& segment = line.front();
+  while (!timeline_.empty()) {
+    const Timeline::Segment& segment = timeline_.front();
     switch (segment.kind) {
       case Timeline::Kind::work:
         if (interrupt_due()) {
@@ -129,32 +153,36 @@ bool Cpu::play(Interrupts interrupts) {
           run_handler();
           continue;
         }
-        line.pass(pass(segment.ps));
-        if (line.front().ps > 0) continue;
+        timeline_.pass(pass(segment.ps));
+        if (timeline_.front().ps > 0) continue;
         break;
       case Timeline::Kind::enter:
-        activity_.enter(segment.function, now_ps());
-        function = segment.function + 1;
+        entered(segment.function, now_ps());
         break;
       case Timeline::Kind::leave:
-        activity_.leave(now_ps());
-        function = activity_.function() + 1;  // none + 1 is 0
+        left(now_ps());
         break;
     }
-    line.pop();
+    timeline_.pop();
   }
   return true;
+}
+
+inline void Cpu::entered(std::uint32_t number, std::uint64_t now_ps) {
+  activity_.enter(number, now_ps);
+  function = number + 1;
+}
+
+inline void Cpu::left(std::uint64_t now_ps) {
+  activity_.leave(now_ps);
+  function = activity_.function() + 1;  // none + 1 is 0
 }
 
 // Lets up to `ps` pass; less if an interrupt comes that may be taken. Returns what passed.
 std::uint64_t Cpu::pass(std::uint64_t ps) {
   const std::uint64_t start = now_ps();
   const std::uint64_t end = start + std::min(ps, deadline_ps_ - std::min(deadline_ps_, start));
-  if (!masked_ && !in_handler_now_) {
-    scheduler_.pass_until(end, irq_is_low, this);
-  } else {
-    scheduler_.pass_until(end);
-  }
+  scheduler_.pass_from(start, end, interruptible() ? irq_is_low : nullptr, this);
   const std::uint64_t now = now_ps();
   activity_.busy(now - start);
   if (now >= deadline_ps_) time_out("no end");
@@ -209,7 +237,7 @@ void Cpu::wait_for_interrupt() {
 void Cpu::sleep() {
   const std::uint64_t start = now_ps();
   asleep = true;
-  scheduler_.pass_until(std::max(deadline_ps_, start), irq_is_low, this);
+  scheduler_.pass_from(start, std::max(deadline_ps_, start), irq_is_low, this);
   asleep = false;
   activity_.idle(now_ps() - start);
   if (!interrupt_pending()) {
@@ -232,20 +260,22 @@ void Cpu::enter_function(std::uint32_t number) {
   if (number >= program_->description().function_count) {
     misuse("hal_function_enter(" + std::to_string(number) + "): no such function");
   }
-  close_segment();
-  timeline().push(Timeline::Kind::enter, 0, number);
   ++open_functions_;
-  if (timeline().size() >= longest_timeline) settle();
+  if (in_handler_now_) return entered(number, catch_up());
+  close_segment();
+  timeline_.push(Timeline::Kind::enter, 0, number);
+  if (timeline_.size() >= longest_timeline) settle();
 }
 
 void Cpu::leave_function() {
   if (open_functions_ <= open_before_handler_) {
     misuse("hal_function_leave() without hal_function_enter()");
   }
-  close_segment();
-  timeline().push(Timeline::Kind::leave, 0);
   --open_functions_;
-  if (timeline().size() >= longest_timeline) settle();
+  if (in_handler_now_) return left(catch_up());
+  close_segment();
+  timeline_.push(Timeline::Kind::leave, 0);
+  if (timeline_.size() >= longest_timeline) settle();
 }
 
 }  // namespace ps

@@ -5,50 +5,32 @@ namespace ps {
 
 namespace {
 
-/// 2^-20 of a cycle is 5^15 / (hertz · 2^5) femtoseconds: 10^15 / (hertz · 2^20), reduced.
-constexpr std::uint64_t numerator_factor = 30'517'578'125;
-constexpr unsigned denominator_bits = 5;
-/// Fewer cycles than this are computed in 64 bits.
-constexpr LocalTime::Wide few_cycles = std::uint64_t{1} << 28;
-static_assert(((std::uint64_t{1} << 28) - 1) <=
-              ((std::uint64_t{1} << 63) - (std::uint64_t{1} << 46)) / numerator_factor);
+constexpr std::uint64_t fs_per_second = 1'000'000'000'000'000;
 
 }  // namespace
 
 void LocalTime::set_frequency(std::uint64_t hertz) {
   if (hertz == hertz_) return;
   hertz_ = hertz;
+  denominator_ = hertz << denominator_bits;
+  cycle_fs_ = fs_per_second / hertz;
+  cycle_rest_ = fs_per_second % hertz << denominator_bits;
   cycle_remainder_ = 0;  // less than a femtosecond
+  // whole · cycle_rest_ and whole · cycle_fs_ below 2^62; the fraction adds less than 2^55.
+  const std::uint64_t whole = little_limit / std::max(cycle_rest_, cycle_fs_);
+  little_cycles_ = std::min(whole, little_limit / one_cycle) * one_cycle;
 }
 
-// Femtoseconds of the cycles, and what that cuts off.
-LocalTime::Wide LocalTime::take_cycles() {
-  const std::uint64_t denominator = hertz_ << denominator_bits;
-  const Wide cycles = cycles_;
-  cycles_ = 0;
-  if (cycles < few_cycles) {
-    const std::uint64_t numerator =
-        static_cast<std::uint64_t>(cycles) * numerator_factor + cycle_remainder_;
-    cycle_remainder_ = numerator % denominator;
-    return numerator / denominator;
-  }
-  const Wide numerator = cycles * numerator_factor + cycle_remainder_;
-  const Wide femtoseconds = numerator / denominator;
-  cycle_remainder_ = static_cast<std::uint64_t>(numerator - femtoseconds * denominator);
-  return femtoseconds;
-}
-
-std::uint64_t LocalTime::take_ps() {
-  const Wide total_fs = take_cycles() + stall_fs_ + fs_remainder_;
-  stall_fs_ = 0;
-  if (total_fs >> 64 == 0) {
-    const auto fs = static_cast<std::uint64_t>(total_fs);
-    fs_remainder_ = fs % fs_per_ps;
-    return fs / fs_per_ps;
-  }
-  fs_remainder_ = static_cast<std::uint64_t>(total_fs % fs_per_ps);
+// take_little() in 128 bits.
+std::uint64_t LocalTime::take_much() {
+  const Wide numerator = cycles_.value() * numerator_factor + cycle_remainder_;
+  const Wide cycles_fs = numerator / denominator_;
+  cycle_remainder_ = static_cast<std::uint64_t>(numerator - cycles_fs * denominator_);
+  const Wide fs = cycles_fs + stall_fs_.value() + fs_remainder_;
+  fs_remainder_ = static_cast<std::uint64_t>(fs % fs_per_ps);
+  cycles_.little = stall_fs_.little = 0;
   constexpr Wide most_ps = Wide{1} << 62;
-  return static_cast<std::uint64_t>(std::min(total_fs / fs_per_ps, most_ps));
+  return static_cast<std::uint64_t>(std::min(fs / fs_per_ps, most_ps));
 }
 
 }  // namespace ps

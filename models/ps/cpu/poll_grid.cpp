@@ -22,9 +22,7 @@ PollGrid::PollGrid(const vp::RegisterRoute& route, std::uint64_t start_ps, std::
 
 // What LocalTime cuts off does not depend on how cycles are split: all rounds are taken at once.
 std::uint64_t PollGrid::leaves(std::uint64_t read) const {
-  LocalTime time = time_;
-  time.add_cycles(LocalTime::Wide{cycles_ * read} << LocalTime::fraction_bits);
-  return start_ps_ + read * read_ps_ + time.take_ps();
+  return start_ps_ + read * read_ps_ + time_.ps_after(cycles_ * read);
 }
 
 LocalTime PollGrid::time_at(std::uint64_t read) const {
@@ -35,13 +33,21 @@ LocalTime PollGrid::time_at(std::uint64_t read) const {
 }
 
 // A guess that is one or two off, then the exact one.
-std::uint64_t PollGrid::first_from(std::uint64_t ps, std::uint64_t last) const {
-  if (first_arrival_ps_ >= ps) return 0;
+PollGrid::Read PollGrid::first_from(std::uint64_t ps, std::uint64_t last) const {
+  if (first_arrival_ps_ >= ps) return {0, first_arrival_ps_};
   const double guess = static_cast<double>(ps - first_arrival_ps_) / step_ps_;
   std::uint64_t read = guess < static_cast<double>(last) ? static_cast<std::uint64_t>(guess) : last;
-  while (read > 0 && arrives(read - 1) >= ps) --read;
-  while (read < last && arrives(read) < ps) ++read;
-  return read;
+  std::uint64_t at = arrives(read);
+  if (at < ps) {
+    while (read < last && at < ps) at = arrives(++read);
+    return {read, at};
+  }
+  for (; read > 0; --read) {
+    const std::uint64_t before = arrives(read - 1);
+    if (before < ps) break;
+    at = before;
+  }
+  return {read, at};
 }
 
 std::uint64_t PollGrid::one_before(std::uint64_t ps, std::uint64_t last) const {

@@ -19,8 +19,13 @@ class PollGrid {
   std::uint64_t arrives(std::uint64_t read) const { return route_.arrival_ps(leaves(read)); }
   std::uint64_t ends(std::uint64_t read) const { return leaves(read) + read_ps_; }
 
+  /// One of the reads.
+  struct Read {
+    std::uint64_t number;
+    std::uint64_t arrives_ps;
+  };
   /// The first read that arrives at `ps` or later; `last` if none before it does.
-  std::uint64_t first_from(std::uint64_t ps, std::uint64_t last) const;
+  Read first_from(std::uint64_t ps, std::uint64_t last) const;
   /// A read, `last` at most, that leaves before `ps`; not far from the last that does. `ps` >
   /// start.
   std::uint64_t one_before(std::uint64_t ps, std::uint64_t last) const;

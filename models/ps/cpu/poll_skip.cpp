@@ -15,8 +15,9 @@ void PollSkip::run() {
 
 void PollSkip::plan() {
   stable_until_ps_ = std::max(route_.stable_until_ps(), scheduler_.now_ps());
-  goal_ = grid_.first_from(stable_until_ps_, goal_);
-  goal_ps_ = grid_.arrives(goal_);
+  const PollGrid::Read read = grid_.first_from(stable_until_ps_, goal_);
+  goal_ = read.number;
+  goal_ps_ = read.arrives_ps;
 }
 
 bool PollSkip::stop(const void* skip) {
@@ -34,7 +35,7 @@ void PollSkip::clock_changes() {
 // its way.
 void PollSkip::take_stock() {
   const std::uint64_t now = scheduler_.now_ps();
-  done_ = grid_.first_from(now, goal_);
+  done_ = now == goal_ps_ ? goal_ : grid_.first_from(now, goal_).number;
   const std::uint64_t left = grid_.leaves(done_);
   if (left >= now) return;
   route_.begin(on_its_way_.emplace(), true, left);

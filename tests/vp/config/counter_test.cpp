@@ -29,6 +29,22 @@ std::vector<std::string> names(const std::vector<const vp::Counter*>& counters) 
 
 BOOST_FIXTURE_TEST_SUITE(counter, kit::Simulation)
 
+BOOST_AUTO_TEST_CASE(includes_what_is_counted_elsewhere) {
+  const auto words = std::make_shared<std::uint64_t>(3);
+  vp::Counter accesses("accesses", "accesses");
+  vp::Counter bytes("bytes", "bytes moved");
+  accesses.include(words, 1);
+  bytes.include(words, 4);
+  bytes.add(2);
+  BOOST_TEST(accesses == 3u);
+  BOOST_TEST(bytes == 14u);
+  bytes.reset();
+  BOOST_TEST(bytes == 0u);
+  ++*words;
+  BOOST_TEST(bytes == 4u);
+  BOOST_TEST(accesses == 4u);
+}
+
 BOOST_AUTO_TEST_CASE(counts_beyond_32_bits) {
   vp::Counter bytes("bytes", "bytes moved");
   BOOST_TEST(bytes == 0u);

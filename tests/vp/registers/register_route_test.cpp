@@ -48,7 +48,7 @@ struct Initiator : sc_core::sc_module {
     std::uint64_t end = 0;
     if (route) {
       ++used;
-      const auto answer = route->transfer(read, word);
+      const auto answer = route->transfer(scheduler.now_ps(), read, word);
       status = answer.status;
       end = answer.ps;
     } else {

@@ -28,14 +28,19 @@ class ClockScheduler : public sc_core::sc_module {
 
   /// Runs all edges up to and including the present simulation time. Whoever reads or writes
   /// clocked state from another process calls it first: what he writes is seen by later edges only.
-  void synchronise() {
-    if (next_ps_ <= now_ps()) run_due_instants();
+  void synchronise() { synchronised_ps(); }
+  /// The same; returns the present time.
+  std::uint64_t synchronised_ps() {
+    const std::uint64_t now = now_ps();
+    if (next_ps_ <= now) run_due_instants();
+    return now;
   }
 
   /// The present time in ps: that of the instant being run, or as far as pass_until() got.
   /// SystemC's own time may lag behind it, never lead.
   std::uint64_t now_ps() const {
-    return running_ ? instant_ps_ : std::max(instant_ps_, kernel_ps());
+    const std::uint64_t kernel = kernel_ps();
+    return running_ || instant_ps_ > kernel ? instant_ps_ : kernel;
   }
 
   /// What ends pass_until() early; checked after every instant.
@@ -57,13 +62,21 @@ class ClockScheduler : public sc_core::sc_module {
   /// A process that has run ahead notifies SystemC events through notify(); code that may do
   /// otherwise (a foreign target) is followed by forget_horizon().
   void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr) {
-    if (ps <= now_ps()) return;
-    if (ps < next_ps_ && ps <= known_horizon()) {
-      instant_ps_ = ps;
-    } else {
-      pass_instants(ps, condition, context);
-    }
+    pass_from(now_ps(), ps, condition, context);
   }
+  /// pass_until() for who knows the present time.
+  void pass_from(std::uint64_t now_ps, std::uint64_t ps, Condition condition = nullptr,
+                 const void* context = nullptr) {
+    if (ps > now_ps && !pass_quietly(ps)) pass_instants(now_ps, ps, condition, context);
+  }
+  /// The same, up to a later time, if nothing happens meanwhile. False: no time passes.
+  bool pass_quietly(std::uint64_t ps) {
+    if (ps >= next_ps_ || ps > known_horizon()) return false;
+    instant_ps_ = ps;
+    return true;
+  }
+  /// No clock edge up to now is left to run.
+  bool up_to_date(std::uint64_t now_ps) const { return next_ps_ > now_ps; }
 
   /// The same, but never waits for SystemC: stops before its next event. True if `condition` ended
   /// it.
@@ -105,27 +118,33 @@ class ClockScheduler : public sc_core::sc_module {
   friend class SignalBase;
 
   std::uint64_t kernel_ps() const { return kernel_time_.value(); }
-  /// Up to where no SystemC event lies, if that was found out since SystemC ran last; else 0.
-  std::uint64_t known_horizon() const {
-    return horizon_kernel_ps_ == kernel_ps() && horizon_delta_ == sc_core::sc_delta_count()
-               ? horizon_ps_
-               : 0;
+  static sc_dt::uint64 kernel_delta() {
+    // There is a simulation: so SystemC's code need not be ready to make one.
+    if (sc_core::sc_curr_simcontext == nullptr) __builtin_unreachable();
+    return sc_core::sc_delta_count();
   }
+  /// Up to where no SystemC event lies, if that was found out since SystemC ran last; else 0.
+  std::uint64_t known_horizon() const { return horizon_delta_ == kernel_delta() ? horizon_ps_ : 0; }
   std::uint64_t find_horizon();
+  std::uint64_t look_for_horizon();
 
   void start_of_simulation() override;
   void run();
   void run_due_instants();
-  void pass_instants(std::uint64_t ps, Condition condition, const void* context);
+  void pass_instants(std::uint64_t now_ps, std::uint64_t ps, Condition condition,
+                     const void* context);
   void wait_in_kernel(std::uint64_t ps, Condition condition, const void* context);
   enum class Ahead { reached, met, stopped };
   Ahead run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
+  void run_edges(std::size_t from, std::uint64_t ps);
+  void go_to_second();
   void commit_deferred();
   void order_modules();
   void mark_deferred_signals();
   void find_next();
   void reschedule();
+  void reschedule_earlier(const Clock& clock);
   void plan_wake_up();
   void defer(SignalBase& signal) { deferred_.push_back(&signal); }
 
@@ -141,10 +160,12 @@ class ClockScheduler : public sc_core::sc_module {
   const sc_core::sc_time& kernel_time_ = sc_core::sc_time_stamp();  ///< one object, always current
   std::uint64_t lookahead_ps_ = 0;
   std::uint64_t instant_ps_ = 0;
-  std::uint64_t next_ps_ = Clock::never;  ///< the next instant in which a clock has an edge
+  std::uint64_t next_ps_ = Clock::never;  ///< the next instant in which a clock has an edge,
+  std::size_t soonest_ = 0;               ///< the place of that clock in ticking_;
+  std::uint64_t others_ps_ = 0;           ///< no other one has an edge before this,
+  std::size_t second_ = 0;                ///< and this one had it when that was found out
   std::uint64_t horizon_ps_ = 0;          ///< no SystemC event lies before or at it; 0 unknown
-  std::uint64_t horizon_kernel_ps_ = 0;   ///< when that was found out
-  sc_dt::uint64 horizon_delta_ = 0;
+  sc_dt::uint64 horizon_delta_ = 0;       ///< when that was found out
   std::uint64_t clock_changes_ = 0;
   bool running_ = false;
   bool moved_ = false;  ///< the next edge of some clock, during the instant being run
@@ -152,6 +173,22 @@ class ClockScheduler : public sc_core::sc_module {
   bool stop_batch_ = false;
   bool started_ = false;
 };
+
+// As reschedule(), for a clock whose next edge now comes earlier than before.
+inline void ClockScheduler::reschedule_earlier(const Clock& clock) {
+  if (running_ || !started_) return reschedule();
+  const std::uint64_t ps = clock.next_.ps;
+  if (clock.number_ == soonest_) {
+    next_ps_ = std::min(next_ps_, ps);
+  } else if (ps < next_ps_) {
+    others_ps_ = std::exchange(next_ps_, ps);
+    second_ = std::exchange(soonest_, clock.number_);
+  } else if (ps < others_ps_) {
+    others_ps_ = ps;
+    second_ = clock.number_;
+  }
+  if (instant_ps_ <= kernel_ps()) plan_wake_up();
+}
 
 /// SystemC's default resolution of 1 ps is assumed everywhere: a time's value is its picoseconds.
 inline std::uint64_t to_ps(const sc_core::sc_time& time) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <utility>
@@ -24,13 +25,28 @@ class Counter : public sc_core::sc_object {
     return *this;
   }
   void add(std::uint64_t events) { value_ += events; }
-  void reset() { value_ = 0; }
+  void reset() { value_ -= get(); }
+  /// Some of its events are counted elsewhere, for several counters at once: each one there is
+  /// `weight` here.
+  void include(std::shared_ptr<const std::uint64_t> count, std::uint64_t weight) {
+    included_.push_back({std::move(count), weight});
+  }
 
-  std::uint64_t get() const { return value_; }
-  operator std::uint64_t() const { return value_; }
+  std::uint64_t get() const {
+    std::uint64_t sum = value_;
+    for (const Included& part : included_) sum += *part.count * part.weight;
+    return sum;
+  }
+  operator std::uint64_t() const { return get(); }
 
  private:
+  struct Included {
+    std::shared_ptr<const std::uint64_t> count;
+    std::uint64_t weight;
+  };
+
   std::uint64_t value_ = 0;
+  std::vector<Included> included_;
   std::string documentation_;
 };
 

@@ -9,11 +9,11 @@
 #include <tlm>
 #include <vector>
 
+#include <vp/clock_scheduler.h>
 #include <vp/register_description.h>
 
 namespace vp {
 
-class ClockScheduler;
 class RegisterBank;
 
 /// One register of a bank: its value, what software may do with it, and what happens then.
@@ -157,7 +157,8 @@ class RegisterBank : public sc_core::sc_module {
   /// brings it up to date.
   void before_access(std::function<void()> effect) { before_access_ = std::move(effect); }
 
-  /// An access by software, now: reads or writes `word`. `address` is for messages.
+  /// An access by software, now: reads or writes `word`. All clock edges up to now have run.
+  /// `address` is for messages.
   tlm::tlm_response_status access(Register& target, bool read, std::uint64_t address,
                                   std::uint32_t& word);
   /// Sets every register to its reset value; no effects.
@@ -186,5 +187,18 @@ class RegisterBank : public sc_core::sc_module {
   std::deque<Register> registers_;
   std::vector<Register*> by_word_;  ///< decode: word offset to register, null for a hole
 };
+
+inline tlm::tlm_response_status RegisterBank::access(Register& target, bool read,
+                                                     std::uint64_t address, std::uint32_t& word) {
+  if (held_in_reset_) return refuse_in_reset(address);
+  if (before_access_) before_access_();
+  if (read) {
+    word = target.read();
+  } else {
+    if (target.ignores_writes()) warn_of_ignored_write(target, word);
+    target.write(word);
+  }
+  return tlm::TLM_OK_RESPONSE;
+}
 
 }  // namespace vp

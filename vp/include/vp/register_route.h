@@ -10,12 +10,11 @@
 #include <unordered_map>
 #include <vector>
 
-namespace vp {
+#include <vp/clock_scheduler.h>
+#include <vp/mm_link.h>
+#include <vp/register_bank.h>
 
-class ClockScheduler;
-class MmLink;
-class Register;
-class RegisterBank;
+namespace vp {
 
 /// A part of the way to a register that takes time: a port of the bus, an interconnect. It says
 /// when an access passes it; the route lets the time pass.
@@ -90,8 +89,11 @@ class RegisterRoute {
     tlm::tlm_response_status status;
     std::uint64_t ps;  ///< when it is back at the initiator: now or later
   };
-  /// An access from now on. As complete().
-  Answer transfer(bool read, std::uint32_t& word);
+  /// An access from now on, which is `now_ps`. As complete().
+  Answer transfer(std::uint64_t now_ps, bool read, std::uint32_t& word) {
+    return single_stage_ ? transfer_through(*single_stage_, now_ps, read, word)
+                         : transfer_through_all(now_ps, read, word);
+  }
   /// Lets time pass until the access reaches the register, and reads or writes `word` there. From
   /// an SC_THREAD. Throws ProtocolError if a clock on the way stands.
   Answer complete(Access& access, std::uint32_t& word);
@@ -111,6 +113,8 @@ class RegisterRoute {
   void credit_reads(std::uint64_t reads, std::uint32_t word);
 
  private:
+  static constexpr std::uint64_t word_bytes = 4;
+
   struct Stop {
     const RouteStage* stage;
     std::uint64_t address;  ///< as the stage sees it
@@ -128,11 +132,23 @@ class RegisterRoute {
   void wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
                      std::uint64_t& changes) const;
   bool look_again(const Stop& stop, RouteStage::Passage& passage, std::uint64_t& changes) const;
-  Answer transfer_through(const Stop& stop, bool read, std::uint32_t& word);
+  Answer transfer_through(const RouteStage& stage, std::uint64_t now_ps, bool read,
+                          std::uint32_t& word);
+  Answer transfer_through_all(std::uint64_t now_ps, bool read, std::uint32_t& word);
+  void count_on_links();
   void count(bool read, bool failed);
 
+  /// Accesses without error, which every link on the way counts. The counters there may live longer
+  /// than the route, or shorter.
+  struct Counts {
+    std::uint64_t reads = 0;
+    std::uint64_t writes = 0;
+  };
+
   std::vector<MmLink*> links_;
+  std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();
   std::vector<Stop> stops_;
+  const RouteStage* single_stage_ = nullptr;  ///< if there is one, as on nearly every route
   RegisterBank* bank_ = nullptr;
   Register* register_ = nullptr;
   std::uint64_t address_ = 0;  ///< as the bank sees it
@@ -167,5 +183,33 @@ class RegisterRoutes {
   std::array<Recent, recent_count> recent_;
   std::unordered_map<std::uint64_t, std::unique_ptr<RegisterRoute>> routes_;
 };
+
+// Register accesses are most of what a program does: the usual way is inlined.
+inline void RegisterRoute::count(bool read, bool failed) {
+  if (failed) {
+    const auto command = read ? tlm::TLM_READ_COMMAND : tlm::TLM_WRITE_COMMAND;
+    for (MmLink* link : links_) link->count(command, word_bytes, failed);
+  } else {
+    ++(read ? counts_->reads : counts_->writes);
+  }
+}
+
+inline RegisterRoute::Answer RegisterRoute::transfer_through(const RouteStage& stage,
+                                                             std::uint64_t now_ps, bool read,
+                                                             std::uint32_t& word) {
+  std::uint64_t changes = scheduler_->clock_changes();
+  RouteStage::Passage passage;
+  stage.enter(read, now_ps, passage);
+  const Stop& stop = stops_.front();
+  if (passage.leaves_ps == Clock::never) report_bus_hang(stage, read, stop.address);
+  scheduler_->pass_from(now_ps, passage.leaves_ps);
+  if (changes != scheduler_->clock_changes() && look_again(stop, passage, changes)) {
+    wait_to_leave(stop, passage, read, changes);
+  }
+  Answer answer{bank_->access(*register_, read, address_, word), 0};
+  answer.ps = std::max(passage.leaves_ps + passage.rest_ps, passage.answer_ps);
+  count(read, answer.status != tlm::TLM_OK_RESPONSE);
+  return answer;
+}
 
 }  // namespace vp

@@ -74,8 +74,10 @@ class SignalBase : public sc_core::sc_object {
   };
   std::vector<Listener> listeners_;
   Clocked* writer_ = nullptr;
+  void notify_events();
   void notify(sc_core::sc_event& event);
 
+  mutable bool has_events_ = false;
   mutable std::unique_ptr<sc_core::sc_event> events_[event_kinds];
 };
 
