@@ -53,27 +53,40 @@ void Gic::end_of_elaboration() {
 }
 
 void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
+  bool risen = true;
   if (id == f2p_listener) {
-    set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
+    risen = set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
   } else {
     logic_.set_wire(id, wires_.at(id)->get());
   }
-  update_outputs();
+  if (risen || !idle_) update_lines();
 }
 
-void Gic::set_f2p(std::uint32_t levels) {
+// True if an input has risen.
+bool Gic::set_f2p(std::uint32_t levels) {
+  const bool risen = (levels & ~f2p_levels_) != 0;
   for (std::uint32_t changed = levels ^ f2p_levels_; changed != 0; changed &= changed - 1) {
     const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
     logic_.set_wire(f2p_id(bit), (levels >> bit & 1) != 0);
   }
   f2p_levels_ = levels;
+  return risen;
 }
 
+// After every change of the logic. ICCIAR shows what it came to.
 void Gic::update_outputs() {
-  const InterruptLogic::Line line = logic_.signalled();
-  n_irq = line != InterruptLogic::Line::irq;
-  n_fiq = line != InterruptLogic::Line::fiq;
+  update_lines();
   active = logic_.first_active();
+}
+
+// No interrupt became active or ended.
+void Gic::update_lines() {
+  InterruptLogic::Signalled signalled;
+  idle_ = !logic_.any_waiting();
+  if (!idle_) signalled = logic_.signalled();
+  acknowledgeable_ = signalled.id;
+  n_irq = signalled.line != InterruptLogic::Line::irq;
+  n_fiq = signalled.line != InterruptLogic::Line::fiq;
 }
 
 void Gic::wire_cpu_interface() {
@@ -99,7 +112,7 @@ void Gic::wire_cpu_interface() {
   binary_point(gic::ICCABPR, &InterruptLogic::iccabpr);
 
   vp::Register& icciar = cpu_interface[gic::ICCIAR];
-  icciar.computed_by([this] { return logic_.acknowledgeable(); });
+  icciar.computed_by([this] { return acknowledgeable_; });
   icciar.after_read([this](std::uint32_t id) {
     logic_.acknowledge(id);
     ++(id < gic::id_count ? acknowledged : spurious);

@@ -54,10 +54,13 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   void end_of_interrupt(std::uint32_t word);
   void raise_software_interrupt(std::uint32_t word);
 
-  void set_f2p(std::uint32_t levels);
+  bool set_f2p(std::uint32_t levels);
   void update_outputs();
+  void update_lines();
 
   InterruptLogic logic_;
+  std::uint32_t acknowledgeable_ = gic::spurious_id;  ///< what ICCIAR would return
+  bool idle_ = false;                                 ///< nothing is forwarded to the CPU interface
   std::uint32_t f2p_levels_ = 0;
   std::map<std::uint32_t, vp::Signal<bool>*> wires_;
 };

@@ -34,11 +34,9 @@ void InterruptLogic::set_wire(std::uint32_t id, bool level) {
 
 // What the distributor lets through of interrupts 32 · n …
 std::uint32_t InterruptLogic::forwarded(unsigned n) const {
-  const std::uint32_t waiting = pending(n) & enabled.word(n) & ~active.word(n) & targeted.word(n);
-  if (waiting == 0) return 0;
   const std::uint32_t groups = ((icddcr & gic::icddcr::EnableNS) != 0 ? non_secure.word(n) : 0) |
                                ((icddcr & gic::icddcr::EnableS) != 0 ? ~non_secure.word(n) : 0);
-  return waiting & groups;
+  return waiting(n) & groups;
 }
 
 // The most urgent interrupt that the distributor forwards; of equals the lowest id.
@@ -98,9 +96,10 @@ std::uint32_t InterruptLogic::as_seen(std::uint32_t id) const {
   return hidden ? gic::non_secure_id : id;
 }
 
-std::uint32_t InterruptLogic::acknowledgeable() const {
+InterruptLogic::Signalled InterruptLogic::signalled() const {
   const std::uint32_t id = candidate();
-  return line_of(id) == Line::none ? gic::spurious_id : as_seen(id);
+  const Line line = line_of(id);
+  return {line, line == Line::none ? gic::spurious_id : as_seen(id)};
 }
 
 void InterruptLogic::acknowledge(std::uint32_t id) {

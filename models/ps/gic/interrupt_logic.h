@@ -57,13 +57,21 @@ class InterruptLogic {
   /// not.
   void set_wire(std::uint32_t id, bool level);
 
+  /// An interrupt is pending that the distributor forwards if its group is enabled.
+  bool any_waiting() const {
+    static_assert(gic::bit_registers == 3);
+    return (waiting(0) | waiting(1) | waiting(2)) != 0;
+  }
   /// The line to the CPU that is asserted.
   enum class Line { none, irq, fiq };
-  Line signalled() const { return line_of(candidate()); }
+  struct Signalled {
+    Line line = Line::none;
+    std::uint32_t id = gic::spurious_id;  ///< what ICCIAR would return: the signalled interrupt;
+                                          ///< 1023 if none, 1022 if it is non-secure and AckCtl 0
+  };
+  /// Nothing, unless any_waiting().
+  Signalled signalled() const;
 
-  /// What ICCIAR would return: the signalled interrupt; 1023 if there is none, 1022 if it is
-  /// non-secure and AckCtl is 0.
-  std::uint32_t acknowledgeable() const;
   /// ICCIAR returned `id`: that interrupt becomes active.
   void acknowledge(std::uint32_t id);
   /// Writes ICCEOIR. False if the interrupt was not active (a mistake of the software; nothing
@@ -78,6 +86,9 @@ class InterruptLogic {
   std::uint32_t running_priority() const;
 
  private:
+  std::uint32_t waiting(unsigned n) const {
+    return pending(n) & enabled.word(n) & ~active.word(n) & targeted.word(n);
+  }
   std::uint32_t candidate() const;
   std::uint32_t forwarded(unsigned n) const;
   bool preempts(std::uint32_t id) const;

@@ -233,6 +233,29 @@ BOOST_AUTO_TEST_CASE(the_most_urgent_comes_first_of_equals_the_lowest) {
   });
 }
 
+// What is most urgent decides, even if its group is closed at the CPU interface: when its wire
+// falls, the next one comes through.
+BOOST_AUTO_TEST_CASE(a_wire_that_falls_uncovers_the_next) {
+  GicBench b;
+  b.run([&b] {
+    set_up(61, 0x40);
+    set_up(62, 0x80);
+    change(icd + gic::ICDISR(1), 1u << 29, 1u << 29);  // 61 is non-secure
+    hal_write32(icd + gic::ICDDCR, 3);
+    hal_write32(icc + gic::ICCICR, gic::iccicr::EnableS);
+    b.irq_f2p = 3;
+    BOOST_TEST(!b.irq());
+    b.irq_f2p = 2;
+    BOOST_TEST(b.irq());
+    BOOST_TEST(acknowledge() == 62u);
+    BOOST_TEST(!b.irq());
+    b.irq_f2p = 0;
+    end(62);
+    BOOST_TEST(!b.irq());
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(the_binary_point_limits_preemption) {
   GicBench b;
   b.run([&] {
