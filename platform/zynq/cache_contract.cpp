@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::uint64_t line = ps::DmaAllocator::cache_line;
 
+/// std::any_of without an early end: nearly always there is none, and so it is vectorised.
+template <class Predicate>
+bool any_of_all(const std::vector<unsigned char>& values, Predicate predicate) {
+  unsigned char any = 0;
+  for (const unsigned char value : values) any |= static_cast<unsigned char>(predicate(value));
+  return any != 0;
+}
+
 }  // namespace
 
 CacheContract::Watch::Watch(CacheContract& contract, vp::MmLink& link)
@@ -53,9 +61,9 @@ void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned ma
   const std::uint64_t from = (address - first_) / line;
   const std::uint64_t to = (std::min(address + bytes, end_) - 1 - first_) / line;
   if (lines_.size() <= to) lines_.resize(to + 1);
-  for (std::uint64_t i = from; i <= to; ++i) {
-    lines_[i] = static_cast<unsigned char>(lines_[i] | marks);
-  }
+  const auto bits = static_cast<unsigned char>(marks);
+  unsigned char* const lines = lines_.data();
+  for (std::uint64_t i = from; i <= to; ++i) lines[i] = static_cast<unsigned char>(lines[i] | bits);
 }
 
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
@@ -74,8 +82,12 @@ void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
 
 void CacheContract::published() {
   if (warned_of_write_) return;
+  const auto stale = [](unsigned char marks) {
+    return (marks & (written | invalidated)) == written;
+  };
+  if (!any_of_all(lines_, stale)) return;
   for (std::uint64_t i = 0; i < lines_.size(); ++i) {
-    if ((lines_[i] & (written | invalidated)) != written) continue;
+    if (!stale(lines_[i])) continue;
     warned_of_write_ = true;
     vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
              "a DMA wrote " + vp::hex(first_ + i * line) +

@@ -127,26 +127,36 @@ void AxiDma::warn(const char* id, const std::string& message) const {
   vp::warn(*this, id, message);
 }
 
+// A register behind status AND enable.
+inline void AxiDma::drive(Interrupt& interrupt) {
+  const bool level = !resetting_ && interrupt.channel->interrupt();
+  if (level == interrupt.level) return;
+  interrupt.level = level;
+  interrupt.output->write(level);
+}
+
+inline bool AxiDma::interrupts_differ() const {
+  for (const Interrupt& i : interrupts_) {
+    if (i.level != i.channel->interrupt()) return true;
+  }
+  return false;
+}
+
 // Asleep while no channel has anything to do: software, the streams and alarms wake it.
 void AxiDma::edge() {
-  const std::uint64_t cycle = clock().cycle();
+  const std::uint64_t cycle = this_edge();
   const bool was_stopped = stopped_;
-  for (const Interrupt& i : interrupts_) {
+  for (Interrupt& i : interrupts_) {
     if (i.channel->finishing()) i.channel->bring_up_to(cycle - 1);
+    drive(i);
   }
-  drive_interrupts();
   std::uint64_t next = vp::Clock::never;
   for (const Interrupt& i : interrupts_) next = std::min(next, i.channel->edge(cycle));
   if (resetting_) next = std::min(next, run_soft_reset(cycle));
   if (interrupts_differ()) next = cycle + 1;
   if (stopped_ && !was_stopped) next = cycle + 1;  // a channel that ran before the other failed
-  sleep_until(next, cycle);
-}
-
-void AxiDma::sleep_until(std::uint64_t next, std::uint64_t cycle) {
-  sleep();
   planned_ = std::max(next, cycle + 1);
-  wake_at(planned_);
+  sleep_until(planned_);
 }
 
 void AxiDma::plan_edge(std::uint64_t cycle) {
@@ -155,23 +165,8 @@ void AxiDma::plan_edge(std::uint64_t cycle) {
   wake_at(cycle);
 }
 
-bool AxiDma::interrupts_differ() const {
-  return std::any_of(interrupts_.begin(), interrupts_.end(),
-                     [](const Interrupt& i) { return i.level != i.channel->interrupt(); });
-}
-
 void AxiDma::plan_interrupts() {
   if (interrupts_differ()) plan_edge(clock().cycle() + 1);
-}
-
-// A register behind status AND enable.
-void AxiDma::drive_interrupts() {
-  for (Interrupt& i : interrupts_) {
-    const bool level = !resetting_ && i.channel->interrupt();
-    if (level == i.level) continue;
-    i.level = level;
-    i.output->write(level);
-  }
 }
 
 void AxiDma::stop_channels() {

@@ -84,11 +84,10 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   void warn(const char* id, const std::string& message) const override;
 
   void build_channels();
-  void drive_interrupts();
+  void drive(Interrupt& interrupt);
   bool interrupts_differ() const;
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();
-  void sleep_until(std::uint64_t next, std::uint64_t cycle);
 
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;

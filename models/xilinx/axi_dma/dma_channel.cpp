@@ -114,7 +114,7 @@ std::uint64_t DmaChannel::starts_at() const {
 
 std::uint64_t DmaChannel::edge(std::uint64_t cycle) {
   sample(cycle);
-  if (core_.in_soft_reset()) return never;
+  if (at_rest() || core_.in_soft_reset()) return never;
   std::uint64_t next = never;
   if (phase_ == Phase::accepted) {
     if (cycle < starts_at()) {

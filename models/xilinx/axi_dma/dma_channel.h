@@ -118,6 +118,9 @@ class DmaChannel {
   void status_written(std::uint32_t word);
   void length_written(std::uint32_t word);
   void latch_address();
+  bool at_rest() const {
+    return phase_ == Phase::idle && run_at_ == never && halt_at_ == never && !halting_;
+  }
   std::uint64_t starts_at() const;
   void start(std::uint64_t cycle);
   std::uint64_t shows_at() const;

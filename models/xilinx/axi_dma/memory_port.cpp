@@ -33,6 +33,14 @@ void MemoryPort::read(std::uint64_t address, unsigned char* data, unsigned bytes
   access(tlm::TLM_READ_COMMAND, address, data, bytes, fixed);
 }
 
+bool MemoryPort::read_directly(std::uint64_t address, void* data, unsigned bytes) {
+  const unsigned char* memory = direct_pointer(tlm::TLM_READ_COMMAND, address, bytes);
+  if (!memory) return false;
+  std::memcpy(data, memory, bytes);
+  link.account(tlm::TLM_READ_COMMAND, address, bytes);
+  return true;
+}
+
 void MemoryPort::write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed) {
   access(tlm::TLM_WRITE_COMMAND, address, data, bytes, fixed);
 }
@@ -57,7 +65,7 @@ bool MemoryPort::access_directly() {
   const std::uint64_t address = payload_.get_address();
   const unsigned bytes = payload_.get_data_length();
   const unsigned step = payload_.get_streaming_width();
-  unsigned char* memory = direct_pointer(address, step);
+  unsigned char* memory = direct_pointer(payload_.get_command(), address, step);
   if (!memory) return false;
   for (unsigned at = 0; at < bytes; at += step) {
     unsigned char* data = payload_.get_data_ptr() + at;
@@ -73,23 +81,29 @@ bool MemoryPort::access_directly() {
   return true;
 }
 
-const tlm::tlm_dmi* MemoryPort::window(std::uint64_t address, unsigned bytes) const {
+const tlm::tlm_dmi* MemoryPort::window(tlm::tlm_command command, std::uint64_t address,
+                                       unsigned bytes) const {
   for (const tlm::tlm_dmi& w : windows_) {
     if (address >= w.get_start_address() && address <= w.get_end_address() &&
-        bytes - 1 <= w.get_end_address() - address && allows(w, payload_.get_command())) {
+        bytes - 1 <= w.get_end_address() - address && allows(w, command)) {
       return &w;
     }
   }
   return nullptr;
 }
 
-unsigned char* MemoryPort::direct_pointer(std::uint64_t address, unsigned bytes) {
-  const tlm::tlm_dmi* found = window(address, bytes);
+unsigned char* MemoryPort::direct_pointer(tlm::tlm_command command, std::uint64_t address,
+                                          unsigned bytes) {
+  const tlm::tlm_dmi* found = window(command, address, bytes);
   if (!found) {
+    tlm::tlm_generic_payload request;
+    request.set_command(command);
+    request.set_address(address);
+    request.set_data_length(bytes);
     tlm::tlm_dmi dmi;
-    if (!link.direct_memory(payload_, dmi)) return nullptr;
+    if (!link.direct_memory(request, dmi)) return nullptr;
     windows_.push_back(dmi);
-    found = window(address, bytes);
+    found = window(command, address, bytes);
   }
   return found ? found->get_dmi_ptr() + (address - found->get_start_address()) : nullptr;
 }

@@ -40,6 +40,9 @@ class MemoryPort : public sc_core::sc_module {
   void read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
   void write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
 
+  /// One burst, read at once if the memory gives direct access to all of it. False: not read.
+  bool read_directly(std::uint64_t address, void* data, unsigned bytes);
+
   /// The last burst is over.
   bool done() const { return done_; }
   /// Its answer: TLM_OK_RESPONSE or an error.
@@ -49,8 +52,8 @@ class MemoryPort : public sc_core::sc_module {
   void access(tlm::tlm_command command, std::uint64_t address, unsigned char* data, unsigned bytes,
               bool fixed);
   bool access_directly();
-  unsigned char* direct_pointer(std::uint64_t address, unsigned bytes);
-  const tlm::tlm_dmi* window(std::uint64_t address, unsigned bytes) const;
+  unsigned char* direct_pointer(tlm::tlm_command command, std::uint64_t address, unsigned bytes);
+  const tlm::tlm_dmi* window(tlm::tlm_command command, std::uint64_t address, unsigned bytes) const;
   void run();
 
   vp::ClockScheduler& scheduler_;

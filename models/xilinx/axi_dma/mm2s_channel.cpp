@@ -49,8 +49,10 @@ std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
     return never;
   }
   if (!bursts_.empty() && bursts_.back().pending && m_axi.done()) schedule(bursts_.back(), cycle);
-  if (next_request_at(cycle) <= cycle) request(cycle);
-  if (!offering_ && start_whole_burst(cycle)) return never;
+  if (next_request_at(cycle) <= cycle) {
+    if (take_whole_burst(cycle)) return never;
+    request(cycle);
+  }
   if ((!offering_ || accepted_) && !offer(cycle)) withdraw();
   return next_edge(cycle);
 }
@@ -82,7 +84,6 @@ void Mm2sChannel::request(std::uint64_t cycle) {
   const unsigned bytes = burst_bytes();
   Burst& burst = bursts_.emplace_back();
   burst.lead = static_cast<unsigned>(read_address_ % word_bytes);
-  burst.data = std::exchange(spare_, {});
   burst.data.resize(bytes);
   m_axi.read(read_address_, burst.data.data(), bytes, keyhole());
   to_request_ -= bytes;
@@ -169,50 +170,57 @@ std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
 
 // ---- bursts as a whole
 
-// The rest of a transfer, if it is one burst of whole words whose time is known.
-bool Mm2sChannel::start_whole_burst(std::uint64_t cycle) {
+// A transfer of one burst of whole words whose data is there at once: its time is known.
+bool Mm2sChannel::take_whole_burst(std::uint64_t cycle) {
+  const std::uint32_t bytes = to_request_;
+  if (bytes != to_send_ || !bursts_.empty() || offering_) return false;
+  if (burst_bytes() != bytes || keyhole()) return false;
+  if ((read_address_ | bytes) % word_bytes != 0) return false;
   const vp::BurstSink* sink = m_axis.sink();
-  if (!sink || to_request_ != 0 || bursts_.size() != 1 || taken_ != 0) return false;
-  const Burst& burst = bursts_.front();
-  if (burst.pending || burst.response != tlm::TLM_OK_RESPONSE || burst.lead != 0) return false;
-  if (to_send_ != burst.data.size() || to_send_ % word_bytes != 0) return false;
-  if (!sink->takes_bursts()) return false;
-  whole_first_ = std::max(cycle, burst.first);
-  whole_burst_.resize(to_send_ / word_bytes);
-  std::memcpy(whole_burst_.data(), burst.data.data(), burst.data.size());
-  finish(whole_first_ + whole_burst_.size() + core_.timing().completion_latency);
+  if (!sink || !sink->takes_bursts()) return false;
+  if (whole_burst_.size() < bytes / word_bytes) whole_burst_.resize(bytes / word_bytes);
+  if (!m_axi.read_directly(read_address_, whole_burst_.data(), bytes)) return false;
+  whole_words_ = bytes / word_bytes;
+  const DmaTiming& t = core_.timing();
+  std::uint64_t& bus_free = m_axi.path().read_free;
+  whole_first_ = std::max(cycle + t.read_latency + t.memory_read_latency, bus_free);
+  bus_free = bus_busy_until_ = whole_first_ + whole_words_;
+  finish(bus_busy_until_ + t.completion_latency);
   return true;
 }
 
 void Mm2sChannel::completed() {
-  if (whole_burst_.empty()) return;
-  m_axis.send_burst(whole_burst_.data(), static_cast<std::uint32_t>(whole_burst_.size()), true);
-  whole_burst_.clear();
-  spare_ = std::move(bursts_.front().data);
-  bursts_.clear();
-  to_send_ = buffered_ = 0;
+  if (whole_words_ == 0) return;
+  m_axis.send_burst(whole_burst_.data(), whole_words_, true);
+  whole_words_ = 0;
+  to_request_ = to_send_ = 0;
 }
 
 // What passed so far is given; the state is that of single beats from here on.
 void Mm2sChannel::settle(std::uint64_t cycle) {
-  if (whole_burst_.empty()) return;
-  if (cycle >= whole_first_ + whole_burst_.size()) return completed();
-  const std::vector<std::uint32_t> words = std::exchange(whole_burst_, {});
+  if (whole_words_ == 0) return;
+  if (cycle >= whole_first_ + whole_words_) return completed();
   unfinish();
   core_.plan_edge(cycle + 1);
+  const std::uint32_t count = std::exchange(whole_words_, 0);
+  to_request_ = 0;
+  buffered_ = to_send_;
+  Burst& burst = bursts_.emplace_back();
+  burst.first = whole_first_;
+  burst.data.resize(to_send_);
+  std::memcpy(burst.data.data(), whole_burst_.data(), to_send_);
   if (cycle < whole_first_) return;
-  const auto last = static_cast<std::uint32_t>(words.size() - 1);
   const auto passed = static_cast<std::uint32_t>(cycle - whole_first_);
-  if (passed != 0) m_axis.send_burst(words.data(), passed, false);
+  if (passed != 0) m_axis.send_burst(whole_burst_.data(), passed, false);
   taken_ = (passed + 1) * word_bytes;
   to_send_ -= taken_;
   buffered_ -= taken_;
-  if (taken_ == bursts_.front().data.size()) {
+  if (taken_ == burst.data.size()) {
     bursts_.pop_front();
     taken_ = 0;
   }
   offering_ = true;
-  m_axis.offer(words[passed], passed == last);
+  m_axis.offer(whole_burst_[passed], passed + 1 == count);
 }
 
 void Mm2sChannel::abandon() {

@@ -46,12 +46,11 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   void withdraw();
   std::uint64_t next_edge(std::uint64_t cycle) const;
   std::uint64_t next_beat_at() const;
-  bool start_whole_burst(std::uint64_t cycle);
+  bool take_whole_burst(std::uint64_t cycle);
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_size_;   ///< bytes
   std::deque<Burst> bursts_;
-  std::vector<unsigned char> spare_;  ///< memory for the data of another burst
   std::uint64_t read_address_ = 0;
   std::uint32_t to_request_ = 0;  ///< bytes of the transfer not requested yet
   std::uint32_t to_send_ = 0;     ///< bytes not offered yet
@@ -59,10 +58,12 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   unsigned taken_ = 0;            ///< bytes of the first burst offered already
   std::uint64_t request_at_ = 0;
   std::uint64_t bus_busy_until_ = 0;
-  bool offering_ = false;                   ///< tvalid, as driven last
-  bool accepted_ = false;                   ///< the beat on offer passed on this edge
-  std::vector<std::uint32_t> whole_burst_;  ///< words that go to a sink in one call
-  std::uint64_t whole_first_ = 0;           ///< edge from which its first beat is on offer
+  bool offering_ = false;  ///< tvalid, as driven last
+  bool accepted_ = false;  ///< the beat on offer passed on this edge
+  std::vector<std::uint32_t>
+      whole_burst_;                ///< begins with the words that go to a sink in one call,
+  std::uint32_t whole_words_ = 0;  ///< so many
+  std::uint64_t whole_first_ = 0;  ///< edge from which its first beat is on offer
 };
 
 }  // namespace xilinx
