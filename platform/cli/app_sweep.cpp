@@ -36,6 +36,9 @@ void add_run_options(CLI::App& command, SweepOptions& target) {
       ->type_name("local|slurm")
       ->check(CLI::IsMember({"local", "slurm"}).description(""));
   command.add_flag("--retry-failed", target.retry_failed, "compute points that failed once more");
+  command.add_flag(
+      "--isolate", target.isolate,
+      "each point in a process of its own (default: those of PS programs of your own)");
   command
       .add_option("--chunk", target.chunk, "Slurm: points a task (default: some seconds' worth)")
       ->type_name("N")
@@ -73,6 +76,7 @@ void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
   command->add_option("DIR", target.folder, "the sweep")->required();
   command->add_option("SUBMISSION", target.submission, "its number")->required();
   command->add_option("TASK", target.task, "its number")->required();
+  command->add_option("POINTS", target.points_a_process, "points a process")->required();
 }
 
 void add_pareto(CLI::App& app, ParetoOptions& target) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <cli/options.h>
 #include <cli/simulation.h>
+#include <report/result_document.h>
 
 namespace CLI {
 class App;
@@ -20,6 +22,17 @@ namespace platform::cli {
 /// `incomplete`.
 int run(const RunOptions& options, const std::vector<std::string>& arguments,
         const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+
+/// What a run found that writes nothing.
+struct MemoryRun {
+  report::ResultDocument result;
+  std::map<std::string, std::string> configuration;  ///< effective
+};
+
+/// run() without files and console: no pictures, page, trace. `result` is filled when run() would
+/// have written result.json, also if this throws.
+int run_in_memory(const RunOptions& options, const SimulationFactory& make_simulation,
+                  MemoryRun& result, std::ostream& err);
 
 int list_scenes(const ScenesOptions& options, std::ostream& out);
 

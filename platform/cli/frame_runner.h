@@ -11,7 +11,7 @@
 #include <cli/simulation.h>
 #include <input/frame_source.h>
 #include <page/run_extras.h>
-#include <report/result_writer.h>
+#include <report/result_sink.h>
 #include <vp/progress.h>
 
 namespace platform::cli {
@@ -26,7 +26,7 @@ class FrameRunner {
     bool text = true;       ///< a few lines per frame on `out`
     bool progress = false;  ///< a bar on stderr
     std::ostream& out;
-    report::ResultWriter& result;
+    report::ResultSink& result;
     page::RunExtras* page = nullptr;  ///< gets images and features; null: no page
   };
 

@@ -119,6 +119,7 @@ struct SweepOptions {
   bool yes = false;
   bool dry_run = false;
   bool retry_failed = false;
+  bool isolate = false;  ///< a process of its own for each point
   bool no_report = false;
   std::uint32_t chunk = 0;    ///< 0: some seconds' worth
   std::uint32_t at_once = 0;  ///< 0: all that fit
@@ -130,6 +131,7 @@ struct SweepWorkerOptions {
   std::string folder;
   std::uint32_t submission = 0;
   std::uint32_t task = 0;
+  std::uint32_t points_a_process = 1;
 };
 
 /// `markervp pareto`.

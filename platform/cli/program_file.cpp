@@ -17,11 +17,16 @@ constexpr const char* usual_program = "hybrid";
 
 }  // namespace
 
-std::string program_file(const std::optional<std::string>& asked) {
-  const std::string name = asked.value_or(usual_program);
+bool is_own_program(const std::string& name) {
   const bool is_name = fs::path(name).filename() == name && !fs::path(name).has_extension();
   std::error_code ignored;
-  if (asked && (!is_name || fs::exists(name, ignored))) return name;
+  return !is_name || fs::exists(name, ignored);
+}
+
+std::string program_file(const std::optional<std::string>& asked) {
+  const std::string name = asked.value_or(usual_program);
+  if (asked && is_own_program(name)) return name;
+  std::error_code ignored;
   std::vector<std::string> folders;
   for (const std::string& folder : input::library_folders()) {
     const fs::path programs = fs::path(folder) / "programs";

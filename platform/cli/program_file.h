@@ -10,4 +10,7 @@ namespace platform::cli {
 /// file is called so. Throws vp::InputError if there is no program of that name.
 std::string program_file(const std::optional<std::string>& asked);
 
+/// Whether program_file() takes the name for a file.
+bool is_own_program(const std::string& name);
+
 }  // namespace platform::cli

@@ -16,10 +16,9 @@ struct ChildEnd {
   std::string err;
 };
 
-/// Work in a forked process: SystemC elaborates once in a process, so every run of many needs its
-/// own, and a PS program that crashes takes nobody with it. The child begins as a copy of the
-/// caller, which must have no other threads; what it is to return, it writes to a file. It ends
-/// with its parent, and with this object.
+/// Work in a forked process, so that a PS program that crashes takes nobody with it. The child
+/// begins as a copy of the caller, which must have no other threads; what it is to return, it
+/// writes to a file. It ends with its parent, and with this object.
 class RunChild {
  public:
   /// Returns the exit code; an exception becomes the one that the command line gives it, its

@@ -5,22 +5,23 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <ostream>
+#include <sstream>
 
 #include <cli/commands.h>
 #include <cli/frame_runner.h>
 #include <cli/interrupt.h>
 #include <cli/point_options.h>
 #include <cli/program.h>
+#include <cli/provenance.h>
 #include <cli/trace_window.h>
-#include <cli/version.h>
 #include <page/page_file.h>
 #include <page/report_page.h>
 #include <page/run_extras.h>
 #include <report/console.h>
 #include <report/file_output.h>
+#include <report/result_writer.h>
 #include <report/words.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -128,38 +129,6 @@ void check_trace_folder(const RunOptions& options) {
                        "; name a file in a folder that exists and may be written");
 }
 
-std::string host_name() {
-  char name[256] = "";
-  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
-  return name;
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
-                              const vp::Configuration& configuration) {
-  report::Provenance result;
-  result.program = "markervp";
-  result.version = program_version();
-  result.revision = source_revision();
-  result.configuration_hash = configuration.hash();
-  result.command_line = arguments;
-  result.host = host_name();
-  result.date = utc_now();
-  result.details.emplace_back("output", options.output);
-  if (options.camera) result.details.emplace_back("camera", *options.camera);
-  if (options.program) result.details.emplace_back("program_file", *options.program);
-  if (options.trace) result.details.emplace_back("trace", *options.trace);
-  return result;
-}
-
 /// What `error` says; empty for none.
 std::string message_of(const std::exception_ptr& error) {
   if (!error) return "";
@@ -243,10 +212,10 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
   return done;
 }
 
-}  // namespace
-
-int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
-        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+/// The result goes to `memory`, and nothing is written; null: to files, as the options say.
+int run_into(MemoryRun* memory, const RunOptions& asked_for,
+             const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
+             std::ostream& out, std::ostream& err) {
   const HostClock::time_point start = HostClock::now();
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
@@ -260,14 +229,17 @@ int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
       input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
   FrameRunner runner(*source);
   check_trace_folder(options);
-  const bool made_folder = report::prepare_output_folder(options.output);
+  const bool made_folder = !memory && report::prepare_output_folder(options.output);
   std::optional<report::AtomicFile> timeline_file;
   if (options.timeline) timeline_file.emplace(*options.timeline);
-  report::Provenance origin = provenance(options, arguments, configuration);
+  report::Provenance origin;
+  if (!memory) origin = provenance(options, arguments, configuration);
   Warner warner(err);
   warner.print(source->warnings());
 
-  report::ResultWriter result(options.output);
+  std::unique_ptr<report::ResultWriter> file;
+  if (!memory) file = std::make_unique<report::ResultWriter>(options.output);
+  report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
   const InterruptGuard guard;
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
@@ -281,7 +253,7 @@ int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
   }
   warner.print(source->warnings());
   report::RunFacts facts = simulation->facts();
-  facts.configuration = configuration.values();
+  if (!memory) facts.configuration = configuration.values();
   if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
   if (facts.resources) warner.print(report::resource_warnings(*facts.resources));
   if (facts.power) warner.print(report::power_warnings(*facts.power));
@@ -291,6 +263,10 @@ int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
   std::vector<std::string> warnings = warner.all();
   warnings.insert(warnings.end(), facts.warnings.begin(), facts.warnings.end());
   result.finish(facts, origin, warnings, incomplete(runner));
+  if (memory) {
+    memory->configuration = configuration.values();
+    return verdict(options, runner, facts, err);
+  }
   const report::Timeline timeline = simulation->timeline();
   if (timeline_file) {
     timeline_file->write(report::trace_event_json(timeline));
@@ -302,6 +278,21 @@ int run(const RunOptions& asked_for, const std::vector<std::string>& arguments,
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
       << written_text(options, runner, has_page) << std::flush;
   return verdict(options, runner, facts, err);
+}
+
+}  // namespace
+
+int run(const RunOptions& options, const std::vector<std::string>& arguments,
+        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  return run_into(nullptr, options, arguments, make_simulation, out, err);
+}
+
+int run_in_memory(const RunOptions& options, const SimulationFactory& make_simulation,
+                  MemoryRun& result, std::ostream& err) {
+  RunOptions silent = options;
+  silent.no_pictures = silent.no_report = silent.quiet = true;
+  std::ostringstream unread;
+  return run_into(&result, silent, {}, make_simulation, unread, err);
 }
 
 }  // namespace platform::cli

@@ -3,19 +3,25 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include <cli/commands.h>
 #include <cli/interrupt.h>
 #include <cli/program.h>
+#include <cli/program_file.h>
 #include <cli/sweep_platform.h>
 #include <page/report_page.h>
 #include <report/words.h>
 #include <sweep/database.h>
 #include <sweep/durable_file.h>
 #include <sweep/engine_slurm.h>
+#include <sweep/figure_names.h>
 #include <sweep/results_csv.h>
 #include <sweep/studies.h>
 #include <sweep/summary.h>
@@ -68,6 +74,10 @@ int show_points(const sweep::Manifest& manifest, std::ostream& out) {
   return done;
 }
 
+void warn(const std::vector<std::string>& warnings, std::ostream& err) {
+  for (const std::string& warning : warnings) err << "markervp: warning: " << warning << std::endl;
+}
+
 /// Says what else is in the folder.
 void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, std::ostream& err) {
   std::vector<std::string> foreign;
@@ -98,21 +108,52 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
         << version << ") stay as they are and count for nothing here" << std::endl;
 }
 
-/// Positions of the points that have no result. Throws vp::InputError for a damaged one.
-std::vector<std::size_t> pending_points(const sweep::Store& store, const sweep::Manifest& manifest,
-                                        bool retry_failed) {
-  std::vector<std::size_t> pending;
-  for (std::size_t i = 0; i < manifest.points.size(); ++i) {
-    const std::string& key = manifest.points[i].key;
-    bool wanted = !store.has(key);
-    if (!wanted && store.read(key).failed() && retry_failed) {
-      std::error_code ignored;
-      fs::remove(store.point_path(key), ignored);
-      wanted = true;
-    }
-    if (wanted) pending.push_back(i);
+/// What of a sweep was computed before.
+struct Before {
+  std::map<std::size_t, sweep::Outcome> outcomes;  ///< by position
+  std::vector<std::size_t> pending;                ///< positions of the others
+};
+
+/// The point's result if it has one that counts. One that does not goes.
+std::optional<sweep::Outcome> outcome_before(const sweep::Store& store, const std::string& key,
+                                             bool retry_failed, std::ostream& err) {
+  if (!store.has(key)) return std::nullopt;
+  try {
+    sweep::Outcome outcome = sweep::outcome_of(store.read(key));
+    if (!outcome.failed || !retry_failed) return outcome;
+  } catch (const sweep::HalfPoint&) {
+    err << "markervp: warning: '" << store.point_path(key)
+        << "' is not whole, as a power failure leaves it: the point is computed again" << std::endl;
   }
-  return pending;
+  std::error_code ignored;
+  fs::remove(store.point_path(key), ignored);
+  return std::nullopt;
+}
+
+/// Throws vp::InputError for a result that somebody changed.
+Before look_for_results(const sweep::Store& store, const sweep::Manifest& manifest,
+                        bool retry_failed, std::ostream& err) {
+  Before before;
+  sweep::Metrics names;
+  for (std::size_t i = 0; i < manifest.points.size(); ++i) {
+    auto outcome = outcome_before(store, manifest.points[i].key, retry_failed, err);
+    if (!outcome) {
+      before.pending.push_back(i);
+      continue;
+    }
+    outcome->metrics.share_names(names);
+    names = outcome->metrics;
+    before.outcomes.emplace(i, *std::move(outcome));
+  }
+  return before;
+}
+
+/// A PS program of the user's own may leave anything behind in its process.
+std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
+  const bool own =
+      std::any_of(manifest.families.begin(), manifest.families.end(),
+                  [](const sweep::Family& family) { return is_own_program(family.program); });
+  return own || isolate ? 1 : sweep::usual_points_a_process;
 }
 
 sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
@@ -123,13 +164,19 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   const InterruptGuard guard;
   vp::Progress bar(manifest.name, pending.size());
   const auto progress = [&](std::uint64_t points) { bar.update(points); };
+  sweep::FigureNames figures(manifest);
+  const auto on_result = [&](const sweep::Metrics& metrics) {
+    warn(figures.missing_in_first(metrics), err);
+  };
   if (options.engine == "slurm") {
     warm_up(manifest, {pending.front()});
-    const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name};
+    const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name,
+                                    points_a_process(manifest, options.isolate)};
     return run_slurm(store, manifest, pending, slurm, run, progress, err);
   }
   warm_up(manifest, pending);
-  const sweep::LocalOptions local{options.jobs.value_or(cores()), "local"};
+  const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
+                                  points_a_process(manifest, options.isolate), on_result};
   return run_local(store, manifest, pending, local, run, progress);
 }
 
@@ -150,10 +197,14 @@ void write_results(const SweepOptions& options, const sweep::Store& store,
 }
 
 int conclude(const SweepOptions& options, const sweep::Store& store,
-             const sweep::Manifest& manifest, const sweep::Tally& tally, std::size_t pending,
+             const sweep::Manifest& manifest, Before&& before, sweep::Tally&& tally,
              std::ostream& out, std::ostream& err) {
-  const sweep::Results results = sweep::read_results(store, manifest, false);
-  write_results(options, store, results, tally, pending, out);
+  std::map<std::size_t, sweep::Outcome> known = std::move(before.outcomes);
+  known.merge(tally.outcomes);
+  const sweep::Results results = sweep::read_results(store, manifest, known);
+  write_results(options, store, results, tally, before.pending.size(), out);
+  if (results.failed() != results.rows.size())
+    warn(sweep::FigureNames(manifest).missing_in_all(results.metric_names()), err);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
         << report::counted(manifest.points.size(), "point")
@@ -183,11 +234,11 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
   try {
     sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();
-    const std::vector<std::size_t> pending = pending_points(store, manifest, options.retry_failed);
+    Before before = look_for_results(store, manifest, options.retry_failed, err);
     mention_others(store, manifest, err);
     store.write_manifest(manifest);
-    const sweep::Tally tally = compute(options, store, manifest, pending, make_simulation, err);
-    return conclude(options, store, manifest, tally, pending.size(), out, err);
+    sweep::Tally tally = compute(options, store, manifest, before.pending, make_simulation, err);
+    return conclude(options, store, manifest, std::move(before), std::move(tally), out, err);
   } catch (const sweep::StorageError& error) {
     throw vp::InputError(error.what());
   }
@@ -199,7 +250,7 @@ int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& mak
     const sweep::Store store(options.folder);
     const InterruptGuard guard;
     return sweep::run_slurm_task(store, options.submission, options.task, warm_up,
-                                 point_runner(make_simulation));
+                                 point_runner(make_simulation), options.points_a_process);
   } catch (const sweep::StorageError& error) {
     throw vp::InputError(error.what());
   }

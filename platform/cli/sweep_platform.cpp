@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 #include <cli/commands.h>
@@ -14,6 +13,7 @@
 #include <input/kept_scenes.h>
 #include <sweep/parameter_table.h>
 #include <vp/error.h>
+#include <vp/fresh_context.h>
 #include <vp/text.h>
 
 namespace platform::cli {
@@ -94,24 +94,36 @@ sweep::Platform sweep_platform(const SimulationFactory& make_simulation) {
   return platform;
 }
 
+RunOptions options_of(const sweep::PointRun& point) {
+  RunOptions options;
+  options.inputs = point.inputs;
+  options.program = if_named(point.program);
+  options.camera = point.input.camera;
+  options.fit = point.input.fit;
+  options.frames = point.input.frames;
+  options.repeat = point.input.repeat;
+  for (const auto& [path, value] : point.settings)
+    options.configuration.assignments.push_back(path + "=" + value);
+  return options;
+}
+
 sweep::RunPoint point_runner(const SimulationFactory& make_simulation) {
-  return [&make_simulation](const sweep::PointRun& point, const std::string& folder,
+  return [&make_simulation](const sweep::PointRun& point, sweep::PointResult& result,
                             std::ostream& err) {
-    RunOptions options;
-    options.inputs = point.inputs;
-    options.program = if_named(point.program);
-    options.camera = point.input.camera;
-    options.fit = point.input.fit;
-    options.frames = point.input.frames;
-    options.repeat = point.input.repeat;
-    for (const auto& [path, value] : point.settings)
-      options.configuration.assignments.push_back(path + "=" + value);
-    options.output = folder;
-    options.no_pictures = true;
-    options.no_report = true;
-    options.quiet = true;
-    std::ostringstream unread;
-    return run(options, {}, make_simulation, unread, err);
+    vp::begin_fresh_context();
+    MemoryRun found;
+    const auto hand_over = [&] {
+      result.result = found.result.take();
+      result.configuration = std::move(found.configuration);
+    };
+    try {
+      const int code = run_in_memory(options_of(point), make_simulation, found, err);
+      hand_over();
+      return code;
+    } catch (...) {
+      hand_over();
+      throw;
+    }
   };
 }
 

@@ -7,16 +7,14 @@
 #include <cstring>
 #include <filesystem>
 
-#include <report/design_json.h>
 #include <report/file_output.h>
-#include <report/result_json.h>
+#include <report/result_parts.h>
 #include <vp/error.h>
 
 namespace platform::report {
 
 namespace {
 
-constexpr int schema = 1;
 constexpr int indent = 2;
 
 /// File names may hold any bytes; JSON holds UTF-8 only.
@@ -60,17 +58,12 @@ void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
                           const std::vector<std::string>& warnings,
                           const std::optional<std::string>& incomplete) {
   Json head;
-  head["schema"] = schema;
+  head["schema"] = result_schema;
   head["provenance"] = to_json(provenance);
-  head["fidelity"] = facts.fidelity;
-  head["system"] = facts.system;
-  head["design"] = facts.design;
-  head["profile"] = facts.profile;
+  add_run(head, facts);
   head["configuration"] = Json::object();
   for (const auto& [path, value] : facts.configuration) head["configuration"][path] = value;
-  if (!warnings.empty()) head["warnings"] = warnings;
-  if (incomplete) head["incomplete"] = *incomplete;
-  if (facts.end) head["program_end"] = to_json(*facts.end);
+  add_end(head, facts, warnings, incomplete);
 
   AtomicFile file(path_);
   file.write(opened(head) + "  \"frames\": [");
@@ -83,17 +76,7 @@ void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
     throw vp::InputError(std::string("temporary file: ") + std::strerror(errno));
   }
   Json tail;
-  tail["summary"] = to_json(summary_);
-  if (facts.power) {
-    tail["summary"]["power_w"] = power_summary_json(*facts.power);
-    if (facts.power->per_frame) {
-      tail["summary"]["energy_per_frame_mj"] =
-          rounded(facts.power->energy_per_frame_mj, energy_places);
-    }
-    tail["power"] = to_json(*facts.power);
-  }
-  if (facts.resources) tail["resources"] = to_json(*facts.resources);
-  if (facts.timing) tail["timing"] = to_json(*facts.timing);
+  add_figures(tail, facts, summary_);
   file.write(summary_.frames() == 0 ? "],\n" : "\n  ],\n");
   file.write(dump(tail, indent).substr(2) + "\n");
   file.commit();

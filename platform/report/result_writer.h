@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <report/result.h>
-#include <report/summary.h>
+#include <report/result_sink.h>
 
 namespace platform::report {
 
@@ -37,21 +36,17 @@ namespace platform::report {
 ///
 /// A marker without pose has no `pose`, `reprojection_px` and `iterations`, and its error has
 /// `corner_px` only.
-class ResultWriter {
+class ResultWriter : public ResultSink {
  public:
   /// `folder` exists and is writable (prepare_output_folder).
   explicit ResultWriter(const std::string& folder);
-  ~ResultWriter();
+  ~ResultWriter() override;
 
-  void add(const FrameReport& frame);
-
-  /// `warnings` are those of the whole run. `incomplete` says why the run ended early, if it did.
-  /// Throws vp::InputError if the file cannot be written.
+  /// Throws vp::InputError if the file cannot be written, as finish() does.
+  void add(const FrameReport& frame) override;
   void finish(const RunFacts& facts, const Provenance& provenance,
               const std::vector<std::string>& warnings,
-              const std::optional<std::string>& incomplete = std::nullopt);
-
-  const Summary& summary() const { return summary_; }
+              const std::optional<std::string>& incomplete = std::nullopt) override;
 
  private:
   struct Close {
@@ -60,7 +55,6 @@ class ResultWriter {
 
   std::string path_;
   std::unique_ptr<std::FILE, Close> frames_;
-  Summary summary_;
 };
 
 }  // namespace platform::report

@@ -89,7 +89,11 @@ void AxisValues::make_range(const ValueRange& range) {
 void AxisValues::add_steps(double step, const std::string& written_step) {
   if (!(step > 0)) fail("has the step " + written_step + ", which is not above 0");
   const double count = std::floor((stop_ - start_) / step + step_tolerance) + 1;
-  if (count > most_values) fail("has a range of more than 10 million values");
+  if (count > most_values)
+    fail(
+        "has a range of more than 10 million values, too many also for --yes and --limit: make "
+        "'step' larger, or leave it out and draw a sample ('sample: {method: sobol, points: "
+        "1000}')");
   for (double i = 0; i < count; ++i) values_.push_back(written(start_ + i * step));
 }
 

@@ -37,11 +37,18 @@ std::string change(double a, double b) {
   return (percent > 0 ? "+" : "") + vp::format_fixed(percent, 2) + " %";
 }
 
-template <class Map>
-std::set<std::string> keys(const Map& a, const Map& b) {
+using Values = std::map<std::string, std::string>;
+
+std::set<std::string> keys(const Values& a, const Values& b) {
   std::set<std::string> result;
   for (const auto& [key, value] : a) result.insert(key);
   for (const auto& [key, value] : b) result.insert(key);
+  return result;
+}
+
+std::set<std::string> names(const Metrics& a, const Metrics& b) {
+  std::set<std::string> result(a.names().begin(), a.names().end());
+  result.insert(b.names().begin(), b.names().end());
   return result;
 }
 
@@ -95,14 +102,13 @@ std::string compare(const Comparable& a, const Comparable& b) {
   }
   TextTable metrics({"metric", "A", "B", "change"});
   std::size_t figures = 0;
-  for (const std::string& name : keys(a.metrics, b.metrics)) {
-    const auto left = a.metrics.find(name);
-    const auto right = b.metrics.find(name);
-    const bool both = left != a.metrics.end() && right != b.metrics.end();
-    if (both && left->second == right->second) continue;
-    metrics.add({name, left == a.metrics.end() ? "-" : readable(left->second),
-                 right == b.metrics.end() ? "-" : readable(right->second),
-                 both ? change(left->second, right->second) : ""});
+  for (const std::string& name : names(a.metrics, b.metrics)) {
+    const double* left = a.metrics.find(name);
+    const double* right = b.metrics.find(name);
+    const bool both = left && right;
+    if (both && *left == *right) continue;
+    metrics.add({name, left ? readable(*left) : "-", right ? readable(*right) : "-",
+                 both ? change(*left, *right) : ""});
     ++figures;
   }
   std::string text = "A  " + a.name + "\nB  " + b.name + "\n\n";

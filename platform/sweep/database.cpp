@@ -18,13 +18,16 @@ namespace {
 
 constexpr const char* tables = R"(
 CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE points(key TEXT PRIMARY KEY, position INTEGER, status TEXT, exit_code INTEGER,
+CREATE TABLE points(key TEXT PRIMARY KEY, position INTEGER UNIQUE, status TEXT, exit_code INTEGER,
                     signal INTEGER, message TEXT, program TEXT, inputs TEXT);
 CREATE TABLE parameters(key TEXT REFERENCES points, path TEXT, value TEXT, number REAL,
                         PRIMARY KEY(key, path)) WITHOUT ROWID;
 CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE metrics(key TEXT REFERENCES points, name TEXT, value REAL,
-                     PRIMARY KEY(key, name)) WITHOUT ROWID;
+CREATE TABLE metric_names(id INTEGER PRIMARY KEY, name TEXT UNIQUE);
+CREATE TABLE metric_values(position INTEGER REFERENCES points(position),
+                           metric INTEGER REFERENCES metric_names, value REAL);
+CREATE VIEW metrics AS SELECT key, name, value FROM metric_values
+  JOIN metric_names ON metric_names.id = metric JOIN points USING(position);
 CREATE TABLE runs(key TEXT REFERENCES points, engine TEXT, host TEXT, date TEXT, attempt INTEGER,
                   wall_s REAL, cpu_s REAL);
 )";
@@ -62,7 +65,7 @@ class Database {
 class Insert {
  public:
   Insert(const Database& database, const std::string& table, int columns) : database_(database) {
-    std::string sql = "INSERT OR REPLACE INTO " + table + " VALUES(?";
+    std::string sql = "INSERT INTO " + table + " VALUES(?";
     for (int i = 1; i < columns; ++i) sql += ",?";
     sql += ")";
     sqlite3_stmt* statement = nullptr;
@@ -104,15 +107,21 @@ class Insert {
 /// Parameters that do not have one value everywhere, and those that are swept.
 std::set<std::string> varying(const Results& results) {
   std::set<std::string> paths(results.manifest.swept.begin(), results.manifest.swept.end());
+  if (results.rows.empty()) return paths;
+  const ResultRow& first = results.rows.front();
   for (const ResultRow& row : results.rows) {
-    const auto& first = results.rows.front().configuration;
-    for (const auto& [path, value] : row.configuration) {
-      const auto found = first.find(path);
-      if (found == first.end() || found->second != value) paths.insert(path);
-    }
-    for (const auto& [path, value] : first) {
-      if (row.configuration.count(path) == 0) paths.insert(path);
-    }
+    const auto compare = [&](const std::map<std::string, std::string>& candidates) {
+      for (const auto& [path, unused] : candidates) {
+        const std::string* here = row.parameter(path);
+        const std::string* there = first.parameter(path);
+        if (!here || !there || *here != *there) paths.insert(path);
+      }
+    };
+    compare(row.changes);
+    compare(first.changes);
+    if (row.base == first.base) continue;
+    compare(*row.base);
+    compare(*first.base);
   }
   return paths;
 }
@@ -145,21 +154,38 @@ void add_parameters(const Database& database, const Results& results) {
   }
   Insert constants(database, "constants", 2);
   if (results.rows.empty()) return;
-  for (const auto& [path, value] : results.rows.front().configuration) {
-    if (differing.count(path) == 0) constants.row(path, value);
+  const ResultRow& first = results.rows.front();
+  for (const auto& [path, unused] : *first.base) {
+    if (differing.count(path) == 0) constants.row(path, *first.parameter(path));
   }
 }
 
 void add_points(const Database& database, const Results& results) {
   Insert points(database, "points", 8);
-  Insert metrics(database, "metrics", 3);
   for (const std::size_t position : by_key(results)) {
     const ResultRow& row = results.rows[position];
     const std::string status = row.failed ? "failed" : "done";
     points.row(row.key, static_cast<std::int64_t>(position), status,
                std::int64_t{row.failed ? row.failure.exit_code : 0},
                std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs);
-    for (const auto& [name, value] : row.metrics) metrics.row(row.key, name, value);
+  }
+}
+
+void add_metrics(const Database& database, const Results& results) {
+  const std::vector<std::string> names = results.metric_names();
+  Insert ids(database, "metric_names", 2);
+  for (std::size_t id = 0; id < names.size(); ++id)
+    ids.row(static_cast<std::int64_t>(id), names[id]);
+  Insert values(database, "metric_values", 3);
+  for (std::size_t position = 0; position < results.rows.size(); ++position) {
+    const Metrics& metrics = results.rows[position].metrics;
+    // Both are sorted.
+    auto id = names.begin();
+    for (std::size_t i = 0; i < metrics.names().size(); ++i, ++id) {
+      while (*id != metrics.names()[i]) ++id;
+      values.row(static_cast<std::int64_t>(position), std::int64_t{id - names.begin()},
+                 metrics.values()[i]);
+    }
   }
 }
 
@@ -185,7 +211,9 @@ void write_database(const std::string& path, const Results& results,
   try {
     Database database(part);
     // It appears under its name when it is whole: no journal is needed.
-    database.execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");
+    database.execute(
+        "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = EXCLUSIVE;"
+        "PRAGMA page_size = 16384; BEGIN");
     database.execute(tables);
     {
       Insert facts(database, "sweep", 2);
@@ -196,6 +224,7 @@ void write_database(const std::string& path, const Results& results,
       facts.row(std::string("markervp"), manifest.program.dump());
     }
     add_points(database, results);
+    add_metrics(database, results);
     add_parameters(database, results);
     add_runs(database, results, runs);
     database.execute("COMMIT");

@@ -13,7 +13,8 @@ namespace platform::sweep {
 ///   points(key, position, status, exit_code, signal, message, program, inputs)
 ///   parameters(key, path, value, number)  those that differ between points; number in base units
 ///   constants(path, value)                those that all points share
-///   metrics(key, name, value)
+///   metrics(key, name, value)             a view of metric_values(position, metric, value) and
+///                                         metric_names(id, name), which take a fifth of the room
 ///   runs(key, engine, host, date, attempt, wall_s, cpu_s)
 ///   sweep(name, value)                    its title, file, program version
 ///

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
+#include <utility>
 
 namespace platform::sweep {
 
@@ -41,8 +41,13 @@ class Part {
       if (count < 0) return false;
       bytes.remove_prefix(static_cast<std::size_t>(count));
     }
-    return ::fsync(descriptor_) == 0;
+    return true;
   }
+
+  bool flush() const { return ::fsync(descriptor_) == 0; }
+
+  /// File systems on a network say here that the disk is full.
+  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
 
   bool rename_to(const std::string& path) {
     kept_ = ::rename(path_.c_str(), path.c_str()) == 0;
@@ -59,7 +64,21 @@ class Part {
 
 void write_durably(const std::string& path, std::string_view bytes) {
   Part part(path);
-  if (!part.write(bytes) || !part.rename_to(path)) fail(path, errno);
+  if (!part.write(bytes) || !part.flush() || !part.close() || !part.rename_to(path))
+    fail(path, errno);
+}
+
+void write_whole(const std::string& path, std::string_view bytes) {
+  Part part(path);
+  if (!part.write(bytes) || !part.close() || !part.rename_to(path)) fail(path, errno);
+}
+
+void flush_to_disk(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && ::syncfs(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed) fail(folder, reason);
 }
 
 bool is_storage_problem(const std::string& message) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sweep/manifest.h>
+#include <sweep/outcome.h>
 #include <sweep/store.h>
 
 namespace platform::sweep {
@@ -22,30 +23,43 @@ struct PointRun {
 
 PointRun run_of(const Manifest& manifest, const PlannedPoint& point);
 
-/// Runs the platform and writes result.json into the folder: the process is its own. Returns the
-/// exit code of `markervp run`, and says on `err` what went wrong; may throw what that throws.
-using RunPoint =
-    std::function<int(const PointRun& run, const std::string& folder, std::ostream& err)>;
+/// What a run found.
+struct PointResult {
+  Json result;                                       ///< as ResultDocument has it
+  std::map<std::string, std::string> configuration;  ///< effective
+};
+
+/// Runs the platform, as if its process had run nothing before. Returns the exit code of `markervp
+/// run`, and says on `err` what went wrong; may throw what that throws.
+using RunPoint = std::function<int(const PointRun& run, PointResult& result, std::ostream& err)>;
 
 /// How a sweep went.
 struct Tally {
   std::uint64_t computed = 0;  ///< done now
-  std::uint64_t failed = 0;    ///< of these, without result
   bool interrupted = false;
+  std::map<std::size_t, Outcome> outcomes;  ///< of those computed here, by position
 };
 
 /// Called when points were completed: how many of those asked for.
 using OnProgress = std::function<void(std::uint64_t done)>;
 
+/// Points that a process computes, one after another, before another takes its place. Each leaves
+/// SystemC's old context behind, about 50 KiB (measured: 48 MiB after 1000): so a process holds
+/// some 3 MiB of them, and shares what it costs to start and end it among 64 points.
+constexpr std::uint32_t usual_points_a_process = 64;
+
 struct LocalOptions {
   std::uint32_t jobs = 1;
   std::string name = "local";  ///< stands in the records of runs
+  std::uint32_t points_a_process = usual_points_a_process;
+  std::function<void(const Metrics&)> on_result = nullptr;  ///< of each point with a result
 };
 
-/// Computes the points at these positions of the manifest, `jobs` at a time, each in a process of
-/// its own; a process that crashes or is killed costs one point, which is tried once more. Points
-/// that are there are left alone. Throws StorageError if a result cannot be written: those written
-/// before are kept.
+/// Computes the points at these positions of the manifest in `jobs` processes at a time, which take
+/// them one after another. A process that crashes or is killed costs the one point that it was at,
+/// which is tried once more in a process of its own; so does one whose run did not end well, since
+/// nobody knows what it left behind. Points that are there are left alone. Throws StorageError if a
+/// result cannot be written: those written before are kept.
 Tally run_local(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const LocalOptions& options,
                 const RunPoint& run, const OnProgress& progress);

@@ -1,17 +1,15 @@
-#include <sys/wait.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <deque>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <list>
-#include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <cli/interrupt.h>
@@ -19,202 +17,215 @@
 #include <cli/run_child.h>
 #include <sweep/durable_file.h>
 #include <sweep/engine.h>
+#include <sweep/point_worker.h>
 #include <sweep/run_log.h>
-#include <sweep/scratch.h>
+#include <sweep/words.h>
 
 namespace platform::sweep {
 
 namespace {
 
-namespace fs = std::filesystem;
 using HostClock = std::chrono::steady_clock;
 
-/// Exit codes of a child, beside those of the program.
-constexpr int storage_failed = 74;  // EX_IOERR of sysexits.h
-
-/// A process that ends by itself always says why; one that does not is tried once more.
+/// A run that ends by itself always says why; a process that does not is tried once more.
 constexpr int most_attempts = 2;
+/// Processes that may end before they begin a point, one after another.
+constexpr int most_useless = 5;
+/// What a power failure may cost: finished points go to the disk together.
+constexpr auto flush_period = std::chrono::seconds(10);
 
-/// What `markervp run` said last.
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of('\n');
-  if (end == std::string::npos) return "";
-  const std::size_t start = text.rfind('\n', end);
-  std::string line = text.substr(start == std::string::npos ? 0 : start + 1,
-                                 end - (start == std::string::npos ? 0 : start + 1) + 1);
-  const std::string name = "markervp: ";
-  return line.rfind(name, 0) == 0 ? line.substr(name.size()) : line;
-}
-
-double cpu_seconds() {
-  timespec time{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-Json read_result(const std::string& folder) {
-  std::ifstream file(fs::path(folder) / "result.json", std::ios::binary);
-  return Json::parse(std::string{std::istreambuf_iterator<char>(file), {}});
-}
-
-/// What the last frame warns of first, as the end of a message.
-std::string last_warning(const Json& result) {
-  const Json frames = result.value("frames", Json::array());
-  if (frames.empty() || !frames.back().contains("warnings")) return "";
-  return ": " + frames.back()["warnings"].at(0).get<std::string>();
-}
-
-/// The values that the platform had, if they are not those that the point is named after.
-std::string difference(const std::map<std::string, std::string>& planned, const Json& result) {
-  const auto actual = result.at("configuration").get<std::map<std::string, std::string>>();
-  for (const auto& [path, value] : actual) {
-    const auto found = planned.find(path);
-    if (found == planned.end() || found->second != value) return path;
-  }
-  return actual.size() == planned.size() ? "" : "a parameter is missing";
-}
-
-/// The child: runs the point and writes its file. Returns the exit code.
-int compute(const Store& store, const Manifest& manifest, const PlannedPoint& point,
-            const std::string& folder, const RunPoint& run, std::ostream& out, std::ostream& err) {
-  const double start = cpu_seconds();
-  const PointRun asked = run_of(manifest, point);
-  std::ostringstream said;
-  const int code = cli::exit_code_of([&] { return run(asked, folder, said); }, said);
-  // On a line of its own: the PS program may print, too.
-  out << "\n" << cpu_seconds() - start;
-  const std::string message = last_line(said.str());
-  if (code == cli::interrupted) return code;
-  if (code != cli::done && is_storage_problem(message)) throw StorageError(message);
-  if (code == cli::run_failed) {
-    // The program ended by itself: what it found until then says why.
-    const Json result = read_result(folder);
-    store.write(failed_record(manifest, point, {code, 0, message + last_warning(result)}, result));
-    return cli::done;
-  }
-  if (code != cli::done) {
-    store.write(failed_record(manifest, point, {code, 0, message}));
-    return cli::done;
-  }
-  Json result = read_result(folder);
-  const std::string changed = difference(manifest.configuration(point), result);
-  if (!changed.empty()) {
-    err << "the platform was built with another value than planned: " << changed;
-    return cli::run_failed;
-  }
-  store.write(done_record(manifest, point, std::move(result)));
-  return cli::done;
-}
-
-/// The pool of processes.
-class Pool {
+/// A pipe whose ends are closed with it.
+class Pipe {
  public:
-  Pool(const Store& store, const Manifest& manifest, const LocalOptions& options,
-       const RunPoint& run, const OnProgress& progress)
-      : store_(store),
-        manifest_(manifest),
-        options_(options),
-        run_(run),
-        progress_(progress),
-        log_(store, options.name),
-        scratch_(options.jobs) {}
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "no pipe for a sweep's process");
+  }
+  ~Pipe() {
+    close_writing();
+    ::close(ends_[0]);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
-  Tally run(const std::vector<std::size_t>& positions) {
-    for (const std::size_t position : positions) waiting_.push_back({position, 1});
-    while (!waiting_.empty() || !running_.empty()) {
-      if (cli::InterruptGuard::interrupted()) {
-        tally_.interrupted = true;
-        waiting_.clear();
-      }
-      while (!waiting_.empty() && running_.size() < options_.jobs) start();
-      if (running_.empty()) break;
-      wait_for_one();
-      collect();
-    }
-    return tally_;
+  int reading() const { return ends_[0]; }
+  int writing() const { return ends_[1]; }
+  void close_writing() {
+    if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
   }
 
  private:
-  struct Wanted {
-    std::size_t position;
-    int attempt;
-  };
+  std::array<int, 2> ends_{-1, -1};
+};
 
-  struct Running {
-    Running(const Pool& pool, Wanted asked, FileLock&& lock, std::string scratch)
-        : wanted(asked),
-          claim(std::move(lock)),
-          folder(std::move(scratch)),
-          begin(HostClock::now()),
-          child([this, &pool](std::ostream& out, std::ostream& err) {
-            return pool.compute_in_child(*this, out, err);
-          }) {}
-
-    Wanted wanted;
-    FileLock claim;
-    std::string folder;  ///< of its own
-    HostClock::time_point begin;
-    cli::RunChild child;
-  };
-
-  int compute_in_child(const Running& running, std::ostream& out, std::ostream& err) const {
-    try {
-      return compute(store_, manifest_, manifest_.points[running.wanted.position], running.folder,
-                     run_, out, err);
-    } catch (const StorageError& error) {
-      err << error.what();
-      return storage_failed;
-    }
+/// The processes, and what they are at.
+class Pool {
+ public:
+  Pool(const Store& store, const Manifest& manifest, const std::vector<std::size_t>& positions,
+       const LocalOptions& options, const RunPoint& run, const OnProgress& progress)
+      : list_{store, manifest, positions, run},
+        options_(options),
+        progress_(progress),
+        queue_(positions.size(), options.jobs),
+        told_(positions.size()),
+        attempts_(positions.size(), 1),
+        log_(store, options.name) {
+    for (std::uint32_t slot = options.jobs; slot-- > 0;) free_slots_.push_back(slot);
   }
+
+  Tally run() {
+    for (;;) {
+      if (cli::InterruptGuard::interrupted()) stop();
+      while (running_.size() < options_.jobs && has_work()) start();
+      if (running_.empty() && !find_lost()) break;
+      if (running_.empty()) continue;
+      listen();
+      if (HostClock::now() - flushed_ > flush_period) flush();
+    }
+    flush();
+    return std::move(tally_);
+  }
+
+ private:
+  struct Running {
+    std::uint32_t slot;
+    std::optional<std::size_t> only;  ///< the item that it was started for
+    Pipe pipe;
+    MessageReader reader;
+    std::optional<cli::RunChild> child;
+  };
+
+  void stop() {
+    tally_.interrupted = true;
+    queue_.stop();
+    again_.clear();
+  }
+
+  bool has_work() const { return !tally_.interrupted && (!again_.empty() || !queue_.empty()); }
 
   void start() {
-    const Wanted wanted = waiting_.front();
-    waiting_.pop_front();
-    const PlannedPoint& point = manifest_.points[wanted.position];
-    FileLock claim = store_.claim(point.key);
-    if (store_.has(point.key)) return step();
-    running_.emplace_back(*this, wanted, std::move(claim), scratch_.take());
+    Running& running = running_.emplace_back();
+    running.slot = free_slots_.back();
+    free_slots_.pop_back();
+    if (!again_.empty()) {
+      running.only = again_.front();
+      again_.pop_front();
+    }
+    running.child.emplace([&](std::ostream&, std::ostream&) {
+      list_.store.leave_lock_to_parent();
+      // What PS programs print is of no use here.
+      const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+      if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
+      PointWorker worker(list_, queue_, running.slot, running.pipe.writing());
+      running.only ? worker.work_on(*running.only) : worker.work(options_.points_a_process);
+      return cli::done;
+    });
+    running.pipe.close_writing();
   }
 
-  /// Sleeps until a child ends, or a signal comes.
-  static void wait_for_one() {
-    siginfo_t info{};
-    ::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT);
-  }
-
-  void collect() {
-    for (auto running = running_.begin(); running != running_.end();) {
-      if (!running->child.ended()) {
-        ++running;
-        continue;
+  /// Sleeps until a process tells something or ends, or a signal comes.
+  void listen() {
+    std::vector<pollfd> pipes;
+    for (const Running& running : running_) pipes.push_back({running.pipe.reading(), POLLIN, 0});
+    if (::poll(pipes.data(), pipes.size(), -1) < 0) return;
+    auto running = running_.begin();
+    for (const pollfd& pipe : pipes) {
+      const auto next = std::next(running);
+      if (pipe.revents != 0 && !read(*running)) {
+        ended(*running);
+        running_.erase(running);
       }
-      const cli::ChildEnd end = running->child.wait();
-      scratch_.give_back(running->folder);
-      finish(*running, end);
-      running = running_.erase(running);
+      running = next;
     }
   }
 
-  void finish(const Running& running, const cli::ChildEnd& end) {
-    const PlannedPoint& point = manifest_.points[running.wanted.position];
-    const double wall = std::chrono::duration<double>(HostClock::now() - running.begin).count();
-    if (end.exit_code == storage_failed) throw StorageError(last_line(end.err));
-    if (end.exit_code == cli::interrupted) {
-      tally_.interrupted = true;
-      waiting_.clear();
+  /// False: there is nothing more to come.
+  bool read(Running& running) {
+    std::array<char, 1 << 16> block;
+    const ssize_t size = ::read(running.pipe.reading(), block.data(), block.size());
+    if (size < 0) return errno == EINTR;
+    if (size == 0) return false;
+    running.reader.add({block.data(), static_cast<std::size_t>(size)});
+    while (const std::optional<PointMessage> message = running.reader.next()) take(*message);
+    return true;
+  }
+
+  void take(const PointMessage& message) {
+    switch (message.kind) {
+      case PointMessage::Kind::no_storage:
+        throw StorageError(message.failure.message);
+      case PointMessage::Kind::interrupted:
+        stop();
+        break;
+      case PointMessage::Kind::fault:
+        again_or_failed(message.item, message.failure);
+        break;
+      case PointMessage::Kind::there:
+        step(message.item);
+        break;
+      case PointMessage::Kind::computed:
+        done(message);
+        break;
+    }
+    useless_ = 0;
+  }
+
+  void done(const PointMessage& message) {
+    const std::size_t position = list_.positions[message.item];
+    log_.add(list_.manifest.points[position].key, message.wall_s, message.cpu_s,
+             attempts_[message.item]);
+    Outcome& outcome = tally_.outcomes[position];
+    outcome = {message.failed, message.failure, message.metrics};
+    outcome.metrics.share_names(names_);
+    names_ = outcome.metrics;
+    if (options_.on_result && !outcome.metrics.empty()) options_.on_result(outcome.metrics);
+    ++tally_.computed;
+    step(message.item);
+  }
+
+  void step(std::size_t item) {
+    told_[item] = true;
+    ++done_;
+    if (progress_) progress_(done_);
+  }
+
+  /// A process that was killed, or ended itself, loses the point that it was at.
+  void ended(Running& running) {
+    const cli::ChildEnd end = running.child->wait();
+    free_slots_.push_back(running.slot);
+    std::optional<std::size_t> item = queue_.held(running.slot);
+    if (!item) item = running.only;
+    queue_.release(running.slot);
+    if (item && !told_[*item]) {
+      if (!tally_.interrupted) again_or_failed(*item, failure_of(end));
+    } else if (end.exit_code != cli::done && ++useless_ == most_useless) {
+      throw std::runtime_error("the processes of the sweep end before they begin: " +
+                               failure_of(end).message);
+    }
+  }
+
+  void again_or_failed(std::size_t item, const Failure& failure) {
+    if (attempts_[item] < most_attempts) {
+      ++attempts_[item];
+      again_.push_back(item);
       return;
     }
-    if (end.exit_code != cli::done) {
-      if (running.wanted.attempt < most_attempts && !tally_.interrupted) {
-        waiting_.push_back({running.wanted.position, running.wanted.attempt + 1});
-        return;
-      }
-      store_.write(failed_record(manifest_, point, failure_of(end)));
+    const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
+    list_.store.write(failed_record(list_.manifest, point, failure));
+    PointMessage message;
+    message.item = item;
+    message.failed = true;
+    message.failure = failure;
+    done(message);
+  }
+
+  /// Points that a process took and lost before it said so. False: there are none.
+  bool find_lost() {
+    if (tally_.interrupted) return false;
+    for (std::size_t item = 0; item < told_.size(); ++item) {
+      if (!told_[item]) again_.push_back(item);
     }
-    const double cpu = std::strtod(end.out.substr(end.out.rfind('\n') + 1).c_str(), nullptr);
-    log_.add(point.key, wall, cpu, running.wanted.attempt);
-    ++tally_.computed;
-    step();
+    return !again_.empty();
   }
 
   static Failure failure_of(const cli::ChildEnd& end) {
@@ -222,24 +233,31 @@ class Pool {
       return {-1, end.signal,
               std::string("the process was ended by a signal: ") + ::strsignal(end.signal)};
     }
-    return {end.exit_code, 0, last_line(end.err)};
+    const std::string said = last_line(end.err);
+    return {end.exit_code, 0, said.empty() ? "the process ended without a result" : said};
   }
 
-  void step() {
-    ++done_;
-    if (progress_) progress_(done_);
+  void flush() {
+    flushed_ = HostClock::now();
+    if (tally_.computed != in_flush_) flush_to_disk(list_.store.path("points"));
+    in_flush_ = tally_.computed;
   }
 
-  const Store& store_;
-  const Manifest& manifest_;
+  PointList list_;
   const LocalOptions& options_;
-  const RunPoint& run_;
   const OnProgress& progress_;
+  WorkQueue queue_;
+  std::vector<bool> told_;     ///< by item: nothing more to do
+  std::vector<int> attempts_;  ///< by item
   RunLog log_;
-  Scratch scratch_;
-  std::deque<Wanted> waiting_;
+  std::deque<std::size_t> again_;
+  std::vector<std::uint32_t> free_slots_;
   std::list<Running> running_;
+  Metrics names_;  ///< for the next to share
   std::uint64_t done_ = 0;
+  int useless_ = 0;
+  HostClock::time_point flushed_ = HostClock::now();
+  std::uint64_t in_flush_ = 0;  ///< points computed when it was
   Tally tally_;
 };
 
@@ -253,7 +271,7 @@ PointRun run_of(const Manifest& manifest, const PlannedPoint& point) {
 Tally run_local(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const LocalOptions& options,
                 const RunPoint& run, const OnProgress& progress) {
-  return Pool(store, manifest, options, run, progress).run(positions);
+  return Pool(store, manifest, positions, options, run, progress).run();
 }
 
 }  // namespace platform::sweep

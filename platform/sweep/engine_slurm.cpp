@@ -98,7 +98,8 @@ class Cluster {
     chunk_ = options_.chunk;
     if (chunk_ != 0) return;
     const HostClock::time_point begin = HostClock::now();
-    const Tally tally = run_local(store_, manifest_, {wanted.front()}, {1, "local"}, run_, nullptr);
+    const Tally tally = run_local(store_, manifest_, {wanted.front()},
+                                  {1, "local", options_.points_a_process}, run_, nullptr);
     tally_.interrupted = tally.interrupted;
     const double seconds = std::chrono::duration<double>(HostClock::now() - begin).count();
     chunk_ = static_cast<std::uint32_t>(
@@ -128,7 +129,8 @@ class Cluster {
                                     static_cast<std::uint32_t>(chunks.size()), options_.at_once,
                                     "exec " + shell_quoted(executable) + " sweep-worker " +
                                         shell_quoted(fs::absolute(store_.folder()).string()) + " " +
-                                        std::to_string(number) + " $SLURM_ARRAY_TASK_ID",
+                                        std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
+                                        std::to_string(options_.points_a_process),
                                     options_.options});
     write_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
     err_ << "markervp: job " << job << ": " << chunks.size() << " tasks of " << size
@@ -190,7 +192,7 @@ Tally run_slurm(const Store& store, const Manifest& manifest,
 int run_slurm_task(
     const Store& store, std::uint32_t submission, std::uint32_t task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run) {
+    const RunPoint& run, std::uint32_t points_a_process) {
   const std::string folder = submission_folder(store, submission);
   const Manifest manifest =
       manifest_from(read_json(folder + "/manifest.json"), folder + "/manifest.json");
@@ -204,7 +206,8 @@ int run_slurm_task(
   for (const Json& key : chunks[task]) positions.push_back(position_of.at(key.get<std::string>()));
   positions = missing(store, manifest, positions);
   warm(manifest, positions);
-  const Tally tally = run_local(store, manifest, positions, {1, "slurm"}, run, nullptr);
+  const Tally tally =
+      run_local(store, manifest, positions, {1, "slurm", points_a_process}, run, nullptr);
   return tally.interrupted ? cli::interrupted : cli::done;
 }
 

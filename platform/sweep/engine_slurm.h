@@ -14,6 +14,7 @@ struct SlurmOptions {
   std::uint32_t at_once = 0;         ///< tasks that run at the same time; 0: as many as fit
   std::vector<std::string> options;  ///< more for sbatch
   std::string name;                  ///< of the sweep
+  std::uint32_t points_a_process = usual_points_a_process;
 };
 
 /// Computes the points at these positions on a cluster, through arrays of tasks that each compute
@@ -28,6 +29,6 @@ Tally run_slurm(const Store& store, const Manifest& manifest,
 int run_slurm_task(
     const Store& store, std::uint32_t submission, std::uint32_t task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run);
+    const RunPoint& run, std::uint32_t points_a_process);
 
 }  // namespace platform::sweep

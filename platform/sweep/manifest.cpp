@@ -94,10 +94,14 @@ std::map<std::string, std::string> Manifest::configuration(const PlannedPoint& p
 std::map<std::string, std::string> Manifest::settings(const PlannedPoint& point) const {
   const std::map<std::string, std::string>& defaults = families[point.family].defaults;
   std::map<std::string, std::string> set;
-  for (const auto& [path, value] : configuration(point)) {
+  const auto add = [&](const std::string& path, const std::string& value) {
     const auto found = defaults.find(path);
     if (found == defaults.end() || found->second != value) set[path] = value;
+  };
+  for (const auto& [path, value] : families[point.family].configuration) {
+    if (point.changes.count(path) == 0) add(path, value);
   }
+  for (const auto& [path, value] : point.changes) add(path, value);
   return set;
 }
 

@@ -1,6 +1,9 @@
 #include <sweep/metrics.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
 
 namespace platform::sweep {
 
@@ -20,35 +23,60 @@ struct Gathered {
 };
 
 using Gathering = std::map<std::string, Gathered>;
+using Figures = std::vector<std::pair<std::string, double>>;
 
-std::string joined(const std::string& prefix, const std::string& name) {
-  return prefix.empty() ? name : prefix + "." + name;
-}
+/// Appends a name to a path for as long as it lives.
+class Step {
+ public:
+  Step(std::string& path, std::string_view name) : path_(path), length_(path.size()) {
+    if (!path.empty()) path += '.';
+    path += name;
+  }
+  ~Step() { path_.resize(length_); }
+  Step(const Step&) = delete;
+  Step& operator=(const Step&) = delete;
+
+ private:
+  std::string& path_;
+  std::size_t length_;
+};
 
 std::string item_name(const Json& item, std::size_t position) {
-  if (item.is_object() && item.contains("name") && item["name"].is_string())
-    return item["name"].get<std::string>();
+  if (item.is_object()) {
+    const auto name = item.find("name");
+    if (name != item.end() && name->is_string()) return name->get<std::string>();
+  }
   return std::to_string(position);
 }
 
+/// Calls found(path, value) for each number below `json`. One that is not finite has no place in a
+/// file either.
 template <class Found>
-void walk(const Json& json, const std::string& path, const Found& found) {
-  if (json.is_number()) found(path, json.get<double>());
-  if (json.is_boolean()) found(path, json.get<bool>() ? 1.0 : 0.0);
-  if (json.is_object()) {
-    for (const auto& [name, value] : json.items()) walk(value, joined(path, name), found);
-  }
-  if (json.is_array()) {
-    for (std::size_t i = 0; i < json.size(); ++i)
-      walk(json[i], joined(path, item_name(json[i], i)), found);
+void walk(const Json& json, std::string& path, const Found& found) {
+  if (json.is_number()) {
+    const double value = json.get<double>();
+    if (std::isfinite(value)) found(path, value);
+  } else if (json.is_boolean()) {
+    found(path, json.get<bool>() ? 1.0 : 0.0);
+  } else if (json.is_object()) {
+    for (const auto& [name, value] : json.get_ref<const Json::object_t&>()) {
+      const Step step(path, name);
+      walk(value, path, found);
+    }
+  } else if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      const Step step(path, item_name(json[i], i));
+      walk(json[i], path, found);
+    }
   }
 }
 
-void gather(const Json& json, const std::string& path, Gathering& into) {
+void gather(const Json& json, std::string path, Gathering& into) {
   walk(json, path, [&](const std::string& name, double value) { into[name].add(value); });
 }
 
-void add_frames(const Json& frames, Metrics& metrics) {
+template <class Found>
+void find_in_frames(const Json& frames, const Found& found) {
   Gathering all;
   for (const Json& frame : frames) {
     for (const auto& [name, value] : frame.items()) {
@@ -67,37 +95,104 @@ void add_frames(const Json& frames, Metrics& metrics) {
     }
   }
   for (const auto& [name, gathered] : all) {
-    metrics[name + ".mean"] = gathered.sum / gathered.count;
-    metrics[name + ".max"] = gathered.max;
+    found(name + ".mean", gathered.sum / gathered.count);
+    found(name + ".max", gathered.max);
   }
 }
 
 /// A limit that is only known to be no lower says nothing about a clock above it.
-void add_timing(const Json& modules, Metrics& metrics) {
+template <class Found>
+void find_in_timing(const Json& modules, const Found& found) {
   double failed = 0;
   double unknown = 0;
   for (const Json& module : modules) {
     if (module.value("met", true)) continue;
     (module.value("lower_bound", false) ? unknown : failed) += 1;
   }
-  metrics["timing.failed"] = failed;
-  metrics["timing.unknown"] = unknown;
+  found("timing.failed", failed);
+  found("timing.unknown", unknown);
+}
+
+/// Calls found(path, value) for each figure, in the order of the result.
+template <class Found>
+void find_figures(const Json& result, const Found& found) {
+  for (const auto& [name, value] : result.items()) {
+    if (name == "provenance" || name == "configuration" || name == "schema") continue;
+    if (name == "frames") {
+      find_in_frames(value, found);
+    } else {
+      std::string path = name;
+      walk(value, path, found);
+    }
+    if (name == "timing" && value.contains("modules")) find_in_timing(value["modules"], found);
+  }
 }
 
 }  // namespace
 
-Metrics metrics_of(const Json& result) {
-  Metrics metrics;
-  for (const auto& [name, value] : result.items()) {
-    if (name == "provenance" || name == "configuration" || name == "schema") continue;
-    if (name == "frames") {
-      add_frames(value, metrics);
-    } else {
-      walk(value, name, [&](const std::string& path, double number) { metrics[path] = number; });
+Metrics::Metrics(Figures figures) {
+  const auto by_name = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(figures.begin(), figures.end(), by_name);
+  Names names;
+  names.reserve(figures.size());
+  values_.reserve(figures.size());
+  for (auto& [name, value] : figures) {
+    if (!names.empty() && names.back() == name) {
+      values_.back() = value;
+      continue;
     }
-    if (name == "timing" && value.contains("modules")) add_timing(value["modules"], metrics);
+    names.push_back(std::move(name));
+    values_.push_back(value);
   }
-  return metrics;
+  names_ = std::make_shared<const Names>(std::move(names));
+}
+
+Metrics::Metrics(std::shared_ptr<const Names> names, std::vector<double> values)
+    : names_(std::move(names)), values_(std::move(values)) {}
+
+const double* Metrics::find(const std::string& name) const {
+  const std::size_t place = place_of(name);
+  return place == values_.size() ? nullptr : &values_[place];
+}
+
+std::size_t Metrics::place_of(const std::string& name) const {
+  const auto found = std::lower_bound(names_->begin(), names_->end(), name);
+  if (found == names_->end() || *found != name) return values_.size();
+  return static_cast<std::size_t>(found - names_->begin());
+}
+
+void Metrics::share_names(const Metrics& other) {
+  if (names_ != other.names_ && *names_ == *other.names_) names_ = other.names_;
+}
+
+const std::shared_ptr<const Metrics::Names>& Metrics::none() {
+  static const auto names = std::make_shared<const Names>();
+  return names;
+}
+
+Metrics metrics_of(const Json& result) {
+  Figures figures;
+  find_figures(result,
+               [&](const std::string& path, double value) { figures.emplace_back(path, value); });
+  return Metrics(std::move(figures));
+}
+
+Metrics MetricsReader::read(const Json& result) {
+  std::vector<double> values(paths_.size());
+  std::size_t count = 0;
+  bool same = true;
+  find_figures(result, [&](const std::string& path, double value) {
+    same = same && count < paths_.size() && paths_[count] == path;
+    if (same) values[order_[count++]] = value;
+  });
+  if (same && count == paths_.size() && count != 0)
+    return Metrics(before_.shared_names(), std::move(values));
+  paths_.clear();
+  order_.clear();
+  before_ = metrics_of(result);
+  find_figures(result, [&](const std::string& path, double) { paths_.push_back(path); });
+  for (const std::string& path : paths_) order_.push_back(before_.place_of(path));
+  return before_;
 }
 
 }  // namespace platform::sweep

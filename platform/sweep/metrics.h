@@ -1,14 +1,50 @@
 #pragma once
 
-#include <map>
+#include <initializer_list>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <sweep/manifest.h>
 
 namespace platform::sweep {
 
-/// Figures by name: a path into result.json.
-using Metrics = std::map<std::string, double>;
+/// Figures by name: a path into result.json. The points of a sweep have the same names, and share
+/// them: a figure of a point then costs eight bytes.
+class Metrics {
+ public:
+  using Names = std::vector<std::string>;
+
+  Metrics() = default;
+  /// Sorts them; of two with one name the later stays.
+  explicit Metrics(std::vector<std::pair<std::string, double>> figures);
+  Metrics(std::initializer_list<std::pair<std::string, double>> figures)
+      : Metrics(std::vector<std::pair<std::string, double>>(figures)) {}
+  /// `names` are sorted, and as many as `values`.
+  Metrics(std::shared_ptr<const Names> names, std::vector<double> values);
+
+  /// Null if there is none.
+  const double* find(const std::string& name) const;
+  /// Of its value; values().size() if there is none.
+  std::size_t place_of(const std::string& name) const;
+  bool empty() const { return values_.empty(); }
+  /// Sorted.
+  const Names& names() const { return *names_; }
+  /// In the order of the names.
+  const std::vector<double>& values() const { return values_; }
+
+  /// Uses the other's names if they are the same.
+  void share_names(const Metrics& other);
+  bool shares_names(const Metrics& other) const { return names_ == other.names_; }
+  const std::shared_ptr<const Names>& shared_names() const { return names_; }
+
+ private:
+  std::shared_ptr<const Names> names_ = none();
+  std::vector<double> values_;
+
+  static const std::shared_ptr<const Names>& none();
+};
 
 /// Every number and truth of a result (without provenance and configuration) by its path:
 /// "summary.fps.mean", "timing.met". Members of a list are named by their `name`, others by their
@@ -18,5 +54,17 @@ using Metrics = std::map<std::string, double>;
 /// many modules are clocked above a known limit, and above one of which only a lower bound is
 /// known.
 Metrics metrics_of(const Json& result);
+
+/// metrics_of() of one result after another: those of the same shape as the one before cost no new
+/// names.
+class MetricsReader {
+ public:
+  Metrics read(const Json& result);
+
+ private:
+  Metrics::Names paths_;            ///< of the result before, as they were found
+  std::vector<std::size_t> order_;  ///< places of the values in `before_`, by path
+  Metrics before_;
+};
 
 }  // namespace platform::sweep

@@ -73,8 +73,8 @@ void judge(RankedPoint& point, const Results& results, const std::vector<Express
     });
   };
   point.feasible = hold(false);
-  const auto failed = point.row->metrics.find("timing.failed");
-  const bool only_bounds = failed != point.row->metrics.end() && failed->second == 0;
+  const double* failed = point.row->metrics.find("timing.failed");
+  const bool only_bounds = failed && *failed == 0;
   point.unknown = !point.feasible && only_bounds && hold(true);
 }
 

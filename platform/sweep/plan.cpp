@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include <sweep/axis_check.h>
 #include <sweep/expansion.h>
 #include <sweep/expression.h>
 #include <sweep/identity_parts.h>
@@ -42,13 +43,17 @@ class Planner {
       : spec_(spec), options_(options), platform_(platform) {}
 
   Manifest plan() {
+    if (spec_.dimensions.empty())
+      throw vp::InputError(spec_.origin +
+                           ": the sweep varies nothing: say what under 'parameters' (also 'inputs' "
+                           "and 'system', to compare them) or under 'zip'");
     check_objectives();
     find_programs();
     make_axes();
     const double count = point_count(spec_, groups_);
     ask_about(count);
     for (const AxisGroup& group : groups_) {
-      for (const AxisValues& axis : group) check_values(axis);
+      for (const AxisValues& axis : group) check(axis);
     }
     for (const Condition& condition : spec_.constraints)
       constraints_.emplace_back(condition.text, condition.where);
@@ -116,61 +121,12 @@ class Planner {
       throw vp::InputError(start + "run them all with --yes, or some with --limit N");
   }
 
-  /// Builds the platform with values of the axis, so that a wrong one shows now. Finds out whether
-  /// other parameters, or the picture's size, follow from it.
-  void check_values(const AxisValues& axis) {
+  void check(const AxisValues& axis) {
     if (is_special(axis.path())) return;
-    const ParameterKind kind = tables_.front().kind(axis.path());
-    std::vector<std::string> values = axis.values();
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    if (kind.kind == Kind::quantity) values = extremes(values, kind);
-    bool influences = kind.kind != Kind::quantity;
-    for (const std::string& value : values) {
-      for (std::size_t i = 0; i < programs_.size(); ++i) {
-        Build build{programs_[i], spec_.set};
-        build.settings[axis.path()] = value;
-        try {
-          if (changes_others(platform_.elaborate(build, axis.where()), tables_[i], axis.path()))
-            influences = true;
-        } catch (const vp::InputError& error) {
-          // Other errors come from values together; such a point fails, and says why.
-          if (std::string(error.what()).rfind(axis.path() + ":", 0) == 0) throw;
-          influences = true;
-        }
-      }
-    }
-    if (influences) influential_.insert(axis.path());
-  }
-
-  /// The smallest, the largest, and one that is not whole.
-  static std::vector<std::string> extremes(const std::vector<std::string>& values,
-                                           const ParameterKind& kind) {
-    const auto less = [&](const std::string& a, const std::string& b) {
-      return number_of(kind, a) < number_of(kind, b);
-    };
-    std::set<std::string> chosen{*std::min_element(values.begin(), values.end(), less),
-                                 *std::max_element(values.begin(), values.end(), less)};
-    for (const std::string& value : values) {
-      if (!vp::parse_quantity(value, kind.unit).whole()) {
-        chosen.insert(value);
-        break;
-      }
-    }
-    return {chosen.begin(), chosen.end()};
-  }
-
-  static bool changes_others(const Elaborated& built, const ParameterTable& base,
-                             const std::string& path) {
-    if (built.size.width != base.size().width || built.size.height != base.size().height)
-      return true;
-    const std::map<std::string, std::string> before = base.values();
-    for (const vp::ParameterDescription& parameter : built.parameters) {
-      const auto found = before.find(parameter.path);
-      if (parameter.path != path && (found == before.end() || found->second != parameter.value))
-        return true;
-    }
-    return built.parameters.size() != before.size();
+    std::vector<ProgramTable> programs;
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+      programs.push_back({programs_[i], tables_[i]});
+    if (check_values(axis, spec_, programs, platform_)) influential_.insert(axis.path());
   }
 
   bool allowed(const Assignment& point) const {

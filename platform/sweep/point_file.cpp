@@ -77,9 +77,9 @@ PointRecord read_point(const std::string& path, bool verify) {
   Json json = Json::parse(text, nullptr, false);
   const std::string start = "'" + path + "' ";
   if (json.is_discarded())
-    throw vp::InputError(start +
-                         "is damaged, or no file of a sweep's point: remove it, and the "
-                         "sweep computes it again");
+    throw HalfPoint(start +
+                    "is damaged, or no file of a sweep's point: remove it, and the sweep computes "
+                    "it again");
   if (!json.is_object() || !json.contains(mark))
     throw vp::InputError(start + "is no point of a sweep: move it elsewhere");
   if (json[mark] != schema) {

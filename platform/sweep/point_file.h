@@ -3,6 +3,7 @@
 #include <string>
 
 #include <sweep/manifest.h>
+#include <vp/error.h>
 
 namespace platform::sweep {
 
@@ -39,7 +40,14 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
 
 std::string point_text(const PointRecord& record);
 
-/// Throws vp::InputError: cannot be read, no point file, of another version of the format, damaged.
+/// A point's file that is not whole: the power failed while it was on its way to the disk.
+class HalfPoint : public vp::InputError {
+ public:
+  using vp::InputError::InputError;
+};
+
+/// Throws vp::InputError: cannot be read, no point file, of another version of the format, changed;
+/// HalfPoint for one that is not whole.
 /// Without `verify` the hashes are taken as they stand, for a file that was verified before.
 PointRecord read_point(const std::string& path, bool verify = true);
 

@@ -1,7 +1,9 @@
 #include <sweep/results.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include <vp/error.h>
 #include <vp/text.h>
@@ -10,31 +12,63 @@ namespace platform::sweep {
 
 namespace {
 
-ResultRow row_of(const Manifest& manifest, const PlannedPoint& point, const PointRecord& record) {
+using Bases = std::vector<std::shared_ptr<const std::map<std::string, std::string>>>;
+
+Bases bases_of(const Manifest& manifest) {
+  Bases bases;
+  for (const Family& family : manifest.families)
+    bases.push_back(
+        std::make_shared<const std::map<std::string, std::string>>(family.configuration));
+  return bases;
+}
+
+ResultRow row_of(const Manifest& manifest, const Bases& bases, const PlannedPoint& point,
+                 Outcome outcome) {
   ResultRow row;
+  static_cast<Outcome&>(row) = std::move(outcome);
   row.key = point.key;
   row.swept = point.swept;
-  row.configuration = manifest.configuration(point);
+  row.base = bases[point.family];
+  row.changes = point.changes;
   row.program = manifest.families[point.family].contents.value("program", "");
   row.inputs = vp::join(manifest.input_sets[point.input_set].inputs, "+");
-  row.failed = record.failed();
-  if (row.failed) {
-    const Json& failure = record.outcome.at("failure");
-    row.failure = {failure.value("exit_code", -1), failure.value("signal", 0),
-                   failure.value("message", "")};
-  }
-  if (record.outcome.contains("result")) row.metrics = metrics_of(record.outcome.at("result"));
   return row;
 }
 
+/// `outcome(position)` says what there is of a point, or nothing.
+template <class OutcomeAt>
+Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
+  Results results;
+  const Bases bases = bases_of(manifest);
+  results.rows.reserve(manifest.points.size());
+  for (std::size_t i = 0; i < manifest.points.size(); ++i) {
+    std::optional<Outcome> found = outcome(i);
+    if (!found) {
+      ++results.missing;
+      continue;
+    }
+    if (!results.rows.empty()) found->metrics.share_names(results.rows.back().metrics);
+    results.rows.push_back(row_of(manifest, bases, manifest.points[i], *std::move(found)));
+  }
+  results.manifest = std::move(manifest);
+  return results;
+}
+
 }  // namespace
+
+const std::string* ResultRow::parameter(const std::string& path) const {
+  const auto changed = changes.find(path);
+  if (changed != changes.end()) return &changed->second;
+  if (!base) return nullptr;
+  const auto found = base->find(path);
+  return found == base->end() ? nullptr : &found->second;
+}
 
 std::string ResultRow::value(const std::string& path) const {
   for (const auto& [name, text] : swept) {
     if (name == path) return text;
   }
-  const auto found = configuration.find(path);
-  if (found != configuration.end()) return found->second;
+  if (const std::string* text = parameter(path)) return *text;
   return path == "inputs" ? inputs : path == "system" || path == "program" ? program : "";
 }
 
@@ -44,8 +78,11 @@ std::uint64_t Results::failed() const {
 
 std::vector<std::string> Results::metric_names() const {
   std::set<std::string> names;
+  const Metrics* before = nullptr;
   for (const ResultRow& row : rows) {
-    for (const auto& [name, value] : row.metrics) names.insert(name);
+    if (before && row.metrics.shares_names(*before)) continue;
+    names.insert(row.metrics.names().begin(), row.metrics.names().end());
+    before = &row.metrics;
   }
   return {names.begin(), names.end()};
 }
@@ -54,25 +91,42 @@ std::vector<std::string> Results::chosen_metrics() const {
   return manifest.metrics.empty() ? metric_names() : manifest.metrics;
 }
 
-Results read_results(const Store& store, Manifest manifest, bool verify) {
-  Results results;
-  for (const PlannedPoint& point : manifest.points) {
-    if (!store.has(point.key)) {
-      ++results.missing;
-      continue;
-    }
-    results.rows.push_back(row_of(manifest, point, store.read(point.key, verify)));
+Outcome outcome_of(const PointRecord& record) {
+  Outcome outcome;
+  outcome.failed = record.failed();
+  if (outcome.failed) {
+    const Json& failure = record.outcome.at("failure");
+    outcome.failure = {failure.value("exit_code", -1), failure.value("signal", 0),
+                       failure.value("message", "")};
   }
-  results.manifest = std::move(manifest);
-  return results;
+  if (record.outcome.contains("result")) outcome.metrics = metrics_of(record.outcome.at("result"));
+  return outcome;
+}
+
+Results read_results(const Store& store, Manifest manifest) {
+  return results_of(std::move(manifest), [&](std::size_t position) -> std::optional<Outcome> {
+    const std::string& key = manifest.points[position].key;
+    if (!store.has(key)) return std::nullopt;
+    return outcome_of(store.read(key));
+  });
+}
+
+Results read_results(const Store& store, Manifest manifest,
+                     const std::map<std::size_t, Outcome>& known) {
+  return results_of(std::move(manifest), [&](std::size_t position) -> std::optional<Outcome> {
+    const auto found = known.find(position);
+    if (found != known.end()) return found->second;
+    const std::string& key = manifest.points[position].key;
+    if (!store.has(key)) return std::nullopt;
+    return outcome_of(store.read(key, false));
+  });
 }
 
 Value value_in(const Results& results, const ResultRow& row, const std::string& name,
                const std::string& where) {
   Value value;
-  const auto metric = row.metrics.find(name);
-  if (metric != row.metrics.end()) {
-    value.number = metric->second;
+  if (const double* metric = row.metrics.find(name)) {
+    value.number = *metric;
     return value;
   }
   const std::string text = row.value(name);
@@ -88,7 +142,9 @@ Value value_in(const Results& results, const ResultRow& row, const std::string& 
     return value;
   }
   std::vector<std::string> known = results.metric_names();
-  for (const auto& [path, unused] : row.configuration) known.push_back(path);
+  if (row.base) {
+    for (const auto& [path, unused] : *row.base) known.push_back(path);
+  }
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     throw vp::InputError(where + ": point " + row.key + " has no '" + name + "'");
   }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <sweep/expression.h>
-#include <sweep/metrics.h>
+#include <sweep/outcome.h>
 #include <sweep/parameter_table.h>
 #include <sweep/point_file.h>
 #include <sweep/store.h>
@@ -13,17 +14,19 @@
 namespace platform::sweep {
 
 /// A point of a sweep with its figures.
-struct ResultRow {
+struct ResultRow : Outcome {
   std::string key;
   Assignment swept;
-  bool failed = false;
-  Failure failure;  ///< if it failed
-  Metrics metrics;  ///< empty if there is no result
-  std::map<std::string, std::string> configuration;
+  /// The effective configuration: these values, and changes to them. Points of a family share the
+  /// first.
+  std::shared_ptr<const std::map<std::string, std::string>> base;
+  std::map<std::string, std::string> changes;
   std::string program;
   std::string inputs;
 
-  /// The text of a swept value; empty if the point leaves it alone.
+  /// The text of a parameter of the effective configuration; null if there is none.
+  const std::string* parameter(const std::string& path) const;
+  /// The text of a swept value, or of any parameter; empty if the point has none.
   std::string value(const std::string& path) const;
 };
 
@@ -40,9 +43,13 @@ struct Results {
   std::vector<std::string> chosen_metrics() const;
 };
 
-/// Reads the points of the folder's last sweep; without `verify` they were verified before. Throws
-/// vp::InputError for a damaged one.
-Results read_results(const Store& store, Manifest manifest, bool verify = true);
+/// Reads the points of the folder's last sweep. Throws vp::InputError for a damaged one.
+Results read_results(const Store& store, Manifest manifest);
+
+/// Those of a sweep that was just computed: `known` has what is known of points by their position;
+/// the files of the others were verified before.
+Results read_results(const Store& store, Manifest manifest,
+                     const std::map<std::size_t, Outcome>& known);
 
 /// What a name means for a row: a metric, a parameter, or system and inputs. Throws vp::InputError
 /// for an unknown one, with the nearest; `where` says who asked.

@@ -14,8 +14,8 @@ std::string results_csv(const Results& results) {
     std::vector<std::string> fields{row.key, row.failed ? "failed" : "done", row.failure.message};
     for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
     for (const std::string& name : metrics) {
-      const auto found = row.metrics.find(name);
-      fields.push_back(found == row.metrics.end() ? "" : csv_number(found->second));
+      const double* found = row.metrics.find(name);
+      fields.push_back(found ? csv_number(*found) : "");
     }
     text += csv_line(fields);
   }

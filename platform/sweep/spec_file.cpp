@@ -1,13 +1,11 @@
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include <sweep/spec.h>
+#include <sweep/yaml_reader.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -17,13 +15,13 @@ namespace {
 
 constexpr const char* inputs_axis = "inputs";
 
-class Reader {
+class Reader : private YamlReader {
  public:
-  Reader(Spec& spec, const std::string& origin) : spec_(spec), origin_(origin) {}
+  Reader(Spec& spec, const std::string& origin) : YamlReader(origin), spec_(spec) {}
 
   void read(const YAML::Node& root) {
     if (!root.IsMap()) fail(root, "expected 'key: value' lines");
-    const std::map<std::string, std::function<void(const YAML::Node&)>> keys{
+    const Keys keys{
         {"title", [&](const YAML::Node& n) { spec_.title = scalar(n, "title"); }},
         {"text", [&](const YAML::Node& n) { spec_.text = scalar(n, "text"); }},
         {"inputs", [&](const YAML::Node& n) { spec_.inputs = scalars(n, "inputs"); }},
@@ -48,75 +46,8 @@ class Reader {
   }
 
  private:
-  using Keys = std::map<std::string, std::function<void(const YAML::Node&)>>;
-
   static constexpr std::uint64_t most_frames = 1'000'000;
   static constexpr std::uint64_t most_points = 10'000'000;
-
-  std::string where(const YAML::Node& node) const {
-    if (node.Mark().is_null()) return origin_;
-    return origin_ + ":" + std::to_string(node.Mark().line + 1);
-  }
-
-  [[noreturn]] void fail(const YAML::Node& node, const std::string& problem) const {
-    throw vp::InputError(where(node) + ": " + problem);
-  }
-
-  void for_each(const YAML::Node& map, const Keys& keys, const std::string& what) {
-    if (!map.IsMap()) fail(map, what + " is 'key: value' lines");
-    std::set<std::string> seen;
-    for (const auto& entry : map) {
-      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      const auto found = keys.find(key);
-      if (found == keys.end()) {
-        std::vector<std::string> names;
-        for (const auto& [name, unused] : keys) names.push_back(name);
-        const std::string nearest = vp::nearest_match(key, names);
-        fail(entry.first, "unknown key '" + key + "' of " + what + ": " +
-                              (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
-                              "there are " + vp::join(names, ", "));
-      }
-      if (!seen.insert(key).second) fail(entry.first, "'" + key + "' stands there twice");
-      found->second(entry.second);
-    }
-  }
-
-  std::string scalar(const YAML::Node& node, const std::string& key) const {
-    if (!node.IsScalar()) fail(node, "'" + key + "' takes one value");
-    return node.Scalar();
-  }
-
-  /// One value or a list of them.
-  std::vector<std::string> scalars(const YAML::Node& node, const std::string& key) const {
-    if (node.IsScalar()) return {node.Scalar()};
-    if (!node.IsSequence() || node.size() == 0) fail(node, "'" + key + "' takes a list of values");
-    std::vector<std::string> values;
-    for (const YAML::Node& item : node) values.push_back(scalar(item, key));
-    return values;
-  }
-
-  std::string choice(const YAML::Node& node, const std::string& key,
-                     const std::vector<std::string>& names) const {
-    const std::string value = scalar(node, key);
-    if (std::find(names.begin(), names.end(), value) != names.end()) return value;
-    const std::string nearest = vp::nearest_match(value, names);
-    fail(node, "'" + value + "' for '" + key + "': write " + vp::one_of(names) +
-                   (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
-  }
-
-  std::uint64_t whole(const YAML::Node& node, const std::string& key, std::uint64_t min,
-                      std::uint64_t max) const {
-    const std::string text = scalar(node, key);
-    std::uint64_t value = 0;
-    const bool digits = !text.empty() && text.size() < 19 &&
-                        text.find_first_not_of("0123456789") == std::string::npos;
-    if (digits) value = std::stoull(text);
-    if (!digits || value < min || value > max) {
-      fail(node, "'" + text + "' for '" + key + "': write a whole number from " +
-                     std::to_string(min) + " to " + std::to_string(max));
-    }
-    return value;
-  }
 
   void read_program(const YAML::Node& node, const std::string& key) {
     if (!spec_.program.empty()) fail(node, "'system' and 'program' both name the PS program");
@@ -272,7 +203,6 @@ class Reader {
   }
 
   Spec& spec_;
-  std::string origin_;
   std::set<std::string> swept_;
 };
 
@@ -287,8 +217,7 @@ Spec parse_spec(const std::string& text, const std::string& origin) {
     const YAML::Node root = YAML::Load(text);
     Reader(spec, origin).read(root);
   } catch (const YAML::Exception& error) {
-    const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
-    throw vp::InputError(origin + line + ": " + error.msg);
+    throw_no_yaml(error, origin);
   }
   return spec;
 }

@@ -63,7 +63,11 @@ std::string points_csv(const Manifest& manifest) {
 }  // namespace
 
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  close();
+}
+
+void FileLock::close() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -124,7 +128,7 @@ bool Store::has(const std::string& key) const {
 }
 
 void Store::write(const PointRecord& record) const {
-  write_durably(point_path(record.key), point_text(record));
+  write_whole(point_path(record.key), point_text(record));
 }
 
 PointRecord Store::read(const std::string& key, bool verify) const {

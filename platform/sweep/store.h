@@ -21,6 +21,9 @@ class FileLock {
   /// it. Throws StorageError.
   bool take(const std::string& path, std::uint64_t byte, bool wait);
 
+  /// Ends it, unless another process has the same open file.
+  void close();
+
  private:
   int descriptor_ = -1;
 };
@@ -40,12 +43,15 @@ class Store {
   /// it.
   void lock();
 
+  /// In a forked process: keeps nobody out any more, however long it takes to end.
+  void leave_lock_to_parent() const { lock_.close(); }
+
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const;
   std::string point_path(const std::string& key) const;
 
   bool has(const std::string& key) const;
-  /// Throws StorageError.
+  /// Whole or not at all, unless the power fails before flush_to_disk(). Throws StorageError.
   void write(const PointRecord& record) const;
   /// Throws vp::InputError for a damaged one, or one of another name.
   PointRecord read(const std::string& key, bool verify = true) const;
@@ -61,7 +67,7 @@ class Store {
 
  private:
   std::string folder_;
-  FileLock lock_;
+  mutable FileLock lock_;  ///< of the process that took it
 };
 
 }  // namespace platform::sweep

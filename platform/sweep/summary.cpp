@@ -63,9 +63,9 @@ std::string sweep_text(const Results& results, std::size_t most_rows) {
     std::vector<std::string> fields;
     for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
     for (const std::string& name : figures) {
-      const auto found = row.metrics.find(name);
+      const double* found = row.metrics.find(name);
       const std::string none = row.failed ? "failed" : "-";
-      fields.push_back(found == row.metrics.end() ? none : readable(found->second));
+      fields.push_back(found ? readable(*found) : none);
     }
     table.add(fields);
   }

@@ -1,118 +1,13 @@
-#include <boost/test/unit_test.hpp>
-
 #include <cmath>
-#include <fstream>
-#include <functional>
-#include <map>
 #include <sstream>
-#include <thread>
 
 #include <sweep/point_file.h>
 
-#include "executable.h"
+#include "sweeps.h"
 
-namespace {
-
-using integration::Json;
-
-constexpr const char* clocks = R"(
-parameters:
-  ps.fclk_clk1.frequency: {start: 25 MHz, stop: 100 MHz, step: 25 MHz}
-metrics: [summary.fps.mean, frames.time_us.frame.mean]
-objectives: [max summary.fps.mean, min summary.latency_us.mean]
-)";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-/// A folder in which sweeps run.
-class Sweeps : public kit::TemporaryFolder {
- public:
-  void write(const std::string& name, const std::string& yaml) const {
-    kit::write_file(*this / name, yaml);
-  }
-  kit::Outcome run(const std::vector<std::string>& arguments) const {
-    return kit::run_process(MARKERVP_EXECUTABLE, arguments, path());
-  }
-  /// With a limit of the shell before it.
-  kit::Outcome run_limited(const std::string& limit, const std::string& arguments) const {
-    const std::string command = limit + "; exec " + MARKERVP_EXECUTABLE + " " + arguments;
-    return kit::run_process("/bin/bash", {"-c", command}, path());
-  }
-  std::string problem(const std::string& yaml) const {
-    write("wrong.yaml", yaml);
-    const kit::Outcome outcome = run({"sweep", "wrong.yaml"});
-    BOOST_TEST(outcome.exit_code == 2);
-    BOOST_TEST(!std::filesystem::exists(*this / "out"));
-    return outcome.err;
-  }
-  std::map<std::string, std::string> points(const std::string& folder) const {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/points"))) {
-      if (entry.path().extension() == ".json")
-        result[entry.path().filename().string()] = kit::read_file(entry.path().string());
-    }
-    return result;
-  }
-  std::size_t count_points(const std::string& folder) const {
-    std::error_code ignored;
-    const std::filesystem::directory_iterator all(*this / (folder + "/points"), ignored);
-    return std::count_if(begin(all), end(all),
-                         [](const auto& entry) { return entry.path().extension() == ".json"; });
-  }
-  /// Times that points were computed, by key.
-  std::map<std::string, int> computations(const std::string& folder) const {
-    std::map<std::string, int> counts;
-    for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/runs"))) {
-      std::ifstream lines(entry.path());
-      for (std::string line; std::getline(lines, line);)
-        ++counts[Json::parse(line)["key"].get<std::string>()];
-    }
-    return counts;
-  }
-  std::string a_point(const std::string& folder) const {
-    return *this / (folder + "/points/" + points(folder).begin()->first);
-  }
-};
-
-void wait_until(const std::function<bool()>& happened) {
-  while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-}
-
-/// Kills the process of the sweep's point that runs now, `times` times, each another one.
-void kill_points(kit::ChildProcess& sweep, int times) {
-  const std::string file =
-      "/proc/" + std::to_string(sweep.pid()) + "/task/" + std::to_string(sweep.pid()) + "/children";
-  pid_t before = 0;
-  while (times > 0 && !sweep.ended()) {
-    pid_t child = 0;
-    std::ifstream(file) >> child;
-    if (child != 0 && child != before && ::kill(child, SIGKILL) == 0) {
-      before = child;
-      --times;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-}
-
-/// A point that takes long enough to be killed in the midst of it, and long ones only: the plan's
-/// processes have come and gone when its folder appears.
-constexpr const char* long_point = "repeat: 3000\nparameters: {ps.fclk_clk1.frequency: [50 MHz]}\n";
-
-}  // namespace
+using namespace sweep_test;
 
 BOOST_AUTO_TEST_SUITE(sweeps)
-
-BOOST_FIXTURE_TEST_CASE(a_sweep_goes_on_where_it_stopped, Sweeps) {
-  write("s.yaml", clocks);
-  BOOST_TEST(run({"sweep", "s.yaml", "--limit", "2"}).exit_code == 0);
-  const kit::Outcome second = run({"sweep", "s.yaml"});
-  BOOST_TEST(contains(second.out, "4 points: 2 computed now, 2 there before, 0 failed"),
-             second.out);
-  BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now, 4 there before"));
-  for (const auto& [key, count] : computations("out/s")) BOOST_TEST(count == 1);
-}
 
 BOOST_FIXTURE_TEST_CASE(the_page_of_a_sweep_has_all_its_points, Sweeps) {
   write("s.yaml", clocks);
@@ -137,73 +32,43 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_the_number_of_workers, Sweeps) 
   BOOST_TEST(kit::read_file(*this / "one/sweep.csv") == kit::read_file(*this / "three/sweep.csv"));
 }
 
+// A process that computed other points before leaves no trace in a result.
+BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, Sweeps) {
+  write("s.yaml",
+        "inputs: [demo]\n"
+        "parameters:\n"
+        "  system: [hybrid, ps-only]\n"
+        "  fidelity: [tlm, clocked]\n"
+        "  pl.width: [640 px, 320 px, 600 px]\n"
+        "  inputs: [z1.0, squares]\n"
+        "  sw.opt: [O0, O2]\n");
+  const std::vector<std::string> same{"sweep", "s.yaml", "--no-report", "--jobs"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = same;
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  const kit::Outcome alone = with({"1", "--isolate", "--output", "alone"});
+  BOOST_TEST(alone.exit_code == 0, alone.err);
+  with({"1", "--output", "one"});
+  with({"2", "--output", "two"});
+  BOOST_TEST(points("alone").size() > 20u);
+  BOOST_TEST((points("alone") == points("one")));
+  BOOST_TEST((points("alone") == points("two")));
+  const std::string csv = kit::read_file(*this / "alone/sweep.csv");
+  BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
+  // From the files alone it is the same as from the processes' words.
+  std::filesystem::remove(*this / "one/sweep.csv");
+  BOOST_TEST(contains(with({"1", "--output", "one"}).out, " 0 computed now"));
+  BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
+}
+
 BOOST_FIXTURE_TEST_CASE(equal_points_are_computed_once, Sweeps) {
   write("s.yaml", "parameters: {ps.fclk_clk1.frequency: [50 MHz, 50000 kHz, 0.05 GHz, 25 MHz]}");
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--output", "d"}).out, "2 points: 2 computed now"));
   // The default, which another sweep had already.
   write("t.yaml", "parameters: {pl.corner_detection.threshold: [30]}");
   BOOST_TEST(contains(run({"sweep", "t.yaml", "--output", "d"}).out, "0 computed now, 1 there"));
-}
-
-BOOST_FIXTURE_TEST_CASE(a_killed_sweep_leaves_whole_results_only, Sweeps) {
-  write("s.yaml",
-        "parameters: {ps.fclk_clk1.frequency: {start: 20 MHz, stop: 59 MHz, step: 1 MHz}}");
-  {
-    kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml", "--jobs", "2"}, path());
-    wait_until([&] { return count_points("out/s") >= 5 || sweep.ended(); });
-    sweep.send(SIGKILL);
-    sweep.wait();
-  }
-  const kit::Outcome again = run({"sweep", "s.yaml"});
-  BOOST_TEST(again.exit_code == 0);
-  BOOST_TEST(contains(again.out, "40 points: "), again.err);
-  BOOST_TEST(contains(again.out, " 0 failed"));
-  BOOST_TEST(count_points("out/s") == 40u);
-  for (const auto& [key, count] : computations("out/s")) BOOST_TEST(count == 1, key);
-}
-
-BOOST_FIXTURE_TEST_CASE(two_sweeps_in_one_folder_are_refused, Sweeps) {
-  write("s.yaml",
-        "parameters: {ps.fclk_clk1.frequency: {start: 20 MHz, stop: 219 MHz, step: 1 MHz}}");
-  kit::ChildProcess first(MARKERVP_EXECUTABLE, {"sweep", "s.yaml", "--jobs", "1"}, path());
-  wait_until([&] { return count_points("out/s") >= 1 || first.ended(); });
-  const kit::Outcome second = run({"sweep", "s.yaml"});
-  BOOST_TEST(second.exit_code == 2);
-  BOOST_TEST(contains(second.err, "another sweep works in 'out/s' (process "), second.err);
-}
-
-BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {
-  write("s.yaml", "parameters: {pl.width: [640 px, 600 px]}");
-  const kit::Outcome outcome = run({"sweep", "s.yaml"});
-  BOOST_TEST(outcome.exit_code == 0);
-  BOOST_TEST(contains(outcome.out, "1 point failed: "), outcome.out);
-  BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now, 2 there before, 1 failed"));
-  BOOST_TEST(contains(run({"sweep", "s.yaml", "--retry-failed"}).out, "1 computed now"));
-}
-
-BOOST_FIXTURE_TEST_CASE(a_killed_point_is_tried_once_more, Sweeps) {
-  write("s.yaml", long_point);
-  kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml"}, path());
-  wait_until([&] { return std::filesystem::exists(*this / "out/s/points.csv") || sweep.ended(); });
-  kill_points(sweep, 1);
-  const kit::Outcome outcome = sweep.wait();
-  BOOST_TEST(outcome.exit_code == 0);
-  BOOST_TEST(contains(outcome.out, "1 point: 1 computed now, 0 there before, 0 failed"),
-             outcome.out);
-}
-
-BOOST_FIXTURE_TEST_CASE(a_point_killed_twice_is_recorded_with_the_signal, Sweeps) {
-  write("s.yaml", long_point);
-  kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml"}, path());
-  wait_until([&] { return std::filesystem::exists(*this / "out/s/points.csv") || sweep.ended(); });
-  kill_points(sweep, 2);
-  const kit::Outcome outcome = sweep.wait();
-  BOOST_TEST(outcome.exit_code == 1);
-  BOOST_TEST(contains(outcome.out, "1 point failed: the process was ended by a signal: Killed"),
-             outcome.out);
-  const Json failure = Json::parse(kit::read_file(a_point("out/s")))["outcome"]["failure"];
-  BOOST_TEST(failure["signal"] == SIGKILL);
-  BOOST_TEST(computations("out/s").begin()->second == 1);
 }
 
 BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, Sweeps) {
@@ -244,6 +109,34 @@ BOOST_FIXTURE_TEST_CASE(mistakes_cost_no_time, Sweeps) {
   BOOST_TEST(contains(run({"sweep", "pixel-clok"}).err, "did you mean 'pixel-clock'"));
 }
 
+BOOST_FIXTURE_TEST_CASE(a_sweep_of_nothing_is_a_mistake, Sweeps) {
+  BOOST_TEST(contains(problem("title: Forgotten\ninputs: [z1.0, z4.0]\n"), "varies nothing"));
+  BOOST_TEST(contains(problem("parameters:\n  sw.margin: [4 px\nset: 5\n"),
+                      "wrong.yaml:3:4: this is not YAML"));
+}
+
+BOOST_FIXTURE_TEST_CASE(figures_that_no_result_has_are_named, Sweeps) {
+  write("s.yaml", R"(
+parameters: {sw.margin: [4 px, 5 px]}
+metrics: [summary.fps.mean, summary.fps.men, sw.margin]
+objectives: [max summary.fps.mean, min power.totl_w.nominal]
+)");
+  const kit::Outcome outcome = run({"sweep", "s.yaml"});
+  BOOST_TEST(outcome.exit_code == 0);
+  for (const char* who : {"the first result has no metric", "no result has the metric"}) {
+    const std::string start = "warning: " + std::string(who);
+    BOOST_TEST(
+        contains(outcome.err, start + " 'summary.fps.men': did you mean 'summary.fps.mean'?"),
+        outcome.err);
+    BOOST_TEST(contains(outcome.err,
+                        start + " 'power.totl_w.nominal': did you mean 'power.total_w.nominal'?"),
+               outcome.err);
+  }
+  BOOST_TEST(!contains(outcome.err, "'sw.margin'"), outcome.err);
+  write("t.yaml", clocks);
+  BOOST_TEST(run({"sweep", "t.yaml"}).err == "");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_huge_sweep_asks_first, Sweeps) {
   const std::string many = ": {start: 1 cycles, stop: 1000 cycles, step: 1 cycles}\n";
   const std::string two =
@@ -252,35 +145,10 @@ BOOST_FIXTURE_TEST_CASE(a_huge_sweep_asks_first, Sweeps) {
   BOOST_TEST(contains(problem(two + "  pl.axi_dma_0.read_latency" + many),
                       "1000000000 points: no machine"));
   BOOST_TEST(contains(run({"sweep", "wrong.yaml", "--limit", "3", "--dry-run"}).out, "3 points"));
-}
-
-BOOST_FIXTURE_TEST_CASE(a_full_disk_loses_nothing, Sweeps) {
-  write("s.yaml", std::string(clocks) + "repeat: 80\n");
-  run({"sweep", "s.yaml", "--limit", "2"});
-  const auto before = points("out/s");
-  // Files of 64 KiB at most: the result of 80 frames does not fit.
-  const kit::Outcome outcome = run_limited("ulimit -f 64", "sweep s.yaml");
-  BOOST_TEST(outcome.exit_code == 2);
-  BOOST_TEST(contains(outcome.err, "File too large"), outcome.err);
-  BOOST_TEST((points("out/s") == before));
-  BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "4 points: 2 computed now"));
-}
-
-BOOST_FIXTURE_TEST_CASE(damaged_and_foreign_files_are_named, Sweeps) {
-  write("s.yaml", clocks);
-  run({"sweep", "s.yaml"});
-  kit::write_file(*this / "out/s/points/notes.txt", "mine");
-  const std::string point = a_point("out/s");
-  const std::string whole = kit::read_file(point);
-  kit::write_file(point, whole.substr(0, 100));
-  const kit::Outcome damaged = run({"sweep", "s.yaml"});
-  BOOST_TEST(damaged.exit_code == 2);
-  BOOST_TEST(contains(damaged.err, "is damaged"), damaged.err);
-  std::filesystem::remove(point);
-  const kit::Outcome again = run({"sweep", "s.yaml"});
-  BOOST_TEST(contains(again.err, "'notes.txt', which no sweep wrote"), again.err);
-  BOOST_TEST(contains(again.out, "1 computed now, 3 there before"), again.out);
-  BOOST_TEST(kit::read_file(point) == whole);
+  BOOST_TEST(
+      contains(problem("parameters:\n  ps.fclk_clk1.frequency: {start: 10 MHz, stop: 60 MHz, "
+                       "step: 1 Hz}"),
+               "too many also for --yes and --limit"));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_point_runs_again_as_an_ordinary_run, Sweeps) {

@@ -1,3 +1,4 @@
+#include <report/result_document.h>
 #include <report/result_writer.h>
 
 #include <boost/test/unit_test.hpp>
@@ -118,6 +119,23 @@ BOOST_AUTO_TEST_CASE(equal_runs_give_equal_bytes_and_bad_utf8_does_no_harm) {
   report::FrameReport frame = found_frame("z1.0");
   frame.input = "caf\xE9.png";
   BOOST_TEST(written({frame}).dump() == written({frame}).dump());
+}
+
+BOOST_AUTO_TEST_CASE(in_memory_it_is_the_same_without_provenance_and_configuration) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.input = "caf\xE9.png";
+  for (const std::vector<report::FrameReport>& frames :
+       {std::vector<report::FrameReport>{}, {frame}, {frame, found_frame("z4.0")}}) {
+    Json file = written(frames, {"no camera"}, "interrupted");
+    file.erase("provenance");
+    file.erase("configuration");
+    report::ResultDocument document;
+    for (const report::FrameReport& one : frames) document.add(one);
+    BOOST_TEST(document.json().is_null());
+    document.finish(facts(), provenance(), {"no camera"}, "interrupted");
+    BOOST_TEST(document.summary().frames() == frames.size());
+    BOOST_TEST(document.take().dump(-1, ' ', false, Json::error_handler_t::replace) == file.dump());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(without_finish_nothing_is_left) {

@@ -1,5 +1,11 @@
+#include <unistd.h>
+
+#include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
 
 #include <sweep/engine.h>
 #include <sweep/run_log.h>
@@ -12,14 +18,18 @@ using sweep_test::contains;
 
 namespace {
 
-Manifest one_point() {
+Manifest points(int count) {
   Manifest manifest;
-  manifest.name = "one";
-  manifest.families.push_back({"hybrid", {{"a", "1"}}, {{"a", "1"}}, {}});
+  manifest.name = "numbers";
+  manifest.families.push_back({"hybrid", {{"a", "x"}}, {{"a", "x"}}, {}});
   manifest.input_sets.push_back({{"demo"}, {{"name", "demo"}}});
-  PlannedPoint point;
-  point.key = key_of(manifest.identity(point));
-  manifest.points.push_back(point);
+  for (int i = 0; i < count; ++i) {
+    PlannedPoint point;
+    point.changes = {{"a", std::to_string(i)}};
+    point.swept = {{"a", std::to_string(i)}};
+    point.key = key_of(manifest.identity(point));
+    manifest.points.push_back(point);
+  }
   return manifest;
 }
 
@@ -30,55 +40,167 @@ Manifest one_point() {
   ::_exit(1);
 }
 
-/// A platform that crashes in its first runs, and counts them.
-class Crashing : public kit::TemporaryFolder {
+/// A platform whose points are numbers. It notes each run: "number process".
+class Platform : public kit::TemporaryFolder {
  public:
-  explicit Crashing(int times) : times_(times) {}
+  /// What a run does beside its work: the number of the point, its attempt from 1. Returns the exit
+  /// code.
+  using Mischief = std::function<int(int number, int attempt, std::ostream& err)>;
 
-  Tally compute() {
-    const RunPoint run = [this](const PointRun&, const std::string& folder, std::ostream&) {
-      std::ofstream(*this / "attempts", std::ios::app) << '.' << std::flush;
-      if (attempts() <= times_) crash();
-      std::filesystem::create_directories(folder);
-      kit::write_file(folder + "/result.json", R"({"configuration": {"a": "1"}, "summary": {}})");
-      return 0;
+  explicit Platform(int count) : manifest_(points(count)) {}
+
+  Tally compute(const LocalOptions& options, const Mischief& mischief = {}) {
+    const RunPoint run = [&](const PointRun& asked, PointResult& result, std::ostream& err) {
+      const std::string number = asked.settings.at("a");
+      std::ofstream(*this / "runs", std::ios::app)
+          << number + " " + std::to_string(::getpid()) + "\n"
+          << std::flush;
+      const int code = mischief ? mischief(std::stoi(number), attempts(number), err) : 0;
+      result.configuration = {{"a", number}};
+      result.result["summary"]["number"] = std::stoi(number);
+      return code;
     };
-    return run_local(store(), manifest_, {0}, {1, "local"}, run, nullptr);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < manifest_.points.size(); ++i) all.push_back(i);
+    return run_local(store(), manifest_, all, options, run, nullptr);
   }
 
-  int attempts() const { return static_cast<int>(kit::read_file(*this / "attempts").size()); }
+  /// Runs of the point of this number.
+  int attempts(const std::string& number) const {
+    int count = 0;
+    for (const auto& [run, process] : runs()) count += run == number ? 1 : 0;
+    return count;
+  }
+  std::size_t processes() const {
+    std::set<std::string> different;
+    for (const auto& [number, process] : runs()) different.insert(process);
+    return different.size();
+  }
   Store store() const { return Store(*this / "sweep"); }
-  PointRecord record() const { return store().read(manifest_.points[0].key); }
+  PointRecord record(int number) const { return store().read(manifest_.points[number].key); }
+  std::string files() const {
+    std::string all;
+    for (const PlannedPoint& point : manifest_.points)
+      all += kit::read_file(store().point_path(point.key));
+    return all;
+  }
 
  private:
-  int times_;
-  Manifest manifest_ = one_point();
+  std::vector<std::pair<std::string, std::string>> runs() const {
+    std::vector<std::pair<std::string, std::string>> result;
+    std::istringstream lines(kit::read_file(*this / "runs"));
+    for (std::string number, process; lines >> number >> process;)
+      result.emplace_back(number, process);
+    return result;
+  }
+
+  Manifest manifest_;
 };
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(local_engine)
 
+BOOST_AUTO_TEST_CASE(a_process_computes_some_points) {
+  Platform platform(10);
+  const Tally tally = platform.compute({1, "local", 4});
+  BOOST_TEST(tally.computed == 10u);
+  BOOST_TEST(platform.processes() == 3u);
+  BOOST_TEST(tally.outcomes.size() == 10u);
+  BOOST_TEST(*tally.outcomes.at(7).metrics.find("summary.number") == 7);
+  BOOST_TEST(read_runs(platform.store()).size() == 10u);
+}
+
+BOOST_AUTO_TEST_CASE(files_do_not_depend_on_who_computed_them) {
+  Platform alone(9);
+  alone.compute({1, "local", 1});
+  Platform together(9);
+  together.compute({3, "local", 64});
+  BOOST_TEST(alone.processes() == 9u);
+  BOOST_TEST(alone.files() == together.files());
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {
-  Crashing platform(1);
-  BOOST_TEST(platform.compute().computed == 1u);
-  BOOST_TEST(platform.attempts() == 2);
-  BOOST_TEST(!platform.record().failed());
-  BOOST_TEST(read_runs(platform.store()).front().attempt == 2);
+  Platform platform(6);
+  const Tally tally =
+      platform.compute({1, "local", 64}, [](int number, int attempt, std::ostream&) {
+        if (number == 2 && attempt == 1) crash();
+        return 0;
+      });
+  BOOST_TEST(tally.computed == 6u);
+  BOOST_TEST(platform.attempts("1") == 1);
+  BOOST_TEST(platform.attempts("2") == 2);
+  BOOST_TEST(platform.attempts("3") == 1);
+  // That which crashed, one for its second attempt, one for the rest.
+  BOOST_TEST(platform.processes() == 3u);
+  BOOST_TEST(!platform.record(2).failed());
+  const std::vector<RunEntry> entries = read_runs(platform.store());
+  BOOST_TEST(std::count_if(entries.begin(), entries.end(),
+                           [](const RunEntry& entry) { return entry.attempt == 2; }) == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
-  Crashing platform(100);
-  platform.compute();
-  BOOST_TEST(platform.attempts() == 2);
-  const PointRecord record = platform.record();
+  Platform platform(3);
+  const Platform::Mischief crashes = [](int number, int, std::ostream&) {
+    if (number == 1) crash();
+    return 0;
+  };
+  const Tally tally = platform.compute({2, "local", 64}, crashes);
+  BOOST_TEST(tally.computed == 3u);
+  BOOST_TEST(tally.outcomes.at(1).failed);
+  BOOST_TEST(platform.attempts("1") == 2);
+  const PointRecord record = platform.record(1);
   BOOST_TEST(record.failed());
   const Json& failure = record.outcome.at("failure");
   BOOST_TEST(failure.at("signal") == SIGSEGV);
   BOOST_TEST(contains(failure.at("message").get<std::string>(), "Segmentation fault"));
+  BOOST_TEST(!platform.record(0).failed());
+  BOOST_TEST(!platform.record(2).failed());
   // Which is a result: it stays.
-  BOOST_TEST(platform.compute().computed == 0u);
-  BOOST_TEST(platform.attempts() == 2);
+  BOOST_TEST(platform.compute({1, "local", 64}, crashes).computed == 0u);
+  BOOST_TEST(platform.attempts("1") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_ends_its_process_is_no_result) {
+  Platform platform(2);
+  platform.compute({1, "local", 64}, [](int number, int, std::ostream&) {
+    if (number == 0) ::_exit(0);
+    return 0;
+  });
+  BOOST_TEST(platform.attempts("0") == 2);
+  BOOST_TEST(contains(platform.record(0).outcome.at("failure").at("message").get<std::string>(),
+                      "ended without a result"));
+  BOOST_TEST(!platform.record(1).failed());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_follows_a_run_that_failed_in_its_process) {
+  Platform platform(4);
+  const Tally tally = platform.compute({1, "local", 64}, [](int number, int, std::ostream& err) {
+    if (number != 1) return 0;
+    err << "markervp: it does not fit\n";
+    return 2;
+  });
+  BOOST_TEST(tally.computed == 4u);
+  BOOST_TEST(platform.processes() == 2u);
+  BOOST_TEST(platform.attempts("1") == 1);
+  BOOST_TEST(platform.record(1).outcome.at("failure").at("message") == "it does not fit");
+  BOOST_TEST(tally.outcomes.at(1).failure.message == "it does not fit");
+  BOOST_TEST(tally.outcomes.at(1).failure.exit_code == 2);
+}
+
+BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {
+  Platform platform(1);
+  const Tally tally = platform.compute({1, "local", 64}, [](int, int, std::ostream&) { return 0; });
+  BOOST_TEST(tally.computed == 1u);
+  Platform wrong(1);
+  const Manifest manifest = points(1);
+  const RunPoint run = [](const PointRun&, PointResult& result, std::ostream&) {
+    result.configuration = {{"a", "another"}};
+    result.result["summary"]["number"] = 0;
+    return 0;
+  };
+  const Tally other = run_local(wrong.store(), manifest, {0}, {1, "local", 64}, run, nullptr);
+  BOOST_TEST(contains(other.outcomes.at(0).failure.message, "another value than planned: a"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

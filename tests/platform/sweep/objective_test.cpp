@@ -67,8 +67,11 @@ BOOST_AUTO_TEST_CASE(above_a_mere_lower_bound_timing_is_unknown) {
   const double met[] = {1, 0, 0, 0};
   const double failed[] = {0, 0, 1, 0};
   for (int i = 0; i < 4; ++i) {
-    results.rows[i].metrics["timing.met"] = met[i];
-    results.rows[i].metrics["timing.failed"] = failed[i];
+    ResultRow& row = results.rows[i];
+    row.metrics = {{"fps", *row.metrics.find("fps")},
+                   {"watts", *row.metrics.find("watts")},
+                   {"timing.met", met[i]},
+                   {"timing.failed", failed[i]}};
   }
   const std::vector<Expression> constraints{Expression("timing.met == 1", "here"),
                                             Expression("fps != 90", "here")};

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_point_reads_back_without_provenance) {
   const PointRecord read = store.read(manifest.points[0].key);
   BOOST_TEST(!read.failed());
   BOOST_TEST(!contains(kit::read_file(store.point_path(read.key)), "host"));
-  BOOST_TEST(metrics_of(read.outcome["result"]).at("summary.frames") == 1);
+  BOOST_TEST(*metrics_of(read.outcome["result"]).find("summary.frames") == 1);
 }
 
 BOOST_AUTO_TEST_CASE(damage_is_noticed) {
@@ -89,6 +89,15 @@ BOOST_AUTO_TEST_CASE(damage_is_noticed) {
     return complaint([&] { store.read(manifest.points[0].key); });
   };
   BOOST_TEST(contains(said(whole.substr(0, whole.size() / 2)), "damaged"));
+  // What a power failure leaves counts as nothing; what somebody changed does not.
+  const auto half = [&](const std::string& text) {
+    kit::write_file(path, text);
+    BOOST_CHECK_THROW(store.read(manifest.points[0].key), HalfPoint);
+  };
+  half("");
+  half(whole.substr(0, whole.size() - 2));
+  half(std::string(whole.size(), '\0'));
+  half(whole.substr(0, whole.size() / 2) + std::string(whole.size() - whole.size() / 2, '\0'));
   std::string changed = whole;
   changed.replace(changed.find("\"frames\":1"), 10, "\"frames\":2");
   BOOST_TEST(contains(said(changed), "was changed"));
@@ -113,14 +122,28 @@ BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
     "frames": [{"index": 0, "counts": {"corners": 2}, "markers": []},
                {"index": 1, "counts": {"corners": 4},
                 "markers": [{"id": 1, "error": {"corner_px": 0.5}}]}]})"));
-  BOOST_TEST(metrics.at("timing.met") == 0);
-  BOOST_TEST(metrics.at("timing.modules.blob.fmax_mhz") == 55);
-  BOOST_TEST(metrics.at("timing.failed") == 1);
-  BOOST_TEST(metrics.at("timing.unknown") == 1);
-  BOOST_TEST(metrics.at("frames.counts.corners.mean") == 3);
-  BOOST_TEST(metrics.at("frames.counts.corners.max") == 4);
-  BOOST_TEST(metrics.at("frames.markers.mean") == 0.5);
-  BOOST_TEST(metrics.at("frames.error.corner_px.mean") == 0.5);
+  BOOST_TEST(*metrics.find("timing.met") == 0);
+  BOOST_TEST(*metrics.find("timing.modules.blob.fmax_mhz") == 55);
+  BOOST_TEST(*metrics.find("timing.failed") == 1);
+  BOOST_TEST(*metrics.find("timing.unknown") == 1);
+  BOOST_TEST(*metrics.find("frames.counts.corners.mean") == 3);
+  BOOST_TEST(*metrics.find("frames.counts.corners.max") == 4);
+  BOOST_TEST(*metrics.find("frames.markers.mean") == 0.5);
+  BOOST_TEST(*metrics.find("frames.error.corner_px.mean") == 0.5);
+  BOOST_TEST(!metrics.find("frames.index.mean"));
+}
+
+BOOST_AUTO_TEST_CASE(metrics_share_their_names) {
+  const Metrics one{{"b", 1}, {"a", 2}, {"b", 3}};
+  BOOST_TEST((one.names() == Metrics::Names{"a", "b"}));
+  BOOST_TEST((one.values() == std::vector<double>{2, 3}));
+  Metrics two{{"a", 5}, {"b", 6}};
+  Metrics other{{"a", 5}, {"c", 6}};
+  two.share_names(one);
+  other.share_names(one);
+  BOOST_TEST(two.shares_names(one));
+  BOOST_TEST(!other.shares_names(one));
+  BOOST_TEST(*two.find("b") == 6);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,47 @@
+#include <cli/provenance.h>
+
+#include <unistd.h>
+
+#include <ctime>
+
+#include <cli/version.h>
+
+namespace platform::cli {
+
+namespace {
+
+std::string host_name() {
+  char name[256] = "";
+  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
+  return name;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
+                              const vp::Configuration& configuration) {
+  report::Provenance result;
+  result.program = "markervp";
+  result.version = program_version();
+  result.revision = source_revision();
+  result.configuration_hash = configuration.hash();
+  result.command_line = arguments;
+  result.host = host_name();
+  result.date = utc_now();
+  result.details.emplace_back("output", options.output);
+  if (options.camera) result.details.emplace_back("camera", *options.camera);
+  if (options.program) result.details.emplace_back("program_file", *options.program);
+  if (options.trace) result.details.emplace_back("trace", *options.trace);
+  return result;
+}
+
+}  // namespace platform::cli

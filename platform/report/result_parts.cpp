@@ -1,0 +1,35 @@
+#include <report/result_parts.h>
+
+#include <report/design_json.h>
+
+namespace platform::report {
+
+void add_run(Json& json, const RunFacts& facts) {
+  json["fidelity"] = facts.fidelity;
+  json["system"] = facts.system;
+  json["design"] = facts.design;
+  json["profile"] = facts.profile;
+}
+
+void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings,
+             const std::optional<std::string>& incomplete) {
+  if (!warnings.empty()) json["warnings"] = warnings;
+  if (incomplete) json["incomplete"] = *incomplete;
+  if (facts.end) json["program_end"] = to_json(*facts.end);
+}
+
+void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
+  json["summary"] = to_json(summary);
+  if (facts.power) {
+    json["summary"]["power_w"] = power_summary_json(*facts.power);
+    if (facts.power->per_frame) {
+      json["summary"]["energy_per_frame_mj"] =
+          rounded(facts.power->energy_per_frame_mj, energy_places);
+    }
+    json["power"] = to_json(*facts.power);
+  }
+  if (facts.resources) json["resources"] = to_json(*facts.resources);
+  if (facts.timing) json["timing"] = to_json(*facts.timing);
+}
+
+}  // namespace platform::report

@@ -1,0 +1,152 @@
+#include <sweep/point_worker.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include <cli/interrupt.h>
+#include <cli/program.h>
+#include <sweep/durable_file.h>
+#include <sweep/words.h>
+
+namespace platform::sweep {
+
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+double cpu_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// What the last frame warns of first, as the end of a message.
+std::string last_warning(const Json& result) {
+  const Json frames = result.value("frames", Json::array());
+  if (frames.empty() || !frames.back().contains("warnings")) return "";
+  return ": " + frames.back()["warnings"].at(0).get<std::string>();
+}
+
+/// The first parameter that the platform had with another value than the point is named after.
+std::string difference(const Manifest& manifest, const PlannedPoint& point,
+                       const std::map<std::string, std::string>& actual) {
+  const auto& base = manifest.families[point.family].configuration;
+  std::size_t same = 0;
+  for (const auto& [path, value] : base) {
+    const auto found = actual.find(path);
+    const auto changed = point.changes.find(path);
+    const std::string& planned = changed == point.changes.end() ? value : changed->second;
+    if (found == actual.end() || found->second != planned) return path;
+    ++same;
+  }
+  for (const auto& [path, planned] : point.changes) {
+    if (base.count(path) != 0) continue;
+    const auto found = actual.find(path);
+    if (found == actual.end() || found->second != planned) return path;
+    ++same;
+  }
+  return same == actual.size() ? "" : "a parameter that was not planned";
+}
+
+}  // namespace
+
+PointWorker::PointWorker(const PointList& list, WorkQueue& queue, std::uint32_t slot, int pipe)
+    : list_(list), queue_(queue), slot_(slot), pipe_(pipe) {}
+
+void PointWorker::work(std::uint32_t most) {
+  for (std::uint32_t count = 0; count < most; ++count) {
+    if (queue_.stopped() || cli::InterruptGuard::interrupted()) return;
+    const std::optional<std::size_t> item = queue_.take(slot_);
+    if (!item || !complete(*item)) return;
+  }
+}
+
+void PointWorker::work_on(std::size_t item) {
+  queue_.hold(slot_, item);
+  complete(item);
+}
+
+bool PointWorker::complete(std::size_t item) {
+  const HostClock::time_point begin = HostClock::now();
+  PointMessage message;
+  try {
+    message = compute(item);
+  } catch (const StorageError& error) {
+    message.kind = PointMessage::Kind::no_storage;
+    message.failure.message = error.what();
+  }
+  message.item = item;
+  message.wall_s = std::chrono::duration<double>(HostClock::now() - begin).count();
+  tell(message);
+  queue_.release(slot_);
+  return clean_;
+}
+
+PointMessage PointWorker::compute(std::size_t item) {
+  const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
+  PointMessage message;
+  const FileLock claim = list_.store.claim(point.key);
+  if (list_.store.has(point.key)) {
+    message.kind = PointMessage::Kind::there;
+  } else {
+    compute_claimed(point, message);
+  }
+  return message;
+}
+
+void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& message) {
+  const double start = cpu_seconds();
+  const PointRun asked = run_of(list_.manifest, point);
+  PointResult found;
+  std::ostringstream said;
+  const int code = cli::exit_code_of([&] { return list_.run(asked, found, said); }, said);
+  message.cpu_s = cpu_seconds() - start;
+  clean_ = code == cli::done;
+  std::string text = clean_ ? "" : last_line(said.str());
+  if (code == cli::interrupted) {
+    message.kind = PointMessage::Kind::interrupted;
+    return;
+  }
+  if (!clean_ && is_storage_problem(text)) throw StorageError(text);
+  if (!clean_) {
+    message.failed = true;
+    Json result;
+    if (code == cli::run_failed) {
+      // The program ended by itself: what it found until then says why.
+      result = std::move(found.result);
+      text += last_warning(result);
+      message.metrics = metrics_.read(result);
+    }
+    message.failure = {code, 0, text};
+    list_.store.write(failed_record(list_.manifest, point, message.failure, std::move(result)));
+    return;
+  }
+  const std::string changed = difference(list_.manifest, point, found.configuration);
+  if (!changed.empty()) {
+    clean_ = false;
+    message.kind = PointMessage::Kind::fault;
+    message.failure = {cli::run_failed, 0,
+                       "the platform was built with another value than planned: " + changed};
+    return;
+  }
+  message.metrics = metrics_.read(found.result);
+  list_.store.write(done_record(list_.manifest, point, std::move(found.result)));
+}
+
+void PointWorker::tell(const PointMessage& message) {
+  const std::string text = writer_.bytes(message);
+  for (std::string_view bytes = text; !bytes.empty();) {
+    const ssize_t count = ::write(pipe_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw std::system_error(errno, std::generic_category(), "pipe to the sweep");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace platform::sweep

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "executable.h"
+
+namespace sweep_test {
+
+using integration::Json;
+
+constexpr const char* clocks = R"(
+parameters:
+  ps.fclk_clk1.frequency: {start: 25 MHz, stop: 100 MHz, step: 25 MHz}
+metrics: [summary.fps.mean, frames.time_us.frame.mean]
+objectives: [max summary.fps.mean, min summary.latency_us.mean]
+)";
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A folder in which sweeps run.
+class Sweeps : public kit::TemporaryFolder {
+ public:
+  void write(const std::string& name, const std::string& yaml) const {
+    kit::write_file(*this / name, yaml);
+  }
+  kit::Outcome run(const std::vector<std::string>& arguments) const {
+    return kit::run_process(MARKERVP_EXECUTABLE, arguments, path());
+  }
+  /// With a limit of the shell before it.
+  kit::Outcome run_limited(const std::string& limit, const std::string& arguments) const {
+    const std::string command = limit + "; exec " + MARKERVP_EXECUTABLE + " " + arguments;
+    return kit::run_process("/bin/bash", {"-c", command}, path());
+  }
+  std::string problem(const std::string& yaml) const {
+    write("wrong.yaml", yaml);
+    const kit::Outcome outcome = run({"sweep", "wrong.yaml"});
+    BOOST_TEST(outcome.exit_code == 2);
+    BOOST_TEST(!std::filesystem::exists(*this / "out"));
+    return outcome.err;
+  }
+  std::map<std::string, std::string> points(const std::string& folder) const {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/points"))) {
+      if (entry.path().extension() == ".json")
+        result[entry.path().filename().string()] = kit::read_file(entry.path().string());
+    }
+    return result;
+  }
+  std::size_t count_points(const std::string& folder) const {
+    std::error_code ignored;
+    const std::filesystem::directory_iterator all(*this / (folder + "/points"), ignored);
+    return std::count_if(begin(all), end(all),
+                         [](const auto& entry) { return entry.path().extension() == ".json"; });
+  }
+  /// Times that points were computed, by key.
+  std::map<std::string, int> computations(const std::string& folder) const {
+    std::map<std::string, int> counts;
+    for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/runs"))) {
+      std::ifstream lines(entry.path());
+      for (std::string line; std::getline(lines, line);)
+        ++counts[Json::parse(line)["key"].get<std::string>()];
+    }
+    return counts;
+  }
+  std::string a_point(const std::string& folder) const {
+    return *this / (folder + "/points/" + points(folder).begin()->first);
+  }
+};
+
+}  // namespace sweep_test
