@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include <vp/error.h>
 
@@ -14,7 +14,9 @@ std::string read_file(const std::filesystem::path& path) {
   if (!file) {
     throw vp::InputError("cannot read '" + path.string() + "': " + std::strerror(errno));
   }
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
 report::Json parse_json(const std::string& text, const std::filesystem::path& path) {

@@ -26,16 +26,23 @@ constexpr std::array figures{"/summary/fps/mean",      "/summary/latency_us/mean
 /// Mean over the markers whose truth is known.
 constexpr std::array errors{"corner_px", "translation_mm", "rotation_deg"};
 
-Json number_at(const Json& json, const char* path) {
+/// A part of a point's result, which is not copied; null if it has none.
+const Json& part(const Json& json, const char* path) {
+  static const Json none;
   const Json::json_pointer pointer(path);
-  return json.contains(pointer) && json.at(pointer).is_number() ? json.at(pointer) : Json();
+  return json.contains(pointer) ? json.at(pointer) : none;
+}
+
+Json number_at(const Json& json, const char* path) {
+  const Json& number = part(json, path);
+  return number.is_number() ? number : Json();
 }
 
 Json mean_error(const Json& result, const char* name) {
   double sum = 0;
   std::size_t count = 0;
-  for (const Json& frame : result.value("frames", Json::array())) {
-    for (const Json& marker : frame.value("markers", Json::array())) {
+  for (const Json& frame : part(result, "/frames")) {
+    for (const Json& marker : part(frame, "/markers")) {
       const Json value = number_at(marker, (std::string("/error/") + name).c_str());
       if (value.is_null()) continue;
       sum += value.get<double>();
@@ -56,13 +63,12 @@ Json reasons_of(const Json& outcome) {
   if (outcome.value("status", "") == "failed") {
     reasons.push_back("failed: " + outcome.value(Json::json_pointer("/failure/message"), ""));
   }
-  const Json result = outcome.value("result", Json::object());
   std::vector<std::string> slow, unknown, large;
-  for (const Json& module : result.value(Json::json_pointer("/timing/modules"), Json::array())) {
+  for (const Json& module : part(outcome, "/result/timing/modules")) {
     if (module.value("met", true)) continue;
     (module.value("lower_bound", false) ? unknown : slow).push_back(module.value("name", ""));
   }
-  for (const Json& kind : result.value(Json::json_pointer("/resources/over"), Json::array())) {
+  for (const Json& kind : part(outcome, "/result/resources/over")) {
     large.push_back(kind.is_string() ? kind.get<std::string>() : kind.dump());
   }
   add_reason(reasons, "misses timing: ", slow);
@@ -78,8 +84,8 @@ Json point_json(const Json& planned, const Json& swept, const Json& record) {
   for (const Json& path : swept) {
     point["swept"].push_back(planned.at("swept").value(path.get<std::string>(), Json()));
   }
-  const Json outcome = record.value("outcome", Json::object());
-  const Json result = outcome.value("result", Json::object());
+  const Json& outcome = part(record, "/outcome");
+  const Json& result = part(outcome, "/result");
   point["metrics"] = Json::array();
   for (const char* figure : figures) point["metrics"].push_back(number_at(result, figure));
   for (const char* error : errors) point["metrics"].push_back(mean_error(result, error));
