@@ -26,11 +26,13 @@ double cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// What the last frame warns of first, as the end of a message.
+/// What the last frame that warns at all warns of first, as the end of a message.
 std::string last_warning(const Json& result) {
   const Json frames = result.value("frames", Json::array());
-  if (frames.empty() || !frames.back().contains("warnings")) return "";
-  return ": " + frames.back()["warnings"].at(0).get<std::string>();
+  for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame) {
+    if (frame->contains("warnings")) return ": " + frame->at("warnings").at(0).get<std::string>();
+  }
+  return "";
 }
 
 /// The first parameter that the platform had with another value than the point is named after.

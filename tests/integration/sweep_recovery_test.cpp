@@ -128,6 +128,21 @@ BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--retry-failed"}).out, "1 computed now"));
 }
 
+// The frame that went wrong says why, also if a good one follows it.
+BOOST_FIXTURE_TEST_CASE(a_failed_point_says_what_the_software_said, Sweeps) {
+  std::string noise = "P5\n640 480\n255\n";
+  std::uint32_t chance = 1;
+  for (int pixel = 0; pixel < 640 * 480; ++pixel) {
+    chance = chance * 1'664'525u + 1'013'904'223u;
+    noise += static_cast<char>(chance >> 24);
+  }
+  kit::write_file(*this / "noise.pgm", noise);
+  write("s.yaml",
+        "inputs: [noise.pgm, demo]\nparameters:\n  ps.fclk_clk1.frequency: [25 MHz, 50 MHz]\n");
+  const kit::Outcome outcome = run({"sweep", "s.yaml"});
+  BOOST_TEST(contains(outcome.out, "ended with exit code 1: the software gave up: "), outcome.out);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_killed_point_is_tried_once_more, Sweeps) {
   write("s.yaml", long_point);
   kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml"}, path());

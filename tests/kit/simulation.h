@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <systemc>
-#include <vector>
 
 #include <vp/clock_scheduler.h>
+#include <vp/fresh_context.h>
 
 namespace kit {
 
@@ -13,10 +13,7 @@ namespace kit {
 class Simulation {
  public:
   Simulation() {
-    // They live on: SystemC 2.3.4 cannot destroy a context safely. Kept, they are no leaks either.
-    static auto& contexts = *new std::vector<sc_core::sc_simcontext*>;
-    contexts.push_back(new sc_core::sc_simcontext);
-    sc_core::sc_curr_simcontext = sc_core::sc_default_global_context = contexts.back();
+    vp::begin_fresh_context();
     sc_core::sc_report_handler::set_actions(sc_core::SC_ERROR, sc_core::SC_THROW);
   }
   Simulation(const Simulation&) = delete;
