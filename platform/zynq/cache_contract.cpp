@@ -69,8 +69,10 @@ void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned ma
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
   if (warned_of_read_ || bytes == 0 || address < first_ || address >= end_) return;
   const std::uint64_t to = (std::min(address + bytes, end_) - 1 - first_) / line;
+  const std::uint64_t known = lines_.size();
+  const unsigned char* const lines = lines_.data();
   for (std::uint64_t i = (address - first_) / line; i <= to; ++i) {
-    if (i < lines_.size() && (lines_[i] & current) != 0) continue;
+    if (i < known && (lines[i] & current) != 0) continue;
     warned_of_read_ = true;
     vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_flushed",
              "a DMA reads " + vp::hex(first_ + i * line) +

@@ -212,7 +212,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void close_segment();
   std::uint64_t catch_up();
   [[gnu::noinline]] std::uint64_t catch_up_slowly();
-  void catch_up_in_steps();
+  [[gnu::noinline]] std::uint64_t pass_work(std::uint64_t start_ps, std::uint64_t work_ps);
   void settle();
   bool play(Interrupts interrupts);
   std::uint64_t pass(std::uint64_t ps);

@@ -62,9 +62,9 @@ inline void Cpu::end_access() {
 }
 
 // All that was done ahead passes, and interrupts that come run their handler. Returns the present
-// time. Usually no interrupt can come, and nothing happens meanwhile: that is kept short.
+// time. Usually nothing happens meanwhile, so that no interrupt can come: that is kept short.
 std::uint64_t Cpu::catch_up() {
-  const bool in_one = in_handler_now_ || (masked_ && timeline_.empty());
+  const bool in_one = in_handler_now_ || (timeline_.empty() && (masked_ || !interrupt_pending()));
   const std::uint64_t start = now_ps();
   if (!in_one || !scheduler_.up_to_date(start) || !local_time_.little() ||
       hertz_ != clock_.frequency_hz()) {
@@ -74,45 +74,43 @@ std::uint64_t Cpu::catch_up() {
   const std::uint64_t end = std::max(access_end_ps_, start) + work;
   start_ahead();
   if (end <= start) return start;
-  if (end >= deadline_ps_ || !scheduler_.pass_quietly(end)) return pass_busy(start, end);
+  if (end >= deadline_ps_ || !scheduler_.pass_quietly(end)) return pass_work(start, work);
   activity_.busy(end - start);
   return end;
 }
 
 std::uint64_t Cpu::catch_up_slowly() {
-  if (!in_handler_now_ && (!masked_ || !timeline_.empty())) {
-    const std::uint64_t now = now_ps();
-    const bool ahead = !timeline_.empty() || !local_time_.empty() || access_end_ps_ > now;
-    if (!ahead && scheduler_.up_to_date(now) && !interrupt_pending()) return now;
-    catch_up_in_steps();
-    return now_ps();
-  }
-  const std::uint64_t ps = take_work();
+  const bool plain = in_handler_now_ || timeline_.empty();
+  const std::uint64_t work = plain ? take_work() : 0;
+  if (!plain) close_segment();
   const std::uint64_t start = scheduler_.synchronised_ps();
-  const std::uint64_t end = std::max(access_end_ps_, start) + ps;
   start_ahead();
-  return end > start ? pass_busy(start, end) : start;
+  if (plain) return pass_work(start, work);
+  end_access();
+  play(Interrupts::take);
+  take_interrupts();
+  return now_ps();
 }
 
-// The rest of an access and the work after it, in one stretch. Returns the end.
+// The rest of an access and the work after it. Where no interrupt can come, they are one stretch.
+std::uint64_t Cpu::pass_work(std::uint64_t start_ps, std::uint64_t work_ps) {
+  if (!interruptible()) {
+    const std::uint64_t end = std::max(access_end_ps_, start_ps) + work_ps;
+    return end > start_ps ? pass_busy(start_ps, end) : start_ps;
+  }
+  end_access();
+  work_for(work_ps);
+  take_interrupts();
+  return now_ps();
+}
+
+// Nothing interrupts it. Returns the end.
 std::uint64_t Cpu::pass_busy(std::uint64_t start_ps, std::uint64_t end_ps) {
   const std::uint64_t end = std::min(end_ps, std::max(deadline_ps_, start_ps));
   scheduler_.pass_from(start_ps, end);
   activity_.busy(end - start_ps);
   if (end >= deadline_ps_) time_out("no end");
   return end;
-}
-
-void Cpu::catch_up_in_steps() {
-  const bool plain = timeline_.empty();
-  const std::uint64_t ps = plain ? take_work() : 0;
-  if (!plain) close_segment();
-  scheduler_.synchronise();
-  end_access();
-  if (!plain) play(Interrupts::take);
-  if (ps != 0) work_for(ps);
-  start_ahead();
-  take_interrupts();
 }
 
 // The simulation follows, up to an interrupt at most: handlers run inside HAL calls that catch up,

@@ -151,7 +151,16 @@ void AxiDma::edge() {
     drive(i);
   }
   std::uint64_t next = vp::Clock::never;
-  for (const Interrupt& i : interrupts_) next = std::min(next, i.channel->edge(cycle));
+  bool rest = !resetting_;
+  for (const Interrupt& i : interrupts_) {
+    if (i.channel->rests()) continue;
+    next = std::min(next, i.channel->edge(cycle));
+    rest = false;
+  }
+  if (rest) {
+    planned_ = vp::Clock::never;
+    return sleep_until(planned_);
+  }
   if (resetting_) next = std::min(next, run_soft_reset(cycle));
   if (interrupts_differ()) next = cycle + 1;
   if (stopped_ && !was_stopped) next = cycle + 1;  // a channel that ran before the other failed

@@ -15,14 +15,16 @@ constexpr std::uint32_t word_bytes = 4;
 
 }  // namespace
 
-DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name)
+DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name,
+                       bool counts_at_rest)
     : dmacr(bank[offsets.dmacr]),
       dmasr(bank[offsets.dmasr]),
       address(bank[offsets.address]),
       address_msb(bank[offsets.address_msb]),
       length(bank[offsets.length]),
       core_(core),
-      name_(std::move(name)) {
+      name_(std::move(name)),
+      counts_at_rest_(counts_at_rest) {
   dmacr.after_write([this](std::uint32_t word) { control_written(word); });
   dmasr.after_write([this](std::uint32_t word) { status_written(word); });
   address.after_write([this](std::uint32_t) { latch_address(); });

@@ -45,7 +45,9 @@ class DmaChannel {
 
   static constexpr std::uint64_t never = vp::Clock::never;
 
-  DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name);
+  /// `counts_at_rest`: sample() is to run without a transfer, too.
+  DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name,
+             bool counts_at_rest);
   virtual ~DmaChannel() = default;
 
   vp::Register& dmacr;
@@ -62,6 +64,8 @@ class DmaChannel {
   using TransferListener = std::function<void(bool begins)>;
   void on_transfer(TransferListener listener) { transfer_listener_ = std::move(listener); }
 
+  /// An edge changes nothing: it has nothing to do, and counts nothing on its stream.
+  bool rests() const { return at_rest() && !counts_at_rest_; }
   /// One clock edge. Returns the next one that the channel needs (signals may wake it earlier).
   std::uint64_t edge(std::uint64_t cycle);
   /// The end of the transfer is known and not shown yet.
@@ -135,6 +139,7 @@ class DmaChannel {
 
   std::string name_;
   TransferListener transfer_listener_;
+  const bool counts_at_rest_;
   bool unaligned_ = false;
   Phase phase_ = Phase::idle;
   std::uint32_t requested_bytes_ = 0;

@@ -22,7 +22,7 @@ constexpr DmaChannel::Offsets offsets{MM2S_DMACR, MM2S_DMASR, MM2S_SA, MM2S_SA_M
 
 Mm2sChannel::Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
                          std::uint32_t burst_beats)
-    : DmaChannel(core, bank, offsets, "MM2S"),
+    : DmaChannel(core, bank, offsets, "MM2S", false),
       m_axi("m_axi_mm2s", owner.clock().scheduler()),
       m_axis("m_axis_mm2s", owner),
       burst_size_(burst_beats * word_bytes),

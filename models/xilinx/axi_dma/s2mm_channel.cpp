@@ -21,7 +21,7 @@ constexpr DmaChannel::Offsets offsets{S2MM_DMACR, S2MM_DMASR, S2MM_DA, S2MM_DA_M
 
 S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
                          std::uint32_t burst_beats)
-    : DmaChannel(core, bank, offsets, "S2MM"),
+    : DmaChannel(core, bank, offsets, "S2MM", true),
       m_axi("m_axi_s2mm", owner.clock().scheduler()),
       s_axis("s_axis_s2mm", owner),
       burst_size_(burst_beats * word_bytes),
