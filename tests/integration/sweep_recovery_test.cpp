@@ -69,8 +69,11 @@ BOOST_FIXTURE_TEST_CASE(a_process_killed_among_points_costs_none, Sweeps) {
   write("s.yaml",
         "parameters: {ps.fclk_clk1.frequency: {start: 20 MHz, stop: 139 MHz, step: 1 MHz}}");
   kit::ChildProcess sweep(MARKERVP_EXECUTABLE, {"sweep", "s.yaml", "--jobs", "2"}, path());
-  wait_until([&] { return count_points("out/s") >= 5 || sweep.ended(); });
-  kill_points(sweep, 1);
+  // Points in between, so that none is killed in its second attempt, too.
+  for (const std::size_t points : {5, 25, 45}) {
+    wait_until([&] { return count_points("out/s") >= points || sweep.ended(); });
+    kill_points(sweep, 1);
+  }
   const kit::Outcome outcome = sweep.wait();
   BOOST_TEST(outcome.exit_code == 0);
   BOOST_TEST(contains(outcome.out, "120 points: 120 computed now, 0 there before, 0 failed"),
