@@ -185,7 +185,8 @@ void write_results(const SweepOptions& options, const sweep::Store& store,
                    const sweep::Results& results, const sweep::Tally& tally, std::size_t pending,
                    std::ostream& out) {
   sweep::write_durably(store.path("sweep.csv"), sweep::results_csv(results));
-  sweep::write_database(store.path("sweep.sqlite"), results, sweep::read_runs(store));
+  sweep::write_database(store.path("sweep.sqlite"), results,
+                        sweep::complete_runs(store, results.manifest, options.engine));
   const bool page = !options.no_report && page::write_report(store.folder());
   out << sweep::sweep_text(results) << "\n"
       << report::counted(results.rows.size(), "point") << ": " << tally.computed

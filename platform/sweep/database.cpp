@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <sweep/durable_file.h>
@@ -98,6 +99,9 @@ class Insert {
   }
   void bind(int column, std::nullptr_t) {
     database_.check(sqlite3_bind_null(statement_.get(), column));
+  }
+  void bind(int column, const std::optional<double>& value) {
+    value ? bind(column, *value) : bind(column, nullptr);
   }
 
   const Database& database_;

@@ -161,6 +161,8 @@ class Pool {
         again_or_failed(message.item, message.failure);
         break;
       case PointMessage::Kind::there:
+        // Of a process of ours, which was killed before it could say so.
+        if (attempts_[message.item] > 1) ++tally_.computed;
         step(message.item);
         break;
       case PointMessage::Kind::computed:

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <tuple>
 
 #include <sweep/durable_file.h>
@@ -35,6 +36,11 @@ std::string utc_now() {
   return text;
 }
 
+std::optional<double> seconds(const Json& entry, const char* name) {
+  if (!entry.contains(name)) return std::nullopt;
+  return entry.at(name).get<double>();
+}
+
 }  // namespace
 
 RunLog::RunLog(const Store& store, const std::string& engine)
@@ -43,15 +49,28 @@ RunLog::RunLog(const Store& store, const std::string& engine)
 }
 
 void RunLog::add(const std::string& key, double wall_s, double cpu_s, int attempt) {
+  Json json = entry(key, attempt);
+  json["wall_s"] = std::stod(vp::format_fixed(wall_s, 4));
+  json["cpu_s"] = std::stod(vp::format_fixed(cpu_s, 4));
+  append(json);
+}
+
+void RunLog::add_untold(const std::string& key) {
+  append(entry(key, 1));
+}
+
+Json RunLog::entry(const std::string& key, int attempt) const {
   Json json;
   json["key"] = key;
   json["engine"] = engine_;
   json["host"] = host_;
   json["date"] = utc_now();
   json["attempt"] = attempt;
-  json["wall_s"] = std::stod(vp::format_fixed(wall_s, 4));
-  json["cpu_s"] = std::stod(vp::format_fixed(cpu_s, 4));
-  const std::string line = json.dump() + "\n";
+  return json;
+}
+
+void RunLog::append(const Json& entry) const {
+  const std::string line = entry.dump() + "\n";
   const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   const bool written =
       file >= 0 && ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
@@ -69,8 +88,8 @@ std::vector<RunEntry> read_runs(const Store& store) {
     std::ifstream lines(file.path());
     for (std::string line; std::getline(lines, line);) {
       const Json json = Json::parse(line, nullptr, false);
-      if (!json.is_object() || !json.contains("cpu_s")) continue;
-      entries.push_back({json.value("key", ""), json.value("wall_s", 0.0), json.value("cpu_s", 0.0),
+      if (!json.is_object() || !json.contains("key")) continue;
+      entries.push_back({json.value("key", ""), seconds(json, "wall_s"), seconds(json, "cpu_s"),
                          json.value("attempt", 1), json.value("engine", ""), json.value("host", ""),
                          json.value("date", "")});
     }
@@ -79,6 +98,21 @@ std::vector<RunEntry> read_runs(const Store& store) {
     return std::tie(a.date, a.key, a.host) < std::tie(b.date, b.key, b.host);
   });
   return entries;
+}
+
+std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest,
+                                    const std::string& engine) {
+  std::vector<RunEntry> entries = read_runs(store);
+  std::set<std::string> told;
+  for (const RunEntry& entry : entries) told.insert(entry.key);
+  RunLog log(store, engine);
+  bool complete = true;
+  for (const PlannedPoint& point : manifest.points) {
+    if (told.count(point.key) != 0 || !store.has(point.key)) continue;
+    log.add_untold(point.key);
+    complete = false;
+  }
+  return complete ? entries : read_runs(store);
 }
 
 }  // namespace platform::sweep

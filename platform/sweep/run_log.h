@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace platform::sweep {
 /// point's file.
 struct RunEntry {
   std::string key;
-  double wall_s = 0;
-  double cpu_s = 0;  ///< of the platform's run itself
+  std::optional<double> wall_s;  ///< none: its process was killed before it told
+  std::optional<double> cpu_s;   ///< of the platform's run itself
   int attempt = 1;
   std::string engine;
   std::string host;
@@ -26,8 +27,13 @@ class RunLog {
   RunLog(const Store& store, const std::string& engine);
   /// Throws StorageError.
   void add(const std::string& key, double wall_s, double cpu_s, int attempt);
+  /// A point that somebody computed without an entry. Throws StorageError.
+  void add_untold(const std::string& key);
 
  private:
+  Json entry(const std::string& key, int attempt) const;
+  void append(const Json& entry) const;
+
   std::string path_;
   std::string engine_;
   std::string host_;
@@ -35,5 +41,10 @@ class RunLog {
 
 /// All entries of a folder, sorted by date, then key; a line cut short by a crash is left out.
 std::vector<RunEntry> read_runs(const Store& store);
+
+/// The same, after an entry was added for every point of the manifest that stands in the folder
+/// without one: its process was killed between the two. Throws StorageError.
+std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest,
+                                    const std::string& engine);
 
 }  // namespace platform::sweep

@@ -77,7 +77,16 @@ class Platform : public kit::TemporaryFolder {
     return different.size();
   }
   Store store() const { return Store(*this / "sweep"); }
-  PointRecord record(int number) const { return store().read(manifest_.points[number].key); }
+  const std::string& key(int number) const { return manifest_.points[number].key; }
+  PointRecord record(int number) const { return store().read(key(number)); }
+  void write_point(int number) const {
+    Json result;
+    result["summary"]["number"] = number;
+    store().write(done_record(manifest_, manifest_.points[number], std::move(result)));
+  }
+  std::vector<RunEntry> complete_runs() const {
+    return platform::sweep::complete_runs(store(), manifest_, "local");
+  }
   std::string files() const {
     std::string all;
     for (const PlannedPoint& point : manifest_.points)
@@ -137,6 +146,25 @@ BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {
   const std::vector<RunEntry> entries = read_runs(platform.store());
   BOOST_TEST(std::count_if(entries.begin(), entries.end(),
                            [](const RunEntry& entry) { return entry.attempt == 2; }) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_computed) {
+  Platform platform(3);
+  const Tally tally =
+      platform.compute({1, "local", 64}, [&](int number, int attempt, std::ostream&) {
+        if (number != 1 || attempt != 1) return 0;
+        platform.write_point(1);
+        crash();
+      });
+  BOOST_TEST(tally.computed == 3u);
+  BOOST_TEST(platform.attempts("1") == 1);
+  BOOST_TEST(platform.record(1).outcome.at("result").at("summary").at("number") == 1);
+  BOOST_TEST(read_runs(platform.store()).size() == 2u);
+  const std::vector<RunEntry> entries = platform.complete_runs();
+  BOOST_TEST(entries.size() == 3u);
+  for (const RunEntry& entry : entries)
+    BOOST_TEST(entry.cpu_s.has_value() == (entry.key != platform.key(1)));
+  BOOST_TEST(platform.complete_runs().size() == 3u);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
