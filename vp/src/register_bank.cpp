@@ -176,6 +176,8 @@ tlm::tlm_response_status RegisterBank::access(tlm::tlm_generic_payload& payload)
     status = access(*target, payload.is_read(), payload.get_address(), word);
   } else if (held_in_reset_) {
     status = refuse_in_reset(payload.get_address());
+  } else {
+    warn_of_missing_register(payload.is_read(), payload.get_address());
   }
   if (payload.is_read() && status == tlm::TLM_OK_RESPONSE) {
     store_word(payload.get_data_ptr(), word);
@@ -193,6 +195,15 @@ void RegisterBank::warn_of_ignored_write(const Register& target, std::uint32_t w
   warn(*this, "/markervp/register_bank/ignored_write",
        hex(word) + " written to " + target.info_.name +
            (target.removed_ ? ", which this build does not have" : ", which is read only"));
+}
+
+void RegisterBank::warn_of_missing_register(bool read, std::uint64_t address) const {
+  const Register* removed = find(address);
+  warn(*this, "/markervp/register_bank/no_register",
+       std::string(read ? "read of " : "write to ") + hex(address) +
+           (removed ? std::string(" (") + removed->info_.name + "), which this build does not have"
+                    : std::string(", where the device has no register")) +
+           (read ? ": reads 0" : ": ignored"));
 }
 
 // Memory is never given, but the way here is.

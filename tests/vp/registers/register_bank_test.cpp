@@ -124,7 +124,9 @@ BOOST_FIXTURE_TEST_CASE(lenient_bank_acknowledges_holes_and_ignores_strobes, Len
   master.simulate([&] {
     master.write(hole, 0x1234);
     BOOST_TEST(master.response() == tlm::TLM_OK_RESPONSE);
+    BOOST_TEST(reports.count("/markervp/register_bank/no_register") == 1u);
     BOOST_TEST(master.read(hole) == 0u);
+    BOOST_TEST(reports.count("/markervp/register_bank/no_register") == 2u);
 
     std::uint32_t word = 0x000000AA;
     unsigned char enables[1] = {TLM_BYTE_DISABLED};
@@ -240,6 +242,7 @@ BOOST_FIXTURE_TEST_CASE(build_options_change_registers, Bench) {
     master.write(0x10, 0xFF);
     BOOST_TEST(master.read(0x10) == 0u);
     BOOST_TEST(reports.count("/markervp/register_bank/ignored_write") == 1u);
+    BOOST_TEST(reports.count("/markervp/register_bank/no_register") == 2u);
   });
   bank.reset();
   BOOST_TEST(bank[0x00].value() == 0x2u);

@@ -121,7 +121,7 @@ struct RegisterTable {
 struct RegisterBankOptions {
   enum class Holes {
     error,        ///< TLM_ADDRESS_ERROR_RESPONSE
-    acknowledge,  ///< reads return 0, writes are ignored
+    acknowledge,  ///< reads return 0, writes are ignored; warned of
   };
   enum class ByteEnables {
     error,   ///< a partial access gets TLM_BYTE_ENABLE_ERROR_RESPONSE
@@ -137,8 +137,8 @@ struct RegisterBankOptions {
 /// An access happens when the initiator's annotated delay has passed, at the state that the
 /// device's clocked part has then: all clock edges up to and including that time have run. It takes
 /// no time of its own; the time of a bus access belongs to the bus. A write that the hardware
-/// ignores is warned of. Debug accesses cause no effects, use no time and are not counted; DMI is
-/// never given.
+/// ignores is warned of, and any access where no register is. Debug accesses cause no effects, use
+/// no time and are not counted; DMI is never given.
 class RegisterBank : public sc_core::sc_module {
  public:
   /// `scheduler` of the device's clock; null if the device has none.
@@ -178,6 +178,7 @@ class RegisterBank : public sc_core::sc_module {
   bool all_bytes_enabled(const tlm::tlm_generic_payload& payload) const;
   tlm::tlm_response_status refuse_in_reset(std::uint64_t address) const;
   void warn_of_ignored_write(const Register& target, std::uint32_t word) const;
+  void warn_of_missing_register(bool read, std::uint64_t address) const;
   void synchronise() const;
 
   RegisterBankOptions options_;
@@ -193,6 +194,7 @@ inline tlm::tlm_response_status RegisterBank::access(Register& target, bool read
   if (held_in_reset_) return refuse_in_reset(address);
   if (before_access_) before_access_();
   if (read) {
+    if (target.removed_) warn_of_missing_register(read, address);
     word = target.read();
   } else {
     if (target.ignores_writes()) warn_of_ignored_write(target, word);
