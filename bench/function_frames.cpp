@@ -1,6 +1,8 @@
 // The whole work of a frame as plain functions: image in, marker and pose out.
 //   --mode=fast   the functions over whole frames that the transaction level uses (the usual one)
+//   --mode=scalar the same in plain C++: without SIMD
 //   --mode=naive  pixel by pixel
+#include <pl/common/simd_target.h>
 #include <scene/camera.h>
 
 #include <stdexcept>
@@ -26,6 +28,9 @@ void measure(benchmark::State& state, const std::string& image_name) {
 
 void measure_mode(benchmark::State& state, const bench::Arguments& arguments) {
   if (arguments.mode.empty() || arguments.mode == "fast") {
+    measure<bench::FrameDetector>(state, arguments.image);
+  } else if (arguments.mode == "scalar") {
+    if (!pl::use_simd_target("SCALAR")) throw std::invalid_argument("no scalar functions");
     measure<bench::FrameDetector>(state, arguments.image);
   } else if (arguments.mode == "naive") {
     measure<bench::PixelDetector>(state, arguments.image);

@@ -25,6 +25,7 @@ constexpr FrameProgram detectors[] = {
 
 constexpr FrameProgram functions[] = {
     {"function", "bench_function_frames", "fast", 200},
+    {"scalar", "bench_function_frames", "scalar", 100},
     {"naive", "bench_function_frames", "naive", 20},
 };
 
