@@ -20,7 +20,8 @@ class BlobDetection : public vp::Clocked {
   vp::Signal<std::uint32_t> blob_start{"blob_start"};
   vp::Signal<std::uint32_t> blob_end{"blob_end"};
   vp::Signal<bool> idle{"idle", 1, true};  ///< no frame, and every label retired
-  /// Dark pixels that found no free label since the last reset; complete at the end of the frame.
+  /// Dark pixels that found no free label since the last reset; complete at the end of the frame,
+  /// and after settle().
   vp::Signal<std::uint32_t> label_overflow{"label_overflow"};
 
   vp::Parameter<std::uint32_t> label_count{
@@ -37,6 +38,9 @@ class BlobDetection : public vp::Clocked {
       {1, 1023},
       vp::Source::published,
       "smallest Ex - Sx and Ey - Sy of a blob that is reported (thesis 4.3.6.4)"};
+
+  /// Brings label_overflow up to now, in the middle of a frame, too.
+  virtual void settle() {}
 
  protected:
   BlobDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {

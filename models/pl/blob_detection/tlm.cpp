@@ -35,6 +35,16 @@ void BlobDetectionTlm::edge() {
   wake_at(next_change(cycle));
 }
 
+// The frame is found as a whole: how many labels were missing until now, its begin tells again.
+void BlobDetectionTlm::settle() {
+  const std::uint64_t cycle = clock().cycle();
+  if (!begun_ || cycle < begin_ || cycle >= frame_end()) return;
+  BlobFrame until_now = start_;
+  std::vector<StampedBlob> ignored;
+  until_now.advance(binary_.words(), static_cast<std::uint32_t>(cycle + 1 - begin_), ignored);
+  label_overflow = until_now.overflow();
+}
+
 void BlobDetectionTlm::emit(std::uint64_t cycle) {
   const bool leaves = next_ < blobs_.size() && blobs_[next_].clock == cycle;
   if (leaves) {

@@ -18,6 +18,8 @@ class BlobDetectionTlm : public BlobDetection, private BinaryListener {
   BlobDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
                    BinaryView& binary);
 
+  void settle() override;
+
  private:
   void edge() override;
   void binary_changed(std::uint32_t first) override;

@@ -55,6 +55,7 @@ class FeatureExtraction : public sc_core::sc_module {
   void settle() {
     axi_image_store.settle();
     axi_threshold_bridge.settle();
+    blob_detection.settle();
   }
 
  private:

@@ -194,7 +194,8 @@ void DisturbedLogic::look() {
   note("memories " + std::to_string(hash));
   note("overflows " + std::to_string(pl_.feature_packaging.feature_overflow) + " " +
        std::to_string(pl_.axi_threshold_bridge.bridge_overflow) + " " +
-       std::to_string(pl_.clock_crossing.crossing_overflow));
+       std::to_string(pl_.clock_crossing.crossing_overflow) + " " +
+       std::to_string(pl_.blob_detection.label_overflow));
   for (const vp::AxiStream* link : {&pl_.image_stream_link, &pl_.binary_stream_link}) {
     note(std::string(link->name()) + " " + std::to_string(link->beats) + " beats " +
          std::to_string(link->packets) + " packets");

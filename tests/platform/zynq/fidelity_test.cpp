@@ -15,8 +15,8 @@ using Lines = std::vector<std::string>;
 constexpr DisturbedLogic::Size small{128, 64};
 constexpr unsigned actions = 150;
 
-Lines clocked(std::uint64_t seed, DisturbedLogic::Size size = small) {
-  return DisturbedLogic(Fidelity::clocked, size).run(seed, actions);
+Lines clocked(std::uint64_t seed, const Lines& settings = {}) {
+  return DisturbedLogic(Fidelity::clocked, small, settings).run(seed, actions);
 }
 
 /// Empty if both saw the same; else where they part.
@@ -47,6 +47,18 @@ BOOST_AUTO_TEST_CASE(tlm_is_clocked_whatever_happens) {
     BOOST_TEST_CONTEXT("seed " << seed) {
       const Lines tlm = DisturbedLogic(Fidelity::tlm, small).run(seed, actions);
       BOOST_TEST(first_difference(tlm, clocked(seed)) == "");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_differs_where_labels_and_buffers_run_out) {
+  const Lines settings{"pl.blob_detection.label_count=4", "pl.blob_detection.minimum_side=1 px",
+                       "pl.feature_packaging.buffer_depth=2",
+                       "pl.axi_threshold_bridge.fifo_depth=1"};
+  for (std::uint64_t seed = 100; seed < 140; ++seed) {
+    BOOST_TEST_CONTEXT("seed " << seed) {
+      const Lines tlm = DisturbedLogic(Fidelity::tlm, small, settings).run(seed, actions);
+      BOOST_TEST(first_difference(tlm, clocked(seed, settings)) == "");
     }
   }
 }
