@@ -159,8 +159,7 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
 }
 
 void FrameBench::add_counts(report::FrameReport& report) const {
-  zynq_.scheduler.synchronise();
-  zynq_.pl.settle();
+  zynq_.settle();
   report.counts.feature_overflow = zynq_.pl.feature_packaging.feature_overflow;
   report.counts.label_overflow = zynq_.pl.blob_detection.label_overflow;
   report.counts.bridge_overflow = zynq_.pl.axi_threshold_bridge.bridge_overflow;

@@ -71,6 +71,7 @@ report::Timeline Session::timeline() const {
 void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
       [this, next = std::move(next)] {
+        zynq_->settle();
         power_->frame_begins();
         return next();
       },

@@ -19,6 +19,12 @@ struct Zynq {
   ProcessingSystem ps{"ps", scheduler};
   ProgrammableLogic pl{"pl", ps.fclk_clk0.clk, ps.fclk_clk1.clk, fidelity};
 
+  /// Brings all memories and counters up to now, for whoever looks at them from outside.
+  void settle() {
+    scheduler.synchronise();
+    pl.settle();
+  }
+
   /// What the processor finds at an address; of several the nearest to the device. "" for nothing.
   std::string device_at(std::uint32_t address) const;
 };

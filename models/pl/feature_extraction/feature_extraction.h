@@ -54,6 +54,7 @@ class FeatureExtraction : public sc_core::sc_module {
   /// Brings memories and counters up to now, for whoever looks at them from outside.
   void settle() {
     axi_image_store.settle();
+    sensor_input.settle();
     axi_threshold_bridge.settle();
     blob_detection.settle();
   }

@@ -23,6 +23,9 @@ class SensorInput : public vp::Clocked {
 
   FrameView view;
 
+  /// Brings the memory's count of reads up to now, in the middle of a frame, too.
+  virtual void settle() {}
+
  protected:
   SensorInput(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
               xilinx::Bram& bram)

@@ -1,5 +1,7 @@
 #include <pl/sensor_input/tlm.h>
 
+#include <algorithm>
+
 namespace pl {
 
 SensorInputTlm::SensorInputTlm(sc_core::sc_module_name name, vp::Clock& clk,
@@ -14,7 +16,7 @@ void SensorInputTlm::edge() {
   ena_before_ = ena;
   if (running_ && cycle > last_cycle_) {
     frame_ena = false;
-    bram_.reads_b.add(geometry_.pixels());
+    count(geometry_.pixels());
     running_ = false;
   } else if (running_) {
     frame_ena = true;
@@ -25,13 +27,25 @@ void SensorInputTlm::edge() {
 
 void SensorInputTlm::start(std::uint64_t cycle) {
   running_ = true;
+  counted_ = 0;
   last_cycle_ = cycle + geometry_.pixels();
   view.begin(cycle + 1);
   wake_at(cycle + 1);
 }
 
+// A pixel leaves on each edge after the one that started the frame.
+void SensorInputTlm::settle() {
+  const std::uint64_t started = last_cycle_ - geometry_.pixels();
+  if (running_) count(std::min(clock().cycle(), last_cycle_) - started);
+}
+
+void SensorInputTlm::count(std::uint64_t read) {
+  bram_.reads_b.add(read - counted_);
+  counted_ = read;
+}
+
 void SensorInputTlm::stop() {
-  if (running_) bram_.reads_b.add(view.sent());
+  if (running_) count(view.sent());
   running_ = ena_before_ = false;
   frame_ena = false;
   view.end();

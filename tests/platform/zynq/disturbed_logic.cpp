@@ -196,6 +196,7 @@ void DisturbedLogic::look() {
        std::to_string(pl_.axi_threshold_bridge.bridge_overflow) + " " +
        std::to_string(pl_.clock_crossing.crossing_overflow) + " " +
        std::to_string(pl_.blob_detection.label_overflow));
+  note("pixels read " + std::to_string(pl_.bram.reads_b));
   for (const vp::AxiStream* link : {&pl_.image_stream_link, &pl_.binary_stream_link}) {
     note(std::string(link->name()) + " " + std::to_string(link->beats) + " beats " +
          std::to_string(link->packets) + " packets");
