@@ -52,7 +52,33 @@ void LazyBridge::drop_word() {
 
 void LazyBridge::plan() {
   Word word;
-  arrives_ = next_word(word) ? arrival(word.crossing) : never;
+  if (pending()) {
+    arrives_ = in_reset_ ? never : cycle_ + 1;
+  } else {
+    arrives_ = next_word(word) ? arrival(word.crossing) : never;
+  }
+}
+
+// See CrossingRegister::send().
+void LazyBridge::send(const Word& word) {
+  if (pending()) {
+    ++counts_.lost;
+  } else {
+    toggle_ = !toggle_;
+  }
+  crossing_word_ = word.data;
+  drop_word();
+}
+
+void LazyBridge::send_through(std::uint64_t crossing) {
+  Word word{};
+  while (next_word(word) && word.crossing <= crossing) send(word);
+}
+
+void LazyBridge::settle() {
+  advance(system_clock_.cycle());
+  send_through(pixel_clock_.cycle());
+  plan();
 }
 
 void LazyBridge::frame_begins() {
@@ -66,9 +92,11 @@ void LazyBridge::frame_begins() {
 
 void LazyBridge::frame_cut() {
   advance(system_clock_.cycle());
+  send_through(pixel_clock_.cycle() - 1);
+  toggle_ = false;
   late_.clear();
   next_ = binary_.size();
-  arrives_ = never;
+  plan();
 }
 
 void LazyBridge::clock_changed() {
@@ -121,7 +149,7 @@ void LazyBridge::run_through(std::uint64_t edge) {
 
 // The same for as many words of a packet as there are, where their arrivals are far enough apart.
 bool LazyBridge::run_many_through(std::uint64_t cycle) {
-  if (ratio_ == 0 || fifo_.count() != 0 || in_reset_ || !late_.empty()) return false;
+  if (ratio_ == 0 || fifo_.count() != 0 || in_reset_ || pending() || !late_.empty()) return false;
   const std::uint64_t last_crossing = (cycle - 3) / ratio_;
   const std::uint64_t arrived = (last_crossing - binary_.leaves_at(next_) - 1) / 32 + 1;
   const auto count = static_cast<std::uint32_t>(
@@ -132,6 +160,8 @@ bool LazyBridge::run_many_through(std::uint64_t cycle) {
   in_packet_ += count;
   counts_.beats += count;
   peak_ = std::max(peak_, 1u);  // each waits for one clock
+  toggle_ = seen_ = toggle_ != (count % 2 != 0);
+  crossing_word_ = words[count - 1];
   if (in_packet_ == burst_words_) {
     in_packet_ = 0;
     end_packet();
@@ -166,30 +196,30 @@ void LazyBridge::pass() {
 
 void LazyBridge::arrive(std::uint32_t waiting) {
   Word word{};
-  next_word(word);
-  drop_word();
-  for (plan(); arrives_ == cycle_; plan()) {
-    next_word(word);  // overwrites one that was not seen yet
-    drop_word();
-    ++counts_.lost;
+  while (next_word(word) && arrival(word.crossing) <= cycle_) send(word);
+  if (!in_reset_) {
+    seen_ = toggle_;
+    if (waiting < fifo_depth_) {
+      fifo_.push(crossing_word_);
+    } else {
+      ++overflow_;
+    }
   }
-  if (in_reset_) return;
-  if (waiting < fifo_depth_) {
-    fifo_.push(word.data);
-  } else {
-    ++overflow_;
-  }
+  plan();
 }
 
 void LazyBridge::hold_in_reset(bool hold) {
   in_reset_ = hold;
-  if (!hold) return;
-  if (valid_) counts_.stalls += cycle_ - offered_;
-  fifo_.clear();
-  valid_ = false;
-  in_packet_ = 0;
-  overflow_ = 0;
-  peak_ = packet_peak_ = 0;
+  if (hold) {
+    if (valid_) counts_.stalls += cycle_ - offered_;
+    fifo_.clear();
+    valid_ = false;
+    in_packet_ = 0;
+    overflow_ = 0;
+    peak_ = packet_peak_ = 0;
+    seen_ = false;
+  }
+  plan();
 }
 
 std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
@@ -199,7 +229,11 @@ std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
   if (valid_ && last_) beats = 1;
   const std::uint32_t held = fifo_.count() + (valid_ ? 1 : 0);
   if (beats <= held) return cycle_ + beats;
-  const std::uint32_t words_ahead = beats - held - 1;
+  std::uint32_t words_ahead = beats - held - 1;
+  if (pending()) {
+    if (words_ahead == 0) return in_reset_ ? never : cycle_ + 3;
+    --words_ahead;
+  }
   if (words_ahead < late_.size()) return arrival(late_[words_ahead].crossing) + 2;
   const std::uint64_t index = std::uint64_t{next_} + words_ahead - late_.size();
   if (index >= binary_.size()) return never;

@@ -24,9 +24,12 @@ class LazyBridge {
   void advance(std::uint64_t cycle);
   /// TREADY after the edge that was run last.
   void set_ready(bool ready) { ready_ = ready; }
-  /// The registers' state after a reset on the edge that was run last; while it lasts, words that
-  /// arrive are not taken.
+  /// The system side's state after a reset on the edge that was run last; while it lasts, words
+  /// that arrive are not taken.
   void hold_in_reset(bool hold);
+  /// Counts words that were overwritten up to now, too, where no edge of the system clock has
+  /// followed. For who looks from outside, between instants.
+  void settle();
 
   /// Before and after a change of either clock's frequency.
   void clock_changes() { advance(system_clock_.cycle()); }
@@ -34,7 +37,7 @@ class LazyBridge {
 
   /// The words of the frame before are about to be overwritten; those under way are kept.
   void frame_begins();
-  /// The pixel side is reset now: words under way are lost.
+  /// The pixel side is reset on its present edge.
   void frame_cut();
 
   /// See vp::BeatSource.
@@ -62,6 +65,9 @@ class LazyBridge {
   std::uint64_t arrival(std::uint64_t crossing) const;
   bool next_word(Word& word) const;
   void drop_word();
+  bool pending() const { return toggle_ != seen_; }
+  void send(const Word& word);
+  void send_through(std::uint64_t crossing);
   void plan();
   void step(std::uint64_t edge);
   void run_through(std::uint64_t edge);
@@ -80,6 +86,11 @@ class LazyBridge {
   std::deque<Word> late_;                     ///< of the frame before, still in the crossing
   std::uint32_t next_ = 0;                    ///< word of the present frame that arrives next
   std::uint64_t arrives_ = vp::Clock::never;  ///< system-clock edge on which the next word is taken
+
+  // The crossing's register as CrossingRegister has it: a word is seen by its toggle, which a reset
+  // of one side alone turns, too.
+  bool toggle_ = false, seen_ = false;
+  std::uint32_t crossing_word_ = 0;
 
   FeatureBuffer fifo_;
   std::uint32_t out_ = 0;  ///< the output register

@@ -29,19 +29,21 @@ void AxiThresholdBridgeTlm::edge() {
   if (rst) bridge_.advance(cycle);
   bridge_.hold_in_reset(rst);
   if (rst) bridge_overflow = 0;
+  m.wake_slave();
 }
 
 void AxiThresholdBridgeTlm::on_change(vp::SignalBase& signal, std::uint32_t id) {
   if (!direct() || &signal != m.tready.signal()) {
     return AxiThresholdBridgeClocked::on_change(signal, id);
   }
-  settle();
+  bridge_.advance(clock().cycle());
+  count();
   bridge_.set_ready(m.tready);
 }
 
 void AxiThresholdBridgeTlm::settle() {
   if (!direct()) return;
-  bridge_.advance(clock().cycle());
+  bridge_.settle();
   count();
 }
 
@@ -83,6 +85,7 @@ void AxiThresholdBridgeTlm::binary_cut() {
   if (!direct()) return;
   bridge_.frame_cut();
   count();
+  m.wake_slave();
   crossing_.forget_lost();
 }
 

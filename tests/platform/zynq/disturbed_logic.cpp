@@ -13,8 +13,6 @@ namespace control_packet = pl::control_packet;
 constexpr std::uint32_t memory_base = 0x1000'0000;
 constexpr std::uint32_t dma_0 = 0x4040'0000, dma_1 = 0x4041'0000, gpio_0 = 0x4120'0000,
                         gpio_1 = 0x4121'0000;
-/// Longer than four periods of the slowest clock that change_clock() sets: both sides see it.
-constexpr std::uint64_t reset_ps = 400'000;
 
 }  // namespace
 
@@ -124,7 +122,8 @@ void DisturbedLogic::control(std::uint32_t packet) {
 
 void DisturbedLogic::reset_logic() {
   control((packet_ & ~control_packet::ena) | control_packet::rst);
-  sc_core::wait(vp::from_ps(reset_ps + 1000 * below(100)));
+  // Of the slowest clocks no edge may see it.
+  sc_core::wait(vp::from_ps(1000 * below(below(2) ? 100 : 4'000)));
   control(packet_ & ~control_packet::rst);
 }
 
@@ -170,14 +169,14 @@ void DisturbedLogic::restart_dma() {
 }
 
 void DisturbedLogic::change_clock() {
-  static constexpr std::uint64_t frequencies[] = {25'000'000, 33'333'333,  50'000'000,
-                                                  74'250'000, 100'000'000, 142'857'143};
+  static constexpr std::uint64_t frequencies[] = {1'000'000,  3'333'333,  25'000'000,  33'333'333,
+                                                  50'000'000, 74'250'000, 100'000'000, 142'857'143};
   vp::Clock& clock = below(2) ? system_clk_ : pixel_clk_;
   if (below(4) == 0) {
     clock.set_frequency(0);
     pause(2'000);
   }
-  clock.set_frequency(frequencies[below(6)]);
+  clock.set_frequency(frequencies[below(8)]);
 }
 
 void DisturbedLogic::look() {
