@@ -12,6 +12,14 @@ namespace {
 constexpr int max_exponent = 400;
 constexpr Decimal::Whole whole_limit = Decimal::Whole{1} << 100;
 
+/// Division of 128 bits is slow, and few numbers need them.
+constexpr Decimal::Whole most_of_a_word = std::numeric_limits<std::uint64_t>::max();
+
+bool ends_in_zero(Decimal::Whole value) {
+  if (value >= 0 && value <= most_of_a_word) return static_cast<std::uint64_t>(value) % 10 == 0;
+  return value % 10 == 0;
+}
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -90,7 +98,7 @@ Decimal Decimal::scaled(std::uint32_t factor, int power) const {
 }
 
 void Decimal::normalise() {
-  while (mantissa_ != 0 && mantissa_ % 10 == 0) {
+  while (mantissa_ != 0 && ends_in_zero(mantissa_)) {
     mantissa_ /= 10;
     ++exponent_;
   }
@@ -105,11 +113,12 @@ std::optional<Decimal::Whole> Decimal::whole() const {
 }
 
 std::string Decimal::digits() const {
-  std::string reversed;
-  for (Whole rest = negative() ? -mantissa_ : mantissa_; rest != 0; rest /= 10) {
-    reversed += static_cast<char>('0' + static_cast<int>(rest % 10));
+  Whole rest = negative() ? -mantissa_ : mantissa_;
+  std::string low;  // of a number that is longer than most, backwards
+  for (; rest > most_of_a_word; rest /= 10) {
+    low += static_cast<char>('0' + static_cast<int>(rest % 10));
   }
-  return reversed.empty() ? "0" : std::string(reversed.rbegin(), reversed.rend());
+  return std::to_string(static_cast<std::uint64_t>(rest)) + std::string(low.rbegin(), low.rend());
 }
 
 int Decimal::magnitude() const {
@@ -131,7 +140,7 @@ std::string Decimal::text() const {
   constexpr int longest = 20;  // digits written out before an exponent is used: every 64-bit number
   constexpr int smallest = -7;
   const std::string all = digits();
-  const int leading = magnitude();
+  const int leading = zero() ? 0 : static_cast<int>(all.size()) - 1 + exponent_;
   const std::string sign = negative() ? "-" : "";
   if (leading >= longest || leading < smallest) {
     const std::string fraction = all.size() > 1 ? "." + all.substr(1) : "";
