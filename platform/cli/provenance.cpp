@@ -2,9 +2,8 @@
 
 #include <unistd.h>
 
-#include <ctime>
-
 #include <cli/version.h>
+#include <report/utc_time.h>
 
 namespace platform::cli {
 
@@ -14,15 +13,6 @@ std::string host_name() {
   char name[256] = "";
   if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
   return name;
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 }  // namespace
@@ -36,7 +26,7 @@ report::Provenance provenance(const RunOptions& options, const std::vector<std::
   result.configuration_hash = configuration.hash();
   result.command_line = arguments;
   result.host = host_name();
-  result.date = utc_now();
+  result.date = report::utc_now();
   result.details.emplace_back("output", options.output);
   if (options.camera) result.details.emplace_back("camera", *options.camera);
   if (options.program) result.details.emplace_back("program_file", *options.program);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <tuple>
 
+#include <report/utc_time.h>
 #include <sweep/durable_file.h>
 #include <vp/text.h>
 
@@ -27,15 +27,6 @@ std::string host_name() {
   return name;
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
 std::optional<double> seconds(const Json& entry, const char* name) {
   if (!entry.contains(name)) return std::nullopt;
   return entry.at(name).get<double>();
@@ -46,6 +37,10 @@ std::optional<double> seconds(const Json& entry, const char* name) {
 RunLog::RunLog(const Store& store, const std::string& engine)
     : engine_(engine), host_(host_name()) {
   path_ = store.path("runs/" + host_ + "-" + std::to_string(::getpid()) + ".jsonl");
+}
+
+RunLog::~RunLog() {
+  if (file_ >= 0) ::close(file_);
 }
 
 void RunLog::add(const std::string& key, double wall_s, double cpu_s, int attempt) {
@@ -64,20 +59,16 @@ Json RunLog::entry(const std::string& key, int attempt) const {
   json["key"] = key;
   json["engine"] = engine_;
   json["host"] = host_;
-  json["date"] = utc_now();
+  json["date"] = report::utc_now();
   json["attempt"] = attempt;
   return json;
 }
 
-void RunLog::append(const Json& entry) const {
+void RunLog::append(const Json& entry) {
   const std::string line = entry.dump() + "\n";
-  const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool written =
-      file >= 0 && ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-  const int reason = errno;
-  if (file >= 0) ::close(file);
-  if (!written)
-    throw StorageError("'" + path_ + "' cannot be written: " + std::strerror(reason) +
+  if (file_ < 0) file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_ < 0 || ::write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    throw StorageError("'" + path_ + "' cannot be written: " + std::strerror(errno) +
                        "; what was computed before is kept: make room and run the sweep again");
 }
 

@@ -20,11 +20,15 @@ struct RunEntry {
   std::string date;  ///< its end, UTC
 };
 
-/// Appends to runs/HOST-PROCESS.jsonl.
+/// Appends to runs/HOST-PROCESS.jsonl, a line at a time.
 class RunLog {
  public:
   /// `engine`: "local", "slurm".
   RunLog(const Store& store, const std::string& engine);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
   /// Throws StorageError.
   void add(const std::string& key, double wall_s, double cpu_s, int attempt);
   /// A point that somebody computed without an entry. Throws StorageError.
@@ -32,11 +36,12 @@ class RunLog {
 
  private:
   Json entry(const std::string& key, int attempt) const;
-  void append(const Json& entry) const;
+  void append(const Json& entry);
 
   std::string path_;
   std::string engine_;
   std::string host_;
+  int file_ = -1;  ///< from the first entry on
 };
 
 /// All entries of a folder, sorted by date, then key; a line cut short by a crash is left out.
