@@ -31,8 +31,8 @@ RunOptions with_point(const RunOptions& options, std::ostream& err) {
   if (!options.point) return options;
   refuse_doubles(options);
   const sweep::PointRecord record = sweep::read_point(*options.point);
-  if (record.identity.at("markervp") !=
-      sweep::program_identity(program_version(), source_revision()))
+  const sweep::Json identity = record.identity_json();
+  if (identity.at("markervp") != sweep::program_identity(program_version(), source_revision()))
     err << "markervp: warning: '" << *options.point
         << "' was computed by another version of the program: results may differ" << std::endl;
   RunOptions result = options;
@@ -40,7 +40,6 @@ RunOptions with_point(const RunOptions& options, std::ostream& err) {
   const auto program = record.run.at("program").get<std::string>();
   if (!program.empty()) result.program = program;
   if (record.run.contains("camera")) result.camera = record.run.at("camera").get<std::string>();
-  const sweep::Json& identity = record.identity;
   if (!identity.at("fit").is_null() && !result.fit)
     result.fit = identity.at("fit").get<std::string>();
   if (!identity.at("frames").is_null() && !result.frames)

@@ -95,7 +95,7 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
   for (const std::string& key : keys) {
     if (std::binary_search(planned.begin(), planned.end(), key)) continue;
     try {
-      const sweep::Json other = store.read(key).identity.at("markervp");
+      const sweep::Json other = store.read(key).identity_json().at("markervp");
       if (other == manifest.program) continue;
       ++older;
       version = other.value("version", "") + " " + other.value("revision", "");
@@ -180,6 +180,12 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   return run_local(store, manifest, pending, local, run, progress);
 }
 
+page::PointRows rows_of(const sweep::Results& results) {
+  page::PointRows rows;
+  for (const sweep::ResultRow& row : results.rows) rows.emplace(row.key, row.row);
+  return rows;
+}
+
 /// What was done, and what stands in the folder for it.
 void write_results(const SweepOptions& options, const sweep::Store& store,
                    const sweep::Results& results, const sweep::Tally& tally, std::size_t pending,
@@ -187,7 +193,8 @@ void write_results(const SweepOptions& options, const sweep::Store& store,
   sweep::write_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results,
                         sweep::complete_runs(store, results.manifest, options.engine));
-  const bool page = !options.no_report && page::write_report(store.folder());
+  const bool page =
+      !options.no_report && page::write_sweep_report(store.folder(), rows_of(results));
   out << sweep::sweep_text(results) << "\n"
       << report::counted(results.rows.size(), "point") << ": " << tally.computed
       << " computed now, " << results.manifest.points.size() - pending << " there before, "

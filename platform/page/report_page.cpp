@@ -69,7 +69,7 @@ bool write_report(const std::string& folder, const std::string& extras) {
       blocks.push_back({"frames", Json(read_file(frames)).dump(-1, ' ', false, replace)});
     }
   } else if (fs::is_directory(root / "points", ignored)) {
-    blocks.push_back({"sweep", sweep_json(folder)});
+    return write_sweep_report(folder, {});
   } else if (fs::exists(root / "result.json", ignored)) {
     add_run(blocks, root, "", extras);
   } else {
@@ -78,6 +78,11 @@ bool write_report(const std::string& folder, const std::string& extras) {
                          "validation.json: name a folder that markervp wrote");
   }
   return write_page((root / "report.html").string(), blocks);
+}
+
+bool write_sweep_report(const std::string& folder, const PointRows& known) {
+  return write_page((fs::path(folder) / "report.html").string(),
+                    {{"sweep", sweep_json(folder, known)}});
 }
 
 bool write_comparison(const std::string& first, const std::string& second,

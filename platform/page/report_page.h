@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <page/sweep_block.h>
+
 namespace platform::page {
 
 /// Writes report.html into a folder that has result.json (a run), validation.json (a validation) or
@@ -9,6 +11,9 @@ namespace platform::page {
 /// that of the page that is there already, if there is one. False if the program was built without
 /// the page. Throws vp::InputError if the folder has none of these, or a file is damaged.
 bool write_report(const std::string& folder, const std::string& extras = "");
+
+/// The same of a sweep whose points are `known`, all or some.
+bool write_sweep_report(const std::string& folder, const PointRows& known);
 
 /// A page into `output` that compares the runs in two folders.
 bool write_comparison(const std::string& first, const std::string& second,

@@ -77,24 +77,39 @@ Json reasons_of(const Json& outcome) {
   return reasons;
 }
 
-Json point_json(const Json& planned, const Json& swept, const Json& record) {
+/// File names may hold any bytes; JSON holds UTF-8 only.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The object `json`, which is not empty, with the members of another behind its own.
+std::string joined(std::string json, const std::string& other) {
+  json.back() = ',';
+  return json.append(other, 1);
+}
+
+std::string point_json(const Json& planned, const Json& swept, const std::string& row) {
   Json point;
   point["key"] = planned.at("key");
   point["swept"] = Json::array();
   for (const Json& path : swept) {
     point["swept"].push_back(planned.at("swept").value(path.get<std::string>(), Json()));
   }
-  const Json& outcome = part(record, "/outcome");
-  const Json& result = part(outcome, "/result");
-  point["metrics"] = Json::array();
-  for (const char* figure : figures) point["metrics"].push_back(number_at(result, figure));
-  for (const char* error : errors) point["metrics"].push_back(mean_error(result, error));
-  point["failed"] = outcome.value("status", "") == "failed";
-  point["reasons"] = reasons_of(outcome);
-  return point;
+  return joined(dump(point), row);
 }
 
-Json block_of_manifest(const Json& manifest, const fs::path& folder) {
+/// Empty for a point that is missing.
+std::string row_of(const std::string& key, const fs::path& folder, const PointRows& known) {
+  const auto found = known.find(key);
+  if (found != known.end()) return found->second;
+  const fs::path file = folder / "points" / (key + ".json");
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return "";
+  return point_row(part(parse_json(read_file(file), file), "/outcome"));
+}
+
+std::string block_of_manifest(const Json& manifest, const fs::path& folder,
+                              const PointRows& known) {
   Json json;
   for (const char* key : {"name", "title", "text", "swept", "effects"}) {
     if (manifest.contains(key)) json[key] = manifest[key];
@@ -103,29 +118,38 @@ Json block_of_manifest(const Json& manifest, const fs::path& folder) {
   json["metrics"] = Json::array();
   for (const char* figure : figures) json["metrics"].push_back(std::string(figure).substr(1));
   for (const char* error : errors) json["metrics"].push_back(std::string("error/") + error);
-  json["points"] = Json::array();
+  std::string points;
   std::size_t missing = 0;
   for (const Json& planned : manifest.at("points")) {
-    const fs::path file = folder / "points" / (planned.at("key").get<std::string>() + ".json");
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) {
+    const std::string row = row_of(planned.at("key").get<std::string>(), folder, known);
+    if (row.empty()) {
       ++missing;
       continue;
     }
-    json["points"].push_back(
-        point_json(planned, manifest.at("swept"), parse_json(read_file(file), file)));
+    points += (points.empty() ? "" : ",") + point_json(planned, manifest.at("swept"), row);
   }
-  json["missing"] = missing;
-  return json;
+  return joined(dump(json),
+                "{\"points\":[" + points + "],\"missing\":" + std::to_string(missing) + "}");
 }
 
 }  // namespace
 
-std::string sweep_json(const std::string& folder) {
+std::string point_row(const Json& outcome) {
+  const Json& result = part(outcome, "/result");
+  Json row;
+  row["metrics"] = Json::array();
+  for (const char* figure : figures) row["metrics"].push_back(number_at(result, figure));
+  for (const char* error : errors) row["metrics"].push_back(mean_error(result, error));
+  row["failed"] = outcome.value("status", "") == "failed";
+  row["reasons"] = reasons_of(outcome);
+  return dump(row);
+}
+
+std::string sweep_json(const std::string& folder, const PointRows& known) {
   const fs::path path = fs::path(folder) / "manifest.json";
   const Json manifest = parse_json(read_file(path), path);
   try {
-    return block_of_manifest(manifest, folder).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return block_of_manifest(manifest, folder, known);
   } catch (const Json::exception& error) {
     throw vp::InputError("'" + folder + "' is not the folder of a sweep: " + error.what());
   }

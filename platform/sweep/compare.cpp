@@ -73,7 +73,7 @@ Comparable read_comparable(const std::string& path) {
       throw vp::InputError("'" + file + "' is a point that failed: " +
                            record.outcome["failure"].value("message", ""));
     run.configuration =
-        record.identity.at("configuration").get<std::map<std::string, std::string>>();
+        record.identity_json().at("configuration").get<std::map<std::string, std::string>>();
     add_facts(record.outcome["result"], run);
     return run;
   }

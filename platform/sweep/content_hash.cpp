@@ -16,7 +16,7 @@ namespace {
 class Digest {
  public:
   Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+    check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), sha_256(), nullptr) == 1);
   }
 
   void add(std::string_view bytes) {
@@ -36,6 +36,14 @@ class Digest {
   }
 
  private:
+  /// Looked up once: EVP_sha256() is, for each digest.
+  static const EVP_MD* sha_256() {
+    static const std::unique_ptr<EVP_MD, decltype(&EVP_MD_free)> found(
+        EVP_MD_fetch(nullptr, "SHA256", nullptr), EVP_MD_free);
+    check(found != nullptr);
+    return found.get();
+  }
+
   static void check(bool ok) {
     if (!ok) throw std::runtime_error("SHA-256 is not available");
   }

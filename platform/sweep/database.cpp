@@ -33,11 +33,17 @@ CREATE TABLE runs(key TEXT REFERENCES points, engine TEXT, host TEXT, date TEXT,
                   wall_s REAL, cpu_s REAL);
 )";
 
+/// Metrics that go into their table with one statement.
+constexpr int rows_together = 16;
+
 class Database {
  public:
   explicit Database(const std::string& path) : path_(path) {
     sqlite3* opened = nullptr;
-    const int code = sqlite3_open(path.c_str(), &opened);
+    // One thread uses it: without a lock for every value.
+    const int code =
+        sqlite3_open_v2(path.c_str(), &opened,
+                        SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
     handle_.reset(opened);
     check(code);
   }
@@ -62,13 +68,17 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// INSERT with the values of a row.
+/// INSERT with the values of a row, or of some rows together: that costs less for each.
 class Insert {
  public:
-  Insert(const Database& database, const std::string& table, int columns) : database_(database) {
-    std::string sql = "INSERT INTO " + table + " VALUES(?";
-    for (int i = 1; i < columns; ++i) sql += ",?";
-    sql += ")";
+  /// Texts of rows that go together must live as long as it takes to give all of them.
+  Insert(const Database& database, const std::string& table, int columns, int rows = 1)
+      : database_(database), places_(columns * rows) {
+    std::string row = "(?";
+    for (int i = 1; i < columns; ++i) row += ",?";
+    row += ")";
+    std::string sql = "INSERT INTO " + table + " VALUES" + row;
+    for (int i = 1; i < rows; ++i) sql += "," + row;
     sqlite3_stmt* statement = nullptr;
     database_.check(sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr));
     statement_.reset(statement);
@@ -76,8 +86,9 @@ class Insert {
 
   template <class... Values>
   void row(const Values&... values) {
-    int column = 0;
-    (bind(++column, values), ...);
+    (bind(++bound_, values), ...);
+    if (bound_ < places_) return;
+    bound_ = 0;
     database_.check(sqlite3_step(statement_.get()));
     database_.check(sqlite3_reset(statement_.get()));
   }
@@ -105,6 +116,8 @@ class Insert {
   }
 
   const Database& database_;
+  int places_;     ///< for values
+  int bound_ = 0;  ///< of them
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
@@ -180,13 +193,16 @@ void add_metrics(const Database& database, const Results& results) {
   Insert ids(database, "metric_names", 2);
   for (std::size_t id = 0; id < names.size(); ++id)
     ids.row(static_cast<std::int64_t>(id), names[id]);
-  Insert values(database, "metric_values", 3);
+  Insert one(database, "metric_values", 3);
+  Insert some(database, "metric_values", 3, rows_together);
   for (std::size_t position = 0; position < results.rows.size(); ++position) {
     const Metrics& metrics = results.rows[position].metrics;
     // Both are sorted.
     auto id = names.begin();
-    for (std::size_t i = 0; i < metrics.names().size(); ++i, ++id) {
+    const std::size_t count = metrics.names().size();
+    for (std::size_t i = 0; i < count; ++i, ++id) {
       while (*id != metrics.names()[i]) ++id;
+      Insert& values = i < count - count % rows_together ? some : one;
       values.row(static_cast<std::int64_t>(position), std::int64_t{id - names.begin()},
                  metrics.values()[i]);
     }

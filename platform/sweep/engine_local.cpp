@@ -15,6 +15,7 @@
 #include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/run_child.h>
+#include <page/sweep_block.h>
 #include <sweep/durable_file.h>
 #include <sweep/engine.h>
 #include <sweep/point_worker.h>
@@ -105,6 +106,7 @@ class Pool {
 
   void start() {
     Running& running = running_.emplace_back();
+    running.reader = MessageReader(names_);
     running.slot = free_slots_.back();
     free_slots_.pop_back();
     if (!again_.empty()) {
@@ -177,7 +179,7 @@ class Pool {
     log_.add(list_.manifest.points[position].key, message.wall_s, message.cpu_s,
              attempts_[message.item]);
     Outcome& outcome = tally_.outcomes[position];
-    outcome = {message.failed, message.failure, message.metrics};
+    outcome = {message.failed, message.failure, message.metrics, message.row};
     outcome.metrics.share_names(names_);
     names_ = outcome.metrics;
     if (options_.on_result && !outcome.metrics.empty()) options_.on_result(outcome.metrics);
@@ -213,11 +215,13 @@ class Pool {
       return;
     }
     const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
-    list_.store.write(failed_record(list_.manifest, point, failure));
+    const PointRecord record = failed_record(list_.manifest, point, failure);
+    list_.store.write(record);
     PointMessage message;
     message.item = item;
     message.failed = true;
     message.failure = failure;
+    message.row = page::point_row(record.outcome);
     done(message);
   }
 

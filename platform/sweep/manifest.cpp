@@ -1,5 +1,8 @@
 #include <sweep/manifest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include <sweep/content_hash.h>
 #include <vp/error.h>
 
@@ -9,6 +12,20 @@ namespace {
 
 constexpr int schema = 1;
 constexpr const char* mark = "markervp_manifest";
+
+/// Appends it as a JSON text.
+void append_text(std::string& json, const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+    return c >= ' ' && c <= '~' && c != '"' && c != '\\';
+  });
+  if (!plain) {
+    json += Json(text).dump();
+    return;
+  }
+  json += '"';
+  json += text;
+  json += '"';
+}
 
 Json optional_text(const std::optional<std::string>& text) {
   return text ? Json(*text) : Json(nullptr);
@@ -85,41 +102,42 @@ const char* to_string(Sampling::Method method) {
   return "";
 }
 
-std::map<std::string, std::string> Manifest::configuration(const PlannedPoint& point) const {
-  std::map<std::string, std::string> values = families[point.family].configuration;
-  for (const auto& [path, value] : point.changes) values[path] = value;
-  return values;
-}
-
 std::map<std::string, std::string> Manifest::settings(const PlannedPoint& point) const {
   const std::map<std::string, std::string>& defaults = families[point.family].defaults;
   std::map<std::string, std::string> set;
-  const auto add = [&](const std::string& path, const std::string& value) {
-    const auto found = defaults.find(path);
-    if (found == defaults.end() || found->second != value) set[path] = value;
-  };
-  for (const auto& [path, value] : families[point.family].configuration) {
-    if (point.changes.count(path) == 0) add(path, value);
-  }
-  for (const auto& [path, value] : point.changes) add(path, value);
+  auto standard = defaults.begin();
+  visit_configuration(point, [&](const std::string& path, const std::string& value) {
+    while (standard != defaults.end() && standard->first < path) ++standard;
+    const bool same =
+        standard != defaults.end() && standard->first == path && standard->second == value;
+    if (!same) set.emplace_hint(set.end(), path, value);
+  });
   return set;
 }
 
-Json Manifest::identity(const PlannedPoint& point) const {
-  Json json;
-  json["markervp"] = program;
-  json["tables"] = tables;
-  json["contents"] = families[point.family].contents;
-  json["inputs"] = input_sets[point.input_set].contents;
-  json["fit"] = optional_text(input.fit);
-  json["frames"] = input.frames ? Json(*input.frames) : Json(nullptr);
-  json["repeat"] = input.repeat;
-  json["configuration"] = configuration(point);
-  return json;
+// The configuration is most of it, and goes into words without a tree of values.
+std::string Manifest::identity(const PlannedPoint& point) const {
+  std::string text = "{\"markervp\":" + program.dump();
+  text += ",\"tables\":" + tables.dump();
+  text += ",\"contents\":" + families[point.family].contents.dump();
+  text += ",\"inputs\":" + input_sets[point.input_set].contents.dump();
+  text += ",\"fit\":" + optional_text(input.fit).dump();
+  text += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
+  text += ",\"repeat\":" + std::to_string(input.repeat);
+  text += ",\"configuration\":";
+  char before = '{';
+  visit_configuration(point, [&](const std::string& path, const std::string& value) {
+    text += std::exchange(before, ',');
+    append_text(text, path);
+    text += ':';
+    append_text(text, value);
+  });
+  text += before == '{' ? "{}}" : "}}";
+  return text;
 }
 
-std::string key_of(const Json& identity) {
-  return content_hash(identity.dump()).substr(0, key_digits);
+std::string key_of(std::string_view identity) {
+  return content_hash(identity).substr(0, key_digits);
 }
 
 Json to_json(const Manifest& manifest) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sweep/expansion.h>
@@ -71,16 +72,31 @@ struct Manifest {
   std::vector<PlannedPoint> points;  ///< without duplicates, in the order of the sweep
   std::vector<KeyedEffect> effects;
 
-  /// Everything that decides the point's result.
-  Json identity(const PlannedPoint& point) const;
-  /// Its complete effective configuration.
-  std::map<std::string, std::string> configuration(const PlannedPoint& point) const;
+  /// Everything that decides the point's result, as JSON.
+  std::string identity(const PlannedPoint& point) const;
+  /// Calls visit(path, value) for its complete effective configuration, sorted by path.
+  template <class Visit>
+  void visit_configuration(const PlannedPoint& point, const Visit& visit) const;
   /// What is set to get it: the values that are not their defaults.
   std::map<std::string, std::string> settings(const PlannedPoint& point) const;
 };
 
+template <class Visit>
+void Manifest::visit_configuration(const PlannedPoint& point, const Visit& visit) const {
+  // Both are sorted.
+  auto change = point.changes.begin();
+  for (const auto& [path, value] : families[point.family].configuration) {
+    for (; change != point.changes.end() && change->first < path; ++change)
+      visit(change->first, change->second);
+    const bool changed = change != point.changes.end() && change->first == path;
+    visit(path, changed ? change->second : value);
+    if (changed) ++change;
+  }
+  for (; change != point.changes.end(); ++change) visit(change->first, change->second);
+}
+
 /// The hash of an identity.
-std::string key_of(const Json& identity);
+std::string key_of(std::string_view identity);
 
 Json to_json(const Manifest& manifest);
 /// Throws vp::InputError if it is no manifest of this version; `origin` names it.

@@ -178,7 +178,7 @@ Metrics metrics_of(const Json& result) {
 }
 
 Metrics MetricsReader::read(const Json& result) {
-  std::vector<double> values(paths_.size());
+  std::vector<double> values(before_.values().size());  // fewer than paths if two have one name
   std::size_t count = 0;
   bool same = true;
   find_figures(result, [&](const std::string& path, double value) {

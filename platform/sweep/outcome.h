@@ -10,6 +10,7 @@ struct Outcome {
   bool failed = false;
   Failure failure;  ///< if it failed
   Metrics metrics;  ///< empty if there is no result
+  std::string row;  ///< of the point in report.html, see page/sweep_block.h
 };
 
 Outcome outcome_of(const PointRecord& record);

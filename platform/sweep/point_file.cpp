@@ -61,9 +61,11 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
 // file.
 std::string point_text(const PointRecord& record) {
   const std::string outcome = dump(record.outcome);
-  std::string text = "{\"" + std::string(mark) + "\":" + std::to_string(schema);
+  std::string text;
+  text.reserve(outcome.size() + record.identity.size() + 4096);
+  text += "{\"" + std::string(mark) + "\":" + std::to_string(schema);
   text += ",\n\"key\":" + dump(record.key);
-  text += ",\n\"identity\":" + dump(record.identity);
+  text += ",\n\"identity\":" + record.identity;
   text += ",\n\"run\":" + dump(record.run);
   text += ",\n\"digest\":" + dump(content_hash(outcome));
   text += ",\n\"outcome\":" + outcome + "}\n";
@@ -88,7 +90,7 @@ PointRecord read_point(const std::string& path, bool verify) {
                          ": remove it, and the sweep computes it again");
   }
   try {
-    PointRecord record{json.at("key").get<std::string>(), std::move(json.at("identity")),
+    PointRecord record{json.at("key").get<std::string>(), dump(json.at("identity")),
                        std::move(json.at("run")), std::move(json.at("outcome"))};
     const bool whole = !verify || (key_of(record.identity) == record.key &&
                                    content_hash(dump(record.outcome)) == json.at("digest"));

@@ -26,10 +26,11 @@ struct Failure {
 ///                   only if its program ended by itself
 struct PointRecord {
   std::string key;
-  Json identity;
+  std::string identity;  ///< as text, which is hashed and written more often than looked into
   Json run;
   Json outcome;
 
+  Json identity_json() const { return Json::parse(identity); }
   bool failed() const { return outcome.at("status") == "failed"; }
 };
 

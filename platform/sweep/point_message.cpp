@@ -55,6 +55,7 @@ std::string MessageWriter::bytes(const PointMessage& message) {
   put(body, message.failure.exit_code);
   put(body, message.failure.signal);
   put_text(body, message.failure.message);
+  put_text(body, message.row);
   const Metrics& metrics = message.metrics;
   const bool same = metrics.shares_names(before_) || metrics.names() == before_.names();
   put(body, same);
@@ -84,13 +85,14 @@ std::optional<PointMessage> MessageReader::next() {
   message.failure.exit_code = taker.take<int>();
   message.failure.signal = taker.take<int>();
   message.failure.message = taker.take_text();
+  message.row = taker.take_text();
   const bool same = taker.take<bool>();
   const auto count = taker.take<std::uint64_t>();
   std::shared_ptr<const Metrics::Names> names = before_.shared_names();
   if (!same) {
     auto read = std::make_shared<Metrics::Names>();
     for (std::uint64_t i = 0; i < count; ++i) read->push_back(taker.take_text());
-    names = std::move(read);
+    names = *read == known_.names() ? known_.shared_names() : std::move(read);
   }
   std::vector<double> values;
   values.reserve(count);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <sweep/metrics.h>
 #include <sweep/point_file.h>
@@ -26,6 +27,7 @@ struct PointMessage {
   bool failed = false;
   Failure failure;
   Metrics metrics;
+  std::string row;  ///< as Outcome has it
 };
 
 /// Names go over the pipe when they differ from those of the message before.
@@ -41,12 +43,16 @@ class MessageWriter {
 /// Puts messages together again that arrive in pieces.
 class MessageReader {
  public:
+  /// Metrics share the names of `known`, if they are the same.
+  explicit MessageReader(Metrics known = {}) : known_(std::move(known)) {}
+
   void add(std::string_view bytes) { waiting_ += bytes; }
   /// The next whole message.
   std::optional<PointMessage> next();
 
  private:
   std::string waiting_;
+  Metrics known_;
   Metrics before_;
 };
 

@@ -11,6 +11,7 @@
 
 #include <cli/interrupt.h>
 #include <cli/program.h>
+#include <page/sweep_block.h>
 #include <sweep/durable_file.h>
 #include <sweep/words.h>
 
@@ -35,25 +36,21 @@ std::string last_warning(const Json& result) {
   return "";
 }
 
-/// The first parameter that the platform had with another value than the point is named after.
+/// The first parameter that the platform had with another value than the point is named after, or
+/// that only one of them has.
 std::string difference(const Manifest& manifest, const PlannedPoint& point,
                        const std::map<std::string, std::string>& actual) {
-  const auto& base = manifest.families[point.family].configuration;
-  std::size_t same = 0;
-  for (const auto& [path, value] : base) {
-    const auto found = actual.find(path);
-    const auto changed = point.changes.find(path);
-    const std::string& planned = changed == point.changes.end() ? value : changed->second;
-    if (found == actual.end() || found->second != planned) return path;
-    ++same;
-  }
-  for (const auto& [path, planned] : point.changes) {
-    if (base.count(path) != 0) continue;
-    const auto found = actual.find(path);
-    if (found == actual.end() || found->second != planned) return path;
-    ++same;
-  }
-  return same == actual.size() ? "" : "a parameter that was not planned";
+  std::string first;
+  auto found = actual.begin();  // both are sorted
+  manifest.visit_configuration(point, [&](const std::string& path, const std::string& planned) {
+    if (!first.empty()) return;
+    if (found != actual.end() && found->first == path && found->second == planned) {
+      ++found;
+    } else {
+      first = found != actual.end() && found->first < path ? found->first : path;
+    }
+  });
+  return first.empty() && found != actual.end() ? found->first : first;
 }
 
 }  // namespace
@@ -126,7 +123,7 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
       message.metrics = metrics_.read(result);
     }
     message.failure = {code, 0, text};
-    list_.store.write(failed_record(list_.manifest, point, message.failure, std::move(result)));
+    finish(failed_record(list_.manifest, point, message.failure, std::move(result)), message);
     return;
   }
   const std::string changed = difference(list_.manifest, point, found.configuration);
@@ -138,7 +135,12 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
     return;
   }
   message.metrics = metrics_.read(found.result);
-  list_.store.write(done_record(list_.manifest, point, std::move(found.result)));
+  finish(done_record(list_.manifest, point, std::move(found.result)), message);
+}
+
+void PointWorker::finish(const PointRecord& record, PointMessage& message) {
+  message.row = page::point_row(record.outcome);
+  list_.store.write(record);
 }
 
 void PointWorker::tell(const PointMessage& message) {

@@ -35,6 +35,7 @@ class PointWorker {
   bool complete(std::size_t item);
   PointMessage compute(std::size_t item);
   void compute_claimed(const PlannedPoint& point, PointMessage& message);
+  void finish(const PointRecord& record, PointMessage& message);
   void tell(const PointMessage& message);
 
   const PointList& list_;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include <page/sweep_block.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -100,6 +101,7 @@ Outcome outcome_of(const PointRecord& record) {
                        failure.value("message", "")};
   }
   if (record.outcome.contains("result")) outcome.metrics = metrics_of(record.outcome.at("result"));
+  outcome.row = page::point_row(record.outcome);
   return outcome;
 }
 

@@ -76,7 +76,9 @@ BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, Sweeps) {
   run({"sweep", "s.yaml"});
   const std::string file = a_point("out/s");
   platform::sweep::PointRecord older = platform::sweep::read_point(file);
-  older.identity["markervp"]["version"] = "0.0.1";
+  platform::sweep::Json identity = older.identity_json();
+  identity["markervp"]["version"] = "0.0.1";
+  older.identity = identity.dump();
   older.key = platform::sweep::key_of(older.identity);
   std::filesystem::remove(file);
   kit::write_file(*this / ("out/s/points/" + older.key + ".json"),

@@ -122,6 +122,11 @@ BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
     "resources":{"over":["lut"]}}}})");
   kit::write_file(folder / "points/r.json",
                   R"({"outcome":{"status":"failed","failure":{"message":"it stood"}}})");
+  const std::string known = page::sweep_json(
+      folder.path(), {{"r", R"({"metrics":[],"failed":false,"reasons":["it is known"]})"}});
+  const Json taken = Json::parse(R"({"key":"r","swept":["0 Hz"],"metrics":[],"failed":false,
+    "reasons":["it is known"]})");
+  BOOST_TEST(Json::parse(known)["points"][2] == taken);
   if (!page::write_report(folder.path())) return;  // built without it
   const Json sweep = Json::parse(page::block_of(read(folder / "report.html"), "sweep"));
   BOOST_TEST(sweep["title"] == "clocks");

@@ -53,6 +53,21 @@ BOOST_AUTO_TEST_CASE(what_decides_the_result_decides_the_key) {
   BOOST_TEST(key_of(other.identity(other.points[0])) == manifest.points[0].key);
 }
 
+BOOST_AUTO_TEST_CASE(an_identity_has_the_changed_configuration_sorted) {
+  Manifest manifest = one_point();
+  PlannedPoint& point = manifest.points[0];
+  point.changes = {{"a", "5"}, {"aa", "\"quoted\"\n\xc3\xa9"}, {"c", "7"}};
+  const Json json = Json::parse(manifest.identity(point));
+  BOOST_TEST(json.at("markervp").at("version") == "1");
+  BOOST_TEST(json.at("configuration").dump() ==
+             "{\"a\":\"5\",\"aa\":\"\\\"quoted\\\"\\n\xc3\xa9\",\"b\":\"2\",\"c\":\"7\"}");
+  // It reads back from a point's file as the same text.
+  BOOST_TEST(json.dump() == manifest.identity(point));
+  manifest.families[0].configuration.clear();
+  point.changes.clear();
+  BOOST_TEST(Json::parse(manifest.identity(point)).at("configuration") == Json::object());
+}
+
 BOOST_AUTO_TEST_CASE(only_what_is_no_default_is_set) {
   const Manifest manifest = one_point();
   const std::map<std::string, std::string> expected{{"a", "5"}, {"b", "2"}};

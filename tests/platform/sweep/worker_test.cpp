@@ -16,6 +16,7 @@ PointMessage message(std::uint64_t item, const Metrics& metrics) {
   result.wall_s = 0.5;
   result.failed = true;
   result.failure = {3, 9, "why"};
+  result.row = "{}";
   result.metrics = metrics;
   return result;
 }
@@ -67,11 +68,16 @@ BOOST_AUTO_TEST_CASE(messages_arrive_whole_however_they_are_cut) {
   BOOST_TEST(read[0].failure.message == "why");
   BOOST_TEST(read[0].failure.signal == 9);
   BOOST_TEST(read[0].wall_s == 0.5);
+  BOOST_TEST(read[0].row == "{}");
   BOOST_TEST(*read[0].metrics.find("b") == 2);
   BOOST_TEST(*read[1].metrics.find("b") == 4);
   BOOST_TEST(read[1].metrics.shares_names(read[0].metrics));
   BOOST_TEST(*read[2].metrics.find("c") == 5);
   BOOST_TEST(!read[2].metrics.find("a"));
+  // A reader in place of another shares what that one's messages had.
+  MessageReader later(read[0].metrics);
+  later.add(MessageWriter().bytes(message(4, second)));
+  BOOST_TEST(later.next()->metrics.shares_names(read[0].metrics));
 }
 
 BOOST_AUTO_TEST_CASE(half_a_message_is_none) {
@@ -85,10 +91,11 @@ BOOST_AUTO_TEST_CASE(results_of_one_shape_are_read_like_any) {
   const Json first = Json::parse(R"({"summary": {"b": 1, "a": 2}, "frames": [{"markers": []}]})");
   const Json second = Json::parse(R"({"summary": {"b": 3, "a": 4}, "frames": [{"markers": []}]})");
   const Json longer = Json::parse(R"({"summary": {"b": 3, "a": 4, "c": 5}})");
+  const Json twins = Json::parse(R"({"modules": [{"name": "m", "w": 1}, {"name": "m", "w": 2}]})");
   const Json shorter = Json::parse(R"({"summary": {"b": 7}})");
   MetricsReader reader;
   const Metrics before = reader.read(first);
-  for (const Json& result : {second, longer, shorter, first}) {
+  for (const Json& result : {second, longer, shorter, twins, twins, first}) {
     const Metrics read = reader.read(result);
     const Metrics alone = metrics_of(result);
     BOOST_TEST((read.names() == alone.names()));
