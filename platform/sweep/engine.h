@@ -45,8 +45,8 @@ using OnProgress = std::function<void(std::uint64_t done)>;
 
 /// Points that a process computes, one after another, before another takes its place. Each leaves
 /// SystemC's old context behind, about 50 KiB (measured: 48 MiB after 1000): so a process holds
-/// some 3 MiB of them, and shares what it costs to start and end it among 64 points.
-constexpr std::uint32_t usual_points_a_process = 64;
+/// some 12 MiB of them, and shares what it costs to start and end it among 256 points.
+constexpr std::uint32_t usual_points_a_process = 256;
 
 struct LocalOptions {
   std::uint32_t jobs = 1;

@@ -35,11 +35,14 @@ constexpr int most_useless = 5;
 /// What a power failure may cost: finished points go to the disk together.
 constexpr auto flush_period = std::chrono::seconds(10);
 
-/// A pipe whose ends are closed with it.
+/// To be woken for every point costs as much as to note it.
+constexpr int listen_period_ms = 20;
+
+/// A pipe whose ends are closed with it. Reading does not wait.
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0 || ::fcntl(ends_[0], F_SETFL, O_NONBLOCK) != 0)
       throw std::system_error(errno, std::generic_category(), "no pipe for a sweep's process");
   }
   ~Pipe() {
@@ -125,15 +128,14 @@ class Pool {
     running.pipe.close_writing();
   }
 
-  /// Sleeps until a process tells something or ends, or a signal comes.
+  /// Sleeps a while, or until a process ends or a signal comes, and takes what they told.
   void listen() {
     std::vector<pollfd> pipes;
-    for (const Running& running : running_) pipes.push_back({running.pipe.reading(), POLLIN, 0});
-    if (::poll(pipes.data(), pipes.size(), -1) < 0) return;
-    auto running = running_.begin();
-    for (const pollfd& pipe : pipes) {
+    for (const Running& running : running_) pipes.push_back({running.pipe.reading(), 0, 0});
+    if (::poll(pipes.data(), pipes.size(), listen_period_ms) < 0) return;
+    for (auto running = running_.begin(); running != running_.end();) {
       const auto next = std::next(running);
-      if (pipe.revents != 0 && !read(*running)) {
+      if (!read(*running)) {
         ended(*running);
         running_.erase(running);
       }
@@ -141,15 +143,15 @@ class Pool {
     }
   }
 
-  /// False: there is nothing more to come.
+  /// What the process told. False: there is nothing more to come.
   bool read(Running& running) {
     std::array<char, 1 << 16> block;
-    const ssize_t size = ::read(running.pipe.reading(), block.data(), block.size());
-    if (size < 0) return errno == EINTR;
-    if (size == 0) return false;
-    running.reader.add({block.data(), static_cast<std::size_t>(size)});
-    while (const std::optional<PointMessage> message = running.reader.next()) take(*message);
-    return true;
+    ssize_t size = 0;
+    while ((size = ::read(running.pipe.reading(), block.data(), block.size())) > 0) {
+      running.reader.add({block.data(), static_cast<std::size_t>(size)});
+      while (const std::optional<PointMessage> message = running.reader.next()) take(*message);
+    }
+    return size < 0 && (errno == EINTR || errno == EAGAIN);
   }
 
   void take(const PointMessage& message) {

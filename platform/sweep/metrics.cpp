@@ -41,12 +41,11 @@ class Step {
   std::size_t length_;
 };
 
-std::string item_name(const Json& item, std::size_t position) {
-  if (item.is_object()) {
-    const auto name = item.find("name");
-    if (name != item.end() && name->is_string()) return name->get<std::string>();
-  }
-  return std::to_string(position);
+/// What an item of a list calls itself; null if it does not.
+const std::string* name_of(const Json& item) {
+  if (!item.is_object()) return nullptr;
+  const auto name = item.find("name");
+  return name == item.end() ? nullptr : name->get_ptr<const std::string*>();
 }
 
 /// Calls found(path, value) for each number below `json`. One that is not finite has no place in a
@@ -65,7 +64,8 @@ void walk(const Json& json, std::string& path, const Found& found) {
     }
   } else if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i) {
-      const Step step(path, item_name(json[i], i));
+      const std::string* name = name_of(json[i]);
+      const Step step(path, name ? std::string_view(*name) : std::string_view(std::to_string(i)));
       walk(json[i], path, found);
     }
   }

@@ -1,7 +1,9 @@
 #include <sweep/content_hash.h>
+#include <sweep/csv_line.h>
 #include <sweep/metrics.h>
 #include <sweep/point_file.h>
 #include <sweep/store.h>
+#include <vp/decimal.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"
@@ -146,6 +148,12 @@ BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
   BOOST_TEST(*metrics.find("frames.markers.mean") == 0.5);
   BOOST_TEST(*metrics.find("frames.error.corner_px.mean") == 0.5);
   BOOST_TEST(!metrics.find("frames.index.mean"));
+}
+
+BOOST_AUTO_TEST_CASE(figures_are_written_as_decimals) {
+  for (const double value : {0.0, -0.0, 9.99e-6, 1e-5, 0.1, -2.25, 12345.678901234567,
+                             999999999999999.0, 1e15, 1.5e15, 6.02e23, 1e-300})
+    BOOST_TEST(csv_number(value) == vp::Decimal(value).text());
 }
 
 BOOST_AUTO_TEST_CASE(metrics_share_their_names) {
