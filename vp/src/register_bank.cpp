@@ -185,6 +185,18 @@ tlm::tlm_response_status RegisterBank::access(tlm::tlm_generic_payload& payload)
   return status;
 }
 
+tlm::tlm_response_status RegisterBank::access_removed(Register& target, bool read,
+                                                      std::uint64_t address, std::uint32_t& word) {
+  if (read) {
+    warn_of_missing_register(read, address);
+    word = target.read();
+  } else {
+    warn_of_ignored_write(target, word);
+    target.write(word);
+  }
+  return tlm::TLM_OK_RESPONSE;
+}
+
 tlm::tlm_response_status RegisterBank::refuse_in_reset(std::uint64_t address) const {
   warn(*this, "/markervp/register_bank/in_reset",
        hex(address) + " accessed while the device is held in reset: release its reset first");

@@ -313,7 +313,6 @@ void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Trans
 
 template <class Call>
 auto Cpu::guarded(Call call) {
-  std::exception_ptr error;
   ProgramWatch::enter_hal();
   try {
     if constexpr (std::is_void_v<decltype(call())>) {
@@ -330,9 +329,9 @@ auto Cpu::guarded(Call call) {
   } catch (const sc_core::sc_unwind_exception&) {
     throw;  // somebody kills the process
   } catch (...) {
-    error = std::current_exception();
+    error_ = std::current_exception();
   }
-  stop(std::move(error));
+  stop(error_);
 }
 
 }  // namespace ps

@@ -56,8 +56,8 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
   }
   build_channels();
   s_axi_lite.before_access([this] {
-    for (const Interrupt& i : interrupts_) {
-      if (i.channel->finishing()) i.channel->bring_up_to(clock().cycle());
+    for (DmaChannel* channel : std::initializer_list<DmaChannel*>{mm2s_.get(), s2mm_.get()}) {
+      if (channel && channel->finishing()) channel->bring_up_to(clock().cycle());
     }
   });
 }

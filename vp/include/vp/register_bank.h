@@ -95,7 +95,7 @@ class Register {
   std::uint32_t read();
   void write(std::uint32_t word);
   void apply_policy(std::uint32_t word);
-  bool ignores_writes() const { return removed_ || info_.access == Access::read_only; }
+  bool ignores_writes() const { return info_.access == Access::read_only; }
 
   const RegisterInfo& info_;
   std::uint32_t value_;
@@ -176,6 +176,8 @@ class RegisterBank : public sc_core::sc_module {
   tlm::tlm_response_status access(tlm::tlm_generic_payload& payload);
   Register* find(std::uint64_t address) const;
   bool all_bytes_enabled(const tlm::tlm_generic_payload& payload) const;
+  tlm::tlm_response_status access_removed(Register& target, bool read, std::uint64_t address,
+                                          std::uint32_t& word);
   tlm::tlm_response_status refuse_in_reset(std::uint64_t address) const;
   void warn_of_ignored_write(const Register& target, std::uint32_t word) const;
   void warn_of_missing_register(bool read, std::uint64_t address) const;
@@ -193,8 +195,8 @@ inline tlm::tlm_response_status RegisterBank::access(Register& target, bool read
                                                      std::uint64_t address, std::uint32_t& word) {
   if (held_in_reset_) return refuse_in_reset(address);
   if (before_access_) before_access_();
+  if (target.removed_) return access_removed(target, read, address, word);
   if (read) {
-    if (target.removed_) warn_of_missing_register(read, address);
     word = target.read();
   } else {
     if (target.ignores_writes()) warn_of_ignored_write(target, word);
