@@ -24,8 +24,8 @@ constexpr FrameProgram detectors[] = {
 };
 
 constexpr FrameProgram functions[] = {
-    {"function", "bench_function_frames", "fast", 200},
-    {"scalar", "bench_function_frames", "scalar", 100},
+    {"function", "bench_function_frames", "fast", 1000},
+    {"scalar", "bench_function_frames", "scalar", 300},
     {"naive", "bench_function_frames", "naive", 20},
 };
 
@@ -74,7 +74,7 @@ void add_systems(List& list, const ProgramOptions& options, const std::string& i
   const bool fast = options.fidelity == "tlm";
   const std::string fidelity = "fidelity=" + options.fidelity;
   constexpr const char* executable = "bench_system_frames";
-  const int frames = fast ? 100 : 5;
+  const int frames = fast ? 300 : 5;
   list.add_frames({"preloaded", executable, "preload", frames}, image, {fidelity});
   for (const FrameProgram& program : functions) list.add_frames(program, image);
   list.add_frames({"uploaded", executable, "upload", frames}, image, {fidelity});

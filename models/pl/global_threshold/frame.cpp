@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <pl/global_threshold/frame_simd.h>
 
@@ -16,13 +15,8 @@ using Histogram = std::array<std::uint32_t, 256>;
 Histogram count_levels(const std::uint8_t* pixels, std::size_t count) {
   std::array<Histogram, 8> tables{};
   std::size_t i = 0;
-  for (; i + 8 <= count; i += 8) {
-    std::uint64_t eight;
-    std::memcpy(&eight, pixels + i, sizeof eight);
-    for (Histogram& table : tables) {
-      ++table[eight & 0xFF];
-      eight >>= 8;
-    }
+  for (; i + tables.size() <= count; i += tables.size()) {
+    for (std::size_t t = 0; t < tables.size(); ++t) ++tables[t][pixels[i + t]];
   }
   for (; i < count; ++i) ++tables[0][pixels[i]];
   for (std::size_t t = 1; t < tables.size(); ++t) {
