@@ -192,7 +192,7 @@ void write_results(const SweepOptions& options, const sweep::Store& store,
                    std::ostream& out) {
   sweep::write_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results,
-                        sweep::complete_runs(store, results.manifest, options.engine));
+                        sweep::complete_runs(store, results.manifest));
   const bool page =
       !options.no_report && page::write_sweep_report(store.folder(), rows_of(results));
   out << sweep::sweep_text(results) << "\n"

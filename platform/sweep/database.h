@@ -16,7 +16,7 @@ namespace platform::sweep {
 ///   metrics(key, name, value)             a view of metric_values(position, metric, value) and
 ///                                         metric_names(id, name), which take a fifth of the room
 ///   runs(key, engine, host, date, attempt, wall_s, cpu_s)
-///     seconds are null where the process was killed before it told
+///     only the key is known where the process was killed before it told
 ///   sweep(name, value)                    its title, file, program version
 ///
 /// Throws StorageError.

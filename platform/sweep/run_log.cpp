@@ -44,24 +44,19 @@ RunLog::~RunLog() {
 }
 
 void RunLog::add(const std::string& key, double wall_s, double cpu_s, int attempt) {
-  Json json = entry(key, attempt);
-  json["wall_s"] = std::stod(vp::format_fixed(wall_s, 4));
-  json["cpu_s"] = std::stod(vp::format_fixed(cpu_s, 4));
-  append(json);
-}
-
-void RunLog::add_untold(const std::string& key) {
-  append(entry(key, 1));
-}
-
-Json RunLog::entry(const std::string& key, int attempt) const {
   Json json;
   json["key"] = key;
   json["engine"] = engine_;
   json["host"] = host_;
   json["date"] = report::utc_now();
   json["attempt"] = attempt;
-  return json;
+  json["wall_s"] = std::stod(vp::format_fixed(wall_s, 4));
+  json["cpu_s"] = std::stod(vp::format_fixed(cpu_s, 4));
+  append(json);
+}
+
+void RunLog::add_untold(const std::string& key) {
+  append(Json{{"key", key}});
 }
 
 void RunLog::append(const Json& entry) {
@@ -91,12 +86,11 @@ std::vector<RunEntry> read_runs(const Store& store) {
   return entries;
 }
 
-std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest,
-                                    const std::string& engine) {
+std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest) {
   std::vector<RunEntry> entries = read_runs(store);
   std::set<std::string> told;
   for (const RunEntry& entry : entries) told.insert(entry.key);
-  RunLog log(store, engine);
+  RunLog log(store);
   bool complete = true;
   for (const PlannedPoint& point : manifest.points) {
     if (told.count(point.key) != 0 || !store.has(point.key)) continue;

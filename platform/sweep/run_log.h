@@ -12,8 +12,9 @@ namespace platform::sweep {
 /// point's file.
 struct RunEntry {
   std::string key;
-  std::optional<double> wall_s;  ///< none: its process was killed before it told
-  std::optional<double> cpu_s;   ///< of the platform's run itself
+  // Nothing more is known where the process was killed before it told.
+  std::optional<double> wall_s;
+  std::optional<double> cpu_s;  ///< of the platform's run itself
   int attempt = 1;
   std::string engine;
   std::string host;
@@ -23,19 +24,18 @@ struct RunEntry {
 /// Appends to runs/HOST-PROCESS.jsonl, a line at a time.
 class RunLog {
  public:
-  /// `engine`: "local", "slurm".
-  RunLog(const Store& store, const std::string& engine);
+  /// `engine`: "local", "slurm"; stands in the entries.
+  explicit RunLog(const Store& store, const std::string& engine = "");
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
   /// Throws StorageError.
   void add(const std::string& key, double wall_s, double cpu_s, int attempt);
-  /// A point that somebody computed without an entry. Throws StorageError.
+  /// A point of which nobody told who computed it. Throws StorageError.
   void add_untold(const std::string& key);
 
  private:
-  Json entry(const std::string& key, int attempt) const;
   void append(const Json& entry);
 
   std::string path_;
@@ -49,7 +49,6 @@ std::vector<RunEntry> read_runs(const Store& store);
 
 /// The same, after an entry was added for every point of the manifest that stands in the folder
 /// without one: its process was killed between the two. Throws StorageError.
-std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest,
-                                    const std::string& engine);
+std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest);
 
 }  // namespace platform::sweep

@@ -85,7 +85,7 @@ class Platform : public kit::TemporaryFolder {
     store().write(done_record(manifest_, manifest_.points[number], std::move(result)));
   }
   std::vector<RunEntry> complete_runs() const {
-    return platform::sweep::complete_runs(store(), manifest_, "local");
+    return platform::sweep::complete_runs(store(), manifest_);
   }
   std::string files() const {
     std::string all;
@@ -164,6 +164,8 @@ BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_c
   BOOST_TEST(entries.size() == 3u);
   for (const RunEntry& entry : entries)
     BOOST_TEST(entry.cpu_s.has_value() == (entry.key != platform.key(1)));
+  for (const RunEntry& entry : entries)
+    BOOST_TEST(entry.host.empty() == (entry.key == platform.key(1)), "nobody knows who it was");
   BOOST_TEST(platform.complete_runs().size() == 3u);
 }
 
