@@ -4,7 +4,7 @@
 
 #include <input/input_list.h>
 #include <input/kept_scenes.h>
-#include <input/media.h>
+#include <input/video_file.h>
 #include <scene/catalogue.h>
 #include <scene/renderer.h>
 #include <vp/error.h>
@@ -111,8 +111,7 @@ class ListedFrames : public FrameSource {
 
   std::optional<InputFrame> video_frame(const InputItem& item) {
     if (!video_) {
-      video_ = media().open_video(item.source);
-      if (!video_) throw vp::InputError("video '" + item.source + "' cannot be opened any more");
+      video_ = open_video(item.source);
       video_frames_ = 0;
     }
     std::optional<GreyImage> image = video_->next();

@@ -31,7 +31,8 @@ class FrameSource {
 ///
 /// All inputs are looked at before the first frame is made, so that a wrong one costs no time.
 /// Throws vp::InputError for one that is unknown, missing, unreadable, empty, truncated,
-/// zero-sized, of the wrong size, a folder without images, or a video without frames.
+/// zero-sized, of the wrong or an absurd size, no file at all (a FIFO, a device, also inside a
+/// folder), a folder without images, or a video without frames.
 std::unique_ptr<FrameSource> open_inputs(const std::vector<std::string>& inputs,
                                          const InputOptions& options);
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include <input/media.h>
 #include <vp/error.h>
 
 namespace platform::input {
@@ -28,6 +29,12 @@ constexpr std::array<std::uint8_t, 8> png_signature{0x89, 'P', 'N', 'G', 0x0D, 0
 
 void check_sides(const ImageHeader& header, const std::string& path) {
   if (header.width < 1 || header.height < 1) refuse(path, "has no pixels: its size is zero");
+  const auto width = static_cast<std::uint64_t>(header.width);
+  const auto height = static_cast<std::uint64_t>(header.height);
+  if (width * height > most_pixels) {
+    refuse(path, "has " + std::to_string(width) + "x" + std::to_string(height) + " px, " +
+                     too_many_pixels);
+  }
 }
 
 std::uint32_t big_endian(const Bytes& bytes, std::size_t at, std::size_t count) {
@@ -84,6 +91,9 @@ constexpr std::uint8_t jpeg_end = 0xD9;
 constexpr std::uint8_t jpeg_scan = 0xDA;
 constexpr std::uint8_t jpeg_exif = 0xE1;
 
+/// Encoders make a dozen. Each takes a decoder through the whole image, and may be 100 bytes long.
+constexpr int most_scans = 100;
+
 /// Markers that stand alone: RST0…7 and TEM.
 bool is_bare(std::uint8_t marker) {
   return (marker >= 0xD0 && marker <= 0xD7) || marker == 0x01;
@@ -107,13 +117,13 @@ std::optional<std::size_t> next_marker(const Bytes& bytes, std::size_t at) {
 ImageHeader check_jpeg(const Bytes& bytes, const std::string& path) {
   ImageHeader header;
   header.format = ImageHeader::Format::jpeg;
-  bool scanned = false;
+  int scans = 0;
   std::size_t at = 2;
   while (const std::optional<std::size_t> marker = next_marker(bytes, at)) {
     const std::uint8_t code = bytes[*marker];
     at = *marker + 1;
     if (code == jpeg_end) {
-      if (!scanned) refuse(path, "is damaged: it ends before its pixels");
+      if (scans == 0) refuse(path, "is damaged: it ends before its pixels");
       return header;
     }
     if (is_bare(code)) continue;
@@ -125,7 +135,10 @@ ImageHeader check_jpeg(const Bytes& bytes, const std::string& path) {
       header.width = static_cast<int>(big_endian(bytes, at + 5, 2));
     }
     header.may_be_turned = header.may_be_turned || code == jpeg_exif;
-    scanned = scanned || code == jpeg_scan;
+    if (code == jpeg_scan && ++scans > most_scans) {
+      refuse(path,
+             "is damaged: its pixels come in more than " + std::to_string(most_scans) + " passes");
+    }
     at += length;
   }
   refuse_truncated(path);
@@ -172,6 +185,26 @@ ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
   return header;
 }
 
+// ---- Formats whose headers OpenCV reads: BMP, TIFF and BigTIFF, JPEG 2000, WebP
+// ------------------------------------------------------------------------------------
+
+bool is_other(const Bytes& bytes) {
+  using namespace std::string_view_literals;
+  static constexpr std::array signatures{"BM"sv,
+                                         "II*\0"sv,
+                                         "MM\0*"sv,
+                                         "II+\0"sv,
+                                         "MM\0+"sv,
+                                         "\0\0\0\x0CjP  \r\n\x87\n"sv,
+                                         "\xFF\x4F\xFF\x51"sv};
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.substr(0, 4) == "RIFF")
+    return text.size() >= format_bytes && text.substr(8, 4) == "WEBP";
+  return std::any_of(signatures.begin(), signatures.end(), [text](std::string_view signature) {
+    return text.substr(0, signature.size()) == signature;
+  });
+}
+
 }  // namespace
 
 ImageHeader::Format announced_format(const Bytes& bytes) {
@@ -182,15 +215,17 @@ ImageHeader::Format announced_format(const Bytes& bytes) {
     return Format::png;
   }
   if (known >= 2 && bytes[0] == 0xFF && bytes[1] == jpeg_start) return Format::jpeg;
-  if (known >= 3 && bytes[0] == 'P' && bytes[1] == '5' && std::isspace(bytes[2]) != 0) {
-    return Format::pgm;
+  if (known >= 3 && bytes[0] == 'P' && std::isspace(bytes[2]) != 0) {
+    if (bytes[1] == '5') return Format::pgm;
+    if (bytes[1] >= '1' && bytes[1] <= '6') return Format::other;
   }
-  return Format::other;
+  return is_other(bytes) ? Format::other : Format::none;
 }
 
 ImageHeader check_image(const Bytes& bytes, const std::string& path) {
   ImageHeader header;
-  switch (announced_format(bytes)) {
+  header.format = announced_format(bytes);
+  switch (header.format) {
     case ImageHeader::Format::png:
       header = check_png(bytes, path);
       break;
@@ -200,6 +235,7 @@ ImageHeader check_image(const Bytes& bytes, const std::string& path) {
     case ImageHeader::Format::pgm:
       header = check_pgm(bytes, path);
       break;
+    case ImageHeader::Format::none:
     case ImageHeader::Format::other:
       return header;
   }

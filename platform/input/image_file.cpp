@@ -1,5 +1,7 @@
 #include <input/image_file.h>
 
+#include <filesystem>
+
 #include <input/file_bytes.h>
 #include <input/image_check.h>
 #include <input/media.h>
@@ -10,18 +12,18 @@ namespace platform::input {
 
 namespace {
 
-/// Direct reading allocates what the header says; larger images go to OpenCV, which refuses absurd
-/// ones.
-constexpr std::uint64_t largest_direct_px = 1u << 26;
+/// Enough for most_pixels in any of the formats: 16 bits of red, green, blue and alpha.
+constexpr std::uintmax_t most_bytes = most_pixels * 8;
 
-GreyImage decoded(std::optional<GreyImage> image, const std::string& path) {
-  if (!image) {
-    throw vp::InputError("image '" + path + "' is damaged or truncated: it cannot be decoded");
+/// A file's content, if it begins like an image; what does not may be a long video.
+std::optional<std::vector<std::uint8_t>> image_bytes(const std::string& path) {
+  const std::vector<std::uint8_t> beginning = read_bytes(path, format_bytes);
+  if (announced_format(beginning) == ImageHeader::Format::none) return std::nullopt;
+  std::error_code ignored;
+  if (std::filesystem::file_size(path, ignored) > most_bytes) {
+    throw vp::InputError("image '" + path + "' is larger than 512 MiB: scale it down first");
   }
-  if (image->width < 1 || image->height < 1) {
-    throw vp::InputError("image '" + path + "' has no pixels: its size is zero");
-  }
-  return *std::move(image);
+  return read_bytes(path, most_bytes);
 }
 
 GreyImage plain_pgm(const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
@@ -31,41 +33,42 @@ GreyImage plain_pgm(const std::vector<std::uint8_t>& bytes, const ImageHeader& h
   return image;
 }
 
-bool is_direct(const ImageHeader& header) {
-  const auto width = static_cast<std::uint64_t>(header.width);
-  return header.plain_grey && !header.may_be_turned &&
-         width * static_cast<std::uint64_t>(header.height) <= largest_direct_px;
+Decoded<GreyImage> decode(const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
+  if (!header.plain_grey || header.may_be_turned) return media().decode_image(bytes);
+  if (header.format == ImageHeader::Format::pgm) return plain_pgm(bytes, header);
+  std::optional<GreyImage> image = read_plain_png(bytes, header.width, header.height);
+  if (!image) return Unreadable::damaged;
+  return *std::move(image);
 }
 
-/// A file of a format that is not checked here may be a long video: only its beginning is read.
-bool is_checked_format(const std::string& path) {
-  return announced_format(read_bytes(path, 8)) != ImageHeader::Format::other;
-}
-
-std::optional<GreyImage> read_other(const std::string& path) {
-  if (!media().is_image(path)) return std::nullopt;
-  return decoded(media().read_image(path), path);
+GreyImage decoded(const std::vector<std::uint8_t>& bytes, const ImageHeader& header,
+                  const std::string& path) {
+  Decoded<GreyImage> result = decode(bytes, header);
+  if (const Unreadable* fault = std::get_if<Unreadable>(&result)) {
+    throw vp::InputError("image '" + path + "' " +
+                         (*fault == Unreadable::too_large
+                              ? "has " + std::string(too_many_pixels)
+                              : "is damaged or truncated: it cannot be decoded"));
+  }
+  return std::get<GreyImage>(std::move(result));
 }
 
 }  // namespace
 
 std::optional<GreyImage> read_image(const std::string& path) {
-  if (!is_checked_format(path)) return read_other(path);
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
-  const ImageHeader header = check_image(bytes, path);
-  if (!is_direct(header)) return decoded(media().read_image(path), path);
-  if (header.format == ImageHeader::Format::pgm) return plain_pgm(bytes, header);
-  return decoded(read_plain_png(bytes, header.width, header.height), path);
+  const std::optional<std::vector<std::uint8_t>> bytes = image_bytes(path);
+  if (!bytes) return std::nullopt;
+  return decoded(*bytes, check_image(*bytes, path), path);
 }
 
 std::optional<ImageSize> inspect_image(const std::string& path) {
-  if (is_checked_format(path)) {
-    const ImageHeader header = check_image(read_bytes(path), path);
-    if (!header.may_be_turned) return ImageSize{header.width, header.height};
-  }
-  const std::optional<GreyImage> image = read_image(path);
-  if (!image) return std::nullopt;
-  return ImageSize{image->width, image->height};
+  const std::optional<std::vector<std::uint8_t>> bytes = image_bytes(path);
+  if (!bytes) return std::nullopt;
+  const ImageHeader header = check_image(*bytes, path);
+  const bool known = header.format != ImageHeader::Format::other && !header.may_be_turned;
+  if (known) return ImageSize{header.width, header.height};
+  const GreyImage image = decoded(*bytes, header, path);
+  return ImageSize{image.width, image.height};
 }
 
 }  // namespace platform::input

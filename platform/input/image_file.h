@@ -9,8 +9,8 @@ namespace platform::input {
 
 /// Reads an image file as 8-bit grey (see Media::read_image). Plain 8-bit grey PNG and PGM files
 /// are read directly, all others by OpenCV; the pixels are the same either way. Nothing if the file
-/// is no image at all. Throws vp::InputError if it is missing, unreadable, empty, truncated,
-/// damaged or zero-sized.
+/// is no image of a format in ImageHeader::Format. Throws vp::InputError if it is missing, no
+/// regular file, unreadable, empty, truncated, damaged, zero-sized, or has more than most_pixels.
 std::optional<GreyImage> read_image(const std::string& path);
 
 /// Size of an image, px.

@@ -6,7 +6,7 @@
 #include <set>
 
 #include <input/image_file.h>
-#include <input/media.h>
+#include <input/video_file.h>
 #include <scene/catalogue.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names by which a folder's images are known (the formats of OpenCV's codecs).
+/// Names by which a folder's images are known: those of the formats in ImageHeader.
 const std::set<std::string>& image_extensions() {
   static const std::set<std::string> extensions{".bmp", ".dib", ".jp2",  ".jpe", ".jpeg",
                                                 ".jpg", ".pbm", ".pgm",  ".png", ".pnm",
@@ -65,10 +65,6 @@ class Lister {
     const fs::file_status status = fs::status(input, error);
     if (status.type() == fs::file_type::not_found) refuse_unknown(input);
     if (fs::is_directory(status)) return add_folder(input);
-    if (error || !fs::is_regular_file(status)) {
-      throw vp::InputError("'" + input + "' cannot be read: " +
-                           (error ? error.message() : "it is neither a file nor a folder"));
-    }
     if (!add_image(input)) add_video(input);
   }
 
@@ -89,10 +85,7 @@ class Lister {
   }
 
   void add_video(const std::string& path) {
-    const std::unique_ptr<VideoStream> video = media().open_video(path);
-    if (!video)
-      throw vp::InputError("'" + path + "' is neither an image nor a video that can be read");
-    const std::optional<GreyImage> first = video->next();
+    const std::optional<GreyImage> first = open_video(path)->next();
     if (!first) throw vp::InputError("video '" + path + "' has no frames that can be read");
     check(path, {first->width, first->height});
     items_.push_back({InputItem::Kind::video, path, file_name(path)});

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include <input/library_folder.h>
@@ -23,9 +24,12 @@ const Media& load_media(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     const std::string path = (std::filesystem::path(folder) / file_name).string();
     if (!std::filesystem::exists(path)) continue;
+    // imgcodecs reads its limit once, when it is loaded.
+    ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(most_pixels).c_str(), 1);
     void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-      throw vp::InputError(std::string("image and video files cannot be read: ") + ::dlerror());
+      throw vp::InputError("image and video files cannot be read: " + std::string(::dlerror()) +
+                           "; install markervp completely");
     }
     const auto entry = reinterpret_cast<decltype(&MARKERVP_MEDIA_ENTRY)>(
         ::dlsym(library, MARKERVP_TEXT(MARKERVP_MEDIA_ENTRY)));

@@ -4,11 +4,25 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <scene/grey_image.h>
 
 namespace platform::input {
+
+/// An image, or a picture of a video, with more pixels than these is refused before it is decoded:
+/// a header of a few bytes must not claim the memory of the machine.
+constexpr std::uint64_t most_pixels = 8192 * 8192;
+
+/// How a message goes on that says so.
+constexpr const char* too_many_pixels = "more pixels than 8192x8192: scale it down first";
+
+/// Why codecs give nothing.
+enum class Unreadable { damaged, too_large };
+
+template <typename Content>
+using Decoded = std::variant<Content, Unreadable>;
 
 /// A video, picture by picture.
 class VideoStream {
@@ -26,18 +40,16 @@ class VideoStream {
 class Media {
  public:
   virtual ~Media() = default;
-  /// True if the file begins like an image of a format that read_image() knows.
-  virtual bool is_image(const std::string& path) const = 0;
-  /// Decodes to 8 bits of grey: colour by the codec's or OpenCV's luma, 16 bits by their upper 8,
-  /// alpha ignored, turned upright where the file says how. Nothing if the file is damaged or
-  /// truncated.
-  virtual std::optional<GreyImage> read_image(const std::string& path) const = 0;
-  /// Null if the file is no video that can be read.
-  virtual std::unique_ptr<VideoStream> open_video(const std::string& path) const = 0;
+  /// Decodes an image file's content to 8 bits of grey: colour by the codec's or OpenCV's luma, 16
+  /// bits by their upper 8, alpha ignored, turned upright where the file says how.
+  virtual Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes) const = 0;
+  /// Opens a regular file. Reads no other file that it names, and gives up after half a minute of
+  /// searching for a picture.
+  virtual Decoded<std::unique_ptr<VideoStream>> open_video(const std::string& path) const = 0;
 };
 
 /// Raised with every change of the classes above: the plug-in's entry point carries it in its name.
-#define MARKERVP_MEDIA_ENTRY markervp_media_1
+#define MARKERVP_MEDIA_ENTRY markervp_media_2
 
 /// The plug-in, loaded on the first call from `libmarkervp_media.so` in one of library_folders().
 /// Throws vp::InputError if it is missing or does not fit.

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -19,7 +20,7 @@ namespace {
 class StderrCapture {
  public:
   StderrCapture() : saved_(::dup(STDERR_FILENO)), memory_(::memfd_create("codec", MFD_CLOEXEC)) {
-    if (memory_ >= 0) ::dup2(memory_, STDERR_FILENO);
+    if (saved_ >= 0 && memory_ >= 0) ::dup2(memory_, STDERR_FILENO);
   }
   ~StderrCapture() {
     if (saved_ >= 0) ::dup2(saved_, STDERR_FILENO);
@@ -94,44 +95,54 @@ class OpencvVideo : public VideoStream {
   cv::VideoCapture capture_;
 };
 
+/// The containers that are read. Playlists and scripts (concat, hls, sdp, image2) are not among
+/// them: they name other files, FIFOs and addresses, which FFmpeg would open in turn.
+constexpr const char* containers =
+    "asf,avi,dv,flv,gif,h264,hevc,ivf,m4v,matroska,mjpeg,mov,mpeg,mpegts,mpegvideo,mxf,nut,ogg,"
+    "yuv4mpegpipe";
+
+/// A codec that finds nothing in a gigantic file gives up after this long.
+constexpr int patience_ms = 30'000;
+
 class OpencvMedia : public Media {
  public:
   OpencvMedia() {
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 1);  // AV_LOG_QUIET
+    ::setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS",
+             ("protocol_whitelist;file|format_whitelist;" + std::string(containers)).c_str(), 1);
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   }
 
-  bool is_image(const std::string& path) const override {
-    const StderrCapture silence;
-    try {
-      return cv::haveImageReader(path);
-    } catch (const cv::Exception&) {
-      return false;
-    }
-  }
-
-  std::optional<GreyImage> read_image(const std::string& path) const override {
+  Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes) const override {
     const StderrCapture noise;
     try {
-      const cv::Mat picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
-      if (picture.empty() || complains(noise.text())) return std::nullopt;
+      const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+      if (picture.empty() || complains(noise.text())) return Unreadable::damaged;
       return grey_image(picture);
-    } catch (const cv::Exception&) {
-      return std::nullopt;
+    } catch (const cv::Exception& exception) {
+      const bool limit = exception.err.find("CV_IO_MAX_IMAGE") != std::string::npos;
+      return limit ? Unreadable::too_large : Unreadable::damaged;
     }
   }
 
-  std::unique_ptr<VideoStream> open_video(const std::string& path) const override {
+  /// FFmpeg only: OpenCV's other backends wait without limit for what a damaged file never gives
+  /// (GStreamer), or know nothing that FFmpeg does not.
+  Decoded<std::unique_ptr<VideoStream>> open_video(const std::string& path) const override {
     const StderrCapture silence;
-    cv::VideoCapture capture;
-    for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER}) {
-      try {
-        if (capture.open(path, backend)) return std::make_unique<OpencvVideo>(std::move(capture));
-      } catch (const cv::Exception&) {
-        continue;  // the next one may know the format
-      }
+    // FFmpeg takes what stands before a colon for a protocol, unless a slash comes first.
+    const std::string file = std::filesystem::absolute(path).string();
+    try {
+      cv::VideoCapture capture(file, cv::CAP_FFMPEG,
+                               {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, patience_ms,
+                                cv::CAP_PROP_READ_TIMEOUT_MSEC, patience_ms});
+      if (!capture.isOpened()) return Unreadable::damaged;
+      const double pixels =
+          capture.get(cv::CAP_PROP_FRAME_WIDTH) * capture.get(cv::CAP_PROP_FRAME_HEIGHT);
+      if (pixels > static_cast<double>(most_pixels)) return Unreadable::too_large;
+      return std::make_unique<OpencvVideo>(std::move(capture));
+    } catch (const cv::Exception&) {
+      return Unreadable::damaged;
     }
-    return nullptr;
   }
 };
 

@@ -131,6 +131,17 @@ BOOST_AUTO_TEST_CASE(a_video_gives_its_pictures_one_by_one) {
   BOOST_TEST(frames[5].image.pixels == frames[2].image.pixels);
 }
 
+BOOST_AUTO_TEST_CASE(a_colon_in_the_name_of_a_video_is_no_protocol) {
+  const TemporaryFolder folder;
+  BOOST_TEST_REQUIRE(write_video(folder / "clip.avi", 2));
+  std::filesystem::rename(folder / "clip.avi", folder / "12:30.avi");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const auto source = open_inputs({"12:30.avi"}, small_frames());
+  BOOST_TEST(names(*source) == (Names{"12:30.avi#0", "12:30.avi#1"}));
+  std::filesystem::current_path(before);
+}
+
 BOOST_AUTO_TEST_CASE(a_video_that_ends_early_is_warned_of) {
   const TemporaryFolder folder;
   BOOST_TEST_REQUIRE(write_video(folder / "clip.avi", 40));
@@ -196,7 +207,7 @@ BOOST_AUTO_TEST_CASE(bad_inputs_are_refused_before_the_first_frame) {
   CHECK_REFUSED(open_inputs({folder / "clip.avi"}, options), "clip.avi'");
   CHECK_REFUSED(open_inputs({folder / "nothing"}, options), "has no images");
   CHECK_REFUSED(open_inputs({folder.path()}, options), "is truncated");
-  CHECK_REFUSED(open_inputs({"/dev/null"}, options), "neither a file nor a folder");
+  CHECK_REFUSED(open_inputs({"/dev/null"}, options), "is a device");
 }
 
 BOOST_AUTO_TEST_CASE(a_video_without_frames_is_refused) {
