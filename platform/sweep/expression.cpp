@@ -4,6 +4,7 @@
 #include <sweep/expression_tree.h>
 #include <vp/error.h>
 #include <vp/text.h>
+#include <vp/user_text.h>
 
 namespace platform::sweep {
 
@@ -142,7 +143,7 @@ Value Expression::evaluate(const Lookup& lookup) const {
   try {
     return Evaluation(known).value(*root_);
   } catch (const vp::InputError& error) {
-    throw vp::InputError(where_ + ": '" + text_ + "' " + error.what());
+    throw vp::InputError(where_ + ": '" + vp::excerpt(text_) + "' " + error.what());
   }
 }
 

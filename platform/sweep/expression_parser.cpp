@@ -4,6 +4,7 @@
 
 #include <sweep/expression_tree.h>
 #include <vp/error.h>
+#include <vp/user_text.h>
 
 namespace platform::sweep {
 
@@ -11,8 +12,7 @@ namespace {
 
 using Node = Expression::Node;
 using NodePointer = std::shared_ptr<const Node>;
-
-constexpr int deepest = 100;
+using Limits = vp::ExpressionLimits;
 
 bool is_name_start(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -42,13 +42,14 @@ class Parser {
   NodePointer parse() {
     NodePointer root = parse_or();
     skip();
-    if (at_ != text_.size()) fail("is not understood from here on: '" + text_.substr(at_) + "'");
+    if (at_ != text_.size())
+      fail("is not understood from here on: '" + vp::excerpt(text_.substr(at_)) + "'");
     return root;
   }
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw vp::InputError(where_ + ": '" + text_ + "' " + problem);
+    throw vp::InputError(where_ + ": '" + vp::excerpt(text_) + "' " + problem);
   }
 
   void skip() {
@@ -64,26 +65,34 @@ class Parser {
     return true;
   }
 
-  static NodePointer constant(const Value& value) {
-    auto node = std::make_shared<Node>();
-    node->value = value;
-    return node;
+  std::shared_ptr<Node> node(Node::Kind kind) {
+    if (++parts_ > Limits::most_parts) {
+      fail("has more than " + std::to_string(Limits::most_parts) +
+           " values and operators: write several expressions");
+    }
+    auto result = std::make_shared<Node>();
+    result->kind = kind;
+    return result;
   }
 
-  static NodePointer unary(Node::Kind kind, NodePointer operand) {
-    auto node = std::make_shared<Node>();
-    node->kind = kind;
-    node->left = std::move(operand);
-    return node;
+  NodePointer constant(const Value& value) {
+    const auto result = node(Node::Kind::value);
+    result->value = value;
+    return result;
   }
 
-  static NodePointer binary(const std::string& token, NodePointer left, NodePointer right) {
-    auto node = std::make_shared<Node>();
-    node->kind = Node::Kind::binary;
-    node->token = token;
-    node->left = std::move(left);
-    node->right = std::move(right);
-    return node;
+  NodePointer unary(Node::Kind kind, NodePointer operand) {
+    const auto result = node(kind);
+    result->left = std::move(operand);
+    return result;
+  }
+
+  NodePointer binary(const std::string& token, NodePointer left, NodePointer right) {
+    const auto result = node(Node::Kind::binary);
+    result->token = token;
+    result->left = std::move(left);
+    result->right = std::move(right);
+    return result;
   }
 
   NodePointer parse_or() {
@@ -99,8 +108,13 @@ class Parser {
   }
 
   NodePointer parse_not() {
-    if (!take("not")) return parse_comparison();
-    return unary(Node::Kind::invert, parse_not());
+    std::size_t count = 0;
+    while (take("not")) ++count;
+    NodePointer result = parse_comparison();
+    // Two of them, which make a truth of a number, say what any even number of them says.
+    for (count = count == 0 ? 0 : 2 - count % 2; count > 0; --count)
+      result = unary(Node::Kind::invert, std::move(result));
+    return result;
   }
 
   NodePointer parse_comparison() {
@@ -139,7 +153,10 @@ class Parser {
   }
 
   NodePointer parse_factor() {
-    if (++depth_ > deepest) fail("is nested too deeply");
+    if (++depth_ > Limits::deepest) {
+      fail("has more than " + std::to_string(Limits::deepest) +
+           " brackets and signs inside each other: write it flatter");
+    }
     NodePointer result = parse_atom();
     --depth_;
     return result;
@@ -225,17 +242,17 @@ class Parser {
       return constant(value);
     }
     if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
-    auto node = std::make_shared<Node>();
-    node->kind = Node::Kind::name;
-    node->token = name;
-    return node;
+    const auto result = node(Node::Kind::name);
+    result->token = name;
+    return result;
   }
 
   const std::string& text_;
   const std::string& where_;
   std::vector<std::string>& names_;
   std::size_t at_ = 0;
-  int depth_ = 0;
+  std::size_t depth_ = 0;
+  std::size_t parts_ = 0;
 };
 
 }  // namespace

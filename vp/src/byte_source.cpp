@@ -1,44 +1,26 @@
 #include "byte_source.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/wave_writer.h>
-
-#include <cerrno>
-#include <cstring>
-#include <string>
 
 namespace vp {
 
 namespace {
 
-[[noreturn]] void cannot_read(const std::filesystem::path& file, int error) {
-  throw InputError("cannot read trace '" + file.string() + "': " + std::strerror(error));
-}
-
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(const std::filesystem::path& file)
-      : file_(file), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0) cannot_read(file, errno);
-    ::posix_fadvise(descriptor_, 0, 0, POSIX_FADV_SEQUENTIAL);
+  explicit FileSource(const std::filesystem::path& file) : file_(file, "trace") {
+    ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_SEQUENTIAL);
   }
-  ~FileSource() override { ::close(descriptor_); }
-  FileSource(const FileSource&) = delete;
-  FileSource& operator=(const FileSource&) = delete;
 
   std::size_t read(char* to, std::size_t size) override {
-    for (;;) {
-      const ::ssize_t count = ::read(descriptor_, to, size);
-      if (count >= 0) return static_cast<std::size_t>(count);
-      if (errno != EINTR) cannot_read(file_, errno);
-    }
+    return file_.read(to, size, InputFile::HostClock::now() + InputFile::patience);
   }
 
  private:
-  std::filesystem::path file_;
-  int descriptor_;
+  InputFile file_;
 };
 
 /// An FST begins with its header block, type 0, or is packed as a whole, type 254.

@@ -1,12 +1,10 @@
 #include <vp/configuration.h>
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/text.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "configuration_yaml.h"
 
@@ -54,14 +52,7 @@ const char* to_string(Source source) {
 }
 
 void Configuration::load_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw InputError(path + ": is a folder, not a configuration file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot read the configuration file");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw InputError(path + ": cannot read the configuration file");
-  load_text(text, path);
+  load_text(read_text(path, "configuration"), path);
 }
 
 void Configuration::load_text(const std::string& yaml, const std::string& origin) {
@@ -80,8 +71,7 @@ void Configuration::set(std::string_view assignment) {
 void Configuration::set(std::string_view path, std::string_view value, std::string_view origin) {
   const std::string key(trim(path));
   if (!is_key(key)) {
-    throw InputError("'" + key + "' (" + std::string(origin) +
-                     ") is not a key: write names joined by dots");
+    throw InputError("'" + key + "' (" + std::string(origin) + ") is not a key: write " + key_form);
   }
   from_command_line_[key] = {std::string(trim(value)), std::string(origin)};
 }
@@ -120,12 +110,20 @@ std::string Configuration::unknown_key(const std::string& key, const Setting& se
 }
 
 void Configuration::check_unused() const {
+  // Each one is compared with every key there is.
+  constexpr std::size_t most_told = 10;
   std::vector<std::string> problems;
+  std::size_t untold = 0;
   for (const Settings* layer : {&from_files_, &from_command_line_}) {
     for (const auto& [key, setting] : *layer) {
-      if (index_.count(key) == 0) problems.push_back(unknown_key(key, setting));
+      if (index_.count(key) != 0) continue;
+      if (problems.size() < most_told)
+        problems.push_back(unknown_key(key, setting));
+      else
+        ++untold;
     }
   }
+  if (untold > 0) problems.push_back("and " + std::to_string(untold) + " more");
   if (!problems.empty()) throw InputError(join(problems, "; "));
 }
 

@@ -1,57 +1,42 @@
 #include "configuration_yaml.h"
 
-#include <vp/error.h>
 #include <vp/text.h>
-#include <yaml-cpp/yaml.h>
+#include <vp/yaml.h>
 
 #include <algorithm>
 
 namespace vp {
 namespace {
 
-/// No platform is nested deeper; an alias that contains itself is.
-constexpr int max_depth = 32;
-
 class Reader {
  public:
   explicit Reader(const std::string& origin) : origin_(origin) {}
 
   std::map<std::string, Setting> read(const std::string& text) {
-    try {
-      const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-      if (documents.size() > 1)
-        fail(documents[1].Mark(), "a second document: a configuration file has one");
-      if (!documents.empty() && !documents[0].IsNull()) read_map(documents[0], "", 0);
-    } catch (const YAML::Exception& error) {
-      fail(error.mark, error.msg);
-    }
+    const YAML::Node document = load_yaml(text, origin_);
+    if (!document.IsNull()) read_map(document, "");
     return std::move(settings_);
   }
 
  private:
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& problem) const {
-    std::string where = origin_;
-    if (!mark.is_null())
-      where += ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
-    throw InputError(where + ": " + problem);
+    fail_in_yaml(origin_, mark, problem);
   }
 
-  void read_map(const YAML::Node& node, const std::string& prefix, int depth) {
+  void read_map(const YAML::Node& node, const std::string& prefix) {
     if (!node.IsMap())
       fail(node.Mark(), "expected 'key: value' lines" + (prefix.empty() ? "" : " for " + prefix));
-    if (depth > max_depth) fail(node.Mark(), "nested too deeply");
     for (const auto& entry : node) {
       const YAML::Node& key = entry.first;
-      if (!key.IsScalar() || !is_key(key.Scalar()))
-        fail(key.Mark(), "a key is a name, or names joined by dots");
-      const std::string path = prefix.empty() ? key.Scalar() : prefix + "." + key.Scalar();
-      read_value(key, entry.second, path, depth);
+      const std::string name = key.IsScalar() ? key.Scalar() : "";
+      const std::string path = prefix.empty() ? name : prefix + "." + name;
+      if (!is_key(name) || !is_key(path)) fail(key.Mark(), std::string("a key is ") + key_form);
+      read_value(key, entry.second, path);
     }
   }
 
-  void read_value(const YAML::Node& key, const YAML::Node& value, const std::string& path,
-                  int depth) {
-    if (value.IsMap()) return read_map(value, path, depth + 1);
+  void read_value(const YAML::Node& key, const YAML::Node& value, const std::string& path) {
+    if (value.IsMap()) return read_map(value, path);
     if (value.IsSequence())
       fail(value.Mark(), "'" + path + "' is a list: write one value for each key");
     if (!value.IsScalar()) fail(key.Mark(), "'" + path + "' has no value");
@@ -107,6 +92,7 @@ std::string comment(const ParameterDescription& parameter) {
 }  // namespace
 
 bool is_key(const std::string& text) {
+  if (text.size() > longest_key) return false;
   const std::vector<std::string> parts = split(text, '.');
   const auto bad = [](const std::string& part) {
     return part.empty() || part.find_first_of(" \t\r\n") != std::string::npos;

@@ -8,6 +8,10 @@
 
 namespace vp {
 
+constexpr std::size_t longest_key = 500;
+/// What is_key() asks for, in words.
+constexpr const char* key_form = "a name, or names joined by dots, of at most 500 characters";
+
 /// True for names joined by single dots, without white space.
 bool is_key(const std::string& text);
 

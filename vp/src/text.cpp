@@ -18,6 +18,13 @@ bool near(std::size_t distance, std::string_view word, std::string_view candidat
          distance < std::max(word.size(), candidate.size());
 }
 
+/// False if the lengths alone keep them from being near: a word may be a megabyte long.
+bool may_be_near(std::string_view word, std::string_view candidate) {
+  const std::size_t least =
+      std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+  return near(least, word, candidate);
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view from, std::string_view to) {
@@ -43,6 +50,7 @@ std::string nearest_match(std::string_view word, const std::vector<std::string>&
   const std::string* best = nullptr;
   std::size_t best_distance = 0;
   for (const std::string& candidate : candidates) {
+    if (!may_be_near(word, candidate)) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (near(distance, word, candidate) && (best == nullptr || distance < best_distance)) {
       best = &candidate;
@@ -56,9 +64,11 @@ std::string nearest_match(std::string_view word, const std::vector<std::string>&
   const std::string_view word_part = last_part(word);
   for (const std::string& candidate : candidates) {
     const std::string_view part = last_part(candidate);
+    if (!may_be_near(word_part, part)) continue;
     const std::size_t distance = edit_distance(word_part, part);
+    if (!near(distance, word_part, part)) continue;
     const std::pair pair{distance, edit_distance(word, candidate)};
-    if (near(distance, word_part, part) && (best == nullptr || pair < best_pair)) {
+    if (best == nullptr || pair < best_pair) {
       best = &candidate;
       best_pair = pair;
     }

@@ -24,13 +24,15 @@ class VcdTokens {
 
   /// The next word, empty at the end. Valid until the next call, or the one after keep().
   std::string_view next() {
-    for (;;) {
+    for (const std::uint64_t begin = offset();;) {
       while (static_cast<unsigned char>(*cursor_) <= ' ' && cursor_ != end_) {
         line_ += *cursor_ == '\n';
         ++cursor_;
       }
       if (cursor_ != end_) break;
-      if (!refill(cursor_)) return {};
+      // A file of zeros, which count as white space here, may have no end.
+      too_long_ = offset() - begin > window;
+      if (too_long_ || !refill(cursor_)) return {};
     }
     char* from = cursor_;
     char* to = cursor_ + 1;
@@ -54,7 +56,8 @@ class VcdTokens {
     return {from, length};
   }
 
-  /// The word just read ends where the file ends, or is longer than the window.
+  /// The word just read ends where the file ends; it, or the white space before it, is longer than
+  /// the window.
   bool cut() const { return cut_; }
   bool too_long() const { return too_long_; }
   std::uint64_t line() const { return line_; }

@@ -1,5 +1,6 @@
 #include <vp/error.h>
 #include <vp/text.h>
+#include <vp/user_text.h>
 #include <vp/wave_expression.h>
 
 #include <algorithm>
@@ -34,11 +35,10 @@ class ExpressionParser {
  private:
   using Operation = WaveExpression::Operation;
   using Node = WaveExpression::Node;
-  static constexpr unsigned deepest = 100;
-
   [[noreturn]] void fail(const std::string& problem) const {
     const std::size_t column = target_.text_.size() - rest_.size() + 1;
-    throw InputError("'" + target_.text_ + "', column " + std::to_string(column) + ": " + problem);
+    throw InputError("'" + excerpt(target_.text_) + "', column " + std::to_string(column) + ": " +
+                     problem);
   }
   void skip() {
     while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) != 0) {
@@ -57,6 +57,10 @@ class ExpressionParser {
     return true;
   }
   std::uint32_t add(const Node& node) {
+    if (target_.nodes_.size() == ExpressionLimits::most_parts) {
+      fail("more than " + std::to_string(ExpressionLimits::most_parts) +
+           " values and operators: write several expressions");
+    }
     target_.nodes_.push_back(node);
     return static_cast<std::uint32_t>(target_.nodes_.size() - 1);
   }
@@ -69,7 +73,10 @@ class ExpressionParser {
   }
 
   std::uint32_t either() {
-    if (++depth_ > deepest) fail("more than 100 brackets inside each other");
+    if (++depth_ > ExpressionLimits::deepest) {
+      fail("more than " + std::to_string(ExpressionLimits::deepest) +
+           " brackets inside each other: write it flatter");
+    }
     std::uint32_t left = both();
     while (take("or")) left = add(Operation::either, left, both());
     --depth_;
@@ -220,7 +227,10 @@ std::optional<WaveNumber> WaveExpression::evaluate(std::uint32_t place, const Wa
   if (node.operation <= Operation::negate) return logic(node, values, past);
   const auto left = evaluate(node.left, values, past);
   const bool edge = node.operation >= Operation::rises && node.operation <= Operation::changes;
-  const auto right = evaluate(edge ? node.left : node.right, values, past || edge);
+  // Before this instant nothing moves: both sides of an edge are one value. To compute it twice
+  // would double the work with each edge inside another.
+  const auto right =
+      edge && past ? left : evaluate(edge ? node.left : node.right, values, past || edge);
   if (!left || !right) return std::nullopt;
   switch (node.operation) {
     case Operation::equal:

@@ -17,6 +17,8 @@ constexpr std::size_t deepest = 1000;
 constexpr unsigned widest = 1 << 20;
 /// Codes of up to three characters, as nearly all are, are looked up in a table.
 constexpr std::size_t short_code = 3;
+constexpr const char* too_long =
+    "a word, or white space, longer than 256 KiB: the file is corrupt, or no VCD";
 
 std::size_t code_index(std::string_view code) {
   std::size_t index = 0;
@@ -92,7 +94,7 @@ void WaveReader::fail(const std::string& problem) const {
 
 std::string_view WaveReader::next(const char* inside) {
   const std::string_view word = tokens_->next();
-  if (tokens_->too_long()) fail("a word longer than 256 KiB: the file is corrupt, or no VCD");
+  if (tokens_->too_long()) fail(too_long);
   if (word.empty() || tokens_->cut()) {
     fail(std::string("the file ends in the middle of ") + inside + ": it is truncated");
   }
@@ -242,11 +244,9 @@ std::uint32_t WaveReader::net_of(std::string_view code) {
 void WaveReader::read(WaveHandler& handler) {
   for (;;) {
     const std::string_view word = tokens_->next();
+    if (tokens_->too_long()) fail(too_long);
     if (word.empty()) return;
-    if (tokens_->cut()) {
-      fail(tokens_->too_long() ? "a word longer than 256 KiB: the file is corrupt"
-                               : "the file ends in the middle of a line: it is truncated");
-    }
+    if (tokens_->cut()) fail("the file ends in the middle of a line: it is truncated");
     switch (word.front()) {
       case '#':
         if (!read_time(word.substr(1), handler)) return;

@@ -64,7 +64,26 @@ BOOST_AUTO_TEST_CASE(mistakes_are_named) {
     const std::string said = complaint([&] { evaluated(wrong); });
     BOOST_TEST(contains(said, "here: '"), wrong << " gave: " << said);
   }
-  BOOST_TEST(contains(complaint([] { evaluated(std::string(5000, '(')); }), "too deeply"));
+  BOOST_TEST(contains(complaint([] { evaluated(std::string(5000, '(')); }), "more than 100"));
+}
+
+/// They overran the stack.
+BOOST_AUTO_TEST_CASE(length_is_bounded) {
+  const auto repeated = [](const std::string& part, std::size_t times) {
+    std::string text;
+    for (std::size_t i = 0; i < times; ++i) text += part;
+    return text;
+  };
+  BOOST_TEST(evaluated("0" + repeated(" + 1", 400)) == 400);
+  BOOST_TEST(evaluated(repeated("not ", 300'001) + "n") == 0);
+  BOOST_TEST(evaluated(repeated("not ", 300'000) + "n") == 1, "a truth, not the number");
+  for (const char* part : {" + 1", " or n", " and n", "*1"}) {
+    const std::string said = complaint([&] { evaluated("n" + repeated(part, 300'000)); });
+    BOOST_TEST(contains(said, "more than 1000 values and operators"), said);
+    BOOST_TEST(said.size() < 400u, "the message repeats the expression");
+  }
+  BOOST_TEST(
+      contains(complaint([&] { evaluated(repeated("- ", 300'000) + "1"); }), "more than 100"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

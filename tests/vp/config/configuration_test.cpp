@@ -86,9 +86,12 @@ BOOST_AUTO_TEST_CASE(a_set_without_value_or_key_is_refused) {
   BOOST_TEST(input_error([this] { configuration.set("pl.clock"); }) ==
              "--set 'pl.clock': write path=value, such as --set pl.width='320 px'");
   BOOST_TEST(input_error([this] { configuration.set("=5"); }) ==
-             "'' (--set) is not a key: write names joined by dots");
-  BOOST_TEST(input_error([this] { configuration.set("pl..clock=5"); }) ==
-             "'pl..clock' (--set) is not a key: write names joined by dots");
+             "'' (--set) is not a key: write a name, or names joined by dots, of at most 500 "
+             "characters");
+  BOOST_TEST(
+      input_error([this] { configuration.set("pl..clock=5"); }) ==
+      "'pl..clock' (--set) is not a key: write a name, or names joined by dots, of at most 500 "
+      "characters");
 }
 
 BOOST_AUTO_TEST_CASE(files_are_read) {
@@ -100,9 +103,9 @@ BOOST_AUTO_TEST_CASE(files_are_read) {
 
 BOOST_AUTO_TEST_CASE(a_missing_file_and_a_folder_are_refused) {
   BOOST_TEST(input_error([this] { configuration.load_file("/nowhere/a.yaml"); }) ==
-             "/nowhere/a.yaml: cannot read the configuration file");
+             "cannot read configuration '/nowhere/a.yaml': No such file or directory");
   BOOST_TEST(input_error([this] { configuration.load_file("/"); }) ==
-             "/: is a folder, not a configuration file");
+             "cannot read configuration '/': it is a folder: name a file");
 }
 
 BOOST_AUTO_TEST_CASE(a_file_with_an_error_changes_nothing) {

@@ -19,6 +19,8 @@ std::string refusal(const char* yaml) {
   return input_error([&] { configuration.load_text(yaml, "f.yaml"); });
 }
 
+const std::string key_form = "a name, or names joined by dots, of at most 500 characters";
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(configuration_yaml)
@@ -45,7 +47,7 @@ BOOST_AUTO_TEST_CASE(an_empty_file_sets_nothing) {
 }
 
 BOOST_AUTO_TEST_CASE(malformed_yaml_names_line_and_column) {
-  BOOST_TEST(refusal("a: 1\nb: [1, 2") == "f.yaml:2:1: end of sequence flow not found");
+  BOOST_TEST(refusal("a: 1\nb: [1, 2").rfind("f.yaml:2:1: this is not YAML", 0) == 0u);
   BOOST_TEST(refusal("a: 1\n  b: 2").substr(0, 11) == "f.yaml:2:4:");
   BOOST_TEST(refusal("a: *nowhere").substr(0, 9) == "f.yaml:1:");
 }
@@ -72,17 +74,17 @@ BOOST_AUTO_TEST_CASE(a_key_set_twice_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(keys_are_names) {
-  BOOST_TEST(refusal("a b: 1") == "f.yaml:1:1: a key is a name, or names joined by dots");
-  BOOST_TEST(refusal(".a: 1") == "f.yaml:1:1: a key is a name, or names joined by dots");
+  BOOST_TEST(refusal("a b: 1") == "f.yaml:1:1: a key is " + key_form);
+  BOOST_TEST(refusal(".a: 1") == "f.yaml:1:1: a key is " + key_form);
+  const std::string long_name(300, 'n');
+  BOOST_TEST(value((long_name + ": 1").c_str(), long_name.c_str()) == "1");
+  BOOST_TEST(refusal((long_name + ":\n  " + long_name + ": 1").c_str()) ==
+             "f.yaml:2:3: a key is " + key_form);
   BOOST_TEST(refusal("? [a]\n: 1").find("a key is a name") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_second_document_is_refused) {
   BOOST_TEST(refusal("a: 1\n---\nb: 2").find("a second document") != std::string::npos);
-}
-
-BOOST_AUTO_TEST_CASE(an_endless_nesting_is_refused) {
-  BOOST_TEST(refusal("a: &self\n  b: *self").find("nested too deeply") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -52,6 +52,12 @@ BOOST_AUTO_TEST_CASE(nearest_match_finds_nothing_far_away) {
   BOOST_TEST(vp::nearest_match("", {"tlm"}) == "");
 }
 
+/// With the matrix of each pair it took minutes.
+BOOST_AUTO_TEST_CASE(nearest_match_of_a_very_long_word_is_quick) {
+  const std::vector<std::string> paths(1000, "pl.corner_detection.threshold");
+  BOOST_TEST(vp::nearest_match(std::string(4 << 20, 'x'), paths) == "");
+}
+
 BOOST_AUTO_TEST_CASE(equally_near_ones_give_the_first) {
   BOOST_TEST(vp::nearest_match("port_c", {"port_b", "port_a"}) == "port_b");
 }

@@ -82,6 +82,36 @@ BOOST_AUTO_TEST_CASE(mistakes_are_shown_with_their_column) {
   BOOST_TEST(complaint(std::string(10000, '(')).find("100 brackets") != std::string::npos);
 }
 
+/// Each edge doubled the work: forty took for ever.
+BOOST_AUTO_TEST_CASE(edges_of_edges_are_quick) {
+  for (const char* edge : {" rises", " changes"}) {
+    std::string text = "a";
+    for (int i = 0; i < 90; ++i) text = "(" + text + edge + ")";
+    BOOST_TEST(static_cast<double>(value(text).value_or(-1)) == 1, edge);
+  }
+  std::string both = "a rises";
+  for (int i = 0; i < 8; ++i) both = "((" + both + ") == (" + both + ")) changes";
+  BOOST_TEST(value(both).has_value());
+}
+
+/// They overran the stack.
+BOOST_AUTO_TEST_CASE(length_is_bounded) {
+  const auto chain = [](const std::string& part, std::size_t times) {
+    std::string text = "a";
+    for (std::size_t i = 0; i < times; ++i) text += part;
+    return text;
+  };
+  BOOST_TEST(static_cast<double>(value(chain(" + 1", 400)).value()) == 405);
+  for (const char* part : {" + 1", " and a", " or b", "*1"}) {
+    const std::string text = complaint(chain(part, 300'000));
+    BOOST_TEST(text.find("more than 1000 values and operators") != std::string::npos, text);
+    BOOST_TEST(text.size() < 400u, "the message repeats the expression");
+  }
+  std::string nots;
+  for (int i = 0; i < 300'001; ++i) nots += "not ";
+  BOOST_TEST(static_cast<double>(value(nots + "a").value()) == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_signal_is_found_by_the_end_of_its_path) {
   const std::vector<std::string> paths = {"pl.one.count", "pl.two.count", "pl.two.full",
                                           "full_time"};
