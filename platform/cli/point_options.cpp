@@ -25,12 +25,8 @@ void refuse_doubles(const RunOptions& options) {
   if (options.camera) refuse("camera already: leave out --camera");
 }
 
-}  // namespace
-
-RunOptions with_point(const RunOptions& options, std::ostream& err) {
-  if (!options.point) return options;
-  refuse_doubles(options);
-  const sweep::PointRecord record = sweep::read_point(*options.point);
+RunOptions options_of(const sweep::PointRecord& record, const RunOptions& options,
+                      std::ostream& err) {
   const sweep::Json identity = record.identity_json();
   if (identity.at("markervp") != sweep::program_identity(program_version(), source_revision()))
     err << "markervp: warning: '" << *options.point
@@ -54,6 +50,20 @@ RunOptions with_point(const RunOptions& options, std::ostream& err) {
   assignments.insert(assignments.end(), asked.begin(), asked.end());
   result.configuration.assignments = assignments;
   return result;
+}
+
+}  // namespace
+
+RunOptions with_point(const RunOptions& options, std::ostream& err) {
+  if (!options.point) return options;
+  refuse_doubles(options);
+  const sweep::PointRecord record = sweep::read_point(*options.point);
+  try {
+    return options_of(record, options, err);
+  } catch (const sweep::Json::exception&) {
+    throw vp::InputError("'" + *options.point +
+                         "' was changed: remove it, and the sweep computes it again");
+  }
 }
 
 }  // namespace platform::cli

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <ostream>
 
 #include <cli/app.h>
@@ -13,10 +15,17 @@ namespace platform::cli {
 
 namespace {
 
-/// Messages of libraries may have several lines; ours have one.
+/// What a message quotes may be anything: lines, escape sequences of the terminal, a megabyte. One
+/// line comes of it, with the beginning, which says where, and the end, which says what to do.
 std::string one_line(std::string text) {
+  constexpr std::size_t longest = 4000;
+  constexpr std::size_t part = 1500;
+  if (text.size() > longest) {
+    text = text.substr(0, part) + " [... " + std::to_string(text.size() - 2 * part) +
+           " characters ...] " + text.substr(text.size() - part);
+  }
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, ' ');
   return text;
 }
 
@@ -56,6 +65,16 @@ int exit_code_of(const std::function<int()>& work, std::ostream& err) {
     return fail(err, error.what(), wrong_input);
   } catch (const vp::ProtocolError& error) {
     return fail(err, error.what(), protocol_broken);
+  } catch (const std::bad_alloc&) {
+    return fail(
+        err,
+        "not enough memory on this machine: choose smaller images, depths or files, or give "
+        "it more",
+        wrong_input);
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string file = error.path1().string();
+    return fail(err, (file.empty() ? "" : "'" + file + "': ") + error.code().message(),
+                wrong_input);
   } catch (const std::exception& error) {
     return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
   }

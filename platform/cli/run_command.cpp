@@ -123,6 +123,8 @@ void check_trace_folder(const RunOptions& options) {
     reason = EISDIR;
   } else if (::access(folder.c_str(), W_OK) != 0) {
     reason = errno;
+  } else if (::access((*options.trace + ".tmp").c_str(), F_OK) != 0 && errno == ENAMETOOLONG) {
+    reason = errno;  // of the name that it has while it is written
   }
   if (reason == 0) return;
   throw vp::InputError("cannot write trace '" + *options.trace + "': " + std::strerror(reason) +

@@ -84,6 +84,12 @@ void write_file(const fs::path& path, const std::string& text) {
   file.commit();
 }
 
+/// Throws if the page could not be written after the systems have run; makes its folder.
+void check_page(const fs::path& page) {
+  if (page.has_parent_path()) report::prepare_output_folder(page.parent_path().string());
+  report::AtomicFile(page.string());
+}
+
 /// False: gnuplot is not installed.
 bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
   report::prepare_output_folder(folder.string());
@@ -105,7 +111,6 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
   if (!options.no_report && page::write_report(folder.string())) text += ", report.html to look at";
   if (options.markdown) {
     const fs::path page = *options.markdown;
-    if (page.has_parent_path()) report::prepare_output_folder(page.parent_path().string());
     drawn = drawn && draw_plots(plots, page.parent_path() / page_pictures);
     write_file(page, validation::markdown_text(result, plots, page_pictures));
     text += ", " + page.string();
@@ -118,6 +123,7 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
              const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
   const auto published = validation::read_published(validation::published_file());
+  if (options.markdown) check_page(*options.markdown);
   report::prepare_output_folder(options.output);
   if (const int code = run_systems(options, arguments, make_simulation, err); code != done) {
     return code;

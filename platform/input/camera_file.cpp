@@ -13,7 +13,6 @@ namespace platform::input {
 namespace {
 
 constexpr double pixel_centre = 0.5;
-constexpr int largest_side_px = 16384;
 constexpr std::size_t matrix_size = 9;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& problem) {

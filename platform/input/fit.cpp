@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <scene/camera.h>
 #include <vp/error.h>
 
 namespace platform::input {
@@ -33,6 +34,10 @@ cv::Rect kept_part(ImageSize size, ImageSize target, Fit fit) {
 }  // namespace
 
 void check_fit(const std::string& name, ImageSize size, ImageSize target, Fit fit) {
+  if (std::max(size.width, size.height) > largest_side_px) {
+    throw vp::InputError("'" + name + "' is " + text(size) + " px: an image has at most " +
+                         std::to_string(largest_side_px) + " px a side");
+  }
   if (same(size, target) || fit == Fit::scale) return;
   const std::string problem =
       "'" + name + "' is " + text(size) + " px, the platform takes " + text(target) + ": ";

@@ -1,10 +1,11 @@
 #include <page/report_page.h>
 
 #include <filesystem>
+#include <fstream>
 #include <utility>
 #include <vector>
 
-#include <page/json_file.h>
+#include <host/document.h>
 #include <page/page_file.h>
 #include <page/sweep_block.h>
 #include <vp/error.h>
@@ -22,19 +23,49 @@ constexpr std::size_t most_frames = 2000;
 /// A result.json up to this size is put into the page as it is.
 constexpr std::size_t small_file = 4'000'000;  // bytes
 
+/// The JSON of a file with no more than the first `count` objects of its top-level list `list`, in
+/// memory that does not grow with the others. Throws vp::InputError if it is not whole.
+Json parse_first(const fs::path& path, const std::string& list, std::size_t count) {
+  using Event = Json::parse_event_t;
+  std::ifstream file(path, std::ios::binary);
+  std::string key;
+  std::size_t seen = 0;
+  const auto refuse = [&](const std::string& problem) {
+    throw vp::InputError("result '" + path.string() + "': " + problem + ": run it again");
+  };
+  const auto keep = [&](int depth, Event event, const Json& value) {
+    if (depth > static_cast<int>(host::deepest_json)) refuse("its values are nested too deeply");
+    if (depth == 1 && event == Event::key) key = value.get<std::string>();
+    if (depth != 2 || key != list) return true;
+    if (event == Event::object_start) return seen < count;
+    if (event == Event::object_end) ++seen;
+    return true;
+  };
+  try {
+    return Json::parse(file, keep);
+  } catch (const Json::parse_error& error) {
+    refuse("from byte " + std::to_string(error.byte) + " on it is not JSON, or not whole");
+  } catch (const Json::out_of_range&) {
+    refuse("a number in it is too large");
+  }
+  return {};
+}
+
 /// Without the frames for which the page has no room.
 std::string result_of(const fs::path& path) {
   std::error_code ignored;
   if (fs::file_size(path, ignored) > small_file && !ignored) {
     return parse_first(path, "frames", most_frames).dump();
   }
-  return read_file(path);
+  return vp::read_text(path, "result");
 }
 
 std::string extras_of_page(const fs::path& folder) {
   const fs::path page = folder / "report.html";
   std::error_code ignored;
-  return fs::exists(page, ignored) ? block_of(read_file(page), "extras") : "";
+  return fs::exists(page, ignored)
+             ? block_of(vp::read_text(page, "report", host::largest_result), "extras")
+             : "";
 }
 
 /// The blocks of a run; their names end in `suffix`. A file that others wrote is checked.
@@ -48,7 +79,7 @@ void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::stri
   }
   std::string result = result_of(path);
   if (extras.empty()) {
-    parse_json(result, path);
+    host::parse_json<Json>(result, "result '" + path.string() + "'");
     extras = extras_of_page(folder);
   }
   blocks.push_back({"result" + suffix, std::move(result)});
@@ -63,10 +94,12 @@ bool write_report(const std::string& folder, const std::string& extras) {
   std::vector<Block> blocks;
   if (fs::exists(root / "validation.json", ignored)) {
     const fs::path path = root / "validation.json";
-    blocks.push_back({"validation", parse_json(read_file(path), path).dump()});
+    blocks.push_back(
+        {"validation", host::read_json<Json>(path, "validation", host::largest_result).dump()});
     const fs::path frames = root / "frames.csv";
     if (fs::exists(frames, ignored)) {
-      blocks.push_back({"frames", Json(read_file(frames)).dump(-1, ' ', false, replace)});
+      blocks.push_back({"frames", Json(vp::read_text(frames, "table", host::largest_result))
+                                      .dump(-1, ' ', false, replace)});
     }
   } else if (fs::is_directory(root / "points", ignored)) {
     return write_sweep_report(folder, {});

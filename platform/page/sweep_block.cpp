@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <page/json_file.h>
+#include <host/document.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -105,7 +105,7 @@ std::string row_of(const std::string& key, const fs::path& folder, const PointRo
   const fs::path file = folder / "points" / (key + ".json");
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return "";
-  return point_row(part(parse_json(read_file(file), file), "/outcome"));
+  return point_row(part(host::read_json<Json>(file, "point", host::largest_result), "/outcome"));
 }
 
 std::string block_of_manifest(const Json& manifest, const fs::path& folder,
@@ -147,11 +147,13 @@ std::string point_row(const Json& outcome) {
 
 std::string sweep_json(const std::string& folder, const PointRows& known) {
   const fs::path path = fs::path(folder) / "manifest.json";
-  const Json manifest = parse_json(read_file(path), path);
+  const Json manifest = host::read_json<Json>(path, "manifest", host::largest_result);
   try {
     return block_of_manifest(manifest, folder, known);
-  } catch (const Json::exception& error) {
-    throw vp::InputError("'" + folder + "' is not the folder of a sweep: " + error.what());
+  } catch (const Json::exception&) {
+    throw vp::InputError("'" + folder +
+                         "' is not the folder of a sweep, or its files were changed: run the sweep "
+                         "again");
   }
 }
 

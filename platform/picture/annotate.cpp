@@ -143,10 +143,13 @@ Picture annotate(const GreyImage& image, const report::FrameReport& frame) {
 }
 
 std::string picture_name(const report::FrameReport& frame) {
+  // Names of files have at most 255 bytes, and more is added to this one.
+  constexpr std::size_t longest_stem = 200;
   std::string stem = frame.input.substr(0, frame.input.rfind('.'));
   const std::size_t number = frame.input.rfind('#');  // of a video's picture
   if (number != std::string::npos && number > stem.size()) stem += frame.input.substr(number);
   if (frame.truth) stem = frame.input;  // a scene: "z1.0" has no extension
+  stem.resize(std::min(stem.size(), longest_stem));
   for (char& c : stem) {
     const bool usual =
         std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_';

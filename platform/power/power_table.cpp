@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
+#include <host/document.h>
 #include <input/library_folder.h>
 #include <power/known_coefficients.h>
 #include <vp/error.h>
@@ -55,9 +55,7 @@ fs::path table_path(const std::string& name) {
 class Reader {
  public:
   explicit Reader(fs::path path) : path_(std::move(path)) {
-    std::ifstream file(path_);
-    if (!file) refuse("it cannot be read");
-    root_ = Json::parse(file, nullptr, false);
+    root_ = host::read_json<Json>(path_, "power table");
     if (!root_.is_object()) refuse("it is not a JSON object");
     only(root_, {"version", "device", "name", "entries"}, "the table");
     if (member(root_, "version", "the table") != version) {

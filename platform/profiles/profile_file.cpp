@@ -2,9 +2,11 @@
 
 #include <vp/error.h>
 #include <vp/text.h>
+
 #include <cmath>
-#include <fstream>
 #include <vector>
+
+#include <host/document.h>
 
 namespace platform::profiles {
 
@@ -20,9 +22,7 @@ std::string written(double value) {
 }  // namespace
 
 ProfileFile::ProfileFile(const std::filesystem::path& path) : path_(path) {
-  std::ifstream file(path);
-  if (!file) refuse("it cannot be read");
-  root_ = Json::parse(file, nullptr, false);
+  root_ = host::read_json(path, "profile");
   if (!root_.is_object()) refuse("it is not a JSON object");
   const Json& found = member(root_, "version", "the profile");
   if (found != version) {

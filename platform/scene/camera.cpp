@@ -8,12 +8,10 @@ namespace platform {
 
 namespace {
 
-constexpr int largest_size = 16384;
-
 void require_size(int size, const char* what) {
-  if (size < 1 || size > largest_size) {
+  if (size < 1 || size > largest_side_px) {
     throw vp::InputError("camera " + std::string(what) + " is " + std::to_string(size) +
-                         " px: give 1 to " + std::to_string(largest_size) + " px");
+                         " px: give 1 to " + std::to_string(largest_side_px) + " px");
   }
 }
 

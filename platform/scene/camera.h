@@ -8,6 +8,9 @@ struct PixelPoint {
   double y = 0;
 };
 
+/// No image and no camera is larger.
+constexpr int largest_side_px = 16384;
+
 /// Ideal pinhole camera, looking along +Z with x right and y down. The defaults are the thesis'
 /// camera (table 5.1).
 struct Camera {

@@ -2,10 +2,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
+#include <host/document.h>
 #include <sweep/point_file.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
@@ -29,6 +28,15 @@ void add_facts(const Json& result, Comparable& run) {
   for (const std::string& input : inputs) text += (text.empty() ? "" : " ") + input;
   run.configuration["inputs"] = text;
   run.metrics = metrics_of(result);
+}
+
+void add_point(const PointRecord& record, const std::string& file, Comparable& run) {
+  if (record.failed())
+    throw vp::InputError(
+        "'" + file + "' is a point that failed: " + record.outcome["failure"].value("message", ""));
+  run.configuration =
+      record.identity_json().at("configuration").get<std::map<std::string, std::string>>();
+  add_facts(record.outcome["result"], run);
 }
 
 std::string change(double a, double b) {
@@ -58,32 +66,23 @@ Comparable read_comparable(const std::string& path) {
   std::error_code ignored;
   const std::string file =
       fs::is_directory(path, ignored) ? (fs::path(path) / "result.json").string() : path;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw vp::InputError("'" + file +
-                         "' cannot be read: name a result.json, its folder, or a "
-                         "point's file");
-  const Json json =
-      Json::parse(std::string{std::istreambuf_iterator<char>(stream), {}}, nullptr, false);
+  const Json json = host::read_json<Json>(file, "result", host::largest_result);
   Comparable run;
   run.name = path;
-  if (json.is_object() && json.contains("markervp_point")) {
-    const PointRecord record = read_point(file);
-    if (record.failed())
-      throw vp::InputError("'" + file + "' is a point that failed: " +
-                           record.outcome["failure"].value("message", ""));
-    run.configuration =
-        record.identity_json().at("configuration").get<std::map<std::string, std::string>>();
-    add_facts(record.outcome["result"], run);
-    return run;
-  }
-  if (!json.is_object() || !json.contains("summary") || !json.contains("configuration"))
-    throw vp::InputError("'" + file + "' is neither a result.json nor a point of a sweep");
   try {
+    if (json.is_object() && json.contains("markervp_point")) {
+      add_point(read_point(file), file, run);
+      return run;
+    }
+    if (!json.is_object() || !json.contains("summary") || !json.contains("configuration"))
+      throw vp::InputError(
+          "'" + file +
+          "' is neither a result.json nor a point of a sweep: name one of them, or "
+          "the folder of a run");
     run.configuration = json["configuration"].get<std::map<std::string, std::string>>();
     add_facts(json, run);
   } catch (const Json::exception&) {
-    throw vp::InputError("'" + file + "' is damaged");
+    throw vp::InputError("'" + file + "' was changed or is damaged: run it again");
   }
   return run;
 }

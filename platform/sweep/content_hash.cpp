@@ -3,11 +3,11 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 
 #include <vp/error.h>
+#include <vp/input_file.h>
 
 namespace platform::sweep {
 
@@ -60,13 +60,15 @@ std::string content_hash(std::string_view bytes) {
 }
 
 std::string file_hash(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw vp::InputError("'" + path + "' cannot be read");
+  vp::InputFile file(path, "file");
+  // What is hashed is read once more, to be used.
+  if (!file.is_regular())
+    throw vp::InputError("'" + path + "' is a pipe, which can be read only once: name a file");
+  const auto deadline = vp::InputFile::HostClock::now() + vp::InputFile::patience;
   Digest digest;
   std::array<char, 1 << 16> block;
-  while (file.read(block.data(), block.size()) || file.gcount() > 0) {
-    digest.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  }
+  while (const std::size_t count = file.read(block.data(), block.size(), deadline))
+    digest.add({block.data(), count});
   return digest.digits();
 }
 

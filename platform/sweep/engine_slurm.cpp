@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <ostream>
@@ -12,6 +11,7 @@
 
 #include <cli/interrupt.h>
 #include <cli/program.h>
+#include <host/document.h>
 #include <report/file_output.h>
 #include <sweep/durable_file.h>
 #include <sweep/host_command.h>
@@ -35,12 +35,7 @@ std::string submission_folder(const Store& store, std::uint32_t number) {
 }
 
 Json read_json(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const Json json = Json::parse(text, nullptr, false);
-  if (!file || json.is_discarded())
-    throw vp::InputError("'" + path + "' cannot be read, or is damaged");
-  return json;
+  return host::read_json<Json>(path, "the sweep's own file", host::largest_result);
 }
 
 std::vector<std::size_t> missing(const Store& store, const Manifest& manifest,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include <host/document.h>
 #include <input/camera_file.h>
 #include <input/input_list.h>
 #include <input/library_folder.h>
@@ -56,8 +56,8 @@ input::InputOptions options_of(const InputChoice& choice, input::ImageSize size)
 
 /// The tables that a scaled cost profile refers to stand beside it.
 void add_named_tables(const fs::path& file, Json& contents) {
-  std::ifstream stream(file);
-  const Json root = Json::parse(stream, nullptr, false);
+  if (file.extension() != ".json") return;
+  const Json root = host::read_json<Json>(file, "profile");
   if (!root.is_object() || !root.contains("tables") || !root["tables"].is_object()) return;
   for (const auto& [unused, name] : root["tables"].items()) {
     if (!name.is_string()) continue;

@@ -1,9 +1,8 @@
 #include <sweep/point_file.h>
 
-#include <fstream>
-#include <iterator>
 #include <utility>
 
+#include <host/document.h>
 #include <sweep/content_hash.h>
 #include <vp/error.h>
 
@@ -27,6 +26,19 @@ PointRecord new_record(const Manifest& manifest, const PlannedPoint& point) {
 
 void erase_what_stands_elsewhere(Json& result) {
   for (const char* elsewhere : {"provenance", "configuration"}) result.erase(elsewhere);
+}
+
+/// Throws HalfPoint for what is no JSON.
+Json whole_json(const std::string& path) {
+  const std::string text = vp::read_text(path, "point", host::largest_result);
+  try {
+    return host::parse_json<Json>(text, "");
+  } catch (const vp::InputError&) {
+    throw HalfPoint(
+        "'" + path +
+        "' is damaged, or no file of a sweep's point: remove it, and the sweep computes "
+        "it again");
+  }
 }
 
 /// File names may hold any bytes; JSON holds UTF-8 only.
@@ -73,15 +85,8 @@ std::string point_text(const PointRecord& record) {
 }
 
 PointRecord read_point(const std::string& path, bool verify) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw vp::InputError("point '" + path + "' cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  Json json = Json::parse(text, nullptr, false);
+  Json json = whole_json(path);
   const std::string start = "'" + path + "' ";
-  if (json.is_discarded())
-    throw HalfPoint(start +
-                    "is damaged, or no file of a sweep's point: remove it, and the sweep computes "
-                    "it again");
   if (!json.is_object() || !json.contains(mark))
     throw vp::InputError(start + "is no point of a sweep: move it elsewhere");
   if (json[mark] != schema) {

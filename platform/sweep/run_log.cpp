@@ -7,10 +7,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
+#include <sstream>
 #include <tuple>
 
+#include <host/document.h>
 #include <report/utc_time.h>
 #include <sweep/durable_file.h>
 #include <vp/text.h>
@@ -30,6 +31,20 @@ std::string host_name() {
 std::optional<double> seconds(const Json& entry, const char* name) {
   if (!entry.contains(name)) return std::nullopt;
   return entry.at(name).get<double>();
+}
+
+/// None for a line that is damaged: a process may have been killed while it wrote.
+std::optional<RunEntry> entry_of(const std::string& line) {
+  try {
+    const Json json = host::parse_json<Json>(line, "");
+    if (!json.is_object() || !json.contains("key")) return std::nullopt;
+    return RunEntry{json.value("key", ""),    seconds(json, "wall_s"),  seconds(json, "cpu_s"),
+                    json.value("attempt", 1), json.value("engine", ""), json.value("host", ""),
+                    json.value("date", "")};
+  } catch (const vp::InputError&) {
+  } catch (const Json::exception&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -71,13 +86,9 @@ std::vector<RunEntry> read_runs(const Store& store) {
   std::vector<RunEntry> entries;
   std::error_code ignored;
   for (const auto& file : std::filesystem::directory_iterator(store.path("runs"), ignored)) {
-    std::ifstream lines(file.path());
+    std::istringstream lines(vp::read_text(file.path(), "log of runs", host::largest_result));
     for (std::string line; std::getline(lines, line);) {
-      const Json json = Json::parse(line, nullptr, false);
-      if (!json.is_object() || !json.contains("key")) continue;
-      entries.push_back({json.value("key", ""), seconds(json, "wall_s"), seconds(json, "cpu_s"),
-                         json.value("attempt", 1), json.value("engine", ""), json.value("host", ""),
-                         json.value("date", "")});
+      if (const auto entry = entry_of(line)) entries.push_back(*entry);
     }
   }
   std::sort(entries.begin(), entries.end(), [](const RunEntry& a, const RunEntry& b) {

@@ -1,12 +1,11 @@
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include <sweep/spec.h>
 #include <sweep/yaml_reader.h>
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
@@ -213,24 +212,12 @@ Spec parse_spec(const std::string& text, const std::string& origin) {
   spec.origin = origin;
   spec.source = text;
   spec.name = std::filesystem::path(origin).stem().string();
-  try {
-    const YAML::Node root = YAML::Load(text);
-    Reader(spec, origin).read(root);
-  } catch (const YAML::Exception& error) {
-    throw_no_yaml(error, origin);
-  }
+  Reader(spec, origin).read(vp::load_yaml(text, origin));
   return spec;
 }
 
 Spec read_spec(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
-    throw vp::InputError("sweep '" + file +
-                         "' cannot be read: name a YAML file, or a study that "
-                         "'markervp sweep --list' shows");
-  }
-  return parse_spec({std::istreambuf_iterator<char>(stream), {}}, file);
+  return parse_spec(vp::read_text(file, "sweep"), file);
 }
 
 }  // namespace platform::sweep

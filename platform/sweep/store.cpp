@@ -9,9 +9,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
+#include <host/document.h>
 #include <report/file_output.h>
 #include <sweep/content_hash.h>
 #include <sweep/csv_line.h>
@@ -27,11 +27,6 @@ namespace fs = std::filesystem;
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* lock_name = "lock";
 constexpr const char* claims_name = "claims";
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string who_am_i() {
   char host[256] = "unknown host";
@@ -105,7 +100,8 @@ Store::Store(const std::string& folder) : folder_(folder) {
 void Store::lock() {
   const std::string file = path(lock_name);
   if (!lock_.take(file, 0, false)) {
-    throw vp::InputError("another sweep works in '" + folder_ + "' (" + content(file) +
+    throw vp::InputError("another sweep works in '" + folder_ + "' (" +
+                         vp::read_text(file, "lock") +
                          "): wait for it, or choose another folder with --output");
   }
   write_durably(file + ".owner", who_am_i());
@@ -149,8 +145,7 @@ Manifest Store::read_manifest() const {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw vp::InputError("'" + folder_ + "' is no folder of a sweep: it has no " + manifest_name);
-  const Json json = Json::parse(content(file), nullptr, false);
-  return manifest_from(json, file);
+  return manifest_from(host::read_json<Json>(file, "manifest", host::largest_result), file);
 }
 
 std::vector<std::string> Store::keys(std::vector<std::string>& foreign) const {

@@ -71,15 +71,4 @@ std::uint64_t YamlReader::whole(const YAML::Node& node, const std::string& key, 
   return value;
 }
 
-void throw_no_yaml(const YAML::Exception& error, const std::string& origin) {
-  const YAML::Mark& mark = error.mark;
-  const std::string where =
-      mark.is_null() ? ""
-                     : ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
-  throw vp::InputError(origin + where +
-                       ": this is not YAML, here or in a line above: check that lines are indented "
-                       "with spaces, that a space follows each ':', and that every quote, '[' and "
-                       "'{' is closed");
-}
-
 }  // namespace platform::sweep

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include <vp/yaml.h>
 
 namespace platform::sweep {
 
@@ -36,8 +36,5 @@ class YamlReader {
  private:
   std::string origin_;
 };
-
-/// Says in our words that the text is no YAML, and where.
-[[noreturn]] void throw_no_yaml(const YAML::Exception& error, const std::string& origin);
 
 }  // namespace platform::sweep

@@ -1,12 +1,12 @@
 // Reads a checks file: a check a line.
 #include <trace/checks.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <map>
+#include <sstream>
 
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -22,6 +22,7 @@ struct ChecksReader {
   std::uint64_t line = 0;
   std::uint64_t clock_hz = 100'000'000;
   std::vector<Check> checks;
+  std::map<std::string, std::uint64_t> line_of;  ///< of a check's name
 
   [[noreturn]] void fail(const std::string& problem) const {
     throw vp::InputError("checks '" + file + "', line " + std::to_string(line) + ": " + problem);
@@ -80,11 +81,9 @@ void ChecksReader::read_check(const std::string& text) {
   check.line = line;
   check.clock_hz = clock_hz;
   if (check.name.empty()) fail("the check has no name before ':'");
-  for (const Check& other : checks) {
-    if (other.name == check.name) {
-      fail("there is a check '" + check.name + "' in line " + std::to_string(other.line));
-    }
-  }
+  const auto [other, is_new] = line_of.emplace(check.name, line);
+  if (!is_new)
+    fail("there is a check '" + check.name + "' in line " + std::to_string(other->second));
   const auto blank = check.text.find(' ');
   const std::string kind = check.text.substr(0, blank);
   const std::string rest =
@@ -139,8 +138,7 @@ void ChecksReader::read_check(const std::string& text) {
 }  // namespace
 
 std::vector<Check> read_checks(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw vp::InputError("cannot read checks '" + file + "': " + std::strerror(errno));
+  std::istringstream stream(vp::read_text(file, "checks"));
   ChecksReader reader;
   reader.file = file;
   for (std::string line; std::getline(stream, line);) {
@@ -153,7 +151,6 @@ std::vector<Check> read_checks(const std::string& file) {
       reader.read_check(text);
     }
   }
-  if (stream.bad()) throw vp::InputError("cannot read checks '" + file + "'");
   if (reader.checks.empty()) throw vp::InputError("checks '" + file + "': there is none in it");
   return std::move(reader.checks);
 }

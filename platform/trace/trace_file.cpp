@@ -1,21 +1,21 @@
 #include <trace/trace_file.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <map>
+#include <sstream>
 
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/text.h>
 #include <vp/wave_expression.h>
 
 namespace platform::trace {
 
 NameMap read_name_map(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw vp::InputError("cannot read map '" + file + "': " + std::strerror(errno));
+  std::istringstream stream(vp::read_text(file, "map"));
   NameMap map;
   map.file = file;
+  std::map<std::string, std::uint64_t> line_of;
   std::string line;
   for (std::uint64_t number = 1; std::getline(stream, line); ++number) {
     const std::string text(vp::trim(line.substr(0, line.find('#'))));
@@ -28,11 +28,9 @@ NameMap read_name_map(const std::string& file) {
     NameMap::Entry entry{std::string(vp::trim(text.substr(0, sign))),
                          std::string(vp::trim(text.substr(sign + 1))), number};
     if (entry.ours.empty() || entry.theirs.empty()) fail("a name is missing beside '='");
-    for (const NameMap::Entry& other : map.entries) {
-      if (other.ours == entry.ours) {
-        fail("'" + entry.ours + "' was named in line " + std::to_string(other.line) + " already");
-      }
-    }
+    const auto [other, is_new] = line_of.emplace(entry.ours, number);
+    if (!is_new)
+      fail("'" + entry.ours + "' was named in line " + std::to_string(other->second) + " already");
     map.entries.push_back(std::move(entry));
   }
   return map;

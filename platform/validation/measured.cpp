@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 
+#include <host/document.h>
 #include <scene/catalogue.h>
 #include <vp/error.h>
 
@@ -91,11 +91,9 @@ std::vector<const Frame*> Run::of(const std::vector<std::string>& groups) const 
 }
 
 Run read_run(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw vp::InputError("no result '" + file.string() + "'");
   try {
     Run run;
-    run.root = Json::parse(stream);
+    run.root = host::read_json(file, "result", host::largest_result);
     run.system = run.root.at("system");
     run.profile = run.root.at("profile");
     run.fidelity = run.root.at("fidelity");
@@ -104,8 +102,9 @@ Run read_run(const std::filesystem::path& file) {
     for (const Json& frame : run.root.at("frames")) run.frames.push_back(read_frame(frame));
     run.root.erase("frames");
     return run;
-  } catch (const Json::exception& error) {
-    throw vp::InputError("result '" + file.string() + "' cannot be used: " + error.what());
+  } catch (const Json::exception&) {
+    throw vp::InputError("result '" + file.string() +
+                         "' was changed or is damaged: run the validation again");
   }
 }
 

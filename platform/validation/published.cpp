@@ -1,11 +1,12 @@
 #include <validation/published.h>
 
 #include <charconv>
-#include <fstream>
 #include <set>
+#include <sstream>
 
 #include <input/library_folder.h>
 #include <vp/error.h>
+#include <vp/input_file.h>
 #include <vp/text.h>
 
 namespace platform::validation {
@@ -19,9 +20,8 @@ constexpr std::size_t columns = 8;
 
 class Reader {
  public:
-  explicit Reader(const fs::path& file) : file_(file), stream_(file) {
-    if (!stream_) throw vp::InputError("published values " + file.string() + ": cannot be read");
-  }
+  explicit Reader(const fs::path& file)
+      : file_(file), stream_(vp::read_text(file, "published values")) {}
 
   std::vector<Published> read() {
     if (!next() || line_ != header) refuse(std::string("the first line is not '") + header + "'");
@@ -68,7 +68,7 @@ class Reader {
   }
 
   fs::path file_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   std::string line_;
   int number_ = 0;
 };

@@ -303,8 +303,8 @@ BOOST_AUTO_TEST_CASE(camera_files) {
   run_refuses({"z1.0", "--camera", "missing.yaml"}, {"missing.yaml"});
   run_refuses({"z1.0", "--camera", "."}, {"'.'"});
   camera_refused("", {"empty"});
-  camera_refused("just words\n", {"malformed"});
-  camera_refused("camera_matrix: [1, 2\n", {"malformed"});
+  camera_refused("just words\n", {"no calibration"});
+  camera_refused("camera_matrix: [1, 2\n", {"is not YAML"});
   camera_refused("image_width: 640\nimage_height: 480\n", {"camera_matrix"});
   camera_refused(calibration("1, 2, 3"), {"3x3"});
   camera_refused(calibration("0, 0, 320, 0, 380, 240, 0, 0, 1"), {"fx, fy > 0"});

@@ -26,6 +26,18 @@ BOOST_AUTO_TEST_CASE(trace_file) {
   run_refuses({"--trace", "taken/a.vcd"}, {"taken/a.vcd"});
 }
 
+/// Noticed before anything runs, though the name is longer only while the file is written.
+BOOST_AUTO_TEST_CASE(names_that_are_too_long) {
+  const std::string name(250, 'n');
+  run_refuses({"--trace", name + ".vcd"}, {"cannot write trace", "name too long"});
+  run_refuses({"--timeline", name}, {"name too long"});
+  refuses({"validate", "--markdown", name, "--output", "out"}, {"name too long"});
+  write_image(name + ".pgm");
+  const kit::Outcome outcome = start({"run", name + ".pgm", "--quiet"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(std::filesystem::exists(*this / ("out/0000_" + name.substr(0, 200) + ".png")));
+}
+
 /// The folder is there and writable, but not what has to go into it. A check in front cannot know.
 BOOST_AUTO_TEST_CASE(a_result_that_cannot_be_written_in_the_end) {
   std::filesystem::create_directories(*this / "out/result.json/in_the_way");

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -151,10 +152,15 @@ class LoadedProgram : public Program {
   std::shared_ptr<SharedObject> object_;
 };
 
+/// Throws for what the loader would wait for.
 std::string absolute(const std::string& path) {
+  const std::string start = "cannot load program '" + path + "': ";
   char resolved[PATH_MAX];
-  if (realpath(path.c_str(), resolved)) return resolved;
-  throw vp::InputError("cannot load program '" + path + "': " + std::strerror(errno));
+  if (!realpath(path.c_str(), resolved)) throw vp::InputError(start + std::strerror(errno));
+  std::error_code ignored;
+  if (std::filesystem::is_other(resolved, ignored))
+    throw vp::InputError(start + "it is a pipe or a device: name a file");
+  return resolved;
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ BOOST_AUTO_TEST_CASE(another_size_is_refused_with_what_to_do) {
   CHECK_REFUSED(check_fit("a.png", {800, 600}, {640, 480}, Fit::none),
                 "'a.png' is 800x600 px, the platform takes 640x480: use --fit crop or --fit scale");
   CHECK_REFUSED(check_fit("a.png", {639, 600}, {640, 480}, Fit::crop), "too small to crop");
+  CHECK_REFUSED(check_fit("a.png", {100'000, 1}, {640, 480}, Fit::scale),
+                "'a.png' is 100000x1 px: an image has at most 16384 px a side");
   CHECK_REFUSED(check_fit("a.png", {800, 479}, {640, 480}, Fit::crop), "too small to crop");
   check_fit("a.png", {10, 10}, {640, 480}, Fit::scale);
 }

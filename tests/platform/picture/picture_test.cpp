@@ -121,6 +121,8 @@ BOOST_AUTO_TEST_CASE(names_are_safe_and_sort) {
   BOOST_TEST(picture_name(frame) == "0007_clip_12.png");
   frame.input = "plain";
   BOOST_TEST(picture_name(frame) == "0007_plain.png");
+  frame.input = std::string(250, 'n') + ".png";
+  BOOST_TEST(picture_name(frame) == "0007_" + std::string(200, 'n') + ".png");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
