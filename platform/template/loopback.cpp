@@ -93,10 +93,19 @@ class Bench : public sc_core::sc_module {
     write(dma_base + axi_dma::MM2S_SA, from);
     write(dma_base + axi_dma::MM2S_LENGTH, bytes);
     const std::uint64_t start = platform_.scheduler.now_ps();
-    while ((read(dma_base + axi_dma::S2MM_DMASR) & axi_dma::dmasr::Idle) == 0) wait(poll_period);
+    check(wait_for_idle(axi_dma::MM2S_DMASR), "the DMA has sent the packet");
+    check(wait_for_idle(axi_dma::S2MM_DMASR), "the DMA has received the packet");
     const std::uint64_t took = platform_.scheduler.now_ps() - start;
     std::cout << "copied " << bytes << " bytes in " << vp::format_time(took) << std::endl;
     check(read(dma_base + axi_dma::S2MM_LENGTH) == bytes, "S2MM_LENGTH has the bytes received");
+  }
+
+  /// False if the channel is still busy after far more time than a transfer needs.
+  bool wait_for_idle(std::uint32_t status) {
+    for (unsigned polls = 0; polls < 1000; ++polls, wait(poll_period)) {
+      if ((read(dma_base + status) & axi_dma::dmasr::Idle) != 0) return true;
+    }
+    return false;
   }
 
   static std::uint32_t pattern(std::uint32_t i) { return 0x01020304u * (i + 1); }

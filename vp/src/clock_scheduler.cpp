@@ -279,7 +279,7 @@ void ClockScheduler::order_modules() {
       for (const InBase* input : module->inputs_) {
         if (!input->signal()) continue;
         Clocked* producer = input->signal()->writer();
-        if (producer && producer != module) list.push_back(producer);
+        if (producer) list.push_back(producer);
       }
     }
     clock->set_order(ConsumerFirstOrder(modules, producers).order());
@@ -288,8 +288,8 @@ void ClockScheduler::order_modules() {
 
 void ClockScheduler::mark_deferred_signals() {
   std::unordered_set<const Clocked*> already_run;
-  // Walks the running order: a consumer that comes after its producer would see the new value too
-  // early.
+  // Walks the running order. A consumer that runs after its producer would see the new value too
+  // early, and so would the parts of a module that feeds itself.
   for (Clock* clock : clocks_) {
     for (const Clock::Place& place : clock->places_) {
       const Clocked* module = place.module;
@@ -298,7 +298,7 @@ void ClockScheduler::mark_deferred_signals() {
         SignalBase* signal = input->signal();
         if (!signal) continue;
         Clocked* producer = signal->writer();
-        if (!producer || producer == module || !already_run.count(producer)) continue;
+        if (!producer || !already_run.count(producer)) continue;
         signal->deferred_ = signal->observed_ = true;
       }
     }

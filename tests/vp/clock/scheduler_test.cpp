@@ -39,6 +39,31 @@ BOOST_FIXTURE_TEST_CASE(a_ring_of_registers_rotates, Fixture) {
   BOOST_TEST(a.q.get() == 1u);
 }
 
+/// Two registers in one module, each fed by the other.
+struct Swap : vp::Clocked {
+  Swap(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {
+    a_in(a);
+    b_in(b);
+  }
+  void edge() override {
+    a = b_in.read();
+    b = a_in.read();
+  }
+  vp::Signal<std::uint32_t> a{"a", 32, 1}, b{"b", 32, 2};
+  vp::In<std::uint32_t> a_in{"a_in", this}, b_in{"b_in", this};
+};
+
+BOOST_FIXTURE_TEST_CASE(a_module_that_feeds_itself_sees_what_stood_before, Fixture) {
+  vp::Clock clock{"clock", scheduler, 100'000'000};
+  Swap swap{"swap", clock};
+  run_to(10'000);
+  BOOST_TEST(swap.a.get() == 2u);
+  BOOST_TEST(swap.b.get() == 1u);
+  run_to(20'000);
+  BOOST_TEST(swap.a.get() == 1u);
+  BOOST_TEST(swap.b.get() == 2u);
+}
+
 // At coincident edges both directions of a crossing sample what stood before.
 BOOST_FIXTURE_TEST_CASE(coincident_edges_sample_what_stood_before, Fixture) {
   vp::Clock fast{"fast", scheduler, 100'000'000}, slow{"slow", scheduler, 50'000'000};
