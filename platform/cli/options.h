@@ -100,7 +100,7 @@ struct TraceCommandOptions {
   std::vector<std::string> filter;
   std::vector<std::string> signals;
   std::string align = "time";
-  bool json = false, csv = false, skip_missing = false;
+  bool json = false, csv = false, skip_missing = false, require_exercised = false;
 };
 
 /// `markervp completion`.

@@ -179,13 +179,14 @@ class Warner {
   std::vector<std::string> seen_;
 };
 
-std::string written_text(const RunOptions& options, const FrameRunner& runner, bool has_page) {
+std::string written_text(const RunOptions& options, const FrameRunner& runner, bool has_page,
+                         bool has_trace) {
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
   if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
-  for (const auto& file :
-       {options.trace, options.timeline, options.log_bus, options.register_coverage}) {
+  if (has_trace) text += ", " + *options.trace;
+  for (const auto& file : {options.timeline, options.log_bus, options.register_coverage}) {
     if (file) text += ", " + *file;
   }
   if (!options.no_report && page::page_template().empty())
@@ -278,7 +279,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const bool has_page =
       page && page::write_report(options.output, extras.json(configuration.parameters()));
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
-      << written_text(options, runner, has_page) << std::flush;
+      << written_text(options, runner, has_page, simulation->wrote_trace()) << std::flush;
   return verdict(options, runner, facts, err);
 }
 

@@ -50,6 +50,9 @@ class Simulation {
   /// Of the first frames, after it ran; empty if none was asked for.
   virtual report::Timeline timeline() const { return {}; }
 
+  /// There is a trace of what ran: see SimulationOptions::trace.
+  virtual bool wrote_trace() const { return false; }
+
   /// Runs the PS program until `next` gives no more images. Neither function throws. `index` in a
   /// report counts the images given; it lacks `input`, `truth` and `camera`, which the caller
   /// knows. The trace file is made here, not earlier, and is whole when this returns or throws.

@@ -64,6 +64,8 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   check->add_option("CHECKS", target.checks, "a .checks file")->type_name("FILE")->required();
   add_file(*check, target);
   check->add_flag("--skip-missing", target.skip_missing, "leave out checks without their signals");
+  check->add_flag("--require-exercised", target.require_exercised,
+                  "exit code 1, too, if a check looked at nothing or was left out");
   check
       ->add_option("-o,--output", target.output,
                    "save file for GTKWave at the failure (default: TRACE.failed.gtkw)")

@@ -63,6 +63,7 @@ class ZynqSimulation : public Simulation {
   report::RunFacts facts() const override { return session_.facts(); }
   report::HardwareMap map() override { return hardware_map(session_.zynq()); }
   report::Timeline timeline() const override { return session_.timeline(); }
+  bool wrote_trace() const override { return session_.wrote_trace(); }
   void run(const NextFrame& next, const FrameDone& done) override {
     const ConsoleFlush flush{session_.zynq().ps};
     const Debugged debugged(session_.zynq());

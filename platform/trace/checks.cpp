@@ -55,6 +55,13 @@ class Judge {
   void finish(std::uint64_t ps) {
     pass(ps);
     if (clock_) bursts(ps);
+    // A value that stood to the end without a change was looked at.
+    if (check_.kind == Check::Kind::stable && second_.holds(replay_) && ps > looked_ps_) {
+      ++result.occasions;
+    }
+    // What the trace's end left open was not judged.
+    result.occasions -= static_cast<std::uint64_t>(std::count_if(
+        waiting_.begin(), waiting_.end(), [ps](std::uint64_t deadline) { return deadline >= ps; }));
   }
 
   CheckResult result;
@@ -97,6 +104,7 @@ class Judge {
   vp::WaveExpression first_, second_, restart_;
   bool first_stood_ = false, second_stood_ = false, restart_stood_ = false;
   std::deque<std::uint64_t> waiting_;  ///< deadlines
+  std::uint64_t looked_ps_ = 0;        ///< of `stable`: when one of its signals was written last
   std::optional<vp::WaveNumber> last_;
   std::unique_ptr<SampleClock> clock_;
   bool sampled_ = false;
@@ -130,6 +138,7 @@ void Judge::instant(std::uint64_t ps) {
       if (second_.holds(replay_)) waiting_.clear();
       return;
     case Check::Kind::stable: {
+      looked_ps_ = ps;
       const Past past(replay_);
       if (!second_.holds(past)) return;
       ++result.occasions;

@@ -29,7 +29,7 @@ struct Check {
   std::optional<vp::WaveExpression> restart;  ///< of `increases`: begins anew when it comes true
   std::uint64_t limit_ps = 0;
   std::uint64_t limit = 0;
-  std::uint64_t clock_hz = 0;  ///< of `bursts`
+  std::uint64_t clock_hz = 0;  ///< that stands above it in the file
 };
 
 /// Throws vp::InputError with the line.
@@ -43,6 +43,9 @@ struct CheckResult {
   std::uint64_t first_ps = 0;   ///< of the first failure
   std::string detail;           ///< of the first failure: "4 after 7"
   std::uint64_t occasions = 0;  ///< how often there was something to check
+
+  /// It has looked at something.
+  bool exercised() const { return occasions != 0 || failures != 0; }
 };
 
 /// Judges the trace. Throws vp::InputError for a signal that it lacks, unless `skip_missing`; if

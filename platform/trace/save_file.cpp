@@ -84,15 +84,30 @@ std::string ip_of(const std::string& path) {
   return second == std::string::npos ? "" : path.substr(0, second);
 }
 
+/// The unit of GTKWave's times: s, ms, us, ns, ps or fs; a timescale of 10 ns counts ns, too.
+std::uint64_t unit_fs(std::uint64_t timescale_fs) {
+  std::uint64_t unit = 1;
+  while (unit * 1000 <= timescale_fs) unit *= 1000;
+  return unit;
+}
+
 }  // namespace
 
+// GTKWave's zoom is the negative binary logarithm of the time that 200 pixels show.
 std::string save_file_text(const SaveFile& save) {
-  std::string text = "[*] " + save.comment + "\n[timestart] " + std::to_string(save.start_ps) +
+  constexpr double waves = 1400 - 200 - 320 - 40;  // pixels of the window beside both lists
+  constexpr double zoomed = 200;
+  const std::uint64_t unit = unit_fs(save.timescale_fs);
+  const auto steps = [unit](std::uint64_t ps) {
+    return std::to_string(
+        static_cast<std::uint64_t>(static_cast<unsigned __int128>(ps) * 1000 / unit));
+  };
+  const double span =
+      static_cast<double>(save.end_ps - save.start_ps) * 1000 / static_cast<double>(unit);
+  std::string text = "[*] " + save.comment + "\n[timestart] " + steps(save.start_ps) +
                      "\n[size] 1400 900\n[pos] -1 -1\n";
-  const double zoom =
-      -std::round(std::log2(static_cast<double>(std::max<std::uint64_t>(save.ps_per_pixel, 1))));
-  text +=
-      "*" + std::to_string(zoom) + " " + (save.marker_ps ? std::to_string(*save.marker_ps) : "-1");
+  text += "*" + std::to_string(-std::log2(std::max(span, 1.0) / waves * zoomed)) + " " +
+          (save.marker_ps ? steps(*save.marker_ps) : "-1");
   for (int i = 0; i < 26; ++i) text += " -1";  // the named markers
   text += "\n[sst_width] 200\n[signals_width] 320\n[sst_expanded] 0\n";
   for (const SaveFile::Line& line : save.lines) {
@@ -147,9 +162,9 @@ std::vector<std::string> write_save_files(TraceFile& file, const std::string& fo
     return lines;
   };
   SaveFile page;
-  constexpr std::uint64_t pixels = 1000;
   page.start_ps = replay.first_ps();
-  page.ps_per_pixel = (replay.last_ps() - replay.first_ps()) / pixels;
+  page.end_ps = replay.last_ps();
+  page.timescale_fs = file.reader().timescale_fs();
 
   page.comment = "The whole system: software, interrupts, control, pixels, features, streams.";
   for (const Group& group : system_groups()) {

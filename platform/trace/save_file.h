@@ -21,9 +21,9 @@ struct SaveFile {
   };
   std::string comment;
   std::vector<Line> lines;
-  std::uint64_t start_ps = 0;              ///< left end of the window
-  std::optional<std::uint64_t> marker_ps;  ///< the marker
-  std::uint64_t ps_per_pixel = 1000;       ///< rounded to a power of two
+  std::uint64_t start_ps = 0, end_ps = 0;  ///< what it opens on
+  std::optional<std::uint64_t> marker_ps;
+  std::uint64_t timescale_fs = 1000;  ///< of the trace
 };
 
 std::string save_file_text(const SaveFile& save);

@@ -93,7 +93,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   } catch (...) {
     error = std::current_exception();
   }
-  if (tracer) tracer->close();
+  if (tracer) wrote_trace_ = tracer->close();
   tracer.reset();
   late_warnings_ = bench_->finish();
   if (error) std::rethrow_exception(error);

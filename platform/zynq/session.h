@@ -53,6 +53,9 @@ class Session {
   /// Of the first frames, as many as asked for.
   report::Timeline timeline() const;
 
+  /// There is a trace of the run: one was asked for, and its window or trigger kept something.
+  bool wrote_trace() const { return wrote_trace_; }
+
   Zynq& zynq() { return *zynq_; }
   /// Energy of the run so far. Ask for its timeline before the run.
   ZynqPower& power() { return *power_; }
@@ -70,6 +73,7 @@ class Session {
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;
   std::optional<vp::TraceOptions> trace_;
+  bool wrote_trace_ = false;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };
 

@@ -1,6 +1,7 @@
 // The commands of docs/traces.md do what stands there, in its order.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
@@ -48,6 +49,20 @@ BOOST_AUTO_TEST_CASE(every_command_of_the_page_works) {
         "out/lost.vcd", "small.vcd", "small.vcd.failed.gtkw", "system.gtkw"}) {
     BOOST_TEST(fs::exists(*this / file), file);
   }
+  // The windows are where the demo has its frame.
+  for (const char* file : {"out/end.vcd", "out/features.vcd", "out/inside.vcd", "out/lost.vcd"}) {
+    const std::string trace = kit::read_file(*this / file);
+    BOOST_TEST(std::count(trace.begin(), trace.end(), '#') > 100, file);
+  }
+  // The page of the whole system has its marker where the end word appears.
+  const std::string page = kit::read_file(MARKERVP_SOURCE "/traces/system/demo.gtkw");
+  std::smatch marker;
+  BOOST_TEST_REQUIRE(std::regex_search(page, marker, std::regex("\n\\*-[0-9.]+ ([0-9]+) ")));
+  const std::string trace = kit::read_file(*this / "traces/system/demo.vcd");
+  const std::size_t instant = trace.find("\n#" + marker[1].str() + "\n");
+  BOOST_TEST_REQUIRE(instant != std::string::npos);
+  BOOST_TEST(trace.substr(instant, trace.find("\n#", instant + 1) - instant)
+                 .find("\nb" + std::string(32, '1') + " ") != std::string::npos);
   BOOST_TEST(kit::read_file(*this / "overflow.svg") ==
              kit::read_file(MARKERVP_SOURCE "/docs/images/overflow.svg"));
 }

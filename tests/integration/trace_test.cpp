@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
 #include "executable.h"
 
@@ -111,6 +112,48 @@ BOOST_AUTO_TEST_CASE(a_trace_converted_and_back_is_the_same) {
   }
 }
 
+// A trace from before the first frame: most checks find nothing to look at, which is no pass.
+BOOST_AUTO_TEST_CASE(checks_that_look_at_nothing_are_counted_apart) {
+  record({"z1.0", "--trace-window", "100us:101us"});
+  const kit::Outcome outcome = ask({"check", checks, "t.vcd"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.out);
+  BOOST_TEST(outcome.out.find("NOT EXERCISED end_word_before_result: at ps.cpu.results rises ") !=
+                 std::string::npos,
+             outcome.out);
+  BOOST_TEST(outcome.out.find("PASS end_word_before_result") == std::string::npos);
+  BOOST_TEST(outcome.out.find(" passed, 0 failed, ") != std::string::npos, outcome.out);
+  BOOST_TEST(outcome.out.find(" not exercised\n") != std::string::npos, outcome.out);
+  BOOST_TEST(ask({"check", checks, "t.vcd", "--require-exercised"}).exit_code == 1);
+  kit::write_file(*this / "one.checks", "one: never pl.feature_packaging.feature_overflow > 0\n");
+  const kit::Outcome good = ask({"check", "one.checks", "t.vcd", "--require-exercised"});
+  BOOST_TEST(good.exit_code == 0, good.out);
+  BOOST_TEST(good.out.find("1 passed, 0 failed\n") != std::string::npos, good.out);
+  kit::write_file(*this / "two.checks",
+                  "one: never pl.feature_packaging.feature_overflow > 0\ntwo: never nowhere\n");
+  BOOST_TEST(ask({"check", "two.checks", "t.vcd", "--skip-missing"}).exit_code == 0);
+  BOOST_TEST(
+      ask({"check", "two.checks", "t.vcd", "--skip-missing", "--require-exercised"}).exit_code ==
+      1);
+}
+
+BOOST_AUTO_TEST_CASE(a_trace_that_holds_nothing_is_not_said_to_be_written) {
+  for (const integration::Arguments& nothing :
+       {integration::Arguments{"--trace-window", "2s:3s"},
+        integration::Arguments{"--trace-trigger", "ps.cpu.frame == 77"}}) {
+    integration::Arguments arguments{"z1.0", "--no-pictures", "--trace", "t.vcd"};
+    arguments.insert(arguments.end(), nothing.begin(), nothing.end());
+    const kit::Outcome outcome = run(arguments);
+    BOOST_TEST(outcome.exit_code == 0, outcome.err);
+    BOOST_TEST(outcome.out.find("wrote out/result.json") != std::string::npos, outcome.out);
+    BOOST_TEST(outcome.out.find("t.vcd") == std::string::npos, outcome.out);
+    BOOST_TEST(outcome.err.find("no trace 't.vcd'") != std::string::npos, outcome.err);
+    BOOST_TEST(!std::filesystem::exists(*this / "t.vcd"));
+  }
+  const kit::Outcome outcome =
+      run({"z1.0", "--no-pictures", "--trace", "t.vcd", "--trace-window", "1us:2us"});
+  BOOST_TEST(outcome.out.find(", t.vcd\n") != std::string::npos, outcome.out);
+}
+
 /// Pixels of one colour in a PNG, by red, green, blue.
 std::size_t pixels_of(const std::string& file, const std::array<int, 3>& colour) {
   const cv::Mat picture = cv::imread(file, cv::IMREAD_COLOR);
@@ -127,11 +170,66 @@ std::size_t pixels_of(const std::string& file, const std::array<int, 3>& colour)
 constexpr std::array<int, 3> wave_green = {0, 255, 0}, dark_blue = {0, 0, 139},
                              dark_green = {0, 100, 0}, dark_red = {139, 0, 0};
 
+bool has_display() {
+  return std::filesystem::exists("/usr/bin/xvfb-run");
+}
+
+// What GTKWave itself says of the pages as they open.
+BOOST_AUTO_TEST_CASE(gtkwave_opens_where_there_is_something_to_see,
+                     *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
+                       return has_display();
+                     })) {
+  record({"z1.0", "--trace-window", "7995us:8005us"});
+  const auto opens_on = [&](const std::string& trace, const std::string& page) {
+    kit::write_file(*this / "p.tcl",
+                    "set f [open shown w]\nputs $f \"[gtkwave::getWindowStartTime] "
+                    "[gtkwave::getWindowEndTime] [gtkwave::getMarker]\"\nclose $f\n"
+                    "gtkwave::/File/Quit\n");
+    kit::run_process("/usr/bin/xvfb-run",
+                     {"-a", "-s", "-screen 0 1400x900x24", "gtkwave", "-S", "p.tcl", trace, page},
+                     path());
+    std::istringstream shown(kit::read_file(*this / "shown"));
+    std::array<double, 3> times{};
+    for (double& time : times) shown >> time;
+    BOOST_TEST_REQUIRE(!shown.fail());
+    return times;
+  };
+  BOOST_TEST_REQUIRE(ask({"gtkw", "t.vcd"}).exit_code == 0);
+  const auto whole = opens_on("t.vcd", "system.gtkw");
+  BOOST_TEST(whole[0] == 7995e6);
+  BOOST_TEST(whole[1] > 8004e6, "the whole trace");
+
+  // Traces of other tools count in other units: GTKWave's times are in ps, ns and ns.
+  kit::write_file(*this / "n.checks", "n: never pl.n == 20\n");
+  const struct {
+    const char* timescale;
+    const char *fails, *ends;
+    double us;
+  } traces[] = {{"1ps", "#8000000000", "#9000000000", 1e6},
+                {"1ns", "#8000000", "#9000000", 1e3},
+                {"10ns", "#800000", "#900000", 1e3}};
+  for (const auto& t : traces) {
+    BOOST_TEST_CONTEXT(t.timescale) {
+      kit::write_file(*this / "n.vcd",
+                      std::string("$timescale ") + t.timescale +
+                          " $end\n$scope module pl $end\n$var wire 10 ! n $end\n$upscope $end\n"
+                          "$enddefinitions $end\n#0\nb0 !\n" +
+                          t.fails + "\nb10100 !\n" + t.ends + "\n");
+      BOOST_TEST_REQUIRE(ask({"check", "n.checks", "n.vcd"}).exit_code == 1);
+      const auto failed = opens_on("n.vcd", "n.vcd.failed.gtkw");
+      BOOST_TEST(failed[2] == 8000 * t.us);
+      BOOST_TEST(failed[0] < failed[2] - 0.9 * t.us, "100 clocks before the marker");
+      BOOST_TEST(failed[1] > failed[2] + 0.9 * t.us, "and after it");
+      BOOST_TEST(failed[1] - failed[0] < 3 * t.us);
+    }
+  }
+}
+
 // Around the instant at which two corners arrive and a packet's interrupt is served. The boxes in
 // colours come from the translate files: function, feature, interrupt.
 BOOST_AUTO_TEST_CASE(gtkwave_shows_our_page_with_names_in_place_of_numbers,
                      *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
-                       return std::filesystem::exists("/usr/bin/xvfb-run");
+                       return has_display();
                      })) {
   record({"z1.0", "--trace-window", "7995us:8005us"});
   BOOST_TEST(ask({"gtkw", "t.vcd"}).exit_code == 0);

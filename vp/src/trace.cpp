@@ -81,8 +81,8 @@ Tracer::~Tracer() {
   }
 }
 
-void Tracer::close() {
-  if (!writer_) return;
+bool Tracer::close() {
+  if (!writer_) return false;
   const std::uint64_t now = scheduler_.now_ps();
   if (recording_) end_of_instant(now);
   if (recording_) write_falls_before(std::min(now + 1, options_.to_ps));
@@ -90,15 +90,17 @@ void Tracer::close() {
   leave_window();
   const auto writer = std::move(writer_);
   vcd_ = nullptr;
-  if (started_ && !writer->begun()) {
+  const bool has_begun = writer->begun();
+  if (started_ && !has_begun) {
     warn(*this, "/markervp/trace/window",
          "no trace '" + options_.file.string() + "': the run ended at " + std::to_string(now) +
              " ps, before its window began at " + std::to_string(options_.from_ps) + " ps");
   }
-  const bool has_begun = writer->begun();
   writer->close(std::min(now, options_.to_ps));
+  const bool wrote = has_begun && (!gate_ || gate_->kept() != 0);
   if (gate_ && has_begun) warn_of_gate();
   gate_ = nullptr;
+  return wrote;
 }
 
 void Tracer::warn_of_gate() const {

@@ -7,13 +7,19 @@
 
 namespace {
 
-/// "" if it passes, else "30 ns: detail" of the first failure.
-std::string verdict(const std::string& check, const std::string& changes) {
+platform::trace::CheckResult judge(const std::string& check, const std::string& changes) {
   const Waves waves("a 1, b 8, c 1", changes);
   kit::write_file(waves / "x.checks", check + "\n");
   const auto checks = platform::trace::read_checks(waves / "x.checks");
   platform::trace::TraceFile file(waves.file);
-  const auto result = run_checks(file, checks, "x.checks", false).front();
+  auto result = run_checks(file, checks, "x.checks", false).front();
+  result.check = nullptr;  // it goes with `checks`
+  return result;
+}
+
+/// "" if it passes, else "30 ns: detail" of the first failure.
+std::string verdict(const std::string& check, const std::string& changes) {
+  const auto result = judge(check, changes);
   if (result.failures == 0) return "";
   return std::to_string(result.first_ps / 1000) + " ns: " + result.detail;
 }
@@ -34,6 +40,51 @@ BOOST_AUTO_TEST_CASE(always_and_never) {
              "what changes together is seen together");
   BOOST_TEST(verdict("n: never a and b == 3", "#0 1! b0 \"\n#10 b11 \"\n") == "10 ns: it holds");
   BOOST_TEST(verdict("n: never a", "#0 x!\n#10 0!\n") == "", "unknown is no failure");
+}
+
+// How often each kind had something to judge; never: it is not exercised.
+BOOST_AUTO_TEST_CASE(occasions) {
+  const struct {
+    const char *check, *changes;
+    std::uint64_t occasions;
+  } cases[] = {
+      {"n: always b <= 3", "#0 bx \"\n#10 b1 \"\n#20 b10 \"\n#30\n", 2},
+      {"n: always b <= 3", "#0 bx \"\n#10 0!\n#20\n", 0},
+      {"n: never a", "#0 x!\n#10 x!\n#20\n", 0},
+      {"n: at a rises holds b == 7", "#0 0! b111 \"\n#10 1!\n#20 0!\n#30 1!\n#40\n", 2},
+      {"n: at a rises holds b == 7", "#0 1! b0 \"\n#10 0!\n#20\n", 0},
+      {"n: at b changes holds a", "#0 1! b0 \"\n#10 b1 \"\n#20 b10 \"\n#30\n", 2},
+      {"n: within 20 ns of a rises holds c", "#0 0! 0#\n#10 1!\n#20 1#\n#30\n", 1},
+      {"n: within 20 ns of a rises holds c", "#0 0! 1#\n#10 0#\n#20\n", 0},
+      {"n: within 20 ns of a rises holds c", "#0 0! 0#\n#10 1!\n#20 0!\n#30\n", 0},
+      {"n: stable b while a", "#0 1! b1 \"\n#10 0!\n#20 b10 \"\n#30\n", 1},
+      {"n: stable b while a", "#0 0! b1 \"\n#10 b10 \"\n#20\n", 0},
+      {"n: stable b while a", "#0 1! b1 \"\n#10\n", 1},
+      {"n: stable b while a", "#0 0! b1 \"\n#10 1!\n", 0},
+      {"n: increases b when a", "#0 0! b0 \"\n#10 1!\n#20 b1 \"\n#30\n", 2},
+      {"n: increases b when a", "#0 0! b0 \"\n#10 b1 \"\n#30\n", 0},
+      {"n: bursts of 2 beats a last c", "#0 1! 0#\n#10 1#\n#20 0! 0#\n#40\n", 1},
+      {"n: bursts of 2 beats a last c", "#0 0! 0#\n#10 1#\n#20 0#\n#40\n", 0},
+      {"n: bursts of 2 beats a last c", "#0 1! 0#\n#10 0!\n#20 1#\n#40\n", 0},
+  };
+  for (const auto& c : cases) {
+    BOOST_TEST_CONTEXT(c.check << " in " << c.changes) {
+      const auto result = judge(c.check, c.changes);
+      BOOST_TEST(result.failures == 0u);
+      BOOST_TEST(result.occasions == c.occasions);
+      BOOST_TEST(result.exercised() == (c.occasions != 0));
+    }
+  }
+  BOOST_TEST(judge("n: never a", "#0 1!\n#10\n").exercised(), "what fails has looked");
+}
+
+BOOST_AUTO_TEST_CASE(failures_are_counted_each_once) {
+  BOOST_TEST(judge("n: never a and b > 0", "#0 1! b1 \"\n#10 b10 \"\n#20 b11 \"\n").failures == 1u,
+             "while it stays wrong");
+  BOOST_TEST(judge("n: never a", "#0 1!\n#10 0!\n#20 1!\n#30\n").failures == 2u);
+  BOOST_TEST(judge("n: within 20 ns of a rises holds c",
+                   "#0 0! 0#\n#10 1!\n#12 0!\n#15 1!\n#40 0!\n#50 b1 \"\n#60\n")
+                 .failures == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(at) {

@@ -169,6 +169,49 @@ BOOST_AUTO_TEST_CASE(a_plot_shows_names_values_and_what_is_unknown) {
   }
 }
 
+/// The line of a save file with this beginning.
+std::string line_of(const std::string& page, const std::string& begin) {
+  const auto at = page.find("\n" + begin);
+  return at == std::string::npos ? "" : page.substr(at + 1, page.find('\n', at + 1) - at - 1);
+}
+
+// GTKWave's zoom is -log2 of the time that 200 pixels show; 840 pixels show waves here.
+BOOST_AUTO_TEST_CASE(a_save_file_opens_on_its_window) {
+  SaveFile page;
+  page.start_ps = 1'000'000;
+  page.end_ps = page.start_ps + 840 * 1024;
+  page.marker_ps = 1'500'000;
+  const std::string text = save_file_text(page);
+  BOOST_TEST(line_of(text, "[timestart]") == "[timestart] 1000000");
+  BOOST_TEST(line_of(text, "*").find("*-17.643856 1500000 -1 -1") == 0u, line_of(text, "*"));
+  page.marker_ps.reset();
+  BOOST_TEST(line_of(save_file_text(page), "*").find("*-17.643856 -1 -1 -1") == 0u);
+  page.end_ps = page.start_ps;
+  BOOST_TEST(line_of(save_file_text(page), "*").find("*2.0") == 0u, "as near as one step");
+}
+
+// Its numbers are in the unit that the trace counts in; 100 ps are ps, too.
+BOOST_AUTO_TEST_CASE(a_save_file_counts_as_its_trace) {
+  const struct {
+    std::uint64_t timescale_fs;
+    const char *start, *zoom;
+  } cases[] = {{1, "[timestart] 1000000000", "*-27.609640 1500000000 "},
+               {1'000, "[timestart] 1000000", "*-17.643856 1500000 "},
+               {100'000, "[timestart] 1000000", "*-17.643856 1500000 "},
+               {1'000'000, "[timestart] 1000", "*-7.678072 1500 "},
+               {10'000'000, "[timestart] 1000", "*-7.678072 1500 "}};
+  for (const auto& c : cases) {
+    SaveFile page;
+    page.start_ps = 1'000'000;
+    page.end_ps = page.start_ps + 840 * 1024;
+    page.marker_ps = 1'500'000;
+    page.timescale_fs = c.timescale_fs;
+    const std::string text = save_file_text(page);
+    BOOST_TEST(line_of(text, "[timestart]") == c.start);
+    BOOST_TEST(line_of(text, "*").find(c.zoom) == 0u, line_of(text, "*"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
   const Waves waves(
       "ps.cpu.function 32, ps.cpu.function_name string, ps.gic.active 10, "

@@ -64,7 +64,10 @@ BOOST_AUTO_TEST_CASE(signals_of_the_trigger_are_traced_whatever_the_filter_says)
 }
 
 BOOST_AUTO_TEST_CASE(no_such_frame_no_file) {
-  BOOST_CHECK_THROW(kept("fast.count == 77"), std::runtime_error);  // there is none to read
+  options.trigger->condition = vp::WaveExpression("fast.count == 77");
+  Platform platform(options);
+  sc_core::sc_start(sc_core::sc_time(200, sc_core::SC_NS));
+  BOOST_TEST(!platform.tracer.close());
   BOOST_TEST(folder.entries().empty());
 }
 
@@ -87,7 +90,7 @@ BOOST_AUTO_TEST_CASE(a_small_buffer_gives_up_the_beginning) {
     sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_NS));
     platform.slow.count = static_cast<std::uint8_t>(i % 16);
   }
-  platform.tracer.close();
+  BOOST_TEST(platform.tracer.close());
   const WaveText text(options.file.string());
   BOOST_TEST(text.lines.size() < 600'000u);
   BOOST_TEST(text.end_ps == 601'000'000u);

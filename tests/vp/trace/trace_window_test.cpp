@@ -69,8 +69,9 @@ BOOST_AUTO_TEST_CASE(after_the_window_nobody_listens_any_more) {
   const std::uint64_t edges = platform.fast_clock.edges_run();
   sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
   BOOST_TEST(platform.fast_clock.edges_run() == edges);
-  platform.tracer.close();
+  BOOST_TEST(platform.tracer.close());
   BOOST_TEST(VcdCheck(text()).end_ps() == 20'000u);
+  BOOST_TEST(!platform.tracer.close(), "a second time there is nothing to write");
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_before_the_window_leaves_no_file_and_says_so) {
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_before_the_window_leaves_no_file_and_says_s
   vp::ReportRouter router;
   router.redirect(console);
   sc_core::sc_start(sc_core::sc_time(40, sc_core::SC_NS));
-  platform.tracer.close();
+  BOOST_TEST(!platform.tracer.close());
   BOOST_TEST(router.count("/markervp/trace/window") == 1u);
   BOOST_TEST(folder.entries().size() == 0u);
 }

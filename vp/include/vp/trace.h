@@ -64,9 +64,10 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
 
   /// Ends the trace and gives the file its name. Call it when the run is over, also after an error
   /// (what was traced until then is a complete file), while the platform still stands. Throws
-  /// InputError if the file could not be written; then no file is left. Warns if the run ended
-  /// before the window began, and if no frame held what the trigger waits for.
-  void close();
+  /// InputError if the file could not be written; then no file is left. False if nothing was
+  /// written, with a warning: the run ended before the window began, or no frame held what the
+  /// trigger waits for.
+  bool close();
 
   /// Signals, probes and clocks in the trace; known when the simulation has started.
   std::size_t size() const { return values_.size(); }
