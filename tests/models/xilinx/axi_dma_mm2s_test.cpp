@@ -144,6 +144,20 @@ BOOST_FIXTURE_TEST_CASE(unaligned_address_with_realignment, DreBench) {
   }
 }
 
+// A beat needs the word in which its last byte lies: the first one waits for two of three words.
+BOOST_FIXTURE_TEST_CASE(an_unaligned_burst_takes_a_beat_for_each_word_it_touches, DreBench) {
+  xilinx::MemoryPath path;
+  dma.share_memory_path(path);
+  software.simulate([&] {
+    start_mm2s(memory_base + 3, 8);
+    first_edge([&] { return status(MM2S_DMASR, dmasr::IOC_Irq); });
+  });
+  BOOST_REQUIRE(sink.beats.size() == 2u);
+  BOOST_TEST(sink.beats[0].cycle == first_data + 2);
+  BOOST_TEST(sink.beats[1].cycle == first_data + 3);
+  BOOST_TEST(path.read_free == first_data + 3);
+}
+
 BOOST_FIXTURE_TEST_CASE(back_pressure_loses_nothing, Mm2sBench) {
   sink.ready_on = [](std::uint64_t cycle) { return cycle % 5 == 0; };
   software.simulate([&] {
@@ -227,7 +241,7 @@ BOOST_FIXTURE_TEST_CASE(address_is_sampled_two_clocks_after_length, Mm2sBench) {
     start_mm2s(memory_base, 4);
     at(1);
     write(MM2S_SA, memory_base + 0x10);
-    at(3);
+    at(2);
     write(MM2S_SA, memory_base + 0x20);
     at(200);
   });
@@ -356,8 +370,13 @@ BOOST_FIXTURE_TEST_CASE(soft_reset_in_the_middle_of_a_transfer, Mm2sBench) {
 BOOST_FIXTURE_TEST_CASE(memory_without_direct_access_is_reached_by_transactions, Mm2sBench) {
   memory.allow_dmi = false;
   memory.latency = sc_core::sc_time(1, sc_core::SC_US);
+  xilinx::MemoryPath path;
+  dma.share_memory_path(path);
   software.simulate([&] {
     start_mm2s(memory_base, 256);
+    at(11 + 100 + 1);
+    scheduler.synchronise();
+    BOOST_TEST(path.read_free == 11u + 100 + 1 + 32, "from when the data was there");
     BOOST_TEST(first_edge([&] { return status(MM2S_DMASR, dmasr::IOC_Irq); }) > 0u);
   });
   expect_words(0, 64);
@@ -367,6 +386,42 @@ BOOST_FIXTURE_TEST_CASE(memory_without_direct_access_is_reached_by_transactions,
   BOOST_TEST(sink.beats[0].cycle == 11u + 100 + 1 + 1);
   BOOST_TEST(mm2s_bursts.bursts.empty());
   BOOST_TEST(dma.mm2s().m_axi.link.reads == 2u);
+}
+
+// Four bursts are requested on four edges; the fifth when the data of the first arrives.
+BOOST_FIXTURE_TEST_CASE(four_bursts_are_requested_ahead, Mm2sBench) {
+  const auto requested = [&](std::uint64_t edge) {
+    at(edge);
+    scheduler.synchronise();
+    return mm2s_bursts.bursts.size();
+  };
+  software.simulate([&] {
+    start_mm2s(memory_base, 1024);
+    for (std::uint64_t n = 0; n < 4; ++n) BOOST_TEST(requested(11 + n) == n + 1);
+    BOOST_TEST(requested(first_data - 1) == 4u);
+    BOOST_TEST(requested(first_data) == 5u);
+  });
+}
+
+BOOST_FIXTURE_TEST_CASE(a_soft_reset_waits_for_the_burst_on_the_bus, Mm2sBench) {
+  software.simulate([&] {
+    start_mm2s(memory_base, 128);
+    at(first_data + 3);
+    write(MM2S_DMACR, dmacr::Reset);
+    BOOST_TEST(first_edge([&] { return !status(MM2S_DMACR, dmacr::Reset); }) ==
+               first_data + 32 + 8);
+  });
+}
+
+BOOST_FIXTURE_TEST_CASE(keyhole_reads_every_burst_from_one_address, Mm2sBench) {
+  software.simulate([&] {
+    write(MM2S_DMACR, dmacr::RS | dmacr::Keyhole);
+    write(MM2S_SA, memory_base + 0x40);
+    write(MM2S_LENGTH, 192);
+    at(300);
+  });
+  BOOST_REQUIRE(mm2s_bursts.bursts.size() > 1u);
+  for (const auto& burst : mm2s_bursts.bursts) BOOST_TEST(burst.first == memory_base + 0x40);
 }
 
 BOOST_FIXTURE_TEST_CASE(keyhole_reads_one_address, Mm2sBench) {

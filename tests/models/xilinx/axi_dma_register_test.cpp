@@ -123,6 +123,72 @@ BOOST_FIXTURE_TEST_CASE(halted_follows_run_two_clocks_later, DmaBench) {
   });
 }
 
+// RS written once more moves nothing, and RS written again in time takes the halt back.
+BOOST_FIXTURE_TEST_CASE(run_written_again, DmaBench) {
+  software.simulate([&] {
+    for (const Channel& c : channels) {
+      const std::uint64_t start = clock.cycle() + 10;
+      at(start);
+      write(c.control, dmacr::RS);
+      at(start + 1);
+      write(c.control, dmacr::RS);
+      BOOST_TEST(read(c.status) == dmasr::Halted);
+      BOOST_TEST(read_at(start + 2, c.status) == 0u);
+      at(start + 10);
+      write(c.control, 0);
+      at(start + 11);
+      write(c.control, dmacr::RS);
+      BOOST_TEST(read_at(start + 12, c.status) == 0u);
+      BOOST_TEST(read_at(start + 20, c.status) == 0u);
+    }
+  });
+}
+
+// The pin drops the burst on the bus: nothing of it delays what comes.
+BOOST_FIXTURE_TEST_CASE(after_the_reset_pin_a_soft_reset_has_nothing_to_wait_for, DmaBench) {
+  software.simulate([&] {
+    start_mm2s(memory_base, 128);
+    at(40);  // the burst's data is on the bus until 69
+    resetn = false;
+    at(42);
+    resetn = true;
+    const std::uint64_t now = clock.cycle();
+    write(MM2S_DMACR, dmacr::Reset);
+    BOOST_TEST(first_edge([&] { return !status(MM2S_DMACR, dmacr::Reset); }) == now + 1 + 8);
+  });
+}
+
+// MM2S runs before S2MM on an edge, and learns of its error on the next.
+BOOST_FIXTURE_TEST_CASE(an_error_of_s2mm_halts_mm2s_at_an_exact_time, DmaBench) {
+  send_packet(4);
+  software.simulate([&] {
+    write(MM2S_DMACR, dmacr::RS);
+    start_s2mm(memory_base, 8);
+    const std::uint64_t failed = first_edge([&] { return status(S2MM_DMASR, dmasr::Err_Irq); });
+    BOOST_TEST(read_at(failed + 2, MM2S_DMASR) == 0u);
+    BOOST_TEST(read_at(failed + 3, MM2S_DMASR) == dmasr::Halted);
+  });
+}
+
+BOOST_FIXTURE_TEST_CASE(a_halt_takes_idle_away, DmaBench) {
+  send_packet(4);
+  software.simulate([&] {
+    start_mm2s(memory_base, 16);
+    start_s2mm(memory_base + 0x100, 16);
+    at(300);
+    for (const Channel& c : channels) {
+      BOOST_TEST(read(c.status) == (dmasr::Idle | dmasr::IOC_Irq));
+      write(c.status, dmasr::IOC_Irq);
+      const std::uint64_t halt = clock.cycle();
+      write(c.control, 0);
+      BOOST_TEST(read_at(halt + 1, c.status) == dmasr::Idle);
+      BOOST_TEST(read_at(halt + 2, c.status) == dmasr::Halted);
+      write(c.control, dmacr::RS);
+      BOOST_TEST(read_at(halt + 10, c.status) == 0u, "no transfer since it runs again");
+    }
+  });
+}
+
 BOOST_AUTO_TEST_CASE(a_channel_that_is_not_built_reads_0) {
   for (const bool mm2s : {true, false}) {
     DmaBench bench(only(mm2s));

@@ -84,6 +84,18 @@ BOOST_FIXTURE_TEST_CASE(one_burst_at_exact_times, S2mmBench) {
   BOOST_TEST(reports.count(sc_core::SC_WARNING) == 0u);
 }
 
+// The second burst is ready when the first one is written, and keeps the gap.
+BOOST_FIXTURE_TEST_CASE(two_bursts_at_exact_times, S2mmBench) {
+  constexpr std::uint64_t gap = 10;
+  send_packet(64);
+  software.simulate([&] {
+    start_s2mm(memory_base, 256);
+    BOOST_TEST(wait_for(dmasr::IOC_Irq) ==
+               to_ready + 32 + write_latency + 32 + gap + 32 + response);
+  });
+  expect_words(0, 64);
+}
+
 BOOST_FIXTURE_TEST_CASE(throughput_of_10000_bytes, S2mmBench) {
   std::uint64_t done = 0;
   send_packet(2500);
@@ -236,6 +248,19 @@ BOOST_FIXTURE_TEST_CASE(unaligned_address_with_realignment, DreBench) {
   BOOST_TEST(s2mm_bursts.bursts.size() == 2u, "a burst boundary lies inside");
 }
 
+// Eight bytes from the last one of a word on touch three words: so many beats are on the bus.
+BOOST_FIXTURE_TEST_CASE(an_unaligned_burst_takes_a_beat_for_each_word_it_touches, DreBench) {
+  xilinx::MemoryPath path;
+  dma.share_memory_path(path);
+  send_packet(2);
+  software.simulate([&] {
+    start_s2mm(memory_base + 3, 8);
+    const std::uint64_t address = to_ready + 2 + write_latency;
+    BOOST_TEST(wait_for(dmasr::IOC_Irq) == address + 3 + response);
+    BOOST_TEST(path.write_free == address + 3);
+  });
+}
+
 BOOST_FIXTURE_TEST_CASE(unaligned_address_without_realignment, S2mmBench) {
   send_packet(2);
   software.simulate([&] {
@@ -360,6 +385,19 @@ BOOST_FIXTURE_TEST_CASE(keyhole_writes_one_address, S2mmBench) {
   });
   BOOST_TEST(memory.word(0x40) == 0x1007u);
   BOOST_TEST(memory.word(0x44) == 0xEEEEEEEEu);
+}
+
+BOOST_FIXTURE_TEST_CASE(keyhole_writes_in_bursts_of_the_usual_size, S2mmBench) {
+  send_packet(80);
+  software.simulate([&] {
+    write(S2MM_DMACR, dmacr::RS | dmacr::Keyhole);
+    write(S2MM_DA, memory_base + 0x40);
+    write(S2MM_LENGTH, 320);
+    wait_for(dmasr::IOC_Irq);
+  });
+  using Bursts = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+  const Bursts expected{{0x10000040, 128}, {0x10000040, 128}, {0x10000040, 64}};
+  BOOST_TEST((s2mm_bursts.bursts == expected));
 }
 
 BOOST_FIXTURE_TEST_CASE(both_channels_at_once, S2mmBench) {

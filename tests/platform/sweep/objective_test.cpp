@@ -2,6 +2,8 @@
 #include <sweep/pareto.h>
 #include <sweep/sensitivity.h>
 
+#include <utility>
+
 #include "sweep_kit.h"
 
 using namespace platform::sweep;
@@ -50,6 +52,54 @@ BOOST_AUTO_TEST_CASE(fronts_are_peeled_one_by_one) {
   const std::vector<std::size_t> front =
       fronts({{1, 1}, {2, 2}, {3, 3}, {2, 4}, {2, 2}}, {true, false});
   BOOST_TEST(front == (std::vector<std::size_t>{1, 1, 1, 2, 1}), boost::test_tools::per_element());
+}
+
+// A point loses to one that is better in one objective and equal in the others.
+BOOST_AUTO_TEST_CASE(equal_in_one_objective_and_better_in_another_dominates) {
+  using Fronts = std::vector<std::size_t>;
+  BOOST_TEST(fronts({{1, 1}, {1, 2}}, {true, true}) == (Fronts{2, 1}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{1, 1}, {1, 2}}, {true, false}) == (Fronts{1, 2}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{5, 1}, {4, 1}, {3, 1}}, {false, true}) == (Fronts{3, 2, 1}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{1, 1}, {1, 1}}, {true, true}) == (Fronts{1, 1}),
+             boost::test_tools::per_element());
+}
+
+// The two ends of a front are equally far from the best of everything.
+BOOST_AUTO_TEST_CASE(of_equally_good_knees_the_first_is_taken) {
+  Results results = example();
+  results.rows.resize(2);  // (50, 1 W) and (100, 1.1 W)
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 0u);
+  std::swap(results.rows[0], results.rows[1]);
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(the_table_of_a_front_grows_in_its_first_objective) {
+  Results results = example();
+  std::swap(results.rows[0], results.rows[2]);
+  const std::string table =
+      pareto_table(results, fps_and_watts(), rank(results, fps_and_watts(), {}));
+  BOOST_TEST(table.find("50 MHz") < table.find("100 MHz"), table);
+  BOOST_TEST(table.find("100 MHz") < table.find("150 MHz"), table);
+  BOOST_TEST(table.find("200 MHz") == std::string::npos, "not on the front");
+}
+
+// Distances are in parts of what the front spans: 40 of 100 frames/s away is nearer than 0.5 of
+// 1 W.
+BOOST_AUTO_TEST_CASE(the_knee_measures_in_parts_of_the_front) {
+  Results results = example();
+  const double fps[] = {100, 160, 200, 140}, watts[] = {1, 1.4, 2, 1.35};
+  for (int i = 0; i < 4; ++i) {
+    results.rows[i].metrics = {{"fps", fps[i]}, {"watts", watts[i]}, {"same", 7}};
+  }
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points[3].front == 1u);
+  BOOST_TEST(pareto.knee.value() == 1u);
+  std::vector<Objective> objectives = fps_and_watts();
+  objectives.emplace_back("max same", "here");
+  BOOST_TEST(rank(results, objectives, {}).knee.value() == 1u, "what is equal everywhere");
 }
 
 BOOST_AUTO_TEST_CASE(the_knee_is_near_the_best_of_everything) {

@@ -57,6 +57,26 @@ BOOST_AUTO_TEST_CASE(a_link) {
   BOOST_TEST(n.whole("waits", 1, "wait_cycles") == 3u);
 }
 
+// tlast stands for three beats: each is a packet of its own.
+BOOST_AUTO_TEST_CASE(packets_of_one_beat) {
+  const Waves waves(link_signals, "#0 0! 0\" 0# b0 $\n#10 1! 1\" 1#\n#40 0! 0\" 0#\n#60\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("links", 0, "beats") == 3u);
+  BOOST_TEST(n.whole("links", 0, "packets") == 3u);
+  BOOST_TEST(n.whole("bursts", 0, "beats") == 1u);
+  BOOST_TEST(n.whole("bursts", 0, "bursts") == 3u);
+}
+
+// Two stalls of two edges each, from 10 and from 40 on.
+BOOST_AUTO_TEST_CASE(of_equally_long_stalls_the_first_is_told) {
+  const Waves waves(link_signals,
+                    "#0 0! 0\" 0# b0 $\n#10 1!\n#30 1\"\n#40 0\"\n#60 1\"\n#70 0! 0\"\n#90\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("links", 0, "stalls") == 4u);
+  BOOST_TEST(n.whole("links", 0, "longest_stall_cycles") == 2u);
+  BOOST_TEST(n.real("links", 0, "longest_stall_at_us") == 0.01, boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(the_clocks_wire_counts_if_it_is_there) {
   const Waves waves("pl.s.tvalid 1, pl.s.tready 1, ps.fclk_clk0.clk 1",
                     "#0 0! 1\" 0#\n#7 1! 1#\n#9 0#\n#21 1#\n#22 0#\n#50 1# 0!\n#60\n");
@@ -77,12 +97,66 @@ BOOST_AUTO_TEST_CASE(a_buffer_with_its_overflow) {
   const Numbers n(waves);
   BOOST_TEST(n.whole("buffers", 0, "depth") == 2u);
   BOOST_TEST(n.whole("buffers", 0, "high_water") == 2u);
+  BOOST_TEST(n.real("buffers", 0, "high_water_at_us") == 0.03, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("buffers", 0, "first_full_at_us") == 0.03, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(n.real("buffers", 0, "full_us") == 0.03, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(n.real("buffers", 0, "empty_us") == 0.05, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(n.real("buffers", 0, "mean") == 0.8, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(n.whole("overflows", 0, "lost") == 3u);
   BOOST_TEST(std::get<double>(n.at("overflows", 0, "first_at_us")) == 0.04,
              boost::test_tools::tolerance(1e-9));
+}
+
+// The level reaches 3 at 20 and again at 60: the first time counts. 64 deep, as the trace does not
+// say.
+BOOST_AUTO_TEST_CASE(a_high_water_mark_has_the_time_of_its_first) {
+  const Waves waves("pl.axi_threshold_bridge.fifo_count 16",
+                    "#0 b0 !\n#10 b10 !\n#20 b11 !\n#30 b1 !\n#60 b11 !\n#80 b0 !\n#100\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.whole("buffers", 0, "depth") == 64u);
+  BOOST_TEST(n.whole("buffers", 0, "high_water") == 3u);
+  BOOST_TEST(n.real("buffers", 0, "high_water_at_us") == 0.02, same);
+  BOOST_TEST(std::get<std::string>(n.at("buffers", 0, "first_full_at_us")) == "never");
+  BOOST_TEST(n.real("buffers", 0, "full_us") == 0.0);
+  BOOST_TEST(n.real("buffers", 0, "empty_us") == 0.03, same);
+  BOOST_TEST(n.real("buffers", 0, "mean") == 1.4, same);
+  const double us[] = {0.03, 0.03, 0.01, 0.03};  // at level 0, 1, 2 and 3
+  for (std::size_t level = 0; level < 4; ++level) {
+    BOOST_TEST(n.whole("occupancy", level, "level") == level);
+    BOOST_TEST(n.real("occupancy", level, "us") == us[level], same);
+    BOOST_TEST(n.real("occupancy", level, "percent") == 1000 * us[level], same);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_buffer_is_full_again_but_was_so_first) {
+  const Waves waves("pl.feature_packaging.blob_count 16, pl.feature_packaging.depth 17",
+                    "#0 b0 ! b10 \"\n#10 b10 !\n#20 b1 !\n#30 b10 !\n#40 b0 !\n#50\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.real("buffers", 0, "first_full_at_us") == 0.01, same);
+  BOOST_TEST(n.real("buffers", 0, "full_us") == 0.02, same);
+}
+
+BOOST_AUTO_TEST_CASE(a_buffer_without_depth_in_the_trace_has_the_usual_one) {
+  const Waves waves(
+      "pl.feature_packaging.corner_count 16, pl.feature_packaging.blob_count 16, "
+      "pl.axi_threshold_bridge.fifo_count 16",
+      "#0 b0 ! b0 \" b0 #\n#10\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("buffers", 0, "depth") == 100u);
+  BOOST_TEST(n.whole("buffers", 1, "depth") == 100u);
+  BOOST_TEST(n.whole("buffers", 2, "depth") == 64u);
+}
+
+// Two were lost before the trace began, one more at 20; a new frame clears the counter at 40, then
+// two more are lost at 60.
+BOOST_AUTO_TEST_CASE(what_a_counter_shows_at_first_was_not_lost_in_the_trace) {
+  const Waves waves("pl.clock_crossing.crossing_overflow 32",
+                    "#0 b10 !\n#20 b11 !\n#40 b0 !\n#60 b10 !\n#80\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("overflows", 0, "lost") == 3u);
+  BOOST_TEST(n.real("overflows", 0, "first_at_us") == 0.02, boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(interrupts_from_line_to_acknowledgement) {
@@ -93,6 +167,60 @@ BOOST_AUTO_TEST_CASE(interrupts_from_line_to_acknowledgement) {
   BOOST_TEST(n.whole("interrupts", 0, "served") == 2u);
   BOOST_TEST(n.real("interrupts", 0, "min_us") == 0.005, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(n.real("interrupts", 0, "max_us") == 0.015, boost::test_tools::tolerance(1e-9));
+}
+
+// The second line rises before the first is served; the first one's latencies are 15, 5 and 15 ns;
+// the third line is high when the trace begins.
+BOOST_AUTO_TEST_CASE(interrupts_are_told_apart_by_their_number) {
+  const Waves waves(
+      "pl.axi_dma_0.mm2s_introut 1, pl.axi_dma_1.s2mm_introut 1, ps.private_timer.irq 1, "
+      "ps.gic.active 10",
+      "#0 0! 0\" 1# b1111111111 $\n#10 1!\n#12 1\"\n#25 b111101 $\n#30 b111110 $\n"
+      "#32 0! 0\" b1111111111 $\n#40 1!\n#45 b111101 $\n#50 0! b1111111111 $\n#60 1!\n"
+      "#75 b111101 $\n#90\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.whole("interrupts", 0, "raised") == 3u);
+  BOOST_TEST(n.whole("interrupts", 0, "served") == 3u);
+  BOOST_TEST(n.real("interrupts", 0, "min_us") == 0.005, same);
+  BOOST_TEST(n.real("interrupts", 0, "mean_us") == 0.035 / 3, same);
+  BOOST_TEST(n.real("interrupts", 0, "max_us") == 0.015, same);
+  BOOST_TEST(n.real("interrupts", 0, "max_at_us") == 0.01, same);
+  BOOST_TEST(n.whole("interrupts", 1, "served") == 1u);
+  BOOST_TEST(n.real("interrupts", 1, "min_us") == 0.018, same);
+  BOOST_TEST(n.real("interrupts", 1, "max_at_us") == 0.012, same);
+  BOOST_TEST(n.whole("interrupts", 2, "raised") == 0u);
+}
+
+// Rates go from result to result without the upload: 50 ns, then 30 ns of which 5 are the upload's.
+BOOST_AUTO_TEST_CASE(rate_and_latency_of_two_frames) {
+  const Waves waves(
+      "ps.cpu.frame 32, ps.cpu.results 32, ps.cpu.function 32, ps.cpu.function_name string, "
+      "pl.control_block.ena 1, pl.feature_packaging.feature 32",
+      "#0 b0 ! b0 \" b0 # s $ 0% b0 &\n#10 b1 !\n#20 1%\n#30 b10000000000000000000000000000001 &\n"
+      "#31 b0 &\n#32 b10000000000000000000000000000001 &\n#70 b10 ! b1 \"\n"
+      "#72 b1 # supload $\n#77 b0 # s $ 0%\n#80 1%\n#100 b10 \"\n#110\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.whole("summary", 0, "frames") == 2u);
+  BOOST_TEST(n.real("summary", 0, "fps_mean") == 2 / 75e-9, same);
+  BOOST_TEST(n.real("summary", 0, "latency_mean_us") == 0.035, same);
+  BOOST_TEST(n.real("summary", 0, "latency_max_us") == 0.05, same);
+  BOOST_TEST(n.whole("frames", 0, "feature_words") == 2u, "0 is what a reset shows");
+}
+
+// Without the PL a frame begins with `capture`.
+BOOST_AUTO_TEST_CASE(stages_of_a_frame_that_software_captures) {
+  const Waves waves(
+      "ps.cpu.frame 32, ps.cpu.results 32, ps.cpu.function 32, ps.cpu.function_name string",
+      "#0 b0 ! b0 \" b0 # s $\n#10 b1 !\n#20 b1 # scapture $\n#40 b0 # s $\n"
+      "#50 b10 # sfeature_evaluation $\n#60 b0 # s $\n#70 b1 \"\n#80\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.real("stages", 0, "feature_extraction_us") == 0.03, same);
+  BOOST_TEST(n.real("stages", 0, "evaluation_us") == 0.01, same);
+  BOOST_TEST(n.real("stages", 0, "identification_us") == 0.01, same);
+  BOOST_TEST(n.real("stages", 0, "latency_us") == 0.05, same);
 }
 
 BOOST_AUTO_TEST_CASE(frames_words_and_functions) {

@@ -1,7 +1,9 @@
 #include <vp/unit.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <clocale>
+#include <iterator>
 
 #include "input_error.h"
 
@@ -27,38 +29,75 @@ std::string printed(const char* text, Unit unit) {
 
 BOOST_AUTO_TEST_SUITE(unit)
 
+/// How much each spelling of a unit is in the base unit.
+struct Spelling {
+  Unit unit;
+  const char *text, *value;
+};
+constexpr Spelling spellings[] = {
+    {Unit::frequency, "7 Hz", "7"},
+    {Unit::frequency, "7 kHz", "7000"},
+    {Unit::frequency, "50 MHz", "50000000"},
+    {Unit::frequency, "1.2 GHz", "1200000000"},
+    {Unit::time, "3 ps", "3"},
+    {Unit::time, "60 ns", "60000"},
+    {Unit::time, "6144.6 us", "6144600000"},
+    {Unit::time, "1 \u00b5s", "1000000"},
+    {Unit::time, "1 \u03bcs", "1000000"},
+    {Unit::time, "5 ms", "5000000000"},
+    {Unit::time, "2 s", "2000000000000"},
+    {Unit::bytes, "64 B", "64"},
+    {Unit::bytes, "1.5 KiB", "1536"},
+    {Unit::bytes, "8 MiB", "8388608"},
+    {Unit::bytes, "1 GiB", "1073741824"},
+    {Unit::pixels, "24 px", "24"},
+    {Unit::length, "2.2 um", "0.0000022"},
+    {Unit::length, "2.2 \u00b5m", "0.0000022"},
+    {Unit::length, "2.2 \u03bcm", "0.0000022"},
+    {Unit::length, "60 mm", "0.06"},
+    {Unit::length, "0.3 m", "0.3"},
+    {Unit::power, "7 uW", "0.000007"},
+    {Unit::power, "7 \u00b5W", "0.000007"},
+    {Unit::power, "7 \u03bcW", "0.000007"},
+    {Unit::power, "300 mW", "0.3"},
+    {Unit::power, "1.5 W", "1.5"},
+    {Unit::energy, "20 pJ", "2e-11"},
+    {Unit::energy, "20 nJ", "2e-8"},
+    {Unit::energy, "20 uJ", "0.00002"},
+    {Unit::energy, "20 \u00b5J", "0.00002"},
+    {Unit::energy, "20 \u03bcJ", "0.00002"},
+    {Unit::energy, "20 mJ", "0.02"},
+    {Unit::energy, "2 J", "2"},
+    {Unit::voltage, "900 mV", "0.9"},
+    {Unit::voltage, "1 V", "1"},
+    {Unit::cycles, "12 cycles", "12"},
+    {Unit::cycles, "1 cycle", "1"},
+    {Unit::percent, "50 %", "50"},
+    {Unit::angle, "-30 deg", "-30"},
+    {Unit::angle, "-30 \u00b0", "-30"},
+    {Unit::temperature, "-40 C", "-40"},
+    {Unit::temperature, "-40 \u00b0C", "-40"},
+};
+
 BOOST_AUTO_TEST_CASE(reads_every_unit) {
-  BOOST_TEST(base("7 Hz", Unit::frequency) == "7");
-  BOOST_TEST(base("7 kHz", Unit::frequency) == "7000");
-  BOOST_TEST(base("50 MHz", Unit::frequency) == "50000000");
-  BOOST_TEST(base("1.2 GHz", Unit::frequency) == "1200000000");
-  BOOST_TEST(base("3 ps", Unit::time) == "3");
-  BOOST_TEST(base("60 ns", Unit::time) == "60000");
-  BOOST_TEST(base("6144.6 us", Unit::time) == "6144600000");
-  BOOST_TEST(base("1 \u00b5s", Unit::time) == "1000000");
-  BOOST_TEST(base("1 \u03bcs", Unit::time) == "1000000");
-  BOOST_TEST(base("5 ms", Unit::time) == "5000000000");
-  BOOST_TEST(base("2 s", Unit::time) == "2000000000000");
-  BOOST_TEST(base("64 B", Unit::bytes) == "64");
-  BOOST_TEST(base("1.5 KiB", Unit::bytes) == "1536");
-  BOOST_TEST(base("8 MiB", Unit::bytes) == "8388608");
-  BOOST_TEST(base("1 GiB", Unit::bytes) == "1073741824");
-  BOOST_TEST(base("24 px", Unit::pixels) == "24");
-  BOOST_TEST(base("0.3 m", Unit::length) == "0.3");
-  BOOST_TEST(base("60 mm", Unit::length) == "0.06");
-  BOOST_TEST(base("2.2 um", Unit::length) == "0.0000022");
-  BOOST_TEST(base("1.5 W", Unit::power) == "1.5");
-  BOOST_TEST(base("300 mW", Unit::power) == "0.3");
-  BOOST_TEST(base("20 pJ", Unit::energy) == "2e-11");
-  BOOST_TEST(base("2 J", Unit::energy) == "2");
-  BOOST_TEST(base("1 V", Unit::voltage) == "1");
-  BOOST_TEST(base("12 cycles", Unit::cycles) == "12");
-  BOOST_TEST(base("1 cycle", Unit::cycles) == "1");
-  BOOST_TEST(base("50 %", Unit::percent) == "50");
-  BOOST_TEST(base("-30 deg", Unit::angle) == "-30");
-  BOOST_TEST(base("-40 C", Unit::temperature) == "-40");
+  for (const Spelling& s : spellings) BOOST_TEST(base(s.text, s.unit) == s.value, s.text);
   BOOST_TEST(base("-3", Unit::none) == "-3");
   BOOST_TEST(base("0x43c00000", Unit::address) == "1136656384");
+}
+
+BOOST_AUTO_TEST_CASE(every_unit_that_is_offered_is_tested) {
+  for (const Unit unit :
+       {Unit::frequency, Unit::time, Unit::bytes, Unit::pixels, Unit::length, Unit::power,
+        Unit::energy, Unit::voltage, Unit::cycles, Unit::percent, Unit::angle, Unit::temperature}) {
+    for (const std::string& name : vp::allowed_units(unit)) {
+      BOOST_TEST(std::any_of(std::begin(spellings), std::end(spellings),
+                             [&](const Spelling& s) {
+                               const std::string text = s.text;
+                               return s.unit == unit && text.substr(text.find(' ') + 1) == name;
+                             }),
+                 name);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(white_space_is_free) {
@@ -114,6 +153,8 @@ BOOST_AUTO_TEST_CASE(prints_readable_values) {
   BOOST_TEST(printed("2048 B", Unit::bytes) == "2 KiB");
   BOOST_TEST(printed("0 B", Unit::bytes) == "0 B");
   BOOST_TEST(printed("0.5 pJ", Unit::energy) == "0.5 pJ");
+  BOOST_TEST(printed("0.9 V", Unit::voltage) == "900 mV");
+  BOOST_TEST(printed("1000 mV", Unit::voltage) == "1 V");
   BOOST_TEST(printed("1 cycle", Unit::cycles) == "1 cycles");
   BOOST_TEST(printed("-12.5", Unit::none) == "-12.5");
   BOOST_TEST(printed("0", Unit::address) == "0x00000000");
