@@ -70,6 +70,21 @@ BOOST_AUTO_TEST_CASE(the_documentation_is_what_the_program_prints) {
              "docs/registers.md is old: markervp map --markdown > docs/registers.md");
 }
 
+BOOST_AUTO_TEST_CASE(what_has_a_model_is_not_among_what_has_none) {
+  const std::string page = platform::cli::map_as_markdown(default_map());
+  const std::string title = "\n## Blocks of the PS without a model\n";
+  const std::size_t from = page.find(title);
+  BOOST_TEST_REQUIRE(from != std::string::npos);
+  const std::string list = page.substr(from, page.find("\n## ", from + title.size()) - from);
+  for (const char* missing : {"0xE000_A000", "0xF800_6000", "0xF800_7000", "0xF8F0_2000"}) {
+    BOOST_TEST(list.find(std::string("| ") + missing + " |") != std::string::npos, missing);
+  }
+  for (const char* there : {"0xE000_0000", "0xE000_1000", "0xF800_0000", "0xF8F0_0100",
+                            "0xF8F0_0200", "0xF8F0_0600", "0xF8F0_1000"}) {
+    BOOST_TEST(list.find(std::string("| ") + there + " |") == std::string::npos, there);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_model_has_the_registers_of_its_header) {
   const HardwareMap map = default_map();
   std::size_t with_registers = 0;

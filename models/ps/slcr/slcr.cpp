@@ -12,19 +12,28 @@ namespace ps {
 namespace {
 
 constexpr std::uint32_t ocm_all_high = 0xF;
+constexpr std::uint32_t dci_calibrated =
+    slcr::ddriob_dci_status::LOCK | slcr::ddriob_dci_status::DONE;
 
 /// What the boot code of a ZedBoard leaves behind (its FSBL's tables), clocks of the PL aside.
 struct BootValue {
   std::uint32_t offset, value;
 };
 constexpr BootValue boot_values[] = {
-    {slcr::ARM_PLL_CFG, 0x000FA220},   {slcr::DDR_PLL_CFG, 0x0012C220},
-    {slcr::IO_PLL_CFG, 0x001452C0},    {slcr::ARM_PLL_CTRL, 0x00028008},
-    {slcr::DDR_PLL_CTRL, 0x00020008},  {slcr::IO_PLL_CTRL, 0x0001E008},
-    {slcr::ARM_CLK_CTRL, 0x1F000200},  {slcr::DDR_CLK_CTRL, 0x0C200003},
+    {slcr::ARM_PLL_CFG, 0x000FA220},
+    {slcr::DDR_PLL_CFG, 0x0012C220},
+    {slcr::IO_PLL_CFG, 0x001452C0},
+    {slcr::ARM_PLL_CTRL, 0x00028008},
+    {slcr::DDR_PLL_CTRL, 0x00020008},
+    {slcr::IO_PLL_CTRL, 0x0001E008},
+    {slcr::ARM_CLK_CTRL, 0x1F000200},
+    {slcr::DDR_CLK_CTRL, 0x0C200003},
     {slcr::UART_CLK_CTRL, 0x00001403},  // 1000 MHz / 20, both UARTs
-    {slcr::FPGA_RST_CTRL, 0x00000000}, {slcr::LVL_SHFTR_EN, slcr::lvl_shftr_en::all},
+    {slcr::FPGA_RST_CTRL, 0x00000000},
+    {slcr::LVL_SHFTR_EN, slcr::lvl_shftr_en::all},
     {slcr::OCM_CFG, ocm_all_high},
+    {slcr::DDRIOB_DCI_CTRL, 0x00000823},
+    {slcr::DDRIOB_DCI_STATUS, dci_calibrated},
 };
 
 vp::RegisterBankOptions options() {
@@ -59,6 +68,7 @@ Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
       arm_clk_ctrl_(registers[slcr::ARM_CLK_CTRL]),
       uart_clk_ctrl_(registers[slcr::UART_CLK_CTRL]),
       clk_621_true_(registers[slcr::CLK_621_TRUE]),
+      dci_ctrl_(registers[slcr::DDRIOB_DCI_CTRL]),
       pll_{{{registers[slcr::ARM_PLL_CTRL], registers[slcr::ARM_PLL_CFG], 0},
             {registers[slcr::DDR_PLL_CTRL], registers[slcr::DDR_PLL_CFG], 0},
             {registers[slcr::IO_PLL_CTRL], registers[slcr::IO_PLL_CFG], 0}}} {
@@ -78,6 +88,7 @@ Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
 
 void Slcr::program_as_boot_code() {
   for (const BootValue& boot : boot_values) registers[boot.offset] = boot.value;
+  dci_reset_ = dci_was_reset_ = true;
 }
 
 void Slcr::drive_fclk(unsigned number, vp::Clock& clock) {
@@ -140,6 +151,21 @@ void Slcr::wire() {
     if (registers[slcr::PSS_RST_CTRL] != 0) stop("resets the processing system (PSS_RST_CTRL)");
   });
   on_write(slcr::A9_CPU_RST_CTRL, [this] { cpu_reset_written(); });
+  on_write(slcr::DDRIOB_DCI_CTRL, [this] { dci_written(); });
+}
+
+// ---- the impedances of the DDR buffers
+
+// UG585, DDR IOB Impedance Calibration: RESET is taken from 1 to 0 and back, ENABLE is set, DONE is
+// waited for. Decision: the calibration takes no time, since no manual says how long it takes.
+void Slcr::dci_written() {
+  using namespace slcr::ddriob_dci_ctrl;
+  const bool reset = dci_ctrl_.any(RESET);
+  dci_was_reset_ = dci_was_reset_ || (dci_reset_ && !reset);
+  dci_reset_ = reset;
+  const bool calibrated =
+      dci_was_reset_ && (dci_ctrl_ & (RESET | ENABLE | UPDATE_CONTROL)) == (RESET | ENABLE);
+  registers[slcr::DDRIOB_DCI_STATUS] = calibrated ? dci_calibrated : 0;
 }
 
 void Slcr::on_write(std::uint32_t offset, std::function<void()> effect) {

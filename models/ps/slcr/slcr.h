@@ -96,6 +96,7 @@ class Slcr : public sc_core::sc_module {
   void update_cpu();
   void update_fclk_resets();
   void update_uart_resets();
+  void dci_written();
   void cpu_reset_written();
   [[noreturn]] void stop(const std::string& what) const;
 
@@ -105,11 +106,14 @@ class Slcr : public sc_core::sc_module {
   vp::Register& arm_clk_ctrl_;
   vp::Register& uart_clk_ctrl_;
   vp::Register& clk_621_true_;
+  vp::Register& dci_ctrl_;
   std::array<Pll, pll_count> pll_;
   std::deque<Fclk> fclk_;
   std::array<vp::Clock*, 2> uart_ref_{};
   vp::Clock* cpu_ = nullptr;
   double cpu_source_hz_ = 0.0;
+  bool dci_reset_ = false;      ///< RESET of DDRIOB_DCI_CTRL as it was
+  bool dci_was_reset_ = false;  ///< it has fallen since power-on
 };
 
 }  // namespace ps

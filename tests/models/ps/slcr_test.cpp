@@ -261,6 +261,75 @@ BOOST_AUTO_TEST_CASE(the_second_processor_may_be_held_in_reset) {
   });
 }
 
+// What the tables of a board's boot code (ps7_init) write and wait for, in their order: the polls
+// on the DDR controller aside, which has no model.
+BOOST_AUTO_TEST_CASE(every_wait_of_the_boot_code_ends) {
+  SlcrBench b(without_boot_code);
+  b.run([] {
+    const auto mask_write = [](std::uint32_t offset, std::uint32_t mask, std::uint32_t value) {
+      set(offset, (get(offset) & ~mask) | value);
+    };
+    const auto wait_for = [](std::uint32_t offset, std::uint32_t bits) {
+      for (unsigned us = 0; us < 100; ++us, after(1000)) {
+        if ((get(offset) & bits) == bits) return true;
+      }
+      return false;
+    };
+    unlock();
+    const struct {
+      std::uint32_t ctrl, cfg, cfg_value, fdiv;
+    } plls[] = {{slcr::ARM_PLL_CTRL, slcr::ARM_PLL_CFG, 0x000FA220, 0x28000},
+                {slcr::DDR_PLL_CTRL, slcr::DDR_PLL_CFG, 0x0012C220, 0x20000},
+                {slcr::IO_PLL_CTRL, slcr::IO_PLL_CFG, 0x001452C0, 0x1E000}};
+    for (unsigned n = 0; n < 3; ++n) {
+      mask_write(plls[n].cfg, 0x003FFFF0, plls[n].cfg_value);
+      mask_write(plls[n].ctrl, slcr::pll_ctrl::PLL_FDIV, plls[n].fdiv);
+      mask_write(plls[n].ctrl, slcr::pll_ctrl::PLL_BYPASS_FORCE, slcr::pll_ctrl::PLL_BYPASS_FORCE);
+      mask_write(plls[n].ctrl, slcr::pll_ctrl::PLL_RESET, slcr::pll_ctrl::PLL_RESET);
+      BOOST_TEST((get(slcr::PLL_STATUS) & slcr::pll_status::LOCK << n) == 0u);
+      mask_write(plls[n].ctrl, slcr::pll_ctrl::PLL_RESET, 0);
+      BOOST_TEST(wait_for(slcr::PLL_STATUS, slcr::pll_status::LOCK << n));
+      mask_write(plls[n].ctrl, slcr::pll_ctrl::PLL_BYPASS_FORCE, 0);
+    }
+    BOOST_TEST(get(slcr::DDRIOB_DCI_STATUS) == 0u);
+    mask_write(slcr::DDRIOB_DCI_CTRL, 0x00000001, 0x00000001);
+    mask_write(slcr::DDRIOB_DCI_CTRL, 0x00000021, 0x00000020);
+    BOOST_TEST(get(slcr::DDRIOB_DCI_STATUS) == 0u);
+    mask_write(slcr::DDRIOB_DCI_CTRL, 0x07FEFFFF, 0x00000823);
+    BOOST_TEST(wait_for(slcr::DDRIOB_DCI_STATUS, slcr::ddriob_dci_status::DONE));
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_impedances_are_calibrated_while_enabled_and_reset_once) {
+  using namespace slcr::ddriob_dci_ctrl;
+  static constexpr std::uint32_t calibrated =
+      slcr::ddriob_dci_status::DONE | slcr::ddriob_dci_status::LOCK;
+  SlcrBench b(without_boot_code);
+  b.run([] {
+    const auto status_after = [](std::uint32_t ctrl) {
+      set(slcr::DDRIOB_DCI_CTRL, ctrl);
+      return get(slcr::DDRIOB_DCI_STATUS);
+    };
+    unlock();
+    BOOST_TEST(status_after(RESET | ENABLE) == 0u, "RESET did not fall yet");
+    BOOST_TEST(status_after(ENABLE) == 0u);
+    BOOST_TEST(status_after(RESET | ENABLE) == calibrated);
+    BOOST_TEST(status_after(RESET | ENABLE | UPDATE_CONTROL) == 0u);
+    BOOST_TEST(status_after(RESET) == 0u);
+    BOOST_TEST(status_after(RESET | ENABLE) == calibrated);
+    set(slcr::SLCR_LOCK, slcr::lock_key);
+    BOOST_TEST(status_after(0) == calibrated, "the lock holds");
+    return 0;
+  });
+  SlcrBench booted;
+  booted.run([] {
+    BOOST_TEST(get(slcr::DDRIOB_DCI_CTRL) == 0x0000'0823u);
+    BOOST_TEST(get(slcr::DDRIOB_DCI_STATUS) == calibrated, "boot code has set up the DDR");
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(on_chip_memory_at_0_is_told) {
   SlcrBench b;
   b.run([] {

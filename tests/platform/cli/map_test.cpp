@@ -78,6 +78,9 @@ BOOST_AUTO_TEST_CASE(page_of_the_documentation) {
                       "0x0000_0123 at the start |"),
              out.str());
   BOOST_TEST(contains(out.str(), "| Event \\| flag |"), "a bar is no end of a cell");
+  BOOST_TEST(contains(out.str(), "\n| 0xF800_6000 | DDR memory controller"));
+  BOOST_TEST(contains(out.str(), "\n| 0xF800_0000 | System level control registers |\n"),
+             "this platform has none");
   const std::size_t first = out.str().find("## a timer");
   BOOST_TEST(out.str().find("## a timer", first + 1) == std::string::npos, "once for a kind");
 }

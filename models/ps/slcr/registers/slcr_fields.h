@@ -47,6 +47,25 @@ inline constexpr vp::RegisterField dci_clk_ctrl[] = {
     {"DIVISOR0", 0x00003F00, rw, "first divisor"},
     {"DIVISOR1", 0x03F00000, rw, "second divisor"},
 };
+inline constexpr vp::RegisterField ddriob_dci_ctrl[] = {
+    {"RESET", 1u << 0, rw, "0 holds the calibration in reset; needed once: from 1 to 0 and back"},
+    {"ENABLE", 1u << 1, rw, "1 calibrates the impedances"},
+    {"VRP_TRI", 1u << 2, rw, "stored"},
+    {"VRN_TRI", 1u << 3, rw, "stored"},
+    {"VRP_OUT", 1u << 4, rw, "stored"},
+    {"VRN_OUT", 1u << 5, rw, "stored"},
+    {"NREF_OPT1", 3u << 6, rw, "stored"},
+    {"NREF_OPT2", 7u << 8, rw, "stored"},
+    {"NREF_OPT4", 7u << 11, rw, "stored"},
+    {"PREF_OPT1", 3u << 14, rw, "stored"},
+    {"PREF_OPT2", 7u << 17, rw, "stored"},
+    {"UPDATE_CONTROL", 1u << 20, rw, "1: the impedances are not updated, DONE stays 0"},
+    {"Reserved", 0xFFE10000, rw, "stored"},
+};
+inline constexpr vp::RegisterField ddriob_dci_status[] = {
+    {"LOCK", 1u << 0, ro, "the impedances are calibrated; the model does so at once"},
+    {"DONE", 1u << 13, ro, "as LOCK; boot code waits for it before it starts the DDR controller"},
+};
 inline constexpr vp::RegisterField aper_clk_ctrl[] = {
     {"DMA_CPU_2XCLKACT", 1u << 0, rw, "DMA controller on"},
     {"USB0_CPU_1XCLKACT", 1u << 2, rw, "USB 0 on"},

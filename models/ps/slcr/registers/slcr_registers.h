@@ -229,6 +229,19 @@ constexpr std::uint32_t none = 0x0;
 constexpr std::uint32_t USER_LVL_SHFTR_EN = 0xF;
 }  // namespace lvl_shftr_en
 
+/// Bits of DDRIOB_DCI_CTRL.
+namespace ddriob_dci_ctrl {
+constexpr std::uint32_t RESET = 1u << 0;  ///< active low
+constexpr std::uint32_t ENABLE = 1u << 1;
+constexpr std::uint32_t UPDATE_CONTROL = 1u << 20;
+}  // namespace ddriob_dci_ctrl
+
+/// Bits of DDRIOB_DCI_STATUS.
+namespace ddriob_dci_status {
+constexpr std::uint32_t LOCK = 1u << 0;
+constexpr std::uint32_t DONE = 1u << 13;
+}  // namespace ddriob_dci_status
+
 #define SLCR_ROW(name, reset, access, writable, ...) \
   { #name, name, reset, access, writable, __VA_ARGS__ }
 #define SLCR_PIN_ROW(digits, pin, reset)                                     \
@@ -465,9 +478,9 @@ inline constexpr vp::RegisterInfo registers[] = {
              "DDR buffers: drive and slew, clock"),
     SLCR_ROW(DDRIOB_DDR_CTRL, 0x00000000, vp::Access::read_write, 0xFFFFFFFF, "DDR buffer control"),
     SLCR_ROW(DDRIOB_DCI_CTRL, 0x00000020, vp::Access::read_write, 0xFFFFFFFF,
-             "DDR buffers: DCI control"),
+             "DDR buffers: impedance calibration (DCI)", fields::ddriob_dci_ctrl),
     SLCR_ROW(DDRIOB_DCI_STATUS, 0x00000000, vp::Access::read_only, 0x00000000,
-             "DDR buffers: DCI status"),
+             "DDR buffers: status of the impedance calibration", fields::ddriob_dci_status),
 };
 
 #undef SLCR_ROW
