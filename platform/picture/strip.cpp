@@ -31,6 +31,7 @@ constexpr double ps_per_s = 1e12;
 
 std::string title(const report::FrameReport& frame) {
   std::string text = frame.input;
+  if (!frame.delivered()) return text + "   no result: " + frame.gave_up;
   if (frame.markers.empty()) return text + "   no marker";
   for (const report::FoundMarker& marker : frame.markers)
     text += fmt::format("   ID {}", marker.id);
@@ -38,7 +39,7 @@ std::string title(const report::FrameReport& frame) {
 }
 
 std::string speed(const report::FrameReport& frame) {
-  if (frame.end_ps <= frame.start_ps) return "";
+  if (!frame.delivered() || frame.end_ps <= frame.start_ps) return "";
   const auto time = static_cast<double>(frame.end_ps - frame.start_ps);
   return fmt::format("{:.1f} FPS   {:.2f} ms", ps_per_s / time, time / ps_per_ms);
 }

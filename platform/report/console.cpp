@@ -92,6 +92,7 @@ std::string heading(const FrameReport& frame, std::optional<std::uint64_t> total
       total ? fmt::format("[{:>{}}/{}]", number, fmt::formatted_size("{}", *total), *total)
             : fmt::format("[{}]", number);
   text += " " + frame.input + ": ";
+  if (!frame.delivered()) return text + "no result, the software gave up: " + frame.gave_up + "\n";
   if (frame.markers.empty()) return text + "no marker\n";
   std::vector<std::string> markers;
   for (const FoundMarker& found : frame.markers) {
@@ -100,33 +101,38 @@ std::string heading(const FrameReport& frame, std::optional<std::uint64_t> total
   return fmt::format("{}{}\n", text, fmt::join(markers, "; "));
 }
 
-/// The stage that the others are parts of.
-double frame_us(const Summary& summary) {
-  for (const Summary::Stage& stage : summary.stages()) {
-    if (stage.name == "frame") return stage.us.mean();
-  }
-  return summary.latency_us().mean();
+/// How much of `whole` a stage takes, with a bar.
+std::string share_text(double us, double whole) {
+  const double share = us / whole;
+  const int length = std::clamp(static_cast<int>(std::lround(share * bar_width)), 0, bar_width);
+  const std::string bar(static_cast<std::size_t>(length), '#');
+  return fmt::format("  {:>5.1f} %{}{}", 100 * share, bar.empty() ? "" : " ", bar);
 }
 
-std::string stage_table(const Summary& summary) {
-  std::string text = fmt::format("{:<22}{:>12}{:>12}{:>12}   share of frame\n", "stage", "mean us",
-                                 "min us", "max us");
-  const double whole = frame_us(summary);
+/// The parts of stage `of`, each with its own parts below it, indented. `whole`: the time of which
+/// a part of something takes a share.
+std::string stage_lines(const Summary& summary, const std::string& of, int depth, double whole) {
+  std::string text;
   for (const Summary::Stage& stage : summary.stages()) {
-    text += fmt::format("{:<22}{:>12.1f}{:>12.1f}{:>12.1f}", stage.name, stage.us.mean(),
+    if (stage.part_of != of) continue;
+    const double us = stage.us.mean();
+    text += fmt::format("{:<22}{:>12.1f}{:>12.1f}{:>12.1f}",
+                        std::string(static_cast<std::size_t>(2 * depth), ' ') + stage.name, us,
                         stage.us.min(), stage.us.max());
-    if (stage.name != "upload" && whole > 0) {
-      const double share = stage.us.mean() / whole;
-      const int length = std::clamp(static_cast<int>(std::lround(share * bar_width)), 0, bar_width);
-      text += fmt::format("  {:>5.1f} %", 100 * share);
-      if (length > 0) text += " " + std::string(static_cast<std::size_t>(length), '#');
-    }
-    text += "\n";
+    if (depth > 0 && whole > 0) text += share_text(us, whole);
+    text += "\n" + stage_lines(summary, stage.name, depth + 1, depth > 0 ? whole : us);
   }
   return text;
 }
 
+std::string stage_table(const Summary& summary) {
+  return fmt::format("{:<22}{:>12}{:>12}{:>12}   share of frame\n", "stage", "mean us", "min us",
+                     "max us") +
+         stage_lines(summary, "", 0, 0);
+}
+
 std::string fps_text(const Summary& summary) {
+  if (summary.delivered() == 0) return "no result: there is no frame rate and no latency\n";
   const Statistic& fps = summary.fps();
   const Statistic& latency = summary.latency_us();
   return fmt::format(
@@ -168,6 +174,9 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   std::string text =
       fmt::format("{}, {} with a marker", counted(summary.frames(), "frame"), summary.detected());
   if (summary.mistaken() > 0) text += fmt::format(", {} of them a wrong one", summary.mistaken());
+  if (const std::uint64_t without = summary.frames() - summary.delivered()) {
+    text += fmt::format(", {} without a result", without);
+  }
   text += point;
   text += fps_text(summary);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);

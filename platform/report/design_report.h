@@ -13,8 +13,9 @@ struct GroupEnergy {
   double mj = 0;
 };
 
-/// Mean power over the frames of a run, image upload excluded; over the whole run if there were no
-/// frames. Watts are on-chip power: the DDR chips are not in them.
+/// Mean power until the last result of a run, image upload excluded; of a run without results over
+/// all frames, without frames over the whole run. Watts are on-chip power: the DDR chips are not in
+/// them.
 struct PowerReport {
   struct Module {
     std::string name;
@@ -34,7 +35,7 @@ struct PowerReport {
   double static_w = 0;        ///< of the whole device
   std::map<std::string, double> rails;
   std::vector<Module> modules;  ///< their sum is the total
-  bool per_frame = true;        ///< false: there were no frames
+  bool per_frame = true;        ///< false: there were no results
   double energy_per_frame_mj = 0;
 };
 
@@ -68,6 +69,11 @@ struct TimingReport {
     bool met = true;
     double margin_percent = 0;  ///< by how much the clock could rise; negative: must fall
     std::string source;
+
+    /// Clocked above what it is known to reach: it may work or not.
+    bool unknown() const { return !met && lower_bound; }
+    /// Clocked above what it can do.
+    bool missed() const { return !met && !lower_bound; }
   };
 
   bool met = true;

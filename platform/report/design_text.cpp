@@ -55,11 +55,14 @@ std::string timing_line(const TimingReport& timing) {
     return fmt::format("timing   met, {:.0f} % to spare ({})\n", critical.margin_percent,
                        critical.name);
   }
-  const auto missed = std::count_if(timing.modules.begin(), timing.modules.end(),
-                                    [](const auto& module) { return !module.met; });
-  const std::string others = missed > 1 ? fmt::format(" and {} more", missed - 1) : "";
-  return fmt::format("timing   MISSED by {}{}: {}, at most {}\n", critical.name, others,
-                     mhz(critical.frequency_mhz), mhz(critical.fmax_mhz));
+  const bool unknown = critical.unknown();
+  const auto alike =
+      std::count_if(timing.modules.begin(), timing.modules.end(),
+                    [&](const auto& m) { return unknown ? m.unknown() : m.missed(); });
+  const std::string others = alike > 1 ? fmt::format(" and {} more", alike - 1) : "";
+  return fmt::format("timing   {} {}{}: {}, {} {}\n", unknown ? "unknown for" : "MISSED by",
+                     critical.name, others, mhz(critical.frequency_mhz),
+                     unknown ? "known to work up to" : "at most", mhz(critical.fmax_mhz));
 }
 
 std::string resource_line(const ResourceReport& resources) {
@@ -80,7 +83,7 @@ std::vector<std::string> timing_warnings(const TimingReport& timing) {
   std::map<std::pair<std::string, double>, std::vector<std::string>> unknown;
   for (const auto& module : timing.modules) {
     if (module.met) continue;
-    if (module.lower_bound) {
+    if (module.unknown()) {
       unknown[{module.clock + " runs at " + mhz(module.frequency_mhz), module.fmax_mhz}].push_back(
           module.name);
       continue;

@@ -29,6 +29,9 @@ struct Counts {
   std::uint64_t label_overflow = 0;
   std::uint64_t bridge_overflow = 0;
   std::uint64_t crossing_overflow = 0;
+  /// Words, corners, blobs and candidates for which the software had no room.
+  std::uint64_t software_overflow = 0;
+  std::uint64_t malformed = 0;  ///< blob words without partner, boxes that end before they start
 };
 
 /// A marker that the software identified.
@@ -56,7 +59,12 @@ struct StageTime {
   std::string name;
   std::uint64_t ps = 0;
   std::uint64_t start_ps = 0;  ///< when it began; not part of result.json
+  std::string part_of = {};    ///< the stage whose time contains this one's; empty: none
 };
+
+/// True if other stages of the list are parts of `stage`: what is shown as parts of a whole leaves
+/// it out.
+bool has_parts(const std::vector<StageTime>& stages, const std::string& stage);
 
 /// One image and what came of it.
 struct FrameReport {
@@ -70,10 +78,14 @@ struct FrameReport {
   std::uint64_t start_ps = 0;   ///< simulated time at which work on the frame began, upload done
   std::uint64_t end_ps = 0;     ///< simulated time of its last result
   std::uint64_t upload_ps = 0;  ///< time before `start_ps` in which the image was only uploaded
+  std::string gave_up;          ///< why the software gave the frame up; empty: it has a result
   std::vector<GroupEnergy> energy;  ///< its period's, upload excluded; empty: not known
   std::vector<std::string> warnings;
   Camera camera;      ///< that took the image
   Features features;  ///< dropped once the picture is drawn
+
+  /// Whether a result was delivered: only such frames make rates, latency and energy.
+  bool delivered() const { return gave_up.empty(); }
 };
 
 /// How the PS program ended.

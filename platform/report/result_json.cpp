@@ -82,6 +82,8 @@ Json counts_json(const Counts& counts) {
   json["label_overflow"] = counts.label_overflow;
   json["bridge_overflow"] = counts.bridge_overflow;
   json["crossing_overflow"] = counts.crossing_overflow;
+  json["software_overflow"] = counts.software_overflow;
+  json["malformed"] = counts.malformed;
   return json;
 }
 
@@ -99,6 +101,7 @@ Json to_json(const FrameReport& frame) {
   json["input"] = frame.input;
   json["index"] = frame.index;
   json["threshold"] = frame.threshold;
+  if (!frame.delivered()) json["gave_up"] = frame.gave_up;
   json["counts"] = counts_json(frame.counts);
   json["markers"] = Json::array();
   for (const FoundMarker& found : frame.markers)
@@ -115,6 +118,7 @@ Json to_json(const FrameReport& frame) {
 Json to_json(const Summary& summary) {
   Json json;
   json["frames"] = summary.frames();
+  json["delivered"] = summary.delivered();
   json["detected"] = summary.detected();
   if (summary.fps().count() > 0) {
     json["fps"]["mean"] = rounded(summary.mean_fps(), fps_places);
@@ -122,6 +126,17 @@ Json to_json(const Summary& summary) {
     json["fps"]["max"] = rounded(summary.fps().max(), fps_places);
     json["latency_us"]["mean"] = rounded(summary.latency_us().mean(), us_places);
     json["latency_us"]["max"] = rounded(summary.latency_us().max(), us_places);
+  }
+  return json;
+}
+
+Json stages_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const Summary::Stage& stage : summary.stages()) {
+    Json entry;
+    entry["name"] = stage.name;
+    if (!stage.part_of.empty()) entry["part_of"] = stage.part_of;
+    json.push_back(entry);
   }
   return json;
 }

@@ -16,6 +16,8 @@ double rounded(double value, int places);
 /// One element of `frames`.
 Json to_json(const FrameReport& frame);
 Json to_json(const Summary& summary);
+/// The keys of `time_us` in the order of the flow; `part_of` names the stage that contains one.
+Json stages_json(const Summary& summary);
 Json to_json(const ProgramEnd& end);
 Json to_json(const Provenance& provenance);
 

@@ -19,6 +19,7 @@ void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& 
 }
 
 void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
+  if (!summary.stages().empty()) json["stages"] = stages_json(summary);
   json["summary"] = to_json(summary);
   if (facts.power) {
     json["summary"]["power_w"] = power_summary_json(*facts.power);

@@ -13,6 +13,11 @@ constexpr double ps_per_s = 1e12;
 
 }  // namespace
 
+bool has_parts(const std::vector<StageTime>& stages, const std::string& stage) {
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const StageTime& other) { return other.part_of == stage; });
+}
+
 void Statistic::add(double value) {
   min_ = count_ == 0 ? value : std::min(min_, value);
   max_ = count_ == 0 ? value : std::max(max_, value);
@@ -21,27 +26,29 @@ void Statistic::add(double value) {
 }
 
 void Summary::add(const FrameReport& frame) {
-  std::uint64_t period = frame.end_ps - (frames() == 0 ? frame.start_ps : last_end_ps_);
-  if (frames() > 0) period -= std::min(period, frame.upload_ps);
-  if (period > 0) fps_.add(ps_per_s / static_cast<double>(period));
-  busy_ps_ += period;
-  last_end_ps_ = frame.end_ps;
-  latency_us_.add(static_cast<double>(frame.end_ps - frame.start_ps) / ps_per_us);
+  ++frames_;
   if (!frame.warnings.empty()) ++warned_;
+  for (const vp::Interval& part : periods_.next(frame)) open_ps_ += part.to_ps - part.from_ps;
+  if (!frame.delivered()) return;
+  if (open_ps_ > 0) fps_.add(ps_per_s / static_cast<double>(open_ps_));
+  busy_ps_ += open_ps_;
+  open_ps_ = 0;
+  latency_us_.add(static_cast<double>(frame.end_ps - frame.start_ps) / ps_per_us);
   add_stages(frame);
   add_markers(frame);
 }
 
 double Summary::mean_fps() const {
   if (busy_ps_ == 0) return 0;
-  return static_cast<double>(frames()) * ps_per_s / static_cast<double>(busy_ps_);
+  return static_cast<double>(delivered()) * ps_per_s / static_cast<double>(busy_ps_);
 }
 
 void Summary::add_stages(const FrameReport& frame) {
   for (const StageTime& time : frame.times) {
     auto stage = std::find_if(stages_.begin(), stages_.end(),
                               [&](const Stage& known) { return known.name == time.name; });
-    if (stage == stages_.end()) stage = stages_.insert(stages_.end(), Stage{time.name, {}});
+    if (stage == stages_.end())
+      stage = stages_.insert(stages_.end(), Stage{time.name, time.part_of, {}});
     stage->us.add(static_cast<double>(time.ps) / ps_per_us);
   }
 }

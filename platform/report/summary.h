@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <report/frame_period.h>
 #include <report/result.h>
 
 namespace platform::report {
@@ -26,29 +27,33 @@ class Statistic {
 
 /// A run in figures, gathered frame by frame in constant memory.
 ///
-/// A frame's period runs from the last result before it (its own start, for the first frame) to its
-/// own result, without the time in which its image was only uploaded (thesis 5.5: images are
-/// preloaded). FPS is one over it; the mean FPS is frames over the sum of periods. Latency runs
-/// from the frame's start to its result.
+/// Rates, latency and stages are those of delivered results. The time to a result is the period of
+/// its frame (FramePeriods) and of those that the software gave up before it; FPS is one over it,
+/// the mean FPS results over the sum of these times. Latency runs from the frame's start to its
+/// result.
 class Summary {
  public:
   struct Stage {
     std::string name;
+    std::string part_of;  ///< as StageTime::part_of
     Statistic us;
   };
 
   void add(const FrameReport& frame);
 
-  std::uint64_t frames() const { return latency_us_.count(); }
+  /// Frames that the program worked on.
+  std::uint64_t frames() const { return frames_; }
+  /// Frames with a result; the software gave up the others.
+  std::uint64_t delivered() const { return latency_us_.count(); }
   /// Frames in which a marker was identified.
   std::uint64_t detected() const { return detected_; }
   /// Frames with ground truth in which another marker was identified, and not the true one.
   std::uint64_t mistaken() const { return mistaken_; }
   /// Frames with warnings.
   std::uint64_t warned() const { return warned_; }
-  /// Frames per second over the whole run; 0 before any time has passed.
+  /// Results per second from the first frame's start to the last result; 0 without any.
   double mean_fps() const;
-  /// The slowest and the fastest frame.
+  /// The slowest and the fastest result.
   const Statistic& fps() const { return fps_; }
   const Statistic& latency_us() const { return latency_us_; }
   const std::vector<Stage>& stages() const { return stages_; }
@@ -61,11 +66,13 @@ class Summary {
   void add_stages(const FrameReport& frame);
   void add_markers(const FrameReport& frame);
 
+  std::uint64_t frames_ = 0;
   std::uint64_t detected_ = 0;
   std::uint64_t mistaken_ = 0;
   std::uint64_t warned_ = 0;
-  std::uint64_t busy_ps_ = 0;
-  std::uint64_t last_end_ps_ = 0;
+  std::uint64_t busy_ps_ = 0;  ///< until the last result
+  std::uint64_t open_ps_ = 0;  ///< since then
+  FramePeriods periods_;
   Statistic fps_;
   Statistic latency_us_;
   Statistic corner_px_;

@@ -118,11 +118,16 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
                                           std::uint64_t now_ps) const {
   report::FrameReport report;
   report.index = result.frame;
+  if (result.status != marker::Status::ok) report.gave_up = marker::status_name(result.status);
   report.threshold = result.has_threshold ? result.threshold : threshold_;
   report.counts.corners = result.features.corner_count + result.features.lost_corners;
   report.counts.blobs = result.features.blob_count + result.features.lost_blobs;
   report.counts.feature_words = result.feature_words;
   report.counts.candidates = result.candidates.count + result.candidates.lost;
+  report.counts.software_overflow = std::uint64_t{result.lost_words} +
+                                    result.features.lost_corners + result.features.lost_blobs +
+                                    result.candidates.lost;
+  report.counts.malformed = result.features.malformed;
   for (std::uint32_t i = 0; i < result.marker_count; ++i)
     report.markers.push_back(found_marker(result.markers[i]));
   // Stamps count pairs of CPU cycles.
@@ -131,24 +136,30 @@ report::FrameReport FrameBench::report_of(const marker::FrameResult& result,
   };
   const marker::StageTimes& t = result.times;
   const std::uint64_t start_ps = now_ps - duration(t.frame);
-  auto stage = [&](const char* name, const marker::StageTime& time) -> report::StageTime {
+  auto stage = [&](const char* name, const marker::StageTime& time,
+                   const char* part_of) -> report::StageTime {
     // The upload begins before the frame.
     const bool before = time.start < t.frame.start;
     const std::uint64_t away =
         before ? duration({time.start, t.frame.start}) : duration({t.frame.start, time.start});
-    return {name, duration(time), before ? start_ps - std::min(start_ps, away) : start_ps + away};
+    return {name, duration(time), before ? start_ps - std::min(start_ps, away) : start_ps + away,
+            part_of};
   };
-  report.times = {stage("upload", t.upload),
-                  stage("feature_extraction", t.feature_extraction),
-                  stage("receive", t.receive),
-                  stage("evaluation", t.evaluation),
-                  stage("identification", t.identification),
-                  stage("pose", t.pose),
-                  stage("frame", t.frame)};
+  constexpr const char* whole = "frame";
+  constexpr const char* extraction = "feature_extraction";
+  report.times = {stage("upload", t.upload, ""),
+                  stage(extraction, t.feature_extraction, whole),
+                  stage("receive", t.receive, whole),
+                  stage("evaluation", t.evaluation, whole),
+                  stage("identification", t.identification, whole),
+                  stage("pose", t.pose, whole),
+                  stage(whole, t.frame, "")};
   if (t.capture.end != 0) {
     const std::vector<report::StageTime> parts = {
-        stage("capture", t.capture), stage("corner_detection", t.corner_detection),
-        stage("threshold", t.threshold), stage("blob_detection", t.blob_detection)};
+        stage("capture", t.capture, extraction),
+        stage("corner_detection", t.corner_detection, extraction),
+        stage("threshold", t.threshold, extraction),
+        stage("blob_detection", t.blob_detection, extraction)};
     report.times.insert(report.times.begin() + 1, parts.begin(), parts.end());
   }
   report.end_ps = now_ps;
@@ -167,10 +178,7 @@ void FrameBench::add_counts(report::FrameReport& report) const {
 }
 
 void FrameBench::add_warnings(report::FrameReport& report, const marker::FrameResult& result) {
-  if (result.status != marker::Status::ok) {
-    report.warnings.push_back(std::string("the software gave up: ") +
-                              marker::status_name(result.status));
-  }
+  if (!report.delivered()) report.warnings.push_back("the software gave up: " + report.gave_up);
   auto lost = [&](std::uint64_t count, const char* what) {
     if (count != 0) report.warnings.push_back(std::to_string(count) + " " + what);
   };
@@ -183,6 +191,12 @@ void FrameBench::add_warnings(report::FrameReport& report, const marker::FrameRe
   lost(report.counts.crossing_overflow,
        "words lost between the clocks: the system clock is too slow");
   lost(result.lost_words, "feature words without room in the software");
+  lost(result.features.lost_corners,
+       "corners without room in the software: no marker is found there");
+  lost(result.features.lost_blobs, "blobs without room in the software: no marker is found there");
+  lost(result.candidates.lost, "candidates without room in the software: they are not examined");
+  lost(result.features.malformed,
+       "malformed blobs: a start or end word without the other, or an end before the start");
   const std::uint64_t stray = handshake_.finish_frame();
   spin_watch_.finish();
   if (stray > 1) lost(stray, "toggles of `ready` with nothing to acknowledge");

@@ -27,14 +27,6 @@ constexpr EngineName engine_names[] = {{"Frame", "Frame"},
 // Ids of signals that are no engine's.
 constexpr std::uint32_t level_id = 100;
 
-/// A stage whose parts are stages of their own.
-bool is_whole(const report::FrameReport& frame, const std::string& stage) {
-  if (stage == "frame") return true;
-  return stage == "feature_extraction" &&
-         std::any_of(frame.times.begin(), frame.times.end(),
-                     [](const report::StageTime& t) { return t.name == "capture"; });
-}
-
 }  // namespace
 
 TimelineRecorder::TimelineRecorder(Zynq& zynq, std::uint32_t frames) : zynq_(zynq), left_(frames) {
@@ -162,7 +154,7 @@ void TimelineRecorder::frame_done(const report::FrameReport& done) {
 /// slowest engine is in their place: that which ends last, and what feeds it.
 void TimelineRecorder::mark_critical_path(const report::FrameReport& done) {
   for (const report::StageTime& stage : done.times) {
-    if (stage.name == "upload" || is_whole(done, stage.name)) continue;
+    if (stage.part_of.empty() || report::has_parts(done.times, stage.name)) continue;
     const bool waits = stage.name == "feature_extraction";
     add_span(stages, stage.name, stage.start_ps, stage.start_ps + stage.ps, !waits);
     if (!waits) continue;

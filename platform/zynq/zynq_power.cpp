@@ -61,48 +61,50 @@ void ZynqPower::show(std::uint64_t now_ps) {
   total = ps + pl + static_power;
 }
 
-std::vector<vp::Interval> ZynqPower::period_of(const report::FrameReport& frame) const {
-  if (frames_ == 0) return {{frame.start_ps, frame.end_ps}};
-  const std::uint64_t upload = frame.start_ps - std::min(frame.start_ps, frame.upload_ps);
-  return {{last_end_ps_, std::max(last_end_ps_, upload)},
-          {std::max(last_end_ps_, frame.start_ps), frame.end_ps}};
-}
-
-vp::EnergyLedger ZynqPower::measure(const std::vector<vp::Interval>& period, double seconds,
-                                    double& junction_c) const {
-  vp::EnergyLedger ledger = meter_.measure(period);
+vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
+                                        double& junction_c) const {
   ledger.add(static_energy(table_, options.thermal_path(), ledger.total() * (1 / seconds), seconds,
                            junction_c));
   return ledger;
 }
 
 void ZynqPower::frame_ends(report::FrameReport& frame) {
-  const std::vector<vp::Interval> period = period_of(frame);
+  const std::uint64_t from_ps = periods_.end_ps();
+  const std::vector<vp::Interval> period = periods_.next(frame);
   double seconds = 0;
   for (const vp::Interval& interval : period) seconds += interval.seconds();
+  const vp::EnergyLedger taken = meter_.measure(period);
+  open_.add(taken);
+  open_seconds_ += seconds;
+  if (frame.delivered() && open_seconds_ > 0) deliver(frame);
   if (seconds <= 0) return;
-  double junction_c = 0;
-  const vp::EnergyLedger ledger = measure(period, seconds, junction_c);
-  const auto sums = ledger.by_group();
-  for (const std::string& group : groups()) {
-    frame.energy.push_back({group, nominal(sums, group) * mj_per_j});
-  }
-  static_w_ = nominal(sums, "static") / seconds;
-  if (records_) record(ledger, period, seconds, frame.end_ps);
-  ledger_.add(ledger);
-  seconds_ += seconds;
-  junction_seconds_ += junction_c * seconds;
-  last_end_ps_ = frame.end_ps;
-  ++frames_;
+  if (records_) record(taken, period, seconds, from_ps, frame.end_ps);
   states_.forget_before(frame.end_ps);
   if (follows_) show(frame.end_ps);
 }
 
+/// All that was taken since the last result is this one's.
+void ZynqPower::deliver(report::FrameReport& frame) {
+  double junction_c = 0;
+  const vp::EnergyLedger ledger = with_static(open_, open_seconds_, junction_c);
+  const auto sums = ledger.by_group();
+  for (const std::string& group : groups()) {
+    frame.energy.push_back({group, nominal(sums, group) * mj_per_j});
+  }
+  static_w_ = nominal(sums, "static") / open_seconds_;
+  ledger_.add(ledger);
+  seconds_ += open_seconds_;
+  junction_seconds_ += junction_c * open_seconds_;
+  ++results_;
+  open_ = {};
+  open_seconds_ = 0;
+}
+
 /// What flowed since the frame before, event energy spread over the period.
 void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
-                       double seconds, std::uint64_t end_ps) {
-  std::vector<std::uint64_t> times = states_.changes(last_end_ps_, end_ps);
-  times.push_back(last_end_ps_);
+                       double seconds, std::uint64_t from_ps, std::uint64_t to_ps) {
+  std::vector<std::uint64_t> times = states_.changes(from_ps, to_ps);
+  times.push_back(from_ps);
   for (const vp::Interval& interval : period) {
     times.push_back(interval.from_ps);
     times.push_back(interval.to_ps);
@@ -116,7 +118,7 @@ void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Int
   if (!timeline_.points.empty()) timeline_.points.pop_back();  // the end, which is none any more
   for (const std::uint64_t ps : times) {
     PowerTimeline::Point point{ps, std::vector<double>(groups().size(), 0)};
-    for (std::size_t i = 0; i < groups().size() && ps < end_ps; ++i) {
+    for (std::size_t i = 0; i < groups().size() && ps < to_ps; ++i) {
       const std::string& group = groups()[i];
       point.watts[i] = group == "static" ? static_w_ : meter_.watts(ps, group);
       if (inside(ps, period)) point.watts[i] += events_w[group];
@@ -128,11 +130,12 @@ void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Int
 report::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
   vp::EnergyLedger whole = ledger_;
   double seconds = seconds_, junction_seconds = junction_seconds_;
-  if (frames_ == 0) {
+  if (results_ == 0) {
     const vp::Interval run{0, std::max<std::uint64_t>(end_ps, 1)};
-    seconds = run.seconds();
+    const bool gave_up = open_seconds_ > 0;
+    seconds = gave_up ? open_seconds_ : run.seconds();
     double junction_c = 0;
-    whole = measure({run}, seconds, junction_c);
+    whole = with_static(gave_up ? open_ : meter_.measure({run}), seconds, junction_c);
     junction_seconds = junction_c * seconds;
   }
   report::PowerReport report;
@@ -151,13 +154,13 @@ report::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
     if (group != "ps" && group != "static") report.pl_w += band.nominal / seconds;
   }
   for (const auto& [rail, band] : whole.by_rail()) report.rails[rail] = band.nominal / seconds;
-  const double mj = frames_ == 0 ? 0 : mj_per_j / static_cast<double>(frames_);
+  const double mj = results_ == 0 ? 0 : mj_per_j / static_cast<double>(results_);
   for (const vp::EnergyEntry& entry : whole.entries()) {
     report.modules.push_back({entry.module, entry.rail, vp::to_string(entry.kind),
                               entry.joules.nominal / seconds, entry.joules.nominal * mj,
                               entry.source});
   }
-  report.per_frame = frames_ != 0;
+  report.per_frame = results_ != 0;
   report.energy_per_frame_mj = total.nominal * mj;
   return report;
 }

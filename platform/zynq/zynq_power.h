@@ -8,6 +8,7 @@
 
 #include <power/power_table.h>
 #include <report/design_report.h>
+#include <report/frame_period.h>
 #include <report/result.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
@@ -23,10 +24,10 @@ namespace platform {
 /// The energy of a run, frame by frame: an account of what the simulation counts anyway, made up
 /// when a frame is over.
 ///
-/// A frame's energy is that of its period, as the frame rate sees it: from the last result before
-/// it to its own, without the upload of its image. So watts = millijoules a frame × frames a
-/// second. Static power is that of the temperature at which the chip would settle if the frame were
-/// repeated for ever.
+/// The energy of a result is that of the time that the frame rate divides by
+/// (report::FramePeriods): its frame's period, and those of frames that the software gave up before
+/// it. So watts = millijoules a frame × frames a second. Static power is that of the temperature at
+/// which the chip would settle if the frame were repeated for ever.
 class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
  public:
   /// `uses_pl`: whether the program needs the design in the PL. Throws vp::InputError for a table
@@ -49,7 +50,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
   /// The program takes an image: events from here on are its frame's.
   void frame_begins() { meter_.mark(); }
-  /// The program published a result, now: fills in `energy`.
+  /// The program published a result, now: fills in `energy`, unless it gave the frame up.
   void frame_ends(report::FrameReport& frame);
 
   // The run so far.
@@ -64,11 +65,10 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
  private:
   void states_changed(std::uint64_t ps) override;
-  std::vector<vp::Interval> period_of(const report::FrameReport& frame) const;
-  vp::EnergyLedger measure(const std::vector<vp::Interval>& period, double seconds,
-                           double& junction_c) const;
+  vp::EnergyLedger with_static(vp::EnergyLedger ledger, double seconds, double& junction_c) const;
+  void deliver(report::FrameReport& frame);
   void record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
-              double seconds, std::uint64_t end_ps);
+              double seconds, std::uint64_t from_ps, std::uint64_t to_ps);
   void show(std::uint64_t ps);
 
   Zynq& zynq_;
@@ -76,10 +76,12 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   std::vector<DesignIp> design_;
   PowerStates states_;
   vp::PowerMeter meter_;
-  vp::EnergyLedger ledger_;
-  std::uint64_t frames_ = 0;
-  std::uint64_t last_end_ps_ = 0;
-  double seconds_ = 0;           ///< of all periods
+  report::FramePeriods periods_;
+  vp::EnergyLedger open_;    ///< since the last result, without static energy
+  double open_seconds_ = 0;  ///< of periods
+  vp::EnergyLedger ledger_;  ///< until the last result
+  std::uint64_t results_ = 0;
+  double seconds_ = 0;           ///< of periods
   double junction_seconds_ = 0;  ///< C s
   double static_w_ = 0;          ///< of the last frame
   bool follows_ = false;

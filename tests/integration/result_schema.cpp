@@ -1,5 +1,7 @@
 #include "result_schema.h"
 
+#include <algorithm>
+
 #include "design_schema.h"
 
 namespace integration {
@@ -45,6 +47,7 @@ class Checker {
                {"profile", Kind::text},
                {"configuration", Kind::object},
                {"frames", Kind::array},
+               {"stages", Kind::array},
                {"summary", Kind::object}})) {
       return;
     }
@@ -59,6 +62,7 @@ class Checker {
     for (std::size_t i = 0; i < json["frames"].size(); ++i) {
       frame(json["frames"][i], "frames[" + std::to_string(i) + "]");
     }
+    stages(json["stages"], json["frames"]);
     summary(json["summary"], json["frames"].size());
   }
 
@@ -142,7 +146,9 @@ class Checker {
           {"feature_overflow", Kind::count},
           {"label_overflow", Kind::count},
           {"bridge_overflow", Kind::count},
-          {"crossing_overflow", Kind::count}});
+          {"crossing_overflow", Kind::count},
+          {"software_overflow", Kind::count},
+          {"malformed", Kind::count}});
     keys(json["time_us"], where + ".time_us",
          {{"upload", Kind::number},
           {"feature_extraction", Kind::number},
@@ -152,6 +158,30 @@ class Checker {
           {"pose", Kind::number},
           {"frame", Kind::number}});
     for (const Json& found : json["markers"]) marker(found, where + ".markers");
+  }
+
+  /// The times of the frames, in their order; all but frame and upload are parts of another.
+  void stages(const Json& json, const Json& frames) {
+    std::vector<std::string> names;
+    for (const Json& stage : json) {
+      if (keys(stage, "stages", {{"name", Kind::text}})) names.push_back(stage["name"]);
+    }
+    for (const Json& stage : json) {
+      if (!stage.is_object() || stage.value("name", Json()) == "frame" ||
+          stage.value("name", Json()) == "upload")
+        continue;
+      if (keys(stage, "stages", {{"part_of", Kind::text}})) {
+        expect(std::find(names.begin(), names.end(), stage["part_of"]) != names.end(),
+               "stages.part_of names no stage");
+      }
+    }
+    for (const Json& frame : frames) {
+      if (!frame.is_object()) continue;
+      const Json time_us = frame.value("time_us", Json());
+      std::vector<std::string> times;
+      for (const auto& time : time_us.items()) times.push_back(time.key());
+      expect(times == names, "stages are not the times of the frames");
+    }
   }
 
   void marker(const Json& json, const std::string& where) {
@@ -194,6 +224,7 @@ class Checker {
   void summary(const Json& json, std::size_t frames) {
     if (!keys(json, "summary",
               {{"frames", Kind::count},
+               {"delivered", Kind::count},
                {"detected", Kind::count},
                {"fps", Kind::object},
                {"latency_us", Kind::object}})) {

@@ -15,6 +15,8 @@ const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
   run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), validation: samples.validation(), comparison: samples.comparison(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
+  psOnly: samples.psOnly(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
+  systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
   hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
 };
 let browser;
@@ -52,8 +54,9 @@ async function scrollThrough(page) {
 }
 
 const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3 };
-for (const [name, least] of Object.entries(charts)) {
-  for (const colorScheme of ["light", "dark"]) {
+const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2 };
+for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
+  for (const colorScheme of inLightOnly[name] ? ["light"] : ["light", "dark"]) {
     test(`${name}, ${colorScheme}: every chart draws, and axe finds nothing`, () => open(name, async (page) => {
       await scrollThrough(page);
       const drawn = await page.$$eval(".chart-area", (areas) => areas.map((area) => {
@@ -120,6 +123,58 @@ test("a bar says what it is", () => open("run", async (page) => {
   await page.waitForTimeout(400);
   const after = await area.locator("svg").evaluate((svg) => svg.textContent);
   assert.match(after.replace(before, ""), /ms/);
+}));
+
+/** The rows of a chart's table: [[cell…]…]. */
+async function rowsOf(page, title) {
+  const figure = page.locator("figure", { has: page.locator(`.chart-area[aria-label^="${title}"]`) });
+  await figure.getByRole("button", { name: "Table", exact: true }).press("Enter");
+  return figure.locator("table:not(.u-legend) tbody tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
+}
+const number = (text) => Number(text.replace(/[^\d.]/g, ""));
+
+test("a stage and its parts are not stacked", async () => {
+  const frame = samples.psOnly().result.frames[0].time_us.frame;
+  await open("psOnly", async (page) => {
+    const shares = await page.locator(".frame-side .keys li").evaluateAll((items) => items.map((item) => item.textContent));
+    assert.deepEqual(shares.map((text) => text.match(/^\D*/)[0].trim()).slice(0, 4), ["capture", "corner detection", "threshold", "blob detection"]);
+    const sum = shares.reduce((all, text) => all + Number(text.match(/([\d.]+) %$/)[1]), 0);
+    assert.ok(Math.abs(sum - 100) < 1, `${sum} %`);
+    const rows = (await rowsOf(page, "Stages of a frame")).filter((row) => row[0] === "This run");
+    assert.ok(!rows.some((row) => row[1] === "feature extraction"));
+    assert.match(await page.locator("#guidance").textContent(), /Corner detection takes \d+ % of a frame/);
+  });
+  await open("systems", async (page) => {
+    const rows = await rowsOf(page, "Stages of a frame");
+    const parts = rows.filter((row) => row[0] !== "feature extraction").reduce((all, row) => all + number(row[2]), 0);
+    assert.ok(Math.abs(parts / frame - 1) < 0.1, `${parts} of ${frame}`);
+  });
+});
+
+test("a frame that was given up is no result", async () => {
+  await open("gaveUp", async (page) => {
+    const verdict = await page.locator("#verdict").textContent();
+    assert.match(verdict, /Result delivered for 5 of 6 frames/);
+    assert.match(verdict, /Timing unknown: pl.corner_detection/);
+    assert.doesNotMatch(verdict, /Misses timing/);
+    assert.match(await page.locator("#guidance").textContent(), /The software gave up 1 frame, first roll2: binary image timed out/);
+    assert.match(await page.locator("#guidance").textContent(), /nobody knows whether timing is met/);
+    assert.ok((await rowsOf(page, "Latency of each frame")).every((row) => number(row[2]) < 20), "100 ms were given up");
+    await page.getByLabel("Next frame").click();
+    await page.getByLabel("Next frame").click();
+    assert.match(await page.locator(".frame-side").textContent(), /No result, the software gave up/);
+    assert.match(await page.locator("#resources tbody tr").first().textContent(), /unknown/);
+  });
+  await open("nothing", async (page) => {
+    const verdict = await page.locator("#verdict").textContent();
+    assert.match(verdict, /Result delivered for 0 of 6 frames/);
+    assert.doesNotMatch(verdict, /frames\/s|Latency|Energy per frame/);
+  });
+});
+
+test("power by module has one row a module", () => open("run", async (page) => {
+  const rows = (await rowsOf(page, "Power by module")).filter((row) => row[0] === "pl.corner detection");
+  assert.deepEqual(rows, [["pl.corner detection", "0.125"]]);
 }));
 
 test("charts and tables are exported", () => open("run", async (page) => {

@@ -26,7 +26,7 @@ function frameOf(index, random, input) {
   const evaluation = 20 + 200 * random();
   return {
     input, index, threshold: 128,
-    counts: { corners: 40, blobs: 6, feature_words: 53, candidates: 3, feature_overflow: index === 3 ? 12 : 0, label_overflow: 0, bridge_overflow: 0, crossing_overflow: 0 },
+    counts: { corners: 40, blobs: 6, feature_words: 53, candidates: 3, feature_overflow: index === 3 ? 12 : 0, label_overflow: 0, bridge_overflow: 0, crossing_overflow: 0, software_overflow: 0, malformed: 0 },
     markers: index === 5 ? [] : [marker(random)],
     time_us: { upload: 4801.2, feature_extraction: 6146.1, receive: 41.2, evaluation, identification, pose: 41.2, frame: 6146.1 + 41.2 + evaluation + identification + 41.2 },
     energy_mj: { total: 16.5, ps: 11.7, feature_extraction: 3, data_bridge: 0.2, image_memory: 0.1, static: 1.5 },
@@ -45,7 +45,8 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
     fidelity: "tlm", system: "hybrid", design: "thesis", profile: "thesis",
     configuration: { fidelity: "tlm", "pl.width": "640 px", "ps.fclk_clk1.frequency": clock, "ps.cpu_clk.frequency": "666.666667 MHz" },
     frames: list,
-    summary: { frames, detected: frames - (frames > 5 ? 1 : 0), fps: { mean: 1e6 / mean, min: 1e6 / Math.max(...latency), max: 1e6 / Math.min(...latency) }, latency_us: { mean, max: Math.max(...latency) },
+    stages: [{ name: "upload" }, ...["feature_extraction", "receive", "evaluation", "identification", "pose"].map((stage) => ({ name: stage, part_of: "frame" })), { name: "frame" }],
+    summary: { frames, delivered: frames, detected: frames - (frames > 5 ? 1 : 0), fps: { mean: 1e6 / mean, min: 1e6 / Math.max(...latency), max: 1e6 / Math.min(...latency) }, latency_us: { mean, max: Math.max(...latency) },
       power_w: { total: 2.27, ps: 1.53, pl: 0.59, static: 0.15 }, energy_per_frame_mj: 16.4 },
     timing: { met: fits, modules: [
       { name: "pl.corner_detection", clock: "ps.fclk_clk1", frequency_mhz: 50, fmax_mhz: 100, lower_bound: true, met: true, margin_percent: 100, source: "published: runs comfortably at it (thesis 4.6.1)" },
@@ -55,7 +56,7 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
         { name: "pl.blob_detection", lut: 24206, ff: 5279, bram36: 0.5, dsp: 0, uncertainty_percent: 50, source: "derived from the structure of thesis 4.3.6" }] },
     power: { mode: "vivado-default", table: "zynq7020", ambient_c: 25, junction_c: 51.2, total_w: { low: 2.03, nominal: 2.27, high: 2.61 }, rails: { VCCINT: 0.8, VCCPINT: 0.7 },
       modules: [{ name: "ps.cpu", rail: "VCCPINT", kind: "dynamic", w: 1.2, mj: 9, source: "published: thesis 4.6.3" }, { name: "pl.blob_detection", rail: "VCCINT", kind: "dynamic", w: 0.4, mj: 3, source: "published: thesis 4.6.1" },
-        { name: "pl.corner_detection", rail: "VCCINT", kind: "dynamic", w: 0.1, mj: 0.8, source: "derived: from its size" }, { name: "pl", rail: "VCCINT", kind: "static", w: 0.15, mj: 1.1, source: "assumed: typical" }] },
+        { name: "pl.corner_detection", rail: "VCCINT", kind: "dynamic", w: 0.1, mj: 0.8, source: "derived: from its size" }, { name: "pl.corner_detection", rail: "VCCBRAM", kind: "dynamic", w: 0.025, mj: 0.2, source: "derived: from its size" }, { name: "pl", rail: "VCCINT", kind: "static", w: 0.15, mj: 1.1, source: "assumed: typical" }] },
   };
   const view = { width: 640, height: 480, camera: { fx: 381.36, fy: 381.36, cx: 320, cy: 240 }, png,
     corners: Array.from({ length: 40 }, () => [Math.floor(640 * random()), Math.floor(480 * random()), Math.floor(4 * random())]), blobs: [[300, 200, 362, 262]], candidates: [[[300, 200], [360, 202], [358, 262], [298, 260]]] };
@@ -82,6 +83,37 @@ function timeline(times) {
     handshakes: [{ name: "Feature words", signals: [{ name: "ena", bits: 1, points: [[start, 1]] },
       { name: "feature", bits: 32, points: [[start, 0], [start + 12.5, 0x80000c05], [start + 14, 0x40080401]] }, { name: "ready", bits: 2, points: [[start, 0], [start + 13.25, 1]] }] }],
   };
+}
+
+/** Everything on the PS: feature extraction contains four stages. */
+function psOnly() {
+  const blocks = run({ frames: 6 });
+  const { result } = blocks;
+  result.system = "ps-only";
+  const parts = { capture: 6144, corner_detection: 40000, threshold: 13000, blob_detection: 16000 };
+  const all = Object.values(parts).reduce((a, b) => a + b, 0);
+  for (const frame of result.frames) {
+    const { feature_extraction: before, upload, ...times } = frame.time_us;
+    frame.time_us = { upload: 0, ...parts, feature_extraction: all, ...times, receive: 0, frame: times.frame - before - times.receive + all };
+  }
+  result.stages = [{ name: "upload" }, ...Object.keys(parts).map((stage) => ({ name: stage, part_of: "feature_extraction" })), ...result.stages.slice(1)];
+  return blocks;
+}
+
+/** A run that gave frames up: some, or all. Its clocks are above what a module is known to reach. */
+function gaveUp({ all = false } = {}) {
+  const blocks = run({ frames: 6 });
+  const { result } = blocks;
+  result.frames.forEach((frame, i) => {
+    if (!all && i !== 2) return;
+    Object.assign(frame, { gave_up: "binary image timed out", markers: [], warnings: ["the software gave up: binary image timed out"] });
+    Object.assign(frame.time_us, { frame: 100000, evaluation: 0, identification: 0, pose: 0 });
+    delete frame.energy_mj;
+  });
+  Object.assign(result.summary, { delivered: all ? 0 : 5, detected: all ? 0 : 4 });
+  if (all) for (const part of [result.summary, result]) for (const key of ["fps", "latency_us", "energy_per_frame_mj", "stages"]) delete part[key];
+  result.timing = { met: false, modules: [{ ...result.timing.modules[0], frequency_mhz: 120, met: false, margin_percent: -16.7 }, result.timing.modules[1]] };
+  return blocks;
 }
 
 /** The block of a sweep's page. */
@@ -129,4 +161,4 @@ function page(template, blocks) {
   return template.replace("<!--DATA-->", () => scripts.join(""));
 }
 
-module.exports = { run, sweep, validation, comparison, page };
+module.exports = { run, psOnly, gaveUp, sweep, validation, comparison, page };

@@ -89,8 +89,69 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
                "corner 0.50 px   translation 12.0 mm   rotation 0.00 deg   (mean over 1 marker)"),
       text);
   BOOST_TEST(
-      contains(text, "feature_extraction          6144.5      6144.5      6144.5   76.8 % #######"),
+      contains(text, "  feature_extraction        6144.5      6144.5      6144.5   76.8 % #######"),
       text);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_gave_up_has_no_rate) {
+  report::Summary summary;
+  report::FrameReport frame = given_up_frame("z1.0");
+  BOOST_TEST(contains(report::frame_text(frame),
+                      "[1] z1.0: no result, the software gave up: binary image timed out\n"));
+  summary.add(frame);
+  std::string text = report::summary_text(summary, facts());
+  check_width(text);
+  BOOST_TEST(contains(text, "1 frame, 0 with a marker, 1 without a result"), text);
+  BOOST_TEST(contains(text, "no result: there is no frame rate and no latency"), text);
+  BOOST_TEST(!contains(text, "FPS"), text);
+  summary.add(found_frame("z1.0", 1));
+  text = report::summary_text(summary, facts());
+  BOOST_TEST(contains(text, "2 frames, 1 with a marker, 1 without a result"), text);
+  BOOST_TEST(contains(text, "FPS      mean 62.5"), text);
+}
+
+BOOST_AUTO_TEST_CASE(parts_stand_below_the_stage_that_contains_them) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.times = {{"upload", 3'000'000'000},
+                 {"capture", 2'000'000'000, 0, "feature_extraction"},
+                 {"threshold", 4'000'000'000, 0, "feature_extraction"},
+                 {"feature_extraction", 6'000'000'000, 0, "frame"},
+                 {"pose", 2'000'000'000, 0, "frame"},
+                 {"frame", 8'000'000'000}};
+  report::Summary summary;
+  summary.add(frame);
+  const std::string text = report::summary_text(summary, facts());
+  check_width(text);
+  const auto line = [](const std::string& name, const std::string& us, const std::string& share) {
+    const std::string time = std::string(12 - us.size(), ' ') + us;
+    std::string wanted = name + std::string(22 - name.size(), ' ') + time + time + time;
+    return share.empty() ? wanted + "\n" : wanted + "  " + share;
+  };
+  const std::string lines[] = {line("upload", "3000.0", ""),
+                               line("frame", "8000.0", ""),
+                               line("  feature_extraction", "6000.0", " 75.0 % #######"),
+                               line("    capture", "2000.0", " 25.0 % #######"),
+                               line("    threshold", "4000.0", " 50.0 % #######"),
+                               line("  pose", "2000.0", " 25.0 % #######")};
+  std::size_t at = 0;
+  for (const std::string& wanted : lines) {
+    at = text.find(wanted, at);
+    BOOST_TEST_REQUIRE(at != std::string::npos, wanted << " is not in its place in\n" << text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
+  report::TimingReport timing;
+  timing.met = false;
+  timing.modules = {{"a", "clk", 120, 100, true, false, -16.7, ""},
+                    {"b", "clk", 120, 100, true, false, -16.7, ""},
+                    {"c", "clk", 120, 130, false, true, 8.3, ""}};
+  const auto text = [&] { return report::design_text({}, {}, timing); };
+  BOOST_TEST(
+      contains(text(), "timing   unknown for a and 1 more: 120 MHz, known to work up to 100 MHz\n"),
+      text());
+  timing.modules[2].met = false;
+  BOOST_TEST(contains(text(), "timing   MISSED by c: 120 MHz, at most 130 MHz\n"), text());
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_run) {

@@ -32,9 +32,18 @@ inline platform::report::FrameReport found_frame(const std::string& scene,
   frame.start_ps = index * 11'000'000'000ull + frame.upload_ps;
   frame.end_ps = frame.start_ps + 8'000'000'000;
   frame.times = {{"upload", frame.upload_ps},
-                 {"feature_extraction", 6'144'500'000},
-                 {"pose", 123'456},
+                 {"feature_extraction", 6'144'500'000, 0, "frame"},
+                 {"pose", 123'456, 0, "frame"},
                  {"frame", 8'000'000'000}};
+  return frame;
+}
+
+/// The same frame, given up when it would have ended.
+inline platform::report::FrameReport given_up_frame(const std::string& scene,
+                                                    std::uint32_t index = 0) {
+  platform::report::FrameReport frame = found_frame(scene, index);
+  frame.gave_up = "binary image timed out";
+  frame.markers.clear();
   return frame;
 }
 

@@ -44,18 +44,20 @@ BOOST_AUTO_TEST_SUITE(result_writer)
 BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
   const Json json = written({found_frame("z1.0")});
   BOOST_TEST(keys(json) == (Keys{"schema", "provenance", "fidelity", "system", "design", "profile",
-                                 "configuration", "frames", "summary"}));
+                                 "configuration", "frames", "stages", "summary"}));
   BOOST_TEST(json["schema"] == 1);
   BOOST_TEST(json["configuration"]["pl.clk"] == "50 MHz");
   const Json& frame = json["frames"][0];
   BOOST_TEST(keys(frame) == (Keys{"input", "index", "threshold", "counts", "markers", "time_us"}));
-  BOOST_TEST(keys(frame["counts"]) ==
-             (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow",
-                   "label_overflow", "bridge_overflow", "crossing_overflow"}));
+  BOOST_TEST(
+      keys(frame["counts"]) ==
+      (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow", "label_overflow",
+            "bridge_overflow", "crossing_overflow", "software_overflow", "malformed"}));
   BOOST_TEST(keys(frame["markers"][0]) ==
              (Keys{"id", "rotation", "corners_px", "pose", "reprojection_px", "iterations", "truth",
                    "error"}));
-  BOOST_TEST(keys(json["summary"]) == (Keys{"frames", "detected", "fps", "latency_us"}));
+  BOOST_TEST(keys(json["summary"]) ==
+             (Keys{"frames", "delivered", "detected", "fps", "latency_us"}));
 }
 
 BOOST_AUTO_TEST_CASE(values_and_errors) {
@@ -95,7 +97,22 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_absent) {
   BOOST_TEST(keys(marker) == (Keys{"id", "rotation", "corners_px"}));
   const Json nothing = written({});
   BOOST_TEST(nothing["frames"].empty());
-  BOOST_TEST(keys(nothing["summary"]) == (Keys{"frames", "detected"}));
+  BOOST_TEST(keys(nothing["summary"]) == (Keys{"frames", "delivered", "detected"}));
+}
+
+BOOST_AUTO_TEST_CASE(stages_say_what_they_are_parts_of) {
+  const Json json = written({found_frame("z1.0")});
+  BOOST_TEST(json["stages"] == Json::parse(R"([{"name": "upload"},
+      {"name": "feature_extraction", "part_of": "frame"}, {"name": "pose", "part_of": "frame"},
+      {"name": "frame"}])"));
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_given_up_says_so_and_makes_no_figures) {
+  const Json json = written({given_up_frame("z1.0")});
+  BOOST_TEST(json["frames"][0]["gave_up"] == "binary image timed out");
+  BOOST_TEST(json["summary"] == Json::parse(R"({"frames": 1, "delivered": 0, "detected": 0})"));
+  BOOST_TEST(!json.contains("stages"));
+  BOOST_TEST(!written({found_frame("z1.0")})["frames"][0].contains("gave_up"));
 }
 
 BOOST_AUTO_TEST_CASE(another_marker_than_the_scenes_has_no_error) {

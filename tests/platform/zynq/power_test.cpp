@@ -187,6 +187,42 @@ BOOST_AUTO_TEST_CASE(the_next_frame_begins_where_the_last_one_ended_without_its_
   BOOST_TEST(mj == 4 * platform.power->power_report(0).total_w, near);
 }
 
+BOOST_AUTO_TEST_CASE(the_energy_of_a_frame_given_up_is_that_of_the_next_result) {
+  Platform platform;
+  platform.frame(0, 2 * ms);
+  const auto ends = [&](std::uint64_t from_ms, std::uint64_t to_ms, const char* gave_up) {
+    platform.run_until(to_ms * ms);
+    report::FrameReport frame;
+    frame.start_ps = from_ms * ms;
+    frame.end_ps = to_ms * ms;
+    frame.gave_up = gave_up;
+    platform.power->frame_ends(frame);
+    double mj = 0;
+    for (const auto& part : frame.energy) mj += part.mj;
+    return mj;
+  };
+  BOOST_TEST(ends(2, 7, "no DMA memory") == 0.0);
+  const double both = ends(7, 10, "");
+  BOOST_TEST(ends(10, 20, "no DMA memory") == 0.0);
+  const report::PowerReport power = platform.power->power_report(20 * ms);
+  BOOST_TEST(both == 8 * power.total_w, near);
+  BOOST_TEST(power.energy_per_frame_mj == 10 * power.total_w / 2, near);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_gave_up_takes_power_and_no_energy_per_frame) {
+  const double usual = report_of({}).total_w;
+  Platform platform;
+  platform.run_until(2 * ms);
+  report::FrameReport frame;
+  frame.start_ps = ms;
+  frame.end_ps = 2 * ms;
+  frame.gave_up = "no DMA memory";
+  platform.power->frame_ends(frame);
+  const report::PowerReport power = platform.power->power_report(2 * ms);
+  BOOST_TEST(!power.per_frame);
+  BOOST_TEST(power.total_w == usual, near);
+}
+
 /// A frame of 4 ms in mode `activity`; after the first `change` happens.
 report::PowerReport activity_of(const std::function<void(Zynq&)>& change) {
   Platform platform(Settings{{"power.mode", "activity"}});

@@ -14,7 +14,7 @@ function figures(a, b) {
   return [
     pick("Frame rate", "frames/s", (r) => r.summary.fps?.mean, 1), pick("Latency", "ms", (r) => r.summary.latency_us?.mean / 1e3, -1),
     pick("Power", "W", (r) => r.summary.power_w?.total, -1), pick("Energy per frame", "mJ", (r) => r.summary.energy_per_frame_mj, -1), pick("Junction", "°C", (r) => r.result.power?.junction_c, -1),
-    pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1), pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1),
+    pick("Frames with result", "", (r) => r.summary.delivered, 1), pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1), pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1),
     ...stages.map((name) => pick(`Stage: ${words(name)}`, "µs", (r) => r.stageMean(name), -1)),
     ...["lut", "ff", "bram36", "dsp"].map((kind) => pick(kind.toUpperCase(), "", (r) => r.result.resources?.total?.[kind], -1)),
     pick("Corners a frame", "", counts("corners"), 0), pick("Candidates a frame", "", counts("candidates"), 0),
@@ -45,13 +45,13 @@ function stageBars(runs, names) {
 }
 
 function latencies(runs, names) {
-  if (Math.max(...runs.map((run) => run.frames.length)) < 2) return null;
+  if (Math.max(...runs.map((run) => run.delivered.length)) < 2 || !runs.every((run) => run.latency)) return null;
   return chart({
     name: "latency", title: "Latency of each frame, ms", height: 240, canvas: true, summary: runs.map((run, i) => `${names[i]}: mean ${time(run.latency.mean)}`).join(", "),
     option: () => ({
       legend: { top: 0, left: 0, icon: "circle", itemWidth: 8, itemHeight: 8, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true }, xAxis: axis({ type: "value", min: 1 }), yAxis: axis({ type: "value", scale: true }),
       tooltip: { show: true, trigger: "axis", valueFormatter: (v) => significant(v, 4) },
-      series: runs.map((run, i) => ({ name: names[i], type: "line", symbolSize: 5, showSymbol: run.frames.length < 60, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) }, data: run.frames.map((f) => [f.index + 1, f.time_us.frame / 1e3]) })),
+      series: runs.map((run, i) => ({ name: names[i], type: "line", symbolSize: 5, showSymbol: run.delivered.length < 60, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) }, data: run.delivered.map((f) => [f.index + 1, f.time_us.frame / 1e3]) })),
     }),
   });
 }

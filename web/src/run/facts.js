@@ -3,7 +3,8 @@ import { mean, quantile } from "../kit/format.js";
 
 export function makeRun(result, extras = {}) {
   const frames = result.frames ?? [];
-  const latencies = frames.map((frame) => frame.time_us?.frame).filter(Number.isFinite).sort((a, b) => a - b);
+  const delivered = frames.filter((frame) => !frame.gave_up);
+  const latencies = delivered.map((frame) => frame.time_us?.frame).filter(Number.isFinite).sort((a, b) => a - b);
   const errors = frames.flatMap((frame) => frame.markers.map((marker) => marker.error).filter(Boolean));
   const stages = [];
   for (const frame of frames) {
@@ -17,7 +18,7 @@ export function makeRun(result, extras = {}) {
     return scale ? parseFloat(text) * scale : undefined;
   };
   return {
-    result, extras, frames, stages, errors, configured, megahertz,
+    result, extras, frames, delivered, stages, errors, configured, megahertz,
     summary: result.summary ?? {},
     hybrid: result.system !== "ps-only",
     latency: latencies.length ? {
@@ -30,7 +31,7 @@ export function makeRun(result, extras = {}) {
       rotation: mean(errors.map((e) => e.rotation_deg).filter(Number.isFinite)),
       count: errors.length,
     } : null,
-    stageMean: (name) => mean(frames.map((frame) => frame.time_us?.[name]).filter(Number.isFinite)),
+    stageMean: (name) => mean(delivered.map((frame) => frame.time_us?.[name]).filter(Number.isFinite)),
   };
 }
 
@@ -41,5 +42,22 @@ export function powerByModule(power) {
   return [...sums].map(([name, w]) => ({ name, w })).sort((a, b) => b.w - a.w);
 }
 
-/** Names of stages that follow one another within a frame. */
-export const partsOf = (run) => run.stages.filter((name) => name !== "frame" && name !== "upload");
+/** Names of stages that follow one another within a frame: parts of another stage that have no parts of their own. */
+export function partsOf(run) {
+  const stages = run.result.stages ?? [];
+  const wholes = new Set(stages.map((stage) => stage.part_of));
+  return stages.filter((stage) => stage.part_of && !wholes.has(stage.name)).map((stage) => stage.name);
+}
+
+/** What is lost when a buffer is full: keys of a frame's counts. */
+export const losses = {
+  feature_overflow: "features were dropped: raise pl.feature_packaging.buffer_depth, or let the software read them faster",
+  label_overflow: "dark pixels found no label: raise pl.blob_detection.label_count",
+  bridge_overflow: "binary words were dropped: DMA 1 was not armed again in time; raise pl.axi_threshold_bridge.fifo_depth",
+  crossing_overflow: "words were lost between the clocks: the system clock is too slow for the pixel clock",
+  software_overflow: "words, corners, blobs or candidates found no room in the software",
+  malformed: "blobs were malformed: a start or end word was lost",
+};
+
+/** "met", "missed", or "unknown": clocked above what a module is known to reach, which may work or not. */
+export const timingOf = (module) => (module.met ? "met" : module.lower_bound ? "unknown" : "missed");

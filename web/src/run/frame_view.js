@@ -85,6 +85,7 @@ function facts(frame) {
 
 /** One bar, as long as the frame. */
 export function stageBar(run, frame) {
+  if (frame.gave_up) return h("p", { class: "note" }, `No result, the software gave up: ${frame.gave_up}.`);
   const whole = frame.time_us.frame;
   const parts = partsOf(run).filter((name) => frame.time_us[name] > 0);
   return h("div", { class: "stages" },

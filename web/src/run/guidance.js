@@ -2,15 +2,18 @@
 import { h } from "../kit/dom.js";
 import { counted, fixed, percent, significant, tidy, words } from "../kit/format.js";
 import { value } from "../published.js";
-import { partsOf, powerByModule } from "./facts.js";
+import { losses, partsOf, powerByModule, timingOf } from "./facts.js";
 
 const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
 const pixelClock = "ps.fclk_clk1.frequency";
 
 function limitingModule(run) {
   const modules = (run.result.timing?.modules ?? []).filter((m) => m.fmax_mhz > 0);
-  const known = modules.filter((m) => !m.lower_bound || m.met === false);
-  if (known.length > 0) return known.reduce((worst, m) => (m.margin_percent < worst.margin_percent ? m : worst));
+  const worst = (list) => list.reduce((a, b) => (b.margin_percent < a.margin_percent ? b : a));
+  const missed = modules.filter((m) => timingOf(m) === "missed");
+  if (missed.length > 0) return worst(missed);
+  const known = modules.filter((m) => !m.lower_bound || !m.met);
+  if (known.length > 0) return worst(known);
   const clock = run.megahertz(pixelClock);
   const fmax = value("fmax.blob");
   if (!run.hybrid || !clock || !fmax) return null;
@@ -22,6 +25,10 @@ function timing(run, say) {
   if (!module) return;
   const fmax = tidy(module.fmax_mhz);
   const now = tidy(module.frequency_mhz);
+  if (timingOf(module) === "unknown") {
+    say("bad", `${plain(module.name)} is known to work up to ${fmax} MHz, and its clock is ${now} MHz: nobody knows whether timing is met.`);
+    return;
+  }
   if (!module.met) {
     say("bad", `${plain(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
     return;
@@ -49,13 +56,6 @@ function stages(run, say) {
   }
 }
 
-const losses = {
-  feature_overflow: "features were dropped: raise pl.feature_packaging.buffer_depth, or let the software read them faster",
-  label_overflow: "dark pixels found no label: raise pl.blob_detection.label_count",
-  bridge_overflow: "binary words were dropped: DMA 1 was not armed again in time; raise pl.axi_threshold_bridge.fifo_depth",
-  crossing_overflow: "words were lost between the clocks: the system clock is too slow for the pixel clock",
-};
-
 function overflows(run, say) {
   for (const [key, text] of Object.entries(losses)) {
     const frames = run.frames.filter((frame) => frame.counts?.[key] > 0);
@@ -64,8 +64,13 @@ function overflows(run, say) {
   }
 }
 
+function results(run, say) {
+  const without = run.frames.filter((frame) => frame.gave_up);
+  if (without.length > 0) say("bad", `The software gave up ${counted(without.length, "frame")}, first ${without[0].input}: ${without[0].gave_up}. Rates, latency and energy are those of delivered results.`);
+}
+
 function markers(run, say) {
-  const without = run.frames.filter((frame) => frame.markers.length === 0);
+  const without = run.delivered.filter((frame) => frame.markers.length === 0);
   if (without.length > 0) say("bad", `No marker in ${counted(without.length, "frame")}, first ${without[0].input}.`);
 }
 
@@ -83,6 +88,7 @@ function budgets(run, say) {
 export function guidanceOf(run) {
   const list = [];
   const say = (kind, text) => list.push({ kind, text: text[0].toUpperCase() + text.slice(1) });
+  results(run, say);
   markers(run, say);
   overflows(run, say);
   timing(run, say);

@@ -27,9 +27,10 @@ function plot(data, label) {
 }
 
 export function overTime(run) {
-  if (run.frames.length < 4) return null;
-  const x = run.frames.map((frame) => frame.index + 1);
-  const y = run.frames.map((frame) => frame.time_us.frame / 1e3);
+  const frames = run.delivered;
+  if (frames.length < 4) return null;
+  const x = frames.map((frame) => frame.index + 1);
+  const y = frames.map((frame) => frame.time_us.frame / 1e3);
   return chart({
     name: "latency", title: "Latency of each frame, ms", height: 240,
     summary: `From ${fixed(run.latency.low / 1e3, 3)} to ${fixed(run.latency.high / 1e3, 3)} ms, mean ${fixed(run.latency.mean / 1e3, 3)} ms.`,
@@ -38,7 +39,7 @@ export function overTime(run) {
       xAxis: axis({ type: "value", min: 1, max: x.at(-1) }), yAxis: axis({ type: "value", scale: true }),
       series: [{ type: "line", data: x.map((value, i) => [value, y[i]]), symbol: "none", lineStyle: { color: palette().blue, width: 1.5 } }],
     }),
-    table: () => ({ caption: "Latency of each frame", rows: run.frames, columns: [
+    table: () => ({ caption: "Latency of each frame", rows: frames, columns: [
       { title: "Frame", value: (f) => f.index + 1, number: true }, { title: "Input", value: (f) => f.input },
       { title: "Latency", unit: "ms", csv: "Latency ms", value: (f) => f.time_us.frame / 1e3, show: (v) => fixed(v, 3), number: true }] }),
   });

@@ -24,7 +24,7 @@ function moduleChart(run) {
       series: kinds.map((kind, i) => ({ name: kind ?? "power", type: "bar", stack: "all", barMaxWidth: 14, itemStyle: { color: seriesColour(i) },
         data: names.map((name) => rows.filter((m) => m.name === name && m.kind === kind).reduce((sum, m) => sum + m.w, 0)) })),
     }),
-    table: () => ({ caption: "Power by module", rows: run.result.power.modules, columns: columns() }),
+    table: () => ({ caption: "Power by module", rows: modules, columns: columns().filter((column) => ["Module", "Power"].includes(column.title)) }),
   });
 }
 

@@ -3,6 +3,7 @@ import { h } from "../kit/dom.js";
 import { fixed, significant, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
+import { timingOf } from "./facts.js";
 
 const kinds = { lut: "LUT", ff: "Flip-flops", bram36: "BRAM 36 Kb", dsp: "DSP", mmcm: "MMCM" };
 const show = (v) => (Number.isInteger(v) ? fixed(v, 0) : significant(v, 4));
@@ -34,7 +35,7 @@ function clocks(timing) {
       { title: "Frequency", unit: "MHz", csv: "Frequency MHz", number: true, value: (m) => m.frequency_mhz, show: (v) => significant(v, 4) },
       { title: "Fmax", unit: "MHz", csv: "Fmax MHz", number: true, value: (m) => m.fmax_mhz, show: (v, m) => (m.lower_bound ? "≥ " : "") + significant(v, 4) },
       { title: "Margin", number: true, value: (m) => m.margin_percent, show: (v) => `${fixed(v, 1)} %` },
-      { title: "Timing", value: (m) => (m.met ? "met" : "missed"), node: (m) => h("span", { class: "tag " + (m.met ? "good" : "bad") }, m.met ? "met" : "missed") },
+      { title: "Timing", value: timingOf, node: (m) => h("span", { class: "tag " + (m.met ? "good" : "bad") }, timingOf(m)) },
       { title: "Origin", value: (m) => m.source, node: (m) => (m.source ? origin(m.source) : "") }],
   });
 }

@@ -12,7 +12,7 @@ export function frameTable(run) {
   const columns = [
     number("#", null, (f) => f.index + 1, 0),
     { title: "Input", value: (f) => f.input, head: true },
-    { title: "Marker", value: (f) => f.markers.map((m) => m.id).join(", ") || "none" },
+    { title: "Marker", value: (f) => f.markers.map((m) => m.id).join(", ") || (f.gave_up ? "no result" : "none") },
     ...run.stages.map((name) => number(words(name), "µs", (f) => f.time_us?.[name], 1)),
     number("Energy", "mJ", (f) => f.energy_mj?.total ?? f.energy_mj, 3),
     number("Corners", null, (f) => f.counts.corners, 0),

@@ -10,6 +10,7 @@ import { thesisStages } from "./thesis.js";
 const flow = ["capture", "feature_extraction", "corner_detection", "threshold", "blob_detection", "receive", "evaluation", "identification", "pose"];
 
 function stageChart(run) {
+  if (run.delivered.length === 0) return null;
   const rows = [{ name: "This run", stages: partsOf(run).map((name) => ({ name, us: run.stageMean(name) })).filter((stage) => stage.us > 0) },
     { name: "Thesis, hybrid", stages: thesisStages("hybrid") }, { name: "Thesis, PS only", stages: thesisStages("ps-only") }];
   const rank = (name) => (flow.indexOf(name) + 1 || flow.length + 1);

@@ -3,6 +3,7 @@ import { h } from "../kit/dom.js";
 import { counted, fixed, signed, significant } from "../kit/format.js";
 import { legend, origin } from "../kit/origin.js";
 import { value } from "../published.js";
+import { losses, timingOf } from "./facts.js";
 
 const target = 60; // frames per second: what the thesis calls real time
 
@@ -30,14 +31,14 @@ function tiles(run) {
   if (summary.fps) {
     list.push(tile({
       label: "Frame rate", number: fixed(summary.fps.mean, 1), unit: "frames/s",
-      band: summary.frames > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one frame",
-      source: "simulated", detail: "frames over simulated time, image upload excluded as in the thesis; times of software from the cost profile",
+      band: run.delivered.length > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one result",
+      source: "simulated", detail: "delivered results over simulated time, image upload excluded as in the thesis; times of software from the cost profile",
       thesis: beside(summary.fps.mean, thesisFps(run), run.hybrid ? 0 : 1),
       tone: summary.fps.mean >= target ? "good" : "bad",
     }));
     list.push(tile({
       label: "Latency", number: significant(summary.latency_us.mean / 1e3, 4), unit: "ms",
-      band: run.latency && run.frames.length > 1
+      band: run.latency && run.delivered.length > 1
         ? `${significant(run.latency.low / 1e3, 4)} to ${significant(run.latency.high / 1e3, 4)}, 95 % within ${significant(run.latency.p95 / 1e3, 4)}`
         : "from the frame's start to its result",
       source: "simulated", detail: "from the frame's start to its result",
@@ -84,20 +85,22 @@ function chips(run) {
   const { summary, result } = run;
   const chip = (good, text) => h("li", { class: good ? "good" : "bad" }, h("span", { "aria-hidden": "true" }, good ? "✓" : "✕"), " ", text);
   const list = [];
+  if (summary.delivered < summary.frames) list.push(chip(false, `Result delivered for ${summary.delivered} of ${counted(summary.frames, "frame")}`));
   if (summary.frames) {
     list.push(chip(summary.detected === summary.frames, `Marker found in ${summary.detected} of ${counted(summary.frames, "frame")}`));
   }
   if (summary.fps) list.push(chip(summary.fps.mean >= target, `${summary.fps.mean >= target ? "Reaches" : "Misses"} ${target} frames/s`));
   if (result.timing) {
-    const missed = (result.timing.modules ?? []).filter((module) => module.met === false);
-    list.push(chip(result.timing.met, result.timing.met ? "Meets timing" : `Misses timing: ${missed.map((m) => m.name).join(", ")}`));
+    const names = (verdict) => (result.timing.modules ?? []).filter((module) => timingOf(module) === verdict).map((module) => module.name).join(", ");
+    if (result.timing.met) list.push(chip(true, "Meets timing"));
+    if (names("missed")) list.push(chip(false, `Misses timing: ${names("missed")}`));
+    if (names("unknown")) list.push(chip(false, `Timing unknown: ${names("unknown")}`));
   }
   if (result.resources) {
     const device = result.resources.device ?? "the device";
     list.push(chip(result.resources.fits, result.resources.fits ? `Fits ${device}` : `Does not fit ${device}`));
   }
-  const lost = run.frames.reduce((sum, frame) => sum + (frame.counts?.feature_overflow ?? 0) + (frame.counts?.label_overflow ?? 0) +
-    (frame.counts?.bridge_overflow ?? 0) + (frame.counts?.crossing_overflow ?? 0), 0);
+  const lost = run.frames.reduce((sum, frame) => sum + Object.keys(losses).filter((key) => key.endsWith("_overflow")).reduce((own, key) => own + (frame.counts?.[key] ?? 0), 0), 0);
   if (summary.frames) list.push(chip(lost === 0, lost === 0 ? "Nothing lost in buffers" : `${counted(lost, "word")} lost in buffers`));
   if (result.program_end && result.program_end.exit_code !== 0) list.push(chip(false, `Program ended with ${result.program_end.exit_code}`));
   if (result.incomplete) list.push(chip(false, `Incomplete: ${result.incomplete}`));
