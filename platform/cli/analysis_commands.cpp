@@ -69,6 +69,8 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   if (unknown != 0)
     out << "\nleft out: " << report::counted(static_cast<std::uint64_t>(unknown), "point")
         << " of unknown timing: clocked above limits of which only a lower bound is known\n";
+  for (const auto& [metric, count] : pareto.lacking)
+    out << "\nleft out: " << report::counted(count, "point") << " without '" << metric << "'\n";
   out << "\nwrote " << wrote << std::endl;
   return done;
 }
@@ -89,8 +91,10 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
         << ")\n\n"
         << sweep::sensitivity_table(report) << "\n";
     if (report.skipped != 0)
-      err << "markervp: warning: " << report::counted(report.skipped, "effect")
-          << " left out: a point failed or is missing" << std::endl;
+      err << "markervp: warning: "
+          << report::counted(report.skipped, report.method == "main effects" ? "point" : "effect")
+          << " left out of '" << figure.text()
+          << "': a point failed, is missing or has no value of it" << std::endl;
     const std::string lines = sweep::sensitivity_csv(figure.text(), report);
     csv += csv.empty() ? lines : lines.substr(lines.find('\n') + 1);
   }

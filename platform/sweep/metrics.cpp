@@ -89,6 +89,8 @@ void find_in_frames(const Json& frames, const Found& found) {
               gather(marker[figure], std::string("frames.") + figure, all);
           }
         }
+      } else if (name == "time_us" && frame.contains("gave_up")) {
+        continue;  // stages that were not reached
       } else if (name != "index") {
         gather(value, "frames." + name, all);
       }
@@ -138,7 +140,7 @@ Metrics::Metrics(Figures figures) {
   values_.reserve(figures.size());
   for (auto& [name, value] : figures) {
     if (!names.empty() && names.back() == name) {
-      values_.back() = value;
+      values_.back() += value;
       continue;
     }
     names.push_back(std::move(name));
@@ -178,12 +180,12 @@ Metrics metrics_of(const Json& result) {
 }
 
 Metrics MetricsReader::read(const Json& result) {
-  std::vector<double> values(before_.values().size());  // fewer than paths if two have one name
+  std::vector<double> values(before_.values().size());  // fewer than paths if some share a name
   std::size_t count = 0;
   bool same = true;
   find_figures(result, [&](const std::string& path, double value) {
     same = same && count < paths_.size() && paths_[count] == path;
-    if (same) values[order_[count++]] = value;
+    if (same) values[order_[count++]] += value;
   });
   if (same && count == paths_.size() && count != 0)
     return Metrics(before_.shared_names(), std::move(values));

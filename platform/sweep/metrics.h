@@ -17,7 +17,7 @@ class Metrics {
   using Names = std::vector<std::string>;
 
   Metrics() = default;
-  /// Sorts them; of two with one name the later stays.
+  /// Sorts them; those of one name are added up.
   explicit Metrics(std::vector<std::pair<std::string, double>> figures);
   Metrics(std::initializer_list<std::pair<std::string, double>> figures)
       : Metrics(std::vector<std::pair<std::string, double>>(figures)) {}
@@ -48,11 +48,12 @@ class Metrics {
 
 /// Every number and truth of a result (without provenance and configuration) by its path:
 /// "summary.fps.mean", "timing.met". Members of a list are named by their `name`, others by their
-/// position. Of the frames, mean and largest value over all of them:
-/// "frames.counts.corners.mean", "frames.time_us.receive.max", "frames.error.corner_px.mean" (of
-/// the markers whose truth is known). Of the timing also "timing.failed" and "timing.unknown": how
-/// many modules are clocked above a known limit, and above one of which only a lower bound is
-/// known.
+/// position; those of one name are added up: "power.modules.ps.cores.w" is the power of that
+/// module, whatever rails and reasons it has. Of the frames, mean and largest value over all of
+/// them: "frames.counts.corners.mean", "frames.time_us.receive.max" (of those with a result),
+/// "frames.error.corner_px.mean" (of the markers whose truth is known). Of the timing also
+/// "timing.failed" and "timing.unknown": how many modules are clocked above a known limit, and
+/// above one of which only a lower bound is known.
 Metrics metrics_of(const Json& result);
 
 /// metrics_of() of one result after another: those of the same shape as the one before cost no new

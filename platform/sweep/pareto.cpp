@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <sweep/csv_line.h>
 #include <sweep/text_table.h>
@@ -60,15 +61,26 @@ std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
   return knee;
 }
 
+/// The figures of the objectives; empty if the point lacks one.
+std::vector<double> figures_of(const ResultRow& row, const std::vector<Objective>& objectives) {
+  std::vector<double> figures;
+  for (const Objective& objective : objectives) {
+    if (missing_in(row, objective.figure())) return {};
+    const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+    figures.push_back(objective.figure().evaluate(lookup).number);
+  }
+  return figures;
+}
+
 /// Decides whether the point is feasible.
-void judge(RankedPoint& point, const Results& results, const std::vector<Expression>& constraints) {
+void judge(RankedPoint& point, const std::vector<Expression>& constraints) {
   Value granted;
   granted.number = 1;
   const auto hold = [&](bool timing_granted) {
     return std::all_of(constraints.begin(), constraints.end(), [&](const Expression& constraint) {
-      return constraint.holds([&](const std::string& name) {
+      return !missing_in(*point.row, constraint) && constraint.holds([&](const std::string& name) {
         if (timing_granted && name == "timing.met") return granted;
-        return value_in(results, *point.row, name, "constraint '" + constraint.text() + "'");
+        return value_in(*point.row, name);
       });
     });
   };
@@ -76,6 +88,32 @@ void judge(RankedPoint& point, const Results& results, const std::vector<Express
   const double* failed = point.row->metrics.find("timing.failed");
   const bool only_bounds = failed && *failed == 0;
   point.unknown = !point.feasible && only_bounds && hold(true);
+}
+
+/// Counts the metrics that the point lacks, each once.
+void count_lacking(const ResultRow& row, const std::vector<const Expression*>& expressions,
+                   std::map<std::string, std::uint64_t>& lacking) {
+  std::set<std::string> names;
+  for (const Expression* expression : expressions) {
+    if (const std::string* name = missing_in(row, *expression)) names.insert(*name);
+  }
+  for (const std::string& name : names) ++lacking[name];
+}
+
+/// All that points are judged by. Throws for a name that no point has.
+std::vector<const Expression*> checked(const Results& results,
+                                       const std::vector<Objective>& objectives,
+                                       const std::vector<Expression>& constraints) {
+  std::vector<const Expression*> all;
+  for (const Objective& objective : objectives) {
+    all.push_back(&objective.figure());
+    check_names(results, *all.back(), "objective '" + objective.figure().text() + "'");
+  }
+  for (const Expression& constraint : constraints) {
+    all.push_back(&constraint);
+    check_names(results, constraint, "constraint '" + constraint.text() + "'");
+  }
+  return all;
 }
 
 std::vector<std::string> texts(const std::vector<Objective>& objectives) {
@@ -111,28 +149,26 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
             const std::vector<Expression>& constraints) {
   Pareto pareto;
+  const std::vector<const Expression*> expressions = checked(results, objectives, constraints);
   for (const ResultRow& row : results.rows) {
     if (row.failed) continue;
     RankedPoint point;
     point.row = &row;
-    for (const Objective& objective : objectives) {
-      const auto lookup = [&](const std::string& name) {
-        return value_in(results, row, name, "objective '" + objective.figure().text() + "'");
-      };
-      point.figures.push_back(objective.figure().evaluate(lookup).number);
-    }
-    judge(point, results, constraints);
+    point.figures = figures_of(row, objectives);
+    judge(point, constraints);
+    count_lacking(row, expressions, pareto.lacking);
     pareto.points.push_back(std::move(point));
   }
   if (pareto.points.empty()) throw vp::InputError("the sweep has no point with a result");
   std::vector<std::vector<double>> figures;
   std::vector<RankedPoint*> feasible;
   for (RankedPoint& point : pareto.points) {
-    if (!point.feasible) continue;
+    if (!point.feasible || point.figures.empty()) continue;
     feasible.push_back(&point);
     figures.push_back(point.figures);
   }
-  if (feasible.empty()) throw vp::InputError("no point meets the constraints");
+  if (feasible.empty())
+    throw vp::InputError("no point meets the constraints and has a value of every objective");
   const std::vector<bool> maximise = directions(objectives);
   const std::vector<std::size_t> front = fronts(figures, maximise);
   for (std::size_t i = 0; i < feasible.size(); ++i) feasible[i]->front = front[i];
@@ -181,6 +217,7 @@ std::string pareto_csv(const Results& results, const std::vector<Objective>& obj
                                                      : "0"};
     for (const std::string& path : results.manifest.swept) fields.push_back(point.row->value(path));
     for (const double figure : point.figures) fields.push_back(csv_number(figure));
+    fields.resize(head.size());
     text += csv_line(fields);
   }
   return text;

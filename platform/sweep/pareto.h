@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,23 +14,26 @@ namespace platform::sweep {
 /// A point in an analysis by objectives.
 struct RankedPoint {
   const ResultRow* row = nullptr;
-  std::vector<double> figures;  ///< of each objective
+  std::vector<double> figures;  ///< of each objective; empty: it has no value of one of them
   bool feasible = true;         ///< all constraints hold
   bool unknown = false;         ///< infeasible, but only because `timing.met` is false, and that
                                 ///< only by limits that are lower bounds: it may be feasible
   std::size_t front = 0;        ///< 1: nothing is better in all objectives; 2: once the first front
-                                ///< is taken away; … 0: infeasible
+                                ///< is taken away; … 0: infeasible, or without figures
 };
 
 struct Pareto {
   std::vector<RankedPoint> points;  ///< failed ones left out, in the order of the sweep
   std::optional<std::size_t> knee;  ///< position in `points`
+  /// For each metric that some points lack: how many. A point that found no marker has no error.
+  std::map<std::string, std::uint64_t> lacking;
 };
 
 /// Sorts the points into fronts: one dominates another if it is no worse in every objective and
 /// better in one. The knee is the point of the first front nearest to the best value of every
-/// objective, each objective scaled to 0 … 1 over that front. Throws vp::InputError for an unknown
-/// metric or no point.
+/// objective, each objective scaled to 0 … 1 over that front. A point without a metric of an
+/// objective cannot be compared and is not ranked; without one of a constraint it does not meet it.
+/// Throws vp::InputError for a metric that no point has, or no point.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
             const std::vector<Expression>& constraints);
 

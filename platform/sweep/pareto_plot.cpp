@@ -47,7 +47,8 @@ template <class Wanted>
 std::string block(const std::string& name, const Pareto& pareto, const Wanted& wanted) {
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
-    if (wanted(i)) points.emplace_back(pareto.points[i].figures[0], pareto.points[i].figures[1]);
+    if (!pareto.points[i].figures.empty() && wanted(i))
+      points.emplace_back(pareto.points[i].figures[0], pareto.points[i].figures[1]);
   }
   std::sort(points.begin(), points.end());
   std::string text = "$" + name + " << EOD\n";

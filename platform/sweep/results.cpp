@@ -55,6 +55,10 @@ Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
   return results;
 }
 
+bool has(const ResultRow& row, const std::string& name) {
+  return row.metrics.find(name) || !row.value(name).empty();
+}
+
 }  // namespace
 
 const std::string* ResultRow::parameter(const std::string& path) const {
@@ -124,36 +128,47 @@ Results read_results(const Store& store, Manifest manifest,
   });
 }
 
-Value value_in(const Results& results, const ResultRow& row, const std::string& name,
-               const std::string& where) {
+void check_names(const Results& results, const Expression& expression, const std::string& where) {
+  if (results.failed() == results.rows.size()) return;  // then nobody knows what there would be
+  std::vector<std::string> known = results.metric_names();
+  if (results.rows.front().base) {
+    for (const auto& [path, unused] : *results.rows.front().base) known.push_back(path);
+  }
+  for (const std::string& name : expression.names()) {
+    const auto has_it = [&](const ResultRow& row) { return has(row, name); };
+    if (std::find(known.begin(), known.end(), name) != known.end() ||
+        std::any_of(results.rows.begin(), results.rows.end(), has_it))
+      continue;
+    const std::string nearest = vp::nearest_match(name, known);
+    throw vp::InputError(
+        where + ": unknown metric '" + name + "': " +
+        (nearest.empty() ? "sweep.csv has their names" : "did you mean '" + nearest + "'?"));
+  }
+}
+
+const std::string* missing_in(const ResultRow& row, const Expression& expression) {
+  const auto& names = expression.names();
+  const auto missing = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& name) { return !has(row, name); });
+  return missing == names.end() ? nullptr : &*missing;
+}
+
+Value value_in(const ResultRow& row, const std::string& name) {
   Value value;
   if (const double* metric = row.metrics.find(name)) {
     value.number = *metric;
     return value;
   }
   const std::string text = row.value(name);
-  if (!text.empty()) {
-    const ParameterKind kind = kind_of({name, text, text, "", {}, ""});
-    if (kind.kind == ParameterKind::Kind::quantity) {
-      value.number = number_of(kind, text);
-      value.unit = kind.unit;
-    } else {
-      value.is_text = true;
-      value.text = text;
-    }
-    return value;
+  const ParameterKind kind = kind_of({name, text, text, "", {}, ""});
+  if (kind.kind == ParameterKind::Kind::quantity) {
+    value.number = number_of(kind, text);
+    value.unit = kind.unit;
+  } else {
+    value.is_text = true;
+    value.text = text;
   }
-  std::vector<std::string> known = results.metric_names();
-  if (row.base) {
-    for (const auto& [path, unused] : *row.base) known.push_back(path);
-  }
-  if (std::find(known.begin(), known.end(), name) != known.end()) {
-    throw vp::InputError(where + ": point " + row.key + " has no '" + name + "'");
-  }
-  const std::string nearest = vp::nearest_match(name, known);
-  throw vp::InputError(
-      where + ": unknown metric '" + name +
-      "': " + (nearest.empty() ? "sweep.csv has their names" : "did you mean '" + nearest + "'?"));
+  return value;
 }
 
 }  // namespace platform::sweep

@@ -51,9 +51,14 @@ Results read_results(const Store& store, Manifest manifest);
 Results read_results(const Store& store, Manifest manifest,
                      const std::map<std::size_t, Outcome>& known);
 
-/// What a name means for a row: a metric, a parameter, or system and inputs. Throws vp::InputError
-/// for an unknown one, with the nearest; `where` says who asked.
-Value value_in(const Results& results, const ResultRow& row, const std::string& name,
-               const std::string& where);
+/// Throws vp::InputError for a name in `expression` that no point has a value of, with the nearest;
+/// `where` says who asked.
+void check_names(const Results& results, const Expression& expression, const std::string& where);
+
+/// The first name in `expression` that this point has no value of; null if it has all.
+const std::string* missing_in(const ResultRow& row, const Expression& expression);
+
+/// What a name means for a point that has it: a metric, a parameter, or system and inputs.
+Value value_in(const ResultRow& row, const std::string& name);
 
 }  // namespace platform::sweep

@@ -23,6 +23,7 @@ class Analysis {
   }
 
   SensitivityReport report() {
+    check_names(results_, figure_, "sensitivity");
     if (results_.manifest.sampling == "morris") {
       morris();
     } else if (results_.manifest.sampling == "one-at-a-time") {
@@ -44,15 +45,29 @@ class Analysis {
 
   std::optional<double> figure(const std::string& key) const {
     const auto found = rows_.find(key);
-    if (found == rows_.end() || found->second->failed) return std::nullopt;
-    return figure(*found->second);
+    return found == rows_.end() ? std::nullopt : figure(*found->second);
   }
 
-  double figure(const ResultRow& row) const {
-    return figure_
-        .evaluate(
-            [&](const std::string& name) { return value_in(results_, row, name, "sensitivity"); })
-        .number;
+  /// None: the point failed, or lacks what the figure is made of.
+  std::optional<double> figure(const ResultRow& row) const {
+    if (row.failed || missing_in(row, figure_)) return std::nullopt;
+    return figure_.evaluate([&](const std::string& name) { return value_in(row, name); }).number;
+  }
+
+  /// Those that have the figure, with it.
+  using Points = std::vector<std::pair<const ResultRow*, double>>;
+  Points points() const {
+    Points known;
+    for (const ResultRow& row : results_.rows) {
+      if (const std::optional<double> value = figure(row)) known.emplace_back(&row, *value);
+    }
+    return known;
+  }
+
+  static double mean(const Points& points) {
+    double sum = 0;
+    for (const auto& [row, value] : points) sum += value;
+    return points.empty() ? 0 : sum / static_cast<double>(points.size());
   }
 
   void morris() {
@@ -81,7 +96,7 @@ class Analysis {
       row.deviation = values.size() > 1 ? std::sqrt(squares / (count - 1)) : 0;
       report_.rows.push_back(row);
     }
-    report_.base = mean_of_all();
+    report_.base = mean(points());
   }
 
   void one_at_a_time() {
@@ -89,7 +104,9 @@ class Analysis {
     const auto& effects = results_.manifest.effects;
     const std::optional<double> base =
         effects.empty() ? std::nullopt : figure(effects.front().from);
-    if (!base) throw vp::InputError("sensitivity: the base point failed, or is not computed yet");
+    if (!base)
+      throw vp::InputError("sensitivity: the base point failed, is not computed yet or has no '" +
+                           figure_.text() + "'");
     report_.base = *base;
     std::map<std::string, Sensitivity> rows;
     for (const KeyedEffect& effect : effects) {
@@ -108,30 +125,20 @@ class Analysis {
 
   void main_effects() {
     report_.method = "main effects";
-    report_.base = mean_of_all();
+    const Points known = points();
+    report_.base = mean(known);
+    report_.skipped = results_.rows.size() - known.size();
     for (const std::string& path : results_.manifest.swept) {
       std::map<std::string, std::pair<double, double>> sums;  // value -> sum, count
-      for (const ResultRow& row : results_.rows) {
-        if (row.failed) continue;
-        auto& [sum, count] = sums[row.value(path)];
-        sum += figure(row);
+      for (const auto& [row, value] : known) {
+        auto& [sum, count] = sums[row->value(path)];
+        sum += value;
         ++count;
       }
       std::map<std::string, Sensitivity> rows;
       for (const auto& [value, sum] : sums) add(rows, path, sum.first / sum.second, value);
       for (auto& [unused, row] : rows) report_.rows.push_back(row);
     }
-  }
-
-  double mean_of_all() const {
-    double sum = 0;
-    double count = 0;
-    for (const ResultRow& row : results_.rows) {
-      if (row.failed) continue;
-      sum += figure(row);
-      ++count;
-    }
-    return count == 0 ? 0 : sum / count;
   }
 
   static std::string swept_text(const ResultRow& row) {

@@ -30,12 +30,13 @@ struct SensitivityReport {
   std::string method;  ///< "morris", "one-at-a-time", or "main effects" of any other sweep
   double base = 0;     ///< the figure at the base point, or its mean
   std::vector<Sensitivity> rows;  ///< the strongest first
-  std::size_t skipped = 0;        ///< effects with a failed point
+  std::size_t skipped = 0;  ///< effects, or points, left out: a point failed, is missing or has no
+                            ///< value of the figure
 };
 
 /// How the figure depends on each swept parameter: Morris' elementary effects or a tornado, if the
 /// sweep was made for it; otherwise main effects (the mean of the figure for each value). Throws
-/// vp::InputError for an unknown metric, or too few points.
+/// vp::InputError for an metric that no point has, or too few points.
 SensitivityReport sensitivity(const Results& results, const Expression& figure);
 
 std::string sensitivity_table(const SensitivityReport& report);

@@ -182,6 +182,18 @@ BOOST_FIXTURE_TEST_CASE(pareto_and_sensitivity_read_the_folder, Sweeps) {
                       "did you mean 'summary.fps.mean'"));
 }
 
+BOOST_FIXTURE_TEST_CASE(a_shipped_study_with_a_point_without_marker_is_analysed, Sweeps) {
+  BOOST_TEST_REQUIRE(run({"sweep", "resolution"}).exit_code == 0);
+  const kit::Outcome pareto = run({"pareto", "out/resolution"});
+  BOOST_TEST(pareto.exit_code == 0, pareto.err);
+  BOOST_TEST(contains(pareto.out, "left out: 2 points without 'frames.error.translation_mm.mean'"),
+             pareto.out);
+  const kit::Outcome sensitivity = run({"sensitivity", "out/resolution"});
+  BOOST_TEST(sensitivity.exit_code == 0, sensitivity.err);
+  BOOST_TEST(contains(sensitivity.err, "2 points left out of 'frames.error.translation_mm.mean'"),
+             sensitivity.err);
+}
+
 // The sensor's time is serial to the software's, which does not depend on the pixel clock: latency
 // is 6.144 ms · 50 MHz / f and a constant.
 BOOST_FIXTURE_TEST_CASE(the_serial_formula_holds_and_fps_is_monotone, Sweeps) {

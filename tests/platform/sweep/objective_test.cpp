@@ -149,6 +149,70 @@ BOOST_AUTO_TEST_CASE(constraints_take_points_out) {
                       "did you mean 'fps'"));
 }
 
+/// The example, whose second point found no marker: it has no error.
+Results without_marker() {
+  Results results = example();
+  const double error[] = {5, 0, 2, 4};
+  for (int i = 0; i < 4; ++i) {
+    ResultRow& row = results.rows[i];
+    if (i == 1) continue;
+    row.metrics = {{"fps", *row.metrics.find("fps")},
+                   {"watts", *row.metrics.find("watts")},
+                   {"error", error[i]}};
+  }
+  return results;
+}
+
+BOOST_AUTO_TEST_CASE(a_point_without_a_metric_is_left_out_and_counted) {
+  const Results results = without_marker();
+  const std::vector<Objective> objectives{Objective("max fps", "here"),
+                                          Objective("min error", "here")};
+  const Pareto pareto = rank(results, objectives, {});
+  BOOST_TEST(pareto.points.size() == 4u);
+  BOOST_TEST(pareto.points[1].figures.empty());
+  BOOST_TEST(pareto.points[1].front == 0u);
+  BOOST_TEST(pareto.points[2].front == 1u);
+  BOOST_TEST(pareto.points[3].front == 2u);
+  BOOST_TEST((pareto.lacking == std::map<std::string, std::uint64_t>{{"error", 1}}));
+  BOOST_TEST(contains(pareto_csv(results, objectives, pareto), "1,0,0,1,100 MHz,,\n"),
+             pareto_csv(results, objectives, pareto));
+  BOOST_TEST(!contains(pareto_table(results, objectives, pareto), "100 MHz"));
+  // Without the objective it is ranked; a constraint on what it lacks is not met.
+  BOOST_TEST(rank(results, fps_and_watts(), {}).points[1].front == 1u);
+  const Pareto bounded = rank(results, fps_and_watts(), {Expression("not error > 100", "here")});
+  BOOST_TEST(!bounded.points[1].feasible);
+  BOOST_TEST(bounded.points[2].feasible);
+  BOOST_TEST(bounded.lacking.at("error") == 1u);
+  BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max eror", "here")}, {}); }),
+                      "did you mean 'error'"));
+  Results none = example();
+  for (ResultRow& row : none.rows) row.failed = true;
+  BOOST_TEST(contains(complaint([&] { rank(none, objectives, {}); }), "no point with a result"));
+}
+
+BOOST_AUTO_TEST_CASE(sensitivity_leaves_out_points_without_the_figure) {
+  Results results = without_marker();
+  const Expression error("error", "here");
+  const SensitivityReport effects = sensitivity(results, error);
+  BOOST_TEST(effects.method == "main effects");
+  BOOST_TEST(effects.skipped == 2u);  // and the one that failed
+  BOOST_TEST(effects.base == (5 + 2 + 4) / 3.0);
+  BOOST_TEST(effects.rows.at(0).low == 2);
+  BOOST_TEST(effects.rows.at(0).high == 5);
+  results.manifest.sampling = "morris";
+  results.manifest.effects = {{"0", "1", "clock", 0.5}, {"0", "2", "clock", 0.5}};
+  const SensitivityReport morris = sensitivity(results, error);
+  BOOST_TEST(morris.skipped == 1u);
+  BOOST_TEST(morris.rows.at(0).mean == -6);
+  results.manifest.sampling = "one-at-a-time";
+  results.manifest.effects = {{"1", "0", "clock", 0}};
+  BOOST_TEST(contains(complaint([&] { sensitivity(results, error); }), "has no 'error'"));
+  results.manifest.effects = {{"0", "1", "clock", 0}, {"0", "2", "clock", 0}};
+  BOOST_TEST(sensitivity(results, error).skipped == 1u);
+  BOOST_TEST(contains(complaint([&] { sensitivity(results, Expression("eror", "here")); }),
+                      "did you mean 'error'"));
+}
+
 BOOST_AUTO_TEST_CASE(elementary_effects_are_averaged) {
   Results results = example();
   results.manifest.sampling = "morris";

@@ -150,6 +150,28 @@ BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
   BOOST_TEST(!metrics.find("frames.index.mean"));
 }
 
+BOOST_AUTO_TEST_CASE(a_module_with_several_rows_is_one_figure) {
+  const Metrics metrics = metrics_of(Json::parse(R"({"power": {"modules": [
+      {"name": "pl.blob_detection", "rail": "VCCINT", "kind": "clock", "w": 0.4, "mj": 3},
+      {"name": "ps.ddr", "rail": "VCCO", "kind": "state", "w": 0.1, "mj": 1},
+      {"name": "pl.blob_detection", "rail": "VCCBRAM", "kind": "clock", "w": 0.01, "mj": 0.5}]}})"));
+  BOOST_TEST(*metrics.find("power.modules.pl.blob_detection.w") == 0.4 + 0.01);
+  BOOST_TEST(*metrics.find("power.modules.pl.blob_detection.mj") == 3.5);
+  BOOST_TEST(*metrics.find("power.modules.ps.ddr.w") == 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(times_of_a_frame_given_up_are_no_figures) {
+  const Metrics metrics = metrics_of(Json::parse(R"({"frames": [
+      {"counts": {"corners": 2}, "markers": [], "time_us": {"frame": 10, "pose": 4}},
+      {"counts": {"corners": 4}, "markers": [], "gave_up": "binary image timed out",
+       "time_us": {"frame": 90, "pose": 0}}]})"));
+  BOOST_TEST(*metrics.find("frames.time_us.frame.mean") == 10);
+  BOOST_TEST(*metrics.find("frames.time_us.frame.max") == 10);
+  BOOST_TEST(*metrics.find("frames.time_us.pose.mean") == 4);
+  BOOST_TEST(*metrics.find("frames.counts.corners.mean") == 3,
+             "what was lost matters all the same");
+}
+
 BOOST_AUTO_TEST_CASE(figures_are_written_as_decimals) {
   for (const double value : {0.0, -0.0, 9.99e-6, 1e-5, 0.1, -2.25, 12345.678901234567,
                              999999999999999.0, 1e15, 1.5e15, 6.02e23, 1e-300})
@@ -159,7 +181,7 @@ BOOST_AUTO_TEST_CASE(figures_are_written_as_decimals) {
 BOOST_AUTO_TEST_CASE(metrics_share_their_names) {
   const Metrics one{{"b", 1}, {"a", 2}, {"b", 3}};
   BOOST_TEST((one.names() == Metrics::Names{"a", "b"}));
-  BOOST_TEST((one.values() == std::vector<double>{2, 3}));
+  BOOST_TEST((one.values() == std::vector<double>{2, 4}));
   Metrics two{{"a", 5}, {"b", 6}};
   Metrics other{{"a", 5}, {"c", 6}};
   two.share_names(one);

@@ -101,6 +101,7 @@ BOOST_AUTO_TEST_CASE(results_of_one_shape_are_read_like_any) {
     BOOST_TEST((read.names() == alone.names()));
     BOOST_TEST((read.values() == alone.values()));
   }
+  BOOST_TEST(*metrics_of(twins).find("modules.m.w") == 3, "those of one name are added up");
   BOOST_TEST(reader.read(second).shares_names(reader.read(first)));
 }
 
