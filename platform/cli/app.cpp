@@ -32,6 +32,9 @@ constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
 any the demo scene runs. Results: result.json and an annotated picture per frame.)";
 
+constexpr const char* config_examples =
+    R"(What it prints is a file for --config: with the same --system or --program it makes the same run.)";
+
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
@@ -73,7 +76,7 @@ void add_input_options(CLI::App& command, RunOptions& target) {
       ->check(CLI::Range(std::uint64_t{1}, most_frames).description(""));
 }
 
-void add_platform_options(CLI::App& command, RunOptions& target) {
+void add_platform_options(CLI::App& command, PlatformOptions& target) {
   command.add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
       ->type_name("tlm|clocked");
   command
@@ -181,7 +184,9 @@ void add_scenes(CLI::App& app, ScenesOptions& target) {
 
 void add_config(CLI::App& app, ConfigOptions& target) {
   CLI::App* command = app.add_subcommand("config", "print every parameter as it is in effect");
+  add_platform_options(*command, target);
   add_configuration_options(*command, target.configuration);
+  command->footer(config_examples);
 }
 
 void add_map(CLI::App& app, MapOptions& target) {

@@ -74,6 +74,10 @@ int compare_runs(const CompareOptions& options, std::ostream& out);
 
 /// Reads --config and --set into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
+/// --fidelity wins over files and --set.
+void set_fidelity(const PlatformOptions& options, vp::Configuration& configuration);
+/// The PS program that --program or --system names; none: the usual.
+std::optional<std::string> program_of(const PlatformOptions& options);
 
 /// Builds the platform and checks that every key the user set was one. Throws vp::InputError.
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,

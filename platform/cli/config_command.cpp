@@ -2,12 +2,24 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <vp/error.h>
 
 namespace platform::cli {
 
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration) {
   for (const std::string& file : options.files) configuration.load_file(file);
   for (const std::string& assignment : options.assignments) configuration.set(assignment);
+}
+
+void set_fidelity(const PlatformOptions& options, vp::Configuration& configuration) {
+  if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+}
+
+std::optional<std::string> program_of(const PlatformOptions& options) {
+  if (options.system && options.program) {
+    throw vp::InputError("--system names the program already: leave out --program");
+  }
+  return options.system ? options.system : options.program;
 }
 
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,
@@ -23,7 +35,10 @@ int print_configuration(const ConfigOptions& options, const SimulationFactory& m
                         std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  build(configuration, {}, make_simulation);
+  set_fidelity(options, configuration);
+  SimulationOptions asked;
+  asked.program = program_of(options);
+  build(configuration, asked, make_simulation);
   out << configuration.to_yaml();
   return done;
 }

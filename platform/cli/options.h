@@ -13,16 +13,20 @@ struct ConfigurationOptions {
   std::vector<std::string> assignments;  ///< "path=value"
 };
 
+/// What the platform is, in words of their own: --fidelity, --program, --system.
+struct PlatformOptions {
+  std::optional<std::string> fidelity;
+  std::optional<std::string> program;
+  std::optional<std::string> system;
+};
+
 /// `markervp run`.
-struct RunOptions {
+struct RunOptions : PlatformOptions {
   std::vector<std::string> inputs;
   ConfigurationOptions configuration;
   std::string output = "out";
   std::optional<std::string> camera;
   std::optional<std::string> fit;
-  std::optional<std::string> fidelity;
-  std::optional<std::string> program;
-  std::optional<std::string> system;
   std::optional<std::string> point;  ///< file of a sweep's point, to run it again
   std::optional<std::string> trace;
   std::optional<std::string> trace_window;
@@ -53,7 +57,7 @@ struct ScenesOptions {
 };
 
 /// `markervp config`.
-struct ConfigOptions {
+struct ConfigOptions : PlatformOptions {
   ConfigurationOptions configuration;
 };
 

@@ -78,11 +78,8 @@ SimulationOptions simulation_options(const RunOptions& options) {
   if (traces && !options.trace) {
     throw vp::InputError("options of the trace without one: name its file with --trace");
   }
-  if (options.system && options.program) {
-    throw vp::InputError("--system names the program already: leave out --program");
-  }
   SimulationOptions result;
-  result.program = options.system ? options.system : options.program;
+  result.program = program_of(options);
   if (options.trace) result.trace = trace_options(options);
   if (!options.log_bus_filter.empty() && !options.log_bus) {
     throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
@@ -223,7 +220,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+  set_fidelity(options, configuration);
   SimulationOptions asked = simulation_options(options);
   const bool page = !options.no_report && !page::page_template().empty();
   if (!page && !options.timeline) asked.timeline_frames = 0;

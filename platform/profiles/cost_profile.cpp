@@ -189,6 +189,13 @@ CostProfile read_scaled(const ProfileFile& file, Optimisation optimisation) {
 
 }  // namespace
 
+Optimisation optimisation_of(const std::string& name) {
+  const ProfileFile file(profile_path(name));
+  const auto built = file.root().find("optimisation");
+  const bool is_o2 = built != file.root().end() && *built == name_of(Optimisation::o2);
+  return is_o2 ? Optimisation::o2 : Optimisation::o0;
+}
+
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation) {
   const ProfileFile file(profile_path(name));
   if (file.root().find("tables") == file.root().end()) return read_cost_table(file, optimisation);

@@ -33,8 +33,12 @@ struct CostProfile {
 /// Most constants that a profile may fit.
 inline constexpr std::size_t max_fitted = 8;
 
+/// What profile `name` is for: O0 for one that has both. Throws vp::InputError if it cannot be
+/// read.
+Optimisation optimisation_of(const std::string& name);
+
 /// Reads a profile. `name` is that of an installed one ("thesis", "a9-O0", …) or a file, which ends
-/// in .json. `optimisation`: none is that of the profile, O0 for one that has both.
+/// in .json. `optimisation`: none is optimisation_of(name).
 /// Throws vp::InputError that names file and entry: no such profile, another version, a kernel or
 /// unit that is missing, unknown, negative or absurd, or an optimisation that it is not for.
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);

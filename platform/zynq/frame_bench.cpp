@@ -5,7 +5,6 @@
 #include <vp/unit.h>
 #include <algorithm>
 #include <cstring>
-#include <string_view>
 
 namespace platform {
 
@@ -106,11 +105,7 @@ void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   stop_ = !done_(std::move(report)) || stop_;
 }
 
-double FrameBench::option(std::uint32_t option, const hal_option_info& info) {
-  // On the chip the program is built for its clock. Here it may be any.
-  if (info.name == std::string_view("cpu_clock") && !options_.is_set(option)) {
-    return static_cast<double>(zynq_.ps.cpu_clk.clk.frequency_hz()) / 1e6;
-  }
+double FrameBench::option(std::uint32_t option, const hal_option_info&) {
   return options_.value(option);
 }
 

@@ -23,7 +23,8 @@ Session::Session(const Options& options) : program_(ps::Program::load(options.pr
       "profile", "thesis", vp::Source::decision,
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
       "or a file .json");
-  options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_);
+  options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
+                                               zynq_->ps.cpu_clk.frequency);
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
   power_ = std::make_unique<ZynqPower>("power", *zynq_,

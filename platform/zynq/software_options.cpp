@@ -3,6 +3,7 @@
 #include <vp/error.h>
 #include <vp/unit.h>
 #include <string>
+#include <string_view>
 
 namespace platform {
 
@@ -25,12 +26,23 @@ vp::Unit dimension_of(const std::string& unit, const hal_program& program, const
                        "' has the unknown unit '" + unit + "'");
 }
 
+/// `range` must hold it: the clock is the user's, the range the program's.
+void check_clock(std::uint64_t hz, const vp::Range<double>& range, const hal_program& program) {
+  const auto text = [](double value) {
+    return vp::format_quantity(vp::Decimal(value), vp::Unit::frequency);
+  };
+  const auto clock = static_cast<double>(hz);
+  if (range.min <= clock && clock <= range.max) return;
+  throw vp::InputError("ps.cpu_clk.frequency is " + text(clock) + ": program '" + program.name +
+                       "' can be built for " + text(range.min) + " to " + text(range.max));
+}
+
 }  // namespace
 
 SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
-                                 const std::string& profile)
+                                 const std::string& profile, std::uint64_t cpu_hz)
     : sc_module(name),
-      opt_("opt", profile == "a9-O2" ? Optimisation::o2 : Optimisation::o0,
+      opt_("opt", profiles::optimisation_of(profile),
            {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
            "how the software is compiled; the thesis' times are those of -O0, the vendor tool's "
            "default") {
@@ -42,16 +54,18 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
         dimension == vp::Unit::none
             ? 1
             : vp::parse_quantity(std::string("1 ") + info.unit, dimension).to_double();
-    const auto& parameter =
-        parameters_.emplace_back(info.name, info.default_value * base, dimension,
-                                 vp::Range<double>{info.minimum * base, info.maximum * base},
-                                 vp::Source::decision, info.documentation);
+    const vp::Range<double> range{info.minimum * base, info.maximum * base};
+    const bool is_clock = info.name == std::string_view("cpu_clock");
+    if (is_clock) check_clock(cpu_hz, range, program);
+    const auto& parameter = parameters_.emplace_back(
+        info.name, is_clock ? static_cast<double>(cpu_hz) : info.default_value * base, dimension,
+        range, vp::Source::decision, info.documentation);
     values_.push_back(parameter.get() / base);
   }
 }
 
 std::optional<Optimisation> SoftwareOptions::optimisation() const {
-  if (!opt_.is_set()) return std::nullopt;
+  if (!opt_.is_changed()) return std::nullopt;
   return opt_.get();
 }
 

@@ -15,18 +15,18 @@ namespace platform {
 /// How a PS program is compiled, and the options that it declares, as parameters `sw.<name>`.
 class SoftwareOptions : public sc_core::sc_module {
  public:
-  /// `profile`: the name of the cost profile, for the default of `opt`. Throws vp::InputError for a
-  /// value out of its range, and for a unit that the program's option may not have.
+  /// What follows from other parameters: `opt` from the cost profile named `profile`, and the
+  /// option `cpu_clock`, for which a program on the chip is built, from the clock that it has here.
+  /// Throws vp::InputError for a value out of its range, and for a unit that the program's option
+  /// may not have.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
-                  const std::string& profile);
+                  const std::string& profile, std::uint64_t cpu_hz);
 
   /// What the user asked for; none: what the profile is for.
   std::optional<profiles::Optimisation> optimisation() const;
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
-  /// True if the user set it.
-  bool is_set(std::uint32_t option) const { return parameters_.at(option).is_set(); }
   /// The value by name; `otherwise` if the program has no such option.
   double value(const std::string& option, double otherwise) const;
 

@@ -36,11 +36,11 @@ report::TimingReport TimingClosure::report(
     const std::uint64_t hz = fastest(*limit.ip.clock);
     module.frequency_mhz = static_cast<double>(hz) / hz_per_mhz;
     module.fmax_mhz = static_cast<double>(limit.fmax) / hz_per_mhz;
-    // A limit that the user gives is one.
-    module.lower_bound = limit.ip.estimate.lower_bound && !limit.fmax.is_set();
+    // Another limit than ours is the user's, and is one.
+    module.lower_bound = limit.ip.estimate.lower_bound && !limit.fmax.is_changed();
     module.met = hz <= limit.fmax;
     module.margin_percent = hz == 0 ? 0 : 100 * (module.fmax_mhz / module.frequency_mhz - 1);
-    module.source = limit.fmax.is_set() ? "configuration"
+    module.source = limit.fmax.is_changed() ? "configuration"
                                         : std::string(vp::to_string(limit.fmax.source())) + ": " +
                                               limit.ip.estimate.fmax_documentation;
     report.met = report.met && module.met;

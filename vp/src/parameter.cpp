@@ -16,13 +16,12 @@ ParameterBase::ParameterBase(const char* name, Unit unit, Source source, std::st
 
 const Setting* ParameterBase::setting() {
   const Configuration* configuration = Configuration::current();
-  const Setting* given = configuration == nullptr ? nullptr : configuration->find(this->name());
-  is_set_ = given != nullptr;
-  return given;
+  return configuration == nullptr ? nullptr : configuration->find(this->name());
 }
 
 void ParameterBase::publish(std::string value, std::string default_value, std::string allowed) {
   text_ = std::move(value);
+  is_changed_ = text_ != default_value;
   if (Configuration* configuration = Configuration::current()) {
     configuration->add(
         {name(), text_, std::move(default_value), std::move(allowed), source_, documentation_});

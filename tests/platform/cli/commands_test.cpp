@@ -82,6 +82,21 @@ BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {
   BOOST_TEST(other.out.str() == out.str());
 }
 
+BOOST_AUTO_TEST_CASE(config_knows_the_system_as_run_does) {
+  BOOST_TEST(run({"config"}) == 0);
+  BOOST_TEST(!asked.program.has_value());
+  BOOST_TEST(run({"config", "--system", "ps-only"}) == 0);
+  BOOST_TEST(asked.program.value_or("") == "ps-only");
+  BOOST_TEST(run({"config", "--program", "mine.so", "--fidelity", "clocked"}) == 0);
+  BOOST_TEST(asked.program.value_or("") == "mine.so");
+  BOOST_TEST(run({"config", "--fidelity", "tlm"}) == 2);
+  BOOST_TEST(is_one_line_with(err.str(), "fidelity"), err.str());
+  for (const char* command : {"config", "run"}) {
+    BOOST_TEST(run({command, "--system", "hybrid", "--program", "mine.so"}) == 2);
+    BOOST_TEST(is_one_line_with(err.str(), "leave out --program"), err.str());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(trace_windows) {
   using platform::cli::parse_trace_window;
   BOOST_TEST(parse_trace_window("6ms:7ms").from_ps == 6'000'000'000u);

@@ -69,13 +69,26 @@ BOOST_AUTO_TEST_CASE(without_a_configuration_defaults_hold) {
   BOOST_TEST(board.detector.label.get() == "none given");
   BOOST_TEST(board.detector.variant.get() == "thesis");
   BOOST_TEST((board.detector.fidelity == Fidelity::tlm));
-  BOOST_TEST(!board.detector.threshold.is_set());
+  BOOST_TEST(!board.detector.threshold.is_changed());
 }
 
 BOOST_AUTO_TEST_CASE(the_key_is_the_hierarchical_name) {
   Board board("pl");
   BOOST_TEST(board.detector.threshold.name() == "pl.detector.threshold");
   BOOST_TEST(board.detector.threshold.kind() == "vp::Parameter");
+}
+
+BOOST_AUTO_TEST_CASE(a_default_that_is_written_down_is_no_change) {
+  configuration.set("pl.detector.threshold=30");
+  configuration.set("pl.detector.frequency=50000 kHz");
+  configuration.set("pl.detector.side=60 mm");
+  configuration.set("pl.detector.enabled=yes");
+  const Configuration::Scope scope(configuration);
+  Board board("pl");
+  BOOST_TEST(!board.detector.threshold.is_changed());
+  BOOST_TEST(!board.detector.frequency.is_changed());
+  BOOST_TEST(!board.detector.side.is_changed());
+  BOOST_TEST(!board.detector.enabled.is_changed());
 }
 
 BOOST_AUTO_TEST_CASE(settings_win_over_defaults) {
@@ -90,7 +103,7 @@ BOOST_AUTO_TEST_CASE(settings_win_over_defaults) {
   const Configuration::Scope scope(configuration);
   Board board("pl");
   BOOST_TEST(board.detector.threshold == 45u);
-  BOOST_TEST(board.detector.threshold.is_set());
+  BOOST_TEST(board.detector.threshold.is_changed());
   BOOST_TEST(board.detector.frequency == 148'500'000u);
   BOOST_TEST(board.detector.frequency.text() == "148.5 MHz");
   BOOST_TEST(board.detector.side == 0.2);

@@ -34,8 +34,9 @@ class ParameterBase : public sc_core::sc_object {
   Unit unit() const { return unit_; }
   Source source() const { return source_; }
   const std::string& documentation() const { return documentation_; }
-  /// True if the user set it, even to the default.
-  bool is_set() const { return is_set_; }
+  /// True if its value is not the default. Nothing may depend on whether a user wrote the default
+  /// down: `markervp config` writes down all values, and a run of that file is the same run.
+  bool is_changed() const { return is_changed_; }
   /// The value as it stands in the effective configuration, with its unit.
   const std::string& text() const { return text_; }
 
@@ -75,7 +76,7 @@ class ParameterBase : public sc_core::sc_object {
   Source source_;
   std::string documentation_;
   std::string text_;
-  bool is_set_ = false;
+  bool is_changed_ = false;
 };
 
 /// A named value that the user can change: a member of the module that uses it, fixed when it is
