@@ -14,8 +14,6 @@ function(markervp_add_program NAME)
   # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
   target_compile_options(${NAME} PRIVATE
     "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
-  # exit() would end the whole platform: it ends the program.
-  target_link_options(${NAME} PRIVATE LINKER:--wrap=exit)
   set_target_properties(${NAME} PROPERTIES PREFIX "" SUFFIX .so C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)
   if(MARKERVP_PROGRAM_FOLDER)
     set_target_properties(${NAME} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${MARKERVP_PROGRAM_FOLDER}")

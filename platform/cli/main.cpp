@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/zynq_simulation.h>
 
@@ -12,6 +13,7 @@ int sc_main(int, char**) {
 }
 
 int main(int argc, char* argv[]) {
+  platform::cli::end_at_interrupts();
   ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return platform::cli::run_program(arguments, platform::cli::make_zynq_simulation, std::cout,

@@ -240,7 +240,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   std::unique_ptr<report::ResultWriter> file;
   if (!memory) file = std::make_unique<report::ResultWriter>(options.output);
   report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
-  const InterruptGuard guard;
+  const InterruptGuard guard(*simulation);
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
   runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result,

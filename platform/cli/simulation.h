@@ -59,6 +59,10 @@ class Simulation {
   /// Throws vp::ProtocolError if hardware or software broke a rule; the reports until then have
   /// been handed over.
   virtual void run(const NextFrame& next, const FrameDone& done) = 0;
+
+  /// Lets run() return soon, in the middle of a frame. May be called in a signal handler, at any
+  /// time.
+  virtual void interrupt() {}
 };
 
 /// Builds the platform with the current vp::Configuration. Throws vp::InputError for a wrong value

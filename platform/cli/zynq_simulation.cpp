@@ -74,6 +74,7 @@ class ZynqSimulation : public Simulation {
     }
     session_.run(next, done);
   }
+  void interrupt() override { ps::Cpu::interrupt_program(); }
 
  private:
   Session session_;

@@ -16,6 +16,7 @@ constexpr const char* program_without_pl = "ps-only";
 }  // namespace
 
 Session::Session(const Options& options) : program_(ps::Program::load(options.program)) {
+  folder_.restore();
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
   zynq_ = std::make_unique<Zynq>(options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
@@ -72,11 +73,13 @@ report::Timeline Session::timeline() const {
 void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
       [this, next = std::move(next)] {
+        folder_.restore();
         zynq_->settle();
         power_->frame_begins();
         return next();
       },
       [this, done = std::move(done)](report::FrameReport&& frame) {
+        folder_.restore();
         power_->frame_ends(frame);
         recorder_->frame_done(frame);
         if (!recorder_->records()) power_->record_timeline(false);
@@ -94,6 +97,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   } catch (...) {
     error = std::current_exception();
   }
+  folder_.restore();
   if (tracer) wrote_trace_ = tracer->close();
   tracer.reset();
   late_warnings_ = bench_->finish();

@@ -17,6 +17,7 @@
 #include <zynq/software_options.h>
 #include <zynq/timeline_recorder.h>
 #include <zynq/timing_closure.h>
+#include <zynq/working_folder.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>
 
@@ -62,6 +63,7 @@ class Session {
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:
+  WorkingFolder folder_;  ///< before the program is loaded, and after it is gone
   vp::ReportRouter reports_;
   std::unique_ptr<ps::Program> program_;
   std::optional<profiles::CostProfile> costs_;

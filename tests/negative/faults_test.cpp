@@ -14,16 +14,21 @@ struct Faults : CommandLine {
   Faults() { ::setenv("LSAN_OPTIONS", "detect_leaks=0", 1); }
   ~Faults() { ::unsetenv("LSAN_OPTIONS"); }
 
-  /// Runs the crashing program on two frames. `lines`: of its own, before the message.
+  /// Runs the crashing program on two frames.
+  kit::Outcome run(int way, const Words& more = {}) const {
+    std::filesystem::remove_all(*this / "out");
+    Words arguments{"run",       "z1.0",
+                    "z1.5",      "--no-pictures",
+                    "--program", MARKERVP_CRASHING,
+                    "--set",     "sw.way=" + std::to_string(way)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return start(arguments);
+  }
+
+  /// It must end with one line that has all of `parts`, and keep its first frame.
   void fails(int way, const Words& parts, const Words& more = {}) const {
     BOOST_TEST_CONTEXT("way " << way) {
-      std::filesystem::remove_all(*this / "out");
-      Words arguments{"run",       "z1.0",
-                      "z1.5",      "--no-pictures",
-                      "--program", MARKERVP_CRASHING,
-                      "--set",     "sw.way=" + std::to_string(way)};
-      arguments.insert(arguments.end(), more.begin(), more.end());
-      const kit::Outcome outcome = start(arguments);
+      const kit::Outcome outcome = run(way, more);
       BOOST_TEST(outcome.signal == 0);
       BOOST_TEST(outcome.exit_code == 3);
       check_one_line(outcome.err, parts);
@@ -66,10 +71,37 @@ BOOST_AUTO_TEST_CASE(programs_that_want_to_end_everything) {
   fails(7, {"called abort()", where, "give_up()+"});
   fails(8, {"called exit(0)", where, "leave()+"});
   fails(9, {"threw an exception: oops", where});
+  fails(17, {"called _exit(0): return from its entry function", where, "leave_at_once()+"});
+  fails(18, {"called _Exit(0)", where, "leave_for_good()+"});
+  fails(19, {"called quick_exit(0)", where, "leave_quickly()+"});
+  fails(20, {"called fork()", where});
+  fails(21, {"called pthread_exit()", where, "end_thread()+"});
 }
 
 BOOST_AUTO_TEST_CASE(a_fault_in_an_interrupt_handler) {
   fails(12, {"write to 0x00000008", "in the interrupt handler", "write_null()+"});
+}
+
+BOOST_AUTO_TEST_CASE(a_handler_that_never_returns) {
+  const kit::Outcome outcome = run(22);
+  BOOST_TEST(outcome.exit_code == 3);
+  check_one_line(outcome.err, {"interrupt handler never returned", "longjmp()", "'crashing'"});
+}
+
+BOOST_AUTO_TEST_CASE(a_jump_inside_the_program_is_allowed) {
+  BOOST_TEST(run(23).exit_code == 0);
+}
+
+BOOST_AUTO_TEST_CASE(another_working_folder_moves_no_input_and_no_result) {
+  write_image("grey.pgm");
+  const kit::Outcome outcome =
+      start({"run", "z1.0", "z1.5", "grey.pgm", "--program", MARKERVP_CRASHING, "--set",
+             "sw.way=24", "--register-coverage", "used.md"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  const auto result = nlohmann::json::parse(kit::read_file(*this / "out/result.json"));
+  BOOST_TEST(result["frames"].size() == 3u);
+  BOOST_TEST(std::filesystem::exists(*this / "out/0002_grey.png"));
+  BOOST_TEST(std::filesystem::exists(*this / "used.md"));
 }
 
 BOOST_AUTO_TEST_CASE(a_destroyed_stack) {

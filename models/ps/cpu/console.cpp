@@ -3,6 +3,13 @@
 
 namespace ps {
 
+namespace {
+
+/// Text without line end is passed on when it is that long.
+constexpr std::size_t longest_line = 65'536;
+
+}  // namespace
+
 void Console::connect(Sink sink, std::string prefix) {
   sink_ = std::move(sink);
   prefix_ = std::move(prefix);
@@ -16,6 +23,7 @@ void Console::write(const char* text, std::size_t length) {
       line_ += text[i];
     }
   }
+  if (line_.size() >= longest_line) pass_line();
 }
 
 void Console::flush() {

@@ -44,6 +44,10 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
               "how far the program may run ahead of the simulation; no result depends on it"),
       timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
               "the run ends if the program neither ends nor asks for an image for so long"),
+      host_timeout("host_timeout", 10_s, vp::Unit::time, {100_ms, 1'000'000_s},
+                   vp::Source::decision,
+                   "the run ends if the program takes so much of the host's processor time, or "
+                   "waits so long, while no simulated time passes"),
       loop_blocks("loop_blocks", 100'000, vp::Unit::none, {1'000, 1'000'000'000},
                   vp::Source::decision,
                   "basic blocks without HAL call or annotation after which time jumps to what "
@@ -121,7 +125,7 @@ void Cpu::end(State state) {
   state_ = state;
   end_ps_ = now_ps();
   running_ = nullptr;
-  ProgramWatch::stop();
+  ProgramWatch::end();
   memory_watch_.lift();
   console.flush();
   ended_.notify(sc_core::SC_ZERO_TIME);
@@ -159,7 +163,7 @@ std::string Cpu::where() const {
 
 void Cpu::check() const {
   if (error_) std::rethrow_exception(error_);
-  if (state_ == State::running) {
+  if (state_ == State::running && !interrupted()) {
     throw vp::ProtocolError("nothing is left to happen, but the program has not ended" + where());
   }
 }
@@ -176,6 +180,7 @@ std::vector<WorkCount> Cpu::work() const {
 }
 
 void Cpu::nothing_runs(const char* call) {
+  if (FaultTrap::can_leave()) FaultTrap::leave(Fault::Kind::no_hal, call);
   throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
 }
 

@@ -70,6 +70,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   vp::Parameter<std::uint64_t> stack_size;
   vp::Parameter<std::uint64_t> quantum;
   vp::Parameter<std::uint64_t> timeout;
+  vp::Parameter<std::uint64_t> host_timeout;
   vp::Parameter<std::uint64_t> loop_blocks;
   vp::Parameter<std::uint32_t> interrupt_entry;
   vp::Parameter<std::uint32_t> interrupt_exit;
@@ -111,13 +112,17 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 
   enum class State { waiting, running, finished, failed };
   State state() const { return state_; }
+  /// The user wants an end: the program stops where it is, and the simulation pauses, soon. May be
+  /// called in a signal handler, also when no program runs.
+  static void interrupt_program();
+  static bool interrupted() { return ProgramWatch::stop == ProgramWatch::Stop::interrupted; }
   /// What the entry function returned; 0 unless finished.
   int exit_code() const { return exit_code_; }
   /// When the program ended, in ps; 0 before.
   std::uint64_t end_ps() const { return end_ps_; }
   /// Throws what ended the program: vp::ProtocolError, or what a model or the test bench threw.
-  /// Nothing if it finished. A program that neither ended nor can go on is vp::ProtocolError too:
-  /// call it after the simulation.
+  /// Nothing if it finished or was interrupted. A program that neither ended nor can go on is
+  /// vp::ProtocolError too: call it after the simulation.
   void check() const;
   /// Notified when the program ends, however.
   const sc_core::sc_event& ended() const { return ended_; }
@@ -160,8 +165,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// It ran `loop_blocks` basic blocks without HAL call or annotation, `before` times already: lets
   /// time pass, and interrupts come.
   void notice_loop(unsigned before);
-  /// It called exit().
-  void program_exits(int code);
 
  private:
   struct Work {
@@ -200,6 +203,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 
   // Time: cpu_time.cpp
   std::uint64_t now_ps() const { return scheduler_.now_ps(); }
+  static std::uint64_t progress(const void* cpu);
   static bool irq_is_low(const void* cpu);
   /// When what was done so far will be over.
   std::uint64_t reached_ps() const {
@@ -214,6 +218,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   [[gnu::noinline]] std::uint64_t catch_up_slowly();
   [[gnu::noinline]] std::uint64_t pass_work(std::uint64_t start_ps, std::uint64_t work_ps);
   void settle();
+  void check_open_functions();
   bool play(Interrupts interrupts);
   std::uint64_t pass(std::uint64_t ps);
   void entered(std::uint32_t number, std::uint64_t now_ps);

@@ -1,6 +1,7 @@
 // The program's own code: how it is called, what it does without the HAL, and how it fails.
 #include <ps/cpu/cpu.h>
 #include <vp/report.h>
+#include <vp/unit.h>
 #include <algorithm>
 
 namespace ps {
@@ -12,43 +13,67 @@ constexpr std::uint64_t first_jump_ps = 10'000;
 constexpr unsigned most_doublings = 40;
 /// Handlers in a row after which an interrupt looks as if nobody acknowledged it (decision).
 constexpr unsigned many_handlers = 1'000;
+constexpr std::uint64_t ps_per_ns = 1'000;
 
 }  // namespace
 
 volatile bool ProgramWatch::runs = false;
 volatile std::uint64_t ProgramWatch::blocks_left = ~std::uint64_t{0};
-std::uint64_t ProgramWatch::blocks_limit = ~std::uint64_t{0};
-unsigned ProgramWatch::suspicions = 0;
+volatile std::uint64_t ProgramWatch::blocks_limit = ~std::uint64_t{0};
+volatile ProgramWatch::Stop ProgramWatch::stop = ProgramWatch::Stop::none;
+volatile unsigned ProgramWatch::suspicions_ = 0;
 
 int Cpu::call_program() {
   struct Call {
     hal_program const* program;
     int result;
   } call{&program_->description(), 0};
-  ProgramWatch::blocks_limit = loop_blocks;
-  ProgramWatch::leave_hal();
+  const HostLimit limit{host_timeout / ps_per_ns, &Cpu::progress, this};
+  ProgramWatch::start(loop_blocks);
   const Fault* fault = trap_.call(
       [](void* context) {
         Call& call = *static_cast<Call*>(context);
         call.result = call.program->entry();
       },
-      &call);
-  ProgramWatch::stop();
+      &call, limit);
+  ProgramWatch::end();
   memory_watch_.lift();
   if (fault) report(*fault);
+  if (in_handler_now_)
+    break_off("the interrupt handler never returned: do not leave it by longjmp()");
   return call.result;
 }
 
 // The program is over: what it did ahead of time passes, but no handler runs any more.
 void Cpu::break_off(const std::string& problem) {
-  ProgramWatch::stop();
+  ProgramWatch::end();
   masked_ = true;
   misuse(problem);
 }
 
+// Simulated time and images. In a signal handler: what is read may be half a step ahead.
+std::uint64_t Cpu::progress(const void* cpu) {
+  const Cpu& self = *static_cast<const Cpu*>(cpu);
+  return self.now_ps() + self.frame;
+}
+
+void Cpu::interrupt_program() {
+  if (!running_) return;
+  ProgramWatch::stop_program(ProgramWatch::Stop::interrupted);
+  sc_core::sc_pause();
+}
+
 void Cpu::report(const Fault& fault) {
+  if (fault.kind == Fault::Kind::interrupted) stop(nullptr);
   std::string text = fault.text();
-  if (fault.stack_overflow) {
+  if (fault.kind == Fault::Kind::exit) {
+    text += ": return from its entry function instead";
+  } else if (fault.kind == Fault::Kind::forbidden) {
+    text += ", which would end or double the whole platform: leave it out";
+  } else if (fault.kind == Fault::Kind::host_time) {
+    text += ", for " + vp::format_time(host_timeout) + " now (" + host_timeout.name() +
+            "): access a register, wait for an interrupt, or count work";
+  } else if (fault.stack_overflow) {
     text += ": its " + std::to_string(stack_size / 1024) + " KiB are used up (" +
             stack_size.name() + ")";
   } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
@@ -64,11 +89,6 @@ void Cpu::report(const Fault& fault) {
         fault.frames, fault.frames + std::min(fault.frame_count, Fault::most_frames)));
   }
   break_off(text);
-}
-
-void Cpu::program_exits(int code) {
-  break_off("the program called exit(" + std::to_string(code) +
-            "): return from its entry function instead");
 }
 
 void Cpu::call_handler() {

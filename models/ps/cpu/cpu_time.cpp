@@ -10,6 +10,8 @@ namespace {
 
 constexpr LocalTime::Wide fs_per_second = 1'000'000'000'000'000;
 constexpr std::size_t longest_timeline = 4096;
+/// Deeper than any stack (decision).
+constexpr std::size_t most_open_functions = 1'000'000;
 
 }  // namespace
 
@@ -259,10 +261,21 @@ void Cpu::enter_function(std::uint32_t number) {
     misuse("hal_function_enter(" + std::to_string(number) + "): no such function");
   }
   ++open_functions_;
-  if (in_handler_now_) return entered(number, catch_up());
+  if (in_handler_now_) {
+    check_open_functions();
+    return entered(number, catch_up());
+  }
   close_segment();
   timeline_.push(Timeline::Kind::enter, 0, number);
-  if (timeline_.size() >= longest_timeline) settle();
+  if (timeline_.size() < longest_timeline) return;
+  settle();
+  check_open_functions();
+}
+
+void Cpu::check_open_functions() {
+  if (open_functions_ < most_open_functions) return;
+  misuse("hal_function_enter() was called " + std::to_string(open_functions_) +
+         " times more than hal_function_leave()");
 }
 
 void Cpu::leave_function() {

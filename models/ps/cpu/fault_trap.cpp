@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <ps/cpu/fault_trap.h>
+#include <ps/cpu/host_calls.h>
 #include <ps/cpu/memory_watch.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/hex.h>
@@ -79,7 +80,22 @@ const char* arithmetic_text(int code) {
 }  // namespace
 
 std::string Fault::text() const {
-  if (terminated) return "the program called std::terminate()";
+  switch (kind) {
+    case Kind::terminated:
+      return "the program called std::terminate()";
+    case Kind::exit:
+      return std::string("the program called ") + call + "(" + std::to_string(code) + ")";
+    case Kind::forbidden:
+      return std::string("the program called ") + call + "()";
+    case Kind::no_hal:
+      return std::string("the program called ") + call + "() outside of its entry function";
+    case Kind::host_time:
+      return "the program takes the host's time and lets no simulated time pass";
+    case Kind::interrupted:
+      return "interrupted";
+    default:
+      break;
+  }
   if (signal == SIGABRT) return "the program called abort()";
   if (signal == SIGILL) return "illegal instruction";
   if (signal == SIGFPE) return std::string("arithmetic trap: ") + arithmetic_text(code);
@@ -104,10 +120,22 @@ std::string Fault::text() const {
   return text + vp::hex(address) + (address < first_page ? " (a null pointer)" : "");
 }
 
+void Fault::add_frame(std::uintptr_t address) {
+  if (frame_count < most_frames) frames[frame_count++] = address;
+}
+
+void Fault::add_callers() {
+  void* walked[most_frames];
+  const int count = backtrace(walked, static_cast<int>(most_frames));
+  for (int i = 0; i < count; ++i) add_frame(reinterpret_cast<std::uintptr_t>(walked[i]) - 1);
+}
+
 FaultTrap* FaultTrap::active_ = nullptr;
 
 FaultTrap::FaultTrap(std::size_t stack_size)
-    : stack_size_(stack_size), signal_stack_(new char[signal_stack_size]) {}
+    : stack_size_(stack_size), signal_stack_(new char[signal_stack_size]) {
+  use_host_calls();
+}
 
 FaultTrap::~FaultTrap() {
   disarm();
@@ -122,10 +150,13 @@ __attribute__((noinline)) void FaultTrap::call_below(void (*code)(void* context)
   room[gap - 1] = room[0];
 }
 
-const Fault* FaultTrap::call(void (*code)(void* context), void* context) {
+const Fault* FaultTrap::call(void (*code)(void* context), void* context, const HostLimit& limit) {
   char here = 0;
   stack_top_ = reinterpret_cast<std::uintptr_t>(&here);
+  landed_ = false;
+  fault_ = Fault();
   arm();
+  watch_.arm(limit, &FaultTrap::leave_from_signal);
   if (sigsetjmp(landing_, 1) == 0) {
     try {
       call_below(code, context);
@@ -159,15 +190,15 @@ void FaultTrap::arm() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &action, &old_actions_[i]);
   old_terminate_ = std::set_terminate(&FaultTrap::on_terminate);
+  thread_ = pthread_self();
   active_ = this;
   armed_ = true;
-  empty_loops_.arm();
 }
 
 void FaultTrap::disarm() {
   if (!armed_) return;
   armed_ = false;
-  empty_loops_.disarm();
+  watch_.disarm();
   active_ = nullptr;
   std::set_terminate(old_terminate_);
   for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &old_actions_[i], nullptr);
@@ -193,16 +224,17 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   const bool sent = info->si_code <= 0;
   if (signal == SIGSEGV && !sent &&
       MemoryWatch::on_fault(reinterpret_cast<std::uintptr_t>(info->si_addr),
-                            ProgramWatch::runs && ProgramWatch::suspicions != 0)) {
+                            ProgramWatch::runs && ProgramWatch::suspicions() != 0)) {
     return;
   }
   const bool by_others = sent && info->si_pid != getpid();
-  if (trap.landed_ || !ProgramWatch::runs || by_others) {
+  if (trap.landed_ || !can_leave() || by_others) {
     trap.give_back(signal);
     if (sent) raise(signal);
     return;
   }
-  if (fault.signal != 0) siglongjmp(trap.landing_, 1);
+  if (fault.kind != Fault::Kind::none) trap.land();
+  fault.kind = Fault::Kind::signal;
   fault.signal = signal;
   fault.code = info->si_code;
   fault.access = access_of(signal, context);
@@ -210,20 +242,44 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   fault.address_known = info->si_code > 0 && info->si_code != SI_KERNEL;
   fault.stack_overflow = signal != SIGILL && signal != SIGFPE && signal != SIGABRT &&
                          fault.address_known && trap.is_stack_overflow(fault.address);
-  fault.frames[fault.frame_count++] = instruction_of(context);
-  if (fault.access == Fault::Access::execute) {
-    fault.frames[fault.frame_count++] = caller_of_nothing(context) - 1;
-  }
-  void* walked[Fault::most_frames];
-  const int count = backtrace(walked, static_cast<int>(Fault::most_frames));
-  for (int i = 0; i < count && fault.frame_count < Fault::most_frames; ++i) {
-    fault.frames[fault.frame_count++] = reinterpret_cast<std::uintptr_t>(walked[i]) - 1;
-  }
-  siglongjmp(trap.landing_, 1);
+  fault.add_frame(instruction_of(context));
+  if (fault.access == Fault::Access::execute) fault.add_frame(caller_of_nothing(context) - 1);
+  fault.add_callers();
+  trap.land();
+}
+
+void FaultTrap::land() {
+  ProgramWatch::end();
+  siglongjmp(landing_, 1);
+}
+
+bool FaultTrap::can_leave() {
+  return active_ && ProgramWatch::runs && pthread_equal(active_->thread_, pthread_self()) != 0;
+}
+
+// A fault while it is being recorded comes from a stack that the program destroyed: it lands, too.
+void FaultTrap::leave(Fault::Kind kind, const char* call, int code) {
+  Fault& fault = active_->fault_;
+  fault.kind = kind;
+  fault.call = call;
+  fault.code = code;
+  fault.add_callers();
+  active_->land();
+}
+
+void FaultTrap::leave_at_stop() {
+  leave(ProgramWatch::stop == ProgramWatch::Stop::interrupted ? Fault::Kind::interrupted
+                                                              : Fault::Kind::host_time);
+}
+
+void FaultTrap::leave_from_signal(const void* context) {
+  if (!can_leave()) return;
+  active_->fault_.add_frame(instruction_of(context));
+  leave_at_stop();
 }
 
 void FaultTrap::on_terminate() {
-  if (active_ && ProgramWatch::runs) active_->fault_.terminated = true;
+  if (can_leave()) leave(Fault::Kind::terminated);
   std::abort();
 }
 

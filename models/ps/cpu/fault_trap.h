@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pthread.h>
+
 #include <csetjmp>
 #include <csignal>
 #include <cstddef>
@@ -8,24 +10,38 @@
 #include <memory>
 #include <string>
 
-#include <ps/cpu/empty_loop.h>
+#include <ps/cpu/host_watch.h>
 
 namespace ps {
 
-/// What the host's processor refused to do for the program.
+/// What ended code of a program before it returned.
 struct Fault {
-  int signal = 0;  ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE or SIGABRT
-  int code = 0;    ///< si_code
+  enum class Kind {
+    none,
+    signal,       ///< the host's processor refused to do something
+    terminated,   ///< std::terminate() was called
+    exit,         ///< exit() or a relative
+    forbidden,    ///< another call that is not for programs
+    no_hal,       ///< a HAL call while no processor runs the program
+    host_time,    ///< it took too much of the host's time
+    interrupted,  ///< the user wants an end
+  };
+  Kind kind = Kind::none;
+  int signal = 0;         ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE or SIGABRT
+  int code = 0;           ///< si_code; of an exit its status
+  const char* call = "";  ///< the function that was called, of exit, forbidden and no_hal
   enum class Access { unknown, read, write, execute };
   Access access = Access::unknown;  ///< of SIGSEGV and SIGBUS
   std::uintptr_t address = 0;       ///< of SIGSEGV and SIGBUS
   bool address_known = false;
   bool stack_overflow = false;
-  bool terminated = false;  ///< std::terminate() was called
   static constexpr std::size_t most_frames = 64;
   /// The instruction, and inside those that called its function and its callers.
   std::uintptr_t frames[most_frames] = {};
   std::size_t frame_count = 0;
+  void add_frame(std::uintptr_t address);
+  /// Adds the calls that are under way.
+  void add_callers();
 
   /// "segmentation fault: write to 0x00000010", without time and place.
   std::string text() const;
@@ -34,8 +50,9 @@ struct Fault {
 /// Runs code of a program; a fault in it ends that code, not the process. Nothing is unwound.
 ///
 /// Only faults while ProgramWatch::runs are the program's; others end the process as they always
-/// did. One in a process at a time. It changes the actions of the signals and the alternative stack
-/// of the thread while call() runs.
+/// did. Calls of exit() and its relatives are faults, too: see host_calls.cpp. One in a process at
+/// a time. It changes the actions of the signals and the alternative stack of the thread while
+/// call() runs.
 class FaultTrap {
  public:
   /// The thread that will call() needs that much more stack than the program: what a program
@@ -49,7 +66,14 @@ class FaultTrap {
   FaultTrap& operator=(const FaultTrap&) = delete;
 
   /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Exceptions pass.
-  const Fault* call(void (*code)(void* context), void* context);
+  const Fault* call(void (*code)(void* context), void* context, const HostLimit& limit);
+
+  /// The program's code runs in this thread: it can be left.
+  static bool can_leave();
+  /// Ends the program's code that calls it, as a fault would.
+  [[noreturn]] static void leave(Fault::Kind kind, const char* call = "", int code = 0);
+  /// The same because of ProgramWatch::stop.
+  [[noreturn]] static void leave_at_stop();
 
  private:
   static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
@@ -60,7 +84,9 @@ class FaultTrap {
   void disarm();
   static void on_signal(int signal, siginfo_t* info, void* context);
   static void on_terminate();
+  static void leave_from_signal(const void* context);
   void give_back(int signal);
+  [[noreturn]] void land();
   bool is_stack_overflow(std::uintptr_t address) const;
 
   std::size_t stack_size_;
@@ -68,7 +94,8 @@ class FaultTrap {
   std::unique_ptr<char[]> signal_stack_;
   stack_t old_stack_{};
   struct sigaction old_actions_[signal_count] = {};
-  EmptyLoopWatch empty_loops_;
+  HostWatch watch_;
+  pthread_t thread_{};
   std::terminate_handler old_terminate_ = nullptr;
   bool armed_ = false;
   bool landed_ = false;

@@ -4,7 +4,6 @@
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/native_hal.h>
 #include <ps/cpu/program_watch.h>
-#include <cstdlib>
 
 namespace {
 
@@ -98,21 +97,17 @@ void hal_function_leave(void) {
   on_cpu("hal_function_leave", [](ps::Cpu& cpu) { cpu.leave_function(); });
 }
 
-// Calls of exit() in a program come here, see cmake/MarkervpProgram.cmake.
-[[noreturn]] void __wrap_exit(int code) {
-  if (ps::ProgramWatch::runs) {
-    on_cpu("exit", [code](ps::Cpu& cpu) { cpu.program_exits(code); });
-  }
-  std::exit(code);
-}
-
 // Programs call it in every basic block.
 void __sanitizer_cov_trace_pc(void) {
   using Watch = ps::ProgramWatch;
   if (--Watch::blocks_left != 0 || !Watch::runs) return;
-  const unsigned before = Watch::suspicions;
+  if (Watch::stop != Watch::Stop::none) {
+    if (ps::FaultTrap::can_leave()) ps::FaultTrap::leave_at_stop();
+    return;
+  }
+  const unsigned before = Watch::suspicions();
   on_cpu("a loop", [before](ps::Cpu& cpu) { cpu.notice_loop(before); });
-  Watch::suspicions = before + 1;
+  Watch::suspect_again(before);
 }
 
 }  // extern "C"

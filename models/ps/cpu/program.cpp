@@ -1,7 +1,11 @@
 #include <dlfcn.h>
 #include <elf.h>
+#include <sys/resource.h>
 
+#include <ps/cpu/fault_trap.h>
 #include <ps/cpu/program.h>
+#include <ps/cpu/program_description.h>
+#include <ps/cpu/program_watch.h>
 #include <ps/cpu/static_image.h>
 #include <vp/error.h>
 #include <algorithm>
@@ -10,8 +14,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -21,22 +28,55 @@ namespace ps {
 namespace {
 
 constexpr const char* symbol = "hal_program_info";
+/// Exit code of the process when it ends in a program's destructor, as of any rule that a program
+/// breaks.
+constexpr int protocol_broken = 3;
+
+/// Host time that constructors and destructors of a program's static objects may take (decision).
+constexpr std::uint64_t most_loading_ns = 10'000'000'000;
+
+/// Stack of the thread that loads programs, as far as the host tells.
+std::size_t loading_stack() {
+  constexpr std::size_t usual = std::size_t{8} << 20;
+  rlimit limit{};
+  const bool known = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return known ? static_cast<std::size_t>(limit.rlim_cur) : usual;
+}
+
+/// Runs code that touches a program's file, without a processor. Returns what stopped it; empty if
+/// nothing did.
+std::string stopped_by(const std::function<void()>& code) {
+  struct Call {
+    const std::function<void()>& code;
+    std::string thrown;
+  } call{code, {}};
+  FaultTrap trap(loading_stack());
+  ProgramWatch::start(~std::uint64_t{0});
+  const Fault* fault = trap.call(
+      [](void* context) {
+        Call& call = *static_cast<Call*>(context);
+        try {
+          call.code();
+        } catch (const std::exception& error) {
+          call.thrown = std::string("it threw an exception: ") + error.what();
+        } catch (...) {
+          call.thrown = "it threw an exception";
+        }
+      },
+      &call, {most_loading_ns});
+  ProgramWatch::end();
+  return fault ? fault->text() : call.thrown;
+}
 
 /// Throws if the description cannot be used. `what` is "program 'x'".
 void check(const hal_program& program, const std::string& what) {
-  if (program.abi != HAL_ABI) {
-    throw vp::InputError(what + " was built for version " + std::to_string(program.abi) +
-                         " of the HAL, this is version " + std::to_string(HAL_ABI) +
-                         ": rebuild it");
+  std::string problem;
+  const std::string stopped = stopped_by([&] { problem = problem_of(program); });
+  if (!stopped.empty()) {
+    problem = std::string("has a broken ") + symbol + " (" + stopped +
+              "): its counts must be those of its tables";
   }
-  const bool complete = program.name && program.entry &&
-                        (program.work || program.work_count == 0) &&
-                        (program.functions || program.function_count == 0) &&
-                        (program.options || program.option_count == 0);
-  if (!complete) {
-    throw vp::InputError(what + " has an incomplete " + symbol +
-                         ": it needs a name, an entry, and a table for each count that is not 0");
-  }
+  if (!problem.empty()) throw vp::InputError(what + " " + problem);
 }
 
 /// Empty if the file has none.
@@ -115,12 +155,17 @@ class SharedObject {
     return object;
   }
 
-  explicit SharedObject(const std::string& path) : handle_(load(path)), image_(handle_) {}
+  explicit SharedObject(const std::string& path)
+      : path_(path), handle_(load(path)), image_(handle_) {}
   // Destructors of static objects then find what their constructors left, however often the program
   // ran.
+  // A fault in one leaves the loader in the middle of its work: nothing can go on.
   ~SharedObject() {
     image_.restore();
-    dlclose(handle_);
+    const std::string stopped = stopped_by([this] { dlclose(handle_); });
+    if (stopped.empty()) return;
+    std::cerr << "markervp: " << at_end(path_, "destructor", stopped) << std::endl;
+    std::_Exit(protocol_broken);
   }
   SharedObject(const SharedObject&) = delete;
   SharedObject& operator=(const SharedObject&) = delete;
@@ -133,10 +178,20 @@ class SharedObject {
  private:
   static void* load(const std::string& path) {
     check_file(path);
-    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    void* handle = nullptr;
+    const std::string stopped =
+        stopped_by([&] { handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); });
+    if (!stopped.empty()) throw vp::ProtocolError(at_end(path, "constructor", stopped));
+    if (handle) return handle;
     throw vp::InputError("cannot load program '" + path + "': " + dlerror());
   }
 
+  static std::string at_end(const std::string& path, const char* what, const std::string& problem) {
+    return "program '" + path + "': " + problem + ", in the " + what +
+           " of a static object: do such work in the entry function";
+  }
+
+  std::string path_;
   void* handle_;
   StaticImage image_;
 };

@@ -11,7 +11,8 @@ namespace ps {
 class Program {
  public:
   /// Loads a plug-in. Throws vp::InputError with one line if the file is missing, is no shared
-  /// object, needs symbols that nobody has, describes no program, or was built for another HAL.
+  /// object, needs symbols that nobody has, describes no program, or was built for another HAL;
+  /// vp::ProtocolError if a constructor of its static objects does what ends a program in a run.
   static std::unique_ptr<Program> load(const std::string& path);
   /// A program that is part of this executable; reset() does nothing. Throws vp::InputError as
   /// load() does.

@@ -99,6 +99,18 @@ BOOST_AUTO_TEST_CASE(the_console_makes_lines) {
   BOOST_TEST(lines == expected, boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(text_without_line_end_does_not_pile_up) {
+  Bench b;
+  std::vector<std::size_t> lengths;
+  b.cpu.console.connect([&](const std::string& line) { lengths.push_back(line.size()); });
+  b.run([&] {
+    for (int i = 0; i < 65'537; ++i) print("a");
+    return 0;
+  });
+  const std::vector<std::size_t> expected{65'536, 1};
+  BOOST_TEST(lengths == expected, boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(dma_memory_has_one_number_as_pointer_and_bus_address) {
   Bench b;
   ps::DmaAllocator memory(0x1000'0000, 0x1000'1000);

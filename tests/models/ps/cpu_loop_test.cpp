@@ -1,7 +1,10 @@
 // Loops of the program that call nobody: noticed by the basic blocks that run.
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <csignal>
 #include <cstring>
+#include <ctime>
 
 #include "bench.h"
 
@@ -59,6 +62,79 @@ BOOST_AUTO_TEST_CASE(without_interrupt_it_ends_at_the_timeout) {
     return text.find("no end within 5 ms") == 0 && text.find("entry()+") != std::string::npos;
   });
   BOOST_TEST(b.cpu.end_ps() == 5'000'000'000u);
+}
+
+/// Code of this test is foreign to the platform: no basic block of it reports.
+BOOST_AUTO_TEST_CASE(the_hosts_time_without_simulated_time_ends_it) {
+  for (const bool calls : {true, false}) {
+    Bench b({"cpu.host_timeout=200 ms"});
+    b.run(
+        [calls] {
+          hal_work(step, 12);
+          hal_read32(device_address);
+          for (volatile bool go = true; go;) {
+            if (calls) hal_option(0);
+          }
+          return 0;
+        },
+        false);
+    const std::string error = b.failure();
+    BOOST_TEST(error.find("the program takes the host's time and lets no simulated time pass, for "
+                          "200 ms now (cpu.host_timeout)") == 0u,
+               error);
+    BOOST_TEST(error.find(", at 12 ns of program 'bench'") != std::string::npos, error);
+    BOOST_TEST(b.cpu.end_ps() == 12'000u);
+  }
+}
+
+/// Uses so much of the host's time.
+void burn(std::chrono::milliseconds time) {
+  const std::clock_t end =
+      std::clock() + static_cast<std::clock_t>(time.count() * CLOCKS_PER_SEC / 1000);
+  while (std::clock() < end) continue;
+}
+
+BOOST_AUTO_TEST_CASE(simulated_time_images_and_the_simulator_s_own_time_are_no_reason) {
+  struct Slow : ps::TestBench {
+    const hal_frame* next_frame(std::uint64_t) override {
+      burn(std::chrono::milliseconds(frames == 0 ? 500 : 0));
+      return frames++ < 6 ? &frame : nullptr;
+    }
+    void publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override {}
+    double option(std::uint32_t, const hal_option_info&) override { return 0; }
+    hal_frame frame{};
+    int frames = 0;
+  } slow;
+  Bench b({"cpu.host_timeout=400 ms"});
+  b.cpu.connect(slow);
+  b.run([] {
+    while (hal_frame_next()) burn(std::chrono::milliseconds(100));
+    for (int i = 0; i < 6; ++i) {
+      burn(std::chrono::milliseconds(100));
+      hal_work(step, 1);
+      hal_barrier();
+    }
+    return 0;
+  });
+  BOOST_TEST(slow.frames == 7);
+  BOOST_TEST((b.cpu.state() == ps::Cpu::State::finished));
+}
+
+BOOST_AUTO_TEST_CASE(interrupted_programs_stop_where_they_are) {
+  Bench b;
+  const auto old = std::signal(SIGUSR1, [](int) { ps::Cpu::interrupt_program(); });
+  b.run(
+      [] {
+        hal_work(step, 12);
+        hal_barrier();
+        std::raise(SIGUSR1);
+        while (true) hal_barrier();
+        return 0;
+      },
+      false);
+  std::signal(SIGUSR1, old);
+  BOOST_TEST((b.cpu.state() != ps::Cpu::State::finished));
+  b.cpu.check();
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "bench.h"
 
@@ -114,6 +115,74 @@ BOOST_AUTO_TEST_CASE(incomplete) {
   hal_program no_entry = bench::program([] { return 0; });
   no_entry.entry = nullptr;
   BOOST_CHECK_THROW(ps::Program::linked(no_entry), vp::InputError);
+}
+
+/// What load() says of a description with one thing wrong.
+template <class Change>
+std::string error_of_changed(Change change) {
+  hal_program changed = bench::program([] { return 0; });
+  change(changed);
+  try {
+    ps::Program::linked(changed);
+  } catch (const vp::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string error_of_options(const std::vector<hal_option_info>& options) {
+  return error_of_changed([&](hal_program& program) {
+    program.options = options.data();
+    program.option_count = static_cast<std::uint32_t>(options.size());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(tables_that_cannot_be) {
+  const auto says = [](const std::string& error, const std::string& part) {
+    BOOST_TEST(error.find("the linked program " + part) == 0u, error);
+  };
+  says(error_of_changed([](hal_program& p) { p.work_count = 4'000'000'000; }),
+       "claims 4000000000 units: at most 4096");
+  says(error_of_changed([](hal_program& p) { p.functions = nullptr; }),
+       "has an incomplete hal_program_info: it counts functions");
+  says(error_of_changed([](hal_program& p) { p.work = reinterpret_cast<const char* const*>(16); }),
+       "has a broken hal_program_info (segmentation fault: read of 0x00000010");
+  static const char* const twice[] = {"a", "b", "a"};
+  says(error_of_changed([](hal_program& p) {
+         p.work = twice;
+         p.work_count = 3;
+       }),
+       "has two units named 'a'");
+  static const char* const unnamed[] = {"a", ""};
+  says(error_of_changed([](hal_program& p) {
+         p.functions = unnamed;
+         p.function_count = 2;
+       }),
+       "has no name for function number 1");
+  says(error_of_changed([](hal_program& p) { p.name = ""; }), "has an incomplete");
+}
+
+BOOST_AUTO_TEST_CASE(options_that_cannot_be) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::string range = "give finite numbers, the default in the range";
+  BOOST_TEST(error_of_options({{"a", "", 1, 0, 2, ""}, {"a_2", "", 0, 0, 0, "d"}}) == "");
+  for (const auto& [option, part] : std::vector<std::pair<hal_option_info, std::string>>{
+           {{"a", "", nan, 0, 1, ""}, range},
+           {{"a", "", 0, nan, 1, ""}, range},
+           {{"a", "", 0, 0, infinite, ""}, range},
+           {{"a", "", 3, 0, 2, ""}, range},
+           {{"a", "", 0, 2, 1, ""}, range},
+           {{"a.b", "", 0, 0, 1, ""}, "letters, digits and _"},
+           {{"opt", "", 0, 0, 1, ""}, "sw.opt"},
+           {{"a", nullptr, 0, 0, 1, ""}, "without unit"},
+           {{"a", "", 0, 0, 1, nullptr}, "without unit or documentation"},
+           {{nullptr, "", 0, 0, 1, ""}, "no name for option number 0"}}) {
+    const std::string error = error_of_options({option});
+    BOOST_TEST(error.find(part) != std::string::npos, error);
+  }
+  const std::string twice = error_of_options({{"a", "", 0, 0, 1, ""}, {"a", "", 0, 0, 1, ""}});
+  BOOST_TEST(twice.find("has two options named 'a': rename one") != std::string::npos, twice);
 }
 
 BOOST_AUTO_TEST_CASE(unresolved_symbol) {

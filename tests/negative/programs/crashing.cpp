@@ -3,12 +3,14 @@
 #include <hal/hal.h>
 #include <marker/result.h>
 
-#include <csignal>
+#include <csetjmp>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 
 #include <fenv.h>
+#include <pthread.h>
+#include <unistd.h>
 
 namespace {
 
@@ -62,6 +64,26 @@ __attribute__((noinline)) void leave() {
   std::exit(0);
 }
 
+__attribute__((noinline)) void leave_at_once() {
+  ::_exit(0);
+}
+
+__attribute__((noinline)) void leave_for_good() {
+  std::_Exit(0);
+}
+
+__attribute__((noinline)) void leave_quickly() {
+  std::quick_exit(0);
+}
+
+__attribute__((noinline)) void double_up() {
+  static_cast<void>(!::fork());
+}
+
+__attribute__((noinline)) void end_thread() {
+  ::pthread_exit(nullptr);
+}
+
 __attribute__((noinline)) void throw_through() {
   throw std::runtime_error("oops");
 }
@@ -74,8 +96,8 @@ __attribute__((noinline)) void publish_nothing() {
   hal_publish(marker::frame_result_kind, reinterpret_cast<const void*>(16), 64);
 }
 
-__attribute__((noinline)) void fault_in_handler() {
-  hal_interrupt_connect([](void*) { write_null(); }, nullptr);
+void await_timer(hal_interrupt_handler handler) {
+  hal_interrupt_connect(handler, nullptr);
   hal_interrupt_enable(true);
   // Bit 0 enables the interface and the distributor, and interrupt 27 is that of the global timer.
   hal_write32(0xF8F0'0104, 0xFF);
@@ -86,6 +108,25 @@ __attribute__((noinline)) void fault_in_handler() {
   hal_write32(0xF8F0'0214, 0);
   hal_write32(0xF8F0'0208, 7);
   hal_wait_for_interrupt();
+}
+
+__attribute__((noinline)) void fault_in_handler() {
+  await_timer([](void*) { write_null(); });
+}
+
+std::jmp_buf way_back;
+
+__attribute__((noinline)) void jump_out_of_handler() {
+  if (setjmp(way_back) == 0) await_timer([](void*) { std::longjmp(way_back, 1); });
+}
+
+/// Nothing is wrong with that.
+__attribute__((noinline)) void jump() {
+  if (setjmp(way_back) == 0) std::longjmp(way_back, 1);
+}
+
+__attribute__((noinline)) void change_folder() {
+  static_cast<void>(!::chdir("/"));
 }
 
 __attribute__((noinline)) void destroy_stack() {
@@ -107,12 +148,31 @@ __attribute__((noinline)) void read_unmapped() {
   hal_read32(0x5000'0000);
 }
 
-void (*const ways[])() = {dereference_device, write_null,     [] { sink = recurse(0); },
-                          call_null,          trap,           divide,
-                          divide_floating,    give_up,        leave,
-                          throw_through,      throw_noexcept, publish_nothing,
-                          fault_in_handler,   destroy_stack,  spin,
-                          read_unmapped,      stand_still};
+void (*const ways[])() = {dereference_device,
+                          write_null,
+                          [] { sink = recurse(0); },
+                          call_null,
+                          trap,
+                          divide,
+                          divide_floating,
+                          give_up,
+                          leave,
+                          throw_through,
+                          throw_noexcept,
+                          publish_nothing,
+                          fault_in_handler,
+                          destroy_stack,
+                          spin,
+                          read_unmapped,
+                          stand_still,
+                          leave_at_once,
+                          leave_for_good,
+                          leave_quickly,
+                          double_up,
+                          end_thread,
+                          jump_out_of_handler,
+                          jump,
+                          change_folder};
 constexpr int last_way = sizeof ways / sizeof ways[0] - 1;
 
 const hal_option_info options[] = {{"way", "", 0, 0, last_way, "how the program crashes"}};

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+namespace vp {
+
+/// Ticks of the host, ten a second, for those who must notice that something takes too long,
+/// whatever code runs. Nobody listens: no tick.
+///
+/// Ticks come from a signal (SIGALRM, ITIMER_REAL) in the main thread, so they cost the code that
+/// runs nothing. They do not go on in a forked process.
+class HostTicks {
+ public:
+  static constexpr std::uint64_t period_ns = 100'000'000;
+
+  class Listener {
+   public:
+    /// Called in a signal handler; may leave it with siglongjmp(). `spent_ns` is the host time
+    /// since the last tick: the processor time of this process, so that a busy machine takes
+    /// nothing away from it, or the time that passed if it only waited. `context` is a ucontext_t.
+    virtual void on_tick(std::uint64_t spent_ns, void* context) = 0;
+
+   protected:
+    ~Listener() = default;
+  };
+
+  /// At most four at a time. Both may be called in signal handlers.
+  static void add(Listener& listener);
+  static void remove(Listener& listener);
+  /// For who listens: the next tick comes after a hundredth of the period.
+  static void hurry();
+};
+
+}  // namespace vp

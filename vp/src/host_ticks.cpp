@@ -1,0 +1,95 @@
+#include <sys/time.h>
+#include <vp/host_ticks.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+
+namespace vp {
+
+namespace {
+
+constexpr std::uint64_t ns_per_us = 1'000;
+constexpr std::uint64_t ns_per_s = 1'000'000'000;
+
+std::atomic<HostTicks::Listener*> listeners[4];
+
+struct Times {
+  std::uint64_t processor_ns = 0;  ///< of this process
+  std::uint64_t passed_ns = 0;
+};
+Times last;
+
+std::uint64_t read(clockid_t clock) {
+  timespec time{};
+  ::clock_gettime(clock, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * ns_per_s +
+         static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+Times times() {
+  return {read(CLOCK_PROCESS_CPUTIME_ID), read(CLOCK_MONOTONIC)};
+}
+
+// One tick at a time: a program that uses the timer itself, with alarm(), does not stop the ticks.
+void plan_tick(std::uint64_t ns) {
+  const itimerval timer{{0, 0}, {0, static_cast<suseconds_t>(ns / ns_per_us)}};
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+// A tick that comes late says that the process was stopped, or that others had the processor: not
+// that it waited.
+std::uint64_t spent(const Times& from, const Times& to) {
+  const std::uint64_t processor = to.processor_ns - from.processor_ns;
+  const std::uint64_t passed = to.passed_ns - from.passed_ns;
+  const bool late = passed > 2 * HostTicks::period_ns;
+  const bool waited = processor < passed / 100 && !late;
+  return waited ? passed : processor;
+}
+
+void on_alarm(int, siginfo_t*, void* context) {
+  const int kept = errno;
+  const Times now = times();
+  const std::uint64_t spent_ns = spent(last, now);
+  last = now;
+  bool heard = false;
+  for (const auto& listener : listeners) heard = heard || listener.load() != nullptr;
+  if (heard) plan_tick(HostTicks::period_ns);
+  for (const auto& place : listeners) {
+    if (HostTicks::Listener* const listener = place.load()) listener->on_tick(spent_ns, context);
+  }
+  errno = kept;
+}
+
+}  // namespace
+
+void HostTicks::add(Listener& listener) {
+  bool first = true;
+  for (const auto& place : listeners) first = first && place.load() == nullptr;
+  for (auto& place : listeners) {
+    Listener* none = nullptr;
+    if (place.compare_exchange_strong(none, &listener)) break;
+  }
+  struct sigaction action {};
+  action.sa_sigaction = on_alarm;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGALRM, &action, nullptr);
+  if (first) last = times();
+  plan_tick(period_ns);
+}
+
+void HostTicks::hurry() {
+  plan_tick(period_ns / 100);
+}
+
+// A tick on its way finds nobody.
+void HostTicks::remove(Listener& listener) {
+  for (auto& place : listeners) {
+    Listener* expected = &listener;
+    place.compare_exchange_strong(expected, nullptr);
+  }
+}
+
+}  // namespace vp
