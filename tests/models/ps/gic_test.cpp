@@ -374,6 +374,53 @@ BOOST_AUTO_TEST_CASE(non_secure_interrupts_need_ack_ctl) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(non_secure_interrupts_are_never_fiq) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    hal_write32(icd + gic::ICDISR(1), 1u << 29);
+    hal_write32(icd + gic::ICDDCR, 3);
+    hal_write32(icc + gic::ICCICR, 0xF);
+    b.irq_f2p = 1;
+    BOOST_TEST(b.irq());
+    BOOST_TEST(b.gic.n_fiq.get());
+    return 0;
+  });
+}
+
+// The binary point of non-secure interrupts counts one bit less: 3 looks at all five bits.
+BOOST_AUTO_TEST_CASE(non_secure_interrupts_have_a_binary_point_of_their_own) {
+  GicBench b;
+  b.run([&] {
+    set_up(61, 0x48);
+    set_up(62, 0x40);
+    hal_write32(icd + gic::ICDISR(1), 3u << 29);
+    hal_write32(icd + gic::ICDDCR, 3);
+    b.irq_f2p = 1;
+    BOOST_TEST(acknowledge() == 61u);
+    b.irq_f2p = 3;
+    hal_write32(icc + gic::ICCABPR, 3);
+    BOOST_TEST(b.irq());
+    hal_write32(icc + gic::ICCABPR, 4);
+    BOOST_TEST(!b.irq());
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_for_the_other_processor_only_does_not_come) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    b.irq_f2p = 1;
+    const unsigned byte = 8 * (61 % 4);
+    change(icd + gic::ICDIPTR(61 / 4), 0xFFu << byte, 2u << byte);
+    BOOST_TEST(!b.irq());
+    change(icd + gic::ICDIPTR(61 / 4), 0xFFu << byte, 3u << byte);
+    BOOST_TEST(b.irq());
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(secure_interrupts_as_fiq) {
   GicBench b;
   b.run([&] {
@@ -394,7 +441,8 @@ BOOST_AUTO_TEST_CASE(the_end_of_what_is_not_active_is_reported) {
   b.run([&] {
     end(61);
     end(95);
-    end(1023);  // harmless: what a spurious acknowledge returned
+    end(1023);  // harmless: what a spurious acknowledge returned,
+    end(1022);  // or one of a non-secure interrupt
     return 0;
   });
   BOOST_TEST(reports.count("/markervp/gic/eoi") == 2u);

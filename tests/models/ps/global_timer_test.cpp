@@ -157,6 +157,51 @@ BOOST_AUTO_TEST_CASE(auto_increment_repeats) {
   BOOST_TEST(b.irq.times == expected, boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(an_increment_of_0_repeats_nothing) {
+  TimerBench b;
+  b.run([] {
+    set_comparator(50, run_compare | gt::control::Auto_Increment);
+    after(150);
+    hal_write32(at + gt::INTERRUPT_STATUS, 1);
+    after(500);
+    BOOST_TEST(hal_read32(at + gt::INTERRUPT_STATUS) == 0u);
+    return 0;
+  });
+}
+
+// Enabling the comparator arms it again, writing the same control once more does not.
+BOOST_AUTO_TEST_CASE(an_event_comes_again_when_the_comparator_is_enabled_again) {
+  TimerBench b;
+  b.run([] {
+    set_comparator(50, run_compare);
+    after(150);
+    hal_write32(at + gt::INTERRUPT_STATUS, 1);
+    hal_write32(at + gt::CONTROL, run_compare);
+    after(10);
+    BOOST_TEST(hal_read32(at + gt::INTERRUPT_STATUS) == 0u);
+    hal_write32(at + gt::CONTROL, run);
+    hal_write32(at + gt::CONTROL, run_compare);
+    BOOST_TEST(hal_read32(at + gt::INTERRUPT_STATUS) == 1u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(control_written_again_does_not_hold_up_the_count) {
+  TimerBench b;
+  b.run([] {
+    const std::uint32_t slow = run | 9u << gt::control::Prescaler_shift;  // a count in 20 cycles
+    hal_write32(at + gt::CONTROL, slow);
+    const std::uint64_t start = counter();
+    after(15);
+    hal_write32(at + gt::CONTROL, slow | gt::control::IRQ_Enable);
+    after(4);
+    BOOST_TEST(counter() == start);
+    after(1);
+    BOOST_TEST(counter() == start + 1);
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(a_comparator_in_the_past_matches_at_once) {
   TimerBench b;
   b.run([] {

@@ -136,6 +136,36 @@ BOOST_AUTO_TEST_CASE(one_shot_at_the_exact_time) {
              boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(a_reload_of_0_has_no_further_event) {
+  TimerBench b;
+  b.run([] {
+    set(pt::LOAD, 0);
+    set(pt::COUNTER, 10);
+    set(pt::CONTROL, run_again);
+    after(20);
+    BOOST_TEST(get(pt::INTERRUPT_STATUS) == 1u);
+    set(pt::INTERRUPT_STATUS, 1);
+    after(1000);
+    BOOST_TEST(get(pt::INTERRUPT_STATUS) == 0u);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(control_written_while_it_counts_does_not_reload) {
+  TimerBench b;
+  b.run([] {
+    set(pt::LOAD, 99);
+    set(pt::CONTROL, run_again);
+    after(100);
+    BOOST_TEST(get(pt::COUNTER) == 49u);
+    set(pt::CONTROL, run_again | 1u << pt::control::Prescaler_shift);
+    BOOST_TEST(get(pt::COUNTER) == 49u);
+    after(4);
+    BOOST_TEST(get(pt::COUNTER) == 48u);
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(auto_reload_has_a_period_of_load_plus_1) {
   TimerBench b;
   b.run([] {

@@ -312,6 +312,7 @@ BOOST_AUTO_TEST_CASE(the_impedances_are_calibrated_while_enabled_and_reset_once)
       return get(slcr::DDRIOB_DCI_STATUS);
     };
     unlock();
+    BOOST_TEST(status_after(ENABLE) == 0u);
     BOOST_TEST(status_after(RESET | ENABLE) == 0u, "RESET did not fall yet");
     BOOST_TEST(status_after(ENABLE) == 0u);
     BOOST_TEST(status_after(RESET | ENABLE) == calibrated);
