@@ -30,7 +30,6 @@ BOOST_AUTO_TEST_CASE(trace_file) {
 BOOST_AUTO_TEST_CASE(names_that_are_too_long) {
   const std::string name(250, 'n');
   run_refuses({"--trace", name + ".vcd"}, {"cannot write trace", "name too long"});
-  run_refuses({"--timeline", name}, {"name too long"});
   refuses({"validate", "--markdown", name, "--output", "out"}, {"name too long"});
   write_image(name + ".pgm");
   const kit::Outcome outcome = start({"run", name + ".pgm", "--quiet"});

@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_such_table_is_refused) {
   check_refused([](Json& t) { t["device"] = "xc7z045"; }, {"xc7z045", "xc7z020"});
   check_refused([](Json& t) { t["entries"] = 3; }, {"entries", "list"});
   check_refused([](Json& t) { t["entries"][0] = 3; }, {"entry 1", "object"});
-  BOOST_TEST(refusal("no json").find("not a JSON object") != std::string::npos);
+  BOOST_TEST(refusal("no json").find("this is not JSON") != std::string::npos);
   BOOST_TEST(refusal("[]").find("not a JSON object") != std::string::npos);
   BOOST_CHECK_THROW(PowerTable::load("/no/such/file.json"), vp::InputError);
   BOOST_CHECK_THROW(PowerTable::load("no_such_name"), vp::InputError);
