@@ -6,11 +6,11 @@
 #include <cli/program.h>
 #include <report/words.h>
 #include <sweep/compare.h>
-#include <sweep/durable_file.h>
 #include <sweep/pareto.h>
 #include <sweep/sensitivity.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 
 namespace platform::cli {
 
@@ -55,14 +55,10 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   const std::string csv = (folder / "pareto.csv").string();
   const std::string svg = (folder / "pareto.svg").string();
   std::string wrote = csv;
-  try {
-    sweep::write_durably(csv, sweep::pareto_csv(results, objectives, pareto));
-    const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
-    if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
-    if (!problem) wrote += ", " + svg;
-  } catch (const sweep::StorageError& error) {
-    throw vp::InputError(error.what());
-  }
+  vp::write_file_durably(csv, sweep::pareto_csv(results, objectives, pareto));
+  const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
+  if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
+  if (!problem) wrote += ", " + svg;
   const auto unknown = std::count_if(pareto.points.begin(), pareto.points.end(),
                                      [](const sweep::RankedPoint& point) { return point.unknown; });
   out << sweep::pareto_table(results, objectives, pareto);
@@ -99,11 +95,7 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
     csv += csv.empty() ? lines : lines.substr(lines.find('\n') + 1);
   }
   const std::string file = (std::filesystem::path(options.folder) / "sensitivity.csv").string();
-  try {
-    sweep::write_durably(file, csv);
-  } catch (const sweep::StorageError& error) {
-    throw vp::InputError(error.what());
-  }
+  vp::write_file_durably(file, csv);
   out << "wrote " << file << std::endl;
   return done;
 }

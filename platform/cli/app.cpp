@@ -26,7 +26,8 @@ constexpr const char* examples = R"(Examples:
   markervp validate                         the thesis' chapter 5, value by value
 
 Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 wrong usage,
-configuration or input, 3 hardware or software broke a protocol rule.)";
+configuration or input, or something could not be written, 3 hardware or software broke a protocol
+rule.)";
 
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without

@@ -1,10 +1,10 @@
 #include <cli/frame_runner.h>
 
-#include <filesystem>
 #include <ostream>
 #include <utility>
 
 #include <cli/interrupt.h>
+#include <host/standard_streams.h>
 #include <picture/annotate.h>
 #include <report/console.h>
 #include <vp/error.h>
@@ -73,16 +73,17 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
   report.truth = input.truth;
   report.camera = input.camera;
   if (outputs.pictures) {
-    const std::filesystem::path path =
-        std::filesystem::path(outputs.folder) / picture::picture_name(report);
-    write_png(picture::annotate(input.image, report), path.string());
+    write_png(picture::annotate(input.image, report),
+              outputs.pictures->add(picture::picture_name(report)));
   }
   if (outputs.page) outputs.page->add(input.image, report);
   outputs.result.add(report);
-  if (outputs.text) outputs.out << report::frame_text(report, source_.size()) << std::flush;
   if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
   ++frames_;
   if (progress_) progress_->update(frames_);
+  if (!outputs.text) return;
+  outputs.out << report::frame_text(report, source_.size());
+  host::check_written(outputs.out);
 }
 
 }  // namespace platform::cli

@@ -9,6 +9,7 @@
 #include <string>
 
 #include <cli/simulation.h>
+#include <host/output_folder.h>
 #include <input/frame_source.h>
 #include <page/run_extras.h>
 #include <report/result_sink.h>
@@ -21,10 +22,9 @@ namespace platform::cli {
 class FrameRunner {
  public:
   struct Outputs {
-    std::string folder;
-    bool pictures = true;
-    bool text = true;       ///< a few lines per frame on `out`
-    bool progress = false;  ///< a bar on stderr
+    host::OutputFolder* pictures = nullptr;  ///< gets a picture a frame; null: none
+    bool text = true;                        ///< a few lines per frame on `out`
+    bool progress = false;                   ///< a bar on stderr
     std::ostream& out;
     report::ResultSink& result;
     page::RunExtras* page = nullptr;  ///< gets images and features; null: no page

@@ -8,11 +8,8 @@
 
 namespace platform::cli {
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM end the process at once, with the exit code for that.
-void end_at_interrupts();
-
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM is only noted, so that a run ends after the
-/// current frame and keeps its results. The second ends the process at once.
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP is only noted, so that a run ends
+/// after the current frame and keeps its results. The second ends the process at once.
 class InterruptGuard : private vp::HostTicks::Listener {
  public:
   InterruptGuard() : InterruptGuard(nullptr) {}
@@ -28,7 +25,7 @@ class InterruptGuard : private vp::HostTicks::Listener {
 
  private:
   explicit InterruptGuard(Simulation* bounded);
-  static void on_signal(int);
+  static void on_signal(int signal);
   void on_tick(std::uint64_t spent_ns, void* context) override;
 
   Simulation* bounded_;         ///< null: without bound
@@ -36,6 +33,7 @@ class InterruptGuard : private vp::HostTicks::Listener {
   InterruptGuard* outer_;
   struct sigaction old_interrupt_;
   struct sigaction old_terminate_;
+  struct sigaction old_hang_up_;
 };
 
 }  // namespace platform::cli

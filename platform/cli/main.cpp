@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/zynq_simulation.h>
+#include <host/ending.h>
+#include <host/standard_streams.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
 int sc_main(int, char**) {
@@ -13,9 +14,17 @@ int sc_main(int, char**) {
 }
 
 int main(int argc, char* argv[]) {
-  platform::cli::end_at_interrupts();
+  platform::host::fill_standard_descriptors();
+  platform::host::prepare_signals();
   ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  return platform::cli::run_program(arguments, platform::cli::make_zynq_simulation, std::cout,
-                                    std::cerr);
+  const int code = platform::cli::run_program(arguments, platform::cli::make_zynq_simulation,
+                                              std::cout, std::cerr);
+  if (code != platform::cli::done) return code;
+  return platform::cli::exit_code_of(
+      [] {
+        platform::host::check_standard_output();
+        return platform::cli::done;
+      },
+      std::cerr);
 }

@@ -9,6 +9,7 @@
 
 #include <cli/app.h>
 #include <cli/commands.h>
+#include <host/standard_streams.h>
 #include <vp/error.h>
 
 namespace platform::cli {
@@ -56,6 +57,12 @@ int run_command(const CLI::App& app, const CommandLine& line,
   return print_completion(line.completion, app, out);
 }
 
+/// `code`, if all was written that the user is to read. A failure has told its own.
+int written(int code, std::ostream& out) {
+  if (code == done) host::check_written(out);
+  return code;
+}
+
 }  // namespace
 
 int exit_code_of(const std::function<int()>& work, std::ostream& err) {
@@ -87,11 +94,15 @@ int run_program(const std::vector<std::string>& arguments, const SimulationFacto
   try {
     app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app->exit(error, out, err);
-    return fail(err, usage_error(*app, error, arguments), wrong_input);
+    if (error.get_exit_code() != 0) {
+      return fail(err, usage_error(*app, error, arguments), wrong_input);
+    }
+    app->exit(error, out, err);
+    return exit_code_of([&] { return written(done, out); }, err);
   }
-  return exit_code_of([&] { return run_command(*app, line, arguments, make_simulation, out, err); },
-                      err);
+  return exit_code_of(
+      [&] { return written(run_command(*app, line, arguments, make_simulation, out, err), out); },
+      err);
 }
 
 }  // namespace platform::cli

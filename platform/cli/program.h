@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <cli/simulation.h>
+#include <host/ending.h>
 
 namespace platform::cli {
 
@@ -15,7 +16,7 @@ enum ExitCode {
   run_failed = 1,  ///< the program said so, or a required marker was not found
   wrong_input = 2,
   protocol_broken = 3,
-  interrupted = 130,  ///< 128 + SIGINT, as shells count
+  interrupted = host::interrupted_code,
 };
 
 /// What `work` returns, or the code of the error that it throws, after one line about it on `err`.

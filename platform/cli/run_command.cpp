@@ -1,12 +1,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 #include <cli/commands.h>
@@ -16,14 +15,14 @@
 #include <cli/program.h>
 #include <cli/provenance.h>
 #include <cli/trace_window.h>
+#include <host/output_folder.h>
 #include <page/page_file.h>
 #include <page/report_page.h>
 #include <page/run_extras.h>
 #include <report/console.h>
-#include <report/file_output.h>
 #include <report/result_writer.h>
 #include <report/words.h>
-#include <vp/error.h>
+#include <vp/output_file.h>
 #include <vp/text.h>
 
 namespace platform::cli {
@@ -108,24 +107,34 @@ fs::path normal_folder(const fs::path& folder) {
 
 /// Throws if the trace could not be written when the time comes; makes nothing. The output folder
 /// is made later.
-void check_trace_folder(const RunOptions& options) {
+void check_trace(const RunOptions& options) {
   if (!options.trace) return;
   const fs::path folder = normal_folder(fs::absolute(*options.trace).parent_path());
   std::error_code ignored;
   if (folder == normal_folder(options.output) && !fs::exists(folder, ignored)) return;
-  int reason = 0;
-  if (!fs::is_directory(folder, ignored)) {
-    reason = ENOENT;
-  } else if (fs::is_directory(*options.trace, ignored)) {
-    reason = EISDIR;
-  } else if (::access(folder.c_str(), W_OK) != 0) {
-    reason = errno;
-  } else if (::access((*options.trace + ".tmp").c_str(), F_OK) != 0 && errno == ENAMETOOLONG) {
-    reason = errno;  // of the name that it has while it is written
+  const int problem = vp::output_problem(*options.trace);
+  if (problem != 0) throw vp::OutputError(*options.trace, problem);
+}
+
+/// The files that a run writes beside its folder.
+std::vector<std::string> other_outputs(const RunOptions& options) {
+  std::vector<std::string> files;
+  for (const auto& file :
+       {options.trace, options.timeline, options.log_bus, options.register_coverage}) {
+    if (file) files.push_back(*file);
   }
-  if (reason == 0) return;
-  throw vp::InputError("cannot write trace '" + *options.trace + "': " + std::strerror(reason) +
-                       "; name a file in a folder that exists and may be written");
+  return files;
+}
+
+/// Throws if one file would replace another. Devices and pipes take everything.
+void check_outputs_differ(const RunOptions& options) {
+  std::set<fs::path> paths;
+  std::error_code ignored;
+  for (const std::string& file : other_outputs(options)) {
+    if (fs::is_other(file, ignored)) continue;
+    if (!paths.insert(fs::weakly_canonical(fs::absolute(file), ignored)).second)
+      throw vp::InputError("two outputs would be one file: '" + file + "'; name another for one");
+  }
 }
 
 /// What `error` says; empty for none.
@@ -176,15 +185,53 @@ class Warner {
   std::vector<std::string> seen_;
 };
 
+/// What shows a run beside its result.
+struct Views {
+  vp::OutputFile* timeline;  ///< null: not wanted
+  page::RunExtras* page;     ///< null: not wanted
+  host::OutputFolder& folder;
+  const vp::Configuration& configuration;
+};
+
+/// Writes them, after the result. One that cannot be written does not keep the other from it; the
+/// first error is noted if there was none before. Returns whether there is a page.
+bool write_views(const Views& views, const Simulation& simulation, std::exception_ptr& error) {
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+      return true;
+    } catch (const vp::OutputError&) {
+      if (!error) error = std::current_exception();
+      return false;
+    }
+  };
+  const report::Timeline timeline = simulation.timeline();
+  if (views.timeline) {
+    attempt([&] {
+      views.timeline->write(report::trace_event_json(timeline));
+      views.timeline->commit();
+    });
+  }
+  if (!views.page) return false;
+  if (!timeline.empty()) views.page->add_member("timeline", report::page_json(timeline));
+  return attempt([&] {
+    views.folder.add(page::report_name);
+    page::write_report(views.folder.path(), views.page->json(views.configuration.parameters()));
+  });
+}
+
+/// `has_trace`: it recorded something. `failed`: something could not be written, which has its own
+/// message.
 std::string written_text(const RunOptions& options, const FrameRunner& runner, bool has_page,
-                         bool has_trace) {
+                         bool has_trace, bool failed) {
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
   if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
-  if (has_trace) text += ", " + *options.trace;
-  for (const auto& file : {options.timeline, options.log_bus, options.register_coverage}) {
-    if (file) text += ", " + *file;
+  if (!failed) {
+    for (const std::string& file : other_outputs(options)) {
+      if (file != options.trace || has_trace) text += ", " + file;
+    }
   }
   if (!options.no_report && page::page_template().empty())
     text += "\nno report.html: this markervp was built without it (needs Node.js and npm)";
@@ -192,8 +239,8 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner, b
 }
 
 int verdict(const RunOptions& options, const FrameRunner& runner, const report::RunFacts& facts,
-            std::ostream& err) {
-  if (runner.error()) std::rethrow_exception(runner.error());
+            const std::exception_ptr& error, std::ostream& err) {
+  if (error) std::rethrow_exception(error);
   if (InterruptGuard::interrupted()) {
     err << "markervp: interrupted; results up to here are kept" << std::endl;
     return interrupted;
@@ -228,9 +275,11 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const auto source =
       input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
   FrameRunner runner(*source);
-  check_trace_folder(options);
-  const bool made_folder = !memory && report::prepare_output_folder(options.output);
-  std::optional<report::AtomicFile> timeline_file;
+  check_outputs_differ(options);
+  check_trace(options);
+  std::optional<host::OutputFolder> folder;
+  if (!memory) folder.emplace(options.output);
+  std::optional<vp::OutputFile> timeline_file;
   if (options.timeline) timeline_file.emplace(*options.timeline);
   report::Provenance origin;
   if (!memory) origin = provenance(options, arguments, configuration);
@@ -238,21 +287,20 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   warner.print(source->warnings());
 
   std::unique_ptr<report::ResultWriter> file;
-  if (!memory) file = std::make_unique<report::ResultWriter>(options.output);
+  if (folder) file = std::make_unique<report::ResultWriter>(*folder);
   report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
   const InterruptGuard guard(*simulation);
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
-  runner.run(*simulation, {options.output, !options.no_pictures, !options.quiet, bar, out, result,
-                           page ? &extras : nullptr});
+  runner.run(*simulation, {folder && !options.no_pictures ? &*folder : nullptr, !options.quiet, bar,
+                           out, result, page ? &extras : nullptr});
 
-  if (runner.error() && runner.frames() == 0 && is_input_error(runner.error())) {
-    std::error_code ignored;
-    if (made_folder) fs::remove(options.output, ignored);
+  report::RunFacts facts = simulation->facts();
+  const bool ran = runner.frames() > 0 || facts.end;
+  if (runner.error() && !ran && is_input_error(runner.error())) {
     std::rethrow_exception(runner.error());
   }
   warner.print(source->warnings());
-  report::RunFacts facts = simulation->facts();
   if (!memory) facts.configuration = configuration.values();
   if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
   if (facts.resources) warner.print(report::resource_warnings(*facts.resources));
@@ -265,19 +313,16 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   result.finish(facts, origin, warnings, incomplete(runner));
   if (memory) {
     memory->configuration = configuration.values();
-    return verdict(options, runner, facts, err);
+    return verdict(options, runner, facts, runner.error(), err);
   }
-  const report::Timeline timeline = simulation->timeline();
-  if (timeline_file) {
-    timeline_file->write(report::trace_event_json(timeline));
-    timeline_file->commit();
-  }
-  if (page && !timeline.empty()) extras.add_member("timeline", report::page_json(timeline));
-  const bool has_page =
-      page && page::write_report(options.output, extras.json(configuration.parameters()));
+  std::exception_ptr error = runner.error();
+  const bool has_page = write_views(
+      {timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder, configuration},
+      *simulation, error);
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
-      << written_text(options, runner, has_page, simulation->wrote_trace()) << std::flush;
-  return verdict(options, runner, facts, err);
+      << written_text(options, runner, has_page, simulation->wrote_trace(), error != nullptr)
+      << std::flush;
+  return verdict(options, runner, facts, error, err);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -19,7 +18,6 @@
 #include <page/report_page.h>
 #include <report/words.h>
 #include <sweep/database.h>
-#include <sweep/durable_file.h>
 #include <sweep/engine_slurm.h>
 #include <sweep/figure_names.h>
 #include <sweep/results_csv.h>
@@ -27,6 +25,7 @@
 #include <sweep/summary.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 #include <vp/progress.h>
 
 namespace platform::cli {
@@ -190,7 +189,7 @@ page::PointRows rows_of(const sweep::Results& results) {
 void write_results(const SweepOptions& options, const sweep::Store& store,
                    const sweep::Results& results, const sweep::Tally& tally, std::size_t pending,
                    std::ostream& out) {
-  sweep::write_durably(store.path("sweep.csv"), sweep::results_csv(results));
+  vp::write_file_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results,
                         sweep::complete_runs(store, results.manifest));
   const bool page =
@@ -233,8 +232,6 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
   if (options.list) return list_studies(out);
   if (options.file.empty())
     throw vp::InputError("sweep: name a YAML file, or a study that 'markervp sweep --list' shows");
-  // A limit on the size of files is then an error that can be reported.
-  std::signal(SIGXFSZ, SIG_IGN);
   const sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
   const sweep::Platform platform = sweep_platform(make_simulation);
   const sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
@@ -247,21 +244,17 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
     store.write_manifest(manifest);
     sweep::Tally tally = compute(options, store, manifest, before.pending, make_simulation, err);
     return conclude(options, store, manifest, std::move(before), std::move(tally), out, err);
-  } catch (const sweep::StorageError& error) {
-    throw vp::InputError(error.what());
+  } catch (const vp::OutputError& error) {
+    throw vp::OutputError(std::string(error.what()) +
+                          "; what was computed is kept: run the sweep again");
   }
 }
 
 int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation) {
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    const sweep::Store store(options.folder);
-    const InterruptGuard guard;
-    return sweep::run_slurm_task(store, options.submission, options.task, warm_up,
-                                 point_runner(make_simulation), options.points_a_process);
-  } catch (const sweep::StorageError& error) {
-    throw vp::InputError(error.what());
-  }
+  const sweep::Store store(options.folder);
+  const InterruptGuard guard;
+  return sweep::run_slurm_task(store, options.submission, options.task, warm_up,
+                               point_runner(make_simulation), options.points_a_process);
 }
 
 }  // namespace platform::cli

@@ -1,6 +1,3 @@
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <ostream>
 
 #include <cli/commands.h>
@@ -13,6 +10,7 @@
 #include <trace/save_file.h>
 #include <trace/statistics.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -28,16 +26,6 @@ trace::NameMap name_map(const TraceCommandOptions& options) {
 
 TimeWindow window(const TraceCommandOptions& options) {
   return options.window ? parse_trace_window(*options.window, "--window") : TimeWindow{};
-}
-
-void write_file(const std::string& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.flush();
-  if (!stream) {
-    throw vp::InputError("cannot write '" + file + "': " + std::strerror(errno) +
-                         "; name a file in a folder that exists and may be written");
-  }
 }
 
 int list(const TraceCommandOptions& options, std::ostream& out) {
@@ -94,7 +82,7 @@ void write_failure(TraceFile& file, const trace::CheckResult& result, const std:
   page.start_ps = result.first_ps > before_ps ? result.first_ps - before_ps : 0;
   page.end_ps = result.first_ps + margin_ps;
   page.timescale_fs = file.reader().timescale_fs();
-  write_file(to, trace::save_file_text(page));
+  vp::write_file(to, trace::save_file_text(page));
 }
 
 /// How many checks ended how.
@@ -232,7 +220,7 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
   if (options.marker)
     asked.marker_ps = parse_trace_window(*options.marker + ":", "--marker").from_ps;
   const std::string picture = trace::plot_as_svg(file, asked);
-  write_file(options.output.value_or("plot.svg"), picture);
+  vp::write_file(options.output.value_or("plot.svg"), picture);
   out << "wrote " << options.output.value_or("plot.svg") << "\n";
   return done;
 }

@@ -6,13 +6,14 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/run_child.h>
+#include <host/output_folder.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
-#include <report/file_output.h>
 #include <validation/console.h>
 #include <validation/markdown.h>
 #include <validation/plots.h>
 #include <validation/result_files.h>
+#include <vp/output_file.h>
 
 namespace platform::cli {
 
@@ -78,21 +79,16 @@ validation::Measured read_runs(const ValidateOptions& options) {
           validation::read_run(folder / systems[1] / "result.json")};
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-  report::AtomicFile file(path.string());
-  file.write(text);
-  file.commit();
-}
-
 /// Throws if the page could not be written after the systems have run; makes its folder.
 void check_page(const fs::path& page) {
-  if (page.has_parent_path()) report::prepare_output_folder(page.parent_path().string());
-  report::AtomicFile(page.string());
+  if (page.has_parent_path()) host::prepare_output_folder(page.parent_path().string());
+  const int problem = vp::output_problem(page.string());
+  if (problem != 0) throw vp::OutputError(page.string(), problem);
 }
 
 /// False: gnuplot is not installed.
 bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
-  report::prepare_output_folder(folder.string());
+  host::prepare_output_folder(folder.string());
   return std::all_of(plots.begin(), plots.end(),
                      [&](const Plot& plot) { return validation::draw(plot, folder); });
 }
@@ -100,9 +96,9 @@ bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
 /// What was written and what was not.
 std::string write_results(const ValidateOptions& options, const validation::Validation& result) {
   const fs::path folder = options.output;
-  write_file(folder / "validation.json", validation::json_text(result));
-  write_file(folder / "validation.csv", validation::rows_csv(result));
-  write_file(folder / "frames.csv", validation::frames_csv(result));
+  vp::write_file((folder / "validation.json").string(), validation::json_text(result));
+  vp::write_file((folder / "validation.csv").string(), validation::rows_csv(result));
+  vp::write_file((folder / "frames.csv").string(), validation::frames_csv(result));
   const std::vector<Plot> plots = validation::all_plots(result);
   bool drawn = draw_plots(plots, folder / "plots");
   std::string text = "wrote validation.json, validation.csv, frames.csv in " + folder.string();
@@ -112,7 +108,7 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
   if (options.markdown) {
     const fs::path page = *options.markdown;
     drawn = drawn && draw_plots(plots, page.parent_path() / page_pictures);
-    write_file(page, validation::markdown_text(result, plots, page_pictures));
+    vp::write_file(page.string(), validation::markdown_text(result, plots, page_pictures));
     text += ", " + page.string();
   }
   return text + (drawn ? "\n" : "\nno plots: gnuplot is not installed (Debian: gnuplot-nox)\n");
@@ -124,7 +120,7 @@ int validate(const ValidateOptions& options, const std::vector<std::string>& arg
              const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
   const auto published = validation::read_published(validation::published_file());
   if (options.markdown) check_page(*options.markdown);
-  report::prepare_output_folder(options.output);
+  host::prepare_output_folder(options.output);
   if (const int code = run_systems(options, arguments, make_simulation, err); code != done) {
     return code;
   }

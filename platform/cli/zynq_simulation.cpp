@@ -1,10 +1,10 @@
 #include <cli/zynq_simulation.h>
 
+#include <exception>
 #include <iostream>
 
 #include <cli/program_file.h>
-#include <report/file_output.h>
-#include <vp/error.h>
+#include <vp/output_file.h>
 #include <zynq/bus_log.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
@@ -22,29 +22,6 @@ struct ConsoleFlush {
     ps.uart0.console.flush();
     ps.uart1.console.flush();
   }
-};
-
-/// Writes which registers were used, however the run ends.
-class Coverage {
- public:
-  Coverage(const std::optional<std::string>& file, Zynq& zynq) : zynq_(zynq) {
-    if (file) file_.emplace(*file);
-  }
-  ~Coverage() {
-    if (!file_) return;
-    try {
-      file_->write(register_coverage(zynq_));
-      file_->commit();
-    } catch (const vp::InputError& error) {
-      std::cerr << "markervp: " << error.what() << std::endl;
-    }
-  }
-  Coverage(const Coverage&) = delete;
-  Coverage& operator=(const Coverage&) = delete;
-
- private:
-  Zynq& zynq_;
-  std::optional<report::AtomicFile> file_;
 };
 
 class ZynqSimulation : public Simulation {
@@ -67,12 +44,27 @@ class ZynqSimulation : public Simulation {
   void run(const NextFrame& next, const FrameDone& done) override {
     const ConsoleFlush flush{session_.zynq().ps};
     const Debugged debugged(session_.zynq());
-    const Coverage coverage(options_.register_coverage, session_.zynq());
+    std::optional<vp::OutputFile> coverage;
+    if (options_.register_coverage) coverage.emplace(*options_.register_coverage);
     std::optional<BusLog> log;
     if (options_.bus_log) {
       log.emplace(BusLogOptions{*options_.bus_log, options_.bus_log_filter}, session_.zynq());
     }
-    session_.run(next, done);
+    std::exception_ptr error;
+    try {
+      session_.run(next, done);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    // However the run ended.
+    try {
+      if (log) log->close();
+      if (coverage) coverage->write(register_coverage(session_.zynq()));
+      if (coverage) coverage->commit();
+    } catch (const vp::OutputError&) {
+      if (!error) error = std::current_exception();
+    }
+    if (error) std::rethrow_exception(error);
   }
   void interrupt() override { ps::Cpu::interrupt_program(); }
 

@@ -1,6 +1,6 @@
 #include <page/page_file.h>
 
-#include <report/file_output.h>
+#include <vp/output_file.h>
 
 namespace platform::page {
 
@@ -40,9 +40,7 @@ std::string page_with(std::string_view page, const std::vector<Block>& blocks) {
 
 bool write_page(const std::string& path, const std::vector<Block>& blocks) {
   if (page_template().empty()) return false;
-  report::AtomicFile file(path);
-  file.write(page_with(page_template(), blocks));
-  file.commit();
+  vp::write_file(path, page_with(page_template(), blocks));
   return true;
 }
 

@@ -61,7 +61,7 @@ std::string result_of(const fs::path& path) {
 }
 
 std::string extras_of_page(const fs::path& folder) {
-  const fs::path page = folder / "report.html";
+  const fs::path page = folder / report_name;
   std::error_code ignored;
   return fs::exists(page, ignored)
              ? block_of(vp::read_text(page, "report", host::largest_result), "extras")
@@ -110,11 +110,11 @@ bool write_report(const std::string& folder, const std::string& extras) {
                          "' has neither result.json (a run), points/ (a sweep) nor "
                          "validation.json: name a folder that markervp wrote");
   }
-  return write_page((root / "report.html").string(), blocks);
+  return write_page((root / report_name).string(), blocks);
 }
 
 bool write_sweep_report(const std::string& folder, const PointRows& known) {
-  return write_page((fs::path(folder) / "report.html").string(),
+  return write_page((fs::path(folder) / report_name).string(),
                     {{"sweep", sweep_json(folder, known)}});
 }
 

@@ -6,6 +6,8 @@
 
 namespace platform::page {
 
+inline constexpr const char* report_name = "report.html";
+
 /// Writes report.html into a folder that has result.json (a run), validation.json (a validation) or
 /// points/ (a sweep), from these files. Of a run, `extras` is the block that RunExtras made; empty:
 /// that of the page that is there already, if there is one. False if the program was built without

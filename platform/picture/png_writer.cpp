@@ -4,8 +4,8 @@
 #include <csetjmp>
 
 #include <picture/picture.h>
-#include <report/file_output.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 
 namespace platform::picture {
 
@@ -73,9 +73,7 @@ void write_png(const Picture& picture, const std::string& path) {
   std::string bytes;
   if (!encode({picture.width, picture.height, 3, picture.rgb.data()}, bytes))
     throw vp::InputError("picture '" + path + "' cannot be encoded");
-  report::AtomicFile file(path);
-  file.write(bytes);
-  file.commit();
+  vp::write_file(path, bytes);
 }
 
 }  // namespace platform::picture

@@ -2,20 +2,22 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
-#include <report/file_output.h>
 #include <report/result_parts.h>
-#include <vp/error.h>
 
 namespace platform::report {
 
 namespace {
 
 constexpr int indent = 2;
+constexpr const char* name = "result.json";
+constexpr const char* temporary = "a temporary file";
+/// Bytes of a result without its frames, with some to spare.
+constexpr std::uint64_t around_frames = 1 << 16;
 
 /// File names may hold any bytes; JSON holds UTF-8 only.
 std::string dump(const Json& json, int spaces = -1) {
@@ -38,19 +40,24 @@ std::FILE* nameless_file(const std::string& folder) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(const std::string& folder)
-    : path_((std::filesystem::path(folder) / "result.json").string()),
-      frames_(nameless_file(folder)) {
-  if (!frames_) throw vp::InputError(std::string("no temporary file: ") + std::strerror(errno));
+ResultWriter::ResultWriter(host::OutputFolder& folder)
+    : folder_(folder),
+      file_((std::filesystem::path(folder.path()) / name).string()),
+      frames_(nameless_file(folder.path())) {
+  if (!frames_) throw vp::OutputError(temporary, errno);
+  file_.reserve(around_frames);
 }
 
 ResultWriter::~ResultWriter() = default;
 
 void ResultWriter::add(const FrameReport& frame) {
   const std::string text = (summary_.frames() == 0 ? "\n    " : ",\n    ") + dump(to_json(frame));
-  if (std::fwrite(text.data(), 1, text.size(), frames_.get()) != text.size()) {
-    throw vp::InputError(std::string("temporary file: ") + std::strerror(errno));
+  file_.reserve(around_frames + bytes_ + text.size());
+  if (std::fwrite(text.data(), 1, text.size(), frames_.get()) != text.size() ||
+      std::fflush(frames_.get()) != 0) {
+    throw vp::OutputError(temporary, errno);
   }
+  bytes_ += text.size();
   summary_.add(frame);
 }
 
@@ -65,21 +72,22 @@ void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
   for (const auto& [path, value] : facts.configuration) head["configuration"][path] = value;
   add_end(head, facts, warnings, incomplete);
 
-  AtomicFile file(path_);
-  file.write(opened(head) + "  \"frames\": [");
+  folder_.add(name);
+  file_.write(opened(head) + "  \"frames\": [");
   std::rewind(frames_.get());
   std::array<char, 1 << 16> block;
-  while (const std::size_t size = std::fread(block.data(), 1, block.size(), frames_.get())) {
-    file.write({block.data(), size});
-  }
-  if (std::ferror(frames_.get())) {
-    throw vp::InputError(std::string("temporary file: ") + std::strerror(errno));
+  for (std::uint64_t left = bytes_; left > 0;) {
+    const std::size_t size =
+        std::fread(block.data(), 1, std::min<std::uint64_t>(left, block.size()), frames_.get());
+    if (size == 0) throw vp::OutputError(temporary, errno);
+    file_.write({block.data(), size});
+    left -= size;
   }
   Json tail;
   add_figures(tail, facts, summary_);
-  file.write(summary_.frames() == 0 ? "],\n" : "\n  ],\n");
-  file.write(dump(tail, indent).substr(2) + "\n");
-  file.commit();
+  file_.write(summary_.frames() == 0 ? "],\n" : "\n  ],\n");
+  file_.write(dump(tail, indent).substr(2) + "\n");
+  file_.commit();
 }
 
 }  // namespace platform::report

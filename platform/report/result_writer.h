@@ -1,18 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <host/output_folder.h>
 #include <report/result_sink.h>
+#include <vp/output_file.h>
 
 namespace platform::report {
 
 /// Writes `result.json`, schema 1, in memory that does not grow with the number of frames: frames
 /// wait in a file without a name until the header is known. The result appears under its name when
-/// finish() has written all of it, not before.
+/// finish() has written all of it, not before. Room for it is reserved as frames come: if the disk
+/// becomes full, the frames until then can still be written.
 ///
 /// Real numbers are rounded to these decimal places, then written as the shortest text that reads
 /// back as the same double:
@@ -38,11 +42,12 @@ namespace platform::report {
 /// `corner_px` only.
 class ResultWriter : public ResultSink {
  public:
-  /// `folder` exists and is writable (prepare_output_folder).
-  explicit ResultWriter(const std::string& folder);
+  /// Throws vp::OutputError if the disk has no room for a result. `folder` outlives this.
+  explicit ResultWriter(host::OutputFolder& folder);
   ~ResultWriter() override;
 
-  /// Throws vp::InputError if the file cannot be written, as finish() does.
+  /// Throws vp::OutputError if the file cannot be written, as finish() does. A frame that failed is
+  /// left out.
   void add(const FrameReport& frame) override;
   void finish(const RunFacts& facts, const Provenance& provenance,
               const std::vector<std::string>& warnings,
@@ -53,8 +58,10 @@ class ResultWriter : public ResultSink {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::string path_;
+  host::OutputFolder& folder_;
+  vp::OutputFile file_;
   std::unique_ptr<std::FILE, Close> frames_;
+  std::uint64_t bytes_ = 0;  ///< of whole frames in it
 };
 
 }  // namespace platform::report

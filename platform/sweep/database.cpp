@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-#include <sweep/durable_file.h>
+#include <vp/output_file.h>
 
 namespace platform::sweep {
 
@@ -54,7 +54,7 @@ class Database {
 
   void check(int code) const {
     if (code == SQLITE_OK || code == SQLITE_DONE || code == SQLITE_ROW) return;
-    throw StorageError("'" + path_ + "' cannot be written: " + sqlite3_errmsg(handle_.get()));
+    throw vp::OutputError("'" + path_ + "' cannot be written: " + sqlite3_errmsg(handle_.get()));
   }
 
   sqlite3* get() const { return handle_.get(); }
@@ -225,11 +225,9 @@ void add_runs(const Database& database, const Results& results,
 
 void write_database(const std::string& path, const Results& results,
                     const std::vector<RunEntry>& runs) {
-  const std::string part = path + ".part-" + std::to_string(::getpid());
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  try {
-    Database database(part);
+  vp::OutputFile file(path, vp::OutputFile::By::name);
+  {
+    Database database(file.part());
     // It appears under its name when it is whole: no journal is needed.
     database.execute(
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = EXCLUSIVE;"
@@ -248,13 +246,8 @@ void write_database(const std::string& path, const Results& results,
     add_parameters(database, results);
     add_runs(database, results, runs);
     database.execute("COMMIT");
-  } catch (...) {
-    std::filesystem::remove(part, ignored);
-    throw;
   }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) throw StorageError("'" + path + "' cannot be written: " + error.message());
+  file.commit();
 }
 
 }  // namespace platform::sweep

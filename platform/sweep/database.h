@@ -19,7 +19,7 @@ namespace platform::sweep {
 ///     only the key is known where the process was killed before it told
 ///   sweep(name, value)                    its title, file, program version
 ///
-/// Throws StorageError.
+/// Throws vp::OutputError.
 void write_database(const std::string& path, const Results& results,
                     const std::vector<RunEntry>& runs);
 

@@ -16,11 +16,11 @@
 #include <cli/program.h>
 #include <cli/run_child.h>
 #include <page/sweep_block.h>
-#include <sweep/durable_file.h>
 #include <sweep/engine.h>
 #include <sweep/point_worker.h>
 #include <sweep/run_log.h>
 #include <sweep/words.h>
+#include <vp/output_file.h>
 
 namespace platform::sweep {
 
@@ -157,7 +157,7 @@ class Pool {
   void take(const PointMessage& message) {
     switch (message.kind) {
       case PointMessage::Kind::no_storage:
-        throw StorageError(message.failure.message);
+        throw vp::OutputError(message.failure.message);
       case PointMessage::Kind::interrupted:
         stop();
         break;
@@ -247,7 +247,7 @@ class Pool {
 
   void flush() {
     flushed_ = HostClock::now();
-    if (tally_.computed != in_flush_) flush_to_disk(list_.store.path("points"));
+    if (tally_.computed != in_flush_) list_.store.flush();
     in_flush_ = tally_.computed;
   }
 

@@ -11,12 +11,12 @@
 
 #include <cli/interrupt.h>
 #include <cli/program.h>
+#include <host/command.h>
 #include <host/document.h>
-#include <report/file_output.h>
-#include <sweep/durable_file.h>
-#include <sweep/host_command.h>
+#include <host/output_folder.h>
 #include <sweep/slurm_job.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 
 namespace platform::sweep {
 
@@ -58,7 +58,7 @@ class Cluster {
         err_(err) {}
 
   Tally compute(const std::vector<std::size_t>& positions) {
-    report::prepare_output_folder(store_.path("slurm"));
+    host::prepare_output_folder(store_.path("slurm"));
     total_ = positions.size();
     largest_ = largest_array();
     wait_for_earlier(positions);
@@ -115,19 +115,19 @@ class Cluster {
     std::error_code ignored;
     while (fs::exists(submission_folder(store_, number), ignored)) ++number;
     const std::string folder = submission_folder(store_, number);
-    report::prepare_output_folder(folder);
-    write_durably(folder + "/tasks.json", chunks.dump());
-    write_durably(folder + "/manifest.json", to_json(manifest_).dump());
+    host::prepare_output_folder(folder);
+    vp::write_file_durably(folder + "/tasks.json", chunks.dump());
+    vp::write_file_durably(folder + "/manifest.json", to_json(manifest_).dump());
     const std::string executable = fs::read_symlink("/proc/self/exe").string();
     const std::string job = submit({"markervp-" + options_.name, fs::current_path().string(),
                                     fs::absolute(folder).string() + "/task-%a.log",
                                     static_cast<std::uint32_t>(chunks.size()), options_.at_once,
-                                    "exec " + shell_quoted(executable) + " sweep-worker " +
-                                        shell_quoted(fs::absolute(store_.folder()).string()) + " " +
-                                        std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
+                                    "exec " + host::shell_quoted(executable) + " sweep-worker " +
+                                        host::shell_quoted(fs::absolute(store_.folder()).string()) +
+                                        " " + std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
                                         std::to_string(options_.points_a_process),
                                     options_.options});
-    write_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
+    vp::write_file_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
     err_ << "markervp: job " << job << ": " << chunks.size() << " tasks of " << size
          << " points; logs in " << folder << std::endl;
     logs_ = folder;

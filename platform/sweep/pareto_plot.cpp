@@ -1,23 +1,15 @@
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
 
+#include <host/gnuplot.h>
 #include <sweep/csv_line.h>
-#include <sweep/durable_file.h>
-#include <sweep/host_command.h>
 #include <sweep/pareto.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
 
 /// The unit that the metric's name ends with, as " / W"; empty for a count or an expression.
 std::string unit_of(const std::string& metric) {
@@ -68,16 +60,16 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
   std::ostringstream script;
   script << "set encoding utf8\n"
          << "set terminal svg size 800,560 font 'sans,14' noenhanced background rgb 'white'\n"
-         << "set output " << quoted(file) << "\n"
          << block("infeasible", pareto,
                   [&](std::size_t i) { return !points[i].feasible && !points[i].unknown; })
          << block("unknown", pareto, [&](std::size_t i) { return points[i].unknown; })
          << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
          << block("front", pareto, [&](std::size_t i) { return points[i].front == 1; })
          << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
-         << quoted(results.manifest.title.empty() ? results.manifest.name : results.manifest.title)
-         << "\nset xlabel " << quoted(axis_label(objectives[0])) << "\nset ylabel "
-         << quoted(axis_label(objectives[1])) << "\n"
+         << host::gnuplot_quoted(results.manifest.title.empty() ? results.manifest.name
+                                                                : results.manifest.title)
+         << "\nset xlabel " << host::gnuplot_quoted(axis_label(objectives[0])) << "\nset ylabel "
+         << host::gnuplot_quoted(axis_label(objectives[1])) << "\n"
          << "set grid lc rgb '#dddddd'\nset bmargin 6\nset key at screen 0.5, screen 0.03 center "
             "bottom horizontal\nset offsets "
             "graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
@@ -87,13 +79,10 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
             "$dominated with points pt 7 ps 0.6 lc rgb '#56b4e9' title 'dominated', "
             "$front with linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2' title 'Pareto front', "
             "$knee with points pt 6 ps 2 lw 3 lc rgb '#d55e00' title 'knee'\n";
-  const std::string script_file = file + ".gnuplot";
-  write_durably(script_file, script.str());
-  const CommandEnd end = run_command({"gnuplot", script_file});
-  std::error_code ignored;
-  std::filesystem::remove(script_file, ignored);
+  const host::CommandEnd end = host::draw_with_gnuplot(file, script.str());
   if (end.exit_code == 0) return std::nullopt;
-  if (end.exit_code == 127) return "gnuplot is not installed (package gnuplot-nox)";
+  if (end.exit_code == host::no_such_command)
+    return "gnuplot is not installed (package gnuplot-nox)";
   std::string said(vp::trim(end.out));
   std::replace(said.begin(), said.end(), '\n', ' ');
   return "gnuplot: " + said;

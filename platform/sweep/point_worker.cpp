@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <ctime>
 #include <sstream>
 #include <system_error>
@@ -12,8 +14,8 @@
 #include <cli/interrupt.h>
 #include <cli/program.h>
 #include <page/sweep_block.h>
-#include <sweep/durable_file.h>
 #include <sweep/words.h>
+#include <vp/output_file.h>
 
 namespace platform::sweep {
 
@@ -34,6 +36,15 @@ std::string last_warning(const Json& result) {
     if (frame->contains("warnings")) return ": " + frame->at("warnings").at(0).get<std::string>();
   }
   return "";
+}
+
+/// True if the message is one of a full or failing disk: a run that ends with it says nothing about
+/// its point.
+bool is_storage_problem(const std::string& message) {
+  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE};
+  return std::any_of(std::begin(reasons), std::end(reasons), [&](int reason) {
+    return message.find(std::strerror(reason)) != std::string::npos;
+  });
 }
 
 /// The first parameter that the platform had with another value than the point is named after, or
@@ -76,7 +87,7 @@ bool PointWorker::complete(std::size_t item) {
   PointMessage message;
   try {
     message = compute(item);
-  } catch (const StorageError& error) {
+  } catch (const vp::OutputError& error) {
     message.kind = PointMessage::Kind::no_storage;
     message.failure.message = error.what();
   }
@@ -90,7 +101,7 @@ bool PointWorker::complete(std::size_t item) {
 PointMessage PointWorker::compute(std::size_t item) {
   const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
   PointMessage message;
-  const FileLock claim = list_.store.claim(point.key);
+  const host::FileLock claim = list_.store.claim(point.key);
   if (list_.store.has(point.key)) {
     message.kind = PointMessage::Kind::there;
   } else {
@@ -112,7 +123,7 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
     message.kind = PointMessage::Kind::interrupted;
     return;
   }
-  if (!clean_ && is_storage_problem(text)) throw StorageError(text);
+  if (!clean_ && is_storage_problem(text)) throw vp::OutputError(text);
   if (!clean_) {
     message.failed = true;
     Json result;

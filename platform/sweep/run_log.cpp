@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -13,7 +12,7 @@
 
 #include <host/document.h>
 #include <report/utc_time.h>
-#include <sweep/durable_file.h>
+#include <vp/output_file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
@@ -78,8 +77,7 @@ void RunLog::append(const Json& entry) {
   const std::string line = entry.dump() + "\n";
   if (file_ < 0) file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0 || ::write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
-    throw StorageError("'" + path_ + "' cannot be written: " + std::strerror(errno) +
-                       "; what was computed before is kept: make room and run the sweep again");
+    throw vp::OutputError(path_, errno);
 }
 
 std::vector<RunEntry> read_runs(const Store& store) {

@@ -30,9 +30,9 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  /// Throws StorageError.
+  /// Throws vp::OutputError.
   void add(const std::string& key, double wall_s, double cpu_s, int attempt);
-  /// A point of which nobody told who computed it. Throws StorageError.
+  /// A point of which nobody told who computed it. Throws vp::OutputError.
   void add_untold(const std::string& key);
 
  private:
@@ -48,7 +48,7 @@ class RunLog {
 std::vector<RunEntry> read_runs(const Store& store);
 
 /// The same, after an entry was added for every point of the manifest that stands in the folder
-/// without one: its process was killed between the two. Throws StorageError.
+/// without one: its process was killed between the two. Throws vp::OutputError.
 std::vector<RunEntry> complete_runs(const Store& store, const Manifest& manifest);
 
 }  // namespace platform::sweep

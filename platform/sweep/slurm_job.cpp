@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <sweep/host_command.h>
+#include <host/command.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -23,8 +23,8 @@ std::string one_line(const std::string& text) {
 }  // namespace
 
 std::uint32_t largest_array() {
-  const CommandEnd end = run_command({"scontrol", "show", "config"});
-  if (end.exit_code == 127)
+  const host::CommandEnd end = host::run_command({"scontrol", "show", "config"});
+  if (end.exit_code == host::no_such_command)
     throw vp::InputError(
         "--engine slurm: there is no Slurm here (sbatch is not found): run where "
         "jobs are submitted, or leave out --engine");
@@ -51,7 +51,7 @@ std::string submit(const ArrayJob& job) {
                                      array};
   arguments.insert(arguments.end(), job.options.begin(), job.options.end());
   arguments.push_back("--wrap=" + job.command);
-  const CommandEnd end = run_command(arguments);
+  const host::CommandEnd end = host::run_command(arguments);
   // "12" or "12;cluster", perhaps below warnings.
   const std::vector<std::string> lines = vp::split(vp::trim(end.out), '\n');
   const std::string number = lines.back().substr(0, lines.back().find(';'));
@@ -65,7 +65,8 @@ std::string submit(const ArrayJob& job) {
 JobWatch::JobWatch(std::string job) : job_(std::move(job)) {}
 
 bool JobWatch::active() {
-  const CommandEnd end = run_command({"squeue", "--noheader", "--jobs=" + job_, "--format=%T"});
+  const host::CommandEnd end =
+      host::run_command({"squeue", "--noheader", "--jobs=" + job_, "--format=%T"});
   if (end.exit_code == 0) {
     silent_ = 0;
     return !vp::trim(end.out).empty();
@@ -78,7 +79,7 @@ bool JobWatch::active() {
 }
 
 void cancel(const std::string& job) {
-  run_command({"scancel", job});
+  host::run_command({"scancel", job});
 }
 
 }  // namespace platform::sweep

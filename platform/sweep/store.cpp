@@ -6,17 +6,15 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <utility>
 
 #include <host/document.h>
-#include <report/file_output.h>
 #include <sweep/content_hash.h>
 #include <sweep/csv_line.h>
-#include <sweep/durable_file.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 
 namespace platform::sweep {
 
@@ -25,14 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* manifest_name = "manifest.json";
-constexpr const char* lock_name = "lock";
 constexpr const char* claims_name = "claims";
-
-std::string who_am_i() {
-  char host[256] = "unknown host";
-  ::gethostname(host, sizeof host - 1);
-  return "process " + std::to_string(::getpid()) + " on " + host;
-}
 
 bool is_key(const std::string& text) {
   return text.size() == key_digits &&
@@ -57,57 +48,26 @@ std::string points_csv(const Manifest& manifest) {
 
 }  // namespace
 
-FileLock::~FileLock() {
-  close();
-}
-
-void FileLock::close() {
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-}
-
-FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-FileLock& FileLock::operator=(FileLock&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
-// The lock belongs to the open file: a child that inherits it keeps it until it ends, too.
-bool FileLock::take(const std::string& path, std::uint64_t byte, bool wait) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw StorageError("'" + path + "' cannot be made: " + std::strerror(errno));
-  struct flock range {};
-  range.l_type = F_WRLCK;
-  range.l_whence = SEEK_SET;
-  range.l_start = static_cast<off_t>(byte);
-  range.l_len = 1;
-  int result = 0;
-  do {
-    result = ::fcntl(descriptor_, wait ? F_OFD_SETLKW : F_OFD_SETLK, &range);
-  } while (result != 0 && errno == EINTR);
-  if (result == 0) return true;
-  const int reason = errno;
-  ::close(std::exchange(descriptor_, -1));
-  if (reason == EAGAIN || reason == EACCES) return false;
-  throw StorageError("'" + path + "' cannot be locked: " + std::strerror(reason));
-}
-
 Store::Store(const std::string& folder) : folder_(folder) {
-  report::prepare_output_folder(folder);
-  for (const char* name : {"points", "runs"}) report::prepare_output_folder(path(name));
+  host::prepare_output_folder(folder);
+  for (const char* name : {"points", "runs"}) host::prepare_output_folder(path(name));
 }
 
 void Store::lock() {
-  const std::string file = path(lock_name);
-  if (!lock_.take(file, 0, false)) {
-    throw vp::InputError("another sweep works in '" + folder_ + "' (" +
-                         vp::read_text(file, "lock") +
-                         "): wait for it, or choose another folder with --output");
-  }
-  write_durably(file + ".owner", who_am_i());
-  std::ofstream(file, std::ios::trunc) << who_am_i();
-  std::error_code ignored;
-  fs::remove(file + ".owner", ignored);
+  lock_ = std::make_unique<host::OutputFolder>(folder_);
+}
+
+void Store::leave_lock_to_parent() const {
+  if (lock_) lock_->leave_to_parent();
+}
+
+void Store::flush() const {
+  const std::string folder = path("points");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && ::syncfs(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed) throw vp::OutputError(folder, reason);
 }
 
 std::string Store::path(const std::string& name) const {
@@ -124,7 +84,7 @@ bool Store::has(const std::string& key) const {
 }
 
 void Store::write(const PointRecord& record) const {
-  write_whole(point_path(record.key), point_text(record));
+  vp::write_file(point_path(record.key), point_text(record));
 }
 
 PointRecord Store::read(const std::string& key, bool verify) const {
@@ -136,8 +96,8 @@ PointRecord Store::read(const std::string& key, bool verify) const {
 }
 
 void Store::write_manifest(const Manifest& manifest) const {
-  write_durably(path(manifest_name), to_json(manifest).dump(1) + "\n");
-  write_durably(path("points.csv"), points_csv(manifest));
+  vp::write_file_durably(path(manifest_name), to_json(manifest).dump(1) + "\n");
+  vp::write_file_durably(path("points.csv"), points_csv(manifest));
 }
 
 Manifest Store::read_manifest() const {
@@ -165,8 +125,8 @@ std::vector<std::string> Store::keys(std::vector<std::string>& foreign) const {
   return keys;
 }
 
-FileLock Store::claim(const std::string& key) const {
-  FileLock lock;
+host::FileLock Store::claim(const std::string& key) const {
+  host::FileLock lock;
   // Two points that share these digits would only wait for each other.
   lock.take(path(claims_name), std::stoull(key.substr(0, 15), nullptr, 16), true);
   return lock;

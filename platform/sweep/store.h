@@ -1,32 +1,15 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <host/file_lock.h>
+#include <host/output_folder.h>
 #include <sweep/manifest.h>
 #include <sweep/point_file.h>
 
 namespace platform::sweep {
-
-/// A file lock that ends with its process.
-class FileLock {
- public:
-  FileLock() = default;
-  ~FileLock();
-  FileLock(FileLock&& other) noexcept;
-  FileLock& operator=(FileLock&& other) noexcept;
-
-  /// Locks a byte of a file, which is made if missing. Without `wait`, false if somebody else has
-  /// it. Throws StorageError.
-  bool take(const std::string& path, std::uint64_t byte, bool wait);
-
-  /// Ends it, unless another process has the same open file.
-  void close();
-
- private:
-  int descriptor_ = -1;
-};
 
 /// The folder of a sweep:
 ///
@@ -44,15 +27,17 @@ class Store {
   void lock();
 
   /// In a forked process: keeps nobody out any more, however long it takes to end.
-  void leave_lock_to_parent() const { lock_.close(); }
+  void leave_lock_to_parent() const;
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const;
   std::string point_path(const std::string& key) const;
 
   bool has(const std::string& key) const;
-  /// Whole or not at all, unless the power fails before flush_to_disk(). Throws StorageError.
+  /// Whole or not at all, unless the power fails before flush(). Throws vp::OutputError.
   void write(const PointRecord& record) const;
+  /// Flushes to the disk all points that were written. Throws vp::OutputError.
+  void flush() const;
   /// Throws vp::InputError for a damaged one, or one of another name.
   PointRecord read(const std::string& key, bool verify = true) const;
 
@@ -63,11 +48,11 @@ class Store {
   std::vector<std::string> keys(std::vector<std::string>& foreign) const;
 
   /// So that one point is computed by one process at a time, whoever works here. Waits.
-  FileLock claim(const std::string& key) const;
+  host::FileLock claim(const std::string& key) const;
 
  private:
   std::string folder_;
-  mutable FileLock lock_;  ///< of the process that took it
+  std::unique_ptr<host::OutputFolder> lock_;  ///< of the process that took it
 };
 
 }  // namespace platform::sweep

@@ -1,16 +1,13 @@
 #include <trace/save_file.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include <trace/replay.h>
 #include <trace/translation.h>
-#include <vp/error.h>
+#include <vp/output_file.h>
 
 namespace platform::trace {
 
@@ -65,16 +62,6 @@ bool is_count(const std::string& path) {
     return path.size() > ending.size() &&
            path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
   });
-}
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.flush();
-  if (!stream) {
-    throw vp::InputError("cannot write '" + file.string() + "': " + std::strerror(errno) +
-                         "; name a folder that exists and may be written");
-  }
 }
 
 /// "pl.corner_detection" of "pl.corner_detection.corner_out"; "" for what is in no IP.
@@ -153,7 +140,7 @@ std::vector<std::string> write_save_files(TraceFile& file, const std::string& fo
   const fs::path root(folder);
   std::vector<std::string> written;
   const auto put = [&](const std::string& name, const std::string& text) {
-    write(root / name, text);
+    vp::write_file((root / name).string(), text);
     written.push_back((root / name).string());
   };
 

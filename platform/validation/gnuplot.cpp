@@ -1,18 +1,10 @@
 #include <validation/gnuplot.h>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <fstream>
-
-#include <report/file_output.h>
+#include <host/gnuplot.h>
 #include <vp/error.h>
 #include <vp/text.h>
-
-extern char** environ;
 
 namespace platform::validation {
 
@@ -52,27 +44,6 @@ set offsets 0, 0, 0, 0
 set key top left Left reverse
 )";
 
-/// Exit code of gnuplot; none: not installed.
-int run_gnuplot(const fs::path& script) {
-  const std::string file = script.string();
-  std::string program = "gnuplot", argument = file;
-  char* const arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t process = 0;
-  const int problem = ::posix_spawnp(&process, "gnuplot", nullptr, nullptr, arguments, environ);
-  if (problem == ENOENT) return -1;
-  if (problem != 0) throw vp::InputError("gnuplot cannot be started");
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-/// In single quotes for gnuplot.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 }  // namespace
 
 PlotScript::PlotScript(int columns, int rows) : columns_(columns), rows_(rows) {}
@@ -90,8 +61,9 @@ void PlotScript::data(const std::string& name, const std::vector<std::vector<dou
 void PlotScript::panel(const std::string& title, const std::string& x_label,
                        const std::string& y_label, const std::string& commands) {
   panels_ += fresh;
-  panels_ += "set title " + quoted(title) + "\nset xlabel " + quoted(x_label) + "\nset ylabel " +
-             quoted(y_label) + "\n" + commands + "\n";
+  panels_ += "set title " + host::gnuplot_quoted(title) + "\nset xlabel " +
+             host::gnuplot_quoted(x_label) + "\nset ylabel " + host::gnuplot_quoted(y_label) +
+             "\n" + commands + "\n";
 }
 
 std::string PlotScript::text() const {
@@ -104,16 +76,14 @@ std::string PlotScript::text() const {
 }
 
 bool draw(const Plot& plot, const fs::path& folder) {
-  const fs::path script = folder / (plot.name + ".gp");
-  report::AtomicFile file(script.string());
-  file.write("set output " + quoted((folder / (plot.name + ".svg")).string()) + "\n");
-  file.write(plot.script);
-  file.commit();
-  const int code = run_gnuplot(script);
-  std::error_code ignored;
-  fs::remove(script, ignored);
-  if (code > 0) throw vp::InputError("gnuplot could not draw '" + plot.name + "'");
-  return code == 0;
+  const host::CommandEnd end =
+      host::draw_with_gnuplot((folder / (plot.name + ".svg")).string(), plot.script);
+  if (end.exit_code == host::no_such_command) return false;
+  if (end.exit_code != 0) {
+    throw vp::InputError("gnuplot could not draw '" + plot.name +
+                         "': " + std::string(vp::trim(end.out)));
+  }
+  return true;
 }
 
 }  // namespace platform::validation

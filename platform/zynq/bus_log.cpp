@@ -63,13 +63,9 @@ void BusLog::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64
              std::to_string(bytes) + " bytes", "OK");
 }
 
-BusLog::BusLog(const BusLogOptions& options, Zynq& zynq) : zynq_(zynq), names_(hardware_map(zynq)) {
+BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
+    : zynq_(zynq), names_(hardware_map(zynq)), file_(options.file) {
   for (const std::string& word : options.filter) ranges_.push_back(parse(word));
-  file_.open(options.file);
-  if (!file_) {
-    throw vp::InputError("cannot write bus log '" + options.file + "': " + std::strerror(errno) +
-                         "; name a file in a folder that exists and may be written");
-  }
   const auto watch = [this](vp::MmLink& link, const char* name, bool transactions) {
     observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
   };
@@ -108,9 +104,9 @@ bool BusLog::wanted(std::uint64_t address, std::uint64_t bytes) const {
 void BusLog::write(std::uint64_t ps, const std::string& initiator, bool read, std::uint64_t address,
                    const std::string& value, const std::string& answer) {
   const std::string name = names_.text(address);
-  file_ << vp::format_time(ps) << "  " << initiator << "  " << (read ? "read " : "write") << "  "
-        << vp::hex(address) << "  " << (name.empty() ? "-" : name) << "  " << value << "  "
-        << answer << '\n';
+  file_.write(vp::format_time(ps) + "  " + initiator + "  " + (read ? "read " : "write") + "  " +
+              vp::hex(address) + "  " + (name.empty() ? "-" : name) + "  " + value + "  " + answer +
+              "\n");
 }
 
 }  // namespace platform

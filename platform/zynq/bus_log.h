@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <vp/mm_link.h>
+#include <vp/output_file.h>
 #include <zynq/device_names.h>
 #include <zynq/zynq.h>
 
@@ -27,11 +28,16 @@ struct BusLogOptions {
 /// logged, one by one: no time changes by that. Bursts have their size in place of a value.
 class BusLog {
  public:
-  /// Throws vp::InputError if the file cannot be written or the filter names no device.
+  /// Throws vp::OutputError if the file cannot be written, vp::InputError if the filter names no
+  /// device.
   BusLog(const BusLogOptions& options, Zynq& zynq);
   ~BusLog();
   BusLog(const BusLog&) = delete;
   BusLog& operator=(const BusLog&) = delete;
+
+  /// Ends the file, which has its name only now. Throws vp::OutputError if not all could be
+  /// written.
+  void close() { file_.commit(); }
 
  private:
   struct Range {
@@ -65,7 +71,7 @@ class BusLog {
   Zynq& zynq_;
   DeviceNames names_;
   std::vector<Range> ranges_;
-  std::ofstream file_;
+  vp::OutputFile file_;
   std::vector<std::unique_ptr<Observer>> observers_;
 };
 

@@ -119,7 +119,8 @@ BOOST_FIXTURE_TEST_CASE(two_sweeps_in_one_folder_are_refused, Sweeps) {
   wait_until([&] { return count_points("out/s") >= 1 || first.ended(); });
   const kit::Outcome second = run({"sweep", "s.yaml"});
   BOOST_TEST(second.exit_code == 2);
-  BOOST_TEST(contains(second.err, "another sweep works in 'out/s' (process "), second.err);
+  BOOST_TEST(contains(second.err, "another run or sweep writes into 'out/s' (process "),
+             second.err);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {

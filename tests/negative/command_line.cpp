@@ -40,6 +40,11 @@ kit::Outcome CommandLine::start(const Words& arguments) const {
   return kit::run_process(MARKERVP_EXECUTABLE, arguments, path());
 }
 
+kit::Outcome CommandLine::shell(const std::string& line) const {
+  return kit::run_process("/bin/bash", {"-c", "markervp='" MARKERVP_EXECUTABLE "'; " + line},
+                          path());
+}
+
 void CommandLine::refuses(const Words& arguments, const Words& parts) const {
   BOOST_TEST_CONTEXT(joined(arguments)) {
     const auto before = contents(path());

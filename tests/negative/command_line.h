@@ -14,6 +14,9 @@ class CommandLine : public kit::TemporaryFolder {
  public:
   kit::Outcome start(const Words& arguments) const;
 
+  /// Runs a line of bash in which "$markervp" is the executable.
+  kit::Outcome shell(const std::string& line) const;
+
   /// Runs `markervp`, which must refuse: exit code 2, nothing on stdout, one line on stderr that
   /// has all of `parts`, and not a file made, changed or removed.
   void refuses(const Words& arguments, const Words& parts) const;

@@ -1,4 +1,5 @@
 // Ctrl-C in the middle of a run.
+#include <vp/wave_writer.h>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -31,9 +32,9 @@ void check_results(const CommandLine& place) {
   std::size_t pictures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(place / "out")) {
     const std::string name = entry.path().filename().string();
-    BOOST_TEST(
-        (name == "result.json" || name == "report.html" || entry.path().extension() == ".png"),
-        name << " is left over");
+    BOOST_TEST((name == ".markervp" || name == "result.json" || name == "report.html" ||
+                entry.path().extension() == ".png"),
+               name << " is left over");
     pictures += entry.path().extension() == ".png" ? 1 : 0;
   }
   BOOST_TEST(pictures == frames);
@@ -44,7 +45,7 @@ void check_results(const CommandLine& place) {
 BOOST_FIXTURE_TEST_SUITE(interrupt, CommandLine)
 
 BOOST_AUTO_TEST_CASE(results_so_far_are_kept) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const CommandLine place;
     kit::ChildProcess run(MARKERVP_EXECUTABLE, long_run, place.path());
     await_frames(run);
@@ -54,6 +55,32 @@ BOOST_AUTO_TEST_CASE(results_so_far_are_kept) {
     check_one_line(outcome.err, {"interrupted", "kept"});
     check_results(place);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_where_nobody_can_hang_up) {
+  const kit::Outcome outcome = shell(
+      "nohup \"$markervp\" run z1.0 --repeat 300 --no-pictures --output out > log & run=$!\n"
+      "until grep -q 3/300 log; do sleep 0.01; done; kill -HUP $run; wait $run");
+  BOOST_TEST(outcome.exit_code == 0);
+  const auto result = nlohmann::json::parse(kit::read_file(*this / "out/result.json"));
+  BOOST_TEST(result["frames"].size() == 300u);
+}
+
+/// fstapi writes a file with a name: it goes, too.
+BOOST_AUTO_TEST_CASE(a_signal_that_ends_it_at_once_leaves_no_part_file) {
+  if (!vp::has_fst()) return;
+  Words arguments = long_run;
+  arguments.insert(arguments.end(), {"--trace", "a.fst"});
+  kit::ChildProcess run(MARKERVP_EXECUTABLE, arguments, path());
+  while (!run.ended() &&
+         entries() != Words{"a.fst.part-" + std::to_string(run.pid()),
+                            "a.fst.part-" + std::to_string(run.pid()) + ".hier", "out"}) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  BOOST_TEST(!run.ended());
+  run.send(SIGQUIT);
+  BOOST_TEST(run.wait().signal == SIGQUIT);
+  for (const std::string& name : entries()) BOOST_TEST(!contains(name, ".part-"), name);
 }
 
 BOOST_AUTO_TEST_CASE(the_trace_is_whole_too) {

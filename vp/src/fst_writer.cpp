@@ -1,7 +1,6 @@
 #include "fst_writer.h"
 
 #include <fstapi.h>
-#include <unistd.h>
 #include <vp/error.h>
 
 #include <cerrno>
@@ -11,27 +10,13 @@
 
 namespace vp {
 
-namespace {
-
-[[noreturn]] void cannot_write(const std::filesystem::path& file, const std::string& reason,
-                               const char* advice) {
-  throw InputError("cannot write trace '" + file.string() + "': " + reason + "; " + advice);
-}
-
-}  // namespace
-
-FstWriter::FstWriter(const std::filesystem::path& file) : file_(file), written_(file) {
-  constexpr const char* advice = "name a file in a folder that exists and may be written";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    cannot_write(file_, std::strerror(EISDIR), advice);
-  }
-  written_ += ".tmp";
+FstWriter::FstWriter(const std::filesystem::path& file)
+    : file_(file),
+      output_(std::in_place, file.string(), OutputFile::By::name),
+      hierarchy_(std::in_place, output_->part() + ".hier") {
   errno = 0;
-  context_ = fstWriterCreate(written_.c_str(), 1);
-  if (!context_) {
-    cannot_write(file_, errno != 0 ? std::strerror(errno) : "it cannot be opened", advice);
-  }
+  context_ = fstWriterCreate(output_->part().c_str(), 1);
+  if (!context_) throw OutputError(file_.string(), errno);
   // Nothing in the file that depends on the date.
   fstWriterSetDate(context_, "");
   fstWriterSetVersion(context_, "markervp");
@@ -42,12 +27,10 @@ FstWriter::FstWriter(const std::filesystem::path& file) : file_(file), written_(
 FstWriter::~FstWriter() {
   if (!context_) return;
   finish();
-  if (!begun_) {
-    remove();
-    return;
+  try {
+    if (begun_) output_->commit();
+  } catch (const OutputError&) {  // nothing is left, then
   }
-  std::error_code ignored;
-  std::filesystem::rename(written_, file_, ignored);
 }
 
 FstWriter::Id FstWriter::add(std::string_view path, Kind kind, unsigned width) {
@@ -173,30 +156,22 @@ void FstWriter::finish() {
   context_ = nullptr;
 }
 
-void FstWriter::remove() {
-  std::error_code ignored;
-  std::filesystem::remove(written_, ignored);
-  std::filesystem::remove(written_.string() + ".hier", ignored);
-}
-
 void FstWriter::close(std::uint64_t end_ps) {
   if (!context_) return;
   if (begun_) set_time(end_ps);
   finish();
-  if (!begun_) {
-    remove();
-    return;
+  if (begun_) {
+    // fstapi tells nothing of failed writes: a file that it can open again is whole.
+    void* reader = fstReaderOpen(output_->part().c_str());
+    const bool whole = reader && fstReaderGetEndTime(reader) == end_ps;
+    if (reader) fstReaderClose(reader);
+    if (!whole) {
+      throw OutputError("cannot write '" + file_.string() +
+                        "': not everything could be written; make room, or write less");
+    }
+    output_->commit();
   }
-  // fstapi tells nothing of failed writes: a file that it can open again is whole.
-  void* reader = fstReaderOpen(written_.c_str());
-  const bool whole = reader && fstReaderGetEndTime(reader) == end_ps;
-  if (reader) fstReaderClose(reader);
-  std::error_code error;
-  if (whole) std::filesystem::rename(written_, file_, error);
-  if (whole && !error) return;
-  remove();
-  cannot_write(file_, error ? error.message() : "not everything could be written",
-               "make room, or trace less: a time window, fewer signals");
+  output_.reset();
 }
 
 }  // namespace vp

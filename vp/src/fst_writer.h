@@ -1,8 +1,10 @@
 #pragma once
 
+#include <vp/output_file.h>
 #include <vp/wave_writer.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +44,10 @@ class FstWriter final : public WaveWriter {
   void emit(Id id);
   void emit_all(const std::vector<std::uint64_t>& values);
   void finish();
-  void remove();
 
   std::filesystem::path file_;
-  std::filesystem::path written_;
+  std::optional<OutputFile> output_;
+  std::optional<PartFile> hierarchy_;  ///< fstapi's own, beside it
   void* context_ = nullptr;
   bool begun_ = false;
   std::uint64_t time_ps_ = 0;

@@ -1,11 +1,7 @@
-#include <fcntl.h>
-#include <unistd.h>
-#include <vp/error.h>
 #include <vp/text.h>
 #include <vp/vcd_writer.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <memory>
@@ -40,38 +36,21 @@ std::string identifier_code(VcdWriter::Id id) {
   return code;
 }
 
-[[noreturn]] void cannot_write(const std::filesystem::path& file, int error, const char* advice) {
-  throw InputError("cannot write trace '" + file.string() + "': " + std::strerror(error) + "; " +
-                   advice);
-}
-
 }  // namespace
 
 VcdWriter::VcdWriter(const std::filesystem::path& file)
-    : file_(file), written_(file), buffer_(buffer_size + longest_line) {
+    : file_(std::make_unique<OutputFile>(file.string())), buffer_(buffer_size + longest_line) {
   cursor_ = buffer_.data();
   limit_ = cursor_ + buffer_size;
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) {
-    written_ += ".tmp";
-  }
-  constexpr const char* advice = "name a file in a folder that exists and may be written";
-  if (file_.empty()) cannot_write(file_, ENOENT, advice);
-  if (std::filesystem::is_directory(status)) cannot_write(file_, EISDIR, advice);
-  descriptor_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) cannot_write(file_, errno, advice);
 }
 
 VcdWriter::~VcdWriter() {
-  if (descriptor_ < 0) return;
-  if (!begun_ || failed()) {
-    remove();
-    return;
-  }
+  if (!file_ || !begun_) return;
   write_text("$comment incomplete: the run ended before its trace was closed $end\n");
-  finish();
-  if (failed()) remove();
+  try {
+    finish();
+  } catch (const OutputError&) {  // nothing is left, then
+  }
 }
 
 VcdWriter::Id VcdWriter::add(std::string_view path, Kind kind, unsigned width) {
@@ -106,17 +85,13 @@ void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values
 }
 
 void VcdWriter::close(std::uint64_t end_ps) {
-  if (descriptor_ < 0) return;
-  if (!begun_) {
-    remove();
-    return;
+  if (!file_) return;
+  if (begun_) {
+    set_time(end_ps);
+    if (stamp_due_) write_stamp();
+    finish();
   }
-  set_time(end_ps);
-  if (stamp_due_) write_stamp();
-  finish();
-  if (!failed()) return;
-  remove();
-  cannot_write(file_, error_, "make room, or trace less: a time window, fewer signals");
+  file_.reset();
 }
 
 void VcdWriter::write_all(const std::vector<std::uint64_t>& values) {
@@ -247,33 +222,14 @@ void VcdWriter::write_text(std::string_view text) {
 }
 
 void VcdWriter::flush() {
-  const char* from = buffer_.data();
-  while (from != cursor_ && error_ == 0) {
-    const ::ssize_t count = ::write(descriptor_, from, static_cast<std::size_t>(cursor_ - from));
-    if (count >= 0) {
-      from += count;
-    } else if (errno != EINTR) {
-      error_ = errno;
-    }
-  }
+  file_->write({buffer_.data(), static_cast<std::size_t>(cursor_ - buffer_.data())});
   cursor_ = buffer_.data();
 }
 
 void VcdWriter::finish() {
   flush();
-  if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
-  descriptor_ = -1;
-  if (error_ != 0 || written_ == file_) return;
-  std::error_code error;
-  std::filesystem::rename(written_, file_, error);
-  if (error) error_ = error.value();
-}
-
-void VcdWriter::remove() noexcept {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
-  std::error_code ignored;
-  if (written_ != file_) std::filesystem::remove(written_, ignored);
+  const std::unique_ptr<OutputFile> file = std::move(file_);
+  file->commit();
 }
 
 }  // namespace vp

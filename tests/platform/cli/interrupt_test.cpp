@@ -1,6 +1,7 @@
 // What a signal ends that does not end by itself.
 #include <cli/interrupt.h>
 #include <cli/run_child.h>
+#include <host/ending.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
@@ -71,7 +72,7 @@ BOOST_AUTO_TEST_CASE(a_second_signal_ends_at_once) {
 
 BOOST_AUTO_TEST_CASE(without_a_guard_the_first_does) {
   RunChild child([](std::ostream&, std::ostream&) {
-    platform::cli::end_at_interrupts();
+    platform::host::prepare_signals();
     std::raise(SIGTERM);
     return 0;
   });

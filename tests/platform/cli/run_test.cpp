@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(a_run_reports_and_writes_result_and_pictures) {
     if (entry.path().filename() != "report.html") names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
-  BOOST_TEST(names == (Names{"0000_z1.0.png", "0001_roll30.png", "result.json"}));
+  BOOST_TEST(names == (Names{".markervp", "0000_z1.0.png", "0001_roll30.png", "result.json"}));
   const Json json = Json::parse(result());
   BOOST_TEST(json["frames"].size() == 2u);
   BOOST_TEST(json["frames"][1]["markers"][0]["error"]["corner_px"] == 0.0);

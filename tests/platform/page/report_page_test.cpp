@@ -26,7 +26,8 @@ std::string read(const std::string& path) {
 /// A folder with the result of a run.
 struct Folder : kit::TemporaryFolder {
   explicit Folder(const std::string& input = "z1.0", std::uint32_t frames = 1) {
-    report::ResultWriter writer(path());
+    platform::host::OutputFolder output(path());
+    report::ResultWriter writer(output);
     for (std::uint32_t i = 0; i < frames; ++i) {
       report::FrameReport frame = report_test::found_frame("z1.0", i);
       frame.input = input;

@@ -4,7 +4,6 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include <report/file_output.h>
 #include <report/result_json.h>
 #include <vp/error.h>
 
@@ -21,11 +20,12 @@ Json written(const std::vector<report::FrameReport>& frames,
              const std::vector<std::string>& warnings = {},
              const std::optional<std::string>& incomplete = std::nullopt) {
   const kit::TemporaryFolder folder;
-  report::ResultWriter writer(folder.path());
+  host::OutputFolder output(folder.path());
+  report::ResultWriter writer(output);
   for (const report::FrameReport& frame : frames) writer.add(frame);
-  BOOST_TEST(folder.entries().empty(), "nothing appears before the result is complete");
+  BOOST_TEST(!std::filesystem::exists(folder / "result.json"), "not before it is complete");
   writer.finish(facts(), provenance(), warnings, incomplete);
-  BOOST_TEST(folder.entries() == std::vector<std::string>{"result.json"});
+  BOOST_TEST(folder.entries() == (std::vector<std::string>{".markervp", "result.json"}));
   return Json::parse(kit::read_file(folder / "result.json"));
 }
 
@@ -157,41 +157,11 @@ BOOST_AUTO_TEST_CASE(in_memory_it_is_the_same_without_provenance_and_configurati
 
 BOOST_AUTO_TEST_CASE(without_finish_nothing_is_left) {
   const kit::TemporaryFolder folder;
-  { report::ResultWriter writer(folder.path()); }
-  BOOST_TEST(folder.entries().empty());
-}
-
-BOOST_AUTO_TEST_SUITE_END()
-
-BOOST_AUTO_TEST_SUITE(file_output)
-
-BOOST_AUTO_TEST_CASE(an_output_folder_is_made_and_left_empty) {
-  const kit::TemporaryFolder folder;
-  report::prepare_output_folder(folder / "a/b");
-  BOOST_TEST(std::filesystem::is_empty(folder / "a/b"));
-}
-
-BOOST_AUTO_TEST_CASE(an_output_folder_that_cannot_be_is_refused) {
-  const kit::TemporaryFolder folder;
-  kit::write_file(folder / "file", "x");
-  BOOST_CHECK_THROW(report::prepare_output_folder(folder / "file"), vp::InputError);
-  BOOST_CHECK_THROW(report::prepare_output_folder(folder / "file/below"), vp::InputError);
-  BOOST_CHECK_THROW(report::prepare_output_folder("/proc/markervp"), vp::InputError);
-}
-
-BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {
-  const kit::TemporaryFolder folder;
   {
-    report::AtomicFile file(folder / "a");
-    file.write("text");
+    host::OutputFolder output(folder.path());
+    report::ResultWriter writer(output);
   }
   BOOST_TEST(folder.entries().empty());
-  report::AtomicFile file(folder / "a");
-  file.write("text");
-  file.commit();
-  BOOST_TEST(folder.entries() == std::vector<std::string>{"a"});
-  BOOST_TEST(kit::read_file(folder / "a") == "text");
-  BOOST_CHECK_THROW(report::AtomicFile(folder / "no/such/folder"), vp::InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

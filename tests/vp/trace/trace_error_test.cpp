@@ -12,7 +12,7 @@ BOOST_FIXTURE_TEST_SUITE(trace_error, TraceFixture)
 
 BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_refused_before_the_run) {
   options.file = folder / "missing/out.vcd";
-  BOOST_TEST(input_error([&] { Platform platform(options); }).find("cannot write trace '") == 0u);
+  BOOST_TEST(input_error([&] { Platform platform(options); }).find("cannot write '") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_window_must_not_be_reversed_or_empty) {
@@ -92,8 +92,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_ends_the_run_and_close_tells_why) {
   sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_SEC));
   BOOST_TEST(sc_core::sc_get_status() == sc_core::SC_STOPPED);
   BOOST_TEST(input_error([&] { platform.tracer.close(); }) ==
-             "cannot write trace '/dev/full': No space left on device; make room, or trace less: a "
-             "time window, fewer signals");
+             "cannot write '/dev/full': No space left on device; make room, or write less");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

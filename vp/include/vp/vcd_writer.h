@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <vp/output_file.h>
 #include <vp/wave_writer.h>
 
 namespace vp {
@@ -17,12 +19,11 @@ struct WaveScope;
 /// Writes a value change dump (IEEE 1364, 18.2), fast, and with nothing in it that depends on the
 /// host or the date: the same changes give the same bytes.
 ///
-/// A FILE that exists and is no regular file (a pipe, /dev/null) is written directly, without
-/// "FILE.tmp". Texts are written as GTKWave reads them ("$var string", "sTEXT id"), with blanks and
-/// backslashes as octal escapes.
+/// Texts are written as GTKWave reads them ("$var string", "sTEXT id"), with blanks and backslashes
+/// as octal escapes.
 class VcdWriter final : public WaveWriter {
  public:
-  /// Opens the file. Throws InputError if it cannot be written.
+  /// Opens the file. Throws OutputError if it cannot be written.
   explicit VcdWriter(const std::filesystem::path& file);
   /// Without close(): keeps what was written as a valid file that ends with the comment
   /// "incomplete", or removes it if there is no value in it yet.
@@ -49,7 +50,7 @@ class VcdWriter final : public WaveWriter {
   void change_text(Id id, std::string_view text) override;
   void pause() override;
   void resume(const std::vector<std::uint64_t>& values) override;
-  bool failed() const override { return error_ != 0; }
+  bool failed() const override { return file_ && file_->failed(); }
   void close(std::uint64_t end_ps) override;
 
  private:
@@ -85,12 +86,8 @@ class VcdWriter final : public WaveWriter {
   void write_text(std::string_view text);
   void flush();
   void finish();
-  void remove() noexcept;
 
-  std::filesystem::path file_;
-  std::filesystem::path written_;  ///< FILE.tmp, or FILE if written directly
-  int descriptor_ = -1;
-  int error_ = 0;  ///< errno of the first failed write
+  std::unique_ptr<OutputFile> file_;  ///< null: closed
   bool begun_ = false;
   bool stamp_due_ = false;
   std::uint64_t time_ps_ = 0;

@@ -11,7 +11,7 @@ namespace vp {
 /// Writes the values of variables over time into a file: VCD or FST.
 ///
 /// Order of calls: add() all variables, begin(), then set_time(), change() and change_text(),
-/// close(). Timescale: 1 ps. Everything goes into "FILE.tmp" first; close() renames it.
+/// close(). Timescale: 1 ps. The file is an OutputFile: it has its name when close() returns.
 class WaveWriter {
  public:
   using Id = std::uint32_t;
@@ -49,14 +49,13 @@ class WaveWriter {
   virtual bool failed() const = 0;
 
   /// Ends the file at `end_ps` (the last values stand until then) and gives it its name. Throws
-  /// InputError if anything could not be written. Then, and without begin(), no file is left.
+  /// OutputError if anything could not be written. Then, and without begin(), no file is left.
   virtual void close(std::uint64_t end_ps) = 0;
 };
 
 /// A writer for the format that the name's extension tells: .vcd or .fst; a pipe or device takes a
-/// VCD. Opens the file. Throws
-/// InputError for another extension, if the file cannot be written, or for FST if this build has
-/// none.
+/// VCD. Opens the file. Throws OutputError if it cannot be written, InputError for another
+/// extension or for FST if this build has none.
 std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file);
 
 /// True if this build writes and reads FST.

@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
-namespace platform::sweep {
+namespace platform::host {
+
+constexpr int no_such_command = 127;
 
 struct CommandEnd {
-  int exit_code = -1;  ///< 127: there is no such command; -1: a signal ended it
+  int exit_code = -1;  ///< no_such_command if it is not installed; -1: a signal ended it
   std::string out;     ///< what it printed, errors too
 };
 
@@ -17,4 +19,4 @@ CommandEnd run_command(const std::vector<std::string>& arguments);
 /// A word for the shell, in quotes.
 std::string shell_quoted(const std::string& text);
 
-}  // namespace platform::sweep
+}  // namespace platform::host

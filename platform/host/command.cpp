@@ -1,4 +1,4 @@
-#include <sweep/host_command.h>
+#include <host/command.h>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -6,13 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <system_error>
 
-namespace platform::sweep {
+namespace platform::host {
 
 namespace {
-
-constexpr int no_such_command = 127;
 
 std::string read_all(int pipe) {
   std::string text;
@@ -41,7 +40,13 @@ CommandEnd run_command(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  // What we ignore would be ignored by the command, too.
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  sigaddset(&usual, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   pid_t process = 0;
   const int error = ::posix_spawnp(&process, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -68,4 +73,4 @@ std::string shell_quoted(const std::string& text) {
   return result + "'";
 }
 
-}  // namespace platform::sweep
+}  // namespace platform::host

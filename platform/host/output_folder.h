@@ -1,0 +1,53 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include <host/file_lock.h>
+
+namespace platform::host {
+
+/// Makes the folder (and those above it) if missing and proves that files can be written into it.
+/// Throws vp::InputError otherwise; leaves no file behind. Returns whether it made the folder.
+bool prepare_output_folder(const std::string& folder);
+
+/// A folder that one run or sweep writes into at a time.
+///
+/// Its file ".markervp" is locked while this lives, and says who has it and what it wrote there. So
+/// the next run finds the files of this one, however it ended, and takes them away before it writes
+/// its own: the two never mix. No other file in the folder is touched.
+class OutputFolder {
+ public:
+  /// Makes the folder if missing, and locks it. Throws vp::InputError if it cannot be, and names
+  /// who has it.
+  explicit OutputFolder(const std::string& path);
+  /// Leaves things as they were found if nothing was added.
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// The path of a file that is about to be written; `name` has no folder. The first call removes
+  /// the files of an earlier run. Throws vp::OutputError.
+  std::string add(const std::string& name);
+
+  const std::string& path() const { return path_; }
+
+  /// In a forked process: keeps nobody out any more, however long it takes to end.
+  void leave_to_parent();
+
+ private:
+  void rewrite(const std::string& text);
+  void append(const std::string& text);
+
+  std::string path_;
+  std::string list_;  ///< path of ".markervp"
+  bool made_ = false;
+  bool changed_ = false;
+  FileLock lock_;
+  off_t size_ = 0;                    ///< of the list
+  std::vector<std::string> earlier_;  ///< names of the files of the run before
+};
+
+}  // namespace platform::host

@@ -1,0 +1,284 @@
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vp/output_file.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace vp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t file_mode = 0666;  // the user's umask narrows it
+constexpr std::size_t buffer_size = 1 << 16;
+/// Leaves room in a name of 255 bytes for what makes it that of a part file.
+constexpr std::size_t most_of_name = 200;
+
+/// A path as a signal handler can read it.
+struct Slot {
+  std::atomic<bool> taken{false};
+  std::atomic<pid_t> owner{0};  ///< 0: `path` is not to be removed
+  char path[PATH_MAX];
+};
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+Slot slots[16];
+
+std::string advice(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "; make room, or write less";
+    case ENOENT:
+    case ENOTDIR:
+    case EISDIR:
+    case EACCES:
+    case EROFS:
+    case ENAMETOOLONG:
+      return "; name a file in a folder that exists and may be written";
+    default:
+      return "";
+  }
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// Where bytes for a path have to go.
+struct Place {
+  fs::path target;               ///< with links followed
+  bool in_place = false;         ///< nothing is there that could be replaced
+  int descriptor = -1;           ///< the path stands for one that this process has open
+  std::optional<unsigned> mode;  ///< of the regular file that is there
+  int problem = 0;               ///< errno
+};
+
+/// The number of a descriptor if `link` is one of this process (/dev/stdout leads there).
+int own_descriptor(const fs::path& link) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(folder_of(link), error);
+  if (error || folder != "/proc/" + std::to_string(::getpid()) + "/fd") return -1;
+  return std::atoi(link.filename().c_str());
+}
+
+// stat() has told before that the chain of links ends.
+void follow_links(Place& place) {
+  std::error_code error;
+  while (fs::is_symlink(fs::symlink_status(place.target, error))) {
+    place.descriptor = own_descriptor(place.target);
+    if (place.descriptor >= 0) return;
+    place.target = folder_of(place.target) / fs::read_symlink(place.target, error);
+  }
+}
+
+Place place_of(const std::string& path) {
+  Place place;
+  place.target = path;
+  struct stat facts {};
+  const bool exists = ::stat(path.c_str(), &facts) == 0;
+  if (path.empty() || (!exists && errno != ENOENT)) {
+    place.problem = path.empty() ? ENOENT : errno;
+  } else if (exists && S_ISDIR(facts.st_mode)) {
+    place.problem = EISDIR;
+  } else {
+    follow_links(place);
+    place.in_place = place.descriptor >= 0 || (exists && !S_ISREG(facts.st_mode));
+    if (exists && !place.in_place) place.mode = facts.st_mode & 07777;
+    const auto may_write = [](const fs::path& asked) { return ::access(asked.c_str(), W_OK) == 0; };
+    if (place.descriptor >= 0) return place;
+    if ((exists && !may_write(place.target)) ||
+        (!place.in_place && !may_write(folder_of(place.target)))) {
+      place.problem = errno;
+    }
+  }
+  return place;
+}
+
+bool has_proc() {
+  static const bool has = ::access("/proc/self/fd", F_OK) == 0;
+  return has;
+}
+
+std::string part_of(const fs::path& target) {
+  const std::string name = target.filename().string().substr(0, most_of_name);
+  return (folder_of(target) / (name + ".part-" + std::to_string(::getpid()))).string();
+}
+
+}  // namespace
+
+OutputError::OutputError(const std::string& path, int reason)
+    : InputError("cannot write '" + path + "': " + std::strerror(reason) + advice(reason)) {}
+
+PartFile::PartFile(std::string path) : path_(std::move(path)), slot_(-1) {
+  if (path_.size() >= sizeof Slot::path) return;
+  for (std::size_t i = 0; i < std::size(slots); ++i) {
+    if (slots[i].taken.exchange(true)) continue;
+    std::memcpy(slots[i].path, path_.c_str(), path_.size() + 1);
+    slots[i].owner = ::getpid();
+    slot_ = static_cast<int>(i);
+    return;
+  }
+}
+
+PartFile::~PartFile() {
+  ::unlink(path_.c_str());
+  if (slot_ < 0) return;
+  slots[slot_].owner = 0;
+  slots[slot_].taken = false;
+}
+
+void remove_part_files() noexcept {
+  for (const Slot& slot : slots) {
+    if (slot.owner == ::getpid()) ::unlink(slot.path);
+  }
+}
+
+int output_problem(const std::string& path) {
+  return place_of(path).problem;
+}
+
+OutputFile::OutputFile(std::string path, By by) : path_(std::move(path)) {
+  const Place place = place_of(path_);
+  if (place.problem != 0) throw OutputError(path_, place.problem);
+  target_ = place.target.string();
+  in_place_ = place.in_place;
+  mode_ = place.mode;
+  if (in_place_ && by == By::name) return;
+  if (place.descriptor >= 0) {
+    descriptor_ = ::fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0);
+  } else if (in_place_) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  } else {
+    if (by == By::bytes) open_nameless();
+    if (descriptor_ < 0) open_part();
+  }
+  if (descriptor_ < 0) throw OutputError(path_, errno);
+  if (by == By::name) close();
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+// Not every file system can; /proc is needed to name the file in the end.
+void OutputFile::open_nameless() {
+  if (!has_proc()) return;
+  descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, file_mode);
+}
+
+void OutputFile::open_part() {
+  part_.emplace(part_of(target_));
+  ::unlink(part_->path().c_str());  // of a process of this number that was killed
+  descriptor_ = ::open(part_->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, file_mode);
+}
+
+void OutputFile::note(bool good) {
+  if (!good && error_ == 0) error_ = errno;
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (buffer_.size() + bytes.size() > buffer_size) flush();
+  if (bytes.size() > buffer_size) {
+    put(bytes);
+  } else {
+    buffer_ += bytes;
+  }
+}
+
+void OutputFile::flush() {
+  put(buffer_);
+  buffer_.clear();
+}
+
+void OutputFile::put(std::string_view bytes) {
+  written_ += bytes.size();
+  while (!bytes.empty() && error_ == 0) {
+    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    note(count >= 0);
+    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void OutputFile::reserve(std::uint64_t bytes) {
+  if (in_place_ || bytes <= reserved_) return;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && bytes > limit.rlim_cur) {
+    throw OutputError(path_, EFBIG);
+  }
+  int result = 0;
+  do {
+    result = ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(reserved_),
+                         static_cast<off_t>(bytes - reserved_));
+  } while (result != 0 && errno == EINTR);
+  if (result == 0) reserved_ = bytes;
+  const bool no_room = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+  if (result != 0 && no_room) throw OutputError(path_, errno);
+}
+
+void OutputFile::close() {
+  note(::close(std::exchange(descriptor_, -1)) == 0);
+}
+
+bool OutputFile::flush_to_disk() {
+  if (descriptor_ >= 0) return ::fsync(descriptor_) == 0;
+  const int descriptor = ::open(part().c_str(), O_RDONLY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  errno = reason;
+  return flushed;
+}
+
+// File systems on a network say only when a file is closed that the disk is full.
+void OutputFile::finish(bool durably) {
+  flush();
+  if (!in_place_ && error_ == 0) {
+    if (reserved_ != 0) note(::ftruncate(descriptor_, static_cast<off_t>(written_)) == 0);
+    if (durably) note(flush_to_disk());
+    if (error_ == 0) take_name();
+  }
+  if (descriptor_ >= 0) close();
+  part_.reset();
+  if (error_ != 0) throw OutputError(path_, error_);
+}
+
+void OutputFile::take_name() {
+  if (!part_) {
+    part_.emplace(part_of(target_));
+    const std::string self = "/proc/self/fd/" + std::to_string(descriptor_);
+    ::unlink(part_->path().c_str());  // of a process of this number that was killed
+    note(::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, part_->path().c_str(), AT_SYMLINK_FOLLOW) == 0);
+  }
+  if (descriptor_ >= 0) close();
+  if (error_ != 0) return;
+  if (mode_) ::chmod(part_->path().c_str(), *mode_);
+  note(::rename(part_->path().c_str(), target_.c_str()) == 0);
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void write_file_durably(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.commit_durably();
+}
+
+}  // namespace vp
