@@ -29,8 +29,6 @@ class ProcessingSystem : public sc_core::sc_module {
  public:
   ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
 
-  // The system clock is made before the pixel clock: at coincident edges it samples first (see
-  // pl::ClockCrossing).
   ClockSource fclk_clk0;
   ClockSource fclk_clk1;
   ClockSource cpu_clk;

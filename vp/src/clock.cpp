@@ -1,6 +1,7 @@
 #include <vp/clock.h>
 
 #include <vp/clock_scheduler.h>
+#include <vp/systemc_pins.h>
 #include <algorithm>
 #include <stdexcept>
 #include <string>

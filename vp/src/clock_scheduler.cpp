@@ -1,7 +1,11 @@
 #include <vp/clock_scheduler.h>
 
+#include <vp/systemc_pins.h>
+
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <unordered_set>
 #include <utility>
 
@@ -12,12 +16,15 @@ namespace {
 /// Bounds a batch when nothing else is planned, so that the kernel gets a say now and then.
 constexpr std::uint64_t longest_batch_ps = 1'000'000'000;
 
-/// Tells every signal of the simulation who runs the instants.
-void claim_signals(const std::vector<sc_core::sc_object*>& objects, ClockScheduler& scheduler) {
+/// Tells every signal of the simulation who runs the instants. True if foreign modules take part.
+bool claim_signals(const std::vector<sc_core::sc_object*>& objects, ClockScheduler& scheduler) {
+  bool foreign = false;
   for (sc_core::sc_object* object : objects) {
     if (auto* signal = dynamic_cast<SignalBase*>(object)) signal->set_scheduler(scheduler);
-    claim_signals(object->get_child_objects(), scheduler);
+    foreign |= dynamic_cast<const ClockPin*>(object) || dynamic_cast<const FollowerBase*>(object);
+    foreign |= claim_signals(object->get_child_objects(), scheduler);
   }
+  return foreign;
 }
 
 /// Puts a module behind every module of its clock that reads its outputs. A ring is entered
@@ -56,10 +63,14 @@ ClockScheduler::ClockScheduler(sc_core::sc_module_name name) : sc_module(name) {
   SC_METHOD(run);
   sensitive << wake_up_;
   dont_initialize();
+  SC_METHOD(show_signals);
+  sensitive << stale_signals_;
+  dont_initialize();
 }
 
 void ClockScheduler::start_of_simulation() {
-  claim_signals(sc_core::sc_get_top_level_objects(), *this);
+  keeps_pace_ = claim_signals(sc_core::sc_get_top_level_objects(), *this);
+  order_clocks();
   order_modules();
   mark_deferred_signals();
   std::copy_if(clocks_.begin(), clocks_.end(), std::back_inserter(ticking_),
@@ -93,8 +104,8 @@ inline void ClockScheduler::go_to_second() {
   soonest_ = second_;
 }
 
-// Clocks run in the order in which they were made; inside one, consumers before producers. So a
-// plain store is seen by the next edge only, as from a register.
+// Clocks run one after the other; inside one, consumers before producers. So a plain store is seen
+// by the next edge only, as from a register.
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
   moved_ = false;
@@ -136,7 +147,7 @@ void ClockScheduler::run_due_instants() {
 void ClockScheduler::run() {
   synchronise();
   const std::uint64_t now = kernel_ps();
-  if (batch_) {
+  if (batch_ && !keeps_pace_) {
     const sc_core::sc_time pending =
         sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext());
     const std::uint64_t horizon = now + std::min(to_ps(pending), longest_batch_ps);
@@ -160,7 +171,8 @@ std::uint64_t ClockScheduler::look_for_horizon() {
   const std::uint64_t pending =
       to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));
   horizon_delta_ = kernel_delta();
-  horizon_ps_ = kernel_ps() + std::min(pending == 0 ? 0 : pending - 1, lookahead_ps_);
+  const std::uint64_t lookahead = keeps_pace_ ? 0 : lookahead_ps_;
+  horizon_ps_ = kernel_ps() + std::min(pending == 0 ? 0 : pending - 1, lookahead);
   return horizon_ps_;
 }
 
@@ -255,9 +267,45 @@ void ClockScheduler::notify(sc_core::sc_event& event) {
   event.notify(from_ps(now_ps() - kernel_ps()));
 }
 
-bool ClockScheduler::runs_before(const Clock& first, const Clock& second) const {
-  return std::find(clocks_.begin(), clocks_.end(), &first) <
-         std::find(clocks_.begin(), clocks_.end(), &second);
+void ClockScheduler::show_later(SignalBase& signal) {
+  stale_.push_back(&signal);
+  notify(stale_signals_);
+}
+
+// Processes on a clock's pin run one delta cycle after its edge: they are let pass first.
+void ClockScheduler::show_signals() {
+  if (sampled_) {
+    show_update_.request_update();
+  } else {
+    next_trigger(sc_core::SC_ZERO_TIME);
+  }
+  sampled_ = !sampled_;
+}
+
+void ClockScheduler::ShowUpdate::update() {
+  for (SignalBase* signal : scheduler_.stale_) signal->update_shown();
+  scheduler_.stale_.clear();
+}
+
+// Keeps the order in which clocks were made wherever no statement is against it.
+void ClockScheduler::order_clocks() {
+  std::vector<Clock*> left = std::move(clocks_);
+  clocks_.clear();
+  while (!left.empty()) {
+    const auto free = std::find_if(left.begin(), left.end(), [&](const Clock* clock) {
+      return std::none_of(precedences_.begin(), precedences_.end(), [&](const auto& precedence) {
+        return precedence.second == clock &&
+               std::find(left.begin(), left.end(), precedence.first) != left.end();
+      });
+    });
+    if (free == left.end()) {
+      throw std::logic_error(std::string(left.front()->name()) +
+                             " is to run before itself at coincident edges: look at the calls of "
+                             "ClockScheduler::run_before()");
+    }
+    clocks_.push_back(*free);
+    left.erase(free);
+  }
 }
 
 void ClockScheduler::add_observer(InstantObserver& observer) {

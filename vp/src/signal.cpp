@@ -17,28 +17,33 @@ void SignalBase::detach(SignalListener& listener) {
   listeners_.erase(std::remove_if(listeners_.begin(), listeners_.end(),
                                   [&](const Listener& l) { return l.listener == &listener; }),
                    listeners_.end());
-  observed_ = deferred_ || has_events_ || !listeners_.empty();
+  observed_ = deferred_ || shown_to_systemc_ || !listeners_.empty();
 }
 
 void SignalBase::changed() {
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
     listeners_[i].listener->on_change(*this, listeners_[i].id);
   }
-  change_stamp_ = ClockScheduler::kernel_delta() + 1;
-  if (has_events_) notify_events();
-}
-
-void SignalBase::notify_events() {
-  if (events_[any_change]) notify(*events_[any_change]);
-  const EventKind edge = bits() != 0 ? rising : falling;
-  if (events_[edge]) notify(*events_[edge]);
-}
-
-void SignalBase::notify(sc_core::sc_event& event) {
+  if (!shown_to_systemc_) return;
   if (scheduler_) {
-    scheduler_->notify(event);
+    scheduler_->show_later(*this);
   } else {
-    event.notify(sc_core::SC_ZERO_TIME);
+    update_shown();  // before the simulation
+  }
+}
+
+void SignalBase::show_to_systemc() const {
+  if (shown_to_systemc_) return;
+  show();
+  observed_ = shown_to_systemc_ = true;
+}
+
+// In SystemC's update phase: the events come with the next delta cycle.
+void SignalBase::update_shown() {
+  if (!show()) return;
+  change_stamp_ = ClockScheduler::kernel_delta() + 1;
+  for (const EventKind kind : {any_change, bits() != 0 ? rising : falling}) {
+    if (events_[kind]) events_[kind]->notify(sc_core::SC_ZERO_TIME);
   }
 }
 
@@ -62,13 +67,17 @@ Clocked* SignalBase::writer() const {
 sc_core::sc_event& SignalBase::event_of(EventKind kind) const {
   if (!events_[kind]) {
     events_[kind] = std::make_unique<sc_core::sc_event>();
-    observed_ = has_events_ = true;
+    show_to_systemc();
   }
   return *events_[kind];
 }
 
 InBase::InBase(const char* name, Clocked* owner) : name_(name), owner_(owner) {
   if (owner_) owner_->inputs_.push_back(this);
+}
+
+std::string InBase::follower_name() const {
+  return (owner_ ? std::string(owner_->basename()) + "_" : "") + name_;
 }
 
 }  // namespace vp

@@ -10,11 +10,10 @@ namespace pl {
 /// The pixel side of all three crossings: corner, blob and binary words, and the count of those
 /// that were lost.
 ///
-/// The system clock must have been made before the pixel clock: at coincident edges the system side
-/// samples first, so a word that is sampled and replaced at the same edge was seen.
+/// At coincident edges the system side samples first, so a word that is sampled and replaced at the
+/// same edge was seen.
 class ClockCrossing : public vp::Clocked {
  public:
-  /// Throws std::logic_error if the clocks are in the wrong order.
   ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, const vp::Clock& system_clk);
 
   vp::In<bool> rst{"rst", this};

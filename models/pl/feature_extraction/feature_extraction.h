@@ -28,8 +28,7 @@ namespace pl {
 /// in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 class FeatureExtraction : public sc_core::sc_module {
  public:
-  /// `system_clk` must have been made before `pixel_clk`. `fidelity` of the IP for which no other
-  /// is configured.
+  /// `fidelity`: of the IP for which no other is configured.
   FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
                     Fidelity fidelity = Fidelity::clocked);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -11,6 +12,7 @@
 namespace vp {
 
 class Clock;
+class ClockPin;
 class ClockScheduler;
 
 /// A module that does something on the rising edges of one clock.
@@ -75,12 +77,17 @@ class Clock : public sc_core::sc_object {
 
   /// `hertz` 1 to 10¹²; 0 stops the clock.
   Clock(const char* name, ClockScheduler& scheduler, std::uint64_t hertz);
+  ~Clock() override;
 
   const char* kind() const override { return "vp::Clock"; }
   std::uint64_t frequency_hz() const { return hertz_; }
   /// Changes the frequency now: the next edge comes one new period from now. 0 stops the clock.
   void set_frequency(std::uint64_t hertz);
   void add_listener(ClockListener& listener) { listeners_.push_back(&listener); }
+  /// The clock as a signal of SystemC, for the ports of foreign modules: high for the first half of
+  /// each period, low while it stands. It costs nothing unless somebody asks for it, during
+  /// elaboration. Processes on it see our signals as they stood before the edge.
+  const sc_core::sc_signal_in_if<bool>& pin();
 
   /// Number of edges so far, those slept through included. Inside edge(): the number of this edge,
   /// the first one is 1.
@@ -162,6 +169,7 @@ class Clock : public sc_core::sc_object {
   std::vector<Place> places_;            ///< in running order: consumers first
   std::vector<std::uint64_t> attended_;  ///< a bit for each place that is awake or has an alarm
   std::vector<ClockListener*> listeners_;
+  std::unique_ptr<ClockPin> pin_;
 };
 
 inline Clock::Edge Clock::exact_edge(std::uint64_t cycle) const {

@@ -105,8 +105,13 @@ class ClockScheduler : public sc_core::sc_module {
   /// How often the frequency of a clock has changed.
   std::uint64_t clock_changes() const { return clock_changes_; }
 
-  /// At coincident edges the clock that was made first runs first.
-  bool runs_before(const Clock& first, const Clock& second) const;
+  /// States that at coincident edges the modules of `first` run before those of `second`: for a
+  /// module that looks into both domains at once. Signals need no such order, nor does any result
+  /// depend on that in which clocks are made. To be said during elaboration; throws
+  /// std::logic_error at its end if statements contradict each other.
+  void run_before(const Clock& first, const Clock& second) {
+    precedences_.emplace_back(&first, &second);
+  }
 
   void add_observer(InstantObserver& observer);
   bool observed() const { return !observers_.empty(); }
@@ -146,11 +151,31 @@ class ClockScheduler : public sc_core::sc_module {
   void reschedule();
   void reschedule_earlier(const Clock& clock);
   void plan_wake_up();
+  void order_clocks();
   void defer(SignalBase& signal) { deferred_.push_back(&signal); }
+  void show_later(SignalBase& signal);
+  void show_signals();
+
+  /// Turns the evaluation of a delta cycle into its update.
+  class ShowUpdate : public sc_core::sc_prim_channel {
+   public:
+    explicit ShowUpdate(ClockScheduler& scheduler)
+        : sc_prim_channel("show_update"), scheduler_(scheduler) {}
+    using sc_prim_channel::request_update;
+
+   private:
+    void update() override;
+    ClockScheduler& scheduler_;
+  };
 
   std::vector<Clock*> clocks_;
   std::vector<Clock*> ticking_;  ///< those with modules, in the same order
   std::vector<SignalBase*> deferred_;
+  std::vector<std::pair<const Clock*, const Clock*>> precedences_;
+  std::vector<SignalBase*> stale_;  ///< SystemC has not seen their values yet
+  ShowUpdate show_update_{*this};
+  sc_core::sc_event stale_signals_;
+  bool sampled_ = false;  ///< the processes on clocks' pins have run since signals became stale
   std::vector<InstantObserver*> observers_;
   sc_core::sc_event wake_up_;
 
@@ -168,7 +193,8 @@ class ClockScheduler : public sc_core::sc_module {
   sc_dt::uint64 horizon_delta_ = 0;       ///< when that was found out
   std::uint64_t clock_changes_ = 0;
   bool running_ = false;
-  bool moved_ = false;  ///< the next edge of some clock, during the instant being run
+  bool moved_ = false;       ///< the next edge of some clock, during the instant being run
+  bool keeps_pace_ = false;  ///< foreign processes may do anything at any time: nothing runs ahead
   bool batch_ = false;
   bool stop_batch_ = false;
   bool started_ = false;

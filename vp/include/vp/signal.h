@@ -44,6 +44,8 @@ class SignalBase : public sc_core::sc_object {
   /// Says which module writes the signal, where that is not the module that holds it.
   void set_writer(Clocked& module) { writer_ = &module; }
   void set_scheduler(ClockScheduler& scheduler) { scheduler_ = &scheduler; }
+  /// Known from the start of the simulation on.
+  ClockScheduler* scheduler() const { return scheduler_; }
   /// The clocked module that writes the signal; null for one that is written by processes.
   Clocked* writer() const;
 
@@ -55,6 +57,10 @@ class SignalBase : public sc_core::sc_object {
   void defer();
   /// Makes a deferred value visible.
   virtual void commit() = 0;
+  /// SystemC reads the signal from now on, and is shown each value as an sc_signal would.
+  void show_to_systemc() const;
+  /// Lets SystemC see the present value, if it can read this signal; true if that is news to it.
+  virtual bool show() const { return false; }
   enum EventKind { any_change, rising, falling, event_kinds };
   /// The event of a kind; made when first asked for, so that a signal without SystemC readers has
   /// none.
@@ -64,8 +70,9 @@ class SignalBase : public sc_core::sc_object {
   bool deferred_ = false;  ///< a consumer runs after the writer in the same instant: writes wait
                            ///< for the instant's end
   bool queued_ = false;
+  mutable bool shown_to_systemc_ = false;
   ClockScheduler* scheduler_ = nullptr;
-  mutable std::uint64_t change_stamp_ = ~std::uint64_t{0};
+  mutable std::uint64_t change_stamp_ = ~std::uint64_t{0};  ///< the delta in which SystemC sees it
 
  private:
   struct Listener {
@@ -74,10 +81,8 @@ class SignalBase : public sc_core::sc_object {
   };
   std::vector<Listener> listeners_;
   Clocked* writer_ = nullptr;
-  void notify_events();
-  void notify(sc_core::sc_event& event);
+  void update_shown();
 
-  mutable bool has_events_ = false;
   mutable std::unique_ptr<sc_core::sc_event> events_[event_kinds];
 };
 
@@ -93,6 +98,7 @@ class SignalReader : public SignalBase, public sc_core::sc_signal_in_if<T> {
   const sc_core::sc_event& default_event() const override { return event_of(any_change); }
   const sc_core::sc_event& value_changed_event() const override { return event_of(any_change); }
   bool event() const override { return change_stamp_ == sc_core::sc_delta_count(); }
+  void register_port(sc_core::sc_port_base&, const char*) override { show_to_systemc(); }
 
  protected:
   using SignalBase::SignalBase;
@@ -108,17 +114,20 @@ class SignalReader<bool> : public SignalBase, public sc_core::sc_signal_in_if<bo
   bool event() const override { return change_stamp_ == sc_core::sc_delta_count(); }
   bool posedge() const override { return event() && read(); }
   bool negedge() const override { return event() && !read(); }
+  void register_port(sc_core::sc_port_base&, const char*) override { show_to_systemc(); }
 
  protected:
   using SignalBase::SignalBase;
 };
 
-/// A register's output: reading is a plain load, writing a plain store while nobody listens. It
-/// implements sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can
-/// bind to it.
+/// A register's output: reading is a plain load, writing a plain store while nobody listens.
 ///
 /// Written by one module. Inside an instant, modules see what stood before the clock edge: the
 /// scheduler runs consumers before producers, and defers the writes where that is not possible.
+///
+/// It implements sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can
+/// bind to it. They see it as an sc_signal: the new value comes after the delta cycles in which
+/// processes that Clock::pin() wakes run, so these sample what stood before the edge, too.
 template <class T>
 class Signal : public SignalReader<T> {
  public:
@@ -163,10 +172,16 @@ class Signal : public SignalReader<T> {
   }
   bool is_real() const override { return std::is_floating_point_v<T>; }
 
-  const T& read() const override { return value_; }
-  const T& get_data_ref() const override { return value_; }
+  /// What SystemC sees.
+  const T& read() const override { return this->shown_to_systemc_ ? shown_ : value_; }
+  const T& get_data_ref() const override { return read(); }
 
  protected:
+  bool show() const override {
+    if (shown_ == value_) return false;
+    shown_ = value_;
+    return true;
+  }
   void commit() override {
     this->queued_ = false;
     if (next_ == value_) return;
@@ -177,6 +192,7 @@ class Signal : public SignalReader<T> {
  private:
   T value_;
   T next_;
+  mutable T shown_{};  ///< to SystemC, if it reads the signal
   unsigned width_;
 };
 
@@ -190,6 +206,8 @@ class InBase {
 
  protected:
   ~InBase() = default;
+  /// What the follower of a foreign signal is called: "corner_detection_pixel".
+  std::string follower_name() const;
 
  private:
   std::string name_;
@@ -204,7 +222,13 @@ class In : public InBase {
   /// reader.
   explicit In(const char* name, Clocked* owner = nullptr) : InBase(name, owner) {}
   void bind(Signal<T>& signal) { signal_ = &signal; }
-  void operator()(Signal<T>& signal) { bind(signal); }
+  /// Of SystemC, driven by a foreign module; include <vp/systemc_pins.h>.
+  template <class U>
+  void bind(const sc_core::sc_signal_in_if<U>& foreign);
+  template <class Channel>
+  void operator()(Channel& channel) {
+    bind(channel);
+  }
   bool bound() const { return signal_ != nullptr; }
   T read() const { return signal_->get(); }
   operator T() const { return signal_->get(); }
@@ -212,6 +236,7 @@ class In : public InBase {
 
  private:
   Signal<T>* signal_ = nullptr;
+  std::shared_ptr<sc_core::sc_object> follower_;  ///< of a foreign signal
 };
 
 /// An output of a module that drives a signal held elsewhere (a link). Outputs with a wire of their
