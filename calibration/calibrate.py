@@ -55,6 +55,9 @@ SOURCES = ["calibration/driver/%s.cpp" % n for n in
 INCLUDES = ["sw", "sw/hal/include", "vp/registers/include", "models/xilinx/axi_dma/registers",
             "models/xilinx/axi_gpio/registers", "models/ps/gic/registers",
             "models/ps/global_timer/registers"]
+# As cmake/MarkervpEigen.cmake.
+EIGEN = ["-isystem", "/usr/include/eigen3", "-DEIGEN_DONT_VECTORIZE", "-DEIGEN_NO_DEBUG",
+         "-DEIGEN_MPL2_ONLY"]
 
 
 def run(command, **options):
@@ -80,7 +83,7 @@ class Tools:
     def compile(self, name, command):
         program = os.path.join(self.folder, "driver-" + name)
         run(command + ["-std=c++17", "-ffp-contract=off", "-Wall", "-Wextra", "-o", program] +
-            ["-I" + i for i in INCLUDES] + SOURCES)
+            ["-I" + i for i in INCLUDES] + EIGEN + SOURCES)
         return program
 
     def native(self, arguments):

@@ -37,7 +37,7 @@ void print_group(const SceneGroup& group, std::ostream& out) {
                      "top left corner, m", "rotation");
   for (const std::string& name : group.scenes) {
     const Scene scene = make_scene(name);
-    const Vector3& t = scene.pose.translation;
+    const Eigen::Vector3d& t = scene.pose.translation;
     const auto metres = [&](std::size_t axis) { return vp::format_fixed(t[axis], 3); };
     out << fmt::format("{:<11} {:>6}  {:>7}  {:>8}{:>8}{:>8}  {}\n", name, scene.marker_id,
                        scene.squares.size() + 1, metres(0), metres(1), metres(2),

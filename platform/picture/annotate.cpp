@@ -67,16 +67,16 @@ void draw_axes(Canvas& canvas, const Camera& camera, const Pose& pose) {
   constexpr double length = marker_side_m / 2;
   struct Axis {
     const char* name;
-    Vector3 end;
+    Eigen::Vector3d end;
     const cv::Scalar& colour;
   };
   const std::array<Axis, 3> axes{{{"w", {0, 0, length}, palette::blue},
                                   {"v", {0, length, 0}, palette::bluish_green},
                                   {"u", {length, 0, 0}, palette::vermillion}}};
-  const Vector3 origin = transform(pose, {0, 0, 0});
+  const Eigen::Vector3d origin = transform(pose, {0, 0, 0});
   if (origin[2] < near_plane_m) return;
   for (const Axis& axis : axes) {
-    const Vector3 end = transform(pose, axis.end);
+    const Eigen::Vector3d end = transform(pose, axis.end);
     if (end[2] < near_plane_m) continue;
     const PixelPoint from = project(camera, origin);
     const PixelPoint to = project(camera, end);

@@ -120,9 +120,20 @@ CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation>
   return profile;
 }
 
+/// A constant may hold for the table of one optimisation alone; the other is then taken as it is.
+bool holds_for(const ProfileFile& file, const Json& entry, const std::string& where,
+               Optimisation optimisation) {
+  if (!entry.is_object()) file.refuse(where + " is not an object");
+  if (entry.find("optimisation") == entry.end()) return true;
+  const std::string only = file.text(entry, "optimisation", where);
+  if (only != name_of(Optimisation::o0) && only != name_of(Optimisation::o2)) {
+    file.refuse("'optimisation' of " + where + " is '" + only + "': give O0 or O2");
+  }
+  return only == name_of(optimisation);
+}
+
 FittedConstant read_constant(const ProfileFile& file, const Json& entry, const std::string& where,
                              ps::CostTable& costs) {
-  if (!entry.is_object()) file.refuse(where + " is not an object");
   FittedConstant constant;
   const Json& published = file.member(entry, "published", where);
   if (!published.is_array() || published.empty()) {
@@ -133,7 +144,7 @@ FittedConstant read_constant(const ProfileFile& file, const Json& entry, const s
     constant.published.push_back(id.get<std::string>());
   }
   if (entry.find("kernel") != entry.end()) {
-    file.only(entry, {"kernel", "scale", "published", "note"}, where);
+    file.only(entry, {"kernel", "optimisation", "scale", "published", "note"}, where);
     const std::string name = file.text(entry, "kernel", where);
     const auto& all = kernels();
     const auto kernel =
@@ -147,7 +158,7 @@ FittedConstant read_constant(const ProfileFile& file, const Json& entry, const s
     }
     return constant;
   }
-  file.only(entry, {"unit", "stall_ns", "published", "note"}, where);
+  file.only(entry, {"unit", "optimisation", "stall_ns", "published", "note"}, where);
   const std::string unit = file.text(entry, "unit", where);
   if (kernel_of(unit).empty()) file.refuse("unit '" + unit + "' of " + where + " is unknown");
   constant.name = "stall of " + unit;
@@ -176,8 +187,10 @@ CostProfile read_scaled(const ProfileFile& file, Optimisation optimisation) {
     file.refuse("it fits " + std::to_string(fitted.size()) + " constants, more than " +
                 std::to_string(max_fitted));
   }
-  for (const Json& entry : fitted) {
-    const std::string where = "fitted constant " + std::to_string(profile.fitted.size() + 1);
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const Json& entry = fitted[i];
+    const std::string where = "fitted constant " + std::to_string(i + 1);
+    if (!holds_for(file, entry, where, optimisation)) continue;
     FittedConstant constant = read_constant(file, entry, where, profile.costs);
     for (const FittedConstant& other : profile.fitted) {
       if (other.name == constant.name) file.refuse("the " + constant.name + " is fitted twice");

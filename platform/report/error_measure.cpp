@@ -1,15 +1,14 @@
 #include <report/error_measure.h>
 
-#include <cmath>
+#include <Eigen/Core>
 
 namespace platform::report {
 
 MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth) {
   MarkerError error;
   for (std::size_t i = 0; i < found.corners_px.size(); ++i) {
-    const double dx = found.corners_px[i].x - truth.corners_px[i].x;
-    const double dy = found.corners_px[i].y - truth.corners_px[i].y;
-    error.corner_px += std::sqrt(dx * dx + dy * dy) / 4;
+    const PixelPoint &a = found.corners_px[i], &b = truth.corners_px[i];
+    error.corner_px += Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() / 4;
   }
   if (found.has_pose) {
     error.translation_mm = translation_error_mm(found.pose, truth.pose);

@@ -31,7 +31,7 @@ Json corners_json(const std::array<PixelPoint, 4>& corners) {
 
 Json pose_json(const Pose& pose) {
   Json rotation = Json::array();
-  for (const Vector3& row : pose.rotation) {
+  for (const auto& row : pose.rotation.rowwise()) {
     Json values = Json::array();
     for (const double value : row) values.push_back(rounded(value, rotation_places));
     rotation.push_back(values);

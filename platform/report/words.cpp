@@ -22,10 +22,10 @@ std::string counted(std::uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string angles_text(const Matrix3& r) {
-  return "pitch " + degrees(std::atan2(r[2][1], r[2][2])) + " yaw " +
-         degrees(std::asin(std::clamp(-r[2][0], -1.0, 1.0))) + " roll " +
-         degrees(std::atan2(r[1][0], r[0][0])) + " deg";
+std::string angles_text(const Eigen::Matrix3d& r) {
+  return "pitch " + degrees(std::atan2(r(2, 1), r(2, 2))) + " yaw " +
+         degrees(std::asin(std::clamp(-r(2, 0), -1.0, 1.0))) + " roll " +
+         degrees(std::atan2(r(1, 0), r(0, 0))) + " deg";
 }
 
 std::string error_text(const FoundMarker& found, const GroundTruth& truth) {

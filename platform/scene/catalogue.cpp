@@ -27,7 +27,7 @@ std::string tenths(int value) {
 }
 
 Chapter displacements(const SceneGroup& group, int first, int last, int step,
-                      Vector3 (*translation)(double)) {
+                      Eigen::Vector3d (*translation)(double)) {
   Chapter chapter{group, {}};
   for (int value = first; value <= last; value += step) {
     chapter.entries.push_back({group.name + tenths(value), [=](Scene& scene) {
@@ -37,7 +37,8 @@ Chapter displacements(const SceneGroup& group, int first, int last, int step,
   return chapter;
 }
 
-Chapter rotations(const SceneGroup& group, int last, int step, Matrix3 (*rotation)(double)) {
+Chapter rotations(const SceneGroup& group, int last, int step,
+                  Eigen::Matrix3d (*rotation)(double)) {
   Chapter chapter{group, {}};
   for (int degrees = 0; degrees <= last; degrees += step) {
     chapter.entries.push_back({group.name + std::to_string(degrees), [=](Scene& scene) {
@@ -78,16 +79,16 @@ std::vector<Chapter> make_chapters() {
   chapters.push_back(
       displacements({"x", "5.2.2.1", "camera moved along X, 2 m in front of the marker", {}}, -10,
                     10, 5, [](double metres) {
-                      return Vector3{-metres, 0, 2};
+                      return Eigen::Vector3d{-metres, 0, 2};
                     }));
   chapters.push_back(
       displacements({"y", "5.2.2.2", "camera moved along Y, 2 m in front of the marker", {}}, -8, 8,
                     4, [](double metres) {
-                      return Vector3{0, -metres, 2};
+                      return Eigen::Vector3d{0, -metres, 2};
                     }));
   chapters.push_back(displacements({"z", "5.2.2.3", "camera moved away along Z, in m", {}}, 5, 45,
                                    5, [](double metres) {
-                                     return Vector3{0, 0, metres};
+                                     return Eigen::Vector3d{0, 0, metres};
                                    }));
   chapters.push_back(rotations({"pitch", "5.2.3.1", "camera turned about X at 1 m, in degrees", {}},
                                60, 15, rotation_x));

@@ -54,8 +54,8 @@ const std::vector<IdentificationView>& identification_views() {
 }
 
 Pose pose_of(const IdentificationView& view) {
-  const Matrix3 rotation =
-      multiply(rotation_x(view.pitch), multiply(rotation_y(view.yaw), rotation_z(view.roll)));
+  const Eigen::Matrix3d rotation =
+      rotation_x(view.pitch) * (rotation_y(view.yaw) * rotation_z(view.roll));
   return pose_from_centre(rotation, view.centre);
 }
 
@@ -63,7 +63,7 @@ void fill_demo(Scene& scene) {
   constexpr double pitch = square_pitch_m;
   constexpr double small = 0.19;
   scene.marker_id = 99;
-  const Matrix3 rotation = multiply(rotation_x(14), multiply(rotation_y(34), rotation_z(-4)));
+  const Eigen::Matrix3d rotation = rotation_x(14) * (rotation_y(34) * rotation_z(-4));
   scene.pose = pose_from_centre(rotation, {0.08, 0.02, 1.75});
   // Foreign words: the markers of another dictionary.
   scene.squares = {

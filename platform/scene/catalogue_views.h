@@ -15,10 +15,10 @@ void fill_squares(Scene& scene, int count);
 /// A view of thesis 5.2.1. The thesis names the IDs but not the places: decision.
 struct IdentificationView {
   int marker_id;
-  Vector3 centre;  ///< of the marker in the camera frame, m
-  double pitch;    ///< degrees; the rotation is Rx(pitch) * Ry(yaw) * Rz(roll)
-  double yaw;      ///< degrees
-  double roll;     ///< degrees
+  Eigen::Vector3d centre;  ///< of the marker in the camera frame, m
+  double pitch;            ///< degrees; the rotation is Rx(pitch) * Ry(yaw) * Rz(roll)
+  double yaw;              ///< degrees
+  double roll;             ///< degrees
 };
 
 const std::vector<IdentificationView>& identification_views();

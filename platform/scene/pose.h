@@ -2,15 +2,11 @@
 
 #include <array>
 
+#include <Eigen/Core>
+
 #include <scene/camera.h>
 
 namespace platform {
-
-/// A point or direction, m.
-using Vector3 = std::array<double, 3>;
-
-/// Row-major: matrix[row][column].
-using Matrix3 = std::array<Vector3, 3>;
 
 /// Side of the thesis' marker, m (thesis 5.1.1).
 constexpr double marker_side_m = 0.30;
@@ -19,31 +15,28 @@ constexpr double marker_side_m = 0.30;
 /// y down, z forward. Marker frame: origin in the marker's own top left corner, u right, v down, w
 /// away from the viewer.
 struct Pose {
-  Matrix3 rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  Vector3 translation{0, 0, 1};  ///< m
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation{0, 0, 1};  ///< m
 };
 
-/// Rotations about one axis of the camera, positive from y to z, z to x and x to y. The angles are
-/// exact at multiples of 90 degrees and the same on every host.
-Matrix3 rotation_x(double degrees);
-Matrix3 rotation_y(double degrees);
-Matrix3 rotation_z(double degrees);
-
-Matrix3 multiply(const Matrix3& a, const Matrix3& b);
-Vector3 rotate(const Matrix3& m, const Vector3& v);
+/// Rotations about one axis of the camera, positive from y to z, z to x and x to y. Exact at
+/// multiples of 90 degrees, and the same on every host: Eigen's own take libm's sine and cosine.
+Eigen::Matrix3d rotation_x(double degrees);
+Eigen::Matrix3d rotation_y(double degrees);
+Eigen::Matrix3d rotation_z(double degrees);
 
 /// A point of the marker frame, m, in the camera frame, m.
-Vector3 transform(const Pose& pose, const Vector3& marker_point);
+Eigen::Vector3d transform(const Pose& pose, const Eigen::Vector3d& marker_point);
 
 /// The camera's centre in the marker frame, m: -R^T * T.
-Vector3 camera_position(const Pose& pose);
+Eigen::Vector3d camera_position(const Pose& pose);
 
 /// The pose whose marker *centre* lies at `centre` (camera frame, m): handy to describe a view.
-Pose pose_from_centre(const Matrix3& rotation, const Vector3& centre,
+Pose pose_from_centre(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& centre,
                       double side_m = marker_side_m);
 
 /// Image of a point of the camera frame, px. The point must lie in front of the camera (z > 0).
-PixelPoint project(const Camera& camera, const Vector3& camera_point);
+PixelPoint project(const Camera& camera, const Eigen::Vector3d& camera_point);
 
 /// The four outer corners of the marker in the image, px, clockwise from the marker's own top left.
 /// Throws vp::InputError if a corner is not in front of the camera.

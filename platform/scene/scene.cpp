@@ -28,15 +28,15 @@ void validate_room(const Scene& scene) {
   if (!(room.wall_w > 0 && room.floor_v > room.ceiling_v && room.side_u > 0)) {
     refuse(scene, "the room is turned inside out: give wall > 0, floor below ceiling, side > 0");
   }
-  const Vector3 camera = camera_position(scene.pose);
-  if (!(camera[2] < 0)) {
+  const Eigen::Vector3d camera = camera_position(scene.pose);
+  if (!(camera.z() < 0)) {
     refuse(scene, "the camera sees the marker's back: turn the marker towards the camera");
   }
-  const bool inside =
-      camera[1] < room.floor_v && camera[1] > room.ceiling_v && std::abs(camera[0]) < room.side_u;
+  const bool inside = camera.y() < room.floor_v && camera.y() > room.ceiling_v &&
+                      std::abs(camera.x()) < room.side_u;
   if (!inside) {
-    refuse(scene, "the camera stands outside the room at U = " + std::to_string(camera[0]) +
-                      " m, V = " + std::to_string(camera[1]) +
+    refuse(scene, "the camera stands outside the room at U = " + std::to_string(camera.x()) +
+                      " m, V = " + std::to_string(camera.y()) +
                       " m: move it inside or enlarge the room");
   }
 }

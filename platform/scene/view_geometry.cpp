@@ -1,21 +1,17 @@
 #include <scene/view_geometry.h>
 
-#include <cmath>
+#include <Eigen/Geometry>
 
 namespace platform {
 
 namespace {
 
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// The plane through the camera's centre with this normal (camera frame) is a line in the image.
 /// Its normal side is inside; scaled so that the value is a distance in px.
-HalfPlane image_line(const Camera& camera, const Vector3& normal) {
-  HalfPlane line{normal[0] / camera.fx, normal[1] / camera.fy, 0};
-  line.c = normal[2] - line.a * camera.cx - line.b * camera.cy;
-  const double length = std::sqrt(line.a * line.a + line.b * line.b);
+HalfPlane image_line(const Camera& camera, const Eigen::Vector3d& normal) {
+  HalfPlane line{normal.x() / camera.fx, normal.y() / camera.fy, 0};
+  line.c = normal.z() - line.a * camera.cx - line.b * camera.cy;
+  const double length = Eigen::Vector2d(line.a, line.b).norm();
   if (length > 0) {
     line.a /= length;
     line.b /= length;
@@ -32,7 +28,7 @@ HalfPlane opposite(const HalfPlane& line) {
 
 ConvexRegion rectangle_region(const Camera& camera, const Pose& pose,
                               const PlaneRectangle& rectangle) {
-  const std::array<Vector3, 4> corners{{
+  const std::array<Eigen::Vector3d, 4> corners{{
       transform(pose, {rectangle.u0, rectangle.v0, 0}),
       transform(pose, {rectangle.u1, rectangle.v0, 0}),
       transform(pose, {rectangle.u1, rectangle.v1, 0}),
@@ -40,25 +36,25 @@ ConvexRegion rectangle_region(const Camera& camera, const Pose& pose,
   }};
   ConvexRegion region;
   for (std::size_t i = 0; i < 4; ++i) {
-    region.push_back(image_line(camera, cross(corners[i], corners[(i + 1) % 4])));
+    region.push_back(image_line(camera, corners[i].cross(corners[(i + 1) % 4])));
   }
   return region;
 }
 
 std::array<RoomFace, room_faces> room_regions(const Scene& scene) {
   const Room& room = scene.room;
-  const std::array<Vector3, 4> wall_corners{{
+  const std::array<Eigen::Vector3d, 4> wall_corners{{
       transform(scene.pose, {-room.side_u, room.ceiling_v, room.wall_w}),
       transform(scene.pose, {room.side_u, room.ceiling_v, room.wall_w}),
       transform(scene.pose, {room.side_u, room.floor_v, room.wall_w}),
       transform(scene.pose, {-room.side_u, room.floor_v, room.wall_w}),
   }};
-  const Vector3 into_room = rotate(scene.pose.rotation, {0, 0, 1});
+  const Eigen::Vector3d into_room = scene.pose.rotation.col(2);
   std::array<HalfPlane, 4> wall_edges;  // top, right, bottom, left; the wall is inside
   std::array<HalfPlane, 4> room_edges;  // from each wall corner towards the camera
   for (std::size_t i = 0; i < 4; ++i) {
-    wall_edges[i] = image_line(scene.camera, cross(wall_corners[i], wall_corners[(i + 1) % 4]));
-    room_edges[i] = image_line(scene.camera, cross(wall_corners[i], into_room));
+    wall_edges[i] = image_line(scene.camera, wall_corners[i].cross(wall_corners[(i + 1) % 4]));
+    room_edges[i] = image_line(scene.camera, wall_corners[i].cross(into_room));
   }
   const Brightness& light = scene.brightness;
   const std::array<double, 4> levels{light.ceiling, light.side_walls, light.floor,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include <host/document.h>
 #include <input/camera_file.h>
@@ -31,8 +32,12 @@ Json scene_json(const Scene& scene) {
   Json json;
   json["marker"] = scene.marker_id;
   json["camera"] = {scene.camera.fx, scene.camera.fy, scene.camera.cx, scene.camera.cy};
-  json["rotation"] = scene.pose.rotation;
-  json["translation"] = scene.pose.translation;
+  json["rotation"] = Json::array();
+  for (const auto& row : scene.pose.rotation.rowwise()) {
+    json["rotation"].push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  json["translation"] =
+      std::vector<double>(scene.pose.translation.begin(), scene.pose.translation.end());
   json["squares"] = Json::array();
   for (const Square& square : scene.squares)
     json["squares"].push_back({square.u, square.v, square.side, square.word});

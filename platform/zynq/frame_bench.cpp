@@ -16,8 +16,8 @@ report::FoundMarker found_marker(const marker::Marker& m) {
   found.rotation = m.identity.rotation;
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.corners[i].x, m.corners[i].y};
   found.has_pose = m.pose.valid;
-  for (std::size_t i = 0; i < 9; ++i) found.pose.rotation[i / 3][i % 3] = m.pose.rotation[i];
-  for (std::size_t i = 0; i < 3; ++i) found.pose.translation[i] = m.pose.translation[i];
+  found.pose.rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(m.pose.rotation.data());
+  found.pose.translation = Eigen::Vector3d::Map(m.pose.translation.data());
   found.reprojection_px = m.pose.reprojection_px;
   found.iterations = m.pose.iterations;
   return found;

@@ -129,6 +129,23 @@ BOOST_AUTO_TEST_CASE(a_scale_takes_the_whole_kernel) {
   BOOST_TEST(profile.fitted[1].value == 42);
 }
 
+BOOST_AUTO_TEST_CASE(a_constant_may_hold_for_one_optimisation) {
+  Tables tables;
+  Json thesis = installed("thesis");
+  thesis["fitted"] = {{{"kernel", "pose"},
+                       {"optimisation", "O0"},
+                       {"scale", 2.5},
+                       {"published", {"pose.duration"}}}};
+  tables.write("thesis", thesis);
+  const auto cycles = [&](Optimisation optimisation) {
+    const std::string table = optimisation == Optimisation::o0 ? "a9-O0" : "a9-O2";
+    return tables.load("thesis", optimisation).costs.at("poses", "").cycles /
+           tables.load(table, optimisation).costs.at("poses", "").cycles;
+  };
+  BOOST_TEST(cycles(Optimisation::o0) == 2.5);
+  BOOST_TEST(cycles(Optimisation::o2) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(programs_may_bring_units_of_their_own) {
   Tables tables;
   Json table = installed("a9-O0");
@@ -203,6 +220,7 @@ BOOST_AUTO_TEST_CASE(fits_are_few_named_and_sensible) {
   check_refused("thesis", with("published", Json::array()), {"'published'"});
   check_refused("thesis", with("kernel", "nose"), {"'nose'", "unknown"});
   check_refused("thesis", with("unit", "poses"), {"'unit'", "unknown"});
+  check_refused("thesis", with("optimisation", "O1"), {"'O1'", "O0 or O2"});
 }
 
 BOOST_AUTO_TEST_CASE(a_scaled_profile_needs_its_tables) {

@@ -90,13 +90,13 @@ BOOST_AUTO_TEST_CASE(every_scene_is_valid_and_shows_its_marker) {
 }
 
 BOOST_AUTO_TEST_CASE(poses_of_the_tests) {
-  BOOST_TEST((make_scene("x-1.0").pose.translation == Vector3{1, 0, 2}));
-  BOOST_TEST((make_scene("y0.4").pose.translation == Vector3{0, -0.4, 2}));
-  BOOST_TEST((make_scene("z4.5").pose.translation == Vector3{0, 0, 4.5}));
+  BOOST_TEST((make_scene("x-1.0").pose.translation == Eigen::Vector3d{1, 0, 2}));
+  BOOST_TEST((make_scene("y0.4").pose.translation == Eigen::Vector3d{0, -0.4, 2}));
+  BOOST_TEST((make_scene("z4.5").pose.translation == Eigen::Vector3d{0, 0, 4.5}));
   BOOST_TEST((make_scene("pitch15").pose.rotation == rotation_x(15)));
   BOOST_TEST((make_scene("yaw45").pose.rotation == rotation_y(45)));
   BOOST_TEST((make_scene("roll330").pose.rotation == rotation_z(330)));
-  BOOST_TEST((make_scene("roll330").pose.translation == Vector3{0, 0, 1}));
+  BOOST_TEST((make_scene("roll330").pose.translation == Eigen::Vector3d{0, 0, 1}));
   BOOST_TEST(make_scene("roll330").marker_id == 0);
 }
 
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(squares_come_one_by_one) {
   for (int count = 1; count <= 15; ++count) {
     const Scene scene = make_scene("squares" + std::to_string(count));
     BOOST_TEST(scene.squares.size() == static_cast<std::size_t>(count - 1));
-    BOOST_TEST((scene.pose.translation == Vector3{-0.15, -0.15, 2.5}));
+    BOOST_TEST((scene.pose.translation == Eigen::Vector3d{-0.15, -0.15, 2.5}));
   }
   const Scene scene = make_scene("squares15");
   BOOST_TEST(scene.squares[0].u == -0.62);
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(squares_come_one_by_one) {
 BOOST_AUTO_TEST_CASE(markers_of_the_identification_tests) {
   BOOST_TEST(make_scene("id52").marker_id == 52);
   BOOST_TEST(make_scene("front249").marker_id == 249);
-  BOOST_TEST((make_scene("front7").pose.translation == Vector3{-0.15, -0.15, 1}));
+  BOOST_TEST((make_scene("front7").pose.translation == Eigen::Vector3d{-0.15, -0.15, 1}));
 }
 
 BOOST_AUTO_TEST_CASE(the_demo_has_one_marker_of_the_dictionary) {

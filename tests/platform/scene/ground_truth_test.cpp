@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(edges_have_no_bias_at_any_sub_pixel_place) {
 
 BOOST_AUTO_TEST_CASE(a_slanted_square_covers_the_area_of_its_projection) {
   Scene scene = make_scene("yaw30");
-  scene.pose = pose_from_centre(multiply(rotation_x(25), rotation_z(33)), {0.2, 0.1, 1.5});
+  scene.pose = pose_from_centre(rotation_x(25) * rotation_z(33), {0.2, 0.1, 1.5});
   Scene with_square = scene;
   with_square.squares.push_back({-0.62, 0, 0.30, plain_square_word});
   with_square.squares[0].v = -0.1;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_slanted_square_covers_the_area_of_its_projection) {
   for (std::size_t i = 0; i < with.size(); ++i) covered += without[i] - with[i];
   covered /= scene.brightness.border - scene.brightness.black;
   double area = 0;
-  const std::vector<Vector3> corners{
+  const std::vector<Eigen::Vector3d> corners{
       {-0.62, -0.1, 0}, {-0.32, -0.1, 0}, {-0.32, 0.2, 0}, {-0.62, 0.2, 0}};
   for (std::size_t i = 0; i < 4; ++i) {
     const PixelPoint a = project(scene.camera, transform(scene.pose, corners[i]));

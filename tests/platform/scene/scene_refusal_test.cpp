@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(camera_and_pose) {
   check_change_refused([](Scene& s) { s.pose.translation = {0, 0, 0}; }, "Z = 0");
   check_change_refused([](Scene& s) { s.pose.translation = {0, 0, -2}; }, "behind the camera");
   check_change_refused([](Scene& s) { s.pose.rotation = rotation_y(180); }, "marker's back");
-  check_change_refused([](Scene& s) { s.pose.rotation = {}; }, "not orthonormal");
+  check_change_refused([](Scene& s) { s.pose.rotation.setZero(); }, "not orthonormal");
   check_change_refused([](Scene& s) { s.pose.translation = {0, -2, 2}; }, "outside the room");
   check_change_refused([](Scene& s) { s.pose.translation = {5, 0, 2}; }, "outside the room");
 }
