@@ -2,8 +2,10 @@
 
 #include <vp/error.h>
 #include <vp/hex.h>
+#include <vp/hierarchy.h>
 #include <vp/text.h>
 #include <vp/unit.h>
+#include <xilinx/axi_dma/memory_port.h>
 #include <zynq/hardware_map.h>
 #include <algorithm>
 #include <cerrno>
@@ -70,8 +72,9 @@ BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
     observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
   };
   watch(zynq.ps.cpu.m_axi, "cpu", true);
-  watch(zynq.pl.axi_dma_0.mm2s().m_axi.link, "axi_dma_0", false);
-  watch(zynq.pl.axi_dma_1.s2mm().m_axi.link, "axi_dma_1", false);
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+    watch(port->link, port->get_parent_object()->basename(), false);
+  }
 }
 
 BusLog::~BusLog() = default;

@@ -1,6 +1,7 @@
 #include <zynq/bus_trace.h>
 
 #include <vp/hex.h>
+#include <xilinx/axi_dma/memory_port.h>
 #include <zynq/hardware_map.h>
 #include <cstring>
 
@@ -85,8 +86,9 @@ class BusTrace::Bursts final : public vp::MmObserver {
 
 BusTrace::BusTrace(Zynq& zynq) : names_(hardware_map(zynq)) {
   observers_.push_back(std::make_unique<Accesses>(names_, zynq.ps.cpu.m_axi));
-  observers_.push_back(std::make_unique<Bursts>(zynq.pl.axi_dma_0.mm2s().m_axi.link));
-  observers_.push_back(std::make_unique<Bursts>(zynq.pl.axi_dma_1.s2mm().m_axi.link));
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+    observers_.push_back(std::make_unique<Bursts>(port->link));
+  }
 }
 
 BusTrace::~BusTrace() = default;

@@ -1,7 +1,9 @@
 #include <zynq/cache_contract.h>
 
 #include <vp/hex.h>
+#include <vp/hierarchy.h>
 #include <vp/report.h>
+#include <xilinx/axi_dma/memory_port.h>
 #include <algorithm>
 
 namespace platform {
@@ -41,11 +43,10 @@ void CacheContract::Watch::direct(vp::MmLink&, tlm::tlm_command command, std::ui
 }
 
 CacheContract::CacheContract(Zynq& zynq)
-    : zynq_(zynq),
-      first_(zynq.ps.ddr.dma_memory().first()),
-      end_(zynq.ps.ddr.dma_memory().end()),
-      image_(*this, zynq.pl.axi_dma_0.mm2s().m_axi.link),
-      binary_(*this, zynq.pl.axi_dma_1.s2mm().m_axi.link) {
+    : zynq_(zynq), first_(zynq.ps.ddr.dma_memory().first()), end_(zynq.ps.ddr.dma_memory().end()) {
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+    watches_.emplace_back(*this, port->link);
+  }
   zynq.ps.cpu.on_cache_call(
       [this](ps::Cpu::CacheCall call, std::uintptr_t address, std::size_t bytes) {
         mark(address, bytes, call == ps::Cpu::CacheCall::flush ? current : invalidated);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -58,8 +59,7 @@ class CacheContract {
   std::vector<unsigned char> lines_;  ///< grows to the last line used
   bool warned_of_read_ = false;
   bool warned_of_write_ = false;
-  Watch image_;
-  Watch binary_;
+  std::deque<Watch> watches_;  ///< of every memory master in the PL
 };
 
 }  // namespace platform

@@ -1,8 +1,9 @@
 #include <zynq/power_sources.h>
 
-#include <pl/blob_detection/estimate.h>
 #include <power/fabric_energy.h>
 #include <vp/error.h>
+#include <vp/hierarchy.h>
+#include <xilinx/axi_dma/memory_port.h>
 #include <algorithm>
 #include <utility>
 
@@ -31,6 +32,24 @@ Band operator*(const Band& a, const Band& b) {
   return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
 }
 
+/// What the memory masters of the PL write, which goes past the DDR's own counters where it is
+/// direct access. Their reads only upload images here, which is no frame's work.
+class Written {
+ public:
+  explicit Written(const Zynq& zynq) {
+    for (const auto* port : vp::all_below<xilinx::MemoryPort>(zynq.pl))
+      links_.push_back(&port->link);
+  }
+  double bytes() const {
+    std::uint64_t sum = 0;
+    for (const vp::MmLink* link : links_) sum += link->bytes_written;
+    return static_cast<double>(sum);
+  }
+
+ private:
+  std::vector<const vp::MmLink*> links_;
+};
+
 class Builder {
  public:
   Builder(Zynq& zynq, const PowerOptions& options, const PowerTable& table,
@@ -39,6 +58,7 @@ class Builder {
         options_(options),
         table_(table),
         states_(states),
+        written_(zynq),
         by_activity_(options.mode == PowerMode::activity) {}
 
   void add_processing_system() {
@@ -120,17 +140,19 @@ class Builder {
     const double stall_ns = table_.value("ps.ddr_line_stall").nominal;
     add("ps.ddr_io", "ps", "Vcco_ddr", PowerKind::event, source,
         full_ddr() * busy * (1 / most_bytes_per_s), nullptr,
-        [&zynq = zynq_, stall_ns] { return ddr_bytes(zynq, stall_ns); });
+        [&zynq = zynq_, written = written_, stall_ns] {
+          return written.bytes() + missed_bytes(zynq, stall_ns);
+        });
   }
 
-  /// What DMA and cache misses moved. Reads of a DMA only upload images here, which is no frame's.
-  static double ddr_bytes(const Zynq& zynq, double stall_ns_per_line) {
+  /// What cache misses moved.
+  static double missed_bytes(const Zynq& zynq, double stall_ns_per_line) {
     double stalls_ns = 0;
     for (const ps::WorkCount& work : zynq.ps.cpu.work()) {
       stalls_ns += work.stall_ns * static_cast<double>(work.count);
     }
     const double lines = stall_ns_per_line > 0 ? stalls_ns / stall_ns_per_line : 0;
-    return static_cast<double>(zynq.ps.ddr.bytes_written) + lines * line_bytes;
+    return lines * line_bytes;
   }
 
   void add_hp_port() {
@@ -140,10 +162,9 @@ class Builder {
           &states_.system_hz);
       return;
     }
-    const ps::Ddr& ddr = zynq_.ps.ddr;
     add("ps.s_axi_hp0", "ps", "Vccpint", PowerKind::event, origin("ps.hp_port"),
         clock * (1 / (hp_port_usage * hp_port_bytes)), nullptr,
-        [&ddr] { return static_cast<double>(ddr.bytes_written.get()); });
+        [written = written_] { return written.bytes(); });
   }
 
   void add_clock_root(const char* module, const char* group, const vp::PiecewiseConstant& hz) {
@@ -167,26 +188,23 @@ class Builder {
 
   /// The coefficient of an IP that has one of its own; else that of logic in general.
   std::string logic_coefficient(const DesignIp& ip) const {
-    if (ip.kind == "blob_detection" && options_.blob.figure_includes_static) {
-      return "ip.blob_detection_net";
-    }
-    for (const power::Coefficient& entry : table_.entries()) {
-      if (entry.name == "ip." + ip.kind) return entry.name;
-    }
-    return "pl.logic";
+    const std::string own = "ip." + ip.estimate.kind;
+    if (options_.blob.figure_includes_static && has(own + "_net")) return own + "_net";
+    return has(own) ? own : "pl.logic";
+  }
+
+  bool has(const std::string& coefficient) const {
+    const auto& entries = table_.entries();
+    return std::any_of(entries.begin(), entries.end(),
+                       [&](const power::Coefficient& entry) { return entry.name == coefficient; });
   }
 
   /// Energy of a clock in which the logic works. A coefficient of an IP is for all of it.
   Band logic(const DesignIp& ip, const std::string& coefficient, const Band& clock) const {
     if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut);
-    const Band value = table_.value(coefficient) * nano;
-    if (ip.kind != "blob_detection") return value - clock;
-    // The thesis' figure is that of its 128 labels; others in proportion to the logic.
-    const double scale =
-        static_cast<double>(pl::logic_of_labels(zynq_.pl.blob_detection.label_count)) /
-        pl::logic_of_labels(pl::thesis_labels);
-    const Band blocks = power::block_memory_energy(table_, ip.estimate.bram36);
-    return value * scale - clock - blocks;
+    const Band value = table_.value(coefficient) * nano * ip.estimate.size - clock;
+    if (!ip.estimate.includes_memory) return value;
+    return value - power::block_memory_energy(table_, ip.estimate.bram36);
   }
 
   void add_activity(const DesignIp& ip, const vp::PiecewiseConstant& hz, const char* rail,
@@ -204,13 +222,13 @@ class Builder {
     }
   }
 
-  // The image memory: one block works at a time. Others: as their logic does.
+  // As its logic does, if it does not count its reads.
   void add_block_memory(const DesignIp& ip, const vp::PiecewiseConstant& hz) {
-    if (by_activity_ && ip.kind == "bram") {
-      const xilinx::Bram& bram = zynq_.pl.bram;
+    if (by_activity_ && ip.estimate.memory_reads) {
+      const auto& reads = ip.estimate.memory_reads;
       add(ip.module, ip.group, "Vccbram", PowerKind::event, origin("pl.bram_read"),
           table_.value("pl.bram_read") * pico, nullptr,
-          [&bram] { return static_cast<double>(bram.reads_b.get()); });
+          [reads] { return static_cast<double>(reads()); });
       return;
     }
     add_activity(ip, hz, "Vccbram", "pl.bram",
@@ -221,6 +239,7 @@ class Builder {
   const PowerOptions& options_;
   const PowerTable& table_;
   const PowerStates& states_;
+  const Written written_;
   const bool by_activity_;
   std::vector<vp::PowerSource> sources_;
 };

@@ -30,6 +30,9 @@ class ProgrammableLogic : public pl::FeatureExtraction {
   xilinx::Concat concat;  ///< interrupts of both DMAs
 
  private:
+  void name_groups();
+  void count_work();
+
   xilinx::MemoryPath memory_path_;
 };
 

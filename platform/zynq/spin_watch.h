@@ -2,7 +2,11 @@
 
 #include <cstdint>
 
+#include <string>
+#include <vector>
+
 #include <vp/mm_link.h>
+#include <xilinx/axi_dma/axi_dma.h>
 #include <zynq/zynq.h>
 
 namespace platform {
@@ -28,6 +32,14 @@ class SpinWatch : private vp::MmObserver {
     bool empty() const { return first == end; }
     bool has(std::uint64_t address) const { return address >= first && address < end; }
   };
+  /// A DMA that writes memory.
+  struct Writer {
+    xilinx::AxiDma* dma;
+    Buffer written;  ///< since the program's last barrier
+    // When the last loop was noticed:
+    Buffer watched_armed;
+    Buffer watched_written;
+  };
 
   bool needs_transactions() const override { return false; }
   void after(vp::MmLink&, tlm::tlm_generic_payload& payload, sc_core::sc_time&) override;
@@ -35,17 +47,12 @@ class SpinWatch : private vp::MmObserver {
   void loop_noticed(ps::MemoryWatch& memory);
   void look_at();
   void forget_what_was_made_visible();
-  Buffer armed() const;
+  Buffer armed(xilinx::AxiDma& dma) const;
   Buffer clipped(std::uint64_t first, std::uint64_t end) const;
-  std::uint32_t peek(std::uint32_t offset) const;
 
   Zynq& zynq_;
-  std::uint32_t dma_base_ = 0;
-  Buffer written_;              ///< since the program's last barrier
-  std::uint64_t barriers_ = 0;  ///< of the program, until then
-  // When the last loop was noticed:
-  Buffer watched_armed_;
-  Buffer watched_written_;
+  std::vector<Writer> writers_;
+  std::uint64_t barriers_ = 0;  ///< of the program, until the last write
   std::string where_;
   const ps::MemoryWatch* memory_ = nullptr;
   bool warned_ = false;

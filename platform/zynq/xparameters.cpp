@@ -1,8 +1,14 @@
 #include <zynq/xparameters.h>
 
+#include <vp/hierarchy.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xparameters_writer.h>
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace platform {
 
@@ -22,43 +28,48 @@ std::string capitals(std::string text) {
   return text;
 }
 
-Device device(const HardwareMap& map, const std::string& name, const std::string& driver) {
-  const auto found = std::find_if(map.devices.begin(), map.devices.end(),
-                                  [&](const auto& candidate) { return candidate.name == name; });
-  return {capitals(name),
-          driver,
-          static_cast<std::uint32_t>(found->base),
-          static_cast<std::uint32_t>(found->base + found->size - 1),
-          {},
-          {}};
+/// The device whose registers `bank` are, where software can reach it.
+std::optional<Device> device(const HardwareMap& map, const vp::RegisterBank& bank,
+                             const std::string& driver) {
+  for (const HardwareMap::Device& found : map.devices) {
+    if (found.path != bank.name()) continue;
+    return Device{capitals(found.name),
+                  driver,
+                  static_cast<std::uint32_t>(found.base),
+                  static_cast<std::uint32_t>(found.base + found.size - 1),
+                  {},
+                  {}};
+  }
+  return std::nullopt;
 }
 
-std::uint32_t interrupt(const HardwareMap& map, const std::string& source) {
-  const auto found =
-      std::find_if(map.interrupts.begin(), map.interrupts.end(),
-                   [&](const auto& candidate) { return candidate.source == source; });
-  return found->id;
+void add_interrupt(Device& device, const HardwareMap& map, const vp::Signal<bool>& source) {
+  for (const auto& interrupt : map.interrupts) {
+    if (interrupt.source == source.name())
+      device.interrupts.emplace_back(capitals(source.basename()), interrupt.id);
+  }
 }
 
-Device dma(const HardwareMap& map, const std::string& name, const xilinx::AxiDma& model) {
-  Device result = device(map, name, "AXIDMA");
-  const bool sends = model.include_mm2s;
-  result.options = {{"INCLUDE_MM2S", sends},
+void add_dma(std::vector<Device>& devices, const HardwareMap& map, const xilinx::AxiDma& model) {
+  std::optional<Device> found = device(map, model.s_axi_lite, "AXIDMA");
+  if (!found) return;
+  found->options = {{"INCLUDE_MM2S", model.include_mm2s.get()},
                     {"INCLUDE_S2MM", model.include_s2mm.get()},
                     {"INCLUDE_SG", 0},
                     {"SG_LENGTH_WIDTH", model.length_width},
                     {"M_AXI_MM2S_DATA_WIDTH", 32},
                     {"M_AXI_S2MM_DATA_WIDTH", 32}};
-  const std::string line = sends ? "mm2s_introut" : "s2mm_introut";
-  result.interrupts = {{capitals(line), interrupt(map, std::string(model.name()) + "." + line)}};
-  return result;
+  add_interrupt(*found, map, model.mm2s_introut);
+  add_interrupt(*found, map, model.s2mm_introut);
+  devices.push_back(*std::move(found));
 }
 
-Device gpio(const HardwareMap& map, const std::string& name, const xilinx::AxiGpio& model) {
-  Device result = device(map, name, "GPIO");
-  result.options = {{"IS_DUAL", model.is_dual.get()},
+void add_gpio(std::vector<Device>& devices, const HardwareMap& map, const xilinx::AxiGpio& model) {
+  std::optional<Device> found = device(map, model.s_axi, "GPIO");
+  if (!found) return;
+  found->options = {{"IS_DUAL", model.is_dual.get()},
                     {"INTERRUPT_PRESENT", model.interrupt_present.get()}};
-  return result;
+  devices.push_back(*std::move(found));
 }
 
 }  // namespace
@@ -71,9 +82,10 @@ std::string xparameters_header(const Zynq& zynq, const HardwareMap& map) {
   platform.ddr_base = ps::Ddr::base;
   platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
   platform.console_uart = console_uart;
-  platform.devices = {
-      dma(map, "axi_dma_0", zynq.pl.axi_dma_0), dma(map, "axi_dma_1", zynq.pl.axi_dma_1),
-      gpio(map, "axi_gpio_0", zynq.pl.axi_gpio_0), gpio(map, "axi_gpio_1", zynq.pl.axi_gpio_1)};
+  for (const auto* dma : vp::all_below<xilinx::AxiDma>(zynq.pl))
+    add_dma(platform.devices, map, *dma);
+  for (const auto* gpio : vp::all_below<xilinx::AxiGpio>(zynq.pl))
+    add_gpio(platform.devices, map, *gpio);
   return xparameters::header(platform);
 }
 

@@ -232,6 +232,12 @@ bool RegisterBank::get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tl
 
 // Byte by byte, so that a debugger may ask for any range. A write sets the stored value and causes
 // no effect.
+std::uint32_t RegisterBank::peek(std::uint32_t offset) {
+  synchronise();
+  if (before_access_) before_access_();
+  return (*this)[offset].seen();
+}
+
 unsigned RegisterBank::transport_dbg(tlm::tlm_generic_payload& payload) {
   if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
   synchronise();

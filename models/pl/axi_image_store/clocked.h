@@ -4,6 +4,7 @@
 
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/signal.h>
 #include <xilinx/bram/bram.h>
 
@@ -11,7 +12,7 @@ namespace pl {
 
 /// AXI Image Store, clocked (thesis 4.3.3, ports of table B.8): writes the image that arrives on
 /// its stream into port A of the BRAM, from address 0 on after each rise of `ena`. System clock.
-class AxiImageStoreClocked : public vp::Clocked {
+class AxiImageStoreClocked : public vp::Clocked, public vp::Ip {
  public:
   AxiImageStoreClocked(sc_core::sc_module_name name, vp::Clock& clk, xilinx::Bram& bram);
 
@@ -31,6 +32,8 @@ class AxiImageStoreClocked : public vp::Clocked {
   xilinx::Bram& bram_;
 
  private:
+  vp::IpEstimate own_estimate() const override;
+
   bool ena_before_ = false;
 };
 

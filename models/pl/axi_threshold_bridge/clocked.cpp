@@ -1,12 +1,13 @@
 #include <pl/axi_threshold_bridge/clocked.h>
 
+#include <pl/common/estimate.h>
 #include <algorithm>
 #include <utility>
 
 namespace pl {
 
 AxiThresholdBridgeClocked::AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk)
-    : Clocked(name, clk), fifo_(fifo_depth) {
+    : Clocked(name, clk), Ip(&clk), fifo_(fifo_depth) {
   wake_on(ena);
   wake_on(rst);
   wake_on(thresh_in);
@@ -60,6 +61,12 @@ void AxiThresholdBridgeClocked::reset() {
   fifo_count = 0;
   bridge_overflow = 0;
   sleep();
+}
+
+vp::IpEstimate AxiThresholdBridgeClocked::own_estimate() const {
+  vp::IpEstimate e = small_ip("axi_threshold_bridge", 60, 80, 100 * mhz);
+  add_fifo(e, fifo_depth, 32);
+  return e;
 }
 
 }  // namespace pl

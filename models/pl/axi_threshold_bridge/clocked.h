@@ -5,6 +5,7 @@
 #include <pl/feature_packaging/core.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/probe.h>
 
@@ -13,7 +14,7 @@ namespace pl {
 /// AXI Threshold Bridge, clocked (thesis 4.4.2, ports of table B.5): sends the binary image to the
 /// PS, 32 words a packet. System clock. A full FIFO (the DMA was not armed again in time) drops the
 /// newest word and counts it.
-class AxiThresholdBridgeClocked : public vp::Clocked {
+class AxiThresholdBridgeClocked : public vp::Clocked, public vp::Ip {
  public:
   AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk);
 
@@ -52,6 +53,7 @@ class AxiThresholdBridgeClocked : public vp::Clocked {
   void edge() override;
 
  private:
+  vp::IpEstimate own_estimate() const override;
   void reset();
 
   FeatureBuffer fifo_;

@@ -2,13 +2,15 @@
 
 #include <cstdint>
 
+#include <pl/common/geometry.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 
 namespace pl {
 
 /// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`, decision).
-class BlobDetection : public vp::Clocked {
+class BlobDetection : public vp::Clocked, public vp::Ip {
  public:
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
@@ -43,10 +45,16 @@ class BlobDetection : public vp::Clocked {
   virtual void settle() {}
 
  protected:
-  BlobDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+  BlobDetection(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry)
+      : Clocked(name, clk), Ip(&clk), geometry_(geometry) {
     wake_on(ena);
     wake_on(rst);
   }
+
+  const Geometry geometry_;
+
+ private:
+  vp::IpEstimate own_estimate() const override;
 };
 
 }  // namespace pl

@@ -6,7 +6,7 @@ namespace pl {
 
 BlobDetectionClocked::BlobDetectionClocked(sc_core::sc_module_name name, vp::Clock& clk,
                                            const Geometry& geometry)
-    : BlobDetection(name, clk), core_(geometry, label_count) {}
+    : BlobDetection(name, clk, geometry), core_(geometry, label_count) {}
 
 void BlobDetectionClocked::edge() {
   if (rst) {

@@ -13,8 +13,7 @@ constexpr std::uint64_t first_pixel_clock = 4;
 
 BlobDetectionTlm::BlobDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk,
                                    const Geometry& geometry, BinaryView& binary)
-    : BlobDetection(name, clk),
-      geometry_(geometry),
+    : BlobDetection(name, clk, geometry),
       binary_(binary),
       frame_(geometry, label_count, minimum_side),
       start_(frame_),

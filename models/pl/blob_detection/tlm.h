@@ -34,7 +34,6 @@ class BlobDetectionTlm : public BlobDetection, private BinaryListener {
   std::uint64_t next_change(std::uint64_t cycle) const;
   std::uint64_t frame_end() const { return begin_ + geometry_.pixels(); }
 
-  Geometry geometry_;
   BinaryView& binary_;
   BlobFrame frame_;                 ///< after the frame's last pixel
   BlobFrame start_;                 ///< at its begin, to find it again

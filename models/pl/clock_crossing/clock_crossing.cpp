@@ -1,12 +1,13 @@
 #include <pl/clock_crossing/clock_crossing.h>
 
+#include <pl/common/estimate.h>
 #include <vp/clock_scheduler.h>
 
 namespace pl {
 
 ClockCrossing::ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk,
                              const vp::Clock& system_clk)
-    : Clocked(name, pixel_clk) {
+    : Clocked(name, pixel_clk), Ip(&pixel_clk) {
   pixel_clk.scheduler().run_before(system_clk, pixel_clk);
   for (CrossingRegister* crossing : {&corner, &blob, &binary}) {
     crossing->toggle.set_writer(*this);
@@ -17,6 +18,11 @@ ClockCrossing::ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk,
   wake_on(corner_out);
   wake_on(blob_out);
   wake_on(thresh_out);
+}
+
+// A register and a toggle for corners, blobs (two words) and binary words, and the way back.
+vp::IpEstimate ClockCrossing::own_estimate() const {
+  return small_ip("clock_crossing", 40, 280, 100 * mhz);
 }
 
 void ClockCrossing::edge() {

@@ -4,6 +4,7 @@
 
 #include <pl/clock_crossing/crossing_register.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 
 namespace pl {
 
@@ -12,7 +13,7 @@ namespace pl {
 ///
 /// At coincident edges the system side samples first, so a word that is sampled and replaced at the
 /// same edge was seen.
-class ClockCrossing : public vp::Clocked {
+class ClockCrossing : public vp::Clocked, public vp::Ip {
  public:
   ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, const vp::Clock& system_clk);
 
@@ -39,6 +40,7 @@ class ClockCrossing : public vp::Clocked {
 
  private:
   void edge() override;
+  vp::IpEstimate own_estimate() const override;
   void reset();
   void count(bool delivered) {
     if (!delivered) crossing_overflow = crossing_overflow.written() + 1;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include <vp/ip_estimate.h>
+#include <vp/ip.h>
 #include <xilinx/bram/block_ram.h>
 
 /// What the estimates of the thesis' own IP share. The thesis' utilisation is in figures 4.26,
@@ -27,8 +27,10 @@ inline void add_fifo(vp::IpEstimate& e, std::uint32_t depth, std::uint32_t width
 }
 
 /// An IP whose clock the thesis does not limit: it works at `fmax_hz` there.
-inline vp::IpEstimate small_ip(std::uint32_t lut, std::uint32_t ff, std::uint64_t fmax_hz) {
+inline vp::IpEstimate small_ip(const char* kind, std::uint32_t lut, std::uint32_t ff,
+                               std::uint64_t fmax_hz) {
   vp::IpEstimate e;
+  e.kind = kind;
   e.lut = lut;
   e.ff = ff;
   e.uncertainty_percent = 50;

@@ -1,8 +1,15 @@
 #include <pl/control_block/control_block.h>
 
+#include <pl/common/estimate.h>
+
 namespace pl {
 
-ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name) {}
+ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name), Ip(nullptr) {}
+
+// With the frame status: a few gates and flags.
+vp::IpEstimate ControlBlock::own_estimate() const {
+  return small_ip("control_block", 25, 10, 100 * mhz);
+}
 
 void ControlBlock::end_of_elaboration() {
   gpio_in.signal()->attach(*this);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <systemc>
 
+#include <vp/ip.h>
 #include <vp/signal.h>
 
 namespace pl {
@@ -21,7 +22,7 @@ constexpr std::uint32_t threshold_shift = 8;  ///< eight bits
 
 /// Control Block (thesis 4.4.1, ports of table B.4): splits the control packet. Combinational, at
 /// every fidelity.
-class ControlBlock : public sc_core::sc_module, public vp::SignalListener {
+class ControlBlock : public sc_core::sc_module, public vp::Ip, public vp::SignalListener {
  public:
   explicit ControlBlock(sc_core::sc_module_name name);
 
@@ -36,6 +37,7 @@ class ControlBlock : public sc_core::sc_module, public vp::SignalListener {
 
  private:
   void end_of_elaboration() override;
+  vp::IpEstimate own_estimate() const override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void split();
 };

@@ -3,12 +3,13 @@
 #include <cstdint>
 
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 
 namespace pl {
 
 /// Corner Detection (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
-class CornerDetection : public vp::Clocked {
+class CornerDetection : public vp::Clocked, public vp::Ip {
  public:
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
@@ -28,10 +29,13 @@ class CornerDetection : public vp::Clocked {
       "a circle pixel is bright if it exceeds the point of interest by more (grey levels)"};
 
  protected:
-  CornerDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+  CornerDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk), Ip(&clk) {
     wake_on(ena);
     wake_on(rst);
   }
+
+ private:
+  vp::IpEstimate own_estimate() const override;
 };
 
 }  // namespace pl

@@ -55,6 +55,8 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
       global_threshold_(make_global_threshold(pixel_clk)),
       blob_detection_(make_blob_detection(pixel_clk)),
       axi_threshold_bridge_(make_threshold_bridge(system_clk, pixel_clk)) {
+  control_block.set_logic_clock(system_clk);
+  bram.set_logic_clock(pixel_clk);
   choose_simd(simd);
   check_holds_a_frame(bram, geometry());
 }
@@ -86,7 +88,7 @@ std::unique_ptr<GlobalThreshold> FeatureExtraction::make_global_threshold(vp::Cl
     return std::make_unique<GlobalThresholdTlm>("global_threshold", clk, geometry(),
                                                 sensor_input.view);
   }
-  return std::make_unique<GlobalThresholdClocked>("global_threshold", clk);
+  return std::make_unique<GlobalThresholdClocked>("global_threshold", clk, geometry());
 }
 
 std::unique_ptr<BlobDetection> FeatureExtraction::make_blob_detection(vp::Clock& clk) {

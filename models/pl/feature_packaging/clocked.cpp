@@ -1,17 +1,26 @@
 #include <pl/feature_packaging/clocked.h>
 
+#include <pl/common/estimate.h>
 #include <pl/common/packet.h>
 
 namespace pl {
 
 FeaturePackagingClocked::FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk)
-    : Clocked(name, clk), corners_(buffer_depth), blobs_(buffer_depth) {
+    : Clocked(name, clk), Ip(&clk), corners_(buffer_depth), blobs_(buffer_depth) {
   wake_on(ena);
   wake_on(rst);
   wake_on(ready);
   wake_on(corner_in);
   wake_on(blob_in);
   wake_on(done);
+}
+
+// Two buffers, and what builds and chooses words.
+vp::IpEstimate FeaturePackagingClocked::own_estimate() const {
+  vp::IpEstimate e = small_ip("feature_packaging", 150, 110, 100 * mhz);
+  add_fifo(e, buffer_depth, 32);
+  add_fifo(e, buffer_depth, 32);
+  return e;
 }
 
 void FeaturePackagingClocked::edge() {

@@ -4,6 +4,7 @@
 
 #include <pl/feature_packaging/core.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/probe.h>
 
@@ -15,7 +16,7 @@ namespace pl {
 /// Corners and blobs wait in a buffer each; corners go first. Every change of `ready` lets the next
 /// word onto `feature` two clocks later, if one waits; the first word comes by itself. A full
 /// buffer drops the feature and counts it.
-class FeaturePackagingClocked : public vp::Clocked {
+class FeaturePackagingClocked : public vp::Clocked, public vp::Ip {
  public:
   FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk);
 
@@ -45,6 +46,7 @@ class FeaturePackagingClocked : public vp::Clocked {
 
  private:
   void edge() override;
+  vp::IpEstimate own_estimate() const override;
   void reset();
   void store(bool corner_arrived, bool blob_arrived);
   void show_next(std::uint32_t corners, std::uint32_t blobs, bool quiet);

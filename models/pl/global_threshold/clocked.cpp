@@ -2,8 +2,9 @@
 
 namespace pl {
 
-GlobalThresholdClocked::GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk)
-    : GlobalThreshold(name, clk) {}
+GlobalThresholdClocked::GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk,
+                                               const Geometry& geometry)
+    : GlobalThreshold(name, clk, geometry) {}
 
 void GlobalThresholdClocked::edge() {
   if (por || rst) {

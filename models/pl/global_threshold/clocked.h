@@ -10,7 +10,7 @@ namespace pl {
 /// Global Threshold, clocked.
 class GlobalThresholdClocked : public GlobalThreshold {
  public:
-  GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk);
+  GlobalThresholdClocked(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry);
 
   const ThresholdCore& core() const { return core_; }
 

@@ -2,15 +2,17 @@
 
 #include <cstdint>
 
+#include <pl/common/geometry.h>
 #include <pl/global_threshold/binary_view.h>
 #include <pl/global_threshold/core.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 
 namespace pl {
 
 /// Global Threshold (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives
 /// it).
-class GlobalThreshold : public vp::Clocked {
+class GlobalThreshold : public vp::Clocked, public vp::Ip {
  public:
   vp::In<bool> por{"por", this};  ///< system reset: the threshold returns to 127 (decision)
   vp::In<bool> rst{"rst", this};  ///< the adaptive threshold survives it (decision)
@@ -38,12 +40,18 @@ class GlobalThreshold : public vp::Clocked {
   vp::Signal<std::uint16_t> binary_y{"binary_y", 9};
 
  protected:
-  GlobalThreshold(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {
+  GlobalThreshold(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry)
+      : Clocked(name, clk), Ip(&clk), geometry_(geometry) {
     wake_on(por);
     wake_on(rst);
     wake_on(frame_ena);
     wake_on(wr_thresh);
   }
+
+  const Geometry geometry_;
+
+ private:
+  vp::IpEstimate own_estimate() const override;
 };
 
 }  // namespace pl

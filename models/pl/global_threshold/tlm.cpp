@@ -4,7 +4,7 @@ namespace pl {
 
 GlobalThresholdTlm::GlobalThresholdTlm(sc_core::sc_module_name name, vp::Clock& clk,
                                        const Geometry& geometry, FrameView& view)
-    : GlobalThreshold(name, clk), geometry_(geometry), view_(view), frame_(geometry) {
+    : GlobalThreshold(name, clk, geometry), view_(view), frame_(geometry) {
   wake_on(threshold);
   view_.add_listener(*this);
 }

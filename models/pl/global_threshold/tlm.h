@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include <pl/common/geometry.h>
 #include <pl/global_threshold/frame.h>
 #include <pl/global_threshold/global_threshold.h>
 #include <pl/sensor_input/frame_view.h>
@@ -29,7 +28,6 @@ class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
   void load(std::uint64_t cycle);
   bool emit(std::uint64_t cycle);
 
-  Geometry geometry_;
   FrameView& view_;
   ThresholdFrame frame_;
   bool running_ = false;           ///< pixels are taken

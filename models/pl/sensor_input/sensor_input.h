@@ -5,13 +5,14 @@
 #include <pl/common/geometry.h>
 #include <pl/sensor_input/frame_view.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <xilinx/bram/bram.h>
 
 namespace pl {
 
 /// Sensor Input (thesis 4.3.2, ports of table B.7): reads the stored image from port B of the BRAM
 /// and plays it as a camera sensor would, one pixel per pixel clock.
-class SensorInput : public vp::Clocked {
+class SensorInput : public vp::Clocked, public vp::Ip {
  public:
   vp::In<bool> ena{"ena", this};  ///< a rise starts a frame; ignored while one runs
   vp::In<bool> rst{"rst", this};
@@ -29,7 +30,7 @@ class SensorInput : public vp::Clocked {
  protected:
   SensorInput(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
               xilinx::Bram& bram)
-      : Clocked(name, clk), view(clk, geometry, bram), geometry_(geometry), bram_(bram) {
+      : Clocked(name, clk), Ip(&clk), view(clk, geometry, bram), geometry_(geometry), bram_(bram) {
     wake_on(ena);
     wake_on(rst);
   }
@@ -37,6 +38,9 @@ class SensorInput : public vp::Clocked {
   const Geometry geometry_;
   xilinx::Bram& bram_;
   bool ena_before_ = false;
+
+ private:
+  vp::IpEstimate own_estimate() const override;
 };
 
 }  // namespace pl

@@ -6,6 +6,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
+#include <xilinx/common/estimate.h>
 
 namespace xilinx {
 
@@ -13,6 +14,7 @@ namespace {
 
 using namespace axi_dma;
 
+constexpr std::uint64_t word_bytes = 4;
 constexpr std::uint32_t reset_pin = 1;  // what a listener is told of, besides streams (0)
 
 vp::RegisterBankOptions bank_options() {
@@ -32,6 +34,7 @@ vp::RegisterBankOptions bank_options() {
 
 AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build)
     : Clocked(name, aclk),
+      Ip(&aclk),
       include_mm2s("include_mm2s", build.include_mm2s, vp::Source::published,
                    "build option Enable Read Channel (PG021)"),
       include_s2mm("include_s2mm", build.include_s2mm, vp::Source::published,
@@ -60,6 +63,22 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
       if (channel && channel->finishing()) channel->bring_up_to(clock().cycle());
     }
   });
+}
+
+// Direct register mode, 32 bit: the DataMover's FIFO for a burst is block memory (PG021). Its logic
+// works on a beat a clock.
+vp::IpEstimate AxiDma::own_estimate() const {
+  const std::uint32_t channels = (include_mm2s ? 1u : 0u) + (include_s2mm ? 1u : 0u);
+  vp::IpEstimate e =
+      axi_estimate("axi_dma", 250 + 900 * channels, 300 + 1300 * channels, 1.0 * channels);
+  e.active_clocks = [this] { return beats(); };
+  return e;
+}
+
+std::uint64_t AxiDma::beats() const {
+  const std::uint64_t read = mm2s_ ? mm2s_->m_axi.link.bytes_read.get() : 0;
+  const std::uint64_t written = s2mm_ ? s2mm_->m_axi.link.bytes_written.get() : 0;
+  return (read + written) / word_bytes;
 }
 
 void AxiDma::build_channels() {

@@ -8,6 +8,7 @@
 
 #include <axi_dma_registers.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -32,7 +33,7 @@ struct AxiDmaBuild {
 ///
 ///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
 ///   dma.s2mm().s_axis(link);
-class AxiDma : public vp::Clocked, private DmaChannel::Core {
+class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
  public:
   /// Throws vp::InputError if neither channel is built or a burst is no power of two.
   AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build = {});
@@ -55,6 +56,8 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   Mm2sChannel& mm2s();
   S2mmChannel& s2mm();
 
+  /// Words moved between memory and the core so far.
+  std::uint64_t beats() const;
   /// All bursts contend with those of other masters on the same path.
   void share_memory_path(MemoryPath& path);
 
@@ -67,6 +70,7 @@ class AxiDma : public vp::Clocked, private DmaChannel::Core {
   };
 
   void edge() override;
+  vp::IpEstimate own_estimate() const override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void before_end_of_elaboration() override;
   void start_of_simulation() override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <vp/clock_scheduler.h>
+#include <xilinx/common/estimate.h>
 
 namespace xilinx {
 
@@ -27,6 +28,7 @@ vp::RegisterBankOptions bank_options() {
 
 AxiGpio::AxiGpio(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiGpioBuild& build)
     : Clocked(name, s_axi_aclk),
+      Ip(&s_axi_aclk),
       is_dual("is_dual", build.is_dual, vp::Source::published,
               "build option Enable Dual Channel (PG144)"),
       interrupt_present("interrupt_present", build.interrupt_present, vp::Source::published,
@@ -52,6 +54,14 @@ AxiGpio::AxiGpio(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiG
     build_without_channel_2();
   }
   build_interrupt();
+}
+
+// One channel. Inputs pass a synchroniser of four registers (PG144).
+vp::IpEstimate AxiGpio::own_estimate() const {
+  const bool inputs = gpio.direction == GpioDirection::all_inputs;
+  vp::IpEstimate e = axi_estimate("axi_gpio", inputs ? 90 : 70, inputs ? 260 : 110, 0);
+  e.active_clocks = [this] { return clocks_per_access * accesses(s_axi); };
+  return e;
 }
 
 void AxiGpio::build_channel(AxiGpioChannel& channel, vp::Register& data, vp::Register& tri) {

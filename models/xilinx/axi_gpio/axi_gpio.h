@@ -5,6 +5,7 @@
 
 #include <axi_gpio_registers.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -24,7 +25,7 @@ struct AxiGpioBuild {
 ///
 /// A write reaches the pins at the time of the access: modules on the clock see it on the next
 /// edge. A read sees the pins as they were `input_latency` clocks ago.
-class AxiGpio : public vp::Clocked {
+class AxiGpio : public vp::Clocked, public vp::Ip {
  public:
   AxiGpio(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiGpioBuild& build = {});
   const char* kind() const override { return "xilinx::AxiGpio"; }
@@ -53,6 +54,7 @@ class AxiGpio : public vp::Clocked {
 
  private:
   void edge() override;
+  vp::IpEstimate own_estimate() const override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void before_end_of_elaboration() override;
   void start_of_simulation() override;

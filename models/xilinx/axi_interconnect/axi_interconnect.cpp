@@ -2,6 +2,7 @@
 
 #include <vp/error.h>
 #include <vp/hex.h>
+#include <xilinx/common/estimate.h>
 
 namespace xilinx {
 
@@ -12,8 +13,19 @@ constexpr std::uint64_t smallest_segment =
 
 }  // namespace
 
-AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk)
-    : Router(name, &aclk) {}
+AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk,
+                                 std::uint32_t memory_masters)
+    : Router(name, &aclk), Ip(&aclk), memory_masters_(memory_masters) {}
+
+// With the protocol converter of the registers, or the width converter of the memory port.
+vp::IpEstimate AxiInterconnect::own_estimate() const {
+  if (memory_masters_ != 0) {
+    return axi_estimate("axi_interconnect", 400 + 250 * memory_masters_,
+                        500 + 300 * memory_masters_, 0);
+  }
+  const auto slaves = static_cast<std::uint32_t>(regions().size());
+  return axi_estimate("axi_interconnect", 200 + 45 * slaves, 260 + 55 * slaves, 0);
+}
 
 tlm_utils::simple_initiator_socket<vp::MmLink>& AxiInterconnect::map(const std::string& region_name,
                                                                      std::uint64_t base,

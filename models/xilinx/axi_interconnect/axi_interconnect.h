@@ -3,21 +3,30 @@
 #include <cstdint>
 #include <string>
 
+#include <vp/ip.h>
 #include <vp/router.h>
 
 namespace xilinx {
 
 /// AXI Interconnect v2.1 (PG059): the router with the address rules of its crossbar. A segment is a
 /// power of two of at least 4 KiB and starts at a multiple of its size.
-class AxiInterconnect : public vp::Router {
+class AxiInterconnect : public vp::Router, public vp::Ip {
  public:
-  AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk);
+  /// `memory_masters`: so many AXI4 masters of 32 bit share a port of 64 bit (HP0). 0: one AXI3
+  /// master (GP0) reaches AXI4-Lite slaves. Only the estimate depends on it.
+  AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk,
+                  std::uint32_t memory_masters = 0);
   const char* kind() const override { return "xilinx::AxiInterconnect"; }
 
   /// Throws vp::InputError if the segment breaks the rules above or overlaps another.
   tlm_utils::simple_initiator_socket<vp::MmLink>& map(
       const std::string& region_name, std::uint64_t base, std::uint64_t size,
       Addresses addresses = Addresses::relative) override;
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+
+  std::uint32_t memory_masters_;
 };
 
 }  // namespace xilinx

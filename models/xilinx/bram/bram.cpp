@@ -7,6 +7,7 @@
 
 #include <vp/hex.h>
 #include <vp/report.h>
+#include <xilinx/bram/block_ram.h>
 
 namespace xilinx {
 
@@ -19,9 +20,27 @@ constexpr std::uint32_t largest_depth = 1u << 20;  // words: 4 MiB, more than an
 
 Bram::Bram(sc_core::sc_module_name name, std::uint32_t default_depth_a)
     : sc_module(name),
+      Ip(nullptr),
       depth_a("depth_a", default_depth_a, vp::Unit::none, {1, largest_depth}, vp::Source::published,
               "words of 32 bit at port A (thesis table 4.3)"),
       bytes_(std::size_t{depth_a} * word_bytes, 0) {}
+
+// Exact: blocks of 36 kbit with a 32-bit port and an 8-bit port, which leaves the parity bits
+// unused. The logic that chooses among the blocks is estimated. One block works at a time.
+vp::IpEstimate Bram::own_estimate() const {
+  vp::IpEstimate e;
+  e.kind = "bram";
+  e.bram36 = block_ram_36(depth_a, 32, false);
+  e.lut = 20 + static_cast<std::uint32_t>(2 * e.bram36);
+  e.ff = 20;
+  e.source = "block memories computed from UG473's aspect ratios; logic between them assumed";
+  e.uncertainty_percent = 0;
+  e.fmax_hz = 100'000'000;
+  e.fmax_source = vp::Source::derived;
+  e.fmax_documentation = "port A works at the thesis' system clock (table 4.3)";
+  e.memory_reads = [this] { return reads_b.get(); };
+  return e;
+}
 
 void Bram::write_a(std::uint32_t address, std::uint32_t word) {
   write_a(address, &word, 1);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <vp/counter.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 
 namespace xilinx {
@@ -15,7 +16,7 @@ namespace xilinx {
 ///
 /// A plain memory: the module at port B models its latency of one clock. An access out of range is
 /// a fault of the module at the port: it is warned of, a write is dropped, a read returns 0.
-class Bram : public sc_core::sc_module {
+class Bram : public sc_core::sc_module, public vp::Ip {
  public:
   /// Told of what port A does, before it happens; for models that look at many bytes at once.
   class Listener {
@@ -62,6 +63,7 @@ class Bram : public sc_core::sc_module {
   void set_listener(Listener* listener) { listener_ = listener; }
 
  private:
+  vp::IpEstimate own_estimate() const override;
   void store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
   void refuse_write(std::uint32_t address);
   std::uint8_t refuse_read(std::uint32_t address);

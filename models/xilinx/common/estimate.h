@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vp/ip_estimate.h>
+#include <vp/ip.h>
 #include <vp/register_bank.h>
 
 /// What the estimates of the Xilinx IP share.
@@ -19,8 +19,10 @@ inline std::uint64_t accesses(const vp::RegisterBank& bank) {
 
 /// A configuration like the thesis' as Vivado builds it. Public reports of designs with the PS, an
 /// interconnect, a reset and one or two such IP have 441 to 953 LUT and 607 to 1129 FF in all.
-inline vp::IpEstimate axi_estimate(std::uint32_t lut, std::uint32_t ff, double bram36) {
+inline vp::IpEstimate axi_estimate(const char* kind, std::uint32_t lut, std::uint32_t ff,
+                                   double bram36) {
   vp::IpEstimate e;
+  e.kind = kind;
   e.lut = lut;
   e.ff = ff;
   e.bram36 = bram36;

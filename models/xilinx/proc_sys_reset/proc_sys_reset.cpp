@@ -1,5 +1,6 @@
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
 
+#include <xilinx/common/estimate.h>
 #include <initializer_list>
 
 namespace xilinx {
@@ -12,6 +13,7 @@ constexpr std::uint32_t steps = 3;  // bus, peripherals, processor
 
 ProcSysReset::ProcSysReset(sc_core::sc_module_name name, vp::Clock& slowest_sync_clk)
     : Clocked(name, slowest_sync_clk),
+      Ip(&slowest_sync_clk),
       released_at_start("released_at_start", true, vp::Source::decision,
                         "the design was configured and reset before time 0; off: time 0 is the end "
                         "of configuration"),
@@ -42,6 +44,13 @@ ProcSysReset::ProcSysReset(sc_core::sc_module_name name, vp::Clock& slowest_sync
 bool ProcSysReset::requested() const {
   return (ext_reset_in.bound() && !ext_reset_in) || (aux_reset_in.bound() && aux_reset_in) ||
          (dcm_locked.bound() && !dcm_locked);
+}
+
+// Works after a reset only.
+vp::IpEstimate ProcSysReset::own_estimate() const {
+  vp::IpEstimate e = axi_estimate("proc_sys_reset", 20, 40, 0);
+  e.active_clocks = [] { return std::uint64_t{0}; };
+  return e;
 }
 
 void ProcSysReset::edge() {

@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/signal.h>
 
@@ -15,7 +16,7 @@ namespace xilinx {
 /// A reset input that is active for `external_width` clocks (behind the synchroniser) asserts all
 /// outputs. When it is inactive for as long, the outputs are released after 16 (bus, interconnect),
 /// 32 (peripherals) and 48 clocks (processor).
-class ProcSysReset : public vp::Clocked {
+class ProcSysReset : public vp::Clocked, public vp::Ip {
  public:
   ProcSysReset(sc_core::sc_module_name name, vp::Clock& slowest_sync_clk);
   const char* kind() const override { return "xilinx::ProcSysReset"; }
@@ -38,6 +39,7 @@ class ProcSysReset : public vp::Clocked {
 
  private:
   void edge() override;
+  vp::IpEstimate own_estimate() const override;
   bool requested() const;
   void drive(bool bus, bool peripheral, bool processor);
 

@@ -265,6 +265,27 @@ BOOST_AUTO_TEST_CASE(events_take_their_energy) {
   BOOST_TEST(platform.power->ledger().by_kind().at(vp::PowerKind::event).nominal == 8.5e-6, near);
 }
 
+// By direct access, as nearly all of it goes: the DDR itself sees none of that.
+BOOST_AUTO_TEST_CASE(what_a_dma_writes_takes_its_energy) {
+  const auto mj_of = [](std::uint64_t bytes) {
+    Platform platform(Settings{{"power.mode", "activity"}});
+    platform.power->frame_begins();
+    vp::MmLink& link = platform.zynq->pl.axi_dma_1.s2mm().m_axi.link;
+    link.account(tlm::TLM_WRITE_COMMAND, ps::Ddr::base, bytes);
+    return platform.frame(0, ms);
+  };
+  auto idle = mj_of(0), once = mj_of(38'400), twice = mj_of(2 * 38'400);
+  for (const char* module : {"pl.axi_dma_1", "pl.axi_threshold_bridge", "pl.axi_mem_interconnect",
+                             "ps.s_axi_hp0", "ps.ddr_io"}) {
+    BOOST_TEST_CONTEXT(module) {
+      BOOST_TEST(once[module] > idle[module]);
+      BOOST_TEST(twice[module] - once[module] == once[module] - idle[module],
+                 boost::test_tools::tolerance(1e-6));
+    }
+  }
+  BOOST_TEST(once["pl.axi_dma_0"] == idle["pl.axi_dma_0"]);
+}
+
 BOOST_AUTO_TEST_CASE(the_timeline_integrates_to_the_energy) {
   for (const char* mode : {"vivado-default", "activity"}) {
     Platform platform(Settings{{"power.mode", mode}});

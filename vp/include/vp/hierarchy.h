@@ -1,6 +1,7 @@
 #pragma once
 
 #include <systemc>
+#include <vector>
 
 namespace vp {
 
@@ -16,5 +17,18 @@ class HierarchyScope {
  private:
   static sc_core::sc_simcontext* context() { return sc_core::sc_get_curr_simcontext(); }
 };
+
+/// The objects of type T below `top`, in the order in which they were made; those inside one of
+/// them come after it.
+template <class T>
+std::vector<T*> all_below(const sc_core::sc_object& top) {
+  std::vector<T*> found;
+  for (sc_core::sc_object* child : top.get_child_objects()) {
+    if (auto* object = dynamic_cast<T*>(child)) found.push_back(object);
+    const std::vector<T*> inner = all_below<T>(*child);
+    found.insert(found.end(), inner.begin(), inner.end());
+  }
+  return found;
+}
 
 }  // namespace vp

@@ -161,6 +161,9 @@ class RegisterBank : public sc_core::sc_module {
   /// `address` is for messages.
   tlm::tlm_response_status access(Register& target, bool read, std::uint64_t address,
                                   std::uint32_t& word);
+  /// What software would read at `offset` now, without effects. Throws std::logic_error if no
+  /// register is there.
+  std::uint32_t peek(std::uint32_t offset);
   /// Sets every register to its reset value; no effects.
   void reset();
   /// While held, registers stay at their reset values and an access is warned of and answered with

@@ -43,7 +43,7 @@ struct ThresholdModuleBench : sc_core::sc_module {
   vp::Signal<std::uint8_t> pixel{"pixel"};
   vp::Signal<std::uint16_t> x{"x", 10}, y{"y", 9};
   Stage stimuli{"stimuli", clk, [this] { play(); }};
-  pl::GlobalThresholdClocked global_threshold{"global_threshold", clk};
+  pl::GlobalThresholdClocked global_threshold{"global_threshold", clk, pl::Geometry{}};
 
  private:
   std::vector<std::uint8_t> frame_;

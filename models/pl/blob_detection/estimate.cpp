@@ -1,10 +1,9 @@
-#pragma once
-
 #include <pl/blob_detection/blob_detection.h>
 #include <pl/common/estimate.h>
-#include <pl/common/geometry.h>
 
 namespace pl {
+
+namespace {
 
 /// Labels for which the thesis' figures are taken to hold (decision: it does not give the number).
 constexpr std::uint32_t thesis_labels = 128;
@@ -19,17 +18,22 @@ constexpr std::uint32_t logic_of_labels(std::uint32_t labels) {
   return 600 + (look_up + read_out + grow + expire + choose) * labels;
 }
 
-/// Grows with the labels.
-inline vp::IpEstimate estimate(const BlobDetection& ip, const Geometry& geometry) {
-  const std::uint32_t labels = ip.label_count;
+}  // namespace
+
+// Grows with the labels. Its power was measured for the whole module (thesis 4.6.1).
+vp::IpEstimate BlobDetection::own_estimate() const {
+  const std::uint32_t labels = label_count;
   std::uint32_t label_bits = 1;
   while ((std::uint64_t{1} << label_bits) < labels) ++label_bits;
 
   vp::IpEstimate e;
+  e.kind = "blob_detection";
+  e.size = static_cast<double>(logic_of_labels(labels)) / logic_of_labels(thesis_labels);
+  e.includes_memory = true;
   e.lut = logic_of_labels(labels);
   e.ff = 250 + (box_bits + 1) * labels;
-  e.bram36 = xilinx::block_ram_36(geometry.width, label_bits);  // labels of the line above
-  add_fifo(e, labels, label_bits);                              // free labels
+  e.bram36 = xilinx::block_ram_36(geometry_.width, label_bits);  // labels of the line above
+  add_fifo(e, labels, label_bits);                               // free labels
   e.uncertainty_percent = 50;
   e.source = "derived from the structure of thesis 4.3.6: 184 LUT and 39 FF a label";
   e.fmax_hz = 55 * mhz;

@@ -1,17 +1,13 @@
-#pragma once
-
 #include <pl/common/estimate.h>
 #include <pl/corner_detection/corner_detection.h>
 
 namespace pl {
 
-/// F_max of a corner detection whose non-maximum suppression compares nine strengths in one clock
-/// (thesis 4.3.4.4). The pipelined one of the thesis is what is modelled; to see what the other
-/// would allow, set timing.corner_detection.fmax to it.
-constexpr std::uint64_t fmax_single_cycle_nms = 36'630'000;
-
-/// Window, nine FAST modules side by side, and eight line FIFOs of a write depth of 1024.
-inline vp::IpEstimate estimate(const CornerDetection&) {
+// Window, nine FAST modules side by side, and eight line FIFOs of a write depth of 1024.
+//
+// The non-maximum suppression is the thesis' pipelined one. To see what one would allow that
+// compares nine strengths in one clock, set timing.corner_detection.fmax to 36.63 MHz (4.3.4.4).
+vp::IpEstimate CornerDetection::own_estimate() const {
   constexpr std::uint32_t fast_modules = 9, circle = 16, lines = 8, line_depth = 1024;
   constexpr std::uint32_t compare_and_subtract = 25, sum = 150, contiguous = 60, direction = 40;
   constexpr std::uint32_t fast_lut = circle * compare_and_subtract + sum + contiguous + direction;
@@ -19,6 +15,7 @@ inline vp::IpEstimate estimate(const CornerDetection&) {
   constexpr std::uint32_t window_ff = 9 * 9 * 8;
 
   vp::IpEstimate e;
+  e.kind = "corner_detection";
   e.lut = fast_modules * fast_lut + lines * 45 + 250;
   e.ff = fast_modules * fast_ff + window_ff + lines * 30 + 250;
   e.bram36 = lines * xilinx::block_ram_36(line_depth, 8);

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include <vp/clock.h>
+#include <vp/configuration.h>
+
+namespace vp {
+
+/// What an IP is as hardware: how much of the device it takes, how fast it can be clocked, and when
+/// its logic toggles. Follows from the model's own parameters.
+struct IpEstimate {
+  // Primitives of a Xilinx 7 series device. A block memory of 18 kbit is half of one of 36.
+  std::uint32_t lut = 0;
+  std::uint32_t ff = 0;
+  double bram36 = 0;
+  std::uint32_t dsp = 0;
+  unsigned uncertainty_percent = 0;
+  std::string source;  ///< of the four numbers
+
+  /// Highest clock. With `lower_bound`: the highest at which it is known to work.
+  std::uint64_t fmax_hz = 0;
+  bool lower_bound = true;
+  Source fmax_source = Source::assumed;
+  std::string fmax_documentation;
+
+  /// IP of one kind share the coefficient `ip.<kind>` of the power table, if it has one. Without
+  /// one, power follows from the primitives.
+  std::string kind;
+  /// How many times as large as the IP that the coefficient was read from.
+  double size = 1;
+  /// The coefficient includes the block memories.
+  bool includes_memory = false;
+
+  /// Clocks since the start in which the logic worked. Empty: as long as a frame runs.
+  std::function<std::uint64_t()> active_clocks;
+  /// Reads since the start of a memory in which one block works at a time. Empty: its blocks work
+  /// as the logic does.
+  std::function<std::uint64_t()> memory_reads;
+};
+
+/// A part of the programmable logic: what its sc_module derives from, besides, to say what it is as
+/// hardware. Nothing lists the parts: ips_below() finds them in the hierarchy.
+///
+///   class Median : public vp::Clocked, public vp::Ip {
+///     Median(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk), Ip(&clk) {}
+///     vp::IpEstimate own_estimate() const override;
+class Ip {
+ public:
+  virtual ~Ip() = default;
+
+  /// The module that this is.
+  const sc_core::sc_object& object() const;
+  /// The clock that its logic must reach. Throws std::logic_error if it has none.
+  const Clock& logic_clock() const;
+  /// From the parameters as they are configured.
+  IpEstimate estimate() const;
+  /// The part of the design that it belongs to, for reports.
+  const std::string& group() const { return group_; }
+  /// Where it stands in reports: by this number, then in the order of the hierarchy.
+  unsigned place() const { return place_; }
+
+  // What only the design knows.
+  void set_logic_clock(const Clock& clock) { clock_ = &clock; }
+  void set_group(std::string group, unsigned place) {
+    group_ = std::move(group);
+    place_ = place;
+  }
+  /// When its logic works, where it cannot tell itself.
+  void set_active_clocks(std::function<std::uint64_t()> clocks) { clocks_ = std::move(clocks); }
+
+ protected:
+  /// `clock`: null if the design says which.
+  explicit Ip(const Clock* clock) : clock_(clock) {}
+
+ private:
+  virtual IpEstimate own_estimate() const = 0;
+
+  const Clock* clock_;
+  std::string group_ = "pl";
+  unsigned place_ = ~0u;
+  std::function<std::uint64_t()> clocks_;
+};
+
+/// The parts below `top`, in the order of reports.
+std::vector<const Ip*> ips_below(const sc_core::sc_object& top);
+
+}  // namespace vp
