@@ -5,8 +5,8 @@
 // Options such as --set=fidelity=clocked choose the platform.
 #include <sys/resource.h>
 
+#include <run/session.h>
 #include <vp/configuration.h>
-#include <zynq/session.h>
 #include <stdexcept>
 
 #include "frame_benchmark.h"

@@ -62,6 +62,11 @@ void add_configuration_options(CLI::App& command, ConfigurationOptions& target) 
       ->take_all();
 }
 
+void add_design_option(CLI::App& command, ConfigurationOptions& target) {
+  command.add_option("--design", target.design, "what stands in the PL ('markervp designs')")
+      ->type_name("NAME");
+}
+
 void add_input_options(CLI::App& command, RunOptions& target) {
   command.add_option("INPUT", target.inputs, "scenes, images, folders, videos")->type_name("");
   command.add_option("--camera", target.camera, "camera calibration (OpenCV or ROS)")
@@ -168,6 +173,7 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
 void add_run(CLI::App& app, RunOptions& target) {
   CLI::App* command = app.add_subcommand("run", "run the platform on images");
   add_input_options(*command, target);
+  add_design_option(*command, target.configuration);
   add_platform_options(*command, target);
   add_point_option(*command, target);
   add_configuration_options(*command, target.configuration);
@@ -183,9 +189,16 @@ void add_scenes(CLI::App& app, ScenesOptions& target) {
   command->add_flag("--names", target.names_only, "one name a line, for scripts");
 }
 
+void add_designs(CLI::App& app, DesignsOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("designs", "list what may stand in the programmable logic");
+  command->add_flag("--json", target.json, "for scripts");
+}
+
 void add_config(CLI::App& app, ConfigOptions& target) {
   CLI::App* command = app.add_subcommand("config", "print every parameter as it is in effect");
   add_platform_options(*command, target);
+  add_design_option(*command, target.configuration);
   add_configuration_options(*command, target.configuration);
   command->footer(config_examples);
 }
@@ -198,6 +211,7 @@ void add_map(CLI::App& app, MapOptions& target) {
   command->add_flag("--markdown", target.markdown, "everything, as a page of the documentation");
   command->add_flag("--xparameters", target.xparameters,
                     "xparameters.h, as bare-metal code includes it");
+  add_design_option(*command, target.configuration);
   add_configuration_options(*command, target.configuration);
 }
 
@@ -263,6 +277,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   app->require_subcommand(1);
   add_run(*app, target.run);
   add_scenes(*app, target.scenes);
+  add_designs(*app, target.designs);
   add_config(*app, target.config);
   add_map(*app, target.map);
   add_report(*app, target.report);

@@ -36,6 +36,9 @@ int run_in_memory(const RunOptions& options, const SimulationFactory& make_simul
 
 int list_scenes(const ScenesOptions& options, std::ostream& out);
 
+/// Lists what may stand in the programmable logic.
+int list_designs(const DesignsOptions& options, std::ostream& out);
+
 int print_configuration(const ConfigOptions& options, const SimulationFactory& make_simulation,
                         std::ostream& out);
 
@@ -72,10 +75,11 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
 
 int compare_runs(const CompareOptions& options, std::ostream& out);
 
-/// Reads --config and --set into `configuration`.
+/// Reads --config, --set and --design into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
-/// --fidelity wins over files and --set.
-void set_fidelity(const PlatformOptions& options, vp::Configuration& configuration);
+/// --fidelity and --system win over files and --set. Throws vp::InputError if `asked` contradicts.
+void choose_platform(const PlatformOptions& options, const ConfigurationOptions& asked,
+                     vp::Configuration& configuration);
 /// The PS program that --program or --system names; none: the usual.
 std::optional<std::string> program_of(const PlatformOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <designs/designs.h>
 #include <vp/error.h>
 
 namespace platform::cli {
@@ -9,10 +10,17 @@ namespace platform::cli {
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration) {
   for (const std::string& file : options.files) configuration.load_file(file);
   for (const std::string& assignment : options.assignments) configuration.set(assignment);
+  if (options.design) configuration.set("design", *options.design, "--design");
 }
 
-void set_fidelity(const PlatformOptions& options, vp::Configuration& configuration) {
+void choose_platform(const PlatformOptions& options, const ConfigurationOptions& asked,
+                     vp::Configuration& configuration) {
   if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+  if (!options.system) return;
+  if (asked.design) {
+    throw vp::InputError("--system names the design already: leave out --design");
+  }
+  configuration.set("design", design_of_program(*options.system).name, "--system");
 }
 
 std::optional<std::string> program_of(const PlatformOptions& options) {
@@ -35,7 +43,7 @@ int print_configuration(const ConfigOptions& options, const SimulationFactory& m
                         std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  set_fidelity(options, configuration);
+  choose_platform(options, options.configuration, configuration);
   SimulationOptions asked;
   asked.program = program_of(options);
   build(configuration, asked, make_simulation);

@@ -11,6 +11,7 @@ namespace platform::cli {
 struct ConfigurationOptions {
   std::vector<std::string> files;
   std::vector<std::string> assignments;  ///< "path=value"
+  std::optional<std::string> design;     ///< wins over both
 };
 
 /// What the platform is, in words of their own: --fidelity, --program, --system.
@@ -54,6 +55,11 @@ struct RunOptions : PlatformOptions {
 struct ScenesOptions {
   std::string group;        ///< empty: all
   bool names_only = false;  ///< one name a line, for scripts
+};
+
+/// `markervp designs`.
+struct DesignsOptions {
+  bool json = false;
 };
 
 /// `markervp config`.
@@ -100,7 +106,7 @@ struct TraceCommandOptions {
   std::string file;
   std::string other;   ///< the second trace of diff; the file that cut and convert write
   std::string checks;  ///< the file of check
-  std::optional<std::string> map, window, clock, frame, output, marker;
+  std::optional<std::string> design, map, window, clock, frame, output, marker;
   std::vector<std::string> filter;
   std::vector<std::string> signals;
   std::string align = "time";
@@ -161,6 +167,7 @@ struct CompareOptions {
 struct CommandLine {
   RunOptions run;
   ScenesOptions scenes;
+  DesignsOptions designs;
   ConfigOptions config;
   MapOptions map;
   ReportOptions report;

@@ -41,6 +41,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "run") return run(line.run, arguments, make_simulation, out, err);
   if (command == "scenes") return list_scenes(line.scenes, out);
+  if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, make_simulation, out);
   if (command == "map") return print_map(line.map, make_simulation, out);
   if (command == "report") return make_report(line.report, out);

@@ -267,7 +267,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  set_fidelity(options, configuration);
+  choose_platform(options, options.configuration, configuration);
   SimulationOptions asked = simulation_options(options);
   const bool page = !options.no_report && !page::page_template().empty();
   if (!page && !options.timeline) asked.timeline_frames = 0;

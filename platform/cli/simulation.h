@@ -19,8 +19,7 @@ namespace platform::cli {
 
 /// What the command line asks of the simulation.
 struct SimulationOptions {
-  std::optional<std::string>
-      program;  ///< file or name of the PS program; none: the thesis' hybrid system
+  std::optional<std::string> program;  ///< file or name of the PS program; none: that of the design
   std::optional<vp::TraceOptions> trace;    ///< waveforms to record
   std::optional<std::string> bus_log;       ///< file of one line an access
   std::vector<std::string> bus_log_filter;  ///< devices, addresses, ranges FIRST:LAST; none: all

@@ -13,10 +13,10 @@
 #include <cli/commands.h>
 #include <cli/interrupt.h>
 #include <cli/program.h>
-#include <cli/program_file.h>
 #include <cli/sweep_platform.h>
 #include <page/report_page.h>
 #include <report/words.h>
+#include <run/program_file.h>
 #include <sweep/database.h>
 #include <sweep/engine_slurm.h>
 #include <sweep/figure_names.h>

@@ -7,10 +7,11 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <cli/program_file.h>
 #include <cli/run_child.h>
 #include <cli/version.h>
+#include <designs/designs.h>
 #include <input/kept_scenes.h>
+#include <run/program_file.h>
 #include <sweep/parameter_table.h>
 #include <vp/error.h>
 #include <vp/fresh_context.h>
@@ -86,8 +87,9 @@ sweep::Platform sweep_platform(const SimulationFactory& make_simulation) {
   platform.elaborate = [&make_simulation](const sweep::Build& build, const std::string& origin) {
     return elaborate(build, origin, make_simulation);
   };
-  platform.program_file = [](const std::string& program) {
-    return program_file(if_named(program));
+  platform.program_file = [](const std::string& program, const std::string& design) {
+    return program.empty() ? installed_program(design_named(design).programs.front())
+                           : program_file(program);
   };
   platform.version = program_version();
   platform.revision = source_revision();

@@ -29,6 +29,12 @@ void add_file(CLI::App& command, TraceCommandOptions& target) {
   command.add_option("--map", target.map, "other names: lines 'ours = theirs'")->type_name("FILE");
 }
 
+void add_design(CLI::App& command, TraceCommandOptions& target) {
+  command
+      .add_option("--design", target.design, "whose signals they are (default: the usual design)")
+      ->type_name("NAME");
+}
+
 void add_filter(CLI::App& command, TraceCommandOptions& target) {
   command.add_option("--filter", target.filter, "only these: 'pl.corner_detection.**'")
       ->type_name("GLOB")
@@ -53,6 +59,7 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   CLI::App* stats = add(*trace, target, "stats",
                         "handshakes, buffers, interrupts, frames and functions in numbers");
   add_file(*stats, target);
+  add_design(*stats, target);
   stats
       ->add_option("--clock", target.clock,
                    "of the links, if the trace has no clocks (default: 100 MHz)")
@@ -101,6 +108,7 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
 
   CLI::App* gtkw = add(*trace, target, "gtkw", "write save and translate files for GTKWave");
   add_file(*gtkw, target);
+  add_design(*gtkw, target);
   gtkw->add_option("-o,--output", target.output, "folder (default: here)")->type_name("DIR");
 }
 

@@ -3,6 +3,7 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/trace_window.h>
+#include <designs/designs.h>
 #include <trace/checks.h>
 #include <trace/cut.h>
 #include <trace/difference.h>
@@ -22,6 +23,10 @@ using trace::TraceFile;
 
 trace::NameMap name_map(const TraceCommandOptions& options) {
   return options.map ? trace::read_name_map(*options.map) : trace::NameMap{};
+}
+
+const trace::Vocabulary& words_of(const TraceCommandOptions& options) {
+  return (options.design ? design_named(*options.design) : *builtin_designs().front()).words();
 }
 
 TimeWindow window(const TraceCommandOptions& options) {
@@ -56,7 +61,7 @@ int stats(const TraceCommandOptions& options, std::ostream& out) {
     }
     asked.system_hz = static_cast<std::uint64_t>(*hertz);
   }
-  const auto tables = trace::statistics(file, asked);
+  const auto tables = trace::statistics(file, words_of(options), asked);
   out << (options.json  ? trace::tables_as_json(tables)
           : options.csv ? trace::tables_as_csv(tables)
                         : trace::tables_as_text(tables));
@@ -227,7 +232,8 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
 
 int gtkw(const TraceCommandOptions& options, std::ostream& out) {
   TraceFile file(options.file, name_map(options));
-  for (const std::string& name : trace::write_save_files(file, options.output.value_or("."))) {
+  for (const std::string& name :
+       trace::write_save_files(file, words_of(options), options.output.value_or("."))) {
     out << "wrote " << name << "\n";
   }
   return done;

@@ -3,13 +3,12 @@
 #include <exception>
 #include <iostream>
 
-#include <cli/program_file.h>
+#include <run/session.h>
 #include <vp/output_file.h>
 #include <zynq/bus_log.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
 #include <zynq/register_coverage.h>
-#include <zynq/session.h>
 
 namespace platform::cli {
 
@@ -27,8 +26,7 @@ struct ConsoleFlush {
 class ZynqSimulation : public Simulation {
  public:
   explicit ZynqSimulation(const SimulationOptions& options)
-      : session_({program_file(options.program), options.trace, options.timeline_frames}),
-        options_(options) {
+      : session_({options.program, options.trace, options.timeline_frames}), options_(options) {
     ProcessingSystem& ps = session_.zynq().ps;
     const auto print = [](const std::string& line) { std::cout << line << std::endl; };
     ps.cpu.console.connect(print);

@@ -234,7 +234,9 @@ class Planner {
       size = tables_[program].size();
       for (const auto& [path, value] : build.settings) family.configuration[path] = value;
     }
-    family.contents = file_contents(platform_.program_file(build.program), family.configuration);
+    family.contents =
+        file_contents(platform_.program_file(build.program, family.configuration["design"]),
+                      family.configuration);
     manifest_.families.push_back(std::move(family));
     const BuiltFamily built{manifest_.families.size() - 1, size};
     return families_.emplace(std::pair(build.program, build.settings), built).first->second;

@@ -15,8 +15,9 @@ namespace platform::sweep {
 struct Platform {
   /// Builds it in a process of its own. Throws vp::InputError that says what the user got wrong.
   std::function<Elaborated(const Build&, const std::string& origin)> elaborate;
-  /// The file of a PS program that is named; empty if there are no files.
-  std::function<std::string(const std::string& program)> program_file;
+  /// The file of a PS program that is named, or that belongs to the design; empty if there are no
+  /// files.
+  std::function<std::string(const std::string& program, const std::string& design)> program_file;
   std::string version;
   std::string revision;
 };

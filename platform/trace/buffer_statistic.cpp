@@ -9,21 +9,6 @@ namespace {
 
 constexpr double ps_per_us = 1e6;
 
-/// A buffer of ours, and the depth that counts if the trace does not tell it.
-struct KnownBuffer {
-  const char* count;
-  const char* depth;
-  std::uint64_t usual_depth;  ///< thesis 4.4.3; decision of the bridge
-};
-constexpr KnownBuffer known_buffers[] = {
-    {"pl.feature_packaging.corner_count", "pl.feature_packaging.depth", 100},
-    {"pl.feature_packaging.blob_count", "pl.feature_packaging.depth", 100},
-    {"pl.axi_threshold_bridge.fifo_count", "pl.axi_threshold_bridge.depth", 64}};
-
-constexpr const char* known_counters[] = {
-    "pl.feature_packaging.feature_overflow", "pl.blob_detection.label_overflow",
-    "pl.axi_threshold_bridge.bridge_overflow", "pl.clock_crossing.crossing_overflow"};
-
 struct Buffer {
   std::string name;
   Replay::Slot count;
@@ -43,11 +28,11 @@ struct Counter {
 
 class BufferStatistic final : public Statistic {
  public:
-  BufferStatistic(Replay& replay, TraceFile& file) : replay_(replay) {
+  BufferStatistic(Replay& replay, TraceFile& file, const Vocabulary& words) : replay_(replay) {
     const auto watch = [&](int variable) {
       return replay.watch(static_cast<std::uint32_t>(variable));
     };
-    for (const KnownBuffer& known : known_buffers) {
+    for (const Vocabulary::Buffer& known : words.buffers) {
       const int count = file.find(known.count);
       if (count < 0) continue;
       Buffer buffer{known.count, watch(count), std::nullopt, known.usual_depth, {}, {}, 0, 0};
@@ -55,9 +40,9 @@ class BufferStatistic final : public Statistic {
       if (depth >= 0) buffer.depth_signal = watch(depth);
       buffers_.push_back(std::move(buffer));
     }
-    for (const char* name : known_counters) {
-      const int variable = file.find(name);
-      if (variable >= 0) counters_.push_back({name, watch(variable), 0, {}});
+    for (const Vocabulary::Loss& loss : words.losses) {
+      const int variable = file.find(loss.path);
+      if (variable >= 0) counters_.push_back({loss.path, watch(variable), 0, {}});
     }
   }
   bool found() const override { return !buffers_.empty() || !counters_.empty(); }
@@ -157,8 +142,9 @@ void BufferStatistic::report(std::vector<Table>& tables) const {
 
 }  // namespace
 
-std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file) {
-  return std::make_unique<BufferStatistic>(replay, file);
+std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file,
+                                            const Vocabulary& words) {
+  return std::make_unique<BufferStatistic>(replay, file, words);
 }
 
 }  // namespace platform::trace

@@ -11,17 +11,6 @@ namespace {
 constexpr double ps_per_us = 1e6;
 constexpr double ps_per_s = 1e12;
 
-// Packets of table 4.4 of the thesis.
-constexpr std::uint64_t end_word = 0xFFFF'FFFF;
-constexpr std::uint64_t corner_bit = 0x8000'0000;
-constexpr std::uint64_t blob_start_bit = 0x4000'0000;
-
-constexpr std::pair<const char*, const char*> counters[] = {
-    {"feature_overflow", "pl.feature_packaging.feature_overflow"},
-    {"label_overflow", "pl.blob_detection.label_overflow"},
-    {"bridge_overflow", "pl.axi_threshold_bridge.bridge_overflow"},
-    {"crossing_overflow", "pl.clock_crossing.crossing_overflow"}};
-
 struct Function {
   std::uint64_t calls = 0;
   std::uint64_t self_ps = 0;
@@ -32,26 +21,28 @@ struct Frame {
   std::uint64_t taken_ps = 0;
   std::optional<std::uint64_t> start_ps, end_ps;
   std::optional<std::uint64_t> upload_ps, upload_end_ps;
-  std::uint64_t corners = 0, blobs = 0, words = 0;
-  std::vector<std::uint64_t> lost;  ///< by counter
+  std::uint64_t words = 0;
+  std::vector<std::uint64_t> of_kind;  ///< words, by kind
+  std::vector<std::uint64_t> lost;     ///< by counter
   std::map<std::string, Function> functions;
 };
 
 class FrameStatistic final : public Statistic {
  public:
-  FrameStatistic(Replay& replay, TraceFile& file) : replay_(replay) {
-    const auto follow = [&](const char* path) -> std::optional<Replay::Slot> {
+  FrameStatistic(Replay& replay, TraceFile& file, const Vocabulary& words)
+      : replay_(replay), words_(words) {
+    const auto follow = [&](const std::string& path) -> std::optional<Replay::Slot> {
       const int variable = file.find(path);
       if (variable < 0) return std::nullopt;
       return replay.watch(static_cast<std::uint32_t>(variable));
     };
     frame_ = follow("ps.cpu.frame");
     results_ = follow("ps.cpu.results");
-    start_ = follow("pl.control_block.ena");
-    feature_ = follow("pl.feature_packaging.feature");
+    start_ = follow(words.start);
+    feature_ = follow(words.word);
     function_ = follow("ps.cpu.function");
     name_ = follow("ps.cpu.function_name");
-    for (const auto& counter : counters) counters_.push_back(follow(counter.second));
+    for (const auto& loss : words.losses) counters_.push_back(follow(loss.path));
   }
   bool found() const override { return frame_ || results_ || function_; }
 
@@ -88,17 +79,14 @@ class FrameStatistic final : public Statistic {
     const std::uint64_t taken = frame_ ? value(*frame_) : frames_.size() + 1;
     frame.number = taken == 0 ? 0 : taken - 1;
     frame.taken_ps = ps;
+    frame.of_kind.resize(words_.word_kinds.size());
     frames_.push_back(std::move(frame));
   }
-  static void count_word(Frame& frame, std::uint64_t word) {
+  void count_word(Frame& frame, std::uint64_t word) {
     if (word == 0) return;  // what a reset shows
     ++frame.words;
-    if (word == end_word) return;
-    if ((word & corner_bit) != 0) {
-      ++frame.corners;
-    } else {
-      frame.blobs += (word & blob_start_bit) != 0;
-    }
+    for (std::size_t i = 0; i < words_.word_kinds.size(); ++i)
+      frame.of_kind[i] += words_.word_kinds[i].counts(word) ? 1 : 0;
   }
   void finish_frame(Frame& frame, std::uint64_t ps) {
     frame.end_ps = ps;
@@ -116,7 +104,7 @@ class FrameStatistic final : public Statistic {
     if (frames_.empty()) return;
     Frame& frame = frames_.back();
     if (number != 0) ++frame.functions[running_name_].calls;
-    if (running_name_ == "upload" && !frame.upload_ps) frame.upload_ps = ps;
+    if (running_name_ == words_.functions.upload && !frame.upload_ps) frame.upload_ps = ps;
     if (number == 0 && frame.upload_ps && !frame.upload_end_ps) frame.upload_end_ps = ps;
   }
   void add_time(std::uint64_t ps) {
@@ -124,6 +112,7 @@ class FrameStatistic final : public Statistic {
   }
 
   Replay& replay_;
+  const Vocabulary& words_;
   std::optional<Replay::Slot> frame_, results_, start_, feature_, function_, name_;
   std::vector<std::optional<Replay::Slot>> counters_;
   std::vector<Frame> frames_;
@@ -143,9 +132,12 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
                   {"frame", "function", "entries", "self_us"},
                   {},
                   false};
-  if (feature_) frames.columns.insert(frames.columns.end(), {"corners", "blobs", "feature_words"});
+  if (feature_) {
+    for (const auto& kind : words_.word_kinds) frames.columns.push_back(kind.column);
+    frames.columns.emplace_back("feature_words");
+  }
   for (std::size_t i = 0; i < counters_.size(); ++i) {
-    if (counters_[i]) frames.columns.push_back(counters[i].first);
+    if (counters_[i]) frames.columns.push_back(words_.losses[i].name);
   }
   double sum_ps = 0, most_ps = 0, busy_ps = 0;
   std::uint64_t complete = 0;
@@ -174,7 +166,10 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
                                       static_cast<double>(start) / ps_per_us,
                                       static_cast<double>(*frame.end_ps) / ps_per_us,
                                       latency / ps_per_us};
-      if (feature_) row.insert(row.end(), {frame.corners, frame.blobs, frame.words});
+      if (feature_) {
+        row.insert(row.end(), frame.of_kind.begin(), frame.of_kind.end());
+        row.emplace_back(frame.words);
+      }
       for (std::size_t i = 0; i < counters_.size(); ++i) {
         if (counters_[i]) row.emplace_back(frame.lost[i]);
       }
@@ -193,8 +188,9 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
 
 }  // namespace
 
-std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file) {
-  return std::make_unique<FrameStatistic>(replay, file);
+std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file,
+                                           const Vocabulary& words) {
+  return std::make_unique<FrameStatistic>(replay, file, words);
 }
 
 }  // namespace platform::trace

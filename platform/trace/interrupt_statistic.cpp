@@ -9,15 +9,9 @@ namespace {
 
 constexpr double ps_per_us = 1e6;
 
-/// Lines and their numbers (UG585 table 7-4; thesis figure 4.2).
-struct KnownInterrupt {
-  const char* line;
-  std::uint64_t id;
-};
-constexpr KnownInterrupt known_interrupts[] = {{"pl.axi_dma_0.mm2s_introut", 61},
-                                               {"pl.axi_dma_1.s2mm_introut", 62},
-                                               {"ps.global_timer.irq", 27},
-                                               {"ps.private_timer.irq", 29}};
+/// Lines of the PS and their numbers (UG585 table 7-4).
+const Vocabulary::Interrupt chip_interrupts[] = {{"ps.global_timer.irq", 27, {}, {}},
+                                                 {"ps.private_timer.irq", 29, {}, {}}};
 
 struct Interrupt {
   std::string name;
@@ -30,22 +24,15 @@ struct Interrupt {
 
 class InterruptStatistic final : public Statistic {
  public:
-  InterruptStatistic(Replay& replay, TraceFile& file) : replay_(replay) {
+  InterruptStatistic(Replay& replay, TraceFile& file, const Vocabulary& words) : replay_(replay) {
     // Without the interrupt controller's word, the handler's beginning must do.
     const int active = file.find("ps.gic.active");
     const int handler = file.find("ps.cpu.in_handler");
     if (active < 0 && handler < 0) return;
     has_number_ = active >= 0;
     service_ = replay.watch(static_cast<std::uint32_t>(has_number_ ? active : handler));
-    for (const KnownInterrupt& known : known_interrupts) {
-      const int line = file.find(known.line);
-      if (line < 0) continue;
-      Interrupt interrupt;
-      interrupt.name = known.line;
-      interrupt.id = known.id;
-      interrupt.line = replay.watch(static_cast<std::uint32_t>(line));
-      interrupts_.push_back(std::move(interrupt));
-    }
+    for (const Vocabulary::Interrupt& known : words.interrupts) follow(file, known);
+    for (const Vocabulary::Interrupt& known : chip_interrupts) follow(file, known);
   }
   bool found() const override { return !interrupts_.empty(); }
 
@@ -80,6 +67,15 @@ class InterruptStatistic final : public Statistic {
   }
 
  private:
+  void follow(TraceFile& file, const Vocabulary::Interrupt& known) {
+    const int line = file.find(known.line);
+    if (line < 0) return;
+    Interrupt interrupt;
+    interrupt.name = known.line;
+    interrupt.id = known.id;
+    interrupt.line = replay_.watch(static_cast<std::uint32_t>(line));
+    interrupts_.push_back(std::move(interrupt));
+  }
   /// Service of interrupt `id` begins in this instant.
   bool begins(std::uint64_t id) const {
     const auto& changed = replay_.changed();
@@ -109,8 +105,9 @@ class InterruptStatistic final : public Statistic {
 
 }  // namespace
 
-std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file) {
-  return std::make_unique<InterruptStatistic>(replay, file);
+std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file,
+                                               const Vocabulary& words) {
+  return std::make_unique<InterruptStatistic>(replay, file, words);
 }
 
 }  // namespace platform::trace

@@ -21,36 +21,16 @@ constexpr const char *as_title = "@200", *as_bit = "@28", *as_hex = "@22", *as_d
                      *as_translated = "@2022", *as_curve = "@8420";
 
 /// The signals of the system's page, by group. Those that a trace lacks are left out.
-struct Group {
-  const char* title;
-  std::vector<const char*> paths;
-};
-const std::vector<Group>& system_groups() {
-  static const std::vector<Group> groups = {
+std::vector<Vocabulary::Group> system_groups(const Vocabulary& words) {
+  std::vector<Vocabulary::Group> groups = {
       {"Software",
        {"ps.cpu.frame", "ps.cpu.results", "ps.cpu.function", "ps.cpu.function_name",
         "ps.cpu.handler_name", "ps.cpu.in_handler", "ps.cpu.asleep", "ps.cpu.m_axi.access"}},
-      {"Interrupts",
-       {"pl.axi_dma_0.mm2s_introut", "pl.axi_dma_1.s2mm_introut", "ps.gic.n_irq", "ps.gic.active"}},
-      {"Control",
-       {"pl.control_block.rst_out", "pl.control_block.ena", "pl.control_block.ready",
-        "pl.frame_status.busy", "pl.frame_status.done"}},
-      {"Pixels",
-       {"pl.sensor_input.frame_ena", "pl.sensor_input.pixel_x", "pl.sensor_input.pixel_y",
-        "pl.sensor_input.pixel", "pl.global_threshold.active_threshold"}},
-      {"Features",
-       {"pl.corner_detection.corner_out", "pl.corner_detection.corner_data",
-        "pl.blob_detection.blob_out", "pl.feature_packaging.corner_count",
-        "pl.feature_packaging.blob_count", "pl.feature_packaging.feature_overflow",
-        "pl.feature_packaging.feature"}},
-      {"Binary image",
-       {"pl.binary_stream.tvalid", "pl.binary_stream.tready", "pl.binary_stream.tlast",
-        "pl.binary_stream.tdata", "pl.axi_threshold_bridge.fifo_count",
-        "pl.axi_threshold_bridge.bridge_overflow"}},
-      {"Image upload",
-       {"pl.image_stream.tvalid", "pl.image_stream.tready", "pl.image_stream.tlast",
-        "pl.image_stream.tdata"}},
-      {"Power", {"power.total", "power.ps", "power.pl"}}};
+      {"Interrupts", {}}};
+  for (const auto& interrupt : words.interrupts) groups.back().paths.push_back(interrupt.line);
+  groups.back().paths.insert(groups.back().paths.end(), {"ps.gic.n_irq", "ps.gic.active"});
+  groups.insert(groups.end(), words.groups.begin(), words.groups.end());
+  groups.push_back({"Power", {"power.total", "power.ps", "power.pl"}});
   return groups;
 }
 
@@ -132,9 +112,10 @@ std::vector<SaveFile::Line> save_lines(const TraceFile& file,
   return lines;
 }
 
-std::vector<std::string> write_save_files(TraceFile& file, const std::string& folder) {
+std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& words,
+                                          const std::string& folder) {
   Replay replay(file);
-  Translation translation(file, replay);
+  Translation translation(file, replay, words);
   replay.watch(0u);
   replay.run(translation);
   const fs::path root(folder);
@@ -154,8 +135,8 @@ std::vector<std::string> write_save_files(TraceFile& file, const std::string& fo
   page.timescale_fs = file.reader().timescale_fs();
 
   page.comment = "The whole system: software, interrupts, control, pixels, features, streams.";
-  for (const Group& group : system_groups()) {
-    const auto lines = with_names(save_lines(file, {group.paths.begin(), group.paths.end()}));
+  for (const Vocabulary::Group& group : system_groups(words)) {
+    const auto lines = with_names(save_lines(file, group.paths));
     if (lines.empty()) continue;
     SaveFile::Line title;
     title.path = group.title;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <trace/trace_file.h>
+#include <trace/vocabulary.h>
 
 namespace platform::trace {
 
@@ -31,7 +32,8 @@ std::string save_file_text(const SaveFile& save);
 /// Save files for what is in the trace: `system.gtkw`, one `<ip>.gtkw` for each IP with its
 /// signals, and the translate files they use (`*.flt`: functions, interrupts, directions,
 /// features). Reads the trace. Returns the names of the files written. Throws vp::InputError.
-std::vector<std::string> write_save_files(TraceFile& file, const std::string& folder);
+std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& words,
+                                          const std::string& folder);
 
 /// The lines for these signals, as save files show them.
 std::vector<SaveFile::Line> save_lines(const TraceFile& file,

@@ -2,6 +2,7 @@
 // software's own stamps lie a reading of the timer beside the edges seen here.
 #include <trace/statistics.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace platform::trace {
@@ -28,15 +29,16 @@ double between(const Time& from, const Time& to) {
 
 class StageStatistic final : public Statistic {
  public:
-  StageStatistic(Replay& replay, TraceFile& file) : replay_(replay) {
-    const auto follow = [&](const char* path) -> std::optional<Replay::Slot> {
+  StageStatistic(Replay& replay, TraceFile& file, const Vocabulary& words)
+      : replay_(replay), functions_(words.functions) {
+    const auto follow = [&](const std::string& path) -> std::optional<Replay::Slot> {
       const int variable = file.find(path);
       if (variable < 0) return std::nullopt;
       return replay.watch(static_cast<std::uint32_t>(variable));
     };
     frame_ = follow("ps.cpu.frame");
     results_ = follow("ps.cpu.results");
-    start_ = follow("pl.control_block.ena");
+    start_ = follow(words.start);
     name_ = follow("ps.cpu.function_name");
     table_.name = "stages";
     table_.title = "Stages of each frame";
@@ -44,7 +46,9 @@ class StageStatistic final : public Statistic {
                       "receive_us", "evaluation_us", "identification_us",
                       "pose_us",    "latency_us"};
   }
-  bool found() const override { return frame_ && results_ && name_; }
+  bool found() const override {
+    return frame_ && results_ && name_ && !functions_.evaluation.empty();
+  }
 
   void instant(std::uint64_t ps) override {
     if (!found()) return;
@@ -74,6 +78,7 @@ class StageStatistic final : public Statistic {
   void finish_frame(std::uint64_t ps);
 
   Replay& replay_;
+  const Vocabulary::Functions& functions_;
   std::optional<Replay::Slot> frame_, results_, start_, name_;
   Table table_;
   Stages now_;
@@ -86,20 +91,20 @@ void StageStatistic::enter(const std::string& name, std::uint64_t ps) {
     if (!time) time = ps;
   };
   const bool out = name.empty();
-  if (name == "upload") note(now_.upload);
+  if (name == functions_.upload) note(now_.upload);
   if (out && now_.upload) note(now_.upload_end);
-  if (name == "capture") note(now_.extraction);
-  if (name == "receive") now_.receives = true;
+  if (name == functions_.capture) note(now_.extraction);
+  if (name == functions_.receive) now_.receives = true;
   if (out && now_.receives) note(now_.extraction_end);
-  if (name == "feature_evaluation") {
+  if (name == functions_.evaluation) {
     note(now_.extraction_end);
     note(now_.evaluation);
     return;
   }
-  if (now_.evaluation && (out || name == "rectification" || name == "identification")) {
-    note(now_.evaluation_end);
-  }
-  if (name == "pose_estimation") note(now_.pose);
+  const auto& search = functions_.search;
+  const bool searches = std::find(search.begin(), search.end(), name) != search.end();
+  if (now_.evaluation && (out || searches)) note(now_.evaluation_end);
+  if (name == functions_.pose) note(now_.pose);
 }
 
 void StageStatistic::finish_frame(std::uint64_t ps) {
@@ -120,8 +125,9 @@ void StageStatistic::finish_frame(std::uint64_t ps) {
 
 }  // namespace
 
-std::unique_ptr<Statistic> stage_statistic(Replay& replay, TraceFile& file) {
-  return std::make_unique<StageStatistic>(replay, file);
+std::unique_ptr<Statistic> stage_statistic(Replay& replay, TraceFile& file,
+                                           const Vocabulary& words) {
+  return std::make_unique<StageStatistic>(replay, file, words);
 }
 
 }  // namespace platform::trace

@@ -17,7 +17,7 @@ struct Collector : Replay::Listener {
   }
 };
 
-[[noreturn]] void refuse(const TraceFile& file) {
+[[noreturn]] void refuse(const TraceFile& file, const Vocabulary& words) {
   constexpr std::size_t shown = 4;
   std::vector<std::string> names = file.paths();
   const std::size_t count = names.size();
@@ -25,7 +25,9 @@ struct Collector : Replay::Listener {
   throw vp::InputError(
       "trace '" + file.name() +
       "' has nothing that markervp knows: no link (….tvalid and ….tready), no buffer "
-      "(pl.feature_packaging.corner_count, …), no interrupt, no ps.cpu.frame or ps.cpu.function; "
+      "(" +
+      (words.buffers.empty() ? "none is known" : words.buffers.front().count + ", …") +
+      "), no interrupt, no ps.cpu.frame or ps.cpu.function; "
       "its " +
       std::to_string(count) + " signals are " + vp::join(names, ", ") +
       (count > shown ? ", …" : "") + "; name them with --map");
@@ -33,18 +35,19 @@ struct Collector : Replay::Listener {
 
 }  // namespace
 
-std::vector<Table> statistics(TraceFile& file, const StatisticsOptions& options) {
+std::vector<Table> statistics(TraceFile& file, const Vocabulary& words,
+                              const StatisticsOptions& options) {
   Replay replay(file);
   Collector collector;
-  collector.all.push_back(frame_statistic(replay, file));
-  collector.all.push_back(stage_statistic(replay, file));
+  collector.all.push_back(frame_statistic(replay, file, words));
+  collector.all.push_back(stage_statistic(replay, file, words));
   collector.all.push_back(link_statistic(replay, file, options));
-  collector.all.push_back(buffer_statistic(replay, file));
-  collector.all.push_back(interrupt_statistic(replay, file));
+  collector.all.push_back(buffer_statistic(replay, file, words));
+  collector.all.push_back(interrupt_statistic(replay, file, words));
   auto& all = collector.all;
   all.erase(std::remove_if(all.begin(), all.end(), [](const auto& s) { return !s->found(); }),
             all.end());
-  if (all.empty()) refuse(file);
+  if (all.empty()) refuse(file, words);
   replay.run(collector);
   std::vector<Table> tables;
   for (const auto& each : all) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trace/replay.h>
+#include <trace/vocabulary.h>
 
 namespace platform::trace {
 
@@ -15,8 +16,8 @@ namespace platform::trace {
 /// words are those that occur in the trace.
 class Translation final : public Replay::Listener {
  public:
-  /// Follows the signals it needs.
-  Translation(TraceFile& file, Replay& replay);
+  /// Follows the signals it needs. `words` must outlive it.
+  Translation(TraceFile& file, Replay& replay, const Vocabulary& words);
 
   bool instant(std::uint64_t ps) override;
 
@@ -27,10 +28,13 @@ class Translation final : public Replay::Listener {
 
  private:
   std::string function_file() const;
-  std::string feature_file() const;
+  std::string interrupt_file() const;
+  std::string word_file() const;
 
   TraceFile& file_;
   Replay& replay_;
+  const Vocabulary& vocabulary_;
+  std::map<std::string, std::string> translated_;  ///< signal: translate file
   bool has_functions_ = false;
   unsigned function_width_ = 32;
   Replay::Slot function_ = 0, function_name_ = 0;

@@ -72,7 +72,7 @@ BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
     observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
   };
   watch(zynq.ps.cpu.m_axi, "cpu", true);
-  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watch(port->link, port->get_parent_object()->basename(), false);
   }
 }

@@ -86,7 +86,7 @@ class BusTrace::Bursts final : public vp::MmObserver {
 
 BusTrace::BusTrace(Zynq& zynq) : names_(hardware_map(zynq)) {
   observers_.push_back(std::make_unique<Accesses>(names_, zynq.ps.cpu.m_axi));
-  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     observers_.push_back(std::make_unique<Bursts>(port->link));
   }
 }

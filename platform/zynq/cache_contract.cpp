@@ -44,7 +44,7 @@ void CacheContract::Watch::direct(vp::MmLink&, tlm::tlm_command command, std::ui
 
 CacheContract::CacheContract(Zynq& zynq)
     : zynq_(zynq), first_(zynq.ps.ddr.dma_memory().first()), end_(zynq.ps.ddr.dma_memory().end()) {
-  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl)) {
+  for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watches_.emplace_back(*this, port->link);
   }
   zynq.ps.cpu.on_cache_call(

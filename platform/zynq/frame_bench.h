@@ -8,21 +8,19 @@
 
 #include <hal/hal.h>
 #include <input/input_frame.h>
-#include <marker/result.h>
 #include <ps/cpu/test_bench.h>
 #include <report/result.h>
 #include <vp/report.h>
 #include <zynq/cache_contract.h>
-#include <zynq/handshake_watch.h>
 #include <zynq/software_options.h>
 #include <zynq/spin_watch.h>
 #include <zynq/zynq.h>
 
 namespace platform {
 
-/// The test bench around the PS program: puts images into DDR, takes results, and reads what only
-/// the hardware knows.
-class FrameBench : public ps::TestBench, private vp::SignalListener {
+/// The test bench around the PS program: puts images into DDR, and hands over what the program
+/// publishes, as the design makes a frame of it.
+class FrameBench : public ps::TestBench {
  public:
   using NextFrame = std::function<const input::InputFrame*()>;
   using FrameDone = std::function<bool(report::FrameReport&&)>;
@@ -43,16 +41,11 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
   double option(std::uint32_t option, const hal_option_info& info) override;
 
  private:
-  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void place(const input::InputFrame& frame);
-  report::FrameReport report_of(const marker::FrameResult& result, std::uint64_t now_ps) const;
-  void add_counts(report::FrameReport& report) const;
-  void add_warnings(report::FrameReport& report, const marker::FrameResult& result);
   void take_new_warnings(std::vector<std::string>& list);
 
   Zynq& zynq_;
   CacheContract cache_contract_;
-  HandshakeWatch handshake_;
   SpinWatch spin_watch_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
@@ -60,7 +53,6 @@ class FrameBench : public ps::TestBench, private vp::SignalListener {
   FrameDone done_;
   hal_frame frame_{};
   std::uint32_t frames_ = 0;
-  std::uint8_t threshold_ = 0;  ///< in use when the frame began
   std::size_t warnings_reported_ = 0;
   bool stop_ = false;
 };

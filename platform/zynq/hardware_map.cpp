@@ -2,7 +2,9 @@
 
 #include <gic_registers.h>
 #include <slcr_registers.h>
+#include <vp/hierarchy.h>
 #include <vp/register_bank.h>
+#include <xilinx/concat/concat.h>
 #include <zynq/xparameters.h>
 #include <algorithm>
 #include <string>
@@ -123,21 +125,30 @@ void add_interrupts(HardwareMap& map, Zynq& zynq) {
   for (const auto& interrupt : zynq.ps.interrupts()) {
     map.interrupts.push_back({interrupt.id, interrupt.source->name()});
   }
-  for (unsigned bit = 0; bit < zynq.pl.concat.dout.width(); ++bit) {
-    const vp::SignalBase* source = zynq.pl.concat.in(bit).signal();
-    if (source) map.interrupts.push_back({f2p_id(bit), source->name()});
+  // A concat shows whose lines they are.
+  const vp::SignalBase* lines = zynq.ps.gic.irq_f2p.signal();
+  for (xilinx::Concat* concat : vp::all_below<xilinx::Concat>(zynq.pl())) {
+    if (&concat->dout != lines) continue;
+    for (unsigned bit = 0; bit < concat->dout.width(); ++bit) {
+      const vp::SignalBase* source = concat->in(bit).signal();
+      if (source) map.interrupts.push_back({f2p_id(bit), source->name()});
+    }
   }
   std::sort(map.interrupts.begin(), map.interrupts.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
 }
 
-void add_clocks(HardwareMap& map, const ProcessingSystem& ps) {
-  const auto add = [&map](const vp::Clock& clock, const char* set_by, std::uint64_t programmed) {
+void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
+  const auto add = [&map](const vp::Clock& clock, const std::string& set_by,
+                          std::uint64_t programmed) {
     map.clocks.push_back({clock.name(), clock.frequency_hz(), set_by, programmed});
   };
   add(ps.cpu_clk.clk, "ARM_CLK_CTRL", ps.slcr.cpu_clocks().cpu_6x4x);
-  add(ps.fclk_clk0.clk, "FPGA0_CLK_CTRL", ps.slcr.programmed_fclk_hz(0));
-  add(ps.fclk_clk1.clk, "FPGA1_CLK_CTRL", ps.slcr.programmed_fclk_hz(1));
+  for (const ClockSource* source : ps.fclks()) {
+    const auto number = static_cast<unsigned>(std::string(source->basename()).back() - '0');
+    add(source->clk, "FPGA" + std::to_string(number) + "_CLK_CTRL",
+        ps.slcr.programmed_fclk_hz(number));
+  }
   add(ps.uart0_ref_clk, "UART_CLK_CTRL", ps.uart0_ref_clk.frequency_hz());
   add(ps.uart1_ref_clk, "UART_CLK_CTRL", ps.uart1_ref_clk.frequency_hz());
 }
@@ -148,7 +159,8 @@ report::HardwareMap hardware_map(Zynq& zynq) {
   HardwareMap map;
   ProcessingSystem& ps = zynq.ps;
   add_devices(map, ps.s_axi_hp0, ps.name(), "its own port; s_axi_hp0 of the PL");
-  add_devices(map, zynq.pl.axi_interconnect, zynq.pl.name(), "m_axi_gp0");
+  if (zynq.ports.registers())
+    add_devices(map, *zynq.ports.registers(), zynq.pl().name(), "m_axi_gp0");
   add_devices(map, ps.interconnect, ps.name(), "interconnect",
               {"m_axi_gp0", "private_bus", "peripheral_bus"});
   add_devices(map, ps.private_bus.devices, ps.name(), "private_bus");

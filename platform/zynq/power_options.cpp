@@ -19,7 +19,7 @@ PowerOptions::PowerOptions(bool uses_pl)
           "how much hotter the junction gets, C/W (vendor's estimates: medium board, 250 LFM)"),
       pl_design("pl_design", uses_pl, vp::Source::decision,
                 "whether the PL holds the design; a system without it leaves the PL unconfigured "
-                "(default: false for ps-only)") {}
+                "(default: what the design says)") {}
 
 PowerOptions::Ddr::Ddr(sc_core::sc_module_name name)
     : sc_module(name),

@@ -16,7 +16,7 @@ enum class PowerMode {
 
 /// The parameters of the module that they are a member of.
 struct PowerOptions {
-  /// `uses_pl`: whether the program that runs needs the design in the PL.
+  /// `uses_pl`: the default of pl_design.
   explicit PowerOptions(bool uses_pl);
 
   vp::Parameter<PowerMode> mode;

@@ -37,7 +37,7 @@ Band operator*(const Band& a, const Band& b) {
 class Written {
  public:
   explicit Written(const Zynq& zynq) {
-    for (const auto* port : vp::all_below<xilinx::MemoryPort>(zynq.pl))
+    for (const auto* port : vp::all_below<xilinx::MemoryPort>(zynq.pl()))
       links_.push_back(&port->link);
   }
   double bytes() const {
@@ -70,10 +70,9 @@ class Builder {
     add_ddr();
   }
 
-  void add_design(const std::vector<DesignIp>& design) {
-    for (const DesignIp& ip : design) add_ip(ip);
-    add_clock_root("pl.clocks.pixel", "feature_extraction", states_.pixel_hz);
-    add_clock_root("pl.clocks.system", "data_bridge", states_.system_hz);
+  void add_design(const std::vector<Part>& parts) {
+    for (const Part& ip : parts) add_ip(ip);
+    for (const Design::ClockRole& role : zynq_.design().clock_roles()) add_clock_root(role);
     add_hp_port();
   }
 
@@ -159,7 +158,7 @@ class Builder {
     const Band clock = table_.value("ps.hp_port") * nano;
     if (!by_activity_) {
       add("ps.s_axi_hp0", "ps", "Vccpint", PowerKind::state, origin("ps.hp_port"), clock,
-          &states_.system_hz);
+          &states_.pl_clock(zynq_.ps.fclk_clk0.clk).hz);
       return;
     }
     add("ps.s_axi_hp0", "ps", "Vccpint", PowerKind::event, origin("ps.hp_port"),
@@ -167,27 +166,24 @@ class Builder {
         [written = written_] { return written.bytes(); });
   }
 
-  void add_clock_root(const char* module, const char* group, const vp::PiecewiseConstant& hz) {
-    add(module, group, "Vccint", PowerKind::clock, origin("pl.clock_root"),
-        power::clock_root_energy(table_), &hz);
+  void add_clock_root(const Design::ClockRole& role) {
+    add("pl.clocks." + role.role, role.group, "Vccint", PowerKind::clock, origin("pl.clock_root"),
+        power::clock_root_energy(table_), &states_.pl_clock(*role.clock).hz);
   }
 
-  void add_ip(const DesignIp& ip) {
+  void add_ip(const Part& ip) {
     const vp::IpEstimate& e = ip.estimate;
-    const bool pixel = ip.clock == &zynq_.ps.fclk_clk1.clk;
-    const vp::PiecewiseConstant& hz = pixel ? states_.pixel_hz : states_.system_hz;
     const Band clock = power::clock_energy(table_, e.ff);
-    add(ip.module, ip.group, "Vccint", PowerKind::clock, origin("pl.clock"), clock, &hz);
+    add(ip.module, ip.group, "Vccint", PowerKind::clock, origin("pl.clock"), clock,
+        &states_.pl_clock(*ip.clock).hz);
     const std::string coefficient = logic_coefficient(ip);
-    add_activity(ip, hz, "Vccint", coefficient, logic(ip, coefficient, clock));
-    if (e.dsp != 0) {
-      add_activity(ip, hz, "Vccint", "pl.dsp", power::dsp_energy(table_, e.dsp));
-    }
-    if (e.bram36 > 0) add_block_memory(ip, hz);
+    add_activity(ip, "Vccint", coefficient, logic(ip, coefficient, clock));
+    if (e.dsp != 0) add_activity(ip, "Vccint", "pl.dsp", power::dsp_energy(table_, e.dsp));
+    if (e.bram36 > 0) add_block_memory(ip);
   }
 
   /// The coefficient of an IP that has one of its own; else that of logic in general.
-  std::string logic_coefficient(const DesignIp& ip) const {
+  std::string logic_coefficient(const Part& ip) const {
     const std::string own = "ip." + ip.estimate.kind;
     if (options_.blob.figure_includes_static && has(own + "_net")) return own + "_net";
     return has(own) ? own : "pl.logic";
@@ -200,30 +196,30 @@ class Builder {
   }
 
   /// Energy of a clock in which the logic works. A coefficient of an IP is for all of it.
-  Band logic(const DesignIp& ip, const std::string& coefficient, const Band& clock) const {
+  Band logic(const Part& ip, const std::string& coefficient, const Band& clock) const {
     if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut);
     const Band value = table_.value(coefficient) * nano * ip.estimate.size - clock;
     if (!ip.estimate.includes_memory) return value;
     return value - power::block_memory_energy(table_, ip.estimate.bram36);
   }
 
-  void add_activity(const DesignIp& ip, const vp::PiecewiseConstant& hz, const char* rail,
-                    const std::string& coefficient, const Band& joules) {
+  void add_activity(const Part& ip, const char* rail, const std::string& coefficient,
+                    const Band& joules) {
+    const PowerStates::PlClock& clock = states_.pl_clock(*ip.clock);
     if (!by_activity_) {
-      add(ip.module, ip.group, rail, PowerKind::state, origin(coefficient), joules, &hz);
+      add(ip.module, ip.group, rail, PowerKind::state, origin(coefficient), joules, &clock.hz);
     } else if (ip.estimate.active_clocks) {
       const auto& clocks = ip.estimate.active_clocks;
       add(ip.module, ip.group, rail, PowerKind::event, origin(coefficient), joules, nullptr,
           [clocks] { return static_cast<double>(clocks()); });
     } else {
-      const bool pixel = &hz == &states_.pixel_hz;
       add(ip.module, ip.group, rail, PowerKind::state, origin(coefficient), joules,
-          pixel ? &states_.pixel_frame_hz : &states_.system_frame_hz);
+          &clock.frame_hz);
     }
   }
 
   // As its logic does, if it does not count its reads.
-  void add_block_memory(const DesignIp& ip, const vp::PiecewiseConstant& hz) {
+  void add_block_memory(const Part& ip) {
     if (by_activity_ && ip.estimate.memory_reads) {
       const auto& reads = ip.estimate.memory_reads;
       add(ip.module, ip.group, "Vccbram", PowerKind::event, origin("pl.bram_read"),
@@ -231,8 +227,7 @@ class Builder {
           [reads] { return static_cast<double>(reads()); });
       return;
     }
-    add_activity(ip, hz, "Vccbram", "pl.bram",
-                 power::block_memory_energy(table_, ip.estimate.bram36));
+    add_activity(ip, "Vccbram", "pl.bram", power::block_memory_energy(table_, ip.estimate.bram36));
   }
 
   Zynq& zynq_;
@@ -247,12 +242,11 @@ class Builder {
 }  // namespace
 
 std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& options,
-                                           const PowerTable& table,
-                                           const std::vector<DesignIp>& design,
+                                           const PowerTable& table, const std::vector<Part>& parts,
                                            const PowerStates& states) {
   Builder builder(zynq, options, table, states);
   builder.add_processing_system();
-  if (options.pl_design) builder.add_design(design);
+  if (options.pl_design) builder.add_design(parts);
   return builder.take();
 }
 

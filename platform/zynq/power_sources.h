@@ -5,7 +5,7 @@
 #include <power/power_table.h>
 #include <vp/power_meter.h>
 #include <vp/thermal.h>
-#include <zynq/design.h>
+#include <zynq/parts.h>
 #include <zynq/power_options.h>
 #include <zynq/power_states.h>
 #include <zynq/zynq.h>
@@ -16,7 +16,7 @@ namespace platform {
 /// mode. What is passed must outlive the sources.
 std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& options,
                                            const power::PowerTable& table,
-                                           const std::vector<DesignIp>& design,
+                                           const std::vector<Part>& parts,
                                            const PowerStates& states);
 
 /// Static power of the whole device for the low, nominal and high coefficients at the dynamic power

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <vector>
 
 #include <vp/clock.h>
 #include <vp/piecewise.h>
@@ -20,6 +22,13 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
     virtual ~Observer() = default;
     virtual void states_changed(std::uint64_t ps) = 0;
   };
+  /// A clock of the PL.
+  struct PlClock {
+    const vp::Clock* clock;
+    vp::PiecewiseConstant hz;
+    vp::PiecewiseConstant frame_hz;  ///< 0 while no frame is played
+    std::uint64_t fastest_hz;        ///< that it had
+  };
 
   explicit PowerStates(Zynq& zynq);
   ~PowerStates() override;
@@ -28,21 +37,17 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
 
   vp::PiecewiseConstant always{1};
   vp::PiecewiseConstant cpu_hz;
-  vp::PiecewiseConstant cpu_awake_hz;     ///< 0 while core 0 waits for an interrupt
-  vp::PiecewiseConstant system_hz;        ///< fclk_clk0
-  vp::PiecewiseConstant system_frame_hz;  ///< 0 while no frame is played
-  vp::PiecewiseConstant pixel_hz;         ///< fclk_clk1
-  vp::PiecewiseConstant pixel_frame_hz;
+  vp::PiecewiseConstant cpu_awake_hz;  ///< 0 while core 0 waits for an interrupt
 
+  /// Throws std::logic_error for one that the PS does not make.
+  const PlClock& pl_clock(const vp::Clock& clock) const;
   bool awake() const { return !zynq_.ps.cpu.asleep; }
-  bool frame_runs() const { return zynq_.pl.sensor_input.frame_ena; }
-  /// The highest frequency that one of these clocks had.
-  std::uint64_t fastest_hz(const vp::Clock& clock) const;
+  bool frame_runs() const { return !busy_ || *busy_; }
   /// At most one.
   void set_observer(Observer* observer) { observer_ = observer; }
 
   /// Times after `from_ps`, before `to_ps`, at which something changed; in order.
-  std::vector<std::uint64_t> changes(std::uint64_t from_ps, std::uint64_t to_ps) const;
+  std::vector<std::uint64_t> changes(std::uint64_t from_ps, std::uint64_t to_ps);
   void forget_before(std::uint64_t ps);
 
  private:
@@ -50,11 +55,13 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
   void after_change(vp::Clock&) override { update(); }
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void update();
+  template <class Visit>
+  void for_each_history(Visit visit);
 
   Zynq& zynq_;
+  vp::Signal<bool>* busy_;  ///< null: the logic always works
+  std::deque<PlClock> pl_clocks_;
   Observer* observer_ = nullptr;
-  std::uint64_t fastest_system_hz_;
-  std::uint64_t fastest_pixel_hz_;
 };
 
 }  // namespace platform

@@ -5,6 +5,9 @@
 #include <private_timer_registers.h>
 #include <slcr_registers.h>
 #include <uart_registers.h>
+#include <vp/hierarchy.h>
+#include <stdexcept>
+#include <string>
 
 namespace platform {
 
@@ -46,7 +49,8 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       ddr("ddr"),
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
       s_axi_hp0("s_axi_hp0"),
-      fclk_reset0_n(slcr.fclk_reset0_n) {
+      fclk_reset0_n(slcr.fclk_reset0_n),
+      scheduler_(scheduler) {
   using Addresses = vp::Router::Addresses;
   cpu.m_axi.socket.bind(interconnect.socket);
   interconnect.map("m_axi_gp0", m_axi_gp0_base, m_axi_gp0_size, Addresses::absolute)
@@ -107,6 +111,28 @@ void ProcessingSystem::connect_clocks() {
   slcr.drive_uart_ref(1, uart1_ref_clk);
   uart0.rst(slcr.uart0_rst);
   uart1.rst(slcr.uart1_rst);
+}
+
+ClockSource& ProcessingSystem::fclk_clk(unsigned number) {
+  if (number < 2) return number == 0 ? fclk_clk0 : fclk_clk1;
+  if (number > 3) throw std::out_of_range("the PS has FCLK_CLK0 to FCLK_CLK3");
+  std::unique_ptr<ClockSource>& source = number == 2 ? fclk_clk2_ : fclk_clk3_;
+  if (!source) {
+    const vp::HierarchyScope scope(*this);
+    source = std::make_unique<ClockSource>(("fclk_clk" + std::to_string(number)).c_str(),
+                                           scheduler_, 50'000'000, vp::Source::decision,
+                                           "clock of the PL that the design asked for");
+    slcr.drive_fclk(number, source->clk);
+  }
+  return *source;
+}
+
+std::vector<ClockSource*> ProcessingSystem::fclks() {
+  std::vector<ClockSource*> sources{&fclk_clk0, &fclk_clk1};
+  for (const auto& source : {&fclk_clk2_, &fclk_clk3_}) {
+    if (*source) sources.push_back(source->get());
+  }
+  return sources;
 }
 
 std::string ProcessingSystem::device_at(std::uint32_t address) const {

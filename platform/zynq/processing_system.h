@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -53,6 +54,12 @@ class ProcessingSystem : public sc_core::sc_module {
 
   vp::Signal<bool>& fclk_reset0_n;  ///< to the PL
 
+  /// FCLK_CLK`number` of the PL. 2 and 3 are made when a design first asks for them, before the
+  /// simulation. Throws std::out_of_range beyond 3.
+  ClockSource& fclk_clk(unsigned number);
+  /// Those that there are, by number.
+  std::vector<ClockSource*> fclks();
+
   /// An interrupt of the PS and the signal that raises it.
   struct Interrupt {
     std::uint32_t id;
@@ -69,6 +76,8 @@ class ProcessingSystem : public sc_core::sc_module {
   std::string device_at(std::uint32_t address) const;
 
   std::vector<Interrupt> interrupts_;
+  vp::ClockScheduler& scheduler_;
+  std::unique_ptr<ClockSource> fclk_clk2_, fclk_clk3_;
 };
 
 }  // namespace platform

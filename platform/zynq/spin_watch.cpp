@@ -10,7 +10,7 @@
 namespace platform {
 
 SpinWatch::SpinWatch(Zynq& zynq) : zynq_(zynq) {
-  for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq.pl)) {
+  for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq.pl())) {
     if (!dma->include_s2mm) continue;
     writers_.push_back({dma, {}, {}, {}});
     dma->s2mm().m_axi.link.add_observer(*this);

@@ -9,12 +9,13 @@
 #include <report/timeline.h>
 #include <vp/signal.h>
 #include <zynq/handshake_recorder.h>
+#include <zynq/timeline_engines.h>
 #include <zynq/zynq.h>
 
 namespace platform {
 
-/// Records the timeline of a run's first frames from signals that exist at both fidelities, so that
-/// both give the same. It listens until the last of these frames is done, then costs nothing.
+/// Records the timeline of a run's first frames: what the design shows of the logic, and the
+/// software. It listens until the last of these frames is done, then costs nothing.
 class TimelineRecorder : private vp::SignalListener {
  public:
   /// `frames`: how many to record. What is passed must outlive the recorder.
@@ -31,47 +32,45 @@ class TimelineRecorder : private vp::SignalListener {
   const report::Timeline& timeline() const { return timeline_; }
 
  private:
-  /// The engines, in the order in which they are shown.
-  enum Engine : std::uint32_t {
-    frame,
-    sensor,
-    corners,
-    blobs,
-    dma_0,
-    dma_1,
-    irq_dma_0,
-    irq_dma_1,
-    handler,
-    stages,
-    functions,
-    engines
+  /// A row of the timeline, and what is under way on it.
+  struct Track {
+    const char* span = "";  ///< what its intervals are called
+    bool active_low = false;
+    struct Open {
+      std::uint64_t start_ps;
+      std::uint32_t name;
+    };
+    std::optional<Open> open;
   };
-  enum Level : std::uint32_t { corner_buffer, blob_buffer, bridge_fifo, levels };
+  /// The buffer behind a DMA channel, while its transfer is not recorded yet.
+  struct Burst {
+    std::optional<std::uint64_t> begin, end;
+  };
 
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
-  void watch(vp::SignalBase& signal, std::uint32_t id);
-  void watch_transfers(xilinx::DmaChannel& channel, Engine engine);
+  std::size_t add_track(const char* group, const std::string& name, const char* span = "",
+                        bool active_low = false);
+  void add_tracks();
+  void watch(vp::SignalBase& signal, std::size_t id);
+  void watch_transfers(std::size_t channel);
   void stop();
-  void begin(Engine engine, const std::string& name);
-  void end(Engine engine);
-  void add_span(Engine engine, const std::string& name, std::uint64_t start_ps,
+  void begin(std::size_t track, const std::string& name);
+  void end(std::size_t track);
+  void add_span(std::size_t track, const std::string& name, std::uint64_t start_ps,
                 std::uint64_t end_ps, bool critical = false);
-  void bridge_burst_done();
+  void transfer(std::size_t channel, bool begins);
+  void burst_done(std::size_t peak);
   void mark_critical_path(const report::FrameReport& frame);
 
   Zynq& zynq_;
   std::uint32_t left_;
+  TimelineEngines logic_;
   report::Timeline timeline_;
-  struct Open {
-    std::uint64_t start_ps;
-    std::uint32_t name;
-  };
-  std::optional<Open> open_[engines];
-  std::optional<std::uint64_t> burst_;  ///< when DMA 1's transfer began that is not recorded yet
-  std::optional<std::uint64_t> burst_end_;
+  std::vector<Track> tracks_;  ///< as in timeline_
+  std::size_t frame_ = 0, first_engine_ = 0, first_channel_ = 0, stages_ = 0, functions_ = 0;
+  std::vector<Burst> bursts_;  ///< of the peaks
   std::optional<HandshakeRecorder> handshake_;
   std::vector<vp::SignalBase*> watched_;
-  std::vector<xilinx::DmaChannel*> channels_;
 };
 
 }  // namespace platform

@@ -15,15 +15,15 @@ std::string documentation(const vp::IpEstimate& e) {
 
 }  // namespace
 
-TimingClosure::Limit::Limit(sc_core::sc_module_name name, const DesignIp& described)
+TimingClosure::Limit::Limit(sc_core::sc_module_name name, const Part& described)
     : sc_module(name),
       ip(described),
       fmax("fmax", ip.estimate.fmax_hz, vp::Unit::frequency, {slowest_hz, fastest_hz},
            ip.estimate.fmax_source, documentation(ip.estimate)) {}
 
-TimingClosure::TimingClosure(sc_core::sc_module_name name, const std::vector<DesignIp>& design)
+TimingClosure::TimingClosure(sc_core::sc_module_name name, const std::vector<Part>& parts)
     : sc_module(name) {
-  for (const DesignIp& ip : design) limits_.emplace_back(ip.name.c_str(), ip);
+  for (const Part& ip : parts) limits_.emplace_back(ip.name.c_str(), ip);
 }
 
 report::TimingReport TimingClosure::report(
@@ -41,8 +41,8 @@ report::TimingReport TimingClosure::report(
     module.met = hz <= limit.fmax;
     module.margin_percent = hz == 0 ? 0 : 100 * (module.fmax_mhz / module.frequency_mhz - 1);
     module.source = limit.fmax.is_changed() ? "configuration"
-                                        : std::string(vp::to_string(limit.fmax.source())) + ": " +
-                                              limit.ip.estimate.fmax_documentation;
+                                            : std::string(vp::to_string(limit.fmax.source())) +
+                                                  ": " + limit.ip.estimate.fmax_documentation;
     report.met = report.met && module.met;
     report.modules.push_back(module);
   }

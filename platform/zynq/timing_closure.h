@@ -8,7 +8,7 @@
 
 #include <report/design_report.h>
 #include <vp/parameter.h>
-#include <zynq/design.h>
+#include <zynq/parts.h>
 
 namespace platform {
 
@@ -16,8 +16,8 @@ namespace platform {
 /// runs all the same.
 class TimingClosure : public sc_core::sc_module {
  public:
-  /// `design` must outlive it.
-  TimingClosure(sc_core::sc_module_name name, const std::vector<DesignIp>& design);
+  /// `parts` must outlive it.
+  TimingClosure(sc_core::sc_module_name name, const std::vector<Part>& parts);
 
   /// `fastest_hz` tells the highest frequency that a clock had.
   report::TimingReport report(
@@ -25,8 +25,8 @@ class TimingClosure : public sc_core::sc_module {
 
  private:
   struct Limit : sc_core::sc_module {
-    Limit(sc_core::sc_module_name name, const DesignIp& ip);
-    const DesignIp& ip;
+    Limit(sc_core::sc_module_name name, const Part& ip);
+    const Part& ip;
     vp::Parameter<std::uint64_t> fmax;
   };
 

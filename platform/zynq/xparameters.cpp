@@ -82,9 +82,9 @@ std::string xparameters_header(const Zynq& zynq, const HardwareMap& map) {
   platform.ddr_base = ps::Ddr::base;
   platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
   platform.console_uart = console_uart;
-  for (const auto* dma : vp::all_below<xilinx::AxiDma>(zynq.pl))
+  for (const auto* dma : vp::all_below<xilinx::AxiDma>(zynq.pl()))
     add_dma(platform.devices, map, *dma);
-  for (const auto* gpio : vp::all_below<xilinx::AxiGpio>(zynq.pl))
+  for (const auto* gpio : vp::all_below<xilinx::AxiGpio>(zynq.pl()))
     add_gpio(platform.devices, map, *gpio);
   return xparameters::header(platform);
 }

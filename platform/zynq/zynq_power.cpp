@@ -8,10 +8,17 @@ namespace platform {
 
 namespace {
 
-const std::vector<std::string>& groups() {
-  static const std::vector<std::string> names = {"ps", "feature_extraction", "data_bridge",
-                                                 "image_memory", "static"};
-  return names;
+/// As the design orders those of its parts, between the PS and what leaks.
+std::vector<std::string> groups_of(Design& design, const std::vector<Part>& parts) {
+  std::vector<std::string> groups{"ps"};
+  const auto add = [&groups](const std::string& group) {
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+  };
+  for (const std::string& group : design.groups()) add(group);
+  for (const Part& part : parts) add(part.group);
+  for (const Design::ClockRole& role : design.clock_roles()) add(role.group);
+  groups.emplace_back("static");
+  return groups;
 }
 
 double nominal(const std::map<std::string, vp::Band>& sums, const std::string& key) {
@@ -33,13 +40,14 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
       options(uses_pl),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
-      design_(design_of(zynq)),
+      parts_(parts_of(zynq.pl())),
+      groups_(groups_of(zynq.design(), parts_)),
       states_(zynq) {
-  for (vp::PowerSource& source : power_sources(zynq, options, table_, design_, states_)) {
+  for (vp::PowerSource& source : power_sources(zynq, options, table_, parts_, states_)) {
     meter_.add(std::move(source));
   }
   states_.set_observer(this);
-  timeline_.groups = groups();
+  timeline_.groups = groups_;
   double junction_c = 0;
   static_w_ =
       static_energy(table_, options.thermal_path(), meter_.power(0), 1, junction_c).total().nominal;
@@ -52,7 +60,7 @@ void ZynqPower::states_changed(std::uint64_t ps) {
 
 void ZynqPower::show(std::uint64_t now_ps) {
   double of_pl = 0;
-  for (const std::string& group : groups()) {
+  for (const std::string& group : groups_) {
     if (group != "ps" && group != "static") of_pl += meter_.watts(now_ps, group);
   }
   ps = meter_.watts(now_ps, "ps");
@@ -88,7 +96,7 @@ void ZynqPower::deliver(report::FrameReport& frame) {
   double junction_c = 0;
   const vp::EnergyLedger ledger = with_static(open_, open_seconds_, junction_c);
   const auto sums = ledger.by_group();
-  for (const std::string& group : groups()) {
+  for (const std::string& group : groups_) {
     frame.energy.push_back({group, nominal(sums, group) * mj_per_j});
   }
   static_w_ = nominal(sums, "static") / open_seconds_;
@@ -117,9 +125,9 @@ void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Int
   }
   if (!timeline_.points.empty()) timeline_.points.pop_back();  // the end, which is none any more
   for (const std::uint64_t ps : times) {
-    PowerTimeline::Point point{ps, std::vector<double>(groups().size(), 0)};
-    for (std::size_t i = 0; i < groups().size() && ps < to_ps; ++i) {
-      const std::string& group = groups()[i];
+    PowerTimeline::Point point{ps, std::vector<double>(groups_.size(), 0)};
+    for (std::size_t i = 0; i < groups_.size() && ps < to_ps; ++i) {
+      const std::string& group = groups_[i];
       point.watts[i] = group == "static" ? static_w_ : meter_.watts(ps, group);
       if (inside(ps, period)) point.watts[i] += events_w[group];
     }
@@ -166,12 +174,13 @@ report::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
 }
 
 report::ResourceReport ZynqPower::resource_report() const {
-  return platform::resource_report(options.pl_design ? design_ : std::vector<DesignIp>{});
+  return platform::resource_report(options.pl_design ? parts_ : std::vector<Part>{});
 }
 
 report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {
   if (!options.pl_design) return {};
-  return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); });
+  return timing.report(
+      [this](const vp::Clock& clock) { return states_.pl_clock(clock).fastest_hz; });
 }
 
 }  // namespace platform

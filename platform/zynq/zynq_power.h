@@ -12,7 +12,7 @@
 #include <report/result.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
-#include <zynq/design.h>
+#include <zynq/parts.h>
 #include <zynq/power_options.h>
 #include <zynq/power_states.h>
 #include <zynq/power_timeline.h>
@@ -30,8 +30,8 @@ namespace platform {
 /// which the chip would settle if the frame were repeated for ever.
 class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
  public:
-  /// `uses_pl`: whether the program needs the design in the PL. Throws vp::InputError for a table
-  /// that cannot be used, and for thermal runaway.
+  /// `uses_pl`: whether the PL is configured, unless the user says otherwise. Throws vp::InputError
+  /// for a table that cannot be used, and for thermal runaway.
   ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl);
 
   PowerOptions options;
@@ -61,7 +61,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   /// What was taken: by module, rail and kind.
   const vp::EnergyLedger& ledger() const { return ledger_; }
   const power::PowerTable& table() const { return table_; }
-  const std::vector<DesignIp>& design() const { return design_; }
+  const std::vector<Part>& parts() const { return parts_; }
 
  private:
   void states_changed(std::uint64_t ps) override;
@@ -73,7 +73,8 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
   Zynq& zynq_;
   power::PowerTable table_;
-  std::vector<DesignIp> design_;
+  std::vector<Part> parts_;
+  std::vector<std::string> groups_;  ///< "ps", those of the design, "static"
   PowerStates states_;
   vp::PowerMeter meter_;
   report::FramePeriods periods_;

@@ -1,7 +1,7 @@
 #include "native_console.h"
 
+#include <run/session.h>
 #include <vp/configuration.h>
-#include <zynq/session.h>
 
 #include "simulation.h"
 

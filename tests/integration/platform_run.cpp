@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include <input/frame_source.h>
+#include <run/session.h>
 #include <vp/configuration.h>
-#include <zynq/session.h>
 
 #include "simulation.h"
 

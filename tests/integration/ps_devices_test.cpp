@@ -1,7 +1,7 @@
 // SLCR, UART and private timer in the whole platform, through their drivers.
 #include <input/frame_source.h>
+#include <run/session.h>
 #include <vp/configuration.h>
-#include <zynq/session.h>
 #include <boost/test/unit_test.hpp>
 #include <optional>
 #include <string>

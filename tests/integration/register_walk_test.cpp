@@ -1,5 +1,6 @@
 // Every bit of every register of the platform as it runs, through the processor's port: what it
 // reads after reset, and what writing ones and zeros does, is what its description says.
+#include <designs/designs.h>
 #include <slcr_registers.h>
 #include <vp/configuration.h>
 #include <vp/hex.h>
@@ -104,7 +105,7 @@ class Walk {
     const kit::Simulation context;
     vp::Configuration configuration;
     const vp::Configuration::Scope scope(configuration);
-    platform::Zynq zynq;
+    platform::Zynq zynq{*platform::builtin_designs().front()};
     zynq_ = &zynq;
     vp::ReportRouter reports;
     std::ostringstream text;
@@ -211,7 +212,7 @@ BOOST_AUTO_TEST_CASE(no_device_is_left_out) {
   const kit::Simulation context;
   vp::Configuration configuration;
   const vp::Configuration::Scope scope(configuration);
-  platform::Zynq zynq;
+  platform::Zynq zynq{*platform::builtin_designs().front()};
   std::size_t with_registers = 0, registers = 0;
   for (const auto& device : platform::hardware_map(zynq).devices) {
     with_registers += device.registers.empty() ? 0 : 1;

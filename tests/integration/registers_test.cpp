@@ -2,6 +2,7 @@
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
 #include <cli/map_markdown.h>
+#include <designs/designs.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <private_timer_registers.h>
@@ -48,7 +49,7 @@ HardwareMap default_map() {
   const kit::Simulation context;
   vp::Configuration configuration;
   const vp::Configuration::Scope scope(configuration);
-  platform::Zynq zynq;
+  platform::Zynq zynq{*platform::builtin_designs().front()};
   return platform::hardware_map(zynq);
 }
 
@@ -205,7 +206,7 @@ BOOST_AUTO_TEST_CASE(the_map_is_that_of_the_configuration) {
   configuration.set("ps.fclk_clk1.frequency=74.25 MHz");
   configuration.set("ps.ddr.size=383 MiB");
   const vp::Configuration::Scope scope(configuration);
-  platform::Zynq zynq;
+  platform::Zynq zynq{*platform::builtin_designs().front()};
   const HardwareMap map = platform::hardware_map(zynq);
   BOOST_TEST(find(map, "ddr")->size == 383u << 20);
   const auto clock = std::find_if(map.clocks.begin(), map.clocks.end(),

@@ -3,11 +3,12 @@
 
 #include <map>
 
+#include <designs/marker/words.h>
 #include <input/frame_source.h>
+#include <run/session.h>
 #include <trace/statistics.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>
-#include <zynq/session.h>
 
 #include "simulation.h"
 #include "temporary_files.h"
@@ -60,7 +61,7 @@ Counted run(const std::vector<std::pair<std::string, std::string>>& settings) {
     result.counters[counter->name()] = counter->get();
   }
   platform::trace::TraceFile file(folder / "t.vcd");
-  result.tables = platform::trace::statistics(file);
+  result.tables = platform::trace::statistics(file, platform::marker_words());
   return result;
 }
 

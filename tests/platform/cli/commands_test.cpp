@@ -1,6 +1,7 @@
 #include <cli/trace_window.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli_kit.h"
 
@@ -29,7 +30,8 @@ BOOST_AUTO_TEST_CASE(version) {
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
-       "a command is missing: run, scenes, config, map, report, validate, power, trace, sweep, "
+       "a command is missing: run, scenes, designs, config, map, report, validate, power, trace, "
+       "sweep, "
        "pareto, sensitivity, compare or completion"},
       {{"rnu"}, "did you mean 'run'?"},
       {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
@@ -60,6 +62,19 @@ BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
   BOOST_TEST(run({"scenes", "--names"}) == 0);
   BOOST_TEST(contains(out.str(), "\nroll330\n"));
   BOOST_TEST(contains(out.str(), "\ndemo\n"));
+}
+
+BOOST_AUTO_TEST_CASE(designs_are_listed) {
+  BOOST_TEST(run({"designs"}) == 0);
+  BOOST_TEST(contains(out.str(), "thesis       hybrid"), out.str());
+  BOOST_TEST(contains(out.str(), "ps-only      ps-only"), out.str());
+  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 120u, line);
+  out.str("");
+  BOOST_TEST(run({"designs", "--json"}) == 0);
+  const auto list = nlohmann::json::parse(out.str());
+  BOOST_TEST(list.size() == 2u);
+  BOOST_TEST(list[0]["name"] == "thesis");
+  BOOST_TEST(list[1]["programs"][0] == "ps-only");
 }
 
 BOOST_AUTO_TEST_CASE(power_prints_the_coefficients_and_checks_others) {

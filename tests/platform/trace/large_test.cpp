@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include <designs/marker/words.h>
 #include <trace/statistics.h>
 
 #include "temporary_files.h"
@@ -43,7 +44,7 @@ BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_trace) {
   BOOST_TEST(std::filesystem::file_size(folder / "large.vcd") > 200'000'000u);
   const long before = peak_kib();
   platform::trace::TraceFile file(folder / "large.vcd");
-  const auto tables = platform::trace::statistics(file);
+  const auto tables = platform::trace::statistics(file, platform::marker_words());
   BOOST_TEST(peak_kib() - before < allowed_kib);
   BOOST_TEST(std::get<std::uint64_t>(tables.front().rows[0][1]) > beats / 2);
 }

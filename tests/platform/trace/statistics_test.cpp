@@ -1,6 +1,7 @@
 // Numbers of waveforms that were counted by hand. The clock has 10 ns; edges see what stood before.
 #include <boost/test/unit_test.hpp>
 
+#include <designs/marker/words.h>
 #include <trace/statistics.h>
 
 #include "waves.h"
@@ -12,7 +13,7 @@ using platform::trace::Table;
 struct Numbers {
   explicit Numbers(const Waves& waves, std::uint64_t hertz = 100'000'000) {
     platform::trace::TraceFile file(waves.file);
-    tables = platform::trace::statistics(file, {hertz});
+    tables = platform::trace::statistics(file, platform::marker_words(), {hertz});
   }
   Table::Cell at(const std::string& table, std::size_t row, const std::string& column) const {
     for (const Table& t : tables) {

@@ -1,6 +1,7 @@
 // diff, cut, plot, names and save files.
 #include <boost/test/unit_test.hpp>
 
+#include <designs/marker/words.h>
 #include <trace/cut.h>
 #include <trace/difference.h>
 #include <trace/plot.h>
@@ -220,7 +221,7 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
       "#20 b11111111111111111111111111111111 %\n#21 b01000000000010000000110000000111 %\n#30\n");
   TraceFile file(waves.file);
   const kit::TemporaryFolder folder;
-  write_save_files(file, folder.path());
+  write_save_files(file, platform::marker_words(), folder.path());
   const std::string system = kit::read_file(folder / "system.gtkw");
   BOOST_TEST(system.find("@2022\n^1 function.flt\nps.cpu.function[31:0]\n") != std::string::npos);
   BOOST_TEST(system.find("pl.corner_detection.corner_out\n") != std::string::npos);
@@ -239,7 +240,7 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
   BOOST_TEST((folder.entries() == expected));
   BOOST_TEST(complaint([&] {
                TraceFile again(waves.file);
-               write_save_files(again, "/nowhere");
+               write_save_files(again, platform::marker_words(), "/nowhere");
              }).find("cannot write") == 0u);
 }
 

@@ -1,4 +1,6 @@
 // Energy of the platform without a program: clocks and states are set by hand.
+#include <designs/designs.h>
+#include <designs/marker/marker_design.h>
 #include <zynq/timing_closure.h>
 #include <zynq/zynq_power.h>
 
@@ -29,9 +31,9 @@ struct Platform : kit::Simulation {
   explicit Platform(const Settings& settings = {}, bool uses_pl = true) {
     for (const auto& [path, value] : settings) configuration.set(path, value);
     const vp::Configuration::Scope scope(configuration);
-    zynq = std::make_unique<Zynq>();
+    zynq = std::make_unique<Zynq>(*builtin_designs().front());
     power = std::make_unique<ZynqPower>("power", *zynq, uses_pl);
-    timing = std::make_unique<TimingClosure>("timing", power->design());
+    timing = std::make_unique<TimingClosure>("timing", power->parts());
     configuration.check_unused();
   }
 
@@ -54,6 +56,10 @@ struct Platform : kit::Simulation {
   std::unique_ptr<ZynqPower> power;
   std::unique_ptr<TimingClosure> timing;
 };
+
+MarkerDesign& logic(Platform& platform) {
+  return dynamic_cast<MarkerDesign&>(platform.zynq->design());
+}
 
 report::PowerReport report_of(const Settings& settings, bool uses_pl = true) {
   Platform platform(settings, uses_pl);
@@ -235,8 +241,7 @@ report::PowerReport activity_of(const std::function<void(Zynq&)>& change) {
 BOOST_AUTO_TEST_CASE(idle_is_below_busy) {
   const report::PowerReport idle = activity_of([](Zynq&) {});
   // What the sensor shows while it plays a frame.
-  const report::PowerReport busy =
-      activity_of([](Zynq& zynq) { zynq.pl.sensor_input.frame_ena = true; });
+  const report::PowerReport busy = activity_of([](Zynq& zynq) { *zynq.design().busy() = true; });
   const report::PowerReport asleep = activity_of([](Zynq& zynq) { zynq.ps.cpu.asleep = true; });
   BOOST_TEST(idle.pl_w < busy.pl_w);
   BOOST_TEST(idle.ps_w == busy.ps_w, near);
@@ -260,7 +265,7 @@ BOOST_AUTO_TEST_CASE(the_vendors_estimate_does_not_look_at_the_load) {
 BOOST_AUTO_TEST_CASE(events_take_their_energy) {
   Platform platform(Settings{{"power.mode", "activity"}});
   platform.power->frame_begins();
-  platform.zynq->pl.bram.reads_b.add(1'000'000);
+  logic(platform).bram.reads_b.add(1'000'000);
   BOOST_TEST(platform.frame(0, ms).at("pl.bram") > 8.5e-3 * 0.999);
   BOOST_TEST(platform.power->ledger().by_kind().at(vp::PowerKind::event).nominal == 8.5e-6, near);
 }
@@ -270,7 +275,7 @@ BOOST_AUTO_TEST_CASE(what_a_dma_writes_takes_its_energy) {
   const auto mj_of = [](std::uint64_t bytes) {
     Platform platform(Settings{{"power.mode", "activity"}});
     platform.power->frame_begins();
-    vp::MmLink& link = platform.zynq->pl.axi_dma_1.s2mm().m_axi.link;
+    vp::MmLink& link = logic(platform).axi_dma_1.s2mm().m_axi.link;
     link.account(tlm::TLM_WRITE_COMMAND, ps::Ddr::base, bytes);
     return platform.frame(0, ms);
   };
@@ -291,8 +296,8 @@ BOOST_AUTO_TEST_CASE(the_timeline_integrates_to_the_energy) {
     Platform platform(Settings{{"power.mode", mode}});
     platform.power->record_timeline();
     platform.run_until(ms);
-    platform.zynq->pl.sensor_input.frame_ena = true;
-    platform.zynq->pl.bram.reads_b.add(307'200);
+    *platform.zynq->design().busy() = true;
+    logic(platform).bram.reads_b.add(307'200);
     platform.run_until(2 * ms);
     platform.zynq->ps.fclk_clk0.clk.set_frequency(40'000'000);
     platform.frame(0, 4 * ms);
@@ -314,12 +319,12 @@ BOOST_AUTO_TEST_CASE(signals_show_what_flows_now) {
   platform.power->follow();
   const double before = platform.power->pl;
   platform.run_until(ms);
-  platform.zynq->pl.sensor_input.frame_ena = true;
+  *platform.zynq->design().busy() = true;
   BOOST_TEST(platform.power->pl > before);
   BOOST_TEST(platform.power->total ==
                  platform.power->ps + platform.power->pl + platform.power->static_power,
              near);
-  platform.zynq->pl.sensor_input.frame_ena = false;
+  logic(platform).sensor_input.frame_ena = false;
   BOOST_TEST(platform.power->pl == before, near);
 }
 

@@ -1,11 +1,12 @@
 // xparameters.h is what the generator writes for the platform as it is built.
 #include <boost/test/unit_test.hpp>
 
+#include <designs/designs.h>
 #include <drivers/global_timer.h>
+#include <run/session.h>
 #include <vp/configuration.h>
 #include <xparameters_writer.h>
 #include <zynq/hardware_map.h>
-#include <zynq/session.h>
 
 #include "simulation.h"
 #include "temporary_files.h"
@@ -22,7 +23,7 @@ BOOST_AUTO_TEST_CASE(is_that_of_the_platform) {
   // The driver's constant is half of it.
   const auto counts = std::to_string(2 * drivers::GlobalTimer::counts_per_second + 1);
   BOOST_CHECK(text.find("CPU_CLK_FREQ_HZ " + counts + "\n") != std::string::npos);
-  BOOST_CHECK_EQUAL(session.zynq().pl.axi_interconnect.regions().size(), 4);
+  BOOST_CHECK_EQUAL(session.zynq().ports.registers()->regions().size(), 4);
 }
 
 // `markervp map --xparameters`: the configuration in use, not the default one.
@@ -33,7 +34,7 @@ BOOST_AUTO_TEST_CASE(follows_the_configuration) {
   configuration.set("ps.ddr.size=383 MiB");
   configuration.set("pl.axi_dma_0.length_width=20");
   const vp::Configuration::Scope scope(configuration);
-  platform::Zynq zynq;
+  platform::Zynq zynq{*platform::builtin_designs().front()};
   const std::string text = platform::hardware_map(zynq).xparameters;
   for (const char* line :
        {"XPAR_CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ 866000000",

@@ -1,4 +1,4 @@
-#include <zynq/programmable_logic.h>
+#include <designs/marker/programmable_logic.h>
 
 #include <xilinx/common/estimate.h>
 #include <initializer_list>

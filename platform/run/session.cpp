@@ -1,5 +1,7 @@
-#include <zynq/session.h>
+#include <run/session.h>
 
+#include <designs/designs.h>
+#include <run/program_file.h>
 #include <vp/error.h>
 #include <zynq/bus_trace.h>
 #include <exception>
@@ -8,17 +10,24 @@
 
 namespace platform {
 
-namespace {
+// The design names the program, or the program its design.
+void Session::choose(const Options& options) {
+  if (options.program) program_ = ps::Program::load(program_file(*options.program));
+  const DesignInfo& usual =
+      program_ ? design_of_program(program_->name()) : *builtin_designs().front();
+  design_name_ = std::make_unique<vp::Parameter<std::string>>(
+      "design", usual.name, vp::Source::decision,
+      "what stands in the programmable logic: 'markervp designs' lists them");
+  design_ = &design_named(*design_name_);
+  if (!program_) program_ = ps::Program::load(installed_program(design_->programs.front()));
+}
 
-/// The program that finds everything itself: its system needs no design in the PL.
-constexpr const char* program_without_pl = "ps-only";
-
-}  // namespace
-
-Session::Session(const Options& options) : program_(ps::Program::load(options.program)) {
+Session::Session(const Options& options) {
+  choose(options);
   folder_.restore();
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
-  zynq_ = std::make_unique<Zynq>(options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
+  zynq_ =
+      std::make_unique<Zynq>(*design_, options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(
       "profile", "thesis", vp::Source::decision,
@@ -28,9 +37,8 @@ Session::Session(const Options& options) : program_(ps::Program::load(options.pr
                                                zynq_->ps.cpu_clk.frequency);
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
-  power_ = std::make_unique<ZynqPower>("power", *zynq_,
-                                       std::string(program_->name()) != program_without_pl);
-  timing_ = std::make_unique<TimingClosure>("timing", power_->design());
+  power_ = std::make_unique<ZynqPower>("power", *zynq_, design_->draws_power);
+  timing_ = std::make_unique<TimingClosure>("timing", power_->parts());
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options.timeline_frames);
   power_->record_timeline(recorder_->records());
   trace_ = options.trace;
@@ -40,15 +48,14 @@ Session::Session(const Options& options) : program_(ps::Program::load(options.pr
 }
 
 input::ImageSize Session::image_size() const {
-  const pl::Geometry geometry = zynq_->pl.geometry();
-  return {static_cast<int>(geometry.width), static_cast<int>(geometry.height)};
+  return zynq_->design().frame_size();
 }
 
 report::RunFacts Session::facts() const {
   report::RunFacts facts;
   facts.fidelity = zynq_->fidelity.text();
   facts.system = program_->name();
-  facts.design = "thesis";
+  facts.design = design_->name;
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;

@@ -4,8 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include <designs/marker/programmable_logic.h>
+#include <ps/cpu/cpu.h>
+#include <vp/clock_scheduler.h>
 #include <vp/signal.h>
-#include <zynq/zynq.h>
 
 namespace platform {
 
@@ -13,7 +15,8 @@ namespace platform {
 /// to be acknowledged, and reads of the feature register after the end word. Once a frame each.
 class HandshakeWatch : private vp::SignalListener {
  public:
-  explicit HandshakeWatch(Zynq& zynq);
+  /// `cpu`: whose program is watched.
+  HandshakeWatch(ProgrammableLogic& logic, const ps::Cpu& cpu, const vp::ClockScheduler& scheduler);
   ~HandshakeWatch();
   HandshakeWatch(const HandshakeWatch&) = delete;
   HandshakeWatch& operator=(const HandshakeWatch&) = delete;
@@ -29,7 +32,9 @@ class HandshakeWatch : private vp::SignalListener {
   void register_read(std::uint32_t word);
   void look_at_polls();
 
-  Zynq& zynq_;
+  ProgrammableLogic& logic_;
+  const ps::Cpu& cpu_;
+  const vp::ClockScheduler& scheduler_;
   vp::Register& feature_register_;
   std::uint32_t packet_ = 0;
   bool unacknowledged_ = false;  ///< a word is shown that `ready` did not answer

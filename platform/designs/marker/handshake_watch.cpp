@@ -1,4 +1,4 @@
-#include <zynq/handshake_watch.h>
+#include <designs/marker/handshake_watch.h>
 
 #include <axi_gpio_registers.h>
 #include <pl/common/packet.h>
@@ -21,11 +21,15 @@ constexpr std::uint32_t ready_mask = 3u << packet::ready_shift;
 
 }  // namespace
 
-HandshakeWatch::HandshakeWatch(Zynq& zynq)
-    : zynq_(zynq), feature_register_(zynq.pl.axi_gpio_1.s_axi[axi_gpio::GPIO_DATA]) {
-  zynq.pl.axi_gpio_0.gpio.io_o.attach(*this, control);
-  zynq.pl.feature_packaging.feature.attach(*this, feature);
-  zynq.pl.sensor_input.frame_ena.attach(*this, frame);
+HandshakeWatch::HandshakeWatch(ProgrammableLogic& logic, const ps::Cpu& cpu,
+                               const vp::ClockScheduler& scheduler)
+    : logic_(logic),
+      cpu_(cpu),
+      scheduler_(scheduler),
+      feature_register_(logic.axi_gpio_1.s_axi[axi_gpio::GPIO_DATA]) {
+  logic.axi_gpio_0.gpio.io_o.attach(*this, control);
+  logic.feature_packaging.feature.attach(*this, feature);
+  logic.sensor_input.frame_ena.attach(*this, frame);
   // Reads that a poll passes over are in the register's count only.
   feature_register_.after_read([this](std::uint32_t word) { register_read(word); });
 }
@@ -52,12 +56,12 @@ void HandshakeWatch::control_written(std::uint32_t word) {
   if (!toggled || (word & packet::rst) != 0 || (word & packet::ena) == 0) return;
   if (std::exchange(unacknowledged_, false)) return;
   if (stray_toggles_++ != 0) return;
-  vp::warn(zynq_.ps.cpu, "/markervp/cpu/stray_ready",
+  vp::warn(cpu_, "/markervp/cpu/stray_ready",
            "`ready` was toggled although no feature word waits to be acknowledged: the "
            "toggle is lost or, if a word comes at that moment, takes it away unread; toggle it "
            "once after each "
            "new word in the feature register" +
-               zynq_.ps.cpu.where());
+               cpu_.where());
 }
 
 void HandshakeWatch::word_shown(std::uint32_t word) {
@@ -67,11 +71,11 @@ void HandshakeWatch::word_shown(std::uint32_t word) {
 
 void HandshakeWatch::register_read(std::uint32_t word) {
   if (word != pl::packet::end_of_frame || reads_at_end_ ||
-      zynq_.pl.feature_packaging.feature.get() != word) {
+      logic_.feature_packaging.feature.get() != word) {
     return;
   }
   reads_at_end_ = feature_register_.use().reads;
-  end_read_ps_ = zynq_.scheduler.now_ps();
+  end_read_ps_ = scheduler_.now_ps();
 }
 
 // The end word goes, or a frame is over: nobody had to read the register in between.
@@ -79,7 +83,7 @@ void HandshakeWatch::look_at_polls() {
   if (!reads_at_end_) return;
   const std::uint64_t more = feature_register_.use().reads - *std::exchange(reads_at_end_, {});
   if (more == 0) return;
-  vp::warn(zynq_.ps.cpu, "/markervp/cpu/polls_after_end",
+  vp::warn(cpu_, "/markervp/cpu/polls_after_end",
            "the feature register was read " + std::to_string(more) +
                " times more after the end word, which the program saw at " +
                vp::format_time(end_read_ps_) +

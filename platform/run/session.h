@@ -28,14 +28,15 @@ namespace platform {
 class Session {
  public:
   struct Options {
-    std::string program;                    ///< file of the PS program
+    /// File or name of the PS program; none: that of the design.
+    std::optional<std::string> program;
     std::optional<vp::TraceOptions> trace;  ///< waveforms to record
     std::uint32_t timeline_frames = 0;      ///< of so many frames
   };
 
   /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws
-  /// vp::InputError for a wrong value, a program that cannot be loaded, or costs that do not cover
-  /// it.
+  /// vp::InputError for a wrong value, a design or program that cannot be loaded, or costs that do
+  /// not cover it.
   explicit Session(const Options& options);
 
   /// The resolution that the platform is built for.
@@ -63,8 +64,12 @@ class Session {
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:
+  void choose(const Options& options);
+
   WorkingFolder folder_;  ///< before the program is loaded, and after it is gone
   vp::ReportRouter reports_;
+  std::unique_ptr<vp::Parameter<std::string>> design_name_;
+  const DesignInfo* design_ = nullptr;
   std::unique_ptr<ps::Program> program_;
   std::optional<profiles::CostProfile> costs_;
   std::unique_ptr<Zynq> zynq_;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <zynq/design.h>
+
+namespace platform {
+
+/// The designs that come with the program, a folder each. The first is the usual one.
+const std::vector<const DesignInfo*>& builtin_designs();
+
+/// Throws vp::InputError with the nearest match for a name that no design has.
+const DesignInfo& design_named(const std::string& name);
+
+/// The design to which a PS program belongs by its name; the usual one for all others.
+const DesignInfo& design_of_program(const std::string& program);
+
+}  // namespace platform

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <designs/marker/handshake_watch.h>
+#include <designs/marker/programmable_logic.h>
+#include <zynq/design.h>
+
+namespace platform {
+
+/// The marker detector's logic in the Zynq: the thesis' wiring, and how what its programs publish
+/// becomes a frame of the result.
+class MarkerDesign : public ProgrammableLogic, public Design, private vp::SignalListener {
+ public:
+  MarkerDesign(sc_core::sc_module_name name, PlPorts& ports);
+
+  input::ImageSize frame_size() const override;
+  void show_image(const GreyImage& image) override;
+  void settle() override { ProgrammableLogic::settle(); }
+  bool report(const Publication& publication, report::FrameReport& frame) override;
+  void finish() override { handshake_.finish_frame(); }
+
+  vp::Signal<bool>* busy() override { return &sensor_input.frame_ena; }
+  std::vector<std::string> groups() const override;
+  std::vector<ClockRole> clock_roles() override;
+  TimelineEngines timeline() override;
+
+ private:
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void add_counts(report::FrameReport& frame);
+
+  PlPorts& ports_;
+  HandshakeWatch handshake_;
+  std::uint8_t threshold_ = 0;  ///< in use when the frame began
+};
+
+/// For DesignInfo::make.
+std::unique_ptr<Design> make_marker_design(const char* name, PlPorts& ports);
+
+}  // namespace platform

@@ -1,0 +1,96 @@
+#include <designs/marker/words.h>
+
+namespace platform {
+
+namespace {
+
+// Thesis table 4.4.
+constexpr std::uint64_t end_word = 0xFFFF'FFFF, corner = 1u << 31, blob_start = 1u << 30;
+
+bool is_corner(std::uint64_t word) {
+  return word != end_word && (word & corner) != 0;
+}
+bool is_blob(std::uint64_t word) {
+  return (word & corner) == 0 && (word & blob_start) != 0;
+}
+
+std::string meaning(std::uint64_t word) {
+  if (word == end_word) return "?dark red?end of frame";
+  const std::string place = std::to_string(word & 0x3FF) + "," + std::to_string(word >> 10 & 0x1FF);
+  if ((word & corner) != 0) {
+    return "?dark blue?corner " + place + " " + "NSEW"[word >> 19 & 3] + " " +
+           std::to_string(word >> 21 & 0x3FF);
+  }
+  const std::string number = std::to_string(word >> 19 & 0x7FF);
+  return "?dark green?blob " + number + ((word & blob_start) != 0 ? " from " : " to ") + place;
+}
+
+std::vector<trace::Vocabulary::Group> groups() {
+  return {{"Control",
+           {"pl.control_block.rst_out", "pl.control_block.ena", "pl.control_block.ready",
+            "pl.frame_status.busy", "pl.frame_status.done"}},
+          {"Pixels",
+           {"pl.sensor_input.frame_ena", "pl.sensor_input.pixel_x", "pl.sensor_input.pixel_y",
+            "pl.sensor_input.pixel", "pl.global_threshold.active_threshold"}},
+          {"Features",
+           {"pl.corner_detection.corner_out", "pl.corner_detection.corner_data",
+            "pl.blob_detection.blob_out", "pl.feature_packaging.corner_count",
+            "pl.feature_packaging.blob_count", "pl.feature_packaging.feature_overflow",
+            "pl.feature_packaging.feature"}},
+          {"Binary image",
+           {"pl.binary_stream.tvalid", "pl.binary_stream.tready", "pl.binary_stream.tlast",
+            "pl.binary_stream.tdata", "pl.axi_threshold_bridge.fifo_count",
+            "pl.axi_threshold_bridge.bridge_overflow"}},
+          {"Image upload",
+           {"pl.image_stream.tvalid", "pl.image_stream.tready", "pl.image_stream.tlast",
+            "pl.image_stream.tdata"}}};
+}
+
+trace::Vocabulary make() {
+  trace::Vocabulary v;
+  v.start = "pl.control_block.ena";
+  v.word = "pl.feature_packaging.feature";
+  v.word_kinds = {{"corners", is_corner}, {"blobs", is_blob}};
+  v.meaning = meaning;
+  // Usual depths: thesis 4.4.3; decision of the bridge.
+  v.buffers = {{"pl.feature_packaging.corner_count", "pl.feature_packaging.depth", 100},
+               {"pl.feature_packaging.blob_count", "pl.feature_packaging.depth", 100},
+               {"pl.axi_threshold_bridge.fifo_count", "pl.axi_threshold_bridge.depth", 64}};
+  v.losses = {{"feature_overflow", "pl.feature_packaging.feature_overflow"},
+              {"label_overflow", "pl.blob_detection.label_overflow"},
+              {"bridge_overflow", "pl.axi_threshold_bridge.bridge_overflow"},
+              {"crossing_overflow", "pl.clock_crossing.crossing_overflow"}};
+  v.interrupts = {{"pl.axi_dma_0.mm2s_introut", 61, "DMA 0: image", "dark blue"},
+                  {"pl.axi_dma_1.s2mm_introut", 62, "DMA 1: binary image", "dark red"}};
+  v.functions = {"upload",
+                 "capture",
+                 "receive",
+                 "feature_evaluation",
+                 {"rectification", "identification"},
+                 "pose_estimation"};
+  v.groups = groups();
+  v.translated = {{"pl.concat.dout", "interrupt_lines.flt"},
+                  {"pl.corner_detection.new_direction", "direction.flt"},
+                  {"pl.corner_detection.centre_direction", "direction.flt"},
+                  {"pl.corner_detection.corner_data", v.words},
+                  {"pl.blob_detection.blob_start", v.words},
+                  {"pl.blob_detection.blob_end", v.words},
+                  {"pl.clock_crossing.corner.word", v.words},
+                  {"pl.clock_crossing.blob.word", v.words},
+                  {"pl.clock_crossing.blob.second_word", v.words},
+                  {"pl.feature_packaging.feature", v.words}};
+  v.files = {{"interrupt_lines.flt",
+              "0 -\n1 ?dark blue?image\n2 ?dark red?binary image\n3 ?purple4?both\n"},
+             // Thesis table 4.4.
+             {"direction.flt", "0 North\n1 South\n2 East\n3 West\n"}};
+  return v;
+}
+
+}  // namespace
+
+const trace::Vocabulary& marker_words() {
+  static const trace::Vocabulary words = make();
+  return words;
+}
+
+}  // namespace platform

@@ -1,0 +1,92 @@
+// Which design runs: by its name, by its program, or the usual one.
+#include <designs/designs.h>
+#include <run/session.h>
+#include <boost/test/unit_test.hpp>
+#include <optional>
+#include <string>
+
+#include <vp/configuration.h>
+#include <vp/error.h>
+
+#include "simulation.h"
+
+using namespace platform;
+
+namespace {
+
+/// What is built for a configured `design` and a program that is asked for.
+report::RunFacts built(const std::string& design, const std::optional<std::string>& program) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  if (!design.empty()) configuration.set("design", design);
+  const vp::Configuration::Scope scope(configuration);
+  Session::Options options;
+  options.program = program;
+  const Session session(options);
+  configuration.check_unused();
+  return session.facts();
+}
+
+bool draws_power(const report::RunFacts& facts) {
+  return !facts.resources->modules.empty();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(designs)
+
+BOOST_AUTO_TEST_CASE(the_usual_design_has_its_program) {
+  const report::RunFacts facts = built("", std::nullopt);
+  BOOST_TEST(facts.design == "thesis");
+  BOOST_TEST(facts.system == "hybrid");
+  BOOST_TEST(draws_power(facts));
+}
+
+BOOST_AUTO_TEST_CASE(a_design_chooses_its_program) {
+  const report::RunFacts facts = built("ps-only", std::nullopt);
+  BOOST_TEST(facts.design == "ps-only");
+  BOOST_TEST(facts.system == "ps-only");
+  BOOST_TEST(!draws_power(facts));
+}
+
+BOOST_AUTO_TEST_CASE(a_program_chooses_its_design) {
+  BOOST_TEST(built("", "ps-only").design == "ps-only");
+  BOOST_TEST(built("", "hybrid").design == "thesis");
+  BOOST_TEST(built("", "blink").design == "thesis");
+}
+
+BOOST_AUTO_TEST_CASE(both_may_be_given) {
+  const report::RunFacts facts = built("thesis", "ps-only");
+  BOOST_TEST(facts.design == "thesis");
+  BOOST_TEST(facts.system == "ps-only");
+  BOOST_TEST(draws_power(facts));
+}
+
+BOOST_AUTO_TEST_CASE(a_name_that_no_design_has) {
+  for (const auto& [name, words] :
+       {std::pair{"thesys", "did you mean 'thesis'?"}, std::pair{"nothing", "thesis or ps-only"}}) {
+    BOOST_CHECK_EXCEPTION(built(name, std::nullopt), vp::InputError, [&](const auto& error) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    });
+  }
+}
+
+// FCLK 2 and 3 are there for a design that asks, and in nobody's configuration before.
+BOOST_AUTO_TEST_CASE(clocks_are_made_for_who_asks) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  configuration.set("ps.fclk_clk2.frequency", "20 MHz");
+  const vp::Configuration::Scope scope(configuration);
+  Zynq zynq(*builtin_designs().front());
+  BOOST_TEST(zynq.ps.fclks().size() == 2u);
+  BOOST_CHECK_THROW(configuration.check_unused(), vp::InputError);
+  const vp::Clock& third = zynq.ports.fclk_clk(2);
+  BOOST_TEST(third.frequency_hz() == 20'000'000u);
+  BOOST_TEST(std::string(third.name()) == "ps.fclk_clk2.clk");
+  BOOST_TEST(&zynq.ports.fclk_clk(2) == &third);
+  BOOST_TEST(zynq.ps.fclks().size() == 3u);
+  BOOST_CHECK_NO_THROW(configuration.check_unused());
+  BOOST_CHECK_THROW(zynq.ports.fclk_clk(4), std::out_of_range);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
