@@ -11,9 +11,9 @@ set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/markervp")
 set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/markervp")
 set(data_folder "${CMAKE_INSTALL_DATADIR}/markervp")
 
-# Exports markervp_<NAME> as markervp::<NAME>, here as in the package. ROOT: of its headers, below include/markervp.
+# Exports markervp_<NAME> as markervp::<NAME>, here as in the package. ROOT: of its headers, below include/markervp; one or more.
 function(markervp_export NAME)
-  cmake_parse_arguments(LIBRARY "" "COMPONENT;ROOT" "" ${ARGN})
+  cmake_parse_arguments(LIBRARY "" "COMPONENT" "ROOT" ${ARGN})
   set(target markervp_${NAME})
   add_library(markervp::${NAME} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
@@ -24,7 +24,8 @@ function(markervp_export NAME)
   endif()
   set(includes "")
   if(LIBRARY_ROOT)
-    set(includes INCLUDES DESTINATION "${header_folder}/${LIBRARY_ROOT}")
+    list(TRANSFORM LIBRARY_ROOT PREPEND "${header_folder}/")
+    set(includes INCLUDES DESTINATION ${LIBRARY_ROOT})
   endif()
   install(TARGETS ${target} EXPORT markervp_${LIBRARY_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${includes})
 endfunction()
@@ -36,16 +37,23 @@ markervp_export(hal COMPONENT programs ROOT hal)
 markervp_export(drivers COMPONENT programs ROOT sw)
 markervp_export(marker COMPONENT programs ROOT sw)
 markervp_export(compat COMPONENT programs ROOT compat)
+markervp_export(apps_common COMPONENT programs ROOT sw)
+markervp_export(hybrid COMPONENT programs ROOT sw)
 # For platforms.
-markervp_export(systemc COMPONENT models)
+markervp_export(systemc COMPONENT designs)
 markervp_export(wave COMPONENT models ROOT vp)
 markervp_export(vp COMPONENT models ROOT vp)
 markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
+# For designs: headers only. The code is in the executable.
+add_library(markervp_design INTERFACE)
+target_link_libraries(markervp_design INTERFACE markervp_systemc)
+target_compile_definitions(markervp_design INTERFACE MARKERVP_VERSION="${PROJECT_VERSION}")
+markervp_export(design COMPONENT designs ROOT registers hal sw models vp platform)
 # What the headers ask of those who include them.
-foreach(library drivers marker wave vp)
+foreach(library apps_common drivers hybrid marker wave vp)
   target_compile_features(markervp_${library} PUBLIC cxx_std_17)
 endforeach()
 
@@ -73,6 +81,11 @@ markervp_install_headers(sw/hal/include/ hal)
 markervp_install_headers(sw/hal/compat/include/ compat)
 markervp_install_headers(sw/drivers sw)
 markervp_install_headers(sw/marker sw)
+markervp_install_headers(sw/apps/common sw/apps)
+markervp_install_headers(sw/apps/hybrid sw/apps)
+foreach(folder designs input report scene trace zynq)
+  markervp_install_headers(platform/${folder} platform)
+endforeach()
 
 install(TARGETS hybrid ps-only blink LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
@@ -92,7 +105,7 @@ install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
-foreach(component programs models)
+foreach(component programs models designs)
   install(EXPORT markervp_${component} NAMESPACE markervp:: DESTINATION "${package_folder}"
     FILE markervp_${component}.cmake)
 endforeach()
@@ -103,5 +116,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/markervpConfigVe
 install(FILES
   "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
   "${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
+  cmake/MarkervpDesign.cmake
   cmake/MarkervpProgram.cmake
   DESTINATION "${package_folder}")

@@ -14,6 +14,7 @@
 #include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/sweep_platform.h>
+#include <designs/plugin.h>
 #include <page/report_page.h>
 #include <report/words.h>
 #include <run/program_file.h>
@@ -147,11 +148,14 @@ Before look_for_results(const sweep::Store& store, const sweep::Manifest& manife
   return before;
 }
 
-/// A PS program of the user's own may leave anything behind in its process.
+/// A PS program or a design of the user's own may leave anything behind in its process.
 std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
-  const bool own =
-      std::any_of(manifest.families.begin(), manifest.families.end(),
-                  [](const sweep::Family& family) { return is_own_program(family.program); });
+  const bool own = std::any_of(
+      manifest.families.begin(), manifest.families.end(), [](const sweep::Family& family) {
+        const auto design = family.configuration.find("design");
+        return is_own_program(family.program) ||
+               (design != family.configuration.end() && is_design_file(design->second));
+      });
   return own || isolate ? 1 : sweep::usual_points_a_process;
 }
 

@@ -88,8 +88,7 @@ sweep::Platform sweep_platform(const SimulationFactory& make_simulation) {
     return elaborate(build, origin, make_simulation);
   };
   platform.program_file = [](const std::string& program, const std::string& design) {
-    return program.empty() ? installed_program(design_named(design).programs.front())
-                           : program_file(program);
+    return program.empty() ? usual_program(design_named(design)) : program_file(program);
   };
   platform.version = program_version();
   platform.revision = source_revision();

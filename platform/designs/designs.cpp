@@ -1,5 +1,6 @@
 #include <designs/designs.h>
 
+#include <designs/plugin.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <algorithm>
@@ -15,6 +16,7 @@ const std::vector<const DesignInfo*>& builtin_designs() {
 }
 
 const DesignInfo& design_named(const std::string& name) {
+  if (is_design_file(name)) return load_design(name);
   std::vector<std::string> names;
   for (const DesignInfo* design : builtin_designs()) {
     if (design->name == name) return *design;
@@ -23,7 +25,7 @@ const DesignInfo& design_named(const std::string& name) {
   const std::string nearest = vp::nearest_match(name, names);
   throw vp::InputError("no design '" + name +
                        "': " + (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
-                       "choose " + vp::one_of(names));
+                       "choose " + vp::one_of(names) + ", or the file of another one, .so");
 }
 
 const DesignInfo& design_of_program(const std::string& program) {

@@ -10,7 +10,8 @@ namespace platform {
 /// The designs that come with the program, a folder each. The first is the usual one.
 const std::vector<const DesignInfo*>& builtin_designs();
 
-/// Throws vp::InputError with the nearest match for a name that no design has.
+/// One of these, or one from outside by the file of its shared object (load_design()). Throws
+/// vp::InputError with the nearest match for a name that no design has.
 const DesignInfo& design_named(const std::string& name);
 
 /// The design to which a PS program belongs by its name; the usual one for all others.

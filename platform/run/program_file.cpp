@@ -1,5 +1,7 @@
 #include <run/program_file.h>
 
+#include <designs/plugin.h>
+
 #include <filesystem>
 #include <vector>
 
@@ -29,6 +31,10 @@ std::string installed_program(const std::string& name, const std::string& folder
   }
   throw vp::InputError("no program '" + name + "' in " + vp::one_of(folders) +
                        ": give its file, or install markervp completely");
+}
+
+std::string usual_program(const DesignInfo& design) {
+  return installed_program(design.programs.front(), folder_of(design));
 }
 
 std::string program_file(const std::string& name) {

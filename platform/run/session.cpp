@@ -19,7 +19,7 @@ void Session::choose(const Options& options) {
       "design", usual.name, vp::Source::decision,
       "what stands in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
-  if (!program_) program_ = ps::Program::load(installed_program(design_->programs.front()));
+  if (!program_) program_ = ps::Program::load(usual_program(*design_));
 }
 
 Session::Session(const Options& options) {

@@ -1,6 +1,23 @@
 #include <zynq/zynq.h>
 
+#include <vp/error.h>
+#include <vp/ip.h>
+
 namespace platform {
+
+namespace {
+
+/// Whoever is outside of `pl` is found by nobody.
+void check_that_parts_are_inside() {
+  for (const sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) {
+    if (!dynamic_cast<const vp::Ip*>(object)) continue;
+    throw vp::InputError(std::string("the part '") + object->name() +
+                         "' stands outside of 'pl': let the constructor of the design take its "
+                         "name as sc_core::sc_module_name");
+  }
+}
+
+}  // namespace
 
 Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
     : fidelity("fidelity", otherwise,
@@ -9,6 +26,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
                "how the programmable logic is modelled, if pl.fidelity names nothing else for an "
                "IP: whole frames, or clock by clock; the results are the same"),
       design_(design.make("pl", ports)) {
+  check_that_parts_are_inside();
   scheduler.set_batch(true);
   ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
 }

@@ -1,6 +1,7 @@
 #include <vp/clock.h>
 
 #include <vp/clock_scheduler.h>
+#include <vp/error.h>
 #include <vp/systemc_pins.h>
 #include <algorithm>
 #include <stdexcept>
@@ -75,6 +76,11 @@ void Clocked::on_change(SignalBase&, std::uint32_t) {
 }
 
 void Clocked::end_of_elaboration() {
+  for (const InBase* input : inputs_) {
+    if (input->signal()) continue;
+    throw InputError(std::string(name()) + "." + input->name() +
+                     " is connected to nothing: bind it to a signal where the design is wired");
+  }
   for (InBase* input : wake_inputs_) {
     if (input->signal()) input->signal()->attach(*this);
   }

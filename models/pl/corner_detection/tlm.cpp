@@ -14,7 +14,7 @@ constexpr std::uint64_t first_pixel_clock = 3;
 }  // namespace
 
 CornerDetectionTlm::CornerDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk,
-                                       const Geometry& geometry, FrameView& view)
+                                       const Geometry& geometry, FrameChannel& view)
     : CornerDetection(name, clk), geometry_(geometry), view_(view), frame_(geometry, threshold) {
   view_.add_listener(*this);
 }

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <pl/common/frame_channel.h>
 #include <pl/corner_detection/corner_detection.h>
 #include <pl/corner_detection/frame.h>
-#include <pl/sensor_input/frame_view.h>
 
 namespace pl {
 
@@ -16,7 +16,7 @@ namespace pl {
 class CornerDetectionTlm : public CornerDetection, private FrameListener {
  public:
   CornerDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
-                     FrameView& view);
+                     FrameChannel& view);
 
  private:
   void edge() override;
@@ -31,7 +31,7 @@ class CornerDetectionTlm : public CornerDetection, private FrameListener {
   std::uint64_t cycle_of(std::uint64_t clock) const { return offset_ + clock; }
 
   Geometry geometry_;
-  FrameView& view_;
+  FrameChannel& view_;
   CornerFrame frame_;
   std::vector<StampedWord> corners_;  ///< stamped with cycles; those to come from next_ on
   std::size_t next_ = 0;

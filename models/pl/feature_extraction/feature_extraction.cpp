@@ -42,7 +42,8 @@ void choose_simd(const vp::Parameter<std::string>& simd) {
 }  // namespace
 
 FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk,
-                                     vp::Clock& pixel_clk, Fidelity otherwise)
+                                     vp::Clock& pixel_clk, Fidelity otherwise,
+                                     const MakeFilter& make_filter)
     : sc_module(name),
       fidelity("fidelity", otherwise),
       bram("bram", geometry().pixels() / pixels_per_word),
@@ -51,6 +52,7 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
       feature_packaging("feature_packaging", system_clk),
       sensor_input_(make_sensor_input(pixel_clk)),
       axi_image_store_(make_image_store(system_clk)),
+      filter(make(make_filter, pixel_clk)),
       corner_detection_(make_corner_detection(pixel_clk)),
       global_threshold_(make_global_threshold(pixel_clk)),
       blob_detection_(make_blob_detection(pixel_clk)),
@@ -75,18 +77,27 @@ std::unique_ptr<AxiImageStoreClocked> FeatureExtraction::make_image_store(vp::Cl
   return std::make_unique<AxiImageStoreClocked>("axi_image_store", clk, bram);
 }
 
+std::unique_ptr<PixelFilter> FeatureExtraction::make(const MakeFilter& make_filter,
+                                                     vp::Clock& clk) {
+  if (!make_filter) return nullptr;
+  return make_filter({clk, geometry(), fidelity.sensor_input, sensor_input.view});
+}
+
+/// What the detectors see at transaction level.
+FrameChannel& FeatureExtraction::frames() {
+  return filter ? filter->frames() : sensor_input.view;
+}
+
 std::unique_ptr<CornerDetection> FeatureExtraction::make_corner_detection(vp::Clock& clk) {
   if (fidelity.corner_detection == Fidelity::tlm) {
-    return std::make_unique<CornerDetectionTlm>("corner_detection", clk, geometry(),
-                                                sensor_input.view);
+    return std::make_unique<CornerDetectionTlm>("corner_detection", clk, geometry(), frames());
   }
   return std::make_unique<CornerDetectionClocked>("corner_detection", clk, geometry());
 }
 
 std::unique_ptr<GlobalThreshold> FeatureExtraction::make_global_threshold(vp::Clock& clk) {
   if (fidelity.global_threshold == Fidelity::tlm) {
-    return std::make_unique<GlobalThresholdTlm>("global_threshold", clk, geometry(),
-                                                sensor_input.view);
+    return std::make_unique<GlobalThresholdTlm>("global_threshold", clk, geometry(), frames());
   }
   return std::make_unique<GlobalThresholdClocked>("global_threshold", clk, geometry());
 }
@@ -138,22 +149,39 @@ void FeatureExtraction::connect_controls() {
 }
 
 void FeatureExtraction::connect_pixels() {
-  corner_detection.ena(sensor_input.frame_ena);
-  corner_detection.pixel(sensor_input.pixel);
-  corner_detection.x(sensor_input.pixel_x);
-  corner_detection.y(sensor_input.pixel_y);
-  global_threshold.frame_ena(sensor_input.frame_ena);
-  global_threshold.pixel(sensor_input.pixel);
-  global_threshold.x(sensor_input.pixel_x);
-  global_threshold.y(sensor_input.pixel_y);
+  if (filter) {
+    filter->rst(control_block.rst_out);
+    filter->ena(sensor_input.frame_ena);
+    filter->pixel(sensor_input.pixel);
+    filter->x(sensor_input.pixel_x);
+    filter->y(sensor_input.pixel_y);
+    connect_detectors(filter->frame_ena, filter->pixel_out, filter->pixel_x, filter->pixel_y);
+  } else {
+    connect_detectors(sensor_input.frame_ena, sensor_input.pixel, sensor_input.pixel_x,
+                      sensor_input.pixel_y);
+  }
   blob_detection.ena(global_threshold.binary_ena);
   blob_detection.pixel(global_threshold.binary_out);
   blob_detection.x(global_threshold.binary_x);
   blob_detection.y(global_threshold.binary_y);
 }
 
+void FeatureExtraction::connect_detectors(vp::Signal<bool>& frame_ena,
+                                          vp::Signal<std::uint8_t>& pixel,
+                                          vp::Signal<std::uint16_t>& x,
+                                          vp::Signal<std::uint16_t>& y) {
+  corner_detection.ena(frame_ena);
+  corner_detection.pixel(pixel);
+  corner_detection.x(x);
+  corner_detection.y(y);
+  global_threshold.frame_ena(frame_ena);
+  global_threshold.pixel(pixel);
+  global_threshold.x(x);
+  global_threshold.y(y);
+  frame_status.frame_ena(frame_ena);
+}
+
 void FeatureExtraction::connect_features() {
-  frame_status.frame_ena(sensor_input.frame_ena);
   frame_status.idle(blob_detection.idle);
   frame_status.corner_out(corner_detection.corner_out);
   frame_status.blob_out(blob_detection.blob_out);

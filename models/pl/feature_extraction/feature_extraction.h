@@ -9,6 +9,7 @@
 #include <pl/blob_detection/blob_detection.h>
 #include <pl/clock_crossing/clock_crossing.h>
 #include <pl/common/geometry.h>
+#include <pl/common/pixel_filter.h>
 #include <pl/control_block/control_block.h>
 #include <pl/corner_detection/corner_detection.h>
 #include <pl/feature_extraction/fidelity_choice.h>
@@ -28,9 +29,10 @@ namespace pl {
 /// in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 class FeatureExtraction : public sc_core::sc_module {
  public:
-  /// `fidelity`: of the IP for which no other is configured.
+  /// `fidelity`: of the IP for which no other is configured. `make_filter`: of a filter between
+  /// sensor and detectors; empty: there is none.
   FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
-                    Fidelity fidelity = Fidelity::clocked);
+                    Fidelity fidelity = Fidelity::clocked, const MakeFilter& make_filter = {});
 
   FidelityChoice fidelity;
   vp::Parameter<std::string> simd{
@@ -63,13 +65,17 @@ class FeatureExtraction : public sc_core::sc_module {
   void end_of_elaboration() override;
   std::unique_ptr<SensorInput> make_sensor_input(vp::Clock& clk);
   std::unique_ptr<AxiImageStoreClocked> make_image_store(vp::Clock& clk);
+  std::unique_ptr<PixelFilter> make(const MakeFilter& make_filter, vp::Clock& clk);
   std::unique_ptr<CornerDetection> make_corner_detection(vp::Clock& clk);
   std::unique_ptr<GlobalThreshold> make_global_threshold(vp::Clock& clk);
   std::unique_ptr<BlobDetection> make_blob_detection(vp::Clock& clk);
   std::unique_ptr<AxiThresholdBridgeClocked> make_threshold_bridge(vp::Clock& clk,
                                                                    vp::Clock& pixel_clk);
+  FrameChannel& frames();
   void connect_controls();
   void connect_pixels();
+  void connect_detectors(vp::Signal<bool>& frame_ena, vp::Signal<std::uint8_t>& pixel,
+                         vp::Signal<std::uint16_t>& x, vp::Signal<std::uint16_t>& y);
   void connect_features();
 
   /// Refuses sizes that cannot be built before any memory is made for them.
@@ -90,6 +96,7 @@ class FeatureExtraction : public sc_core::sc_module {
   SensorInput& sensor_input = *sensor_input_;
   const std::unique_ptr<AxiImageStoreClocked> axi_image_store_;
   AxiImageStoreClocked& axi_image_store = *axi_image_store_;
+  const std::unique_ptr<PixelFilter> filter;  ///< null: there is none
   const std::unique_ptr<CornerDetection> corner_detection_;
   CornerDetection& corner_detection = *corner_detection_;
   const std::unique_ptr<GlobalThreshold> global_threshold_;

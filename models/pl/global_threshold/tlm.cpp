@@ -3,7 +3,7 @@
 namespace pl {
 
 GlobalThresholdTlm::GlobalThresholdTlm(sc_core::sc_module_name name, vp::Clock& clk,
-                                       const Geometry& geometry, FrameView& view)
+                                       const Geometry& geometry, FrameChannel& view)
     : GlobalThreshold(name, clk, geometry), view_(view), frame_(geometry) {
   wake_on(threshold);
   view_.add_listener(*this);

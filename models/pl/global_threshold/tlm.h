@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include <pl/common/frame_channel.h>
 #include <pl/global_threshold/frame.h>
 #include <pl/global_threshold/global_threshold.h>
-#include <pl/sensor_input/frame_view.h>
 
 namespace pl {
 
@@ -15,7 +15,7 @@ namespace pl {
 class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
  public:
   GlobalThresholdTlm(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
-                     FrameView& view);
+                     FrameChannel& view);
 
   void show_words(bool show) override { show_words_ = show; }
 
@@ -28,7 +28,7 @@ class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
   void load(std::uint64_t cycle);
   bool emit(std::uint64_t cycle);
 
-  FrameView& view_;
+  FrameChannel& view_;
   ThresholdFrame frame_;
   bool running_ = false;           ///< pixels are taken
   std::uint64_t first_cycle_ = 0;  ///< edge that takes the frame's first pixel

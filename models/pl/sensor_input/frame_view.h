@@ -3,25 +3,16 @@
 #include <cstdint>
 #include <vector>
 
+#include <pl/common/frame_channel.h>
 #include <pl/common/geometry.h>
 #include <vp/clock.h>
 #include <xilinx/bram/bram.h>
 
 namespace pl {
 
-/// Told of the frame that the sensor plays.
-class FrameListener {
- public:
-  virtual ~FrameListener() = default;
-  /// From the next edge on the memory is read.
-  virtual void frame_begins() {}
-  /// `count` pixels from raster index `first` on changed; none of them had left the sensor.
-  virtual void pixels_changed(std::uint32_t /*first*/, std::uint32_t /*count*/) {}
-};
-
 /// The frame that the sensor plays, for models that look at all of it at once: pixels that left the
 /// sensor as they were then, the others as the memory has them now.
-class FrameView : private xilinx::Bram::Listener {
+class FrameView : public FrameChannel, private xilinx::Bram::Listener {
  public:
   FrameView(const vp::Clock& clk, const Geometry& geometry, xilinx::Bram& bram);
 
@@ -32,13 +23,11 @@ class FrameView : private xilinx::Bram::Listener {
 
   /// Of the frame that began last: valid until the one after the next begins, and final 8 clocks
   /// after its last pixel.
-  const std::uint8_t* pixels() const { return pixels_; }
+  const std::uint8_t* pixels() const override { return pixels_; }
   /// Pixels that left the sensor before the present instant.
   std::uint32_t sent() const;
   /// Somebody may look at the frame: from its begin until 8 clocks after its last pixel.
   bool watched();
-
-  void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
  private:
   void before_write(std::uint32_t first, std::uint32_t count) override;
@@ -54,7 +43,6 @@ class FrameView : private xilinx::Bram::Listener {
   bool forked_ = false;
   bool running_ = false;
   std::uint64_t first_cycle_ = 0;
-  std::vector<FrameListener*> listeners_;
 };
 
 }  // namespace pl

@@ -57,6 +57,7 @@ class AxiGpio : public vp::Clocked, public vp::Ip {
   vp::IpEstimate own_estimate() const override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void before_end_of_elaboration() override;
+  void end_of_elaboration() override {}  // pins may be left open
   void start_of_simulation() override;
 
   void build_channel(AxiGpioChannel& channel, vp::Register& data, vp::Register& tri);

@@ -17,6 +17,9 @@ class Concat : public sc_core::sc_module, private vp::SignalListener {
 
   /// Input number `i`. Throws std::out_of_range if there is none.
   vp::In<bool>& in(unsigned i) { return in_.at(i); }
+  /// Connects `line` to input `i`. Throws vp::InputError if there is no such input, or another line
+  /// has it.
+  void connect(unsigned i, vp::Signal<bool>& line);
   vp::Signal<std::uint32_t> dout;
 
  private:

@@ -30,14 +30,18 @@ ProcSysReset::ProcSysReset(sc_core::sc_module_name name, vp::Clock& slowest_sync
       mb_reset("mb_reset", 1, !released_at_start),
       filtered_(!released_at_start),
       sequence_(released_at_start ? steps * step_clocks : 0) {
-  wake_on(ext_reset_in);
-  wake_on(aux_reset_in);
-  wake_on(dcm_locked);
   // Resets pass logic without a clock on their way to the modules of several clocks.
   for (vp::SignalBase* output :
        std::initializer_list<vp::SignalBase*>{&bus_struct_reset, &interconnect_aresetn,
                                               &peripheral_reset, &peripheral_aresetn, &mb_reset}) {
     output->defer_writes();
+  }
+}
+
+// Its inputs may be left open.
+void ProcSysReset::end_of_elaboration() {
+  for (vp::In<bool>* input : {&ext_reset_in, &aux_reset_in, &dcm_locked}) {
+    if (input->bound()) input->signal()->attach(*this);
   }
 }
 

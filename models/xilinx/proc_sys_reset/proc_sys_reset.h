@@ -39,6 +39,7 @@ class ProcSysReset : public vp::Clocked, public vp::Ip {
 
  private:
   void edge() override;
+  void end_of_elaboration() override;
   vp::IpEstimate own_estimate() const override;
   bool requested() const;
   void drive(bool bus, bool peripheral, bool processor);

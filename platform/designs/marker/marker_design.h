@@ -15,7 +15,7 @@ namespace platform {
 /// becomes a frame of the result.
 class MarkerDesign : public ProgrammableLogic, public Design, private vp::SignalListener {
  public:
-  MarkerDesign(sc_core::sc_module_name name, PlPorts& ports);
+  MarkerDesign(sc_core::sc_module_name name, PlPorts& ports, const LogicBuild& build = {});
 
   input::ImageSize frame_size() const override;
   void show_image(const GreyImage& image) override;

@@ -30,8 +30,9 @@ xilinx::AxiDmaBuild one_channel(bool mm2s) {
 }  // namespace
 
 ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk,
-                                     vp::Clock& pixel_clk, pl::Fidelity otherwise)
-    : FeatureExtraction(name, system_clk, pixel_clk, otherwise),
+                                     vp::Clock& pixel_clk, pl::Fidelity otherwise,
+                                     const LogicBuild& build)
+    : FeatureExtraction(name, system_clk, pixel_clk, otherwise, build.make_filter),
       proc_sys_reset("proc_sys_reset", system_clk),
       axi_interconnect("axi_interconnect", system_clk),
       axi_mem_interconnect("axi_mem_interconnect", system_clk, memory_masters),
@@ -39,7 +40,7 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
       axi_gpio_1("axi_gpio_1", system_clk, gpio(xilinx::GpioDirection::all_inputs)),
       axi_dma_0("axi_dma_0", system_clk, one_channel(true)),
       axi_dma_1("axi_dma_1", system_clk, one_channel(false)),
-      concat("concat", 2) {
+      concat("concat", build.interrupts) {
   axi_interconnect.map("axi_dma_0", axi_dma_0_base, segment).bind(axi_dma_0.s_axi_lite.socket);
   axi_interconnect.map("axi_dma_1", axi_dma_1_base, segment).bind(axi_dma_1.s_axi_lite.socket);
   axi_interconnect.map("axi_gpio_0", axi_gpio_0_base, segment).bind(axi_gpio_0.s_axi.socket);
@@ -62,8 +63,8 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
   axi_dma_1.s2mm().m_axi.link.socket.bind(axi_mem_interconnect.socket);
   axi_dma_0.share_memory_path(memory_path_);
   axi_dma_1.share_memory_path(memory_path_);
-  concat.in(0)(axi_dma_0.mm2s_introut);
-  concat.in(1)(axi_dma_1.s2mm_introut);
+  concat.connect(0, axi_dma_0.mm2s_introut);
+  concat.connect(1, axi_dma_1.s2mm_introut);
   name_groups();
   count_work();
 }

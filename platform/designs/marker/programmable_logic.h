@@ -11,12 +11,18 @@
 
 namespace platform {
 
+/// What a design adds to the marker detector's logic.
+struct LogicBuild {
+  unsigned interrupts = 2;     ///< inputs of the concat; 0 and 1 are the DMA engines'
+  pl::MakeFilter make_filter;  ///< between sensor and detectors; empty: none
+};
+
 /// The whole programmable logic: the feature extraction and what Xilinx provides around it, wired
 /// as the thesis' figure 4.2 (letters of tables 4.2 and 4.3).
 class ProgrammableLogic : public pl::FeatureExtraction {
  public:
   ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
-                    pl::Fidelity otherwise);
+                    pl::Fidelity otherwise, const LogicBuild& build = {});
 
   xilinx::ProcSysReset proc_sys_reset;           ///< G
   xilinx::AxiInterconnect axi_interconnect;      ///< H: GP0 to the registers

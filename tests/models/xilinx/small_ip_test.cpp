@@ -81,6 +81,20 @@ BOOST_FIXTURE_TEST_CASE(each_input_is_its_bit, Bench) {
   BOOST_CHECK_THROW(concat.in(3), std::out_of_range);
 }
 
+BOOST_FIXTURE_TEST_CASE(an_input_is_connected_once, Bench) {
+  vp::Signal<bool> a("a"), b("b");
+  xilinx::Concat concat("concat", 2);
+  concat.connect(1, a);
+  BOOST_CHECK_NO_THROW(concat.connect(1, a));
+  const auto refuses = [&](unsigned i, const char* words) {
+    BOOST_CHECK_EXCEPTION(concat.connect(i, b), vp::InputError, [&](const auto& error) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    });
+  };
+  refuses(1, "b and a are both connected to concat.in1");
+  refuses(2, "b cannot be connected to concat.in2: there are inputs 0 to 1");
+}
+
 BOOST_FIXTURE_TEST_CASE(too_many_inputs, Bench) {
   BOOST_CHECK_THROW(xilinx::Concat("none", 0), std::logic_error);
   BOOST_CHECK_THROW(xilinx::Concat("many", 33), std::logic_error);

@@ -1,0 +1,72 @@
+// A design with the mistake that MISTAKE names.
+#include <designs/marker/marker_design.h>
+#include <zynq/design_plugin.h>
+
+#include <vp/clock.h>
+
+namespace {
+
+enum Mistake {
+  ADDRESS_TWICE,
+  INTERRUPT_TWICE,
+  NO_PROGRAM,
+  NOTHING_MADE,
+  OTHER_VERSION,
+  PART_OUTSIDE,
+  UNBOUND_PORT
+};
+
+/// Has an input that the design forgets.
+class Part : public vp::Clocked {
+ public:
+  Part(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk) {}
+  vp::In<bool> enable{"enable", this};
+
+ private:
+  void edge() override { sleep(); }
+};
+
+/// Is a part, and made where `pl` is complete already.
+class Outside : public platform::MarkerDesign {
+ public:
+  Outside(const char* name, platform::PlPorts& ports)
+      : MarkerDesign(name, ports), memory_("memory", 16) {}
+
+ private:
+  xilinx::Bram memory_;
+};
+
+class Mistaken : public platform::MarkerDesign {
+ public:
+  Mistaken(sc_core::sc_module_name name, platform::PlPorts& ports) : MarkerDesign(name, ports) {
+    if (MISTAKE == ADDRESS_TWICE) axi_interconnect.map("second", 0x4120'0000, 0x1'0000);
+    if (MISTAKE == INTERRUPT_TWICE) concat.connect(1, line_);
+    if (MISTAKE == UNBOUND_PORT) part_ = std::make_unique<Part>("part", ports.fclk_clk(0));
+  }
+
+ private:
+  vp::Signal<bool> line_{"line"};
+  std::unique_ptr<Part> part_;
+};
+
+const platform::DesignInfo& info() {
+  static platform::DesignInfo info{
+      "mistaken",
+      "has a mistake",
+      {"hybrid"},
+      true,
+      platform::no_words,
+      [](const char* name, platform::PlPorts& ports) -> std::unique_ptr<platform::Design> {
+        if (MISTAKE == PART_OUTSIDE) return std::make_unique<Outside>(name, ports);
+        return std::make_unique<Mistaken>(name, ports);
+      }};
+  if (MISTAKE == NO_PROGRAM) info.programs.clear();
+  if (MISTAKE == NOTHING_MADE) info.make = nullptr;
+  return info;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default")))
+const platform::DesignDescriptor markervp_design = {
+    platform::design_abi, MISTAKE == OTHER_VERSION ? "0.0.9" : MARKERVP_VERSION, __VERSION__, info};

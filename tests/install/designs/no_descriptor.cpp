@@ -1,0 +1,4 @@
+// A shared object that says nothing of itself.
+#include <zynq/design.h>
+
+const platform::DesignInfo unused{};

@@ -1,0 +1,130 @@
+// Designs built outside of the tree, on the installed executable.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "installation.h"
+
+using namespace install_test;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Designs {
+  Designs() {
+    installed.build(installed / "share/markervp/platform/design", "smooth");
+    installed.build(project("designs"), "designs");
+  }
+
+  std::string smooth() const { return installed.beside("smooth/smooth.so"); }
+  kit::Outcome mistake(const std::string& name) const {
+    return installed.markervp(
+        {"run", "--design", installed.beside("designs/" + name + ".so"), "--output", "never"});
+  }
+  Json run(const std::string& name, const Words& more) const {
+    Words arguments{"run", "--output", name, "--no-pictures", "--no-report"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const kit::Outcome outcome = installed.markervp(arguments);
+    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+    BOOST_TEST(outcome.err == "");
+    return Json::parse(kit::read_file(installed.beside(name + "/result.json")));
+  }
+  std::string output(const Words& arguments) const {
+    const kit::Outcome outcome = installed.markervp(arguments);
+    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+    return outcome.out;
+  }
+
+  const Installation& installed = Installation::get();
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(designs, Designs)
+
+// The same words at the same clocks: so the same result, whatever the fidelity.
+BOOST_AUTO_TEST_CASE(the_template_at_both_fidelities) {
+  for (const char* scene : {"demo", "z2.0"}) {
+    const Json fast = run("smooth_tlm", {scene, "--design", smooth()});
+    const Json slow = run("smooth_clocked", {scene, "--design", smooth(), "--fidelity", "clocked"});
+    BOOST_TEST(fast["frames"] == slow["frames"]);
+    BOOST_TEST(fast["summary"]["detected"] == 1);
+    BOOST_TEST(fast["design"] == "smooth");
+    BOOST_TEST(fast["system"] == "counting");
+  }
+}
+
+// One line and two pixels later than without it, as far as polls can tell; and other corners.
+BOOST_AUTO_TEST_CASE(the_filter_filters) {
+  constexpr double filter_us = 642 * 0.02, poll_us = 0.5;
+  const Json smoothed = run("smooth_demo", {"demo", "--design", smooth()})["frames"][0];
+  const Json plain = run("plain_demo", {"demo"})["frames"][0];
+  const auto extraction = [](const Json& frame) {
+    return frame["time_us"]["feature_extraction"].get<double>();
+  };
+  const double later = extraction(smoothed) - extraction(plain);
+  BOOST_TEST(later > filter_us - poll_us);
+  BOOST_TEST(later < filter_us + poll_us);
+  BOOST_TEST(smoothed["counts"]["corners"] != plain["counts"]["corners"]);
+}
+
+BOOST_AUTO_TEST_CASE(its_device_and_its_program) {
+  const std::string out = output({"run", "demo", "z2.0", "z3.0", "--design", smooth(), "--output",
+                                  "counted", "--no-pictures"});
+  BOOST_TEST(contains(out, "frames counted: 3\n"), out);
+  const std::string map = output({"map", "--design", smooth()});
+  BOOST_TEST(contains(map, "0x41220000..0x4122FFFF"), map);
+  BOOST_TEST(contains(map, "Frame counter"), map);
+  BOOST_TEST(contains(map, "63  pl.frame_counter.irq"), map);
+  const std::string registers = output({"map", "frame_counter", "--design", smooth()});
+  BOOST_TEST(contains(registers, "frames that began while they were counted"), registers);
+}
+
+BOOST_AUTO_TEST_CASE(its_parts_cost_what_they_say) {
+  const Json result = run("smooth_parts", {"demo", "--design", smooth()});
+  for (const char* block : {"resources", "timing", "power"}) {
+    const std::string text = result[block].dump();
+    BOOST_TEST(contains(text, "pl.median"), block);
+    BOOST_TEST(contains(text, "pl.frame_counter"), block);
+  }
+  const std::string config = output({"config", "--design", smooth()});
+  BOOST_TEST(contains(config, "median"), config);
+}
+
+BOOST_AUTO_TEST_CASE(reports_traces_and_sweeps_take_it) {
+  run("smooth_traced",
+      {"demo", "--design", smooth(), "--trace", "smooth.vcd", "--trace-window", "3ms:4ms"});
+  const std::string stats = output({"trace", "stats", "smooth.vcd", "--design", smooth()});
+  BOOST_TEST(contains(stats, "pl.feature_packaging.corner_count"), stats);
+  BOOST_TEST(contains(output({"trace", "list", "smooth.vcd"}), "pl.median.pixel_out"));
+  run("smooth_again", {"demo", "--design", smooth()});
+  run("thesis_again", {"demo"});
+  BOOST_TEST(contains(output({"compare", "thesis_again", "smooth_again"}), "fps"));
+  kit::write_file(installed.beside("sweep.yaml"),
+                  "inputs: demo\nset:\n  design: " + smooth() +
+                      "\nparameters:\n  ps.fclk_clk1.frequency: [40 MHz, 50 MHz]\n");
+  output({"sweep", "sweep.yaml", "--output", "swept", "--no-report"});
+  const std::string csv = kit::read_file(installed.beside("swept/sweep.csv"));
+  BOOST_TEST(contains(csv, "power.modules.pl.median.w"));
+  BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 3);
+  BOOST_TEST(!contains(csv, "failed"));
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_are_refused_before_the_simulation) {
+  check_refused(mistake("address_twice"), {"pl.axi_interconnect", "second", "axi_gpio_0"});
+  check_refused(mistake("interrupt_twice"),
+                {"pl.line", "pl.axi_dma_1.s2mm_introut", "pl.concat.in1", "another number"});
+  check_refused(mistake("no_program"), {"no_program.so", "has no PS program", "programs"});
+  check_refused(mistake("nothing_made"), {"nothing_made.so", "is incomplete"});
+  check_refused(mistake("other_version"), {"other_version.so", "0.0.9", "rebuild it"});
+  check_refused(mistake("unbound_port"), {"pl.part.enable", "connected to nothing", "bind it"});
+  check_refused(mistake("part_outside"), {"'memory'", "outside of 'pl'", "sc_module_name"});
+  check_refused(mistake("no_descriptor"), {"no_descriptor.so", "MARKERVP_DESIGN"});
+  check_refused(mistake("missing"), {"missing.so", "cannot be loaded"});
+  BOOST_TEST(!std::filesystem::exists(installed.beside("never")));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
