@@ -250,6 +250,14 @@ void add_validate(CLI::App& app, ValidateOptions& target) {
   add_configuration_options(*command, target.configuration);
 }
 
+void add_devices(CLI::App& app, DevicesOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("devices", "list the chips that a design can be built for");
+  command->add_option("DEVICE", target.device, "every figure of this one, with its source")
+      ->type_name("");
+  command->add_flag("--json", target.json, "for programs");
+}
+
 void add_power(CLI::App& app, PowerTableOptions& target) {
   CLI::App* command =
       app.add_subcommand("power", "print the coefficients of the power model, or check others");
@@ -282,6 +290,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_map(*app, target.map);
   add_report(*app, target.report);
   add_validate(*app, target.validate);
+  add_devices(*app, target.devices);
   add_power(*app, target.power);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);

@@ -54,6 +54,9 @@ int make_report(const ReportOptions& options, std::ostream& out);
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
              const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
 
+/// Lists the chips that a design can be built for, or all figures of one.
+int list_devices(const DevicesOptions& options, std::ostream& out);
+
 /// Prints the coefficients of the power model.
 int print_power_table(const PowerTableOptions& options, std::ostream& out);
 

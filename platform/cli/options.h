@@ -94,6 +94,12 @@ struct ValidateOptions {
   bool no_report = false;
 };
 
+/// `markervp devices`.
+struct DevicesOptions {
+  std::string device;  ///< empty: all of them
+  bool json = false;
+};
+
 /// `markervp power`.
 struct PowerTableOptions {
   std::string table = "zynq7020";  ///< installed, or a file .json
@@ -172,6 +178,7 @@ struct CommandLine {
   MapOptions map;
   ReportOptions report;
   ValidateOptions validate;
+  DevicesOptions devices;
   PowerTableOptions power;
   TraceCommandOptions trace;
   CompletionOptions completion;

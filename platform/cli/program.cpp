@@ -48,6 +48,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "validate") {
     return validate(line.validate, arguments, make_simulation, out, err);
   }
+  if (command == "devices") return list_devices(line.devices, out);
   if (command == "power") return print_power_table(line.power, out);
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);

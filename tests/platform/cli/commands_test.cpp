@@ -30,9 +30,8 @@ BOOST_AUTO_TEST_CASE(version) {
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
-       "a command is missing: run, scenes, designs, config, map, report, validate, power, trace, "
-       "sweep, "
-       "pareto, sensitivity, compare or completion"},
+       "a command is missing: run, scenes, designs, config, map, report, validate, devices, power, "
+       "trace, sweep, pareto, sensitivity, compare or completion"},
       {{"rnu"}, "did you mean 'run'?"},
       {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
       {{"--verison"}, "did you mean '--version'?"},
@@ -50,6 +49,38 @@ BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
     BOOST_TEST(is_one_line_with(err.str(), problem), err.str() << " lacks " << problem);
     BOOST_TEST(out.str() == "");
   }
+}
+
+BOOST_AUTO_TEST_CASE(devices_are_listed_and_shown_with_their_sources) {
+  BOOST_TEST(run({"devices"}) == 0);
+  BOOST_TEST(contains(out.str(), "xc7z020-1    53200  106400     140  220"), out.str());
+  BOOST_TEST(contains(out.str(), "xc7z007s-2"));
+  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+
+  BOOST_TEST(run({"devices", "XC7Z020-2"}) == 0);
+  BOOST_TEST(contains(out.str(), "cpu_621_mhz"), out.str());
+  BOOST_TEST(contains(out.str(), "766.667 MHz"), out.str());
+  BOOST_TEST(contains(out.str(), "DS190"), out.str());
+  BOOST_TEST(contains(out.str(), "assumed"), out.str());
+
+  BOOST_TEST(run({"devices", "xc7z021-1"}) == 2);
+  BOOST_TEST(is_one_line_with(err.str(), "did you mean 'xc7z020-1'?"), err.str());
+}
+
+BOOST_AUTO_TEST_CASE(devices_as_json_have_value_confidence_and_source) {
+  BOOST_TEST(run({"devices", "--json"}) == 0);
+  const auto all = nlohmann::json::parse(out.str());
+  BOOST_TEST(all.size() == 8u);
+  for (const auto& device : all) {
+    BOOST_TEST(device["lut"]["value"].get<double>() > 10'000, device["name"]);
+    BOOST_TEST(device["fclk_mhz"]["confidence"] == "assumed", device["name"]);
+    BOOST_TEST(device["fmax_factor"]["source"].get<std::string>() != "", device["name"]);
+  }
+  BOOST_TEST(run({"devices", "xc7z010", "--json"}) == 0);
+  const auto one = nlohmann::json::parse(out.str());
+  BOOST_TEST(one.size() == 1u);
+  BOOST_TEST(one[0]["name"] == "xc7z010-1");
+  BOOST_TEST(one[0]["dsp"]["value"] == 80);
 }
 
 BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
