@@ -47,6 +47,7 @@ For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)"
 /// number.
 constexpr std::uint64_t most_frames = 1'000'000'000;
 constexpr std::uint32_t most_repetitions = 10'000;
+constexpr std::size_t most_clocks = 1'000;
 
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
@@ -258,6 +259,26 @@ void add_devices(CLI::App& app, DevicesOptions& target) {
   command->add_flag("--json", target.json, "for programs");
 }
 
+void add_clocks(CLI::App& app, ClocksOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("clocks", "list the clocks that PLLs and dividers make near a wish");
+  command->add_option("WISH", target.wishes, "frequencies: 55MHz; of FCLK all of one chip")
+      ->type_name("")
+      ->required();
+  command->add_option("--for", target.kind, "which clock (default: fclk)")
+      ->type_name("fclk|cpu|cpu-421|ddr")
+      ->check(CLI::IsMember({"fclk", "cpu", "cpu-421", "ddr"}).description(""));
+  command->add_option("--device", target.device, "on this chip (default: xc7z020-1)")
+      ->type_name("DEVICE");
+  command->add_option("--crystal", target.crystal, "PS_CLK (default: 33.333 MHz)")
+      ->type_name("FREQUENCY");
+  command->add_option("--count", target.count, "list so many (default: 8)")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{1}, most_clocks).description(""));
+  command->add_flag("--no-ethernet", target.no_ethernet, "the I/O PLL feeds no Ethernet");
+  command->add_flag("--json", target.json, "for programs");
+}
+
 void add_power(CLI::App& app, PowerTableOptions& target) {
   CLI::App* command =
       app.add_subcommand("power", "print the coefficients of the power model, or check others");
@@ -291,6 +312,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_report(*app, target.report);
   add_validate(*app, target.validate);
   add_devices(*app, target.devices);
+  add_clocks(*app, target.clocks);
   add_power(*app, target.power);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);

@@ -57,6 +57,9 @@ int validate(const ValidateOptions& options, const std::vector<std::string>& arg
 /// Lists the chips that a design can be built for, or all figures of one.
 int list_devices(const DevicesOptions& options, std::ostream& out);
 
+/// Lists what PLLs and dividers make near some wishes.
+int list_clocks(const ClocksOptions& options, std::ostream& out);
+
 /// Prints the coefficients of the power model.
 int print_power_table(const PowerTableOptions& options, std::ostream& out);
 

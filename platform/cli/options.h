@@ -100,6 +100,17 @@ struct DevicesOptions {
   bool json = false;
 };
 
+/// `markervp clocks`.
+struct ClocksOptions {
+  std::vector<std::string> wishes;
+  std::string kind = "fclk";  ///< or "cpu", "cpu-421", "ddr"
+  std::string device = "xc7z020-1";
+  std::optional<std::string> crystal;  ///< default: that of a ZedBoard
+  std::size_t count = 8;
+  bool no_ethernet = false;
+  bool json = false;
+};
+
 /// `markervp power`.
 struct PowerTableOptions {
   std::string table = "zynq7020";  ///< installed, or a file .json
@@ -179,6 +190,7 @@ struct CommandLine {
   ReportOptions report;
   ValidateOptions validate;
   DevicesOptions devices;
+  ClocksOptions clocks;
   PowerTableOptions power;
   TraceCommandOptions trace;
   CompletionOptions completion;

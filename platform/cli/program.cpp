@@ -49,6 +49,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
     return validate(line.validate, arguments, make_simulation, out, err);
   }
   if (command == "devices") return list_devices(line.devices, out);
+  if (command == "clocks") return list_clocks(line.clocks, out);
   if (command == "power") return print_power_table(line.power, out);
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);

@@ -29,6 +29,16 @@ BOOST_AUTO_TEST_CASE(options) {
   refuses({"completion"}, {"SHELL"});
 }
 
+BOOST_AUTO_TEST_CASE(devices_and_clocks) {
+  refuses({"devices", "xc7z02-1"}, {"unknown device 'xc7z02-1'", "did you mean 'xc7z020-1'?"});
+  refuses({"devices", "xc7z007s-3"}, {"'xc7z007s-3'", "xc7z007s-1, xc7z007s-2"});
+  refuses({"clocks"}, {"WISH"});
+  refuses({"clocks", "55"}, {"'55'", "has no unit", "MHz"});
+  refuses({"clocks", "-5 MHz"}, {"'-5 MHz'"});
+  refuses({"clocks", "55MHz", "--crystal", "1 GHz"}, {"1000.000 MHz", "30 to 60 MHz"});
+  refuses({"clocks", "55MHz", "--for", "gpu"}, {"--for", "gpu", "fclk"});
+}
+
 BOOST_AUTO_TEST_CASE(values) {
   run_refuses({"demo", "--fit", "stretch"}, {"--fit", "stretch", "crop", "scale"});
   for (const char* number : {"0", "-3", "many", "1.5", "99999999999999999999"}) {

@@ -1,6 +1,7 @@
 #include <cli/trace_window.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli_kit.h"
@@ -30,8 +31,8 @@ BOOST_AUTO_TEST_CASE(version) {
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
-       "a command is missing: run, scenes, designs, config, map, report, validate, devices, power, "
-       "trace, sweep, pareto, sensitivity, compare or completion"},
+       "a command is missing: run, scenes, designs, config, map, report, validate, devices, clocks, "
+       "power, trace, sweep, pareto, sensitivity, compare or completion"},
       {{"rnu"}, "did you mean 'run'?"},
       {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
       {{"--verison"}, "did you mean '--version'?"},
@@ -81,6 +82,58 @@ BOOST_AUTO_TEST_CASE(devices_as_json_have_value_confidence_and_source) {
   BOOST_TEST(one.size() == 1u);
   BOOST_TEST(one[0]["name"] == "xc7z010-1");
   BOOST_TEST(one[0]["dsp"]["value"] == 80);
+}
+
+BOOST_AUTO_TEST_CASE(clocks_near_a_wish_are_listed) {
+  BOOST_TEST(run({"clocks", "55MHz"}) == 0);
+  BOOST_TEST(contains(out.str(), "Ethernet: I/O PLL 1000.000000 MHz (x30)"), out.str());
+  BOOST_TEST(contains(out.str(), "the vendor's tool makes 55.555556 MHz (+1.010 %)"), out.str());
+  BOOST_TEST(contains(out.str(), "below 52.631579 MHz (-4.306 %), above 55.555556 MHz (+1.010 %)"));
+  BOOST_TEST(contains(out.str(), "I/O PLL 1100.000 MHz x33"), "the best over all plans");
+  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 110u, line);
+
+  BOOST_TEST(run({"clocks", "55 MHz", "--no-ethernet"}) == 0);
+  BOOST_TEST(contains(out.str(), "the vendor's tool makes 55.172414 MHz"), out.str());
+  BOOST_TEST(run({"clocks", "1 GHz", "--for", "cpu"}) == 0);
+  BOOST_TEST(contains(out.str(), "makes 800.000000 MHz (-20.000 %)"), out.str());
+  BOOST_TEST(contains(out.str(), "ABOVE the 667 MHz of the speed grade (published)"), out.str());
+  BOOST_TEST(run({"clocks", "666.666 MHz", "--for", "cpu", "--device", "xc7z020-2", "--crystal",
+                  "50MHz"}) == 0);
+  BOOST_TEST(contains(out.str(), "makes 675.000000 MHz"), out.str());
+}
+
+BOOST_AUTO_TEST_CASE(clocks_of_one_chip_share_the_pll) {
+  BOOST_TEST(run({"clocks", "160 MHz", "100 MHz", "--json", "--count", "3"}) == 0);
+  const auto json = nlohmann::json::parse(out.str());
+  BOOST_TEST(json["io_feedback"] == 30);
+  BOOST_TEST(json["clocks"].size() == 2u);
+  const auto& first = json["clocks"][0];
+  BOOST_TEST(std::abs(first["made"]["mhz"].get<double>() - 166.666667) < 1e-6);
+  BOOST_TEST(first["made"]["divisors"] == nlohmann::json({6, 1}));
+  BOOST_TEST(first["near"].size() == 3u);
+  BOOST_TEST(first["below"]["mhz"].get<double>() < 160);
+  BOOST_TEST(json["clocks"][1]["made"]["offset_percent"] == 0);
+  BOOST_TEST(json["clocks"][1]["above"]["mhz"].get<double>() > 100);
+}
+
+BOOST_AUTO_TEST_CASE(clocks_that_nobody_can_ask_for_are_refused) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"clocks"}, "WISH"},
+      {{"clocks", "55"}, "the wish '55' has no unit: write it in Hz, kHz, MHz or GHz"},
+      {{"clocks", "0 MHz"}, "give at least 1 Hz"},
+      {{"clocks", "fast"}, "'fast'"},
+      {{"clocks", "1MHz", "2MHz", "3MHz", "4MHz", "5MHz"}, "a chip has 4 clocks to the PL"},
+      {{"clocks", "55MHz", "--device", "xc7z02-1"}, "did you mean 'xc7z020-1'?"},
+      {{"clocks", "55MHz", "--crystal", "5 MHz"}, "xc7z020-1 takes 30 to 60 MHz"},
+      {{"clocks", "55MHz", "--crystal", "5 px"}, "the crystal '5 px'"},
+      {{"clocks", "55MHz", "--for", "gpu"}, "gpu"},
+      {{"clocks", "55MHz", "--count", "0"}, "--count"},
+  };
+  for (const auto& [arguments, problem] : cases) {
+    BOOST_TEST(run(arguments) == 2);
+    BOOST_TEST(is_one_line_with(err.str(), problem), err.str() << " lacks " << problem);
+    BOOST_TEST(out.str() == "");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
