@@ -41,6 +41,7 @@ markervp_export(apps_common COMPONENT programs ROOT sw)
 markervp_export(hybrid COMPONENT programs ROOT sw)
 # For platforms.
 markervp_export(systemc COMPONENT designs)
+markervp_export(eigen COMPONENT designs)
 markervp_export(wave COMPONENT models ROOT vp)
 markervp_export(vp COMPONENT models ROOT vp)
 markervp_export(xilinx COMPONENT models ROOT models)
@@ -49,7 +50,7 @@ markervp_export(pl COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
 # For designs: headers only. The code is in the executable.
 add_library(markervp_design INTERFACE)
-target_link_libraries(markervp_design INTERFACE markervp_systemc)
+target_link_libraries(markervp_design INTERFACE markervp_systemc markervp_eigen)
 target_compile_definitions(markervp_design INTERFACE MARKERVP_VERSION="${PROJECT_VERSION}")
 markervp_export(design COMPONENT designs ROOT registers hal sw models vp platform)
 # What the headers ask of those who include them.

@@ -48,7 +48,7 @@ void InterruptGuard::on_signal(int signal) {
   if (guard->bounded_) vp::HostTicks::add(*guard);
 }
 
-void InterruptGuard::on_tick(std::uint64_t spent_ns, void*) {
+void InterruptGuard::on_host_tick(std::uint64_t spent_ns, void*) {
   spent_ns_ += spent_ns;
   if (spent_ns_ >= all_ns) host::end_by(noted);
   if (spent_ns_ >= frame_ns) bounded_->interrupt();

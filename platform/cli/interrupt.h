@@ -26,7 +26,7 @@ class InterruptGuard : private vp::HostTicks::Listener {
  private:
   explicit InterruptGuard(Simulation* bounded);
   static void on_signal(int signal);
-  void on_tick(std::uint64_t spent_ns, void* context) override;
+  void on_host_tick(std::uint64_t spent_ns, void* context) override;
 
   Simulation* bounded_;         ///< null: without bound
   std::uint64_t spent_ns_ = 0;  ///< since the signal

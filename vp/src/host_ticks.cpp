@@ -57,7 +57,8 @@ void on_alarm(int, siginfo_t*, void* context) {
   for (const auto& listener : listeners) heard = heard || listener.load() != nullptr;
   if (heard) plan_tick(HostTicks::period_ns);
   for (const auto& place : listeners) {
-    if (HostTicks::Listener* const listener = place.load()) listener->on_tick(spent_ns, context);
+    if (HostTicks::Listener* const listener = place.load())
+      listener->on_host_tick(spent_ns, context);
   }
   errno = kept;
 }

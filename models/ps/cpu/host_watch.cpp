@@ -48,7 +48,7 @@ void HostWatch::disarm() {
   vp::HostTicks::remove(*this);
 }
 
-void HostWatch::on_tick(std::uint64_t spent_ns, void* context) {
+void HostWatch::on_host_tick(std::uint64_t spent_ns, void* context) {
   count(spent_ns);
   const bool runs = ProgramWatch::runs;
   const bool told_before = told_;

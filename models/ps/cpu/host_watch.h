@@ -33,7 +33,7 @@ class HostWatch : private vp::HostTicks::Listener {
   void disarm();
 
  private:
-  void on_tick(std::uint64_t spent_ns, void* context) override;
+  void on_host_tick(std::uint64_t spent_ns, void* context) override;
   void count(std::uint64_t spent_ns);
 
   HostLimit limit_;

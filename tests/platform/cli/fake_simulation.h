@@ -89,6 +89,7 @@ class FakeSimulation : public platform::cli::Simulation {
 
   vp::Parameter<std::uint32_t> depth_{
       "depth", 100, vp::Unit::none, {1, 1000}, vp::Source::decision, "words of the FIFO"};
+  vp::Parameter<std::string> design_{"design", "thesis", vp::Source::decision, "what is in the PL"};
   vp::Parameter<std::string> fidelity_{
       "fidelity", "clocked", {"clocked"}, vp::Source::decision, "how it is modelled"};
   Behaviour& behaviour_;

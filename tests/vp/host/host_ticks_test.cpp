@@ -8,7 +8,7 @@
 namespace {
 
 struct Counter : vp::HostTicks::Listener {
-  void on_tick(std::uint64_t spent_ns, void*) override {
+  void on_host_tick(std::uint64_t spent_ns, void*) override {
     spent += spent_ns;
     ticks = ticks + 1;
   }
@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(two_hear_and_who_left_hears_nothing) {
 
 BOOST_AUTO_TEST_CASE(a_tick_in_a_hurry_counts_less) {
   struct Hurried : Counter {
-    void on_tick(std::uint64_t spent_ns, void* context) override {
-      Counter::on_tick(spent_ns, context);
+    void on_host_tick(std::uint64_t spent_ns, void* context) override {
+      Counter::on_host_tick(spent_ns, context);
       vp::HostTicks::hurry();
     }
   } counter;

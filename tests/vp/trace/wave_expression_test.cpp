@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(edges_of_edges_are_quick) {
     BOOST_TEST(static_cast<double>(value(text).value_or(-1)) == 1, edge);
   }
   std::string both = "a rises";
-  for (int i = 0; i < 8; ++i) both = "((" + both + ") == (" + both + ")) changes";
+  for (int i = 0; i < 7; ++i) both = "((" + both + ") == (" + both + ")) changes";
   BOOST_TEST(value(both).has_value());
 }
 

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said_with_its_line_and_byte) {
   says(head + "#0\n$comment never", "middle of $comment");
   says(head + "#0\nb" + std::string(3 << 20, '0') + " \"\n", "longer than 256 KiB");
   says(std::string(3 << 20, 'x'), "longer than 256 KiB");
-  says(std::string(3 << 20, '\0'), "longer than 256 KiB");
+  says(std::string(3 << 20, '\1'), "longer than 256 KiB");
   says(head + "#0\n" + std::string(3 << 20, ' ') + "#1\n", "longer than 256 KiB");
 }
 

@@ -18,7 +18,7 @@ class HostTicks {
     /// Called in a signal handler; may leave it with siglongjmp(). `spent_ns` is the host time
     /// since the last tick: the processor time of this process, so that a busy machine takes
     /// nothing away from it, or the time that passed if it only waited. `context` is a ucontext_t.
-    virtual void on_tick(std::uint64_t spent_ns, void* context) = 0;
+    virtual void on_host_tick(std::uint64_t spent_ns, void* context) = 0;
 
    protected:
     ~Listener() = default;
