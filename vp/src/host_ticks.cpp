@@ -1,3 +1,4 @@
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <vp/host_ticks.h>
 
@@ -18,6 +19,7 @@ std::atomic<HostTicks::Listener*> listeners[4];
 struct Times {
   std::uint64_t processor_ns = 0;  ///< of this process
   std::uint64_t passed_ns = 0;
+  long waits = 0;  ///< how often this thread gave the processor away of its own accord
 };
 Times last;
 
@@ -29,7 +31,9 @@ std::uint64_t read(clockid_t clock) {
 }
 
 Times times() {
-  return {read(CLOCK_PROCESS_CPUTIME_ID), read(CLOCK_MONOTONIC)};
+  rusage usage{};
+  ::getrusage(RUSAGE_THREAD, &usage);
+  return {read(CLOCK_PROCESS_CPUTIME_ID), read(CLOCK_MONOTONIC), usage.ru_nvcsw};
 }
 
 // One tick at a time: a program that uses the timer itself, with alarm(), does not stop the ticks.
@@ -38,13 +42,13 @@ void plan_tick(std::uint64_t ns) {
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-// A tick that comes late says that the process was stopped, or that others had the processor: not
-// that it waited.
+// Little use of the processor may mean that others had it: who waits has given it away. A tick that
+// comes late says that the process was stopped, as by a debugger.
 std::uint64_t spent(const Times& from, const Times& to) {
   const std::uint64_t processor = to.processor_ns - from.processor_ns;
   const std::uint64_t passed = to.passed_ns - from.passed_ns;
   const bool late = passed > 2 * HostTicks::period_ns;
-  const bool waited = processor < passed / 100 && !late;
+  const bool waited = to.waits != from.waits && processor < passed / 100 && !late;
   return waited ? passed : processor;
 }
 
