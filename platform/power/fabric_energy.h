@@ -1,7 +1,7 @@
 #pragma once
 
 #include <power/power_table.h>
-#include <vp/energy_ledger.h>
+#include <vp/power_meter.h>
 #include <vp/thermal.h>
 
 /// What primitives of the fabric take at the vendor's default activity, J per clock, and what

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <vp/energy_ledger.h>
+#include <vp/power_meter.h>
 
 namespace platform::power {
 

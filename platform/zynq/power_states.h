@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <vp/clock.h>
-#include <vp/piecewise.h>
+#include <vp/power_meter.h>
 #include <vp/signal.h>
 #include <zynq/zynq.h>
 

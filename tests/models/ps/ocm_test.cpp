@@ -1,5 +1,5 @@
 // On-chip memory, and the bus to the I/O peripherals.
-#include <bus_master.h>
+#include "bus_master.h"
 
 #include <ps/ocm/ocm.h>
 #include <ps/peripheral_bus/peripheral_bus.h>

@@ -3,7 +3,6 @@
 #include <sstream>
 #include <vector>
 
-#include <bus_master.h>
 #include <simulation.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
@@ -11,6 +10,7 @@
 #include <vp/error.h>
 #include <vp/report.h>
 #include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
+#include "bus_master.h"
 
 using kit::BusMaster;
 using xilinx::AxiBramCtrlBuild;

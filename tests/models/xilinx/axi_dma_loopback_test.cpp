@@ -7,14 +7,14 @@
 #include <vector>
 
 #include <axi_dma_registers.h>
-#include <bus_master.h>
-#include <memory_target.h>
 #include <simulation.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/router.h>
 #include <xilinx/axi_dma/axi_dma.h>
+#include "bus_master.h"
+#include "memory_target.h"
 
 using namespace axi_dma;
 

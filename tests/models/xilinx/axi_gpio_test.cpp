@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include <axi_gpio_registers.h>
-#include <bus_master.h>
 #include <simulation.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
@@ -11,6 +10,7 @@
 #include <vp/error.h>
 #include <vp/report.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
+#include "bus_master.h"
 
 using namespace axi_gpio;
 using kit::BusMaster;

@@ -10,16 +10,16 @@
 #include <vector>
 
 #include <axi_dma_registers.h>
-#include <bus_master.h>
-#include <memory_target.h>
 #include <simulation.h>
-#include <stream_ends.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/report.h>
 #include <vp/router.h>
 #include <xilinx/axi_dma/axi_dma.h>
+#include "bus_master.h"
+#include "memory_target.h"
+#include "stream_ends.h"
 
 namespace kit {
 

@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <memory_target.h>
 #include <simulation.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
@@ -14,6 +13,7 @@
 #include <xilinx/bram/bram.h>
 #include <xilinx/concat/concat.h>
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
+#include "memory_target.h"
 
 namespace {
 

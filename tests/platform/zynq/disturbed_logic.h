@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include <bus_master.h>
 #include <designs/marker/programmable_logic.h>
-#include <memory_target.h>
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
 #include <vp/configuration.h>
 #include <vp/report.h>
+#include "bus_master.h"
+#include "memory_target.h"
 
 namespace kit {
 

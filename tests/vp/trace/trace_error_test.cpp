@@ -5,8 +5,8 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
-#include "../config/input_error.h"
 #include "counter_platform.h"
+#include "input_error.h"
 
 BOOST_FIXTURE_TEST_SUITE(trace_error, TraceFixture)
 

@@ -2,13 +2,99 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
-#include <vp/energy_ledger.h>
-#include <vp/piecewise.h>
-
 namespace vp {
+
+/// A quantity that stands for a while and then changes: the frequency of a clock, whether something
+/// runs. Keeps its history, so that what it amounted to between two times can be asked for later.
+class PiecewiseConstant {
+ public:
+  struct Step {
+    std::uint64_t ps;
+    double value;
+  };
+
+  explicit PiecewiseConstant(double value = 0) : steps_{{0, value}} {}
+
+  /// It has that value from `ps` on; not earlier than the change before. Of several values of an
+  /// instant the last one counts.
+  void set(std::uint64_t ps, double value);
+  double value() const { return steps_.back().value; }
+  /// What stood at `ps`; not before the history begins.
+  double at(std::uint64_t ps) const;
+  /// Value · seconds between the two times. 0 if `to_ps` is not after `from_ps`.
+  double integral(std::uint64_t from_ps, std::uint64_t to_ps) const;
+
+  /// The changes, oldest first. The first one stands for all that was before.
+  const std::vector<Step>& steps() const { return steps_; }
+  /// What was before `ps` will not be asked for.
+  void forget_before(std::uint64_t ps);
+
+ private:
+  std::vector<Step> steps_;
+};
+
+/// The same number estimated low, as it is believed, and high.
+struct Band {
+  double low = 0;
+  double nominal = 0;
+  double high = 0;
+
+  Band& operator+=(const Band& other) {
+    low += other.low;
+    nominal += other.nominal;
+    high += other.high;
+    return *this;
+  }
+};
+
+inline Band operator*(const Band& band, double factor) {
+  return {band.low * factor, band.nominal * factor, band.high * factor};
+}
+
+/// What makes a part of the power flow.
+enum class PowerKind {
+  leakage,  ///< voltage alone: grows with the temperature
+  clock,    ///< a clock that runs
+  state,    ///< something being in a state: busy, enabled
+  event,    ///< something that happens, each time
+};
+
+/// "static", "clock", "state", "event".
+const char* to_string(PowerKind kind);
+
+/// Energy of one module from one rail, for one reason.
+struct EnergyEntry {
+  std::string module;  ///< hierarchical name
+  std::string group;   ///< modules that a reader wants to see as one
+  std::string rail;    ///< supply
+  PowerKind kind = PowerKind::state;
+  std::string source;  ///< of the coefficient
+  Band joules;
+};
+
+/// Where energy went. Every joule stands in exactly one entry, so the sums by module, rail, group
+/// and kind are all the total.
+class EnergyLedger {
+ public:
+  /// Adds to the entry of the same module, rail and kind.
+  void add(const EnergyEntry& entry);
+  void add(const EnergyLedger& other);
+
+  /// In the order in which they first came.
+  const std::vector<EnergyEntry>& entries() const { return entries_; }
+  Band total() const;
+  std::map<std::string, Band> by_module() const;
+  std::map<std::string, Band> by_rail() const;
+  std::map<std::string, Band> by_group() const;
+  std::map<PowerKind, Band> by_kind() const;
+
+ private:
+  std::vector<EnergyEntry> entries_;
+};
 
 /// A reason for power to flow. A state or a clock: `joules` for each second of `state` = 1, so
 /// watts of a state, joules per clock of a frequency. An event: `joules` each time.

@@ -1,0 +1,162 @@
+#include <vp/power_meter.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace vp {
+
+namespace {
+
+constexpr double s_per_ps = 1e-12;
+
+/// The step that stands at `ps`.
+template <class Steps>
+auto standing_at(const Steps& steps, std::uint64_t ps) {
+  const auto after = std::upper_bound(
+      steps.begin(), steps.end(), ps,
+      [](std::uint64_t time, const PiecewiseConstant::Step& step) { return time < step.ps; });
+  return after == steps.begin() ? after : std::prev(after);
+}
+
+template <class Key>
+auto sums(const std::vector<EnergyEntry>& entries, Key EnergyEntry::*key) {
+  std::map<Key, Band> result;
+  for (const EnergyEntry& entry : entries) result[entry.*key] += entry.joules;
+  return result;
+}
+
+}  // namespace
+
+void PiecewiseConstant::set(std::uint64_t ps, double value) {
+  if (value == steps_.back().value) return;
+  if (steps_.back().ps >= ps) {
+    steps_.back().value = value;
+  } else {
+    steps_.push_back({ps, value});
+  }
+}
+
+double PiecewiseConstant::at(std::uint64_t ps) const {
+  return standing_at(steps_, ps)->value;
+}
+
+double PiecewiseConstant::integral(std::uint64_t from_ps, std::uint64_t to_ps) const {
+  if (to_ps <= from_ps) return 0;
+  double sum = 0;
+  for (auto step = standing_at(steps_, from_ps); step != steps_.end() && from_ps < to_ps; ++step) {
+    const auto next = std::next(step);
+    const std::uint64_t end = next == steps_.end() ? to_ps : std::min(next->ps, to_ps);
+    sum += step->value * static_cast<double>(end - from_ps) * s_per_ps;
+    from_ps = end;
+  }
+  return sum;
+}
+
+void PiecewiseConstant::forget_before(std::uint64_t ps) {
+  steps_.erase(steps_.begin(), standing_at(steps_, ps));
+}
+
+const char* to_string(PowerKind kind) {
+  switch (kind) {
+    case PowerKind::leakage:
+      return "static";
+    case PowerKind::clock:
+      return "clock";
+    case PowerKind::state:
+      return "state";
+    case PowerKind::event:
+      return "event";
+  }
+  return "";
+}
+
+void EnergyLedger::add(const EnergyEntry& entry) {
+  const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const EnergyEntry& known) {
+    return known.module == entry.module && known.rail == entry.rail && known.kind == entry.kind;
+  });
+  if (same == entries_.end()) {
+    entries_.push_back(entry);
+  } else {
+    same->joules += entry.joules;
+  }
+}
+
+void EnergyLedger::add(const EnergyLedger& other) {
+  for (const EnergyEntry& entry : other.entries_) add(entry);
+}
+
+Band EnergyLedger::total() const {
+  Band sum;
+  for (const EnergyEntry& entry : entries_) sum += entry.joules;
+  return sum;
+}
+
+std::map<std::string, Band> EnergyLedger::by_module() const {
+  return sums(entries_, &EnergyEntry::module);
+}
+
+std::map<std::string, Band> EnergyLedger::by_rail() const {
+  return sums(entries_, &EnergyEntry::rail);
+}
+
+std::map<std::string, Band> EnergyLedger::by_group() const {
+  return sums(entries_, &EnergyEntry::group);
+}
+
+std::map<PowerKind, Band> EnergyLedger::by_kind() const {
+  return sums(entries_, &EnergyEntry::kind);
+}
+
+void PowerMeter::add(PowerSource source) {
+  if ((source.state != nullptr) == static_cast<bool>(source.count)) {
+    throw std::logic_error("power source of " + source.module + ": a state or events, not both");
+  }
+  marks_.push_back(source.count ? source.count() : 0);
+  sources_.push_back(std::move(source));
+}
+
+void PowerMeter::mark() {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (sources_[i].count) marks_[i] = sources_[i].count();
+  }
+}
+
+EnergyLedger PowerMeter::measure(const std::vector<Interval>& intervals) const {
+  EnergyLedger ledger;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const PowerSource& source = sources_[i];
+    double amount = 0;
+    if (source.count) {
+      amount = source.count() - marks_[i];
+    } else {
+      for (const Interval& interval : intervals) {
+        amount += source.state->integral(interval.from_ps, interval.to_ps);
+      }
+    }
+    ledger.add({source.module, source.group, source.rail, source.kind, source.source,
+                source.joules * amount});
+  }
+  return ledger;
+}
+
+Band PowerMeter::power(std::uint64_t ps) const {
+  Band sum;
+  for (const PowerSource& source : sources_) {
+    if (source.state) sum += source.joules * source.state->at(ps);
+  }
+  return sum;
+}
+
+double PowerMeter::watts(std::uint64_t ps, const std::string& group) const {
+  double sum = 0;
+  for (const PowerSource& source : sources_) {
+    if (source.state && (group.empty() || group == source.group)) {
+      sum += source.joules.nominal * source.state->at(ps);
+    }
+  }
+  return sum;
+}
+
+}  // namespace vp
