@@ -3,7 +3,7 @@
 # frozen where they stand; what their stacks hold is never given back, which the address sanitizer is not to count as leaks.
 function(markervp_add_test)
   cmake_parse_arguments(TEST "FREEZES" "NAME" "SOURCES;LIBRARIES;LABELS" ${ARGN})
-  add_executable(${TEST_NAME} ${TEST_SOURCES} "${PROJECT_SOURCE_DIR}/tests/kit/main.cpp"
+  add_executable(${TEST_NAME} ${TEST_SOURCES} $<TARGET_OBJECTS:markervp_test_main>
     $<TARGET_OBJECTS:markervp_address_sanitizer>)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} Boost::unit_test_framework)
   target_compile_definitions(${TEST_NAME} PRIVATE BOOST_TEST_DYN_LINK

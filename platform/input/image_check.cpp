@@ -19,20 +19,20 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> png_signature{0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
 
-[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+[[noreturn]] void refuse_image(const std::string& path, const std::string& problem) {
   throw vp::InputError("image '" + path + "' " + problem);
 }
 
 [[noreturn]] void refuse_truncated(const std::string& path) {
-  refuse(path, "is truncated: its end is missing");
+  refuse_image(path, "is truncated: its end is missing");
 }
 
 void check_sides(const ImageHeader& header, const std::string& path) {
-  if (header.width < 1 || header.height < 1) refuse(path, "has no pixels: its size is zero");
+  if (header.width < 1 || header.height < 1) refuse_image(path, "has no pixels: its size is zero");
   const auto width = static_cast<std::uint64_t>(header.width);
   const auto height = static_cast<std::uint64_t>(header.height);
   if (width * height > most_pixels) {
-    refuse(path, "has " + std::to_string(width) + "x" + std::to_string(height) + " px, " +
+    refuse_image(path, "has " + std::to_string(width) + "x" + std::to_string(height) + " px, " +
                      too_many_pixels);
   }
 }
@@ -71,10 +71,10 @@ ImageHeader check_png(const Bytes& bytes, const std::string& path) {
                            bytes.begin() + static_cast<std::ptrdiff_t>(at + 8));
     const uLong sum = ::crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
     if (sum != big_endian(bytes, at + 8 + length, 4)) {
-      refuse(path, "is damaged: the checksum of its part '" + type + "' is wrong");
+      refuse_image(path, "is damaged: the checksum of its part '" + type + "' is wrong");
     }
     if (at == png_signature.size()) {
-      if (type != "IHDR" || length != ihdr_size) refuse(path, "is damaged: it has no PNG header");
+      if (type != "IHDR" || length != ihdr_size) refuse_image(path, "is damaged: it has no PNG header");
       read_ihdr(bytes, at + 8, header);
     }
     header.may_be_turned = header.may_be_turned || type == "eXIf";
@@ -123,7 +123,7 @@ ImageHeader check_jpeg(const Bytes& bytes, const std::string& path) {
     const std::uint8_t code = bytes[*marker];
     at = *marker + 1;
     if (code == jpeg_end) {
-      if (scans == 0) refuse(path, "is damaged: it ends before its pixels");
+      if (scans == 0) refuse_image(path, "is damaged: it ends before its pixels");
       return header;
     }
     if (is_bare(code)) continue;
@@ -136,7 +136,7 @@ ImageHeader check_jpeg(const Bytes& bytes, const std::string& path) {
     }
     header.may_be_turned = header.may_be_turned || code == jpeg_exif;
     if (code == jpeg_scan && ++scans > most_scans) {
-      refuse(path,
+      refuse_image(path,
              "is damaged: its pixels come in more than " + std::to_string(most_scans) + " passes");
     }
     at += length;
@@ -171,7 +171,7 @@ ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
   const auto height = header_number(bytes, at);
   const auto maximum = header_number(bytes, at);
   if (!width || !height || !maximum || at >= bytes.size()) {
-    refuse(path, "is truncated or damaged: its PGM header is incomplete");
+    refuse_image(path, "is truncated or damaged: its PGM header is incomplete");
   }
   ImageHeader header;
   header.format = ImageHeader::Format::pgm;

@@ -18,7 +18,6 @@ namespace platform::picture {
 namespace {
 
 constexpr int usual_width = 1280;
-constexpr double pixel_centre = 0.5;
 constexpr double corner_size = 4.5;
 constexpr double near_plane_m = 0.01;
 /// The image is drawn a little paler and darker than it is, so that colours stand out.

@@ -13,7 +13,6 @@ namespace {
 /// OpenCV draws with whole numbers of 2^-shift px; the centre of its first pixel is (0, 0).
 constexpr int shift = 4;
 constexpr double fraction = 1 << shift;
-constexpr double pixel_centre = 0.5;
 /// Far outside any picture, and safe in OpenCV's fixed-point arithmetic.
 constexpr double farthest_px = 1e5;
 /// Dark margin on each side of a line that must be seen on any ground.

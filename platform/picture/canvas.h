@@ -8,6 +8,9 @@
 
 namespace platform::picture {
 
+/// From the corner of a pixel to its centre, px.
+constexpr double pixel_centre = 0.5;
+
 /// Draws smooth lines and text on an RGB picture of an enlarged image. Points are image
 /// coordinates, px, in which the centre of the first pixel is (0.5, 0.5); widths and sizes are px
 /// of the picture.

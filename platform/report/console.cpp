@@ -15,7 +15,6 @@ namespace platform::report {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
 constexpr double us_per_ms = 1e3;
 constexpr const char* label_format = "  {:<11}{}\n";
 constexpr std::size_t label_width = 13;

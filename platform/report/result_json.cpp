@@ -19,7 +19,6 @@ constexpr int degree_places = 6;
 constexpr int us_places = 6;
 constexpr int fps_places = 6;
 constexpr int second_places = 3;
-constexpr double ps_per_us = 1e6;
 
 Json corners_json(const std::array<PixelPoint, 4>& corners) {
   Json array = Json::array();

@@ -6,13 +6,6 @@
 
 namespace platform::report {
 
-namespace {
-
-constexpr double ps_per_us = 1e6;
-constexpr double ps_per_s = 1e12;
-
-}  // namespace
-
 bool has_parts(const std::vector<StageTime>& stages, const std::string& stage) {
   return std::any_of(stages.begin(), stages.end(),
                      [&](const StageTime& other) { return other.part_of == stage; });

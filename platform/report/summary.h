@@ -9,6 +9,9 @@
 
 namespace platform::report {
 
+constexpr double ps_per_us = 1e6;
+constexpr double ps_per_s = 1e12;
+
 /// Mean, least and largest of the values added so far; all 0 when there are none.
 class Statistic {
  public:

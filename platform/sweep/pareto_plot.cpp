@@ -12,7 +12,7 @@ namespace platform::sweep {
 namespace {
 
 /// The unit that the metric's name ends with, as " / W"; empty for a count or an expression.
-std::string unit_of(const std::string& metric) {
+std::string axis_unit(const std::string& metric) {
   constexpr std::pair<const char*, const char*> units[] = {
       {"fps", "1/s"}, {"_w", "W"},   {"_us", "µs"}, {"_mj", "mJ"},   {"_mm", "mm"},
       {"_px", "px"},  {"_deg", "°"}, {"_c", "°C"},  {"_mhz", "MHz"}, {"_percent", "%"}};
@@ -30,7 +30,7 @@ std::string unit_of(const std::string& metric) {
 
 std::string axis_label(const Objective& objective) {
   const std::string text = objective.figure().text();
-  return text + unit_of(text) +
+  return text + axis_unit(text) +
          (objective.maximise() ? "  (more is better)" : "  (less is better)");
 }
 

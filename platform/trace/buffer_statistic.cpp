@@ -7,8 +7,6 @@ namespace platform::trace {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
-
 struct Buffer {
   std::string name;
   Replay::Slot count;

@@ -14,7 +14,7 @@ namespace platform::trace {
 
 namespace {
 
-constexpr std::uint64_t ps_per_s = 1'000'000'000'000;
+constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
 
 /// What was read so far: a clock counts for the checks below it.
 struct ChecksReader {
@@ -60,13 +60,13 @@ struct ChecksReader {
   std::uint64_t duration(const std::string& text) const {
     if (text.find("cycle") == std::string::npos) return number(text, vp::Unit::time, "the time");
     const std::uint64_t cycles = number(text, vp::Unit::cycles, "the number");
-    if (cycles > ps_per_s) fail("so many cycles never pass");
-    return static_cast<std::uint64_t>(static_cast<unsigned __int128>(cycles) * ps_per_s / clock_hz);
+    if (cycles > ps_per_second) fail("so many cycles never pass");
+    return static_cast<std::uint64_t>(static_cast<unsigned __int128>(cycles) * ps_per_second / clock_hz);
   }
 
   void read_clock(const std::string& text) {
     clock_hz = number(text, vp::Unit::frequency, "the clock");
-    if (clock_hz > ps_per_s) fail("the clock is too fast");
+    if (clock_hz > ps_per_second) fail("the clock is too fast");
   }
 
   void read_check(const std::string& text);

@@ -8,9 +8,6 @@ namespace platform::trace {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
-constexpr double ps_per_s = 1e12;
-
 struct Function {
   std::uint64_t calls = 0;
   std::uint64_t self_ps = 0;

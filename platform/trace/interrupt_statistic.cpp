@@ -7,8 +7,6 @@ namespace platform::trace {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
-
 /// Lines of the PS and their numbers (UG585 table 7-4).
 const Vocabulary::Interrupt chip_interrupts[] = {{"ps.global_timer.irq", 27, {}, {}},
                                                  {"ps.private_timer.irq", 29, {}, {}}};

@@ -12,8 +12,6 @@ namespace platform::trace {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
-constexpr double ps_per_s = 1e12;
 constexpr double bytes_per_megabyte = 1e6;
 
 struct Link {

@@ -9,8 +9,6 @@ namespace platform::trace {
 
 namespace {
 
-constexpr double ps_per_us = 1e6;
-
 using Time = std::optional<std::uint64_t>;
 
 /// When the stages of a frame begin and end.

@@ -13,6 +13,9 @@
 
 namespace platform::trace {
 
+constexpr double ps_per_us = 1e6;
+constexpr double ps_per_s = 1e12;
+
 /// What the statistics must know of the hardware.
 struct StatisticsOptions {
   /// Of the links, for a trace without the wire ps.fclk_clk0.clk (see --trace-clocks).

@@ -12,8 +12,6 @@ namespace platform::validation {
 
 namespace {
 
-using Json = nlohmann::json;
-
 /// The test that a scene belongs to; empty for other images.
 std::string group_of(const std::string& scene) {
   for (const SceneGroup& group : scene_groups()) {
@@ -23,17 +21,17 @@ std::string group_of(const std::string& scene) {
   return "";
 }
 
-double distance(const Json& a, const Json& b) {
+double distance(const nlohmann::json& a, const nlohmann::json& b) {
   return std::hypot(a.at(0).get<double>() - b.at(0).get<double>(),
                     a.at(1).get<double>() - b.at(1).get<double>());
 }
 
-FoundTrue found_true(const Json& marker) {
+FoundTrue found_true(const nlohmann::json& marker) {
   FoundTrue found;
-  const Json& corners = marker.at("truth").at("corners_px");
+  const nlohmann::json& corners = marker.at("truth").at("corners_px");
   found.width_px =
       (distance(corners.at(0), corners.at(1)) + distance(corners.at(3), corners.at(2))) / 2;
-  const Json& error = marker.at("error");
+  const nlohmann::json& error = marker.at("error");
   found.corner_px = error.at("corner_px");
   if (error.contains("translation_mm")) {
     found.translation_mm = error.at("translation_mm").get<double>();
@@ -43,16 +41,16 @@ FoundTrue found_true(const Json& marker) {
   return found;
 }
 
-Frame read_frame(const Json& json) {
+Frame read_frame(const nlohmann::json& json) {
   Frame frame;
   frame.input = json.at("input");
   frame.group = group_of(frame.input);
   frame.threshold = json.at("threshold");
-  const Json& counts = json.at("counts");
+  const nlohmann::json& counts = json.at("counts");
   frame.corners = counts.at("corners");
   frame.blobs = counts.at("blobs");
   frame.candidates = counts.at("candidates");
-  for (const Json& marker : json.at("markers")) {
+  for (const nlohmann::json& marker : json.at("markers")) {
     if (marker.contains("truth")) frame.found = found_true(marker);
   }
   frame.markers = json.at("markers").dump();
@@ -99,10 +97,10 @@ Run read_run(const std::filesystem::path& file) {
     run.fidelity = run.root.at("fidelity");
     run.design = run.root.at("design");
     run.configuration = run.root.at("configuration");
-    for (const Json& frame : run.root.at("frames")) run.frames.push_back(read_frame(frame));
+    for (const nlohmann::json& frame : run.root.at("frames")) run.frames.push_back(read_frame(frame));
     run.root.erase("frames");
     return run;
-  } catch (const Json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     throw vp::InputError("result '" + file.string() +
                          "' was changed or is damaged: run the validation again");
   }

@@ -25,7 +25,7 @@ constexpr std::array<const char*, 11> stages{"upload",    "capture",        "cor
                                              "pose",      "frame"};
 
 /// A value of a CSV file; quoted if it must be.
-std::string cell(const std::string& text) {
+std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -34,7 +34,7 @@ std::string cell(const std::string& text) {
 
 std::string line(const std::vector<std::string>& cells) {
   std::vector<std::string> escaped;
-  for (const std::string& text : cells) escaped.push_back(cell(text));
+  for (const std::string& text : cells) escaped.push_back(csv_cell(text));
   return vp::join(escaped, ",") + "\n";
 }
 

@@ -12,7 +12,7 @@ namespace vp {
 namespace {
 
 /// No file for this program is nested deeper than a few levels.
-constexpr std::size_t deepest = 32;
+constexpr std::size_t deepest_nesting = 32;
 constexpr std::uint64_t most_values = 500'000;
 
 /// Goes through a text without keeping it, and measures what its tree would be.
@@ -97,10 +97,10 @@ class Inspection final : public YAML::EventHandler {
   }
 
   void check_depth(const YAML::Mark& mark, std::size_t levels) const {
-    if (open_.size() + levels > deepest) {
+    if (open_.size() + levels > deepest_nesting) {
       fail_in_yaml(
           origin_, mark,
-          "nested more than " + std::to_string(deepest) + " levels deep: write it flatter");
+          "nested more than " + std::to_string(deepest_nesting) + " levels deep: write it flatter");
     }
   }
 

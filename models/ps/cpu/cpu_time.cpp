@@ -8,7 +8,6 @@ namespace ps {
 
 namespace {
 
-constexpr LocalTime::Wide fs_per_second = 1'000'000'000'000'000;
 constexpr std::size_t longest_timeline = 4096;
 /// Deeper than any stack (decision).
 constexpr std::size_t most_open_functions = 1'000'000;
@@ -22,7 +21,7 @@ void Cpu::follow_clock() {
   local_time_.set_frequency(hertz_);
   for (Work& work : work_) {
     const LocalTime::Wide denominator = LocalTime::Wide{hertz_} << LocalTime::fraction_bits;
-    work.most_fs = work.cycles * fs_per_second / denominator + 1 + work.stall_fs;
+    work.most_fs = LocalTime::Wide{work.cycles} * LocalTime::fs_per_second / denominator + 1 + work.stall_fs;
   }
 }
 

@@ -3,12 +3,6 @@
 
 namespace ps {
 
-namespace {
-
-constexpr std::uint64_t fs_per_second = 1'000'000'000'000'000;
-
-}  // namespace
-
 void LocalTime::set_frequency(std::uint64_t hertz) {
   if (hertz == hertz_) return;
   hertz_ = hertz;

@@ -18,6 +18,7 @@ class LocalTime {
   static constexpr unsigned fraction_bits = 20;
   static constexpr std::uint64_t one_cycle = std::uint64_t{1} << fraction_bits;
   static constexpr std::uint64_t fs_per_ps = 1'000;
+  static constexpr std::uint64_t fs_per_second = 1'000'000'000'000'000;
 
   /// Longest time that one call adds: more than any run lasts, less than what overflows.
   static constexpr Wide most_cycles = Wide{1} << 76;  ///< in 2^-20 cycles: three years at 667 MHz

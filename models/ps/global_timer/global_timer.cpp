@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t low_half = 0xFFFF'FFFF;
 constexpr std::uint64_t high_half = low_half << 32;
 
-vp::RegisterBankOptions options() {
+vp::RegisterBankOptions global_timer_options() {
   vp::RegisterBankOptions options;
   options.holes = vp::RegisterBankOptions::Holes::acknowledge;
   options.address_bits = 8;
@@ -22,7 +22,7 @@ vp::RegisterBankOptions options() {
 
 GlobalTimer::GlobalTimer(sc_core::sc_module_name name, vp::Clock& cpu_clock)
     : vp::Clocked(name, cpu_clock),
-      registers("registers", gt::registers, options(), &cpu_clock.scheduler()),
+      registers("registers", gt::registers, global_timer_options(), &cpu_clock.scheduler()),
       enabled_by_boot(
           "enabled_by_boot", true, vp::Source::published,
           "the boot code leaves the counter running from time 0 (Xilinx standalone BSP)"),

@@ -5,7 +5,7 @@ namespace ps {
 
 namespace {
 
-constexpr const char* assumed =
+constexpr const char* why_so_long =
     ": the 80 ns that the GP ports need inside the PS, and 4 cycles of CPU_1x (UG585 table 22-4: "
     "the same interconnect)";
 
@@ -15,9 +15,9 @@ PeripheralBus::PeripheralBus(sc_core::sc_module_name name, const vp::Clock& cpu_
     : sc_module(name),
       socket("socket"),
       read_cycles("read_cycles", 78, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
-                  std::string("CPU cycles of a read") + assumed),
+                  std::string("CPU cycles of a read") + why_so_long),
       write_cycles("write_cycles", 78, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
-                   std::string("CPU cycles of a write") + assumed),
+                   std::string("CPU cycles of a write") + why_so_long),
       cpu_clock_(cpu_clock) {
   socket.register_b_transport(this, &PeripheralBus::b_transport);
   socket.register_transport_dbg(this, &PeripheralBus::transport_dbg);

@@ -10,7 +10,7 @@ namespace pt = private_timer;
 
 namespace {
 
-vp::RegisterBankOptions options() {
+vp::RegisterBankOptions private_timer_options() {
   vp::RegisterBankOptions options;
   options.holes = vp::RegisterBankOptions::Holes::acknowledge;
   options.address_bits = 8;
@@ -21,7 +21,7 @@ vp::RegisterBankOptions options() {
 
 PrivateTimer::PrivateTimer(sc_core::sc_module_name name, vp::Clock& cpu_clock)
     : vp::Clocked(name, cpu_clock),
-      registers("registers", pt::registers, options(), &cpu_clock.scheduler()),
+      registers("registers", pt::registers, private_timer_options(), &cpu_clock.scheduler()),
       timer_(registers, {pt::LOAD, pt::COUNTER, pt::CONTROL}, cpu_clock),
       watchdog_(registers, {pt::WDT_LOAD, pt::WDT_COUNTER, pt::WDT_CONTROL}, cpu_clock),
       status_(registers[pt::INTERRUPT_STATUS]),

@@ -36,7 +36,7 @@ constexpr BootValue boot_values[] = {
     {slcr::DDRIOB_DCI_STATUS, dci_calibrated},
 };
 
-vp::RegisterBankOptions options() {
+vp::RegisterBankOptions slcr_options() {
   vp::RegisterBankOptions options;
   options.holes = vp::RegisterBankOptions::Holes::acknowledge;
   options.address_bits = slcr::address_bits;
@@ -47,7 +47,7 @@ vp::RegisterBankOptions options() {
 
 Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
     : sc_module(name),
-      registers("registers", slcr::registers, options(), &scheduler),
+      registers("registers", slcr::registers, slcr_options(), &scheduler),
       programmed_by_boot(
           "programmed_by_boot", true, vp::Source::published,
           "clocks, resets and level shifters are set up at time 0, as a ZedBoard's "

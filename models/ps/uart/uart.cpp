@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t prescaler = 8;  // MR.CLKS
 
-vp::RegisterBankOptions options() {
+vp::RegisterBankOptions uart_options() {
   vp::RegisterBankOptions options;
   options.holes = vp::RegisterBankOptions::Holes::acknowledge;
   options.address_bits = 12;
@@ -22,7 +22,7 @@ vp::RegisterBankOptions options() {
 
 Uart::Uart(sc_core::sc_module_name name, vp::Clock& uart_ref_clk)
     : vp::Clocked(name, uart_ref_clk),
-      registers("registers", uart::registers, options(), &uart_ref_clk.scheduler()),
+      registers("registers", uart::registers, uart_options(), &uart_ref_clk.scheduler()),
       cr_(registers[uart::CR]),
       mr_(registers[uart::MR]),
       imr_(registers[uart::IMR]),
