@@ -28,7 +28,8 @@ void print_table(std::ostream& out) {
   }
   out << "\nClocks are the highest of the speed grade; CPU by ratio, 6:2:1 / 4:2:1; static power "
          "at "
-         "25 C.\n'markervp devices DEVICE' has every figure with its source.\n";
+         "25 C.\n'markervp devices DEVICE' has every figure with its source, '--set "
+         "device=DEVICE' uses one.\n";
 }
 
 void print_device(const Device& device, std::ostream& out) {

@@ -303,6 +303,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   warner.print(source->warnings());
   if (!memory) facts.configuration = configuration.values();
   if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
+  if (facts.clocks) warner.print(report::clock_warnings(*facts.clocks));
   if (facts.resources) warner.print(report::resource_warnings(*facts.resources));
   if (facts.power) warner.print(report::power_warnings(*facts.power));
   origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();

@@ -19,10 +19,6 @@ double with_tolerance(double hz) {
   return hz * (1 + crystal_tolerance);
 }
 
-bool is_met(double hz, double wish_hz) {
-  return std::abs(hz - wish_hz) <= crystal_tolerance * wish_hz;
-}
-
 double deviation(const MadeClock& clock, double wish_hz) {
   return std::abs(clock.hz - wish_hz);
 }
@@ -44,11 +40,15 @@ class Least {
 };
 
 std::vector<unsigned> products(unsigned largest) {
-  std::set<unsigned> found;
+  std::vector<bool> is_product(largest * largest + 1);
   for (unsigned a = 1; a <= largest; ++a) {
-    for (unsigned b = 1; b <= a; ++b) found.insert(a * b);
+    for (unsigned b = 1; b <= a; ++b) is_product[a * b] = true;
   }
-  return {found.begin(), found.end()};
+  std::vector<unsigned> found;
+  for (unsigned n = 1; n < is_product.size(); ++n) {
+    if (is_product[n]) found.push_back(n);
+  }
+  return found;
 }
 
 Pll usual_pll(Divider divider) {
@@ -57,6 +57,10 @@ Pll usual_pll(Divider divider) {
 }
 
 }  // namespace
+
+bool same_frequency(double hz, double wish_hz) {
+  return std::abs(hz - wish_hz) <= crystal_tolerance * wish_hz;
+}
 
 const char* to_string(Pll pll) {
   switch (pll) {
@@ -139,7 +143,7 @@ MadeClock ClockPlanner::made(unsigned feedback, double wish_hz, Divider divider,
   clock.hz = clock.vco_hz / divisor;
   clock.divisor0 = divisor;
   const bool alone = divisor <= largest_divisor_;
-  if (divider != Divider::pair || (alone && !is_met(clock.hz, wish_hz))) return clock;
+  if (divider != Divider::pair || (alone && !same_frequency(clock.hz, wish_hz))) return clock;
   for (unsigned small = 1; small * small <= divisor; ++small) {
     if (divisor % small != 0 || divisor / small > largest_divisor_) continue;
     clock.divisor0 = divisor / small;
@@ -174,7 +178,7 @@ MadeClock ClockPlanner::nearest(unsigned feedback, double wish_hz, Divider divid
 bool ClockPlanner::meets(unsigned feedback, const std::vector<IoClient>& clients) const {
   return std::all_of(clients.begin(), clients.end(), [&](const IoClient& client) {
     return !client.exact ||
-           is_met(nearest(feedback, client.wish_hz, client.divider).hz, client.wish_hz);
+           same_frequency(nearest(feedback, client.wish_hz, client.divider).hz, client.wish_hz);
   });
 }
 
@@ -303,7 +307,7 @@ std::vector<NearClock> ClockPlanner::near(double wish_hz, ClockKind kind, const 
 
 bool ClockPlanner::makes(double hz, ClockKind kind) const {
   for (unsigned feedback = least_feedback_; feedback <= most_feedback_; ++feedback) {
-    if (is_met(nearest(feedback, hz, divider_of(kind)).hz, hz)) return true;
+    if (same_frequency(nearest(feedback, hz, divider_of(kind)).hz, hz)) return true;
   }
   return false;
 }
@@ -327,24 +331,17 @@ Divider divider_of(ClockKind kind) {
   return kind == ClockKind::ddr ? Divider::ddr : Divider::cpu;
 }
 
-std::vector<ClockVerdict> judge(const Device& device, double crystal_hz,
-                                const std::vector<ClockUse>& clocks) {
-  const ClockPlanner planner(device, crystal_hz);
-  std::vector<ClockVerdict> verdicts;
-  for (const ClockUse& use : clocks) {
-    const Figure& limit = limit_of(device, use.kind);
-    ClockVerdict verdict;
-    verdict.use = use;
-    verdict.limit_hz = limit.value * hz_per_mhz;
-    verdict.confidence = limit.confidence;
-    if (use.hz > 0) {
-      verdict.margin_percent = 100 * (verdict.limit_hz / use.hz - 1);
-      verdict.within = use.hz <= with_tolerance(verdict.limit_hz);
-      verdict.makeable = planner.makes(use.hz, use.kind);
-    }
-    verdicts.push_back(verdict);
+ClockVerdict judge(const ClockPlanner& planner, ClockKind kind, double hz) {
+  const Figure& limit = limit_of(planner.device(), kind);
+  ClockVerdict verdict;
+  verdict.limit_hz = limit.value * hz_per_mhz;
+  verdict.confidence = limit.confidence;
+  if (hz > 0) {
+    verdict.margin_percent = 100 * (verdict.limit_hz / hz - 1);
+    verdict.within = hz <= with_tolerance(verdict.limit_hz);
+    verdict.makeable = planner.makes(hz, kind);
   }
-  return verdicts;
+  return verdict;
 }
 
 }  // namespace platform::device

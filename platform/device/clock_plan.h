@@ -17,6 +17,8 @@ constexpr double crystal_tolerance = 50e-6;
 /// The crystal of a ZedBoard, Hz.
 constexpr double zedboard_crystal_hz = 100e6 / 3;
 
+bool same_frequency(double hz, double wish_hz);
+
 enum class Pll { arm, ddr, io };
 const char* to_string(Pll pll);
 
@@ -144,26 +146,18 @@ class ClockPlanner {
   std::vector<unsigned> cpu_, ddr_, single_, pair_;  ///< products, ascending
 };
 
-struct ClockUse {
-  std::string name;
-  ClockKind kind = ClockKind::fclk;
-  double hz = 0;
-};
-
 /// Whether a clock can be on a chip.
 struct ClockVerdict {
-  ClockUse use;
   double limit_hz = 0;
   Confidence confidence = Confidence::assumed;  ///< of the limit
   double margin_percent = 0;  ///< by how much it could rise up to the limit; negative: must fall
   bool within = true;         ///< of the speed grade
-  bool makeable = true;       ///< PLLs and dividers give it
+  bool makeable = true;       ///< PLLs and dividers give it, by some plan
 
   bool legal() const { return within && makeable; }
 };
 
-/// Judges clocks, each for itself. A stopped clock (0 Hz) is legal. Throws as ClockPlanner.
-std::vector<ClockVerdict> judge(const Device& device, double crystal_hz,
-                                const std::vector<ClockUse>& clocks);
+/// Judges a clock for itself. A stopped one (0 Hz) is legal.
+ClockVerdict judge(const ClockPlanner& planner, ClockKind kind, double hz);
 
 }  // namespace platform::device

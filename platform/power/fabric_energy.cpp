@@ -30,9 +30,9 @@ vp::Band dsp_energy(const PowerTable& table, double dsp) {
   return table.value("pl.dsp") * (dsp * pico);
 }
 
-vp::LeakageCurve leakage(const PowerTable& table, double vp::Band::*estimate) {
-  return {table.value("static.base").*estimate, table.value("static.leakage").*estimate,
-          table.value("static.slope").*estimate};
+vp::LeakageCurve leakage(const PowerTable& table, double scale, double vp::Band::*estimate) {
+  return {scale * table.value("static.base").*estimate,
+          scale * table.value("static.leakage").*estimate, table.value("static.slope").*estimate};
 }
 
 }  // namespace platform::power

@@ -18,7 +18,9 @@ vp::Band clock_root_energy(const PowerTable& table);
 vp::Band block_memory_energy(const PowerTable& table, double bram36);
 vp::Band dsp_energy(const PowerTable& table, double dsp);
 
-/// Static power of the whole device for one of the three estimates.
-vp::LeakageCurve leakage(const PowerTable& table, double vp::Band::*estimate = &vp::Band::nominal);
+/// Static power of a device that leaks `scale` times as much as the table's, for one of the three
+/// estimates.
+vp::LeakageCurve leakage(const PowerTable& table, double scale = 1,
+                         double vp::Band::*estimate = &vp::Band::nominal);
 
 }  // namespace platform::power

@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int version = 1;
-constexpr const char* device = "xc7z020";
 
 std::vector<fs::path> table_folders() {
   std::vector<fs::path> folders;
@@ -62,8 +61,9 @@ class Reader {
       refuse("its version is " + root_["version"].dump() + ", this program reads version " +
              std::to_string(version));
     }
-    if (text(root_, "device", "the table") != device) {
-      refuse("it is for device " + root_["device"].dump() + ", this platform is an " + device);
+    if (text(root_, "device", "the table") != PowerTable::part) {
+      refuse("it is for device " + root_["device"].dump() + ", the coefficients are those of an " +
+             PowerTable::part);
     }
     if (!member(root_, "entries", "the table").is_array()) refuse("'entries' is not a list");
   }

@@ -31,6 +31,9 @@ class PowerTable {
   /// nominal > high, another unit, version or device.
   static PowerTable load(const std::string& name);
 
+  /// The part that the coefficients were read from. Others of the family differ in static power.
+  static constexpr const char* part = "xc7z020";
+
   /// As the file calls itself.
   const std::string& name() const { return name_; }
   /// In the order of the model, not of the file.

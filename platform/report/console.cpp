@@ -182,6 +182,7 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   if (facts.power && facts.resources && facts.timing) {
     text += design_text(*facts.power, *facts.resources, *facts.timing);
   }
+  if (facts.clocks) text += clock_text(*facts.clocks);
   if (summary.warned() > 0) {
     text +=
         fmt::format("warnings in {}, listed in result.json\n", counted(summary.warned(), "frame"));

@@ -85,6 +85,36 @@ Json to_json(const ResourceReport& resources) {
   return json;
 }
 
+Json to_json(const ClockReport& report) {
+  const auto mhz = [](double value) { return rounded(value, mhz_places); };
+  Json json;
+  json["device"] = report.device;
+  json["mode"] = report.mode;
+  json["legal"] = report.legal;
+  json["list"] = Json::array();
+  for (const ClockReport::Clock& clock : report.clocks) {
+    Json entry;
+    entry["name"] = clock.name;
+    entry["wish_mhz"] = mhz(clock.wish_mhz);
+    entry["frequency_mhz"] = mhz(clock.frequency_mhz);
+    Json& made = entry["made"];
+    made["mhz"] = mhz(clock.made_mhz);
+    made["pll"] = clock.pll;
+    made["vco_mhz"] = mhz(clock.vco_mhz);
+    made["feedback"] = clock.feedback;
+    made["divisors"] = {clock.divisor0, clock.divisor1};
+    entry["below_mhz"] = clock.below_mhz > 0 ? Json(mhz(clock.below_mhz)) : Json();
+    entry["above_mhz"] = clock.above_mhz > 0 ? Json(mhz(clock.above_mhz)) : Json();
+    entry["limit_mhz"] = mhz(clock.limit_mhz);
+    entry["limit_confidence"] = clock.limit_confidence;
+    entry["margin_percent"] = rounded(clock.margin_percent, percent_places);
+    entry["within"] = clock.within;
+    entry["makeable"] = clock.makeable;
+    json["list"].push_back(entry);
+  }
+  return json;
+}
+
 Json to_json(const TimingReport& timing) {
   Json json;
   json["met"] = timing.met;

@@ -13,6 +13,7 @@ Json power_summary_json(const PowerReport& power);
 Json to_json(const PowerReport& power);
 Json to_json(const ResourceReport& resources);
 Json to_json(const TimingReport& timing);
+Json to_json(const ClockReport& clocks);
 
 /// Places of watts and millijoules: sums of what stands in the file hold to 1e-9.
 constexpr int energy_places = 12;

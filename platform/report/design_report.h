@@ -80,6 +80,40 @@ struct TimingReport {
   std::vector<Module> modules;
 };
 
+/// Whether the chip can have each clock.
+struct ClockReport {
+  struct Clock {
+    std::string name;
+    double wish_mhz = 0;       ///< asked for
+    double frequency_mhz = 0;  ///< the highest that it had
+    // What the vendor's tool makes of the wish, and with what.
+    double made_mhz = 0;
+    std::string pll;
+    double vco_mhz = 0;
+    unsigned feedback = 0;
+    unsigned divisor0 = 1, divisor1 = 1;
+    bool is_made = true;  ///< nearly the wish
+    // The nearest that can be had instead; 0: none.
+    double below_mhz = 0, above_mhz = 0;
+    // Of the frequency that it had.
+    double limit_mhz = 0;
+    std::string limit_confidence;
+    double margin_percent = 0;  ///< by how much it could rise up to the limit; negative: must fall
+    bool within = true;         ///< of the speed grade
+    bool makeable = true;       ///< PLLs and dividers give it
+  };
+
+  std::string device;
+  std::string mode;  ///< "made" or "exact"
+  bool legal = true;
+  std::vector<Clock> clocks;
+};
+
+/// One line a clock beyond the speed grade.
+std::vector<std::string> clock_warnings(const ClockReport& clocks);
+/// One line a clock that is not what was asked for, or that no chip makes.
+std::string clock_text(const ClockReport& clocks);
+
 /// One line a module that misses timing: "pl.blob_detection misses timing: …".
 std::vector<std::string> timing_warnings(const TimingReport& timing);
 /// One line for each kind of primitive that is short.

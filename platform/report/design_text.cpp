@@ -124,6 +124,37 @@ std::vector<std::string> power_warnings(const PowerReport& power) {
                   power.junction_c, commercial_limit_c)};
 }
 
+std::vector<std::string> clock_warnings(const ClockReport& report) {
+  std::vector<std::string> warnings;
+  for (const ClockReport::Clock& clock : report.clocks) {
+    if (clock.within) continue;
+    warnings.push_back(fmt::format(
+        "{} runs at {}, and an {} allows {} at most ({}, {:.1f} % less): such a chip is not sold",
+        clock.name, mhz(clock.frequency_mhz), report.device, mhz(clock.limit_mhz),
+        clock.limit_confidence, 100 * (1 - clock.limit_mhz / clock.frequency_mhz)));
+  }
+  return warnings;
+}
+
+std::string clock_text(const ClockReport& report) {
+  std::string text;
+  for (const ClockReport::Clock& clock : report.clocks) {
+    if (clock.is_made) continue;
+    const bool made = report.mode == "made";
+    std::string others;
+    for (const double near : {clock.below_mhz, clock.above_mhz}) {
+      if (near == 0 || (made && mhz(near) == mhz(clock.made_mhz))) continue;
+      others += (others.empty() ? "" : " or ") + mhz(near);
+    }
+    text += made ? fmt::format("clock    {} is {}: no PLL gives {}{}\n", clock.name,
+                               mhz(clock.made_mhz), mhz(clock.wish_mhz),
+                               others.empty() ? "" : "; else " + others)
+                 : fmt::format("clock    {} is {}, exactly; a chip makes {}\n", clock.name,
+                               mhz(clock.wish_mhz), others);
+  }
+  return text;
+}
+
 std::string design_text(const PowerReport& power, const ResourceReport& resources,
                         const TimingReport& timing) {
   return power_line(power) + timing_line(timing) + resource_line(resources);

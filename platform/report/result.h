@@ -106,6 +106,7 @@ struct RunFacts {
   std::optional<PowerReport> power = std::nullopt;
   std::optional<ResourceReport> resources = std::nullopt;
   std::optional<TimingReport> timing = std::nullopt;
+  std::optional<ClockReport> clocks = std::nullopt;
   std::vector<std::string> warnings = {};  ///< that belong to no frame
 };
 

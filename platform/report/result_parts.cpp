@@ -31,6 +31,7 @@ void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
   }
   if (facts.resources) json["resources"] = to_json(*facts.resources);
   if (facts.timing) json["timing"] = to_json(*facts.timing);
+  if (facts.clocks) json["clocks"] = to_json(*facts.clocks);
 }
 
 }  // namespace platform::report

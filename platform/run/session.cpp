@@ -34,11 +34,11 @@ Session::Session(const Options& options) {
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
       "or a file .json");
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
-                                               zynq_->ps.cpu_clk.frequency);
+                                               zynq_->ps.cpu_clk.start_hz());
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
   power_ = std::make_unique<ZynqPower>("power", *zynq_, design_->draws_power);
-  timing_ = std::make_unique<TimingClosure>("timing", power_->parts());
+  timing_ = std::make_unique<TimingClosure>("timing", power_->parts(), zynq_->chip.data);
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options.timeline_frames);
   power_->record_timeline(recorder_->records());
   trace_ = options.trace;
@@ -63,6 +63,7 @@ report::RunFacts Session::facts() const {
   facts.power = power_->power_report(zynq_->scheduler.now_ps());
   facts.resources = power_->resource_report();
   facts.timing = power_->timing_report(*timing_);
+  facts.clocks = power_->clock_report();
   return facts;
 }
 

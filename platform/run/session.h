@@ -14,9 +14,9 @@
 #include <vp/report.h>
 #include <vp/trace.h>
 #include <zynq/frame_bench.h>
+#include <zynq/parts.h>
 #include <zynq/software_options.h>
 #include <zynq/timeline_recorder.h>
-#include <zynq/timing_closure.h>
 #include <zynq/working_folder.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>

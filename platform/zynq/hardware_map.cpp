@@ -144,8 +144,7 @@ void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
     map.clocks.push_back({clock.name(), clock.frequency_hz(), set_by, programmed});
   };
   add(ps.cpu_clk.clk, "ARM_CLK_CTRL", ps.slcr.cpu_clocks().cpu_6x4x);
-  for (const ClockSource* source : ps.fclks()) {
-    const auto number = static_cast<unsigned>(std::string(source->basename()).back() - '0');
+  for (const auto& [number, source] : ps.fclks()) {
     add(source->clk, "FPGA" + std::to_string(number) + "_CLK_CTRL",
         ps.slcr.programmed_fclk_hz(number));
   }

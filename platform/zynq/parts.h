@@ -1,12 +1,19 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
+#include <functional>
 #include <string>
+#include <systemc>
 #include <vector>
 
+#include <device/device.h>
 #include <report/design_report.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
+#include <vp/parameter.h>
 
+/// What the parts of a design ask of the chip.
 namespace platform {
 
 /// An IP of the programmable logic, as hardware.
@@ -22,7 +29,32 @@ struct Part {
 /// Everything below `pl` that is an IP (vp::Ip), in the order of reports.
 std::vector<Part> parts_of(const sc_core::sc_object& pl);
 
-/// What that takes of an XC7Z020 (DS190: 53 200 LUT, 106 400 FF, 140 blocks of 36 kbit, 220 DSP).
-report::ResourceReport resource_report(const std::vector<Part>& parts);
+/// What that takes of a device.
+report::ResourceReport resource_report(const std::vector<Part>& parts,
+                                       const device::Device& device);
+
+/// Whether each IP can be built for its clock: a parameter `fmax` for each, by default what the IP
+/// says for the slowest speed grade, scaled to that of the device. A design that cannot be built
+/// runs all the same.
+class TimingClosure : public sc_core::sc_module {
+ public:
+  /// `parts` and `device` must outlive it.
+  TimingClosure(sc_core::sc_module_name name, const std::vector<Part>& parts,
+                const device::Device& device);
+
+  /// `fastest_hz` tells the highest frequency that a clock had.
+  report::TimingReport report(
+      const std::function<std::uint64_t(const vp::Clock&)>& fastest_hz) const;
+
+ private:
+  struct Limit : sc_core::sc_module {
+    Limit(sc_core::sc_module_name name, const Part& ip, const device::Device& device);
+    const Part& ip;
+    vp::Parameter<std::uint64_t> fmax;
+  };
+
+  const device::Device& device_;
+  std::deque<Limit> limits_;
+};
 
 }  // namespace platform

@@ -4,6 +4,7 @@
 #include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <xilinx/axi_dma/memory_port.h>
+#include <zynq/clock_report.h>
 #include <algorithm>
 #include <utility>
 
@@ -21,7 +22,6 @@ constexpr double hz_per_mhz = 1e6;
 constexpr double line_bytes = 32;      // of the L2 cache
 constexpr double hp_port_bytes = 8;    // a beat
 constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
-constexpr double cores = 2;
 constexpr double full_voltage = 1.5, low_voltage = 1.35;
 
 Band operator-(const Band& a, const Band& b) {
@@ -107,14 +107,14 @@ class Builder {
           &states_.cpu_awake_hz);
     } else {
       add("ps.cores", "ps", "Vccpint", PowerKind::state, origin("ps.core_cycle"),
-          cycle * table_.value("ps.default_load") * cores, &states_.cpu_hz);
+          cycle * table_.value("ps.default_load") * zynq_.chip.data.cores.value, &states_.cpu_hz);
     }
   }
 
   /// DDR I/O of a bus that is always busy, W.
   Band full_ddr() const {
     const double volts = options_.ddr.voltage;
-    const double mhz = static_cast<double>(options_.ddr.frequency) / hz_per_mhz;
+    const double mhz = static_cast<double>(ddr_hz(zynq_, options_)) / hz_per_mhz;
     Band amperes = table_.value(wide("ps.ddr_current_"));
     amperes += table_.value(wide("ps.ddr_slope_")) * mhz;
     const double lower = (full_voltage - volts) / (full_voltage - low_voltage);
@@ -133,7 +133,7 @@ class Builder {
     const Band& idle = table_.value("ps.ddr_idle_share");
     const Band busy{1 - idle.low, 1 - idle.nominal, 1 - idle.high};
     const double most_bytes_per_s =
-        2.0 * static_cast<double>(options_.ddr.frequency) * options_.ddr.width / 8;
+        2.0 * static_cast<double>(ddr_hz(zynq_, options_)) * options_.ddr.width / 8;
     add("ps.ddr_io", "ps", "Vcco_ddr", PowerKind::state, origin("ps.ddr_idle_share"),
         full_ddr() * idle, &states_.always);
     const double stall_ns = table_.value("ps.ddr_line_stall").nominal;
@@ -250,12 +250,17 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
   return builder.take();
 }
 
-vp::EnergyLedger static_energy(const PowerTable& table, const vp::ThermalPath& path,
+double static_scale(const device::Device& chip) {
+  return chip.static_w.value / device::find_device(PowerTable::part).static_w.value;
+}
+
+vp::EnergyLedger static_energy(const PowerTable& table, double scale, const vp::ThermalPath& path,
                                const Band& dynamic_w, double seconds, double& junction_c) {
-  const Band& base = table.value("static.base");
+  const Band base = table.value("static.base") * scale;
   const auto point = [&](double Band::*estimate) {
     try {
-      return vp::find_static_point(power::leakage(table, estimate), path, dynamic_w.*estimate);
+      return vp::find_static_point(power::leakage(table, scale, estimate), path,
+                                   dynamic_w.*estimate);
     } catch (const vp::InputError& error) {
       if (estimate != &Band::high) throw;
       throw vp::InputError(std::string(error.what()) + " (by the high estimate of the table)");

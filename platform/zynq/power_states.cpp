@@ -19,9 +19,10 @@ PowerStates::PowerStates(Zynq& zynq)
     : cpu_hz(hz(zynq.ps.cpu_clk.clk)),
       cpu_awake_hz(hz(zynq.ps.cpu_clk.clk)),
       zynq_(zynq),
-      busy_(zynq.design().busy()) {
+      busy_(zynq.design().busy()),
+      fastest_cpu_hz_(zynq.ps.cpu_clk.clk.frequency_hz()) {
   zynq.ps.cpu_clk.clk.add_listener(*this);
-  for (ClockSource* source : zynq.ps.fclks()) {
+  for (const auto& [number, source] : zynq.ps.fclks()) {
     const vp::Clock& clock = source->clk;
     source->clk.add_listener(*this);
     pl_clocks_.push_back({&clock, vp::PiecewiseConstant(hz(clock)),
@@ -35,6 +36,10 @@ PowerStates::PowerStates(Zynq& zynq)
 PowerStates::~PowerStates() {
   zynq_.ps.cpu.asleep.detach(*this);
   if (busy_) busy_->detach(*this);
+}
+
+std::uint64_t PowerStates::fastest_hz(const vp::Clock& clock) const {
+  return &clock == &zynq_.ps.cpu_clk.clk ? fastest_cpu_hz_ : pl_clock(clock).fastest_hz;
 }
 
 const PowerStates::PlClock& PowerStates::pl_clock(const vp::Clock& clock) const {
@@ -55,6 +60,7 @@ void PowerStates::on_change(vp::SignalBase& signal, std::uint32_t) {
 void PowerStates::update() {
   const std::uint64_t now = zynq_.scheduler.now_ps();
   const double cpu = hz(zynq_.ps.cpu_clk.clk);
+  fastest_cpu_hz_ = std::max(fastest_cpu_hz_, zynq_.ps.cpu_clk.clk.frequency_hz());
   cpu_hz.set(now, cpu);
   cpu_awake_hz.set(now, awake() ? cpu : 0);
   for (PlClock& pl : pl_clocks_) {

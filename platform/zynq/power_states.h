@@ -39,6 +39,8 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
   vp::PiecewiseConstant cpu_hz;
   vp::PiecewiseConstant cpu_awake_hz;  ///< 0 while core 0 waits for an interrupt
 
+  /// The highest frequency that the clock of the cores, or one of the PL, had.
+  std::uint64_t fastest_hz(const vp::Clock& clock) const;
   /// Throws std::logic_error for one that the PS does not make.
   const PlClock& pl_clock(const vp::Clock& clock) const;
   bool awake() const { return !zynq_.ps.cpu.asleep; }
@@ -60,6 +62,7 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
 
   Zynq& zynq_;
   vp::Signal<bool>* busy_;  ///< null: the logic always works
+  std::uint64_t fastest_cpu_hz_;
   std::deque<PlClock> pl_clocks_;
   Observer* observer_ = nullptr;
 };

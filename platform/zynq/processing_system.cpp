@@ -5,6 +5,7 @@
 #include <private_timer_registers.h>
 #include <slcr_registers.h>
 #include <uart_registers.h>
+#include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <stdexcept>
 #include <string>
@@ -20,9 +21,18 @@ constexpr std::uint64_t peripheral_base = 0xE000'0000;
 constexpr std::uint64_t peripheral_size = ps::PrivateBus::base - peripheral_base;
 constexpr std::uint64_t device_size = 0x1000, private_device_size = 0x100;
 
+device::ClockPlanner planner_of(const Chip& chip, const ps::Slcr& slcr) {
+  try {
+    return {chip.data, slcr.ps_clk};
+  } catch (const vp::InputError& error) {
+    throw vp::InputError(std::string(slcr.ps_clk.name()) + ": " + error.what());
+  }
+}
+
 }  // namespace
 
-ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
+ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+                                   const Chip& chip)
     : sc_module(name),
       fclk_clk0("fclk_clk0", scheduler, 100'000'000, vp::Source::published,
                 "system clock of the PL (thesis table 4.2)"),
@@ -35,6 +45,9 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       poll_elision("poll_elision", true, vp::Source::decision,
                    "polls pass over reads that cannot see anything new; false: every read is made "
                    "(no result depends on it)"),
+      ethernet("ethernet", true, vp::Source::published,
+               "whether the I/O PLL feeds Ethernet, which must have 125 MHz: binds the frequencies "
+               "that the PL's clocks can have (ZedBoard: true)"),
       cpu("cpu", cpu_clk.clk),
       interconnect("interconnect"),
       private_bus("private_bus", cpu_clk.clk),
@@ -42,7 +55,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       global_timer("global_timer", cpu_clk.clk),
       private_timer("private_timer", cpu_clk.clk),
       peripheral_bus("peripheral_bus", cpu_clk.clk),
-      slcr("slcr", scheduler),
+      slcr("slcr", scheduler, chip.data.idcode()),
       uart0("uart0", uart0_ref_clk),
       uart1("uart1", uart1_ref_clk),
       ocm("ocm", cpu_clk.clk),
@@ -50,7 +63,9 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
       s_axi_hp0("s_axi_hp0"),
       fclk_reset0_n(slcr.fclk_reset0_n),
-      scheduler_(scheduler) {
+      scheduler_(scheduler),
+      chip_(chip),
+      planner_(planner_of(chip, slcr)) {
   using Addresses = vp::Router::Addresses;
   cpu.m_axi.socket.bind(interconnect.socket);
   interconnect.map("m_axi_gp0", m_axi_gp0_base, m_axi_gp0_size, Addresses::absolute)
@@ -61,7 +76,8 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   s_axi_hp0.map("ddr", ps::Ddr::base, ddr.size, Addresses::absolute).bind(ddr.socket);
 
   connect_interrupts();
-  connect_clocks();
+  uart0.rst(slcr.uart0_rst);
+  uart1.rst(slcr.uart1_rst);
   slcr.level_shifters.guard(*interconnect.find(m_axi_gp0_base)->link);
   cpu.connect(ddr.dma_memory());
   cpu.set_poll_elision(poll_elision);
@@ -103,14 +119,40 @@ void ProcessingSystem::connect_interrupts() {
   cpu.n_irq(gic.n_irq);
 }
 
-void ProcessingSystem::connect_clocks() {
+bool ProcessingSystem::clocks_are_made() const {
+  return chip_.clocks == ClockMode::made && slcr.programmed_by_boot;
+}
+
+void ProcessingSystem::start_clocks() {
+  device::ClockWishes wishes;
+  wishes.cpu_hz = static_cast<double>(cpu_clk.frequency);
+  wishes.ratio_621 = slcr.ratio_621();
+  wishes.ethernet = ethernet;
+  for (const auto& [number, fclk] : fclks())
+    wishes.fclk_hz.push_back(static_cast<double>(fclk->frequency));
+  plan_ = planner_.plan(wishes);
+  if (clocks_are_made()) {
+    slcr.boot_with({plan_.cpu.feedback, plan_.io_feedback, plan_.uart.divisor0});
+    cpu_clk.make(plan_.cpu.hz);
+  }
   slcr.drive_cpu(cpu_clk.clk);
-  slcr.drive_fclk(0, fclk_clk0.clk);
-  slcr.drive_fclk(1, fclk_clk1.clk);
+  drive_fclks();
   slcr.drive_uart_ref(0, uart0_ref_clk);
   slcr.drive_uart_ref(1, uart1_ref_clk);
-  uart0.rst(slcr.uart0_rst);
-  uart1.rst(slcr.uart1_rst);
+}
+
+void ProcessingSystem::drive_fclks() {
+  auto made = plan_.fclk.begin();
+  for (const auto& [number, fclk] : fclks()) {
+    std::optional<ps::clock_tree::Dividers> dividers;
+    if (clocks_are_made()) {
+      fclk->make(made->hz);
+      dividers = {slcr::peripheral_source::io_pll, made->divisor0, made->divisor1,
+                  fclk->start_hz()};
+    }
+    slcr.drive_fclk(number, fclk->clk, dividers);
+    ++made;
+  }
 }
 
 ClockSource& ProcessingSystem::fclk_clk(unsigned number) {
@@ -118,20 +160,19 @@ ClockSource& ProcessingSystem::fclk_clk(unsigned number) {
   if (number > 3) throw std::out_of_range("the PS has FCLK_CLK0 to FCLK_CLK3");
   std::unique_ptr<ClockSource>& source = number == 2 ? fclk_clk2_ : fclk_clk3_;
   if (!source) {
+    if (!plan_.fclk.empty()) throw std::logic_error("ask for FCLK_CLK2 and 3 in the constructor");
     const vp::HierarchyScope scope(*this);
     source = std::make_unique<ClockSource>(("fclk_clk" + std::to_string(number)).c_str(),
                                            scheduler_, 50'000'000, vp::Source::decision,
                                            "clock of the PL that the design asked for");
-    slcr.drive_fclk(number, source->clk);
   }
   return *source;
 }
 
-std::vector<ClockSource*> ProcessingSystem::fclks() {
-  std::vector<ClockSource*> sources{&fclk_clk0, &fclk_clk1};
-  for (const auto& source : {&fclk_clk2_, &fclk_clk3_}) {
-    if (*source) sources.push_back(source->get());
-  }
+std::map<unsigned, ClockSource*> ProcessingSystem::fclks() {
+  std::map<unsigned, ClockSource*> sources{{0, &fclk_clk0}, {1, &fclk_clk1}};
+  if (fclk_clk2_) sources[2] = fclk_clk2_.get();
+  if (fclk_clk3_) sources[3] = fclk_clk3_.get();
   return sources;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -19,16 +20,18 @@
 #include <ps/uart/uart.h>
 #include <vp/router.h>
 
-#include <zynq/clock_source.h>
+#include <device/clock_plan.h>
+#include <zynq/chip.h>
 
 namespace platform {
 
-/// The processing system of the Zynq-7020 as far as the marker detector uses it (UG585): one
+/// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): one
 /// Cortex-A9 with its private devices, DDR and on-chip memory, UARTs, the GP0 and HP0 ports, and
-/// the two PL clocks, which follow the SLCR.
+/// the clocks of the PL, which follow the SLCR.
 class ProcessingSystem : public sc_core::sc_module {
  public:
-  ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
+  /// `chip` must outlive it. Throws vp::InputError for a crystal that the device does not take.
+  ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, const Chip& chip);
 
   ClockSource fclk_clk0;
   ClockSource fclk_clk1;
@@ -37,6 +40,7 @@ class ProcessingSystem : public sc_core::sc_module {
   vp::Clock uart1_ref_clk;
 
   vp::Parameter<bool> poll_elision;
+  vp::Parameter<bool> ethernet;
   ps::Cpu cpu;
   vp::Router interconnect;
   ps::PrivateBus private_bus;
@@ -54,11 +58,12 @@ class ProcessingSystem : public sc_core::sc_module {
 
   vp::Signal<bool>& fclk_reset0_n;  ///< to the PL
 
-  /// FCLK_CLK`number` of the PL. 2 and 3 are made when a design first asks for them, before the
-  /// simulation. Throws std::out_of_range beyond 3.
+  /// FCLK_CLK`number` of the PL. 2 and 3 are made when a design first asks for them, before
+  /// start_clocks(). Throws std::out_of_range beyond 3, std::logic_error for one that comes too
+  /// late.
   ClockSource& fclk_clk(unsigned number);
   /// Those that there are, by number.
-  std::vector<ClockSource*> fclks();
+  std::map<unsigned, ClockSource*> fclks();
 
   /// An interrupt of the PS and the signal that raises it.
   struct Interrupt {
@@ -68,16 +73,29 @@ class ProcessingSystem : public sc_core::sc_module {
   /// Those of the PS's own devices, by number. The PL's come through IRQ_F2P.
   const std::vector<Interrupt>& interrupts() const { return interrupts_; }
 
+  /// Starts the clocks, once it is known which ones the design asks for: all FCLK share a PLL.
+  void start_clocks();
+  /// Of the device, with the crystal.
+  const device::ClockPlanner& clock_planner() const { return planner_; }
+  /// What the vendor's tool makes of the frequencies that are configured, used or not; FCLK in the
+  /// order of fclks(). After start_clocks().
+  const device::ClockPlan& clock_plan() const { return plan_; }
+  /// Whether the clocks follow that plan.
+  bool clocks_are_made() const;
+
  private:
   void map_private_bus();
   void map_peripherals();
   void connect_interrupts();
-  void connect_clocks();
+  void drive_fclks();
   std::string device_at(std::uint32_t address) const;
 
   std::vector<Interrupt> interrupts_;
   vp::ClockScheduler& scheduler_;
   std::unique_ptr<ClockSource> fclk_clk2_, fclk_clk3_;
+  const Chip& chip_;
+  device::ClockPlanner planner_;
+  device::ClockPlan plan_;
 };
 
 }  // namespace platform

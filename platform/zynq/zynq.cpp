@@ -27,6 +27,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
                "IP: whole frames, or clock by clock; the results are the same"),
       design_(design.make("pl", ports)) {
   check_that_parts_are_inside();
+  ps.start_clocks();
   scheduler.set_batch(true);
   ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
 }

@@ -7,21 +7,23 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/parameter.h>
+#include <zynq/chip.h>
 #include <zynq/design.h>
 #include <zynq/pl_ports.h>
 #include <zynq/processing_system.h>
 
 namespace platform {
 
-/// The Zynq-7020 with a design in its programmable logic: everything that is simulated.
+/// A Zynq-7000 with a design in its programmable logic: everything that is simulated.
 struct Zynq {
   /// `otherwise`: the fidelity if none is configured. Throws vp::InputError for a design that
   /// cannot be built.
   explicit Zynq(const DesignInfo& design, pl::Fidelity otherwise = pl::Fidelity::tlm);
 
   vp::Parameter<pl::Fidelity> fidelity;
+  Chip chip;
   vp::ClockScheduler scheduler{"scheduler"};
-  ProcessingSystem ps{"ps", scheduler};
+  ProcessingSystem ps{"ps", scheduler, chip};
   PlPorts ports{ps, scheduler, fidelity};
 
   /// The module of the design.

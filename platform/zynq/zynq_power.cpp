@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <zynq/clock_report.h>
 #include <zynq/power_sources.h>
 
 namespace platform {
@@ -40,6 +41,7 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
       options(uses_pl),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
+      static_scale_(static_scale(zynq.chip.data)),
       parts_(parts_of(zynq.pl())),
       groups_(groups_of(zynq.design(), parts_)),
       states_(zynq) {
@@ -50,7 +52,9 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
   timeline_.groups = groups_;
   double junction_c = 0;
   static_w_ =
-      static_energy(table_, options.thermal_path(), meter_.power(0), 1, junction_c).total().nominal;
+      static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0), 1, junction_c)
+          .total()
+          .nominal;
   show(0);
 }
 
@@ -71,8 +75,8 @@ void ZynqPower::show(std::uint64_t now_ps) {
 
 vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
                                         double& junction_c) const {
-  ledger.add(static_energy(table_, options.thermal_path(), ledger.total() * (1 / seconds), seconds,
-                           junction_c));
+  ledger.add(static_energy(table_, static_scale_, options.thermal_path(),
+                           ledger.total() * (1 / seconds), seconds, junction_c));
   return ledger;
 }
 
@@ -174,13 +178,17 @@ report::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
 }
 
 report::ResourceReport ZynqPower::resource_report() const {
-  return platform::resource_report(options.pl_design ? parts_ : std::vector<Part>{});
+  return platform::resource_report(options.pl_design ? parts_ : std::vector<Part>{},
+                                   zynq_.chip.data);
+}
+
+report::ClockReport ZynqPower::clock_report() const {
+  return platform::clock_report(zynq_, options, states_);
 }
 
 report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {
   if (!options.pl_design) return {};
-  return timing.report(
-      [this](const vp::Clock& clock) { return states_.pl_clock(clock).fastest_hz; });
+  return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); });
 }
 
 }  // namespace platform

@@ -16,7 +16,6 @@
 #include <zynq/power_options.h>
 #include <zynq/power_states.h>
 #include <zynq/power_timeline.h>
-#include <zynq/timing_closure.h>
 #include <zynq/zynq.h>
 
 namespace platform {
@@ -57,6 +56,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   /// `end_ps` of the run, for one without frames.
   report::PowerReport power_report(std::uint64_t end_ps) const;
   report::ResourceReport resource_report() const;
+  report::ClockReport clock_report() const;
   report::TimingReport timing_report(const TimingClosure& timing) const;
   /// What was taken: by module, rail and kind.
   const vp::EnergyLedger& ledger() const { return ledger_; }
@@ -73,6 +73,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
   Zynq& zynq_;
   power::PowerTable table_;
+  double static_scale_;  ///< of the device
   std::vector<Part> parts_;
   std::vector<std::string> groups_;  ///< "ps", those of the design, "static"
   PowerStates states_;

@@ -21,11 +21,18 @@ const PlatformRun& usual() {
   return run;
 }
 
+/// Any frequency, whether a PLL gives it or not.
+Settings exactly(const std::string& clock, const std::string& frequency) {
+  return {{clock + ".frequency", frequency}, {"clocks", "exact"}};
+}
 Settings pixel_clock(const std::string& frequency) {
-  return {{"ps.fclk_clk1.frequency", frequency}};
+  return exactly("ps.fclk_clk1", frequency);
 }
 Settings system_clock(const std::string& frequency) {
-  return {{"ps.fclk_clk0.frequency", frequency}};
+  return exactly("ps.fclk_clk0", frequency);
+}
+Settings cpu_clock(const std::string& frequency) {
+  return exactly("ps.cpu_clk", frequency);
 }
 
 bool some_warning_has(const FrameReport& frame, const std::string& text) {
@@ -83,6 +90,12 @@ BOOST_AUTO_TEST_CASE(feature_extraction_scales_with_the_pixel_clock) {
   check_same(pixel_clock("100 MHz"), 100);
 }
 
+BOOST_AUTO_TEST_CASE(clocks_that_are_made_are_those_that_a_chip_has) {
+  check_same({{"ps.fclk_clk1.frequency", "55 MHz"}}, 1000.0 / 18);
+  check_same({{"ps.fclk_clk1.frequency", "74.25 MHz"}}, 1000.0 / 13);
+  check_same({{"ps.fclk_clk1.frequency", "55 MHz"}, {"ps.ethernet", "false"}}, 1600.0 / 29);
+}
+
 BOOST_AUTO_TEST_CASE(no_result_depends_on_the_system_clock) {
   for (const char* frequency : {"50 MHz", "75 MHz", "99.999999 MHz", "150 MHz", "200 MHz"}) {
     check_same(system_clock(frequency), 50);
@@ -90,8 +103,8 @@ BOOST_AUTO_TEST_CASE(no_result_depends_on_the_system_clock) {
 }
 
 BOOST_AUTO_TEST_CASE(a_slower_processor_finds_the_same_later) {
-  check_same({{"ps.cpu_clk.frequency", "333 MHz"}}, 50);
-  const PlatformRun slow = run_scenes(pictures, {{"ps.cpu_clk.frequency", "333.333333 MHz"}});
+  check_same(cpu_clock("333 MHz"), 50);
+  const PlatformRun slow = run_scenes(pictures, cpu_clock("333.333333 MHz"));
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     // Half the clock, twice the time. Only stalls of the memory stay as they are.
     BOOST_TEST(stage_us(slow.frames[i], "pose") == 2 * stage_us(usual().frames[i], "pose"),
@@ -136,7 +149,7 @@ BOOST_AUTO_TEST_CASE(an_upload_that_takes_too_long_is_told_and_ends) {
 }
 
 BOOST_AUTO_TEST_CASE(a_processor_that_is_far_too_slow_is_told_and_ends) {
-  const PlatformRun run = run_scenes(pictures, {{"ps.cpu_clk.frequency", "1 MHz"}});
+  const PlatformRun run = run_scenes(pictures, cpu_clock("1 MHz"));
   BOOST_TEST_REQUIRE(run.frames.size() == pictures.size());
   for (const FrameReport& frame : run.frames) {
     BOOST_TEST(frame.counts.bridge_overflow > 0u);

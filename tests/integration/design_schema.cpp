@@ -22,6 +22,7 @@ class Checker {
     if (object(json, "power")) power(json["power"]);
     if (object(json, "resources")) resources(json["resources"]);
     if (object(json, "timing")) timing(json["timing"]);
+    if (object(json, "clocks")) clocks(json["clocks"]);
   }
 
  private:
@@ -115,6 +116,37 @@ class Checker {
       expect(module.contains("margin_percent") && module["margin_percent"].is_number(),
              "margin_percent is missing");
       text(module, "source");
+    }
+  }
+
+  void clocks(const Json& json) {
+    text(json, "device");
+    one_of(json, "mode", {"made", "exact"});
+    truth(json, "legal");
+    if (!array(json, "list")) return;
+    expect(json["list"].size() >= 4, "clocks.list lacks CPU, FCLK 0 and 1, or DDR");
+    for (const Json& clock : json["list"]) {
+      text(clock, "name");
+      for (const char* key : {"wish_mhz", "frequency_mhz", "limit_mhz"}) number(clock, key);
+      for (const char* key : {"below_mhz", "above_mhz"}) {
+        if (!clock.contains(key) || !clock[key].is_null()) number(clock, key);
+      }
+      if (object(clock, "made")) {
+        const Json& made = clock["made"];
+        for (const char* key : {"mhz", "vco_mhz", "feedback"}) number(made, key);
+        one_of(made, "pll", {"ARM", "DDR", "I/O"});
+        if (array(made, "divisors")) {
+          expect(made["divisors"].size() == 2, "divisors are not two");
+          for (const Json& divisor : made["divisors"]) {
+            expect(divisor.is_number_unsigned() && divisor >= 1, "a divisor is no count");
+          }
+        }
+      }
+      one_of(clock, "limit_confidence", {"published", "derived", "assumed"});
+      expect(clock.contains("margin_percent") && clock["margin_percent"].is_number(),
+             "margin_percent of a clock is missing");
+      truth(clock, "within");
+      truth(clock, "makeable");
     }
   }
 

@@ -122,6 +122,52 @@ BOOST_AUTO_TEST_CASE(a_point_above_fmax_runs_and_is_called_infeasible) {
   BOOST_TEST(contains(usual.outcome.out, "mJ per frame"));
 }
 
+BOOST_AUTO_TEST_CASE(the_clock_that_a_chip_has_is_simulated_judged_and_said) {
+  const Run made = run({"demo", "--set", "ps.fclk_clk1.frequency=55 MHz"});
+  const Json& clock = made.result["clocks"]["list"][2];
+  BOOST_TEST(clock["name"] == "ps.fclk_clk1");
+  BOOST_TEST(clock["wish_mhz"] == 55.0);
+  BOOST_TEST(clock["frequency_mhz"] == 55.555556);
+  BOOST_TEST(clock["made"]["mhz"] == 55.555556);
+  BOOST_TEST(clock["made"]["divisors"] == Json({18, 1}));
+  BOOST_TEST(clock["below_mhz"] == 52.631579);
+  BOOST_TEST(clock["within"] == true);
+  BOOST_TEST(made.result["timing"]["met"] == false);  // Fmax is 55 MHz
+  BOOST_TEST(contains(made.outcome.out,
+                      "clock    ps.fclk_clk1 is 55.556 MHz: no PLL gives 55 MHz; else 52.632 MHz"),
+             made.outcome.out);
+  BOOST_TEST(made.result["configuration"]["ps.fclk_clk1.frequency"] == "55 MHz");
+
+  const Run exact =
+      run({"demo", "--set", "ps.fclk_clk1.frequency=55 MHz", "--set", "clocks=exact"});
+  BOOST_TEST(exact.result["clocks"]["mode"] == "exact");
+  BOOST_TEST(exact.result["clocks"]["list"][2]["frequency_mhz"] == 55.0);
+  BOOST_TEST(exact.result["timing"]["met"] == true);
+  BOOST_TEST(
+      contains(exact.outcome.out,
+               "clock    ps.fclk_clk1 is 55 MHz, exactly; a chip makes 52.632 MHz or 55.556 MHz"),
+      exact.outcome.out);
+  BOOST_TEST(exact.result["summary"]["fps"]["mean"] < made.result["summary"]["fps"]["mean"]);
+  BOOST_TEST(!contains(run({"demo"}).outcome.out, "clock    "));
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_beyond_the_speed_grade_is_told) {
+  const Arguments fast{"demo", "--set", "ps.cpu_clk.frequency=766.667 MHz"};
+  const Run slow_grade = run(fast);
+  BOOST_TEST(slow_grade.result["clocks"]["legal"] == false);
+  BOOST_TEST(slow_grade.result["clocks"]["list"][0]["within"] == false);
+  BOOST_TEST(contains(slow_grade.outcome.err,
+                      "ps.cpu_clk runs at 766.667 MHz, and an xc7z020-1 allows 667 MHz at most "
+                      "(published, 13.0 % less)"),
+             slow_grade.outcome.err);
+  Arguments other = fast;
+  other.insert(other.end(), {"--set", "device=xc7z020-2"});
+  const Run fast_grade = run(other);
+  BOOST_TEST(fast_grade.result["clocks"]["legal"] == true);
+  BOOST_TEST(fast_grade.result["clocks"]["device"] == "xc7z020-2");
+  BOOST_TEST(fast_grade.outcome.err == "");
+}
+
 BOOST_AUTO_TEST_CASE(a_design_that_does_not_fit_runs_and_says_so) {
   const Run large = run({"demo", "--set", "pl.blob_detection.label_count=512"});
   BOOST_TEST(large.result["resources"]["fits"] == false);

@@ -204,6 +204,7 @@ BOOST_AUTO_TEST_CASE(the_map_is_that_of_the_configuration) {
   const kit::Simulation context;
   vp::Configuration configuration;
   configuration.set("ps.fclk_clk1.frequency=74.25 MHz");
+  configuration.set("clocks=exact");
   configuration.set("ps.ddr.size=383 MiB");
   const vp::Configuration::Scope scope(configuration);
   platform::Zynq zynq{*platform::builtin_designs().front()};

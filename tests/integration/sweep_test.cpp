@@ -198,6 +198,7 @@ BOOST_FIXTURE_TEST_CASE(a_shipped_study_with_a_point_without_marker_is_analysed,
 // is 6.144 ms · 50 MHz / f and a constant.
 BOOST_FIXTURE_TEST_CASE(the_serial_formula_holds_and_fps_is_monotone, Sweeps) {
   write("s.yaml",
+        "set: {clocks: exact}\n"
         "parameters: {ps.fclk_clk1.frequency: {start: 10 MHz, stop: 60 MHz, step: 5 MHz}}\n"
         "metrics: [summary.latency_us.mean, summary.fps.mean]\n");
   run({"sweep", "s.yaml"});

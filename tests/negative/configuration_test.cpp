@@ -39,6 +39,10 @@ BOOST_AUTO_TEST_CASE(unknown_keys) {
 }
 
 BOOST_AUTO_TEST_CASE(wrong_units) {
+  set_refused("device=xc7z02-1", {"device: unknown device 'xc7z02-1'", "'xc7z020-1'"});
+  set_refused("clocks=nearly", {"clocks", "nearly", "made", "exact"});
+  set_refused("ps.slcr.ps_clk=5 MHz",
+              {"ps.slcr.ps_clk: a crystal of 5.000 MHz", "xc7z020-1 takes 30 to 60 MHz"});
   set_refused("ps.fclk_clk1.frequency=50 ms", {"ps.fclk_clk1.frequency", "50 ms", "MHz"});
   set_refused("ps.fclk_clk1.frequency=50", {"ps.fclk_clk1.frequency", "no unit", "MHz"});
   set_refused("pl.width=640 mm", {"pl.width", "640 mm", "px"});

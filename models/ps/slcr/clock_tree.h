@@ -15,6 +15,10 @@ std::uint32_t source(std::uint32_t clk_ctrl);
 std::uint32_t divisor0(std::uint32_t clk_ctrl);
 std::uint32_t divisor1(std::uint32_t clk_ctrl);
 
+/// Values of PLL_CTRL (running) and PLL_CFG for a feedback divider of 13 to 66 (UG585 table 25-6).
+std::uint32_t pll_ctrl_of(std::uint32_t feedback);
+std::uint32_t pll_cfg_of(std::uint32_t feedback);
+
 /// Outputs of the three PLLs in Hz.
 struct PllOutputs {
   double arm, ddr, io;

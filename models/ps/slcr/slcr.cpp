@@ -45,7 +45,8 @@ vp::RegisterBankOptions slcr_options() {
 
 }  // namespace
 
-Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
+Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+           std::uint32_t default_idcode)
     : sc_module(name),
       registers("registers", slcr::registers, slcr_options(), &scheduler),
       programmed_by_boot(
@@ -56,8 +57,8 @@ Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
              "crystal before the PLLs (ZedBoard: 33.3333 MHz)"),
       boot_mode("boot_mode", 5, vp::Unit::address, {0, 0x1F}, vp::Source::published,
                 "value of BOOT_MODE: 5 boots from the SD card"),
-      idcode("idcode", 0x0372'7093, vp::Unit::address, vp::Source::published,
-             "value of PSS_IDCODE: XC7Z020, revision 0 (UG585 appendix B.28)"),
+      idcode("idcode", default_idcode, vp::Unit::address, vp::Source::published,
+             "value of PSS_IDCODE: that of the device, revision 0 (UG585 appendix B.28)"),
       fclk_reset0_n("fclk_reset0_n", 1, programmed_by_boot),
       fclk_reset1_n("fclk_reset1_n", 1, programmed_by_boot),
       fclk_reset2_n("fclk_reset2_n", 1, programmed_by_boot),
@@ -91,14 +92,30 @@ void Slcr::program_as_boot_code() {
   dci_reset_ = dci_was_reset_ = true;
 }
 
-void Slcr::drive_fclk(unsigned number, vp::Clock& clock) {
+void Slcr::boot_with(const BootClocks& clocks) {
+  if (!programmed_by_boot) return;
+  const auto program = [this](PllNumber number, std::uint32_t feedback) {
+    Pll& pll = pll_[number];
+    pll.ctrl = clock_tree::pll_ctrl_of(feedback);
+    pll.cfg = clock_tree::pll_cfg_of(feedback);
+    pll.feedback = feedback;
+  };
+  program(arm, clocks.arm_feedback);
+  program(io, clocks.io_feedback);
+  uart_clk_ctrl_.clear_bits(slcr::clk_ctrl::DIVISOR0);
+  uart_clk_ctrl_.set_bits(clocks.uart_divisor << slcr::clk_ctrl::DIVISOR0_shift);
+}
+
+void Slcr::drive_fclk(unsigned number, vp::Clock& clock,
+                      std::optional<clock_tree::Dividers> chosen) {
   Fclk& fclk = fclk_.at(number);
   if (!programmed_by_boot) {
     fclk.drive(clock, fclk_source_hz(number));
     return fclk.divide(fclk_source_hz(number));
   }
   vp::Register& clk_ctrl = registers[slcr::FPGA0_CLK_CTRL + number * slcr::fclk_stride];
-  const auto nearest = clock_tree::nearest_dividers(clock.frequency_hz(), plls());
+  const clock_tree::Dividers nearest =
+      chosen ? *chosen : clock_tree::nearest_dividers(clock.frequency_hz(), plls());
   clk_ctrl = nearest.clk_ctrl();
   fclk.drive(clock, fclk_source_hz(number));
   if (nearest.hertz != clock.frequency_hz()) {

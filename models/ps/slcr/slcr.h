@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <systemc>
 
@@ -31,7 +32,11 @@ namespace ps {
 /// Without boot code the registers are as after reset, and so are the clocks.
 class Slcr : public sc_core::sc_module {
  public:
-  Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
+  static constexpr std::uint32_t xc7z020_idcode = 0x0372'7093;
+
+  /// `default_idcode`: of the chip.
+  Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+       std::uint32_t default_idcode = xc7z020_idcode);
   const char* kind() const override { return "ps::Slcr"; }
 
   vp::RegisterBank registers;  ///< at 0xF800_0000
@@ -45,9 +50,18 @@ class Slcr : public sc_core::sc_module {
   vp::Signal<bool> uart0_rst, uart1_rst;                                        ///< active high
   LevelShifters level_shifters;
 
+  /// Boot code for other PLLs than those of a ZedBoard: before drive_fclk() and the like. Without
+  /// effect unless boot code has run.
+  struct BootClocks {
+    std::uint32_t arm_feedback, io_feedback, uart_divisor;
+  };
+  void boot_with(const BootClocks& clocks);
+
   // What the registers drive: to be said before the simulation starts, FCLK 0 to 3 and UART 0 and
   // 1 by number.
-  void drive_fclk(unsigned number, vp::Clock& clock);
+  /// `chosen`: the dividers that boot code wrote; none: those that come nearest.
+  void drive_fclk(unsigned number, vp::Clock& clock,
+                  std::optional<clock_tree::Dividers> chosen = std::nullopt);
   void drive_uart_ref(unsigned number, vp::Clock& clock);
   void drive_cpu(vp::Clock& clock);
 
@@ -63,6 +77,8 @@ class Slcr : public sc_core::sc_module {
     std::uint64_t cpu_6x4x, cpu_3x2x, cpu_2x, cpu_1x;
   };
   CpuClocks cpu_clocks() const;
+  /// Whether the CPU clocks have the ratio 6:2:1; else 4:2:1.
+  bool ratio_621() const { return clk_621_true_ != 0; }
 
  private:
   struct Pll {

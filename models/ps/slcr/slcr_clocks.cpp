@@ -121,10 +121,9 @@ void Slcr::update_cpu() {
 Slcr::CpuClocks Slcr::cpu_clocks() const {
   const double fastest = cpu_source_hz();
   const std::uint32_t divisor = clock_tree::divisor0(arm_clk_ctrl_);
-  const bool is_621 = clk_621_true_ != 0;
   return {clock_tree::divided_hz(fastest, divisor), clock_tree::divided_hz(fastest, divisor, 2),
-          clock_tree::divided_hz(fastest, divisor, is_621 ? 3 : 2),
-          clock_tree::divided_hz(fastest, divisor, is_621 ? 6 : 4)};
+          clock_tree::divided_hz(fastest, divisor, ratio_621() ? 3 : 2),
+          clock_tree::divided_hz(fastest, divisor, ratio_621() ? 6 : 4)};
 }
 
 void Slcr::update_fclk_resets() {

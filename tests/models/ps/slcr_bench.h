@@ -46,6 +46,22 @@ struct SlcrBench : Bench {
   std::uint64_t warnings(const std::string& id) const { return reports.count(id); }
 };
 
+/// The SLCR with other boot code, and a UART's clock.
+struct BootedSlcr : Bench {
+  explicit BootedSlcr(const ps::Slcr::BootClocks& clocks)
+      : uart_ref("uart_ref", scheduler, 0), slcr("slcr", scheduler) {
+    reports.redirect(text);
+    bus.map("slcr", slcr_at, 0x1000).bind(slcr.registers.socket);
+    slcr.boot_with(clocks);
+    slcr.drive_uart_ref(1, uart_ref);
+  }
+
+  vp::Clock uart_ref;
+  ps::Slcr slcr;
+  std::ostringstream text;
+  vp::ReportRouter reports{sc_core::SC_MEDIUM};
+};
+
 inline const Settings without_boot_code{"slcr.programmed_by_boot=false"};
 
 inline std::uint32_t get(std::uint32_t offset) {

@@ -3,6 +3,7 @@
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "slcr_bench.h"
 
@@ -126,6 +127,43 @@ BOOST_AUTO_TEST_CASE(a_frequency_that_no_dividers_give_stays_until_the_register_
   });
   BOOST_TEST(b.reports.count("/markervp/slcr/inexact") == 1u);
   BOOST_TEST(b.reports.count(sc_core::SC_WARNING) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(pll_values_are_those_that_boot_code_writes) {
+  SlcrBench b;
+  b.run([&] {
+    for (const auto& [feedback, ctrl, cfg] :
+         {std::tuple{40u, slcr::ARM_PLL_CTRL, slcr::ARM_PLL_CFG},
+          std::tuple{32u, slcr::DDR_PLL_CTRL, slcr::DDR_PLL_CFG},
+          std::tuple{30u, slcr::IO_PLL_CTRL, slcr::IO_PLL_CFG}}) {
+      BOOST_TEST(ps::clock_tree::pll_ctrl_of(feedback) == get(ctrl));
+      BOOST_TEST(ps::clock_tree::pll_cfg_of(feedback) == get(cfg));
+    }
+    return 0;
+  });
+  BOOST_TEST(ps::clock_tree::pll_cfg_of(13) == 0x002E'E260u);
+  BOOST_TEST(ps::clock_tree::pll_cfg_of(48) == 0x000F'A240u);
+  BOOST_TEST(ps::clock_tree::pll_cfg_of(66) == 0x000F'A240u);
+}
+
+BOOST_AUTO_TEST_CASE(boot_code_may_choose_other_plls_and_dividers) {
+  BootedSlcr b({48, 48, 32});
+  vp::Clock pixel("pixel", b.scheduler, 55'172'414);
+  b.slcr.drive_fclk(1, pixel, Dividers{slcr::peripheral_source::io_pll, 29, 1, 55'172'414});
+  b.run([&] {
+    BOOST_TEST(get(slcr::ARM_PLL_CTRL) == feedback(48));
+    BOOST_TEST(get(slcr::IO_PLL_CTRL) == feedback(48));
+    BOOST_TEST(get(slcr::FPGA1_CLK_CTRL) == divide(29, 1));
+    BOOST_TEST(pixel.frequency_hz() == 55'172'414u);
+    BOOST_TEST(b.uart_ref.frequency_hz() == 50'000'000u);  // 1600 MHz / 32
+    unlock();
+    set(slcr::FPGA1_CLK_CTRL, get(slcr::FPGA1_CLK_CTRL));
+    BOOST_TEST(pixel.frequency_hz() == 55'172'414u);
+    set(slcr::FPGA1_CLK_CTRL, divide(8, 4));
+    BOOST_TEST(pixel.frequency_hz() == 50'000'000u);
+    return 0;
+  });
+  BOOST_TEST(b.reports.count("/markervp/slcr/inexact") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(another_crystal) {

@@ -1,7 +1,6 @@
 // Energy of the platform without a program: clocks and states are set by hand.
 #include <designs/designs.h>
 #include <designs/marker/marker_design.h>
-#include <zynq/timing_closure.h>
 #include <zynq/zynq_power.h>
 
 #include <boost/test/unit_test.hpp>
@@ -33,7 +32,7 @@ struct Platform : kit::Simulation {
     const vp::Configuration::Scope scope(configuration);
     zynq = std::make_unique<Zynq>(*builtin_designs().front());
     power = std::make_unique<ZynqPower>("power", *zynq, uses_pl);
-    timing = std::make_unique<TimingClosure>("timing", power->parts());
+    timing = std::make_unique<TimingClosure>("timing", power->parts(), zynq->chip.data);
     configuration.check_unused();
   }
 

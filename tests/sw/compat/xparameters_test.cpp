@@ -31,6 +31,7 @@ BOOST_AUTO_TEST_CASE(follows_the_configuration) {
   const kit::Simulation context;
   vp::Configuration configuration;
   configuration.set("ps.cpu_clk.frequency=866 MHz");
+  configuration.set("clocks=exact");
   configuration.set("ps.ddr.size=383 MiB");
   configuration.set("pl.axi_dma_0.length_width=20");
   const vp::Configuration::Scope scope(configuration);
