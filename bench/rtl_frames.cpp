@@ -1,8 +1,7 @@
 // Verilated RTL: one frame after the other, as fast as it takes them. BENCH_RTL says which.
 #include "frame_benchmark.h"
 #include "images.h"
-
-#include BENCH_RTL_HEADER
+#include "rtl_pipeline.h"
 
 int main(int argc, char** argv) {
   return bench::run_frames(

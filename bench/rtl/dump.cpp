@@ -3,7 +3,7 @@
 #include <exception>
 #include <iostream>
 
-#include "thesis.h"
+#include "rtl_pipeline.h"
 
 namespace {
 

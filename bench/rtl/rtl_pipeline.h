@@ -1,39 +1,29 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <vector>
+
+#include <Vrtl_lean.h>
+#include <Vrtl_lean___024root.h>
+#include <Vrtl_thesis.h>
+#include <Vrtl_thesis___024root.h>
 
 #include "frames.h"
 #include "word.h"
 
 namespace bench {
 
-/// Feeds frames to a Verilated model of the feature extraction (top.sv) as fast as it takes them.
-/// `Model` is what Verilator made of it.
-class RtlPipelineBase {
- public:
-  /// What left the detectors in the last frame, in the order of the clocks.
-  const std::vector<harness::Word>& words() const { return words_; }
-
- protected:
-  /// Pixel clocks from a feature word to its acknowledgement.
-  static constexpr unsigned acknowledge_after = 10;
-  static constexpr std::uint32_t end_of_frame = 0xFFFF'FFFF;
-
-  std::vector<harness::Word> words_;
-};
-
+/// Feeds frames to the Verilated feature extraction (models/pl/feature_extraction/rtl) as fast as it
+/// takes them. `Model` is what Verilator made of it.
 template <class Model>
-class RtlPipeline : public RtlPipelineBase {
+class RtlPipeline {
  public:
   RtlPipeline() {
-    model_.por = model_.rst = 1;
-    model_.ena = model_.wr_thresh = 0;
-    model_.ready = 0;
-    model_.tready = 1;
+    model_.por = 1;
+    model_.binary_tready = 1;
     for (int i = 0; i < 4; ++i) tick();
-    model_.por = model_.rst = 0;
+    model_.por = 0;
     tick();
   }
   ~RtlPipeline() { model_.final(); }
@@ -42,30 +32,44 @@ class RtlPipeline : public RtlPipelineBase {
 
   /// Puts an image of 640x480 pixels into the BRAM.
   void load(const harness::Image& image) {
-    std::copy(image.begin(), image.end(), &model_.rootp->top__DOT__s__DOT__bram[0]);
+    std::memcpy(&inside_.feature_extraction__DOT__bram__DOT__words[0], image.data(), image.size());
   }
 
   /// A whole frame, until its end word was seen and everything is at rest.
   void run_frame() {
-    model_.rst = 1;
-    for (int i = 0; i < 2; ++i) tick();
-    model_.rst = 0;
-    for (int i = 0; i < 2; ++i) tick();
+    control(rst, 2);
+    control(0, 2);
     words_.clear();
     last_ = model_.feature;
     hold_ = 0;
     clock_ = 0;
-    model_.ena = 1;
-    tick();
-    model_.ena = 0;
-    for (int i = 0; i < 3; ++i) tick();
-    while (model_.busy || model_.frame_ena || last_ != end_of_frame) tick();
+    control(ena, 1);
+    control(0, 3);
+    while (busy() || last_ != end_of_frame) tick();
   }
 
+  /// What left the detectors in the last frame, in the order of the clocks.
+  const std::vector<harness::Word>& words() const { return words_; }
   /// The threshold that the next frame will use.
-  int threshold() const { return model_.threshold; }
+  int threshold() const { return inside_.feature_extraction__DOT__active_threshold; }
 
  private:
+  /// Pixel clocks from a feature word to its acknowledgement.
+  static constexpr unsigned acknowledge_after = 10;
+  static constexpr std::uint32_t end_of_frame = 0xFFFF'FFFF;
+  // Of the control packet; its header needs SystemC, of which Verilator would take the time.
+  static constexpr std::uint32_t ena = 1u << 0, rst = 1u << 1, ready = 1u << 2;
+
+  bool busy() const {
+    return inside_.feature_extraction__DOT__busy || inside_.feature_extraction__DOT__frame_ena;
+  }
+
+  /// Shows bits of the control packet, beside the toggling one, for some pixel clocks.
+  void control(std::uint32_t bits, int clocks) {
+    model_.gpio_in = (model_.gpio_in & ready) | bits;
+    for (int i = 0; i < clocks; ++i) tick();
+  }
+
   /// One pixel clock, two system clocks.
   void tick() {
     half(1, 1);
@@ -78,21 +82,28 @@ class RtlPipeline : public RtlPipelineBase {
   }
 
   void half(std::uint8_t pixel_clk, std::uint8_t system_clk) {
-    model_.clk = pixel_clk;
-    model_.clk100 = system_clk;
+    model_.pixel_clk = pixel_clk;
+    model_.system_clk = system_clk;
     model_.eval();
   }
 
   void collect() {
-    if (model_.blob_out) words_.push_back({'B', clock_, model_.blob_start, model_.blob_end});
-    if (model_.corner_out) words_.push_back({'C', clock_, model_.corner_data, 0});
-    if (model_.thresh_out) words_.push_back({'T', clock_, model_.thresh_data, 0});
+    if (inside_.feature_extraction__DOT__blob_out) {
+      words_.push_back({'B', clock_, inside_.feature_extraction__DOT__blob_start,
+                        inside_.feature_extraction__DOT__blob_end});
+    }
+    if (inside_.feature_extraction__DOT__corner_out) {
+      words_.push_back({'C', clock_, inside_.feature_extraction__DOT__corner_data, 0});
+    }
+    if (inside_.feature_extraction__DOT__thresh_out) {
+      words_.push_back({'T', clock_, inside_.feature_extraction__DOT__thresh_data, 0});
+    }
   }
 
   /// What the software would do with the feature register.
   void acknowledge() {
     if (hold_ != 0) {
-      if (--hold_ == 0) model_.ready ^= 1;
+      if (--hold_ == 0) model_.gpio_in ^= ready;
     } else if (model_.feature != last_) {
       last_ = model_.feature;
       hold_ = acknowledge_after;
@@ -100,9 +111,16 @@ class RtlPipeline : public RtlPipelineBase {
   }
 
   Model model_;
+  decltype(*Model::rootp)& inside_ = *model_.rootp;
+  std::vector<harness::Word> words_;
   std::uint64_t clock_ = 0;  ///< of the frame: the edge that first samples `ena` is 1
   std::uint32_t last_ = 0;   ///< the newest feature word
   unsigned hold_ = 0;        ///< pixel clocks until the acknowledgement
 };
+
+/// Corner detection as the thesis builds it: nine FAST modules.
+using ThesisRtl = RtlPipeline<Vrtl_thesis>;
+/// The same outputs from one FAST module.
+using LeanRtl = RtlPipeline<Vrtl_lean>;
 
 }  // namespace bench

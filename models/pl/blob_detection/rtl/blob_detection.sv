@@ -1,0 +1,192 @@
+// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`). Companion of BlobCore (core.h).
+//
+// A dark pixel takes the label of the widest blob among its neighbours: two to the left, five in the
+// row above. All of it happens in the pixel's clock: seven widths are looked up and compared, and the
+// box grows. Each look-up is a port of distributed memory.
+module blob_detection #(
+    parameter int WIDTH = 640,
+    parameter int LABELS = 128,       // 0, the background, included
+    parameter int MINIMUM_SIDE = 24   // smallest Ex - Sx and Ey - Sy of a blob that is reported
+) (
+    input  logic        clk,
+    input  logic        ena,
+    input  logic        rst,
+    input  logic        pixel,          // 1 is dark
+    input  logic [ 9:0] x,
+    input  logic [ 8:0] y,
+    output logic        blob_out,
+    output logic [31:0] blob_start,
+    output logic [31:0] blob_end,
+    output logic        idle,           // no frame, and every label retired
+    output logic [31:0] label_overflow  // dark pixels that found no free label
+);
+  localparam int BITS = $clog2(LABELS);
+  localparam int NEIGHBOURS = 7;
+  localparam logic [9:0] LAST = 10'(WIDTH - 1);
+
+  // The neighbours' labels in the order in which the first of equally wide ones wins: left near and
+  // far, above from left to right. 0 where there is none.
+  logic [BITS-1:0] left_1, left_2, above_m2, above_m1, above_0, above_p1, above_p2;
+  wire below_top = y != 9'd0;
+  wire [NEIGHBOURS*BITS-1:0] neighbours = {
+    below_top && x < LAST - 10'd1 ? above_p2 : BITS'(0),
+    below_top && x < LAST ? above_p1 : BITS'(0),
+    below_top ? above_0 : BITS'(0),
+    below_top && x > 10'd0 ? above_m1 : BITS'(0),
+    below_top && x > 10'd1 ? above_m2 : BITS'(0),
+    x > 10'd1 ? left_2 : BITS'(0),
+    x > 10'd0 ? left_1 : BITS'(0)
+  };
+
+  // The boxes, in three memories: each is written when its part changes.
+  logic [19:0] columns[0:LABELS-1];  // Ex, Sx
+  logic [8:0] tops[0:LABELS-1];      // Sy
+  logic [8:0] bottoms[0:LABELS-1];   // Ey
+
+  // The widest one.
+  logic [NEIGHBOURS*20-1:0] spans;
+  for (genvar n = 0; n < NEIGHBOURS; n++) begin : g_span
+    assign spans[n*20+:20] = columns[neighbours[n*BITS+:BITS]];
+  end
+  logic [BITS-1:0] widest;
+  logic [19:0] span;
+  logic [10:0] width, candidate;
+  always_comb begin
+    widest = '0;
+    span = '0;
+    width = '0;
+    candidate = '0;
+    for (int n = 0; n < NEIGHBOURS; n++) begin
+      candidate = {1'b0, spans[n*20+10+:10] - spans[n*20+:10]} + 11'd1;
+      if (neighbours[n*BITS+:BITS] != '0 && candidate > width) begin
+        widest = neighbours[n*BITS+:BITS];
+        span = spans[n*20+:20];
+        width = candidate;
+      end
+    end
+  end
+
+  // The pixel's label.
+  logic [BITS-1:0] next_label;
+  wire dark = ena && pixel;
+  wire is_new = dark && widest == '0;
+  wire [BITS-1:0] label = !dark ? '0 : is_new ? next_label : widest;
+  wire labelled = label != '0;
+
+  wire [9:0] grown_left = !is_new && span[9:0] < x ? span[9:0] : x;
+  wire [9:0] grown_right = !is_new && span[19:10] > x ? span[19:10] : x;
+  always_ff @(posedge clk) begin
+    if (labelled && !rst) begin
+      columns[label] <= {grown_right, grown_left};
+      bottoms[label] <= y;
+    end
+    if (labelled && is_new && !rst) tops[label] <= y;
+  end
+
+  // The window of labels, moved on to the next pixel.
+  line_buffer #(
+      .WIDTH(WIDTH),
+      .BITS (BITS),
+      .AHEAD(2)
+  ) line (
+      .clk,
+      .ena,
+      .x,
+      .value(label),
+      .above(above_p2)
+  );
+  always_ff @(posedge clk)
+    if (ena) begin
+      {above_m2, above_m1, above_0, above_p1} <= {above_m1, above_0, above_p1, above_p2};
+      {left_2, left_1} <= {left_1, label};
+    end
+
+  // Where no pixel can join a blob any more: two columns right of its end in the row below it. All
+  // labels are compared at once, so these are registers.
+  (* mem2reg *) logic [19:0] ends[1:LABELS-1];
+  wire [19:0] here = {1'b0, y, x};
+  wire beyond = grown_right > LAST - 10'd3;  // no pixel of that row is that far right
+  wire [9:0] end_row = {1'b0, y} + (beyond ? 10'd2 : 10'd1);
+  always_ff @(posedge clk)
+    if (labelled) ends[label] <= {end_row, beyond ? 10'd0 : grown_right + 10'd3};
+
+  // Labels retire one a clock, the lowest first; all of them when the frame is over.
+  logic ena_before, flush;
+  logic [LABELS-1:1] active, due;
+  always_comb begin
+    due = '0;
+    for (int n = 1; n < LABELS; n++)
+      if (active[n] && (flush || (ena && here >= ends[n]))) due[n] = 1'b1;
+  end
+  wire retires = due != '0;
+  wire [LABELS-1:1] retire = due & (~due + 1'b1);
+
+  always_ff @(posedge clk)
+    if (rst) active <= '0;
+    else begin
+      active <= active & ~retire;
+      if (is_new && labelled) active[label] <= 1'b1;
+    end
+
+  // The number of the one bit that is set.
+  logic [BITS-1:0] retired_label;
+  for (genvar b = 0; b < BITS; b++) begin : g_number
+    logic [LABELS-1:1] mask;
+    for (genvar n = 1; n < LABELS; n++) begin : g_mask
+      assign mask[n] = ((n >> b) & 1) != 0;
+    end
+    assign retired_label[b] = |(retire & mask);
+  end
+
+  free_labels #(
+      .LABELS(LABELS)
+  ) free (
+      .clk,
+      .rst,
+      .take(is_new),
+      .give_back(retires),
+      .returned(retired_label),
+      .next(next_label)
+  );
+
+  always_ff @(posedge clk)
+    if (rst) begin
+      ena_before <= 1'b0;
+      flush <= 1'b0;
+    end else begin
+      ena_before <= ena;
+      flush <= (ena_before && !ena) || (flush && retires);
+    end
+
+  // Only blobs large enough for a marker are reported.
+  logic retired;
+  logic [9:0] start_x, end_x;
+  logic [8:0] start_y, end_y;
+  logic [10:0] number;
+  wire reported = end_x - start_x >= 10'(MINIMUM_SIDE) && {1'b0, end_y - start_y} >= 10'(MINIMUM_SIDE);
+  always_ff @(posedge clk) begin
+    {end_x, start_x} <= columns[retired_label];
+    start_y <= tops[retired_label];
+    end_y <= bottoms[retired_label];
+    if (rst) begin
+      retired <= 1'b0;
+      blob_out <= 1'b0;
+      number <= '0;
+    end else begin
+      retired <= retires;
+      blob_out <= retired && reported;
+      if (retired && reported) begin
+        blob_start <= {2'b01, number, start_y, start_x};
+        blob_end <= {2'b00, number, end_y, end_x};
+      end
+      if (ena && !ena_before) number <= '0;
+      else if (retired && reported) number <= number + 1'b1;
+    end
+  end
+
+  assign idle = !(ena_before || retired || flush);
+
+  always_ff @(posedge clk)
+    if (rst) label_overflow <= '0;
+    else if (is_new && !labelled) label_overflow <= label_overflow + 1'b1;
+endmodule

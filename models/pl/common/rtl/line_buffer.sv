@@ -1,0 +1,28 @@
+// One line of a frame: `above` is what was stored at column `x` one line before.
+//
+// It is read a pixel ahead, through a register, and written at another address in the same clock:
+// block RAM with one port for each.
+module line_buffer #(
+    parameter int WIDTH = 640,  // columns
+    parameter int BITS = 8,
+    parameter int AHEAD = 0     // `above` belongs to column x + AHEAD
+) (
+    input  logic            clk,
+    input  logic            ena,
+    input  logic [     9:0] x,
+    input  logic [BITS-1:0] value,
+    output logic [BITS-1:0] above
+);
+  localparam int PLACE_BITS = $clog2(WIDTH);
+  localparam logic [9:0] WRAP = 10'(WIDTH - 1 - AHEAD);
+
+  logic [BITS-1:0] stored[0:WIDTH-1];
+  wire [PLACE_BITS-1:0] place = PLACE_BITS'(x);
+  wire [PLACE_BITS-1:0] next = PLACE_BITS'(x >= WRAP ? x - WRAP : x + 10'(AHEAD + 1));
+
+  always_ff @(posedge clk)
+    if (ena) begin
+      stored[place] <= value;
+      above   <= stored[next];
+    end
+endmodule

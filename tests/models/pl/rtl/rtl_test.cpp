@@ -1,0 +1,121 @@
+// The RTL of models/pl passes Verilator's lint at any size, Yosys reads it as it is, and what was
+// written to become memory does. That it computes what the models do: performance_rtl.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "child_process.h"
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words sources() {
+  Words found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(MARKERVP_MODELS)) {
+    if (entry.path().extension() == ".sv") found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+struct Rtl {
+  kit::Outcome lint(const Words& files, const std::string& top, const Words& parameters) const {
+    Words arguments{"--lint-only", "-Wall", "--top-module", top};
+    for (const std::string& parameter : parameters) arguments.push_back("-G" + parameter);
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    return kit::run_process(VERILATOR, arguments, folder.path());
+  }
+
+  /// `commands`: of Yosys, once it has read all files.
+  kit::Outcome yosys(const Words& files, const std::string& commands) const {
+    std::string script = "read_verilog -sv";
+    for (const std::string& file : files) script += " " + file;
+    return kit::run_process(YOSYS, {"-Q", "-T", "-p", script + "; " + commands}, folder.path());
+  }
+  kit::Outcome elaborate(const Words& files, const std::string& top) const {
+    return yosys(files, "hierarchy -check -top " + top +
+                            "; proc; check -assert; select -assert-none t:$dlatch");
+  }
+
+  /// Cells by type of the whole hierarchy, after synthesis for the 7 series.
+  std::map<std::string, int> synthesise(const std::string& top) const {
+    const kit::Outcome outcome = yosys(
+        sources(), "synth_xilinx -family xc7 -top " + top + "; tee -o cells.txt stat");
+    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.out + outcome.err);
+    std::string text = kit::read_file(folder / "cells.txt");
+    const std::size_t whole = text.find("=== design hierarchy ===");
+    if (whole != std::string::npos) text.erase(0, whole);
+    std::istringstream lines(text.substr(text.find("Number of cells:")));
+    std::map<std::string, int> cells;
+    std::string line;
+    std::getline(lines, line);
+    for (std::string type; lines >> type;) lines >> cells[type];
+    return cells;
+  }
+
+  kit::TemporaryFolder folder;
+};
+
+/// All parameters at their ends.
+const std::vector<Words> sizes = {
+    {},
+    {"LEAN=1"},
+    {"WIDTH=64", "HEIGHT=32", "LABELS=4", "THRESHOLD=0", "MINIMUM_SIDE=1", "LEAN=1"},
+    {"WIDTH=1024", "HEIGHT=512", "LABELS=1024", "THRESHOLD=255", "MINIMUM_SIDE=1023"},
+    {"BUFFER_DEPTH=2", "FIFO_DEPTH=1", "BURST_WORDS=1", "WIDTH=32", "HEIGHT=32"},
+    {"BUFFER_DEPTH=65536", "FIFO_DEPTH=65536", "BURST_WORDS=256"}};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(rtl, Rtl)
+
+BOOST_AUTO_TEST_CASE(lint_has_nothing_to_say_at_any_size) {
+  for (const Words& parameters : sizes) {
+    const kit::Outcome outcome = lint(sources(), "feature_extraction", parameters);
+    BOOST_TEST(outcome.exit_code == 0);
+    BOOST_TEST(outcome.out + outcome.err == "");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(yosys_reads_it_and_finds_no_latch_and_no_loop) {
+  const kit::Outcome outcome = elaborate(sources(), "feature_extraction");
+  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+}
+
+// The checks above can fail.
+BOOST_AUTO_TEST_CASE(a_wrong_width_and_a_latch_are_noticed) {
+  kit::write_file(folder / "wide.sv",
+                  "module wide(input logic [9:0] x, output logic [7:0] y);\n  assign y = x;\n"
+                  "endmodule\n");
+  const kit::Outcome outcome = lint({folder / "wide.sv"}, "wide", {});
+  BOOST_TEST(outcome.exit_code != 0);
+  BOOST_TEST(outcome.err.find("wide.sv:2") != std::string::npos, outcome.err);
+  kit::write_file(folder / "latch.sv",
+                  "module latch(input logic e, d, output logic q);\n"
+                  "  always @* if (e) q = d;\nendmodule\n");
+  BOOST_TEST(elaborate({folder / "latch.sv"}, "latch").exit_code != 0);
+}
+
+// Line buffers are block RAM; boxes, free labels and the words that wait are distributed memory, not
+// thousands of registers.
+BOOST_AUTO_TEST_CASE(memories_become_memories) {
+  auto corner = synthesise("corner_detection");
+  BOOST_TEST(corner["RAMB18E1"] + 2 * corner["RAMB36E1"] == 8);
+  BOOST_TEST(corner["FDRE"] < 3000);
+  auto blob = synthesise("blob_detection");
+  BOOST_TEST(blob["RAMB18E1"] == 1);
+  BOOST_TEST(blob["RAM64M"] > 100);
+  BOOST_TEST(blob["FDRE"] < 3200);
+  auto packaging = synthesise("feature_packaging");
+  BOOST_TEST(packaging["FDRE"] < 300);
+  auto bridge = synthesise("axi_threshold_bridge");
+  BOOST_TEST(bridge["FDRE"] < 200);
+  auto threshold = synthesise("global_threshold");
+  BOOST_TEST(threshold["FDRE"] < 500);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
