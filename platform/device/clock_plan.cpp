@@ -11,7 +11,6 @@ namespace platform::device {
 
 namespace {
 
-constexpr double hz_per_mhz = 1e6;
 /// Deviations that differ by less are equal: a crystal written as 33.3333 MHz is no other one.
 constexpr double equal_hz = 1;
 

@@ -24,6 +24,9 @@ struct Figure {
   std::string source;
 };
 
+/// Clocks are in MHz in the files, in Hz in calculations.
+inline constexpr double hz_per_mhz = 1e6;
+
 /// A chip of one speed grade. Names of the figures are those of the file.
 struct Device {
   std::string part;   ///< "xc7z020"

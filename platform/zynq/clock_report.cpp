@@ -9,8 +9,6 @@ namespace {
 using device::ClockKind;
 using report::ClockReport;
 
-constexpr double hz_per_mhz = 1e6;
-
 device::MadeClock made_ddr(const Zynq& zynq, const PowerOptions& options) {
   const auto wish_hz = static_cast<double>(options.ddr.frequency);
   return zynq.ps.clock_planner().own_pll(wish_hz, ClockKind::ddr);
@@ -30,20 +28,20 @@ ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
   const auto wish_hz = static_cast<double>(use.wish_hz), hz = static_cast<double>(use.fastest_hz);
   ClockReport::Clock clock;
   clock.name = use.name;
-  clock.wish_mhz = wish_hz / hz_per_mhz;
-  clock.frequency_mhz = hz / hz_per_mhz;
-  clock.made_mhz = made.hz / hz_per_mhz;
+  clock.wish_mhz = wish_hz / device::hz_per_mhz;
+  clock.frequency_mhz = hz / device::hz_per_mhz;
+  clock.made_mhz = made.hz / device::hz_per_mhz;
   clock.pll = to_string(made.pll);
-  clock.vco_mhz = made.vco_hz / hz_per_mhz;
+  clock.vco_mhz = made.vco_hz / device::hz_per_mhz;
   clock.feedback = made.feedback;
   clock.divisor0 = made.divisor0;
   clock.divisor1 = made.divisor1;
   clock.is_made = device::same_frequency(made.hz, wish_hz);
   const auto near = ps.clock_planner().neighbours(wish_hz, use.kind, ps.clock_plan());
-  if (near.below) clock.below_mhz = near.below->hz / hz_per_mhz;
-  if (near.above) clock.above_mhz = near.above->hz / hz_per_mhz;
+  if (near.below) clock.below_mhz = near.below->hz / device::hz_per_mhz;
+  if (near.above) clock.above_mhz = near.above->hz / device::hz_per_mhz;
   const device::ClockVerdict verdict = judge(ps.clock_planner(), use.kind, hz);
-  clock.limit_mhz = verdict.limit_hz / hz_per_mhz;
+  clock.limit_mhz = verdict.limit_hz / device::hz_per_mhz;
   clock.limit_confidence = to_string(verdict.confidence);
   clock.margin_percent = verdict.margin_percent;
   clock.within = verdict.within;

@@ -8,7 +8,6 @@ namespace platform {
 
 namespace {
 
-constexpr double hz_per_mhz = 1e6;
 constexpr std::uint64_t slowest_hz = 1'000'000, fastest_hz = 1'000'000'000;
 
 /// What holds it is its name: it is `clk` there.
@@ -100,8 +99,8 @@ report::TimingReport TimingClosure::report(
     module.name = limit.ip.module;
     module.clock = limit.ip.clock_name;
     const std::uint64_t hz = fastest(*limit.ip.clock);
-    module.frequency_mhz = static_cast<double>(hz) / hz_per_mhz;
-    module.fmax_mhz = static_cast<double>(limit.fmax) / hz_per_mhz;
+    module.frequency_mhz = static_cast<double>(hz) / device::hz_per_mhz;
+    module.fmax_mhz = static_cast<double>(limit.fmax) / device::hz_per_mhz;
     // Another limit than ours is the user's, and is one.
     module.lower_bound = limit.ip.estimate.lower_bound && !limit.fmax.is_changed();
     module.met = hz <= limit.fmax;

@@ -18,7 +18,6 @@ using vp::PowerKind;
 
 constexpr double nano = 1e-9;  // nJ; mW/MHz is nJ a clock
 constexpr double pico = 1e-12;
-constexpr double hz_per_mhz = 1e6;
 constexpr double line_bytes = 32;      // of the L2 cache
 constexpr double hp_port_bytes = 8;    // a beat
 constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
@@ -114,7 +113,7 @@ class Builder {
   /// DDR I/O of a bus that is always busy, W.
   Band full_ddr() const {
     const double volts = options_.ddr.voltage;
-    const double mhz = static_cast<double>(ddr_hz(zynq_, options_)) / hz_per_mhz;
+    const double mhz = static_cast<double>(ddr_hz(zynq_, options_)) / device::hz_per_mhz;
     Band amperes = table_.value(wide("ps.ddr_current_"));
     amperes += table_.value(wide("ps.ddr_slope_")) * mhz;
     const double lower = (full_voltage - volts) / (full_voltage - low_voltage);
