@@ -65,11 +65,11 @@ void PixelDetector::detect(const std::uint8_t* image, Detected& result) {
 
 void PixelDetector::label(bool ena, bool dark, std::uint32_t x, std::uint32_t y, std::uint32_t step,
                           Detected& result) {
-  constexpr std::uint32_t first_clock = 5;  // at which a label that the first pixel retired leaves
+  constexpr std::uint32_t latency = 1;  // from the retirement of a label
   if (!blob_.step(ena, dark, x, y)) return;
   const pl::BoundingBox& box = blob_.retired();
   if (!box.at_least(minimum_side)) return;
-  result.blobs.push_back({first_clock + step, pl::packet::blob_start(number_, box.sx, box.sy),
+  result.blobs.push_back({latency + step, pl::packet::blob_start(number_, box.sx, box.sy),
                           pl::packet::blob_end(number_, box.ex, box.ey)});
   ++number_;
 }
@@ -97,8 +97,9 @@ void PlainFunction<Detector>::pack() {
   marker::WordStore& words = memory_->words;
   words.clear();
   auto blob = detected_.blobs.begin();
+  // The blob detection takes a pixel one clock behind the corner detection.
   const auto push_blobs_before = [&](std::uint64_t clock) {
-    for (; blob != detected_.blobs.end() && blob->clock < clock; ++blob) {
+    for (; blob != detected_.blobs.end() && blob->clock + 1 < clock; ++blob) {
       words.push(blob->start);
       words.push(blob->end);
     }

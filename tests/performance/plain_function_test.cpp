@@ -12,8 +12,10 @@ const marker::Camera camera{381.36, 381.36, 320, 240};
 
 std::vector<harness::Word> words_of(const bench::Detected& detected) {
   std::vector<harness::Word> words;
-  for (const pl::StampedWord& c : detected.corners) words.push_back({'C', c.clock, c.word, 0});
-  for (const pl::StampedBlob& b : detected.blobs) words.push_back({'B', b.clock, b.start, b.end});
+  for (const pl::StampedWord& c : detected.corners)
+    words.push_back({'C', harness::detectors_begin + c.clock, c.word, 0});
+  for (const pl::StampedBlob& b : detected.blobs)
+    words.push_back({'B', harness::blobs_begin + b.clock, b.start, b.end});
   std::sort(words.begin(), words.end());
   return words;
 }

@@ -10,10 +10,9 @@ constexpr std::uint64_t never = vp::Clock::never;
 
 }  // namespace
 
-LazyBridge::LazyBridge(const vp::Clock& pixel_clk, const vp::Clock& system_clk,
-                       const BinaryView& binary, std::uint32_t fifo_depth,
-                       std::uint32_t burst_words)
-    : pixel_clock_(pixel_clk),
+LazyBridge::LazyBridge(const BinaryFrames& binary, const vp::Clock& system_clk,
+                       std::uint32_t fifo_depth, std::uint32_t burst_words)
+    : pixel_clock_(binary.clock()),
       system_clock_(system_clk),
       binary_(binary),
       fifo_depth_(fifo_depth),
@@ -38,7 +37,7 @@ bool LazyBridge::next_word(Word& word) const {
     return true;
   }
   if (next_ >= binary_.size()) return false;
-  word = {binary_.leaves_at(next_) + 1, binary_.words()[next_]};
+  word = {crossing_of(next_), binary_.data()[next_]};
   return true;
 }
 
@@ -84,7 +83,7 @@ void LazyBridge::settle() {
 void LazyBridge::frame_begins() {
   advance(system_clock_.cycle());
   for (; next_ < binary_.size(); ++next_) {
-    late_.push_back({binary_.leaves_at(next_) + 1, binary_.words()[next_]});
+    late_.push_back({crossing_of(next_), binary_.data()[next_]});
   }
   next_ = 0;
   arrives_ = never;  // the next look plans, with the new frame
@@ -151,10 +150,10 @@ void LazyBridge::run_through(std::uint64_t edge) {
 bool LazyBridge::run_many_through(std::uint64_t cycle) {
   if (ratio_ == 0 || fifo_.count() != 0 || in_reset_ || pending() || !late_.empty()) return false;
   const std::uint64_t last_crossing = (cycle - 3) / ratio_;
-  const std::uint64_t arrived = (last_crossing - binary_.leaves_at(next_) - 1) / 32 + 1;
+  const std::uint64_t arrived = (last_crossing - crossing_of(next_)) / 32 + 1;
   const auto count = static_cast<std::uint32_t>(
       std::min<std::uint64_t>({arrived, binary_.size() - next_, burst_words_ - in_packet_}));
-  const std::uint32_t* words = binary_.words() + next_;
+  const std::uint32_t* words = binary_.data() + next_;
   passed_.insert(passed_.end(), words, words + count);
   next_ += count;
   in_packet_ += count;
@@ -166,7 +165,7 @@ bool LazyBridge::run_many_through(std::uint64_t cycle) {
     in_packet_ = 0;
     end_packet();
   }
-  cycle_ = arrival(binary_.leaves_at(next_ - 1) + 1) + 2;
+  cycle_ = arrival(crossing_of(next_ - 1)) + 2;
   plan();
   return true;
 }
@@ -237,7 +236,7 @@ std::uint64_t LazyBridge::earliest_pass(std::uint32_t beats) {
   if (words_ahead < late_.size()) return arrival(late_[words_ahead].crossing) + 2;
   const std::uint64_t index = std::uint64_t{next_} + words_ahead - late_.size();
   if (index >= binary_.size()) return never;
-  return arrival(binary_.leaves_at(static_cast<std::uint32_t>(index)) + 1) + 2;
+  return arrival(crossing_of(static_cast<std::uint32_t>(index))) + 2;
 }
 
 vp::BeatSource::Beats LazyBridge::take() {

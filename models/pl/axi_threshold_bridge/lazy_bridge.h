@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <pl/common/frame_channel.h>
 #include <pl/feature_packaging/core.h>
-#include <pl/global_threshold/binary_view.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 
@@ -17,8 +17,8 @@ namespace pl {
 class LazyBridge {
  public:
   /// `fifo_depth` words besides the output register, `burst_words` words a packet.
-  LazyBridge(const vp::Clock& pixel_clk, const vp::Clock& system_clk, const BinaryView& binary,
-             std::uint32_t fifo_depth, std::uint32_t burst_words);
+  LazyBridge(const BinaryFrames& binary, const vp::Clock& system_clk, std::uint32_t fifo_depth,
+             std::uint32_t burst_words);
 
   /// Runs all system-clock edges up to and including `cycle`.
   void advance(std::uint64_t cycle);
@@ -45,7 +45,7 @@ class LazyBridge {
   vp::BeatSource::Beats take();
 
   std::uint32_t overflow() const { return overflow_; }
-  /// See AxiThresholdBridgeClocked::packet_peak().
+  /// See AxiThresholdBridge::packet_peak().
   std::uint32_t packet_peak() const { return packet_peak_; }
   /// What happened since the last call.
   struct Counts {
@@ -62,6 +62,8 @@ class LazyBridge {
     std::uint32_t data;
   };
 
+  /// The edge on which the crossing takes a word of the present frame: one behind its last pixel.
+  std::uint64_t crossing_of(std::uint32_t word) const { return binary_.leaves_at(32 * word + 32); }
   std::uint64_t arrival(std::uint64_t crossing) const;
   bool next_word(Word& word) const;
   void drop_word();
@@ -80,7 +82,7 @@ class LazyBridge {
 
   const vp::Clock& pixel_clock_;
   const vp::Clock& system_clock_;
-  const BinaryView& binary_;
+  const BinaryFrames& binary_;
   const std::uint32_t fifo_depth_, burst_words_;
 
   std::deque<Word> late_;                     ///< of the frame before, still in the crossing

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-#include <pl/common/geometry.h>
+#include <pl/common/fidelity.h>
+#include <pl/common/frame_channel.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -12,12 +13,15 @@ namespace pl {
 /// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`, decision).
 class BlobDetection : public vp::Clocked, public vp::Ip {
  public:
+  static Models<BlobDetection>& models();
+
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
-  // Clocked fidelity only.
+  // The image pixel by pixel.
   vp::In<bool> pixel{"pixel", this};  ///< 1 is dark
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
+  FrameIn<BinaryFrames> frames{"frames"};  ///< the image as a whole
   vp::Signal<bool> blob_out{"blob_out"};
   vp::Signal<std::uint32_t> blob_start{"blob_start"};
   vp::Signal<std::uint32_t> blob_end{"blob_end"};
@@ -45,8 +49,8 @@ class BlobDetection : public vp::Clocked, public vp::Ip {
   virtual void settle() {}
 
  protected:
-  BlobDetection(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry)
-      : Clocked(name, clk), Ip(&clk), geometry_(geometry) {
+  BlobDetection(sc_core::sc_module_name name, const Site& site)
+      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
     wake_on(ena);
     wake_on(rst);
   }

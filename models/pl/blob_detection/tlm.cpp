@@ -1,24 +1,18 @@
-#include <pl/blob_detection/tlm.h>
+#include <pl/blob_detection/models.h>
 
 #include <algorithm>
 
 namespace pl {
 
-namespace {
-
-/// The clock at which a frame's first pixel is taken.
-constexpr std::uint64_t first_pixel_clock = 4;
-
-}  // namespace
-
-BlobDetectionTlm::BlobDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk,
-                                   const Geometry& geometry, BinaryView& binary)
-    : BlobDetection(name, clk, geometry),
-      binary_(binary),
-      frame_(geometry, label_count, minimum_side),
+BlobDetectionTlm::BlobDetectionTlm(sc_core::sc_module_name name, const Site& site)
+    : BlobDetection(name, site),
+      frame_(geometry_, label_count, minimum_side),
       start_(frame_),
-      rest_(frame_) {
-  binary_.add_listener(*this);
+      rest_(frame_) {}
+
+void BlobDetectionTlm::end_of_elaboration() {
+  BlobDetection::end_of_elaboration();
+  frames.channel().add_listener(*this);
 }
 
 void BlobDetectionTlm::edge() {
@@ -40,7 +34,7 @@ void BlobDetectionTlm::settle() {
   if (!begun_ || cycle < begin_ || cycle >= frame_end()) return;
   BlobFrame until_now = start_;
   std::vector<StampedBlob> ignored;
-  until_now.advance(binary_.words(), static_cast<std::uint32_t>(cycle + 1 - begin_), ignored);
+  until_now.advance(frames->data(), static_cast<std::uint32_t>(cycle + 1 - begin_), ignored);
   label_overflow = until_now.overflow();
 }
 
@@ -84,7 +78,7 @@ void BlobDetectionTlm::catch_up(std::uint64_t cycle) {
 
 void BlobDetectionTlm::find() {
   const std::size_t old = blobs_.size();
-  frame_.advance(binary_.words(), geometry_.pixels(), blobs_);
+  frame_.advance(frames->data(), geometry_.pixels(), blobs_);
   idle_cycle_ = frame_end() + frame_.active_labels() + 1;
   rest_ = frame_;
   rest_.finish(blobs_);
@@ -92,9 +86,7 @@ void BlobDetectionTlm::find() {
 }
 
 void BlobDetectionTlm::stamp(std::size_t from) {
-  for (std::size_t i = from; i < blobs_.size(); ++i) {
-    blobs_[i].clock += begin_ - first_pixel_clock;
-  }
+  for (std::size_t i = from; i < blobs_.size(); ++i) blobs_[i].clock += begin_;
 }
 
 void BlobDetectionTlm::forget_before(std::uint64_t cycle, std::size_t from) {
@@ -104,7 +96,7 @@ void BlobDetectionTlm::forget_before(std::uint64_t cycle, std::size_t from) {
                }));
 }
 
-void BlobDetectionTlm::binary_changed(std::uint32_t first) {
+void BlobDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
   // A pixel of a frame that begins here only in the next clock is not known yet.
   if (!begun_ || begin_ + first <= clock().cycle()) return;
   changed_cycle_ = std::min(changed_cycle_, begin_ + first);

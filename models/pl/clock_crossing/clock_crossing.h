@@ -1,19 +1,61 @@
 #pragma once
 
 #include <cstdint>
+#include <systemc>
 
-#include <pl/clock_crossing/crossing_register.h>
+#include <pl/common/frame_channel.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
+#include <vp/signal.h>
 
 namespace pl {
+
+/// A word on its way from the pixel clock to the system clock: held in a register of the pixel
+/// domain beside a toggle that the system side samples on each of its edges. No handshake: a word
+/// that the next one overwrites before it was seen is lost, and counted.
+class CrossingRegister : public sc_core::sc_module {
+ public:
+  explicit CrossingRegister(sc_core::sc_module_name name) : sc_module(name) {}
+
+  vp::Signal<bool> toggle{"toggle"};
+  vp::Signal<std::uint32_t> word{"word"};
+  vp::Signal<std::uint32_t> second_word{
+      "second_word"};  ///< a blob's end; unused by the other crossings
+
+  /// The toggle as the system side sampled it last.
+  void set_seen(const vp::Signal<bool>& seen) { seen_ = &seen; }
+
+  /// Puts a word in, on a pixel-clock edge. False: it replaced one that was not seen.
+  bool send(std::uint32_t first, std::uint32_t second = 0) {
+    const bool seen = seen_->written() == toggle.written();
+    word = first;
+    second_word = second;
+    if (seen) toggle = !toggle.get();
+    return seen;
+  }
+  void reset() { toggle = false; }
+
+ private:
+  const vp::Signal<bool>* seen_ = nullptr;
+};
+
+/// What the crossing offers the system side in place of the binary words: their frames, and the
+/// count of those that are lost on a way that whoever takes them works out itself.
+class FrameCrossing : public virtual sc_core::sc_interface {
+ public:
+  /// Null if the words come one by one.
+  virtual BinaryFrames* frames() = 0;
+  virtual void add_lost(std::uint32_t words) = 0;
+  /// The pixel side is in reset, and with it the count.
+  virtual void forget_lost() = 0;
+};
 
 /// The pixel side of all three crossings: corner, blob and binary words, and the count of those
 /// that were lost.
 ///
 /// At coincident edges the system side samples first, so a word that is sampled and replaced at the
 /// same edge was seen.
-class ClockCrossing : public vp::Clocked, public vp::Ip {
+class ClockCrossing : public vp::Clocked, public vp::Ip, public FrameCrossing {
  public:
   ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, const vp::Clock& system_clk);
 
@@ -25,18 +67,19 @@ class ClockCrossing : public vp::Clocked, public vp::Ip {
   vp::In<std::uint32_t> blob_end{"blob_end", this};
   vp::In<bool> thresh_out{"thresh_out", this};
   vp::In<std::uint32_t> thresh_data{"thresh_data", this};
+  FrameIn<BinaryFrames> thresh_frames{"thresh_frames"};  ///< in place of thresh_out and thresh_data
 
   CrossingRegister corner{"corner"};
   CrossingRegister blob{"blob"};
   CrossingRegister binary{"binary"};
   /// Words overwritten before the system side saw them, since the last reset.
   vp::Signal<std::uint32_t> crossing_overflow{"crossing_overflow"};
-  /// Counts words that were lost on a way that somebody else models.
-  void add_lost(std::uint32_t words) {
+
+  BinaryFrames* frames() override { return thresh_frames.open() ? nullptr : thresh_frames[0]; }
+  void add_lost(std::uint32_t words) override {
     if (words != 0) crossing_overflow = crossing_overflow.written() + words;
   }
-  /// The pixel side is in reset, and with it the count.
-  void forget_lost() { crossing_overflow = 0; }
+  void forget_lost() override { crossing_overflow = 0; }
 
  private:
   void edge() override;

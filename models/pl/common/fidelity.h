@@ -1,11 +1,131 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pl/common/geometry.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
+
 namespace pl {
 
-/// How an IP is modelled. Results and times are the same.
+/// How an IP is modelled if nothing else is asked for. Results and times are the same.
 enum class Fidelity {
   clocked,  ///< clock by clock, all ports alive
   tlm,      ///< whole frames at once, with the clock of every packet
+};
+
+/// How the image goes from one IP to the next.
+struct Passage {
+  bool pixels = false;  ///< one by one, on signals
+  bool frames = false;  ///< on a FrameChannel
+};
+constexpr Passage no_image{}, by_pixel{true, false}, by_frame{false, true}, both_ways{true, true};
+
+/// What every model of an IP is built with; all else is bound to its ports.
+struct Site {
+  vp::Clock& clk;
+  Geometry geometry;
+};
+
+/// What the choice among the models of an IP depends on.
+struct ModelTraits {
+  std::string name;  ///< as `fidelity.<ip>` says it
+  Passage takes, gives;
+};
+
+/// One way to model an `Ip`, which is the class with its ports.
+template <class Ip>
+struct Model : ModelTraits {
+  using Make = std::function<std::unique_ptr<Ip>(const char* name, const Site& site)>;
+
+  Model(ModelTraits traits, Make make_model)
+      : ModelTraits(std::move(traits)), make(std::move(make_model)) {}
+  Make make;
+};
+
+/// A model that is the class `Module`.
+template <class Ip, class Module>
+Model<Ip> model(std::string name, Passage takes, Passage gives) {
+  return {{std::move(name), takes, gives}, [](const char* instance, const Site& site) {
+            return std::make_unique<Module>(instance, site);
+          }};
+}
+
+/// All models of an IP, "clocked" first. The IP's folder lists its own; a design from outside may
+/// add others before the logic is built.
+template <class Ip>
+class Models {
+ public:
+  /// `ip`: the name of the instance, and of its key in `fidelity`.
+  Models(std::string ip, std::initializer_list<Model<Ip>> models)
+      : ip_(std::move(ip)), models_(models) {}
+
+  /// Throws std::logic_error for a name that there is.
+  void add(Model<Ip> model) {
+    for (const Model<Ip>& known : models_) {
+      if (known.name == model.name)
+        throw std::logic_error("there is a model '" + model.name + "' of " + ip_);
+    }
+    models_.push_back(std::move(model));
+  }
+  const std::string& ip() const { return ip_; }
+  const std::vector<Model<Ip>>& list() const { return models_; }
+
+ private:
+  std::string ip_;
+  std::vector<Model<Ip>> models_;
+};
+
+/// The part of Choice that does not depend on the IP.
+class ChoiceBase {
+ public:
+  /// To whom its image goes.
+  using Feeds = std::vector<const ChoiceBase*>;
+
+  Passage gives() const { return traits_[chosen_].gives; }
+
+ protected:
+  /// `traits` is never empty.
+  ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, Fidelity otherwise,
+             const Feeds& feeds);
+  std::size_t chosen() const { return chosen_; }
+
+ private:
+  std::string usual(Fidelity otherwise, const Feeds& feeds) const;
+  bool feeds(const ModelTraits& model, const Feeds& others) const;
+  void check(const ChoiceBase& other) const;
+
+  std::vector<ModelTraits> traits_;
+  vp::Parameter<std::string> parameter_;  ///< `fidelity.<ip>`
+  std::size_t chosen_ = 0;
+};
+
+/// Which model of an IP is built: a member of the module `fidelity`.
+///
+/// Not configured, it is that of the whole logic, unless that does not go with the IP that it
+/// feeds: then it is the first model that does.
+template <class Ip>
+class Choice : public ChoiceBase {
+ public:
+  /// What it feeds has chosen before. Throws vp::InputError if that cannot take what a configured
+  /// model gives.
+  Choice(const Models<Ip>& models, Fidelity otherwise, const Feeds& feeds = {})
+      : ChoiceBase(models.ip(), {models.list().begin(), models.list().end()}, otherwise, feeds),
+        ip_(models.ip()),
+        make_(models.list()[chosen()].make) {}
+
+  std::unique_ptr<Ip> make(const Site& site) const { return make_(ip_.c_str(), site); }
+
+ private:
+  std::string ip_;
+  typename Model<Ip>::Make make_;
 };
 
 }  // namespace pl

@@ -1,34 +1,105 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <systemc>
 #include <vector>
+
+#include <vp/clock.h>
+#include <vp/error.h>
 
 namespace pl {
 
-/// Told of a frame that passes.
+/// Told of the frames that pass a channel.
 class FrameListener {
  public:
   virtual ~FrameListener() = default;
-  /// From the next edge on the memory is read.
+  /// A frame is about to take the place of the one before.
   virtual void frame_begins() {}
   /// `count` pixels from raster index `first` on changed; none of them had left the source.
   virtual void pixels_changed(std::uint32_t /*first*/, std::uint32_t /*count*/) {}
+  /// The source is in reset: nothing more of the frame leaves it.
+  virtual void frame_cut() {}
 };
 
-/// What a source of pixels offers at transaction level in place of its pixel ports: the frame that
-/// passes, as a whole. Its enable signal rises and falls as at clocked fidelity.
-class FrameChannel {
+/// What an IP offers at transaction level in place of its pixel ports: the frame that passes, as a
+/// whole. Its enable signal rises and falls as at clocked fidelity.
+///
+/// Pixels that left the IP stand as they were then, the others as they are going to leave if
+/// nothing else happens; listeners are told when that changes. `Element`: std::uint8_t for a grey
+/// pixel, std::uint32_t for 32 pixels of a binary image (bit i of word w is pixel 32w + i, 1 is
+/// dark).
+template <class Element>
+class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_interface {
  public:
-  virtual ~FrameChannel() = default;
+  /// Edges of `clk` behind its last pixel from which on a frame may be overwritten.
+  static constexpr std::uint64_t drain_clocks = 8;
 
-  /// Of the frame that began last: valid until the one after the next begins. Pixels that did not
-  /// leave the source yet may change; listeners are told after they did.
-  virtual const std::uint8_t* pixels() const = 0;
+  /// `clk`: a pixel leaves on each of its edges.
+  FrameChannel(const char* name, vp::Clock& clk) : sc_object(name), clock_(clk) {}
+  const char* kind() const override { return "pl::FrameChannel"; }
 
+  /// Of the frame that began last: valid until the next one begins.
+  const Element* data() const { return data_; }
+  /// Its elements; 0 before the first frame.
+  std::uint32_t size() const { return size_; }
+  /// The edge on which the pixel of this raster index leaves.
+  std::uint64_t leaves_at(std::uint32_t pixel) const { return first_cycle_ + pixel; }
+  vp::Clock& clock() const { return clock_; }
   void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
- protected:
+  // Of a source that can send one by one, too: somebody wants that only until all have frames.
+  void take_whole() { taken_whole_ = true; }
+  bool taken_whole() const { return taken_whole_; }
+
+  // For the IP that offers it.
+  /// The frame before is about to be overwritten.
+  void announce() {
+    for (FrameListener* listener : listeners_) listener->frame_begins();
+  }
+  /// The first pixel leaves on edge `first_cycle`.
+  void begin(const Element* data, std::uint32_t size, std::uint64_t first_cycle) {
+    data_ = data;
+    size_ = size;
+    first_cycle_ = first_cycle;
+  }
+  void change(std::uint32_t first, std::uint32_t count) {
+    for (FrameListener* listener : listeners_) listener->pixels_changed(first, count);
+  }
+  void cut() {
+    for (FrameListener* listener : listeners_) listener->frame_cut();
+  }
+
+ private:
+  vp::Clock& clock_;
+  const Element* data_ = nullptr;
+  std::uint32_t size_ = 0;
+  std::uint64_t first_cycle_ = 0;
+  bool taken_whole_ = false;
   std::vector<FrameListener*> listeners_;
+};
+
+using GreyFrames = FrameChannel<std::uint8_t>;
+using BinaryFrames = FrameChannel<std::uint32_t>;
+
+/// The port of an IP that takes frames. It stays open where pixels come one by one.
+template <class Channel>
+class FrameIn : public sc_core::sc_port<Channel, 1, sc_core::SC_ZERO_OR_MORE_BOUND> {
+ public:
+  explicit FrameIn(const char* name)
+      : sc_core::sc_port<Channel, 1, sc_core::SC_ZERO_OR_MORE_BOUND>(name) {}
+
+  // From end_of_elaboration() on.
+  bool open() const { return this->size() == 0; }
+  /// Throws vp::InputError if the port is open.
+  Channel& channel() {
+    if (!open()) return *(*this)[0];
+    throw vp::InputError(
+        std::string("port '") + this->name() +
+        "' is connected to nothing: its module takes whole frames; bind it to what "
+        "offers them, or choose a model that takes pixels");
+  }
 };
 
 }  // namespace pl

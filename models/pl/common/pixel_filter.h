@@ -1,12 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
-#include <pl/common/geometry.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 
@@ -18,7 +15,7 @@ class PixelFilter : public vp::Clocked, public vp::Ip {
  public:
   vp::In<bool> rst{"rst", this};
   vp::In<bool> ena{"ena", this};  ///< the sensor's frame_ena
-  // Clocked fidelity only.
+  // Pixel by pixel.
   vp::In<std::uint8_t> pixel{"pixel", this};
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
@@ -26,26 +23,18 @@ class PixelFilter : public vp::Clocked, public vp::Ip {
   vp::Signal<std::uint8_t> pixel_out{"pixel_out"};
   vp::Signal<std::uint16_t> pixel_x{"pixel_x", 10};
   vp::Signal<std::uint16_t> pixel_y{"pixel_y", 9};
-
-  /// Transaction level only: the filtered frame.
-  virtual FrameChannel& frames() = 0;
+  // Whole frames.
+  FrameIn<GreyFrames> frames_in{"frames_in"};
+  GreyFrames frames{"frames", clock()};
 
  protected:
-  PixelFilter(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk), Ip(&clk) {
+  PixelFilter(sc_core::sc_module_name name, const Site& site)
+      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
     wake_on(rst);
     wake_on(ena);
   }
-};
 
-/// What a filter is made of. `source`: the frames that it filters, at transaction level.
-struct FilterSite {
-  vp::Clock& clk;
-  Geometry geometry;
-  Fidelity fidelity;  ///< of what it feeds
-  FrameChannel& source;
+  const Geometry geometry_;
 };
-
-/// Makes a filter as a member of the feature extraction.
-using MakeFilter = std::function<std::unique_ptr<PixelFilter>(const FilterSite& site)>;
 
 }  // namespace pl

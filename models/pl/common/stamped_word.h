@@ -4,8 +4,8 @@
 
 namespace pl {
 
-/// A word with the pixel clock at which it leaves its module: clock 1 is the edge that first
-/// samples `ena` of the frame.
+/// A word with the pixel clock at which it leaves its module: clock 0 is the edge that takes the
+/// frame's first pixel.
 struct StampedWord {
   std::uint64_t clock = 0;
   std::uint32_t word = 0;

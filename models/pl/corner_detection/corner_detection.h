@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <pl/common/fidelity.h>
+#include <pl/common/frame_channel.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -11,12 +13,15 @@ namespace pl {
 /// Corner Detection (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
 class CornerDetection : public vp::Clocked, public vp::Ip {
  public:
+  static Models<CornerDetection>& models();
+
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
-  // Clocked fidelity only.
+  // The image pixel by pixel.
   vp::In<std::uint8_t> pixel{"pixel", this};
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
+  FrameIn<GreyFrames> frames{"frames"};  ///< the image as a whole
   vp::Signal<bool> corner_out{"corner_out"};
   vp::Signal<std::uint32_t> corner_data{"corner_data"};  ///< valid while corner_out is high
 
@@ -29,10 +34,13 @@ class CornerDetection : public vp::Clocked, public vp::Ip {
       "a circle pixel is bright if it exceeds the point of interest by more (grey levels)"};
 
  protected:
-  CornerDetection(sc_core::sc_module_name name, vp::Clock& clk) : Clocked(name, clk), Ip(&clk) {
+  CornerDetection(sc_core::sc_module_name name, const Site& site)
+      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
     wake_on(ena);
     wake_on(rst);
   }
+
+  const Geometry geometry_;
 
  private:
   vp::IpEstimate own_estimate() const override;

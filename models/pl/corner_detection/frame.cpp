@@ -4,7 +4,6 @@
 
 #include <pl/common/packet.h>
 #include <pl/corner_detection/core.h>
-#include <pl/corner_detection/frame_simd.h>
 
 namespace pl {
 
@@ -49,9 +48,7 @@ CornerFrame::CornerFrame(const Geometry& geometry, std::uint32_t threshold)
 }
 
 std::uint64_t CornerFrame::clock(const Geometry& geometry, std::uint32_t x, std::uint32_t y) {
-  constexpr std::uint32_t first_pixel_taken = 3;
-  return first_pixel_taken + CornerCore::latency + std::uint64_t{y + reach} * geometry.width + x +
-         reach;
+  return CornerCore::latency + std::uint64_t{y + reach} * geometry.width + x + reach;
 }
 
 void CornerFrame::begin(const std::uint8_t* image) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,8 +19,8 @@ class CornerFrame {
   /// `threshold` 0 to 255 grey levels.
   CornerFrame(const Geometry& geometry, std::uint32_t threshold);
 
-  /// The clock at which a corner centred on (x, y) leaves (specification: window, threshold,
-  /// strength, two of non-maximum suppression behind the pixel at (x + 4, y + 4)).
+  /// The clock at which a corner centred on (x, y) leaves: CornerCore::latency behind that of the
+  /// pixel at (x + reach, y + reach).
   static std::uint64_t clock(const Geometry& geometry, std::uint32_t x, std::uint32_t y);
 
   /// A new frame. `image` holds width x height pixels, and stays valid as long as advance() is
@@ -57,5 +58,18 @@ class CornerFrame {
   std::array<ScoreRow, 4> rows_;
   std::vector<std::uint8_t> last_rows_;  ///< the frame's last rows with room behind each
 };
+
+namespace fast {
+
+/// Bytes behind the last pixel of a row that mark_corners() may read.
+constexpr std::size_t mark_corners_overread = 80;
+
+/// Tells which of `count` pixels from `points` on have nine contiguous circle pixels brighter than
+/// the pixel itself by more than `threshold` (0 to 255): bit k of `bits` (bit k % 64 of word k /
+/// 64, whole words are written). The circles lie `stride` bytes a row around the points.
+void mark_corners(const std::uint8_t* points, std::ptrdiff_t stride, std::uint32_t count,
+                  std::uint32_t threshold, std::uint64_t* bits);
+
+}  // namespace fast
 
 }  // namespace pl

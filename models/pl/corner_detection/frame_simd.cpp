@@ -1,4 +1,4 @@
-#include <pl/corner_detection/frame_simd.h>
+#include <pl/corner_detection/frame.h>
 
 #include <cstring>
 

@@ -1,22 +1,15 @@
-#include <pl/corner_detection/tlm.h>
+#include <pl/corner_detection/models.h>
 
 #include <algorithm>
 
-#include <pl/corner_detection/core.h>
-
 namespace pl {
 
-namespace {
+CornerDetectionTlm::CornerDetectionTlm(sc_core::sc_module_name name, const Site& site)
+    : CornerDetection(name, site), frame_(geometry_, threshold) {}
 
-/// The clock at which a frame's first pixel is taken.
-constexpr std::uint64_t first_pixel_clock = 3;
-
-}  // namespace
-
-CornerDetectionTlm::CornerDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk,
-                                       const Geometry& geometry, FrameChannel& view)
-    : CornerDetection(name, clk), geometry_(geometry), view_(view), frame_(geometry, threshold) {
-  view_.add_listener(*this);
+void CornerDetectionTlm::end_of_elaboration() {
+  CornerDetection::end_of_elaboration();
+  frames.channel().add_listener(*this);
 }
 
 void CornerDetectionTlm::edge() {
@@ -46,14 +39,14 @@ std::uint64_t CornerDetectionTlm::next_change(std::uint64_t cycle) const {
 void CornerDetectionTlm::begin(std::uint64_t cycle) {
   corners_.erase(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(next_));
   next_ = 0;
-  offset_ = cycle - first_pixel_clock;
+  begin_ = cycle;
   changed_cycle_ = vp::Clock::never;
-  frame_.begin(view_.pixels());
+  frame_.begin(frames->data());
   append_corners();
 }
 
 void CornerDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
-  const std::uint64_t taken = cycle_of(first_pixel_clock + first);
+  const std::uint64_t taken = begin_ + first;
   // A pixel of a frame that begins here only in the next clocks is not known yet.
   const std::uint64_t cycle = clock().cycle();
   if (taken <= cycle || taken >= changed_cycle_) return;
@@ -66,7 +59,7 @@ void CornerDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
 void CornerDetectionTlm::find_again(std::uint64_t cycle) {
   const std::uint32_t row = changed_ / geometry_.width;
   const std::uint64_t row_begin =
-      cycle_of(first_pixel_clock + CornerCore::latency + std::uint64_t{row} * geometry_.width);
+      begin_ + CornerCore::latency + std::uint64_t{row} * geometry_.width;
   corners_.erase(first_at_or_after(row_begin, next_), corners_.end());
   const std::size_t kept = corners_.size();
   frame_.rewind(row);
@@ -79,7 +72,7 @@ void CornerDetectionTlm::find_again(std::uint64_t cycle) {
 void CornerDetectionTlm::append_corners() {
   const std::size_t old = corners_.size();
   frame_.advance(geometry_.height, corners_);
-  for (std::size_t i = old; i < corners_.size(); ++i) corners_[i].clock += offset_;
+  for (std::size_t i = old; i < corners_.size(); ++i) corners_[i].clock += begin_;
 }
 
 std::vector<StampedWord>::iterator CornerDetectionTlm::first_at_or_after(std::uint64_t cycle,

@@ -1,16 +1,6 @@
 #include <pl/feature_extraction/feature_extraction.h>
 
-#include <pl/axi_image_store/tlm.h>
-#include <pl/axi_threshold_bridge/tlm.h>
-#include <pl/blob_detection/clocked.h>
-#include <pl/blob_detection/tlm.h>
 #include <pl/common/simd_target.h>
-#include <pl/corner_detection/clocked.h>
-#include <pl/corner_detection/tlm.h>
-#include <pl/global_threshold/clocked.h>
-#include <pl/global_threshold/tlm.h>
-#include <pl/sensor_input/clocked.h>
-#include <pl/sensor_input/tlm.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <string>
@@ -41,94 +31,49 @@ void choose_simd(const vp::Parameter<std::string>& simd) {
 
 }  // namespace
 
+FidelityChoice::FidelityChoice(sc_core::sc_module_name name, Fidelity otherwise,
+                               const Models<PixelFilter>* filter_models)
+    : sc_module(name),
+      axi_image_store(AxiImageStore::models(), otherwise),
+      axi_threshold_bridge(AxiThresholdBridge::models(), otherwise),
+      blob_detection(BlobDetection::models(), otherwise),
+      global_threshold(GlobalThreshold::models(), otherwise, {&blob_detection}),
+      corner_detection(CornerDetection::models(), otherwise),
+      filter(filter_models ? std::make_unique<Choice<PixelFilter>>(
+                                 *filter_models, otherwise,
+                                 ChoiceBase::Feeds{&corner_detection, &global_threshold})
+                           : nullptr),
+      sensor_input(SensorInput::models(), otherwise,
+                   filter ? ChoiceBase::Feeds{filter.get()}
+                          : ChoiceBase::Feeds{&corner_detection, &global_threshold}) {}
+
 FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk,
                                      vp::Clock& pixel_clk, Fidelity otherwise,
-                                     const MakeFilter& make_filter)
+                                     const Models<PixelFilter>* filter_models)
     : sc_module(name),
-      fidelity("fidelity", otherwise),
+      fidelity("fidelity", otherwise, filter_models),
       bram("bram", geometry().pixels() / pixels_per_word),
       frame_status("frame_status", pixel_clk),
       clock_crossing("clock_crossing", pixel_clk, system_clk),
       feature_packaging("feature_packaging", system_clk),
-      sensor_input_(make_sensor_input(pixel_clk)),
-      axi_image_store_(make_image_store(system_clk)),
-      filter(make(make_filter, pixel_clk)),
-      corner_detection_(make_corner_detection(pixel_clk)),
-      global_threshold_(make_global_threshold(pixel_clk)),
-      blob_detection_(make_blob_detection(pixel_clk)),
-      axi_threshold_bridge_(make_threshold_bridge(system_clk, pixel_clk)) {
+      sensor_input_(fidelity.sensor_input.make({pixel_clk, geometry()})),
+      axi_image_store_(fidelity.axi_image_store.make({system_clk, geometry()})),
+      filter(fidelity.filter ? fidelity.filter->make({pixel_clk, geometry()}) : nullptr),
+      corner_detection_(fidelity.corner_detection.make({pixel_clk, geometry()})),
+      global_threshold_(fidelity.global_threshold.make({pixel_clk, geometry()})),
+      blob_detection_(fidelity.blob_detection.make({pixel_clk, geometry()})),
+      axi_threshold_bridge_(fidelity.axi_threshold_bridge.make({system_clk, geometry()})) {
   control_block.set_logic_clock(system_clk);
   bram.set_logic_clock(pixel_clk);
   choose_simd(simd);
   check_holds_a_frame(bram, geometry());
 }
 
-std::unique_ptr<SensorInput> FeatureExtraction::make_sensor_input(vp::Clock& clk) {
-  if (fidelity.sensor_input == Fidelity::tlm) {
-    return std::make_unique<SensorInputTlm>("sensor_input", clk, geometry(), bram);
-  }
-  return std::make_unique<SensorInputClocked>("sensor_input", clk, geometry(), bram);
-}
-
-std::unique_ptr<AxiImageStoreClocked> FeatureExtraction::make_image_store(vp::Clock& clk) {
-  if (fidelity.axi_image_store == Fidelity::tlm) {
-    return std::make_unique<AxiImageStoreTlm>("axi_image_store", clk, bram, sensor_input.view);
-  }
-  return std::make_unique<AxiImageStoreClocked>("axi_image_store", clk, bram);
-}
-
-std::unique_ptr<PixelFilter> FeatureExtraction::make(const MakeFilter& make_filter,
-                                                     vp::Clock& clk) {
-  if (!make_filter) return nullptr;
-  return make_filter({clk, geometry(), fidelity.sensor_input, sensor_input.view});
-}
-
-/// What the detectors see at transaction level.
-FrameChannel& FeatureExtraction::frames() {
-  return filter ? filter->frames() : sensor_input.view;
-}
-
-std::unique_ptr<CornerDetection> FeatureExtraction::make_corner_detection(vp::Clock& clk) {
-  if (fidelity.corner_detection == Fidelity::tlm) {
-    return std::make_unique<CornerDetectionTlm>("corner_detection", clk, geometry(), frames());
-  }
-  return std::make_unique<CornerDetectionClocked>("corner_detection", clk, geometry());
-}
-
-std::unique_ptr<GlobalThreshold> FeatureExtraction::make_global_threshold(vp::Clock& clk) {
-  if (fidelity.global_threshold == Fidelity::tlm) {
-    return std::make_unique<GlobalThresholdTlm>("global_threshold", clk, geometry(), frames());
-  }
-  return std::make_unique<GlobalThresholdClocked>("global_threshold", clk, geometry());
-}
-
-std::unique_ptr<BlobDetection> FeatureExtraction::make_blob_detection(vp::Clock& clk) {
-  if (fidelity.blob_detection == Fidelity::tlm) {
-    return std::make_unique<BlobDetectionTlm>("blob_detection", clk, geometry(),
-                                              global_threshold.binary);
-  }
-  return std::make_unique<BlobDetectionClocked>("blob_detection", clk, geometry());
-}
-
-// Without a binary image as a whole there is nothing that it could take at once.
-std::unique_ptr<AxiThresholdBridgeClocked> FeatureExtraction::make_threshold_bridge(
-    vp::Clock& clk, vp::Clock& pixel_clk) {
-  if (fidelity.axi_threshold_bridge == Fidelity::tlm &&
-      fidelity.global_threshold == Fidelity::tlm) {
-    return std::make_unique<AxiThresholdBridgeTlm>("axi_threshold_bridge", clk, pixel_clk,
-                                                   global_threshold.binary, clock_crossing);
-  }
-  return std::make_unique<AxiThresholdBridgeClocked>("axi_threshold_bridge", clk);
-}
-
 void FeatureExtraction::before_end_of_elaboration() {
   connect_controls();
   connect_pixels();
+  connect_frames();
   connect_features();
-}
-
-void FeatureExtraction::end_of_elaboration() {
-  global_threshold.show_words(!axi_threshold_bridge.direct());
 }
 
 void FeatureExtraction::connect_controls() {
@@ -149,16 +94,17 @@ void FeatureExtraction::connect_controls() {
 }
 
 void FeatureExtraction::connect_pixels() {
+  axi_image_store.bram(bram);
+  sensor_input.bram(bram);
   if (filter) {
     filter->rst(control_block.rst_out);
     filter->ena(sensor_input.frame_ena);
     filter->pixel(sensor_input.pixel);
     filter->x(sensor_input.pixel_x);
     filter->y(sensor_input.pixel_y);
-    connect_detectors(filter->frame_ena, filter->pixel_out, filter->pixel_x, filter->pixel_y);
+    connect_detectors(*filter, filter->pixel_out);
   } else {
-    connect_detectors(sensor_input.frame_ena, sensor_input.pixel, sensor_input.pixel_x,
-                      sensor_input.pixel_y);
+    connect_detectors(sensor_input, sensor_input.pixel);
   }
   blob_detection.ena(global_threshold.binary_ena);
   blob_detection.pixel(global_threshold.binary_out);
@@ -166,19 +112,33 @@ void FeatureExtraction::connect_pixels() {
   blob_detection.y(global_threshold.binary_y);
 }
 
-void FeatureExtraction::connect_detectors(vp::Signal<bool>& frame_ena,
-                                          vp::Signal<std::uint8_t>& pixel,
-                                          vp::Signal<std::uint16_t>& x,
-                                          vp::Signal<std::uint16_t>& y) {
-  corner_detection.ena(frame_ena);
+template <class Source>
+void FeatureExtraction::connect_detectors(Source& source, vp::Signal<std::uint8_t>& pixel) {
+  corner_detection.ena(source.frame_ena);
   corner_detection.pixel(pixel);
-  corner_detection.x(x);
-  corner_detection.y(y);
-  global_threshold.frame_ena(frame_ena);
+  corner_detection.x(source.pixel_x);
+  corner_detection.y(source.pixel_y);
+  global_threshold.frame_ena(source.frame_ena);
   global_threshold.pixel(pixel);
-  global_threshold.x(x);
-  global_threshold.y(y);
-  frame_status.frame_ena(frame_ena);
+  global_threshold.x(source.pixel_x);
+  global_threshold.y(source.pixel_y);
+  frame_status.frame_ena(source.frame_ena);
+}
+
+// A port whose source has no frames stays open.
+void FeatureExtraction::connect_frames() {
+  const bool sensor = fidelity.sensor_input.gives().frames;
+  if (filter && sensor) filter->frames_in(sensor_input.frames);
+  if (filter ? fidelity.filter->gives().frames : sensor) {
+    GreyFrames& frames = filter ? filter->frames : sensor_input.frames;
+    corner_detection.frames(frames);
+    global_threshold.frames(frames);
+  }
+  if (fidelity.global_threshold.gives().frames) {
+    blob_detection.frames(global_threshold.binary_frames);
+    clock_crossing.thresh_frames(global_threshold.binary_frames);
+  }
+  axi_threshold_bridge.crossing(clock_crossing);
 }
 
 void FeatureExtraction::connect_features() {

@@ -4,15 +4,15 @@
 #include <memory>
 #include <systemc>
 
-#include <pl/axi_image_store/clocked.h>
-#include <pl/axi_threshold_bridge/clocked.h>
+#include <pl/axi_image_store/axi_image_store.h>
+#include <pl/axi_threshold_bridge/axi_threshold_bridge.h>
 #include <pl/blob_detection/blob_detection.h>
 #include <pl/clock_crossing/clock_crossing.h>
+#include <pl/common/fidelity.h>
 #include <pl/common/geometry.h>
 #include <pl/common/pixel_filter.h>
 #include <pl/control_block/control_block.h>
 #include <pl/corner_detection/corner_detection.h>
-#include <pl/feature_extraction/fidelity_choice.h>
 #include <pl/feature_packaging/clocked.h>
 #include <pl/frame_status/frame_status.h>
 #include <pl/global_threshold/global_threshold.h>
@@ -25,14 +25,31 @@
 
 namespace pl {
 
+/// How each IP is modelled that can be modelled in more than one way.
+struct FidelityChoice : sc_core::sc_module {
+  /// `otherwise`: where nothing is configured. `filter`: null if there is none.
+  FidelityChoice(sc_core::sc_module_name name, Fidelity otherwise,
+                 const Models<PixelFilter>* filter);
+
+  // Whoever feeds another one comes behind it.
+  Choice<AxiImageStore> axi_image_store;
+  Choice<AxiThresholdBridge> axi_threshold_bridge;
+  Choice<BlobDetection> blob_detection;
+  Choice<GlobalThreshold> global_threshold;
+  Choice<CornerDetection> corner_detection;
+  std::unique_ptr<Choice<PixelFilter>> filter;  ///< null: there is none
+  Choice<SensorInput> sensor_input;
+};
+
 /// The feature extraction with its data bridge, wired as the thesis' figure E.1: pixels from a BRAM
 /// in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 class FeatureExtraction : public sc_core::sc_module {
  public:
-  /// `fidelity`: of the IP for which no other is configured. `make_filter`: of a filter between
-  /// sensor and detectors; empty: there is none.
+  /// `otherwise`: the fidelity of the IP for which no other is configured. `filter`: the models of
+  /// one between sensor and detectors; null: there is none.
   FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
-                    Fidelity fidelity = Fidelity::clocked, const MakeFilter& make_filter = {});
+                    Fidelity otherwise = Fidelity::clocked,
+                    const Models<PixelFilter>* filter = nullptr);
 
   FidelityChoice fidelity;
   vp::Parameter<std::string> simd{
@@ -62,20 +79,11 @@ class FeatureExtraction : public sc_core::sc_module {
 
  private:
   void before_end_of_elaboration() override;
-  void end_of_elaboration() override;
-  std::unique_ptr<SensorInput> make_sensor_input(vp::Clock& clk);
-  std::unique_ptr<AxiImageStoreClocked> make_image_store(vp::Clock& clk);
-  std::unique_ptr<PixelFilter> make(const MakeFilter& make_filter, vp::Clock& clk);
-  std::unique_ptr<CornerDetection> make_corner_detection(vp::Clock& clk);
-  std::unique_ptr<GlobalThreshold> make_global_threshold(vp::Clock& clk);
-  std::unique_ptr<BlobDetection> make_blob_detection(vp::Clock& clk);
-  std::unique_ptr<AxiThresholdBridgeClocked> make_threshold_bridge(vp::Clock& clk,
-                                                                   vp::Clock& pixel_clk);
-  FrameChannel& frames();
   void connect_controls();
   void connect_pixels();
-  void connect_detectors(vp::Signal<bool>& frame_ena, vp::Signal<std::uint8_t>& pixel,
-                         vp::Signal<std::uint16_t>& x, vp::Signal<std::uint16_t>& y);
+  void connect_frames();
+  template <class Source>
+  void connect_detectors(Source& source, vp::Signal<std::uint8_t>& pixel);
   void connect_features();
 
   /// Refuses sizes that cannot be built before any memory is made for them.
@@ -94,8 +102,8 @@ class FeatureExtraction : public sc_core::sc_module {
   // Modelled as `fidelity` says.
   const std::unique_ptr<SensorInput> sensor_input_;
   SensorInput& sensor_input = *sensor_input_;
-  const std::unique_ptr<AxiImageStoreClocked> axi_image_store_;
-  AxiImageStoreClocked& axi_image_store = *axi_image_store_;
+  const std::unique_ptr<AxiImageStore> axi_image_store_;
+  AxiImageStore& axi_image_store = *axi_image_store_;
   const std::unique_ptr<PixelFilter> filter;  ///< null: there is none
   const std::unique_ptr<CornerDetection> corner_detection_;
   CornerDetection& corner_detection = *corner_detection_;
@@ -103,8 +111,8 @@ class FeatureExtraction : public sc_core::sc_module {
   GlobalThreshold& global_threshold = *global_threshold_;
   const std::unique_ptr<BlobDetection> blob_detection_;
   BlobDetection& blob_detection = *blob_detection_;
-  const std::unique_ptr<AxiThresholdBridgeClocked> axi_threshold_bridge_;
-  AxiThresholdBridgeClocked& axi_threshold_bridge = *axi_threshold_bridge_;
+  const std::unique_ptr<AxiThresholdBridge> axi_threshold_bridge_;
+  AxiThresholdBridge& axi_threshold_bridge = *axi_threshold_bridge_;
 };
 
 }  // namespace pl

@@ -23,9 +23,17 @@ class ThresholdCore {
   }
 
   /// Loads the next threshold from the peaks and starts a new histogram.
-  void end_frame();
+  void end_frame() {
+    threshold_ = static_cast<std::uint8_t>((dark_peak_ + bright_peak_) / 2);
+    clear_histogram();
+  }
   /// Forgets the running frame's histogram; the threshold stays.
-  void clear_histogram();
+  void clear_histogram() {
+    histogram_.fill(0);
+    dark_count_ = bright_count_ = 0;
+    dark_peak_ = 0;
+    bright_peak_ = 255;
+  }
 
   std::uint8_t threshold() const { return threshold_; }
   void set_threshold(std::uint8_t threshold) { threshold_ = threshold; }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <pl/global_threshold/frame_simd.h>
-
 namespace pl {
 
 namespace {

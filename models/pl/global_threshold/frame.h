@@ -29,9 +29,6 @@ class ThresholdFrame {
  public:
   explicit ThresholdFrame(const Geometry& geometry);
 
-  /// The clock at which the word with the pixel of this raster index as its last one leaves.
-  static std::uint64_t clock(std::uint32_t last_pixel) { return std::uint64_t{3} + last_pixel; }
-
   /// A new frame; the threshold stays. `image` holds width x height pixels, and stays valid until
   /// end().
   void begin(const std::uint8_t* image);
@@ -50,8 +47,7 @@ class ThresholdFrame {
   const std::vector<std::uint32_t>& words() const { return words_; }
   std::uint32_t pixels() const { return position_; }
 
-  /// For the pixels from now on. What `wr_thresh` loads at clock c counts from the pixel of raster
-  /// index c - 2 on.
+  /// For the pixels from now on.
   void set_threshold(std::uint8_t threshold) { threshold_ = threshold; }
   std::uint8_t threshold() const { return threshold_; }
 
@@ -63,5 +59,10 @@ class ThresholdFrame {
   std::uint32_t position_ = 0;
   std::uint8_t threshold_ = ThresholdCore::default_threshold;
 };
+
+/// Packs 32 pixels a word, the first in bit 0: 1 if a pixel is not above `threshold`. Reads and
+/// writes nothing beyond the `words` words.
+void pack_dark(const std::uint8_t* pixels, std::size_t words, std::uint8_t threshold,
+               std::uint32_t* binary);
 
 }  // namespace pl

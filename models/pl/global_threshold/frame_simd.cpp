@@ -1,4 +1,4 @@
-#include <pl/global_threshold/frame_simd.h>
+#include <pl/global_threshold/frame.h>
 
 #include <cstring>
 

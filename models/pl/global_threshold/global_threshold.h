@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include <pl/common/geometry.h>
-#include <pl/global_threshold/binary_view.h>
+#include <pl/common/fidelity.h>
+#include <pl/common/frame_channel.h>
 #include <pl/global_threshold/core.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -14,6 +14,8 @@ namespace pl {
 /// it).
 class GlobalThreshold : public vp::Clocked, public vp::Ip {
  public:
+  static Models<GlobalThreshold>& models();
+
   vp::In<bool> por{"por", this};  ///< system reset: the threshold returns to 127 (decision)
   vp::In<bool> rst{"rst", this};  ///< the adaptive threshold survives it (decision)
   vp::In<bool> frame_ena{"frame_ena", this};
@@ -26,22 +28,20 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
   vp::Signal<std::uint8_t> active_threshold{"active_threshold", 8,
                                             ThresholdCore::default_threshold};
 
-  /// Transaction level only: the whole binary image.
-  BinaryView binary;
-  /// Whether words leave on `thresh_out`. The clocked model always shows them; default: shown.
-  virtual void show_words(bool /*show*/) {}
-
-  // Clocked fidelity only.
+  // The images pixel by pixel.
   vp::In<std::uint8_t> pixel{"pixel", this};
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
   vp::Signal<bool> binary_out{"binary_out"};  ///< 1 is dark
   vp::Signal<std::uint16_t> binary_x{"binary_x", 10};
   vp::Signal<std::uint16_t> binary_y{"binary_y", 9};
+  // The images as a whole.
+  FrameIn<GreyFrames> frames{"frames"};
+  BinaryFrames binary_frames{"binary_frames", clock()};
 
  protected:
-  GlobalThreshold(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry)
-      : Clocked(name, clk), Ip(&clk), geometry_(geometry) {
+  GlobalThreshold(sc_core::sc_module_name name, const Site& site)
+      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
     wake_on(por);
     wake_on(rst);
     wake_on(frame_ena);

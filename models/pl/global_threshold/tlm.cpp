@@ -1,12 +1,15 @@
-#include <pl/global_threshold/tlm.h>
+#include <pl/global_threshold/models.h>
 
 namespace pl {
 
-GlobalThresholdTlm::GlobalThresholdTlm(sc_core::sc_module_name name, vp::Clock& clk,
-                                       const Geometry& geometry, FrameChannel& view)
-    : GlobalThreshold(name, clk, geometry), view_(view), frame_(geometry) {
+GlobalThresholdTlm::GlobalThresholdTlm(sc_core::sc_module_name name, const Site& site)
+    : GlobalThreshold(name, site), frame_(geometry_) {
   wake_on(threshold);
-  view_.add_listener(*this);
+}
+
+void GlobalThresholdTlm::end_of_elaboration() {
+  GlobalThreshold::end_of_elaboration();
+  frames.channel().add_listener(*this);
 }
 
 void GlobalThresholdTlm::edge() {
@@ -19,11 +22,11 @@ void GlobalThresholdTlm::edge() {
   if (!frame && running_) end();
   if (wr_thresh) load(cycle);
   active_threshold = frame_.threshold();
-  const bool leaves = show_words_ && emit(cycle);
-  if (leaves) {
+  if (binary_frames.taken_whole()) return;
+  if (emit(cycle)) {
     wake_at(cycle + 1);
-  } else if (running_ && show_words_ && next_word_ < binary.size()) {
-    wake_at(binary.leaves_at(next_word_));
+  } else if (running_ && next_word_ < binary_frames.size()) {
+    wake_at(next_word_leaves());
   }
 }
 
@@ -31,10 +34,11 @@ void GlobalThresholdTlm::begin(std::uint64_t cycle) {
   running_ = true;
   first_cycle_ = cycle;
   next_word_ = 0;
-  binary.prepare();
-  frame_.begin(view_.pixels());
+  binary_frames.announce();
+  frame_.begin(frames->data());
   frame_.advance(geometry_.pixels());
-  binary.begin(frame_.words(), cycle);
+  const std::vector<std::uint32_t>& words = frame_.words();
+  binary_frames.begin(words.data(), static_cast<std::uint32_t>(words.size()), cycle);
 }
 
 void GlobalThresholdTlm::end() {
@@ -52,19 +56,23 @@ void GlobalThresholdTlm::load(std::uint64_t cycle) {
   const auto pixel = static_cast<std::uint32_t>(next_pixel);
   frame_.rewind(pixel);
   frame_.advance(geometry_.pixels());
-  binary.change(pixel);
+  binary_frames.change(pixel, geometry_.pixels() - pixel);
 }
 
 void GlobalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t count) {
   // A pixel of a frame that begins here only in the next clocks is not known yet.
   if (!running_ || first_cycle_ + first <= clock().cycle()) return;
   frame_.refresh(first, count);
-  binary.change(first);
+  binary_frames.change(first, count);
+}
+
+// With the last of its pixels.
+std::uint64_t GlobalThresholdTlm::next_word_leaves() const {
+  return binary_frames.leaves_at(32 * next_word_ + 31);
 }
 
 bool GlobalThresholdTlm::emit(std::uint64_t cycle) {
-  const bool leaves =
-      running_ && next_word_ < binary.size() && binary.leaves_at(next_word_) == cycle;
+  const bool leaves = running_ && next_word_ < binary_frames.size() && next_word_leaves() == cycle;
   if (leaves) thresh_data = frame_.words()[next_word_++];
   thresh_out = leaves;
   return leaves;
@@ -75,7 +83,7 @@ void GlobalThresholdTlm::reset() {
   active_threshold = frame_.threshold();
   binary_ena = false;
   thresh_out = false;
-  binary.cut();
+  binary_frames.cut();
   running_ = false;
   wake_at(vp::Clock::never);
 }

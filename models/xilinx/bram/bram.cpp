@@ -54,9 +54,9 @@ void Bram::write_a(std::uint32_t address, const std::uint32_t* words, std::uint3
 
 void Bram::load(const std::vector<std::uint8_t>& bytes) {
   const auto count = static_cast<std::uint32_t>(std::min(bytes.size(), bytes_.size()));
-  if (listener_) listener_->before_write(0, count);
+  if (reader_) reader_->before_write(0, count);
   std::copy_n(bytes.begin(), count, bytes_.begin());
-  if (listener_) listener_->after_write(0, count);
+  if (reader_) reader_->after_write(0, count);
 }
 
 std::vector<std::uint8_t> Bram::fork() {
@@ -67,10 +67,10 @@ std::vector<std::uint8_t> Bram::fork() {
 
 void Bram::store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
   const std::uint32_t first = address * word_bytes;
-  if (listener_) listener_->before_write(first, count * word_bytes);
+  if (reader_) reader_->before_write(first, count * word_bytes);
   writes_a.add(count);
   std::memcpy(&bytes_[first], words, std::size_t{count} * word_bytes);
-  if (listener_) listener_->after_write(first, count * word_bytes);
+  if (reader_) reader_->after_write(first, count * word_bytes);
 }
 
 void Bram::refuse_write(std::uint32_t address) {

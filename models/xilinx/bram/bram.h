@@ -16,16 +16,25 @@ namespace xilinx {
 ///
 /// A plain memory: the module at port B models its latency of one clock. An access out of range is
 /// a fault of the module at the port: it is warned of, a write is dropped, a read returns 0.
-class Bram : public sc_core::sc_module, public vp::Ip {
+class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::sc_interface {
  public:
-  /// Told of what port A does, before it happens; for models that look at many bytes at once.
-  class Listener {
+  /// A model at port B that looks at many bytes at once: told of what port A does.
+  class Reader {
    public:
-    virtual ~Listener() = default;
+    virtual ~Reader() = default;
+    /// Whether it looks at the memory now, so that words must come at their own times.
+    virtual bool reads() = 0;
     /// Bytes `first` to `first` + `count` - 1 are about to be written.
     virtual void before_write(std::uint32_t first, std::uint32_t count) = 0;
     /// They were written.
     virtual void after_write(std::uint32_t first, std::uint32_t count) = 0;
+  };
+  /// A model at port A that writes many words at once.
+  class Writer {
+   public:
+    virtual ~Writer() = default;
+    /// Writes what has come up to now.
+    virtual void settle() = 0;
   };
 
   /// Depth of port A in words; 76 800 for 640 × 480 pixels.
@@ -59,8 +68,14 @@ class Bram : public sc_core::sc_module, public vp::Ip {
   /// Hands over the memory as it stands, at its place; the Bram goes on with a copy.
   std::vector<std::uint8_t> fork();
 
-  /// At most one.
-  void set_listener(Listener* listener) { listener_ = listener; }
+  // At most one of each.
+  void set_reader(Reader& reader) { reader_ = &reader; }
+  void set_writer(Writer& writer) { writer_ = &writer; }
+  bool is_read() const { return reader_ && reader_->reads(); }
+  /// Before a reader starts.
+  void settle() {
+    if (writer_) writer_->settle();
+  }
 
  private:
   vp::IpEstimate own_estimate() const override;
@@ -69,7 +84,8 @@ class Bram : public sc_core::sc_module, public vp::Ip {
   std::uint8_t refuse_read(std::uint32_t address);
 
   std::vector<std::uint8_t> bytes_;
-  Listener* listener_ = nullptr;
+  Reader* reader_ = nullptr;
+  Writer* writer_ = nullptr;
 };
 
 }  // namespace xilinx

@@ -32,7 +32,7 @@ xilinx::AxiDmaBuild one_channel(bool mm2s) {
 ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk,
                                      vp::Clock& pixel_clk, pl::Fidelity otherwise,
                                      const LogicBuild& build)
-    : FeatureExtraction(name, system_clk, pixel_clk, otherwise, build.make_filter),
+    : FeatureExtraction(name, system_clk, pixel_clk, otherwise, build.filter),
       proc_sys_reset("proc_sys_reset", system_clk),
       axi_interconnect("axi_interconnect", system_clk),
       axi_mem_interconnect("axi_mem_interconnect", system_clk, memory_masters),

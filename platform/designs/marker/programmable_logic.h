@@ -13,8 +13,9 @@ namespace platform {
 
 /// What a design adds to the marker detector's logic.
 struct LogicBuild {
-  unsigned interrupts = 2;     ///< inputs of the concat; 0 and 1 are the DMA engines'
-  pl::MakeFilter make_filter;  ///< between sensor and detectors; empty: none
+  unsigned interrupts = 2;  ///< inputs of the concat; 0 and 1 are the DMA engines'
+  /// Of a filter between sensor and detectors; null: there is none.
+  const pl::Models<pl::PixelFilter>* filter = nullptr;
 };
 
 /// The whole programmable logic: the feature extraction and what Xilinx provides around it, wired

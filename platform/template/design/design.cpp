@@ -11,7 +11,7 @@ namespace {
 
 platform::LogicBuild build() {
   platform::LogicBuild build;
-  build.make_filter = make_median;
+  build.filter = &median_models();
   build.interrupts = 3;
   return build;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -20,10 +19,8 @@ bool at_border(const pl::Geometry& g, std::uint32_t x, std::uint32_t y) {
 /// Two lines and three pixels go by in a shift register; the output is taken in its middle.
 class MedianClocked final : public Median {
  public:
-  MedianClocked(sc_core::sc_module_name name, const pl::FilterSite& site)
-      : Median(name, site), stages_(2 * site.geometry.width + 3), at_rest_(stages_.size()) {}
-
-  pl::FrameChannel& frames() override { throw std::logic_error("a clocked filter has no frames"); }
+  MedianClocked(sc_core::sc_module_name name, const pl::Site& site)
+      : Median(name, site), stages_(2 * geometry_.width + 3), at_rest_(stages_.size()) {}
 
  private:
   struct Stage {
@@ -42,7 +39,7 @@ class MedianClocked final : public Median {
     newest_ = newest_ + 1 == stages_.size() ? 0 : newest_ + 1;
     stages_[newest_] = ena ? Stage{true, pixel, x, y} : Stage{};
     at_rest_ = ena ? 0 : at_rest_ + 1;
-    const Stage& centre = back(geometry_.width + 1);
+    const Stage& centre = back(latency());
     frame_ena = centre.ena;
     if (centre.ena) {
       pixel_out = at_border(geometry_, centre.x, centre.y) ? centre.pixel : filtered();
@@ -72,18 +69,17 @@ class MedianClocked final : public Median {
 
 /// Filters a frame when it begins, and again what changes before it left the sensor; `frame_ena`
 /// follows the sensor's at its clocks.
-class MedianTlm final : public Median, public pl::FrameChannel, private pl::FrameListener {
+class MedianTlm final : public Median, private pl::FrameListener {
  public:
-  MedianTlm(sc_core::sc_module_name name, const pl::FilterSite& site)
-      : Median(name, site), source_(site.source) {
-    for (auto& frame : frames_) frame.resize(geometry_.pixels());
-    source_.add_listener(*this);
+  MedianTlm(sc_core::sc_module_name name, const pl::Site& site) : Median(name, site) {
+    for (auto& image : images_) image.resize(geometry_.pixels());
   }
 
-  pl::FrameChannel& frames() override { return *this; }
-  const std::uint8_t* pixels() const override { return frames_[current_].data(); }
-
  private:
+  void end_of_elaboration() override {
+    Median::end_of_elaboration();
+    frames_in.channel().add_listener(*this);
+  }
   void edge() override {
     sleep();
     const std::uint64_t cycle = clock().cycle();
@@ -91,12 +87,13 @@ class MedianTlm final : public Median, public pl::FrameChannel, private pl::Fram
       changes_.clear();
       ena_before_ = false;
       frame_ena = false;
+      frames.cut();
       return wake_at(vp::Clock::never);
     }
     if (ena != ena_before_) {
       ena_before_ = ena;
-      changes_.push_back({cycle + geometry_.width + 1, ena});
-      if (ena) begin();
+      changes_.push_back({cycle + latency(), ena});
+      if (ena) begin(cycle + latency());
     }
     if (!changes_.empty() && changes_.front().cycle == cycle) {
       frame_ena = changes_.front().value;
@@ -105,24 +102,25 @@ class MedianTlm final : public Median, public pl::FrameChannel, private pl::Fram
     wake_at(changes_.empty() ? vp::Clock::never : changes_.front().cycle);
   }
   void frame_begins() override { begins_ = true; }
-  void begin() {
+  void begin(std::uint64_t first_cycle) {
     begins_ = false;
+    frames.announce();
     current_ = 1 - current_;
     filter(0, geometry_.pixels());
+    frames.begin(images_[current_].data(), geometry_.pixels(), first_cycle);
   }
   void pixels_changed(std::uint32_t first, std::uint32_t count) override {
     if (begins_) return;  // all of it will be filtered
-    const std::uint32_t reach = geometry_.width + 1;
-    const std::uint32_t from = first > reach ? first - reach : 0;
-    const std::uint32_t to = std::min(first + count + reach, geometry_.pixels());
+    const std::uint32_t from = first > latency() ? first - latency() : 0;
+    const std::uint32_t to = std::min(first + count + latency(), geometry_.pixels());
     filter(from, to);
-    for (pl::FrameListener* listener : listeners_) listener->pixels_changed(from, to - from);
+    frames.change(from, to - from);
   }
   void filter(std::uint32_t from, std::uint32_t to) {
-    const std::uint8_t* in = source_.pixels();
+    const std::uint8_t* in = frames_in->data();
     for (std::uint32_t i = from; i < to; ++i) {
       const std::uint32_t x = i % geometry_.width, y = i / geometry_.width;
-      frames_[current_][i] = at_border(geometry_, x, y) ? in[i] : filtered(in + i);
+      images_[current_][i] = at_border(geometry_, x, y) ? in[i] : filtered(in + i);
     }
   }
   std::uint8_t filtered(const std::uint8_t* centre) const {
@@ -140,8 +138,7 @@ class MedianTlm final : public Median, public pl::FrameChannel, private pl::Fram
     bool value;
   };
 
-  pl::FrameChannel& source_;
-  std::array<std::vector<std::uint8_t>, 2> frames_;
+  std::array<std::vector<std::uint8_t>, 2> images_;
   std::size_t current_ = 0;
   std::deque<Change> changes_;  ///< of frame_ena, to come
   bool ena_before_ = false;
@@ -163,7 +160,10 @@ vp::IpEstimate Median::own_estimate() const {
   return e;
 }
 
-std::unique_ptr<pl::PixelFilter> make_median(const pl::FilterSite& site) {
-  if (site.fidelity == pl::Fidelity::tlm) return std::make_unique<MedianTlm>("median", site);
-  return std::make_unique<MedianClocked>("median", site);
+const pl::Models<pl::PixelFilter>& median_models() {
+  static const pl::Models<pl::PixelFilter> models{
+      "median",
+      {pl::model<pl::PixelFilter, MedianClocked>("clocked", pl::by_pixel, pl::by_pixel),
+       pl::model<pl::PixelFilter, MedianTlm>("tlm", pl::by_frame, pl::by_frame)}};
+  return models;
 }

@@ -1,5 +1,5 @@
 // FIFO, packets and overflow of the threshold bridge, at its ports.
-#include <pl/axi_threshold_bridge/clocked.h>
+#include <pl/axi_threshold_bridge/axi_threshold_bridge.h>
 #include <boost/test/unit_test.hpp>
 
 #include "pipeline.h"
@@ -39,7 +39,9 @@ struct Bridge : kit::Simulation {
   vp::Signal<bool> ena{"ena", 1, true}, rst{"rst"}, thresh_in{"thresh_in"};
   vp::Signal<std::uint32_t> thresh_data{"thresh_data"};
   vp::AxiStream link{"link"};
-  pl::AxiThresholdBridgeClocked ip{"axi_threshold_bridge", clk};
+  std::unique_ptr<pl::AxiThresholdBridge> made =
+      pl::AxiThresholdBridge::models().list().front().make("axi_threshold_bridge", {clk, {}});
+  pl::AxiThresholdBridge& ip = *made;
   harness::StreamSink sink{"sink", clk};
 };
 

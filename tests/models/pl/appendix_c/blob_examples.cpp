@@ -1,7 +1,7 @@
 // C.8 to C.12: the blob detection on small pictures, with the registers inside it.
 #include "blob_examples.h"
 
-#include <pl/blob_detection/clocked.h>
+#include <pl/blob_detection/models.h>
 
 #include "bench.h"
 
@@ -92,7 +92,7 @@ struct BlobBench : sc_core::sc_module {
       : sc_module(name),
         clk("clk", scheduler, clock_hz),
         source("source", clk, picture.pixels, picture.width),
-        blob_detection("blob_detection", clk, pl::Geometry{picture.width, picture.height}),
+        blob_detection("blob_detection", {clk, {picture.width, picture.height}}),
         window("window", clk, blob_detection, source, picture) {
     blob_detection.ena(source.ena);
     blob_detection.rst(rst);

@@ -2,7 +2,7 @@
 // corners that enters the suppression, computed with the core's own functions from the 9x9 window.
 #include "suppression_example.h"
 
-#include <pl/corner_detection/clocked.h>
+#include <pl/corner_detection/models.h>
 
 #include <algorithm>
 
@@ -116,7 +116,7 @@ struct SuppressionBench : sc_core::sc_module {
   vp::Signal<bool> rst{"rst"};
   RasterSource<std::uint8_t> source{"source", clk, picture(), width};
   CornerArrayView corners{"corners", clk};
-  pl::CornerDetectionClocked corner_detection{"corner_detection", clk, pl::Geometry{width, height}};
+  pl::CornerDetectionClocked corner_detection{"corner_detection", {clk, {width, height}}};
   vp::Probe<std::uint16_t> packet_strength{"packet_strength", [this] { return field(21, 0x3FF); },
                                            10};
   vp::Probe<std::uint16_t> packet_direction{"packet_direction", [this] { return field(19, 3); }, 2};

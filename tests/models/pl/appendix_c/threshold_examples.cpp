@@ -1,7 +1,7 @@
 // C.6 and C.7: the global threshold module with its histogram.
 #include "threshold_examples.h"
 
-#include <pl/global_threshold/clocked.h>
+#include <pl/global_threshold/models.h>
 
 #include "bench.h"
 
@@ -43,7 +43,7 @@ struct ThresholdModuleBench : sc_core::sc_module {
   vp::Signal<std::uint8_t> pixel{"pixel"};
   vp::Signal<std::uint16_t> x{"x", 10}, y{"y", 9};
   Stage stimuli{"stimuli", clk, [this] { play(); }};
-  pl::GlobalThresholdClocked global_threshold{"global_threshold", clk, pl::Geometry{}};
+  pl::GlobalThresholdClocked global_threshold{"global_threshold", {clk, {}}};
 
  private:
   std::vector<std::uint8_t> frame_;

@@ -1,4 +1,4 @@
-#include <pl/blob_detection/bit_row.h>
+#include <pl/blob_detection/frame.h>
 
 #include <boost/test/unit_test.hpp>
 

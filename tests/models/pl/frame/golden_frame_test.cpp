@@ -38,7 +38,7 @@ struct Frames {
                                     const std::vector<harness::Word>& blobs) const {
     words.insert(words.end(), blobs.begin(), blobs.end());
     for (std::uint32_t w = 0; w < size.pixels() / 32; ++w) {
-      words.push_back({'T', pl::ThresholdFrame::clock(32 * w + 31), threshold.words()[w], 0});
+      words.push_back({'T', harness::detectors_begin + 32 * w + 31, threshold.words()[w], 0});
     }
     std::sort(words.begin(), words.end());
     return words;

@@ -84,12 +84,14 @@ void BlobReference::filter() {
 
 std::vector<Word> corner_words(const std::vector<pl::StampedWord>& corners) {
   std::vector<Word> words;
-  for (const pl::StampedWord& c : corners) words.push_back({'C', c.clock, c.word, 0});
+  for (const pl::StampedWord& c : corners)
+    words.push_back({'C', harness::detectors_begin + c.clock, c.word, 0});
   return words;
 }
 
 std::vector<Word> blob_words(const std::vector<pl::StampedBlob>& blobs) {
   std::vector<Word> words;
-  for (const pl::StampedBlob& b : blobs) words.push_back({'B', b.clock, b.start, b.end});
+  for (const pl::StampedBlob& b : blobs)
+    words.push_back({'B', harness::blobs_begin + b.clock, b.start, b.end});
   return words;
 }

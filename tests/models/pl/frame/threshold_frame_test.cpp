@@ -122,9 +122,4 @@ BOOST_AUTO_TEST_CASE(the_threshold_may_change_between_any_two_pixels) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_word_with_pixel_i_leaves_at_clock_3_plus_i) {
-  BOOST_TEST(pl::ThresholdFrame::clock(31) == 34u);
-  BOOST_TEST(pl::ThresholdFrame::clock(307'199) == 307'202u);
-}
-
 BOOST_AUTO_TEST_SUITE_END()

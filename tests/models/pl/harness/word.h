@@ -15,6 +15,10 @@ struct Word {
   std::uint32_t first;
   std::uint32_t second;  ///< a blob's end; else 0
 };
+/// On which clocks the detectors and the blob detection take a frame's first pixel, one behind the
+/// sensor, the other behind the threshold.
+constexpr std::uint64_t detectors_begin = 3, blobs_begin = 4;
+
 bool operator==(const Word& a, const Word& b);
 bool operator<(const Word& a, const Word& b);
 std::ostream& operator<<(std::ostream& out, const Word& word);

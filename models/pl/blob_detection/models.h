@@ -4,25 +4,51 @@
 #include <vector>
 
 #include <pl/blob_detection/blob_detection.h>
+#include <pl/blob_detection/core.h>
 #include <pl/blob_detection/frame.h>
-#include <pl/global_threshold/binary_view.h>
+#include <vp/probe.h>
 
 namespace pl {
+
+/// Blob Detection clock by clock.
+class BlobDetectionClocked final : public BlobDetection {
+ public:
+  BlobDetectionClocked(sc_core::sc_module_name name, const Site& site)
+      : BlobDetection(name, site), core_(geometry_, label_count) {}
+
+  const BlobCore& core() const { return core_; }
+
+ private:
+  void edge() override;
+  void reset();
+  /// True if the label that retired last is large enough: its packets stand then.
+  bool filter();
+
+  BlobCore core_;
+  bool retired_ = false;  ///< the core retired a label in the last clock
+  bool ena_before_ = false;
+  std::uint32_t number_ = 0;
+  vp::Probe<BlobCore::Label> label_{"label", [this] { return core_.label(); }, 10};
+  vp::Probe<BlobCore::Label> next_label_{"next_label", [this] { return core_.next_label(); }, 10};
+  vp::Probe<std::uint32_t> free_labels_{"free_labels", [this] { return core_.free_labels(); }, 11};
+  vp::Probe<bool> flush_{"flush", [this] { return core_.flushing(); }};
+  vp::Probe<std::uint32_t> number_probe_{"number", number_, 11};
+};
 
 /// Blob Detection at transaction level: finds a frame's blobs when it begins, and shows each on its
 /// clock.
 ///
 /// `rst` is the threshold's, too.
-class BlobDetectionTlm : public BlobDetection, private BinaryListener {
+class BlobDetectionTlm final : public BlobDetection, private FrameListener {
  public:
-  BlobDetectionTlm(sc_core::sc_module_name name, vp::Clock& clk, const Geometry& geometry,
-                   BinaryView& binary);
+  BlobDetectionTlm(sc_core::sc_module_name name, const Site& site);
 
   void settle() override;
 
  private:
+  void end_of_elaboration() override;
   void edge() override;
-  void binary_changed(std::uint32_t first) override;
+  void pixels_changed(std::uint32_t first, std::uint32_t count) override;
   void reset();
   void begin(std::uint64_t cycle);
   void catch_up(std::uint64_t cycle);
@@ -34,7 +60,6 @@ class BlobDetectionTlm : public BlobDetection, private BinaryListener {
   std::uint64_t next_change(std::uint64_t cycle) const;
   std::uint64_t frame_end() const { return begin_ + geometry_.pixels(); }
 
-  BinaryView& binary_;
   BlobFrame frame_;                 ///< after the frame's last pixel
   BlobFrame start_;                 ///< at its begin, to find it again
   BlobFrame rest_;                  ///< behind its end

@@ -1,7 +1,50 @@
-#include <pl/blob_detection/blob_detection.h>
+#include <pl/blob_detection/models.h>
 #include <pl/common/estimate.h>
+#include <pl/common/packet.h>
 
 namespace pl {
+
+Models<BlobDetection>& BlobDetection::models() {
+  static Models<BlobDetection> models{
+      "blob_detection",
+      {model<BlobDetection, BlobDetectionClocked>("clocked", by_pixel, no_image),
+       model<BlobDetection, BlobDetectionTlm>("tlm", by_frame, no_image)}};
+  return models;
+}
+
+void BlobDetectionClocked::edge() {
+  if (rst) {
+    reset();
+    return;
+  }
+  const bool frame = ena;
+  blob_out = retired_ && filter();
+  if (frame && !ena_before_) number_ = 0;
+  ena_before_ = frame;
+  retired_ = core_.step(frame, pixel, x, y);
+  idle = !frame && !retired_ && !core_.flushing();
+  if (core_.overflow() != label_overflow) label_overflow = core_.overflow();
+  if (!frame && !retired_ && !blob_out.written() && core_.quiescent()) sleep();
+}
+
+bool BlobDetectionClocked::filter() {
+  const BoundingBox& box = core_.retired();
+  if (!box.at_least(minimum_side)) return false;
+  blob_start = packet::blob_start(number_, box.sx, box.sy);
+  blob_end = packet::blob_end(number_, box.ex, box.ey);
+  ++number_;
+  return true;
+}
+
+void BlobDetectionClocked::reset() {
+  core_.reset();
+  retired_ = ena_before_ = false;
+  number_ = 0;
+  blob_out = false;
+  idle = true;
+  label_overflow = 0;
+  sleep();
+}
 
 namespace {
 

@@ -1,7 +1,48 @@
 #include <pl/common/estimate.h>
-#include <pl/corner_detection/corner_detection.h>
+#include <pl/common/packet.h>
+#include <pl/corner_detection/models.h>
 
 namespace pl {
+
+Models<CornerDetection>& CornerDetection::models() {
+  static Models<CornerDetection> models{
+      "corner_detection",
+      {model<CornerDetection, CornerDetectionClocked>("clocked", by_pixel, no_image),
+       model<CornerDetection, CornerDetectionTlm>("tlm", by_frame, no_image)}};
+  return models;
+}
+
+CornerDetectionClocked::CornerDetectionClocked(sc_core::sc_module_name name, const Site& site)
+    : CornerDetection(name, site), core_(geometry_, threshold) {}
+
+void CornerDetectionClocked::edge() {
+  if (rst) {
+    reset();
+    return;
+  }
+  const bool leaves = in_flight_ & 1;
+  in_flight_ >>= 1;
+  slot_ = slot_ == CornerCore::latency ? 0 : slot_ + 1;
+  corner_out = leaves;
+  if (leaves) corner_data = data_[slot_];
+  if (ena) {
+    Corner corner;
+    if (core_.push(pixel, x, y, corner)) {
+      in_flight_ |= 1u << (CornerCore::latency - 1);
+      const unsigned last = slot_ == 0 ? CornerCore::latency : slot_ - 1;
+      data_[last] = packet::corner(corner.strength, corner.direction, corner.x, corner.y);
+    }
+  } else if (!leaves && in_flight_ == 0) {
+    sleep();
+  }
+}
+
+void CornerDetectionClocked::reset() {
+  core_.reset();
+  in_flight_ = 0;
+  corner_out = false;
+  sleep();
+}
 
 // Window, nine FAST modules side by side, and eight line FIFOs of a write depth of 1024.
 //

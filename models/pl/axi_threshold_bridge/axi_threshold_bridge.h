@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <pl/clock_crossing/clock_crossing.h>
+#include <pl/common/fidelity.h>
 #include <pl/feature_packaging/core.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
@@ -11,17 +13,19 @@
 
 namespace pl {
 
-/// AXI Threshold Bridge, clocked (thesis 4.4.2, ports of table B.5): sends the binary image to the
+/// AXI Threshold Bridge (thesis 4.4.2, ports of table B.5): sends the binary image to the
 /// PS, 32 words a packet. System clock. A full FIFO (the DMA was not armed again in time) drops the
 /// newest word and counts it.
-class AxiThresholdBridgeClocked : public vp::Clocked, public vp::Ip {
+class AxiThresholdBridge : public vp::Clocked, public vp::Ip {
  public:
-  AxiThresholdBridgeClocked(sc_core::sc_module_name name, vp::Clock& clk);
+  static Models<AxiThresholdBridge>& models();
 
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
   vp::In<bool> thresh_in{"thresh_in", this};  ///< the crossing's toggle
   vp::In<std::uint32_t> thresh_data{"thresh_data", this};
+  /// In place of these two, where the crossing has frames.
+  FrameIn<FrameCrossing> crossing{"crossing"};
   vp::AxiStreamMaster m{"m", *this};
 
   // No ports of the IP: for the crossing, traces and reports.
@@ -39,9 +43,6 @@ class AxiThresholdBridgeClocked : public vp::Clocked, public vp::Ip {
       vp::Unit::none,        {1, 256},
       vp::Source::published, "words a packet: TLAST comes with the last (thesis 4.4.2)"};
 
-  /// The words come from the whole binary image, none on `thresh_in`. Known once the stream is
-  /// bound.
-  virtual bool direct() const { return false; }
   /// Brings the counters up to now.
   virtual void settle() {}
   /// The most words that waited in the FIFO after any clock in which the packet that passed last
@@ -50,7 +51,9 @@ class AxiThresholdBridgeClocked : public vp::Clocked, public vp::Ip {
   virtual std::uint32_t packet_peak() const { return packet_peak_; }
 
  protected:
-  void edge() override;
+  AxiThresholdBridge(sc_core::sc_module_name name, const Site& site);
+  /// One clock edge, word by word.
+  void pass_words();
 
  private:
   vp::IpEstimate own_estimate() const override;

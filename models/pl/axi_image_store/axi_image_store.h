@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <pl/common/fidelity.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -10,15 +11,16 @@
 
 namespace pl {
 
-/// AXI Image Store, clocked (thesis 4.3.3, ports of table B.8): writes the image that arrives on
-/// its stream into port A of the BRAM, from address 0 on after each rise of `ena`. System clock.
-class AxiImageStoreClocked : public vp::Clocked, public vp::Ip {
+/// AXI Image Store (thesis 4.3.3, ports of table B.8): writes the image that arrives on its stream
+/// into port A of the BRAM, from address 0 on after each rise of `ena`. System clock.
+class AxiImageStore : public vp::Clocked, public vp::Ip {
  public:
-  AxiImageStoreClocked(sc_core::sc_module_name name, vp::Clock& clk, xilinx::Bram& bram);
+  static Models<AxiImageStore>& models();
 
   vp::In<bool> ena{"ena", this};  ///< the control packet's wr_en
   vp::In<bool> rst{"rst", this};
   vp::AxiStreamSlave m{"m", *this};
+  sc_core::sc_port<xilinx::Bram> bram{"bram"};  ///< its port A
 
   /// Brings memory and counters up to now.
   virtual void settle() {}
@@ -27,9 +29,9 @@ class AxiImageStoreClocked : public vp::Clocked, public vp::Ip {
   vp::Signal<std::uint32_t> address{"address", 17};
 
  protected:
-  void edge() override;
-
-  xilinx::Bram& bram_;
+  AxiImageStore(sc_core::sc_module_name name, const Site& site);
+  /// One clock edge, with the beat that passes on it.
+  void store_beat();
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -1,0 +1,61 @@
+#include <pl/common/fidelity.h>
+
+#include <algorithm>
+
+#include <vp/error.h>
+
+namespace pl {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<ModelTraits>& models) {
+  std::vector<std::string> names;
+  for (const ModelTraits& model : models) names.push_back(model.name);
+  return names;
+}
+
+bool goes(Passage given, Passage taken) {
+  return (given.pixels && taken.pixels) || (given.frames && taken.frames);
+}
+
+std::string words(Passage image) {
+  return image.pixels ? "pixels one by one" : "whole frames";
+}
+
+}  // namespace
+
+ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, Fidelity otherwise,
+                       const Feeds& feeds)
+    : traits_(std::move(traits)),
+      parameter_(ip.c_str(), usual(otherwise, feeds), names_of(traits_), vp::Source::decision,
+                 "how this IP is modelled: clock by clock, or whole frames") {
+  while (traits_[chosen_].name != parameter_.get()) ++chosen_;
+  for (const ChoiceBase* other : feeds) check(*other);
+}
+
+std::string ChoiceBase::usual(Fidelity otherwise, const Feeds& others) const {
+  const std::string wish = otherwise == Fidelity::tlm ? "tlm" : "clocked";
+  std::string usual;
+  for (const ModelTraits& model : traits_) {
+    if (!feeds(model, others)) continue;
+    if (usual.empty() || model.name == wish) usual = model.name;
+  }
+  return usual.empty() ? traits_.front().name : usual;
+}
+
+bool ChoiceBase::feeds(const ModelTraits& model, const Feeds& others) const {
+  return std::all_of(others.begin(), others.end(), [&](const ChoiceBase* other) {
+    return goes(model.gives, other->traits_[other->chosen_].takes);
+  });
+}
+
+void ChoiceBase::check(const ChoiceBase& other) const {
+  const ModelTraits &mine = traits_[chosen_], &theirs = other.traits_[other.chosen_];
+  if (goes(mine.gives, theirs.takes)) return;
+  throw vp::InputError(std::string(parameter_.name()) + " = " + mine.name + " does not go with " +
+                       other.parameter_.name() + " = " + theirs.name + ": one gives " +
+                       words(mine.gives) + ", the other takes " + words(theirs.takes) +
+                       "; choose models that go together");
+}
+
+}  // namespace pl
