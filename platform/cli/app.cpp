@@ -281,9 +281,14 @@ void add_clocks(CLI::App& app, ClocksOptions& target) {
 
 void add_power(CLI::App& app, PowerTableOptions& target) {
   CLI::App* command =
-      app.add_subcommand("power", "print the coefficients of the power model, or check others");
+      app.add_subcommand("power", "coefficients of the power model; power of a design's figures");
   command->add_option("TABLE", target.table, "an own table, a file .json")->type_name("FILE");
   command->add_flag("--markdown", target.markdown, "with the source of each");
+  CLI::App* estimate = command->add_subcommand(
+      "estimate", "watts of a design that is described by LUT, FF, BRAM, DSP and clocks");
+  estimate->add_option("FILE", target.design, "its figures, YAML (docs/power.md)")->required();
+  estimate->add_option("--table", target.table, "other coefficients: installed, or a file .json")
+      ->type_name("TABLE");
 }
 
 void add_completion(CLI::App& app, CompletionOptions& target) {

@@ -63,6 +63,9 @@ int list_clocks(const ClocksOptions& options, std::ostream& out);
 /// Prints the coefficients of the power model.
 int print_power_table(const PowerTableOptions& options, std::ostream& out);
 
+/// Prints what the design of options.design takes. Throws vp::InputError for figures that cannot be.
+int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
+
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out);
 

@@ -115,6 +115,7 @@ struct ClocksOptions {
 struct PowerTableOptions {
   std::string table = "zynq7020";  ///< installed, or a file .json
   bool markdown = false;           ///< with the sources, as in the documentation
+  std::string design;              ///< figures to estimate, a YAML file; empty: print the table
 };
 
 /// `markervp trace COMMAND`.

@@ -50,7 +50,9 @@ int run_command(const CLI::App& app, const CommandLine& line,
   }
   if (command == "devices") return list_devices(line.devices, out);
   if (command == "clocks") return list_clocks(line.clocks, out);
-  if (command == "power") return print_power_table(line.power, out);
+  if (command == "power")
+    return line.power.design.empty() ? print_power_table(line.power, out)
+                                     : print_power_estimate(line.power, out);
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);
   if (command == "sweep-worker") return sweep_worker(line.sweep_worker, make_simulation);

@@ -1,6 +1,6 @@
 #include <zynq/power_sources.h>
 
-#include <power/fabric_energy.h>
+#include <power/chip_energy.h>
 #include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <xilinx/axi_dma/memory_port.h>
@@ -21,14 +21,13 @@ constexpr double pico = 1e-12;
 constexpr double line_bytes = 32;      // of the L2 cache
 constexpr double hp_port_bytes = 8;    // a beat
 constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
-constexpr double full_voltage = 1.5, low_voltage = 1.35;
 
+Band operator*(const Band& a, const Band& b) {
+  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
+}
 Band operator-(const Band& a, const Band& b) {
   return {std::max(0.0, a.low - b.low), std::max(0.0, a.nominal - b.nominal),
           std::max(0.0, a.high - b.high)};
-}
-Band operator*(const Band& a, const Band& b) {
-  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
 }
 
 /// What the memory masters of the PL write, which goes past the DDR's own counters where it is
@@ -78,9 +77,8 @@ class Builder {
   std::vector<vp::PowerSource> take() { return std::move(sources_); }
 
  private:
-  /// "ps.uncore_32" or "ps.uncore_16".
   std::string wide(const std::string& name) const {
-    return name + (options_.ddr.width == 32 ? "32" : "16");
+    return power::of_width(name, options_.ddr.width);
   }
   std::string origin(const std::string& coefficient) const {
     const power::Coefficient& entry = table_.at(coefficient);
@@ -110,18 +108,10 @@ class Builder {
     }
   }
 
-  /// DDR I/O of a bus that is always busy, W.
   Band full_ddr() const {
-    const double volts = options_.ddr.voltage;
-    const double mhz = static_cast<double>(ddr_hz(zynq_, options_)) / device::hz_per_mhz;
-    Band amperes = table_.value(wide("ps.ddr_current_"));
-    amperes += table_.value(wide("ps.ddr_slope_")) * mhz;
-    const double lower = (full_voltage - volts) / (full_voltage - low_voltage);
-    const Band& factor = table_.value("ps.ddr_low_voltage");
-    const Band scale{1 - (1 - factor.low) * lower, 1 - (1 - factor.nominal) * lower,
-                     1 - (1 - factor.high) * lower};
-    return amperes * scale * volts;
+    return power::ddr_io_power(table_, {options_.ddr.width, ddr_mhz(), options_.ddr.voltage});
   }
+  double ddr_mhz() const { return static_cast<double>(ddr_hz(zynq_, options_)) / device::hz_per_mhz; }
 
   void add_ddr() {
     const std::string source = origin(wide("ps.ddr_current_"));
@@ -196,7 +186,7 @@ class Builder {
 
   /// Energy of a clock in which the logic works. A coefficient of an IP is for all of it.
   Band logic(const Part& ip, const std::string& coefficient, const Band& clock) const {
-    if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut);
+    if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut, ip.estimate.ff);
     const Band value = table_.value(coefficient) * nano * ip.estimate.size - clock;
     if (!ip.estimate.includes_memory) return value;
     return value - power::block_memory_energy(table_, ip.estimate.bram36);
@@ -247,41 +237,6 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
   builder.add_processing_system();
   if (options.pl_design) builder.add_design(parts);
   return builder.take();
-}
-
-double static_scale(const device::Device& chip) {
-  return chip.static_w.value / device::find_device(PowerTable::part).static_w.value;
-}
-
-vp::EnergyLedger static_energy(const PowerTable& table, double scale, const vp::ThermalPath& path,
-                               const Band& dynamic_w, double seconds, double& junction_c) {
-  const Band base = table.value("static.base") * scale;
-  const auto point = [&](double Band::*estimate) {
-    try {
-      return vp::find_static_point(power::leakage(table, scale, estimate), path,
-                                   dynamic_w.*estimate);
-    } catch (const vp::InputError& error) {
-      if (estimate != &Band::high) throw;
-      throw vp::InputError(std::string(error.what()) + " (by the high estimate of the table)");
-    }
-  };
-  const vp::StaticPoint low = point(&Band::low), nominal = point(&Band::nominal),
-                        high = point(&Band::high);
-  junction_c = nominal.junction_c;
-  const Band whole{low.static_w * seconds, nominal.static_w * seconds, high.static_w * seconds};
-  const Band leaking = whole - base * seconds;
-  const std::string source = "static.leakage (" + table.at("static.leakage").status + ")";
-
-  vp::EnergyLedger ledger;
-  Band rest = whole;
-  for (const auto& [rail, share] :
-       {std::pair{"Vccpint", "static.share_vccpint"}, std::pair{"Vccint", "static.share_vccint"}}) {
-    const Band part = leaking * table.value(share);
-    ledger.add({"static", "static", rail, PowerKind::leakage, source, part});
-    rest = rest - part;
-  }
-  ledger.add({"static", "static", "Vccaux and others", PowerKind::leakage, source, rest});
-  return ledger;
 }
 
 }  // namespace platform

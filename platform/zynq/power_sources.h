@@ -19,14 +19,4 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
                                            const std::vector<Part>& parts,
                                            const PowerStates& states);
 
-/// Static power of a device over that of the part for which the coefficients hold.
-double static_scale(const device::Device& chip);
-
-/// Static power of the whole device for the low, nominal and high coefficients at the dynamic power
-/// of each, as energy of `seconds`, split by rail. `scale`: static_scale(). `junction_c` gets the
-/// nominal temperature. Throws vp::InputError for thermal runaway.
-vp::EnergyLedger static_energy(const power::PowerTable& table, double scale,
-                               const vp::ThermalPath& path, const vp::Band& dynamic_w,
-                               double seconds, double& junction_c);
-
 }  // namespace platform

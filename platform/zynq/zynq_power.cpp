@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <zynq/clock_report.h>
+#include <power/chip_energy.h>
 #include <zynq/power_sources.h>
 
 namespace platform {
@@ -41,7 +42,7 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
       options(uses_pl),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
-      static_scale_(static_scale(zynq.chip.data)),
+      static_scale_(power::static_scale(zynq.chip.data)),
       parts_(parts_of(zynq.pl())),
       groups_(groups_of(zynq.design(), parts_)),
       states_(zynq) {
@@ -52,7 +53,7 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
   timeline_.groups = groups_;
   double junction_c = 0;
   static_w_ =
-      static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0), 1, junction_c)
+      power::static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0), 1, junction_c)
           .total()
           .nominal;
   show(0);
@@ -75,7 +76,7 @@ void ZynqPower::show(std::uint64_t now_ps) {
 
 vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
                                         double& junction_c) const {
-  ledger.add(static_energy(table_, static_scale_, options.thermal_path(),
+  ledger.add(power::static_energy(table_, static_scale_, options.thermal_path(),
                            ledger.total() * (1 / seconds), seconds, junction_c));
   return ledger;
 }

@@ -1,5 +1,5 @@
 // The model against public power reports of Vivado for the same device.
-#include <power/fabric_energy.h>
+#include <power/chip_energy.h>
 #include <power/power_table.h>
 #include <vp/text.h>
 #include <vp/thermal.h>
@@ -27,7 +27,7 @@ struct Report {
 };
 
 std::vector<Report> read_reports() {
-  std::ifstream file(std::string(MARKERVP_TEST_DATA) + "/power/zynq7020_reports.csv");
+  std::ifstream file(std::string(MARKERVP_TEST_DATA) + "/power/reports.csv");
   std::vector<Report> reports;
   std::vector<std::string> header;
   for (std::string line; std::getline(file, line);) {
@@ -37,8 +37,11 @@ std::vector<Report> read_reports() {
       header = cells;
       continue;
     }
+    if (cells.at(0) == "other") continue;
     Report report{cells.at(0) == "aside", cells.at(1), {}};
-    for (std::size_t i = 5; i < cells.size(); ++i) report.value[header[i]] = std::stod(cells[i]);
+    for (std::size_t i = 6; i < cells.size(); ++i) {
+      if (!cells[i].empty()) report.value[header[i]] = std::stod(cells[i]);
+    }
     reports.push_back(std::move(report));
   }
   return reports;
@@ -62,8 +65,8 @@ const PowerTable& table() {
 double fabric_w(const Report& r) {
   const double per_clock =
       clock_energy(table(), r["ff"]).nominal + clock_root_energy(table()).nominal +
-      logic_energy(table(), r["lut"]).nominal + block_memory_energy(table(), r["bram36"]).nominal +
-      dsp_energy(table(), r["dsp"]).nominal;
+      logic_energy(table(), r["lut"], r["ff"]).nominal +
+      block_memory_energy(table(), r["bram36"]).nominal + dsp_energy(table(), r["dsp"]).nominal;
   return per_clock * r["clock_mhz"] * 1e6;
 }
 
