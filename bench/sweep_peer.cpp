@@ -12,7 +12,7 @@
 #include <cli/zynq_simulation.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
-#include <vp/fresh_context.h>
+#include <vp/hierarchy.h>
 
 /// libsystemc refers to it.
 extern "C" int sc_main(int, char**) {

@@ -14,7 +14,7 @@
 #include <run/program_file.h>
 #include <sweep/parameter_table.h>
 #include <vp/error.h>
-#include <vp/fresh_context.h>
+#include <vp/hierarchy.h>
 #include <vp/text.h>
 
 namespace platform::cli {

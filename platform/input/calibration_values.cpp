@@ -12,7 +12,6 @@
 #include <vp/error.h>
 #include <vp/input_file.h>
 #include <vp/text.h>
-#include <vp/user_text.h>
 #include <vp/yaml.h>
 
 // OpenCV's own parser is for files that one trusts: it overruns the stack on short ones.

@@ -4,7 +4,6 @@
 #include <sweep/expression_tree.h>
 #include <vp/error.h>
 #include <vp/text.h>
-#include <vp/user_text.h>
 
 namespace platform::sweep {
 

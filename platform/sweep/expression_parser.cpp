@@ -4,7 +4,7 @@
 
 #include <sweep/expression_tree.h>
 #include <vp/error.h>
-#include <vp/user_text.h>
+#include <vp/text.h>
 
 namespace platform::sweep {
 

@@ -1,7 +1,6 @@
 #include <zynq/bus_log.h>
 
 #include <vp/error.h>
-#include <vp/hex.h>
 #include <vp/hierarchy.h>
 #include <vp/text.h>
 #include <vp/unit.h>

@@ -1,6 +1,6 @@
 #include <zynq/bus_trace.h>
 
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <xilinx/axi_dma/memory_port.h>
 #include <zynq/hardware_map.h>
 #include <cstring>

@@ -1,8 +1,8 @@
 #include <zynq/cache_contract.h>
 
-#include <vp/hex.h>
 #include <vp/hierarchy.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <xilinx/axi_dma/memory_port.h>
 #include <algorithm>
 

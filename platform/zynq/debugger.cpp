@@ -1,6 +1,5 @@
 #include <zynq/debugger.h>
 
-#include <vp/hex.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>

@@ -1,6 +1,6 @@
 #include <zynq/device_names.h>
 
-#include <vp/hex.h>
+#include <vp/text.h>
 
 namespace platform {
 

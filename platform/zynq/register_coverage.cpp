@@ -1,7 +1,7 @@
 #include <zynq/register_coverage.h>
 
-#include <vp/hex.h>
 #include <vp/register_bank.h>
+#include <vp/text.h>
 #include <zynq/hardware_map.h>
 #include <systemc>
 

@@ -1,9 +1,9 @@
 #include <zynq/spin_watch.h>
 
 #include <axi_dma_registers.h>
-#include <vp/hex.h>
 #include <vp/hierarchy.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <algorithm>
 #include <string>
 

@@ -3,9 +3,9 @@
 #include <designs/designs.h>
 #include <slcr_registers.h>
 #include <vp/configuration.h>
-#include <vp/hex.h>
 #include <vp/register_bank.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <zynq/hardware_map.h>
 #include <boost/test/unit_test.hpp>
 #include <cstring>

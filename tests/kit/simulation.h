@@ -5,7 +5,7 @@
 #include <systemc>
 
 #include <vp/clock_scheduler.h>
-#include <vp/fresh_context.h>
+#include <vp/hierarchy.h>
 
 namespace kit {
 

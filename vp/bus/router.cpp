@@ -5,8 +5,8 @@
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
-#include <vp/hex.h>
 #include <vp/hierarchy.h>
+#include <vp/text.h>
 
 namespace vp {
 

@@ -10,28 +10,20 @@
 
 namespace vp {
 
-namespace {
-
-constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
-/// How far an anchor lies before what is looked for, in edges.
-constexpr std::uint64_t anchor_margin = std::uint64_t{1} << 16;
-using Wide = unsigned __int128;
-
-}  // namespace
-
 // A module's alarm has moved, outside of an edge.
 inline void Clock::plan_alarm(std::uint64_t before, std::uint64_t cycle) {
   if (next_.ps != never && cycle >= next_.cycle) {
     if (before == next_.cycle) plan_next(scheduler_.now_ps());
-  } else if (cycle != never && hertz_ != 0) {
-    seek(cycle);
-    scheduler_.reschedule_earlier(*this);
+  } else if (cycle != never && !times_.stands()) {
+    next_ = times_.edge(cycle);
+    scheduler_.reschedule(*this);
   }
 }
 
 Clocked::Clocked(sc_core::sc_module_name name, Clock& clock)
     : sc_module(name), clock_(clock), place_(clock.places_.size()) {
   clock_.places_.push_back({this});
+  clock_.alarms_.push(Clock::never);
   ++clock_.awake_;
   clock_.attend_to_all();
 }
@@ -39,6 +31,7 @@ Clocked::Clocked(sc_core::sc_module_name name, Clock& clock)
 Clocked::~Clocked() {
   sleep();
   auto& places = clock_.places_;
+  clock_.alarms_.erase(place_);
   places.erase(places.begin() + static_cast<std::ptrdiff_t>(place_));
   for (std::size_t i = place_; i < places.size(); ++i) places[i].module->place_ = i;
   clock_.attend_to_all();
@@ -55,10 +48,9 @@ void Clocked::wake() {
 
 void Clocked::wake_at(std::uint64_t cycle) {
   if (cycle < (clock_.in_edge_ ? clock_.cycle_ : clock_.cycle())) refuse_alarm(cycle);
-  Clock::Place& place = clock_.places_[place_];
-  const std::uint64_t before = std::exchange(place.alarm, cycle);
+  const std::uint64_t before = clock_.alarms_[place_];
+  clock_.alarms_.set(place_, cycle);
   clock_.attend_to(place_);
-  clock_.note_alarm(place_, cycle);
   if (clock_.awake_ == 0 && !clock_.in_edge_) clock_.plan_alarm(before, cycle);
 }
 
@@ -89,98 +81,39 @@ void Clocked::end_of_elaboration() {
 Clock::Clock(const char* name, ClockScheduler& scheduler, std::uint64_t hertz)
     : sc_object(name), scheduler_(scheduler) {
   scheduler_.clocks_.push_back(this);
-  start(hertz);
+  start(0, 0, hertz);
 }
 
 void Clock::set_frequency(std::uint64_t hertz) {
   scheduler_.synchronise();
   for (ClockListener* listener : listeners_) listener->before_change(*this);
   const std::uint64_t now = scheduler_.now_ps();
-  origin_cycle_ = cycle();
-  origin_ps_ = now;
-  start(hertz);
+  start(cycle(), now, hertz);
   ++scheduler_.clock_changes_;
   plan_next(now);
   for (ClockListener* listener : listeners_) listener->after_change(*this);
 }
 
-// Edges count from the origin on.
-void Clock::start(std::uint64_t hertz) {
-  hertz_ = hertz;
+void Clock::start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
+  times_.restart(cycles, ps, hertz);
   cycle_ps_ = never;
-  next_ = {origin_cycle_ + 1, never, 0};
-  reach_ps_ = 0;
-  if (hertz_ == 0) return;
-  period_ps_ = ps_per_second / hertz_;
-  period_remainder_ = ps_per_second % hertz_;
-  reach_ps_ = (std::uint64_t{1} << 62) / hertz_;
-  anchor_ = {origin_cycle_, origin_ps_, hertz_ / 2};
-  seek(origin_cycle_ + 1);
-}
-
-// Some way before `cycle`, as the next question may be about an earlier time.
-void Clock::set_anchor(std::uint64_t cycle) const {
-  const std::uint64_t from_origin = cycle - origin_cycle_;
-  const std::uint64_t edges = from_origin - std::min(from_origin, anchor_margin);
-  const Wide numerator = Wide(edges) * ps_per_second + hertz_ / 2;
-  anchor_ = {origin_cycle_ + edges, origin_ps_ + static_cast<std::uint64_t>(numerator / hertz_),
-             static_cast<std::uint64_t>(numerator % hertz_)};
-}
-
-// The first edge at or after `ps`, which is past the origin, counted from an anchor near it.
-inline std::uint64_t Clock::edges_from_anchor(std::uint64_t ps) const {
-  if (ps - anchor_.ps > reach_ps_) {
-    // The edge looked for or the one before.
-    set_anchor(origin_cycle_ +
-               static_cast<std::uint64_t>(Wide(ps - origin_ps_) * hertz_ / ps_per_second));
-  }
-  // The smallest n whose edge, n · 10¹² / f + what was cut off, is not before.
-  const std::uint64_t distance = (ps - anchor_.ps) * hertz_;
-  if (distance <= anchor_.remainder) return 0;
-  return (distance - anchor_.remainder + ps_per_second - 1) / ps_per_second;
-}
-
-std::uint64_t Clock::cycle_at_or_after(std::uint64_t ps) const {
-  if (hertz_ == 0) return never;
-  if (ps <= origin_ps_) return origin_cycle_ + 1;
-  const std::uint64_t n = edges_from_anchor(ps);
-  return std::max(anchor_.cycle + n, origin_cycle_ + 1);
-}
-
-std::uint64_t Clock::far_edge_at_or_after(std::uint64_t ps) const {
-  if (hertz_ == 0) return never;
-  if (ps <= origin_ps_) return exact_edge(origin_cycle_ + 1).ps;
-  const std::uint64_t n = edges_from_anchor(ps);
-  if (anchor_.cycle + n <= origin_cycle_) return exact_edge(origin_cycle_ + 1).ps;
-  const std::uint64_t edge = anchor_.ps + n * period_ps_;
-  if (period_remainder_ == 0) return edge;
-  return edge + (n * period_remainder_ + anchor_.remainder) / hertz_;
+  next_ = {cycles + 1, never, 0};
+  if (!times_.stands()) next_ = times_.edge(cycles + 1);
 }
 
 std::uint64_t Clock::cycle() const {
   const std::uint64_t now = scheduler_.now_ps();
   if (now == cycle_ps_) return cycle_;
   cycle_ps_ = now;
-  // The last edge at or before now.
-  cycle_ = hertz_ == 0 || now < origin_ps_ ? origin_cycle_ : cycle_at_or_after(now + 1) - 1;
+  cycle_ = times_.cycles_until(now);
   return cycle_;
 }
 
 std::uint64_t Clock::duration_ps(double cycles) const {
-  if (hertz_ == 0) return never;
-  return static_cast<std::uint64_t>(
-      cycles * static_cast<double>(ps_per_second) / static_cast<double>(hertz_) + 0.5);
-}
-
-// exact_edge(next_.cycle + 1) without a division.
-inline void Clock::step() {
-  ++next_.cycle;
-  next_.ps += period_ps_;
-  next_.remainder += period_remainder_;
-  if (next_.remainder >= hertz_) {
-    next_.remainder -= hertz_;
-    ++next_.ps;
-  }
+  if (times_.stands()) return never;
+  return static_cast<std::uint64_t>(cycles * static_cast<double>(EdgeTimes::ps_per_second) /
+                                        static_cast<double>(times_.hertz()) +
+                                    0.5);
 }
 
 // A module that is woken meanwhile by one before it is visited too.
@@ -201,22 +134,19 @@ void Clock::for_each_attended(std::size_t from, Visit visit) const {
 void Clock::attend_to_all() {
   attended_.assign((places_.size() + 63) / 64, 0);
   for (std::size_t i = 0; i < places_.size(); ++i) attend_to(i);
-  alarm_place_ = 0;
-  others_alarm_ = 0;
 }
 
 inline void Clock::run_alarm(std::size_t at) {
-  Place& place = places_[at];
-  if (place.alarm != cycle_) return;  // it was moved
-  place.alarm = never;
-  place.module->edge();
+  if (alarms_[at] != cycle_) return;  // it was moved
+  alarms_.set(at, never);
+  places_[at].module->edge();
 }
 
 inline void Clock::go_to_alarm(std::uint64_t cycle) {
-  if (cycle == never || hertz_ == 0) {
+  if (cycle == never || times_.stands()) {
     next_.ps = never;
   } else {
-    seek(cycle);
+    next_ = times_.edge(cycle);
   }
 }
 
@@ -227,47 +157,29 @@ void Clock::run_edge() {
   const std::uint64_t cycle = next_.cycle;
   cycle_ = cycle;
   cycle_ps_ = next_.ps;
-  const bool single = awake_ == 0 && others_alarm_ > cycle;
-  if (single) {
-    const std::size_t place = alarm_place_;
+  if (awake_ == 0 && alarms_.others_are_after(cycle)) {
+    const std::size_t place = alarms_.place();
     run_alarm(place);
-    const std::uint64_t next = std::min(others_alarm_, places_[alarm_place_].alarm);
-    if (awake_ != 0 || next <= cycle) run_attended(place + 1);
+    if (awake_ != 0 || alarms_.bound() <= cycle) run_attended(place + 1);
   } else {
     run_attended(0);
   }
   in_edge_ = false;
-  if (awake_ != 0) {
-    if (next_.cycle == cycle) step();
-  } else if (places_[alarm_place_].alarm <= others_alarm_) {
-    go_to_alarm(places_[alarm_place_].alarm);
-  } else {
-    seek_alarm();
+  if (awake_ == 0) {
+    go_to_alarm(alarms_.time());
+  } else if (next_.cycle == cycle) {
+    next_ = times_.after(next_);
   }
 }
 
 void Clock::run_attended(std::size_t from) {
   for_each_attended(from, [&](std::size_t i) {
-    Place& place = places_[i];
-    const bool due = place.alarm == cycle_;
-    if (due) place.alarm = never;
+    const Place& place = places_[i];
+    const bool due = alarms_[i] == cycle_;
+    if (due) alarms_.set(i, never);
     if (place.awake || due) place.module->edge();
-    if (place.alarm == never && !place.awake) attend_to(i);
+    if (alarms_[i] == never && !place.awake) attend_to(i);
   });
-}
-
-void Clock::seek_alarm() {
-  std::uint64_t first = never;
-  others_alarm_ = never;
-  for_each_attended(0, [&](std::size_t i) {
-    const std::uint64_t alarm = places_[i].alarm;
-    others_alarm_ = std::min(others_alarm_, std::max(first, alarm));
-    if (alarm < first) {
-      first = alarm;
-      alarm_place_ = i;
-    }
-  });
-  go_to_alarm(first);
 }
 
 // A module woke or set an alarm: the clock runs again from its first edge after `after_ps`.
@@ -275,21 +187,24 @@ void Clock::plan_next(std::uint64_t after_ps) {
   // run_edge() plans when all modules have run; an edge of this very instant that is still to come
   // is not passed over.
   if (in_edge_ || next_.ps == after_ps) return;
-  if (awake_ > 0 && hertz_ != 0) {
-    seek(cycle_at_or_after(after_ps + 1));
+  if (awake_ > 0 && !times_.stands()) {
+    next_ = times_.edge(times_.cycle_at_or_after(after_ps + 1));
   } else {
-    seek_alarm();
+    go_to_alarm(alarms_.time());
   }
-  scheduler_.reschedule();
+  scheduler_.reschedule(*this);
 }
 
 void Clock::set_order(const std::vector<Clocked*>& modules) {
   std::vector<Place> places;
+  Earliest alarms;
   for (Clocked* module : modules) {
     places.push_back(places_[module->place_]);
+    alarms.push(alarms_[module->place_]);
     module->place_ = places.size() - 1;
   }
   places_ = std::move(places);
+  alarms_ = std::move(alarms);
   attend_to_all();
 }
 

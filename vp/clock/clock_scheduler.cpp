@@ -75,59 +75,37 @@ void ClockScheduler::start_of_simulation() {
   mark_deferred_signals();
   std::copy_if(clocks_.begin(), clocks_.end(), std::back_inserter(ticking_),
                [](const Clock* clock) { return !clock->places_.empty(); });
-  for (std::size_t i = 0; i < ticking_.size(); ++i) ticking_[i]->number_ = i;
+  for (std::size_t i = 0; i < ticking_.size(); ++i) {
+    ticking_[i]->number_ = i;
+    edges_.push(Clock::never);
+  }
   started_ = true;
   for (Clock* clock : ticking_) clock->plan_next(0);
-  find_next();
 }
 
-// Before the simulation starts there is no next instant.
-void ClockScheduler::find_next() {
-  if (!started_) return;
-  next_ps_ = others_ps_ = Clock::never;
-  for (const Clock* clock : ticking_) {
-    const std::uint64_t ps = clock->next_.ps;
-    if (ps < next_ps_) {
-      others_ps_ = std::exchange(next_ps_, ps);
-      second_ = std::exchange(soonest_, clock->number_);
-    } else if (ps < others_ps_) {
-      others_ps_ = ps;
-      second_ = clock->number_;
-    }
-  }
-}
-
-// No look at all clocks as long as the second is not due.
-inline void ClockScheduler::go_to_second() {
-  if (ticking_[second_]->next_.ps != others_ps_) return find_next();
-  next_ps_ = others_ps_;
-  soonest_ = second_;
+inline void ClockScheduler::run_edge_of(std::size_t clock) {
+  ticking_[clock]->run_edge();
+  edges_.set(clock, ticking_[clock]->next_.ps);
 }
 
 // Clocks run one after the other; inside one, consumers before producers. So a plain store is seen
 // by the next edge only, as from a register.
 void ClockScheduler::run_instant(std::uint64_t ps) {
   instant_ps_ = ps;
-  moved_ = false;
-  if (others_ps_ > ps) {
-    ticking_[soonest_]->run_edge();
-    if (moved_) run_edges(soonest_ + 1, ps);
-  } else {
-    run_edges(0, ps);
+  std::size_t from = 0;
+  if (edges_.others_are_after(ps)) {
+    from = edges_.place();
+    run_edge_of(from++);
   }
+  if (!edges_.others_are_after(ps)) run_edges(from, ps);
   if (!deferred_.empty()) commit_deferred();
   for (InstantObserver* observer : observers_) observer->end_of_instant(ps);
-  next_ps_ = ticking_[soonest_]->next_.ps;
-  if (moved_) {
-    find_next();
-  } else if (next_ps_ > others_ps_) {
-    go_to_second();
-  }
+  next_ps_ = edges_.time();
 }
 
 void ClockScheduler::run_edges(std::size_t from, std::uint64_t ps) {
   for (std::size_t i = from; i < ticking_.size(); ++i) {
-    if (ticking_[i]->next_.ps == ps) ticking_[i]->run_edge();
+    if (edges_[i] == ps) run_edge_of(i);
   }
 }
 
@@ -242,16 +220,6 @@ void ClockScheduler::rejoin() {
     plan_wake_up();
     sc_core::wait(from_ps(instant_ps_ - kernel_ps()));
   }
-}
-
-// A clock's next edge has moved. Who has run ahead wakes us when it waits.
-void ClockScheduler::reschedule() {
-  if (running_) {
-    moved_ = true;
-    return;
-  }
-  find_next();
-  if (instant_ps_ <= kernel_ps()) plan_wake_up();
 }
 
 void ClockScheduler::plan_wake_up() {

@@ -1,8 +1,9 @@
 #include <vp/text.h>
-#include <vp/user_text.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cinttypes>
+#include <cstdio>
 
 namespace vp {
 namespace {
@@ -115,6 +116,12 @@ std::string format_fixed(double value, int decimals) {
   if (result.ec != std::errc{}) return "";
   std::string text(buffer, result.ptr);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string hex(std::uint64_t value) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%08" PRIX64, value);
   return text;
 }
 

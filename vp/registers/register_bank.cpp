@@ -5,9 +5,9 @@
 #include <string>
 
 #include <vp/clock_scheduler.h>
-#include <vp/hex.h>
 #include <vp/register_route.h>
 #include <vp/report.h>
+#include <vp/text.h>
 
 namespace vp {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 
 namespace vp {
 

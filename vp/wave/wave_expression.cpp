@@ -1,6 +1,5 @@
 #include <vp/error.h>
 #include <vp/text.h>
-#include <vp/user_text.h>
 #include <vp/wave_expression.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/native_hal.h>
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <vp/unit.h>
 #include <cmath>
 #include <cstring>

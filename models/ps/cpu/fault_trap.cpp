@@ -6,7 +6,7 @@
 #include <ps/cpu/host_calls.h>
 #include <ps/cpu/memory_watch.h>
 #include <ps/cpu/program_watch.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>

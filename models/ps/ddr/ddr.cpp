@@ -1,6 +1,6 @@
 #include <ps/ddr/ddr.h>
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <algorithm>
 #include <cstring>
 

@@ -2,7 +2,7 @@
 
 #include <ps/ddr/fixed_mapping.h>
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <cerrno>
 #include <cstring>
 #include <fstream>

@@ -2,7 +2,7 @@
 
 #include <ps/slcr/level_shifters.h>
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <string>
 
 namespace ps {

@@ -3,8 +3,8 @@
 #include <ps/slcr/slcr.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
-#include <vp/hex.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <string>
 
 namespace ps {

@@ -1,8 +1,8 @@
 #include <uart_registers.h>
 
 #include <ps/uart/uart.h>
-#include <vp/hex.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <algorithm>
 
 namespace ps {

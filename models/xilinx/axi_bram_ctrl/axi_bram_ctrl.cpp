@@ -6,8 +6,8 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
-#include <vp/hex.h>
 #include <vp/report.h>
+#include <vp/text.h>
 
 namespace xilinx {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <vp/hex.h>
+#include <vp/text.h>
 
 namespace xilinx {
 

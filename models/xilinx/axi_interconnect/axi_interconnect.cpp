@@ -1,7 +1,7 @@
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 
 #include <vp/error.h>
-#include <vp/hex.h>
+#include <vp/text.h>
 #include <xilinx/common/estimate.h>
 
 namespace xilinx {

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <vp/hex.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <xilinx/bram/block_ram.h>
 
 namespace xilinx {

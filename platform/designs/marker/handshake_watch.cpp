@@ -3,9 +3,9 @@
 #include <axi_gpio_registers.h>
 #include <pl/common/packet.h>
 #include <pl/control_block/control_block.h>
-#include <vp/hex.h>
 #include <vp/register_bank.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <vp/unit.h>
 #include <string>
 #include <utility>

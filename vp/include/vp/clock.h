@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include <vp/clock_times.h>
 #include <vp/signal.h>
 
 namespace vp {
@@ -73,14 +73,14 @@ class ClockListener {
 /// One clock: edge n falls round(n · 10¹² / f) ps after the clock's last change, n = 1, 2, 3 …
 class Clock : public sc_core::sc_object {
  public:
-  static constexpr std::uint64_t never = ~std::uint64_t{0};
+  static constexpr std::uint64_t never = EdgeTimes::never;
 
   /// `hertz` 1 to 10¹²; 0 stops the clock.
   Clock(const char* name, ClockScheduler& scheduler, std::uint64_t hertz);
   ~Clock() override;
 
   const char* kind() const override { return "vp::Clock"; }
-  std::uint64_t frequency_hz() const { return hertz_; }
+  std::uint64_t frequency_hz() const { return times_.hertz(); }
   /// Changes the frequency now: the next edge comes one new period from now. 0 stops the clock.
   void set_frequency(std::uint64_t hertz);
   void add_listener(ClockListener& listener) { listeners_.push_back(&listener); }
@@ -95,12 +95,12 @@ class Clock : public sc_core::sc_object {
   /// Time of edge number `cycle` in ps, if the frequency stays; cycle > cycles before the last
   /// change.
   std::uint64_t time_of(std::uint64_t cycle) const {
-    return hertz_ == 0 ? never : exact_edge(cycle).ps;
+    return times_.stands() ? never : times_.edge(cycle).ps;
   }
   /// Number of the first edge at or after `ps` (not before the clock's last change).
-  std::uint64_t cycle_at_or_after(std::uint64_t ps) const;
+  std::uint64_t cycle_at_or_after(std::uint64_t ps) const { return times_.cycle_at_or_after(ps); }
   /// Time in ps of the first edge at or after `ps`; `never` if the clock stands.
-  std::uint64_t edge_at_or_after(std::uint64_t ps) const;
+  std::uint64_t edge_at_or_after(std::uint64_t ps) const { return times_.edge_at_or_after(ps); }
   /// `cycles` periods in ps, rounded to the nearest.
   std::uint64_t duration_ps(double cycles) const;
 
@@ -112,37 +112,19 @@ class Clock : public sc_core::sc_object {
   friend class ClockScheduler;
   friend class Clocked;
 
-  /// Edges this far from a known one are computed in 64 bits: the product with the period fits.
-  static constexpr std::uint64_t reach_cycles = std::uint64_t{1} << 23;
-
-  /// An edge and what was cut off its time, in 1 / f ps.
-  struct Edge {
-    std::uint64_t cycle;
-    std::uint64_t ps;
-    std::uint64_t remainder;
-  };
-  /// A module in running order, and when it runs.
+  /// A module in running order. Its alarm stands in alarms_.
   struct Place {
     Clocked* module;
-    std::uint64_t alarm = never;
     bool awake = true;
   };
 
-  void start(std::uint64_t hertz);
+  void start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz);
   void run_edge();
   void run_alarm(std::size_t at);
   void run_attended(std::size_t from);
-  void step();
   void plan_next(std::uint64_t after_ps);
-  void seek(std::uint64_t cycle) { next_ = exact_edge(cycle); }
-  void seek_alarm();
   void go_to_alarm(std::uint64_t cycle);
-  void note_alarm(std::size_t place, std::uint64_t cycle);
   void plan_alarm(std::uint64_t before, std::uint64_t cycle);
-  void set_anchor(std::uint64_t cycle) const;
-  std::uint64_t edges_from_anchor(std::uint64_t ps) const;
-  std::uint64_t far_edge_at_or_after(std::uint64_t ps) const;
-  Edge exact_edge(std::uint64_t cycle) const;
   void set_order(const std::vector<Clocked*>& modules);
   void attend_to(std::size_t place);
   void attend_to_all();
@@ -151,57 +133,24 @@ class Clock : public sc_core::sc_object {
 
   ClockScheduler& scheduler_;
   std::size_t number_ = 0;  ///< among the scheduler's clocks that have modules
-  std::uint64_t hertz_;
-  std::uint64_t origin_ps_ = 0;         ///< time of the last change
-  std::uint64_t origin_cycle_ = 0;      ///< edges before the last change
-  Edge next_{1, never, 0};              ///< the next edge that runs; at `never` while asleep
-  std::uint64_t period_ps_ = 0;         ///< rounded down
-  std::uint64_t period_remainder_ = 0;  ///< what that cut off, in 1 / f ps
-  std::uint64_t reach_ps_ = 0;  ///< how far from an edge the next ones follow in 64 bits; 0 stopped
-  mutable Edge anchor_{0, 0, 0};  ///< some edge; those near it follow without wide divisions
+  EdgeTimes times_;
+  EdgeTimes::Edge next_{1, never, 0};       ///< the next edge that runs; at `never` while asleep
   mutable std::uint64_t cycle_ps_ = never;  ///< the time that was last asked for,
   mutable std::uint64_t cycle_ = 0;         ///< and the number of edges then
   std::uint64_t edges_run_ = 0;
-  std::size_t awake_ = 0;           ///< modules that run on every edge
-  std::size_t alarm_place_ = 0;     ///< of a module with an alarm,
-  std::uint64_t others_alarm_ = 0;  ///< and no other one has an alarm before this
+  std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;
   std::vector<Place> places_;            ///< in running order: consumers first
+  Earliest alarms_;                      ///< cycles, by place
   std::vector<std::uint64_t> attended_;  ///< a bit for each place that is awake or has an alarm
   std::vector<ClockListener*> listeners_;
   std::unique_ptr<ClockPin> pin_;
 };
 
-inline Clock::Edge Clock::exact_edge(std::uint64_t cycle) const {
-  if (cycle - anchor_.cycle > reach_cycles) set_anchor(cycle);
-  const std::uint64_t n = cycle - anchor_.cycle;
-  Edge edge{cycle, anchor_.ps + n * period_ps_, anchor_.remainder};
-  if (period_remainder_ != 0) {
-    const std::uint64_t cut_off = n * period_remainder_ + anchor_.remainder;
-    edge.ps += cut_off / hertz_;
-    edge.remainder = cut_off % hertz_;
-  }
-  return edge;
-}
-
-// From an anchor near before it; its own edge and those of a clock that has just changed are left
-// to the general way.
-inline std::uint64_t Clock::edge_at_or_after(std::uint64_t ps) const {
-  constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
-  const std::uint64_t ahead = ps - anchor_.ps;
-  const std::uint64_t distance = ahead * hertz_;
-  if (ahead - 1 >= reach_ps_ || distance <= anchor_.remainder) return far_edge_at_or_after(ps);
-  const std::uint64_t n = (distance - anchor_.remainder + ps_per_second - 1) / ps_per_second;
-  const std::uint64_t edge = anchor_.ps + n * period_ps_;
-  if (period_remainder_ == 0) return edge;
-  return edge + (n * period_remainder_ + anchor_.remainder) / hertz_;
-}
-
 inline void Clock::attend_to(std::size_t place) {
   const std::uint64_t bit = std::uint64_t{1} << place % 64;
   std::uint64_t& word = attended_[place / 64];
-  const Place& p = places_[place];
-  word = p.awake || p.alarm != never ? word | bit : word & ~bit;
+  word = places_[place].awake || alarms_[place] != never ? word | bit : word & ~bit;
 }
 
 inline bool Clocked::awake() const {
@@ -213,18 +162,11 @@ inline void Clocked::sleep() {
   if (!place.awake) return;
   place.awake = false;
   --clock_.awake_;
-  if (place.alarm == Clock::never) clock_.attend_to(place_);
+  if (clock_.alarms_[place_] == Clock::never) clock_.attend_to(place_);
 }
 
 inline std::uint64_t Clocked::this_edge() const {
   return clock_.cycle_;
-}
-
-inline void Clock::note_alarm(std::size_t place, std::uint64_t cycle) {
-  if (place == alarm_place_) return;
-  const std::uint64_t known = places_[alarm_place_].alarm;
-  others_alarm_ = std::min(others_alarm_, std::max(known, cycle));
-  if (cycle < known) alarm_place_ = place;
 }
 
 // The clock looks at alarms when the edge is over.
@@ -232,8 +174,7 @@ inline void Clocked::sleep_until(std::uint64_t cycle) {
   Clock::Place& place = clock_.places_[place_];
   if (place.awake) --clock_.awake_;
   place.awake = false;
-  place.alarm = cycle;
-  clock_.note_alarm(place_, cycle);
+  clock_.alarms_.set(place_, cycle);
 }
 
 }  // namespace vp

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <systemc>
 #include <utility>
@@ -143,13 +142,11 @@ class ClockScheduler : public sc_core::sc_module {
   Ahead run_ahead(std::uint64_t ps, Condition condition, const void* context);
   void run_instant(std::uint64_t ps);
   void run_edges(std::size_t from, std::uint64_t ps);
-  void go_to_second();
   void commit_deferred();
   void order_modules();
   void mark_deferred_signals();
-  void find_next();
-  void reschedule();
-  void reschedule_earlier(const Clock& clock);
+  void run_edge_of(std::size_t clock);
+  void reschedule(const Clock& clock);
   void plan_wake_up();
   void order_clocks();
   void defer(SignalBase& signal) { deferred_.push_back(&signal); }
@@ -185,34 +182,24 @@ class ClockScheduler : public sc_core::sc_module {
   const sc_core::sc_time& kernel_time_ = sc_core::sc_time_stamp();  ///< one object, always current
   std::uint64_t lookahead_ps_ = 0;
   std::uint64_t instant_ps_ = 0;
-  std::uint64_t next_ps_ = Clock::never;  ///< the next instant in which a clock has an edge,
-  std::size_t soonest_ = 0;               ///< the place of that clock in ticking_;
-  std::uint64_t others_ps_ = 0;           ///< no other one has an edge before this,
-  std::size_t second_ = 0;                ///< and this one had it when that was found out
+  Earliest edges_;                        ///< the next edge of each clock in ticking_, in ps
+  std::uint64_t next_ps_ = Clock::never;  ///< the earliest of them
   std::uint64_t horizon_ps_ = 0;          ///< no SystemC event lies before or at it; 0 unknown
   sc_dt::uint64 horizon_delta_ = 0;       ///< when that was found out
   std::uint64_t clock_changes_ = 0;
   bool running_ = false;
-  bool moved_ = false;       ///< the next edge of some clock, during the instant being run
   bool keeps_pace_ = false;  ///< foreign processes may do anything at any time: nothing runs ahead
   bool batch_ = false;
   bool stop_batch_ = false;
   bool started_ = false;
 };
 
-// As reschedule(), for a clock whose next edge now comes earlier than before.
-inline void ClockScheduler::reschedule_earlier(const Clock& clock) {
-  if (running_ || !started_) return reschedule();
-  const std::uint64_t ps = clock.next_.ps;
-  if (clock.number_ == soonest_) {
-    next_ps_ = std::min(next_ps_, ps);
-  } else if (ps < next_ps_) {
-    others_ps_ = std::exchange(next_ps_, ps);
-    second_ = std::exchange(soonest_, clock.number_);
-  } else if (ps < others_ps_) {
-    others_ps_ = ps;
-    second_ = clock.number_;
-  }
+// The clock's next edge has moved. Who has run ahead wakes us when it waits.
+inline void ClockScheduler::reschedule(const Clock& clock) {
+  if (!started_ || clock.places_.empty()) return;
+  edges_.set(clock.number_, clock.next_.ps);
+  if (running_) return;  // it looks when the instant is over
+  next_ps_ = edges_.time();
   if (instant_ps_ <= kernel_ps()) plan_wake_up();
 }
 

@@ -72,7 +72,10 @@ class Earliest {
  public:
   static constexpr std::uint64_t never = EdgeTimes::never;
 
-  void assign(std::vector<std::uint64_t> times);
+  /// A place more, behind the others.
+  void push(std::uint64_t time);
+  /// A place less; those behind it move up.
+  void erase(std::size_t place);
   void set(std::size_t place, std::uint64_t time);
   std::uint64_t operator[](std::size_t place) const { return times_[place]; }
 

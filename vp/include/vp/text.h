@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,5 +26,16 @@ std::vector<std::string> split(std::string_view text, char separator);
 std::string_view trim(std::string_view text);
 /// With `decimals` places after the point ("12.30"), whatever the locale. Never "-0.00".
 std::string format_fixed(double value, int decimals);
+/// "0x41200000": at least eight digits, for messages.
+std::string hex(std::uint64_t value);
+/// A text that a user wrote, for messages: of more than 200 characters the beginning and "...".
+std::string excerpt(std::string_view text);
+
+/// For the expressions of traces and of sweeps: both are parsed and evaluated recursively, and
+/// neither may use up the stack.
+struct ExpressionLimits {
+  static constexpr std::size_t most_parts = 1000;  ///< values and operators
+  static constexpr std::size_t deepest = 100;      ///< brackets and signs inside each other
+};
 
 }  // namespace vp
