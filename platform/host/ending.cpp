@@ -40,7 +40,7 @@ void prepare_signals() {
 }
 
 // Nothing but system calls, as it comes from a signal handler. Not _exit(), which ends a PS program
-// that runs (ps/cpu/host_calls.cpp).
+// that runs (ps/cpu/fault_trap.cpp).
 void end_by(int signal) {
   vp::remove_part_files();
   if (signal == SIGQUIT) end_as_the_system_does(signal);

@@ -9,7 +9,6 @@
 #include <vp/input_file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <vp/user_text.h>
 #include <vp/yaml.h>
 
 namespace platform::power {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t m_axi_gp0_base = 0x4000'0000, m_axi_gp0_size = 0x4000'0000;
 // I/O peripherals, static memories and system registers, up to the private bus.
 constexpr std::uint64_t peripheral_base = 0xE000'0000;
-constexpr std::uint64_t peripheral_size = ps::PrivateBus::base - peripheral_base;
+constexpr std::uint64_t peripheral_size = ps::private_bus_base - peripheral_base;
 constexpr std::uint64_t device_size = 0x1000, private_device_size = 0x100;
 
 device::ClockPlanner planner_of(const Chip& chip, const ps::Slcr& slcr) {
@@ -50,11 +50,11 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
                "that the PL's clocks can have (ZedBoard: true)"),
       cpu("cpu", cpu_clk.clk),
       interconnect("interconnect"),
-      private_bus("private_bus", cpu_clk.clk),
+      private_bus("private_bus", cpu_clk.clk, ps::private_bus_times),
       gic("gic", scheduler),
       global_timer("global_timer", cpu_clk.clk),
       private_timer("private_timer", cpu_clk.clk),
-      peripheral_bus("peripheral_bus", cpu_clk.clk),
+      peripheral_bus("peripheral_bus", cpu_clk.clk, ps::peripheral_bus_times),
       slcr("slcr", scheduler, chip.data.idcode()),
       uart0("uart0", uart0_ref_clk),
       uart1("uart1", uart1_ref_clk),
@@ -86,7 +86,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
 
 void ProcessingSystem::map_private_bus() {
   interconnect
-      .map("private_bus", ps::PrivateBus::base, ps::PrivateBus::size,
+      .map("private_bus", ps::private_bus_base, ps::private_bus_size,
            vp::Router::Addresses::absolute)
       .bind(private_bus.socket);
   vp::Router& devices = private_bus.devices;

@@ -8,13 +8,10 @@
 #include <vector>
 
 #include <ps/cpu/cpu.h>
-#include <ps/ddr/ddr.h>
 #include <ps/gic/gic.h>
 #include <ps/global_timer/global_timer.h>
-#include <ps/interconnect/gp_port.h>
-#include <ps/interconnect/private_bus.h>
-#include <ps/ocm/ocm.h>
-#include <ps/peripheral_bus/peripheral_bus.h>
+#include <ps/interconnect/interconnect.h>
+#include <ps/memory/memory.h>
 #include <ps/private_timer/private_timer.h>
 #include <ps/slcr/slcr.h>
 #include <ps/uart/uart.h>
@@ -43,11 +40,11 @@ class ProcessingSystem : public sc_core::sc_module {
   vp::Parameter<bool> ethernet;
   ps::Cpu cpu;
   vp::Router interconnect;
-  ps::PrivateBus private_bus;
+  ps::RegisterBus private_bus;
   ps::Gic gic;
   ps::GlobalTimer global_timer;
   ps::PrivateTimer private_timer;
-  ps::PeripheralBus peripheral_bus;
+  ps::RegisterBus peripheral_bus;
   ps::Slcr slcr;
   ps::Uart uart0;
   ps::Uart uart1;

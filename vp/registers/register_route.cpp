@@ -21,7 +21,7 @@ struct RouteRequest : tlm::tlm_extension<RouteRequest> {
 
 }  // namespace
 
-void report_bus_hang(const RouteStage& stage, bool read, std::uint64_t address) {
+void report_bus_hang(const BusStage& stage, bool read, std::uint64_t address) {
   throw ProtocolError(std::string("bus hang: ") + (read ? "read of " : "write to ") + hex(address) +
                       " " + stage.obstacle());
 }
@@ -80,7 +80,7 @@ void RegisterRoute::follow(Access& access, std::uint64_t ps) const {
 }
 
 // `changes` counts those of clocks until the access entered the stage.
-void RegisterRoute::wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
+void RegisterRoute::wait_to_leave(const Stop& stop, BusStage::Passage& passage, bool read,
                                   std::uint64_t& changes) const {
   do {
     if (passage.leaves_ps == Clock::never) report_bus_hang(*stop.stage, read, stop.address);
@@ -89,7 +89,7 @@ void RegisterRoute::wait_to_leave(const Stop& stop, RouteStage::Passage& passage
 }
 
 // A clock has changed while the access waited. True: it leaves at another time.
-bool RegisterRoute::look_again(const Stop& stop, RouteStage::Passage& passage,
+bool RegisterRoute::look_again(const Stop& stop, BusStage::Passage& passage,
                                std::uint64_t& changes) const {
   changes = scheduler_->clock_changes();
   passage.leaves_ps = std::max(stop.stage->leaves(passage.earliest_ps), scheduler_->now_ps());
@@ -104,7 +104,7 @@ RegisterRoute::Answer RegisterRoute::complete(Access& access, std::uint32_t& wor
   }
   Answer answer{bank_->access(*register_, access.read_, address_, word), access.time_ps_};
   for (std::size_t i = stops_.size(); i > 0; --i) {
-    const RouteStage::Passage& passage = access.passages_[i - 1];
+    const BusStage::Passage& passage = access.passages_[i - 1];
     answer.ps = std::max(answer.ps + passage.rest_ps, passage.answer_ps);
   }
   count(access.read_, answer.status != tlm::TLM_OK_RESPONSE);
@@ -124,8 +124,8 @@ std::optional<std::uint64_t> RegisterRoute::read_time_ps() const {
   std::uint64_t held = 0;     // the least of that, whatever comes behind
   std::uint64_t behind = 0;
   for (std::size_t i = stops_.size(); i > 0; --i) {
-    const RouteStage& stage = *stops_[i - 1].stage;
-    RouteStage::Passage passage{};
+    const BusStage& stage = *stops_[i - 1].stage;
+    BusStage::Passage passage{};
     stage.enter(true, 0, passage);
     behind = passage.earliest_ps + stage.longest_wait_ps() + longest + passage.rest_ps;
     held = passage.answer_ps;
@@ -138,7 +138,7 @@ std::optional<std::uint64_t> RegisterRoute::read_time_ps() const {
 std::uint64_t RegisterRoute::arrival_ps(std::uint64_t start_ps) const {
   std::uint64_t ps = start_ps;
   for (const Stop& stop : stops_) {
-    RouteStage::Passage passage{};
+    BusStage::Passage passage{};
     stop.stage->enter(true, ps, passage);
     ps = passage.leaves_ps;
     if (ps == Clock::never) return ps;

@@ -1,5 +1,4 @@
 #include <ps/cpu/cpu.h>
-#include <ps/cpu/native_hal.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -65,7 +64,6 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
       clock_(clock),
       scheduler_(clock.scheduler()),
       trap_(static_cast<std::size_t>(stack_size) + FaultTrap::gap) {
-  use_native_hal();
   SC_HAS_PROCESS(Cpu);
   SC_THREAD(run);
   set_stack_size(static_cast<std::size_t>(stack_size) + FaultTrap::gap);

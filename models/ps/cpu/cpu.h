@@ -9,12 +9,10 @@
 #include <ps/cpu/fault_trap.h>
 #include <ps/cpu/local_time.h>
 #include <ps/cpu/memory_watch.h>
-#include <ps/cpu/poll_skip.h>
+#include <ps/cpu/poll.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
 #include <ps/cpu/test_bench.h>
-#include <ps/cpu/timeline.h>
-#include <ps/ddr/dma_allocator.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/counter.h>
@@ -36,6 +34,8 @@
 #include <vector>
 
 namespace ps {
+
+class DmaAllocator;
 
 /// A processor without instruction set: one thread that runs a program natively and gives it the
 /// HAL.

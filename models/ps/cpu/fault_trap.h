@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include <ps/cpu/host_watch.h>
+#include <ps/cpu/program_watch.h>
 
 namespace ps {
 
@@ -50,7 +50,7 @@ struct Fault {
 /// Runs code of a program; a fault in it ends that code, not the process. Nothing is unwound.
 ///
 /// Only faults while ProgramWatch::runs are the program's; others end the process as they always
-/// did. Calls of exit() and its relatives are faults, too: see host_calls.cpp. One in a process at
+/// did. Calls of exit() and its relatives are faults, too: see fault_trap.cpp. One in a process at
 /// a time. It changes the actions of the signals and the alternative stack of the thread while
 /// call() runs.
 class FaultTrap {

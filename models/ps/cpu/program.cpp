@@ -1,16 +1,17 @@
 #include <dlfcn.h>
 #include <elf.h>
+#include <link.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <ps/cpu/fault_trap.h>
 #include <ps/cpu/program.h>
-#include <ps/cpu/program_description.h>
 #include <ps/cpu/program_watch.h>
-#include <ps/cpu/static_image.h>
 #include <vp/error.h>
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -21,11 +22,202 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace ps {
 
 namespace {
+
+/// The writable static memory of a loaded shared object (.data, .bss, without what the loader made
+/// read-only), as it stands when the object is constructed: right after loading, constructors of
+/// static objects included.
+///
+/// Heap memory that static objects own is not part of it.
+class StaticImage {
+ public:
+  /// `handle` from dlopen(). Throws std::runtime_error if the object cannot be found among the
+  /// loaded ones.
+  explicit StaticImage(void* handle);
+
+  /// Puts everything back as it was.
+  void restore() const;
+
+ private:
+  struct Range {
+    unsigned char* address;
+    std::vector<unsigned char> bytes;
+  };
+  std::vector<Range> ranges_;
+};
+
+using Span = std::pair<std::uintptr_t, std::uintptr_t>;  ///< first byte, one past the last
+
+struct Search {
+  const link_map* object;
+  std::vector<Span> writable;
+  Span read_only{0, 0};
+  bool found = false;
+};
+
+int visit(dl_phdr_info* info, std::size_t, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  bool is_it = false;
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& header = info->dlpi_phdr[i];
+    if (header.p_type != PT_DYNAMIC) continue;
+    is_it =
+        info->dlpi_addr + header.p_vaddr == reinterpret_cast<std::uintptr_t>(search.object->l_ld);
+  }
+  if (!is_it) return 0;
+  search.found = true;
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& header = info->dlpi_phdr[i];
+    const std::uintptr_t first = info->dlpi_addr + header.p_vaddr;
+    const Span span{first, first + header.p_memsz};
+    if (header.p_type == PT_LOAD && (header.p_flags & PF_W) != 0) search.writable.push_back(span);
+    if (header.p_type == PT_GNU_RELRO) search.read_only = span;
+  }
+  return 1;
+}
+
+// The sanitizers put poisoned gaps between variables: plain copies would be reported, and so would
+// memcpy().
+__attribute__((no_sanitize("address", "undefined"))) void copy(unsigned char* to,
+                                                               const unsigned char* from,
+                                                               std::size_t size) {
+  volatile unsigned char* target = to;
+  const volatile unsigned char* source = from;
+  for (std::size_t i = 0; i < size; ++i) target[i] = source[i];
+}
+
+StaticImage::StaticImage(void* handle) {
+  Search search{};
+  if (dlinfo(handle, RTLD_DI_LINKMAP, &search.object) != 0) throw std::runtime_error(dlerror());
+  dl_iterate_phdr(visit, &search);
+  if (!search.found) throw std::runtime_error("its segments were not found");
+
+  // The loader protects whole pages: the page in which the read-only part ends stays writable from
+  // there on.
+  const std::uintptr_t page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const Span locked{search.read_only.first & ~(page - 1), search.read_only.second & ~(page - 1)};
+  const auto keep = [this](std::uintptr_t first, std::uintptr_t end) {
+    if (first >= end) return;
+    Range range{reinterpret_cast<unsigned char*>(first), std::vector<unsigned char>(end - first)};
+    copy(range.bytes.data(), range.address, range.bytes.size());
+    ranges_.push_back(std::move(range));
+  };
+  for (const Span& span : search.writable) {
+    keep(span.first, std::min(span.second, std::max(span.first, locked.first)));
+    keep(std::max(span.first, std::min(span.second, locked.second)), span.second);
+  }
+}
+
+void StaticImage::restore() const {
+  for (const Range& range : ranges_) copy(range.address, range.bytes.data(), range.bytes.size());
+}
+
+/// More than any program has (decision): a larger count is a mistake.
+constexpr std::uint32_t most_entries = 4096;
+constexpr std::size_t longest_name = 128;
+constexpr std::size_t longest_text = 4096;
+
+bool is_text(const char* text, std::size_t longest) {
+  return text && strnlen(text, longest + 1) <= longest;
+}
+
+bool is_name(const char* text) {
+  return is_text(text, longest_name) && *text != '\0';
+}
+
+/// A key of the configuration.
+bool is_key(std::string_view name) {
+  constexpr std::string_view allowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  return name.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+std::string problem_of_table(const char* kind, const void* table, std::uint32_t count) {
+  if (count > most_entries) {
+    return std::string("claims ") + std::to_string(count) + " " + kind + "s: at most " +
+           std::to_string(most_entries) + " are taken";
+  }
+  if (count != 0 && !table)
+    return std::string("has an incomplete hal_program_info: it counts ") + kind +
+           "s, but has no table of them";
+  return {};
+}
+
+/// `name(i)` is that of entry number i.
+template <class Name>
+std::string problem_of_names(const char* kind, std::uint32_t count, Name name) {
+  std::set<std::string_view> seen;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::string which = std::string(kind) + " number " + std::to_string(i);
+    if (!is_name(name(i))) {
+      return "has no name for " + which + ": it needs 1 to " + std::to_string(longest_name) +
+             " characters";
+    }
+    if (!seen.insert(name(i)).second) {
+      return "has two " + std::string(kind) + "s named '" + name(i) + "': rename one";
+    }
+  }
+  return {};
+}
+
+std::string problem_of_option(const hal_option_info& option) {
+  const std::string which = std::string("option '") + option.name + "'";
+  if (!is_key(option.name)) return "has the " + which + ": use letters, digits and _ only";
+  if (option.name == std::string_view("opt")) {
+    return "has the " + which + ", a name that the platform uses itself (sw.opt): rename it";
+  }
+  if (!is_text(option.unit, longest_name) || !is_text(option.documentation, longest_text)) {
+    return "has the " + which + " without unit or documentation: either may be \"\"";
+  }
+  const bool finite = std::isfinite(option.default_value) && std::isfinite(option.minimum) &&
+                      std::isfinite(option.maximum);
+  if (!finite || option.minimum > option.default_value || option.default_value > option.maximum) {
+    return "has the " + which + " with the default " + std::to_string(option.default_value) +
+           " and the range " + std::to_string(option.minimum) + " to " +
+           std::to_string(option.maximum) + ": give finite numbers, the default in the range";
+  }
+  return {};
+}
+
+/// What makes a description unusable, as the end of a sentence that begins with the program's name;
+/// empty if nothing does. Reads all of its tables, so a wrong count or pointer is a fault here.
+std::string problem_of(const hal_program& program) {
+  if (program.abi != HAL_ABI) {
+    return "was built for version " + std::to_string(program.abi) +
+           " of the HAL, this is version " + std::to_string(HAL_ABI) + ": rebuild it";
+  }
+  if (!is_name(program.name) || !program.entry) {
+    return "has an incomplete hal_program_info: it needs a name and an entry";
+  }
+  std::string problem = problem_of_table("unit", program.work, program.work_count);
+  if (problem.empty())
+    problem = problem_of_table("function", program.functions, program.function_count);
+  if (problem.empty()) problem = problem_of_table("option", program.options, program.option_count);
+  if (problem.empty()) {
+    problem = problem_of_names("unit", program.work_count,
+                               [&](std::uint32_t i) { return program.work[i]; });
+  }
+  if (problem.empty()) {
+    problem = problem_of_names("function", program.function_count,
+                               [&](std::uint32_t i) { return program.functions[i]; });
+  }
+  if (problem.empty()) {
+    problem = problem_of_names("option", program.option_count,
+                               [&](std::uint32_t i) { return program.options[i].name; });
+  }
+  for (std::uint32_t i = 0; problem.empty() && i < program.option_count; ++i)
+    problem = problem_of_option(program.options[i]);
+  return problem;
+}
 
 constexpr const char* symbol = "hal_program_info";
 /// Exit code of the process when it ends in a program's destructor, as of any rule that a program

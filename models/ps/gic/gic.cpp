@@ -1,7 +1,9 @@
 #include <gic_registers.h>
 
 #include <ps/gic/gic.h>
+
 #include <vp/report.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -9,6 +11,17 @@
 namespace ps {
 
 namespace {
+
+constexpr std::uint32_t idle_priority = 0xFF;
+constexpr std::uint32_t ppi_edges = 0x7DC00000;  ///< ICDICFR1 after reset
+
+/// Calls `visit` with the id of each bit of a word, the lowest first.
+template <class Visit>
+void for_each_id(unsigned n, std::uint32_t word, Visit visit) {
+  for (; word != 0; word &= word - 1) {
+    visit(32 * n + static_cast<std::uint32_t>(__builtin_ctz(word)));
+  }
+}
 
 constexpr std::uint32_t f2p_listener = ~std::uint32_t{0};
 
@@ -23,7 +36,109 @@ std::uint32_t f2p_id(unsigned bit) {
   return bit < 8 ? gic::irq_f2p_0_id + bit : gic::irq_f2p_8_id + (bit - 8);
 }
 
+constexpr std::uint32_t this_cpu = 1;
+
 }  // namespace
+
+InterruptLogic::InterruptLogic() {
+  for (std::uint32_t id = 0; id < gic::first_spi; ++id) {
+    const bool by_software = id < gic::sgi_count;
+    enabled.set(id, by_software);
+    edge.set(id, by_software || (ppi_edges >> (2 * (id - gic::sgi_count)) & 2) != 0);
+    targeted.set(id, true);
+  }
+}
+
+void InterruptLogic::set_wire(std::uint32_t id, bool level) {
+  if (level && !wire[id] && edge[id]) latched.set(id, true);
+  wire.set(id, level);
+}
+
+// What the distributor lets through of interrupts 32 · n …
+std::uint32_t InterruptLogic::forwarded(unsigned n) const {
+  const std::uint32_t groups = ((icddcr & gic::icddcr::EnableNS) != 0 ? non_secure.word(n) : 0) |
+                               ((icddcr & gic::icddcr::EnableS) != 0 ? ~non_secure.word(n) : 0);
+  return waiting(n) & groups;
+}
+
+// The most urgent interrupt that the distributor forwards; of equals the lowest id.
+std::uint32_t InterruptLogic::candidate() const {
+  std::uint32_t best = gic::spurious_id;
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for_each_id(n, forwarded(n), [&](std::uint32_t id) {
+      if (best == gic::spurious_id || priority[id] < priority[best]) best = id;
+    });
+  }
+  return best;
+}
+
+std::uint16_t InterruptLogic::first_active() const {
+  std::uint32_t found = gic::spurious_id;
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for (std::uint32_t word = active.word(n); word != 0; word &= word - 1) {
+      const std::uint32_t id = 32 * n + static_cast<std::uint32_t>(__builtin_ctz(word));
+      if (found == gic::spurious_id || priority[id] < priority[found]) found = id;
+    }
+  }
+  return static_cast<std::uint16_t>(found);
+}
+
+std::uint32_t InterruptLogic::running_priority() const {
+  std::uint32_t running = idle_priority;
+  for (unsigned n = 0; n < gic::bit_registers; ++n) {
+    for_each_id(n, active.word(n), [&](std::uint32_t id) {
+      running = std::min<std::uint32_t>(running, priority[id]);
+    });
+  }
+  return running;
+}
+
+// Only the bits above the binary point count against the running interrupt.
+bool InterruptLogic::preempts(std::uint32_t id) const {
+  const std::uint32_t running = running_priority();
+  if (running == idle_priority) return true;
+  const bool own_point = non_secure[id] && (iccicr & gic::iccicr::SBPR) == 0;
+  // The non-secure binary point counts one bit less.
+  const std::uint32_t point = own_point ? iccabpr - 1 : iccbpr;
+  const std::uint32_t group = 0xFFu << (point + 1) & 0xFFu;
+  return (priority[id] & group) < (running & group);
+}
+
+InterruptLogic::Line InterruptLogic::line_of(std::uint32_t id) const {
+  if (id == gic::spurious_id) return Line::none;
+  const std::uint32_t enable = non_secure[id] ? gic::iccicr::EnableNS : gic::iccicr::EnableS;
+  if ((iccicr & enable) == 0 || priority[id] >= iccpmr || !preempts(id)) return Line::none;
+  const bool fast = !non_secure[id] && (iccicr & gic::iccicr::FIQEn) != 0;
+  return fast ? Line::fiq : Line::irq;
+}
+
+std::uint32_t InterruptLogic::as_seen(std::uint32_t id) const {
+  if (id == gic::spurious_id) return id;
+  const bool hidden = non_secure[id] && (iccicr & gic::iccicr::AckCtl) == 0;
+  return hidden ? gic::non_secure_id : id;
+}
+
+InterruptLogic::Signalled InterruptLogic::signalled() const {
+  const std::uint32_t id = candidate();
+  const Line line = line_of(id);
+  return {line, line == Line::none ? gic::spurious_id : as_seen(id)};
+}
+
+void InterruptLogic::acknowledge(std::uint32_t id) {
+  if (id >= gic::id_count) return;
+  latched.set(id, false);
+  active.set(id, true);
+}
+
+bool InterruptLogic::end(std::uint32_t id) {
+  if (id >= gic::id_count || !active[id]) return false;
+  active.set(id, false);
+  return true;
+}
+
+std::uint32_t InterruptLogic::highest_pending() const {
+  return as_seen(candidate());
+}
 
 Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
     : sc_module(name),
@@ -131,6 +246,97 @@ void Gic::end_of_interrupt(std::uint32_t word) {
         *this, "/markervp/gic/eoi",
         "ICCEOIR was written with " + std::to_string(id) + ", an interrupt that is not active");
   }
+  update_outputs();
+}
+
+void Gic::wire_distributor() {
+  vp::Register& icddcr = distributor[gic::ICDDCR];
+  icddcr.after_write([this, &icddcr](std::uint32_t) {
+    logic_.icddcr = icddcr.value();
+    update_outputs();
+  });
+  for (unsigned n = 0; n < gic::bit_registers; ++n) wire_bit_registers(n);
+  for (unsigned n = 0; n < gic::byte_registers; ++n) wire_priorities(n);
+  for (unsigned n = gic::first_spi / 4; n < gic::byte_registers; ++n) wire_targets(n);
+  for (unsigned n = gic::first_spi / 16; n < gic::sense_registers; ++n) wire_sensitivities(n);
+  // Whatever their sensitivity, enabled or not.
+  distributor[gic::PPI_STATUS].computed_by(
+      [this] { return logic_.wire.word(0) >> gic::sgi_count; });
+  for (unsigned n = 0; n < 2; ++n) {
+    distributor[gic::SPI_STATUS(n)].computed_by([this, n] { return logic_.wire.word(n + 1); });
+  }
+  distributor[gic::ICDSGIR].after_write(
+      [this](std::uint32_t word) { raise_software_interrupt(word); });
+}
+
+// The state of an interrupt lives in the logic; the registers are views of it.
+void Gic::wire_bit_registers(unsigned n) {
+  const auto show = [this](std::uint32_t offset, auto value) {
+    distributor[offset].computed_by(value);
+  };
+  const auto change = [this](std::uint32_t offset, auto apply) {
+    const std::uint32_t writable = distributor[offset].info().writable;
+    distributor[offset].after_write([this, writable, apply](std::uint32_t word) {
+      apply(word & writable, writable);
+      update_outputs();
+    });
+  };
+  InterruptLogic& l = logic_;
+  show(gic::ICDISR(n), [&l, n] { return l.non_secure.word(n); });
+  show(gic::ICDISER(n), [&l, n] { return l.enabled.word(n); });
+  show(gic::ICDICER(n), [&l, n] { return l.enabled.word(n); });
+  show(gic::ICDISPR(n), [&l, n] { return l.pending(n); });
+  show(gic::ICDICPR(n), [&l, n] { return l.pending(n); });
+  show(gic::ICDABR(n), [&l, n] { return l.active.word(n); });
+
+  change(gic::ICDISR(n), [&l, n](std::uint32_t word, std::uint32_t writable) {
+    l.non_secure.word(n) = (l.non_secure.word(n) & ~writable) | word;
+  });
+  change(gic::ICDISER(n), [&l, n](std::uint32_t word, auto) { l.enabled.word(n) |= word; });
+  change(gic::ICDICER(n), [&l, n](std::uint32_t word, auto) { l.enabled.word(n) &= ~word; });
+  change(gic::ICDISPR(n), [&l, n](std::uint32_t word, auto) { l.latched.word(n) |= word; });
+  change(gic::ICDICPR(n), [&l, n](std::uint32_t word, auto) { l.latched.word(n) &= ~word; });
+}
+
+void Gic::wire_priorities(unsigned n) {
+  vp::Register& icdipr = distributor[gic::ICDIPR(n)];
+  icdipr.after_write([this, &icdipr, n](std::uint32_t) {
+    for (unsigned i = 0; i < 4; ++i) {
+      logic_.priority[4 * n + i] = static_cast<std::uint8_t>(icdipr >> (8 * i));
+    }
+    update_outputs();
+  });
+}
+
+void Gic::wire_targets(unsigned n) {
+  vp::Register& icdiptr = distributor[gic::ICDIPTR(n)];
+  icdiptr.after_write([this, &icdiptr, n](std::uint32_t) {
+    for (unsigned i = 0; i < 4; ++i) {
+      logic_.targeted.set(4 * n + i, (icdiptr >> (8 * i) & this_cpu) != 0);
+    }
+    update_outputs();
+  });
+}
+
+void Gic::wire_sensitivities(unsigned n) {
+  vp::Register& icdicfr = distributor[gic::ICDICFR(n)];
+  icdicfr.after_write([this, &icdicfr, n](std::uint32_t) {
+    for (unsigned i = 0; i < 16; ++i) {
+      const std::uint32_t sense = icdicfr >> (2 * i) & 3;
+      logic_.edge.set(16 * n + i, sense == gic::icdicfr::rising_edge);
+    }
+    update_outputs();
+  });
+}
+
+void Gic::raise_software_interrupt(std::uint32_t word) {
+  const std::uint32_t filter =
+      (word & gic::icdsgir::TargetListFilter) >> gic::icdsgir::TargetListFilter_shift;
+  const std::uint32_t list =
+      (word & gic::icdsgir::CPUTargetList) >> gic::icdsgir::CPUTargetList_shift;
+  const bool here = filter == gic::icdsgir::filter_self ||
+                    (filter == gic::icdsgir::filter_list && (list & this_cpu) != 0);
+  if (here) logic_.latched.set(word & gic::icdsgir::SGIINTID, true);
   update_outputs();
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <ps/gic/interrupt_logic.h>
+#include <gic_registers.h>
 #include <vp/counter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <systemc>
@@ -13,6 +14,95 @@ class ClockScheduler;
 }
 
 namespace ps {
+
+/// What the interrupt controller decides, without registers and time: which interrupt is pending,
+/// active, and signalled to the CPU (ARM Generic Interrupt Controller architecture 1.0, chapter 3;
+/// one CPU in secure state).
+class InterruptLogic {
+ public:
+  /// The state after reset.
+  InterruptLogic();
+
+  /// A bit for each interrupt, as the distributor's registers show them.
+  class Bits {
+   public:
+    bool operator[](std::uint32_t id) const { return (words_[id / 32] >> id % 32 & 1) != 0; }
+    void set(std::uint32_t id, bool value) {
+      const std::uint32_t bit = std::uint32_t{1} << id % 32;
+      words_[id / 32] = (words_[id / 32] & ~bit) | (value ? bit : 0);
+    }
+    /// Interrupts 32 · n to 32 · n + 31.
+    std::uint32_t word(unsigned n) const { return words_[n]; }
+    std::uint32_t& word(unsigned n) { return words_[n]; }
+
+   private:
+    std::array<std::uint32_t, gic::bit_registers> words_{};
+  };
+
+  /// What software set in the distributor, and what came of it.
+  Bits non_secure;
+  Bits enabled;
+  Bits edge;
+  Bits latched;  ///< pending by an edge, a software interrupt or ICDISPR
+  Bits active;
+  Bits wire;      ///< levels of the inputs
+  Bits targeted;  ///< goes to this CPU
+  std::array<std::uint8_t, gic::id_count> priority{};
+
+  /// Interrupts 32 · n … that are pending.
+  std::uint32_t pending(unsigned n) const {
+    return latched.word(n) | (wire.word(n) & ~edge.word(n));
+  }
+
+  /// Registers that the decisions depend on.
+  std::uint32_t icddcr = 0;
+  std::uint32_t iccicr = 0;
+  std::uint32_t iccpmr = 0;
+  std::uint32_t iccbpr = 2;
+  std::uint32_t iccabpr = 3;
+
+  /// An input changed to `level`: a rising edge latches an edge-sensitive interrupt, enabled or
+  /// not.
+  void set_wire(std::uint32_t id, bool level);
+
+  /// An interrupt is pending that the distributor forwards if its group is enabled.
+  bool any_waiting() const {
+    static_assert(gic::bit_registers == 3);
+    return (waiting(0) | waiting(1) | waiting(2)) != 0;
+  }
+  /// The line to the CPU that is asserted.
+  enum class Line { none, irq, fiq };
+  struct Signalled {
+    Line line = Line::none;
+    std::uint32_t id = gic::spurious_id;  ///< what ICCIAR would return: the signalled interrupt;
+                                          ///< 1023 if none, 1022 if it is non-secure and AckCtl 0
+  };
+  /// Nothing, unless any_waiting().
+  Signalled signalled() const;
+
+  /// ICCIAR returned `id`: that interrupt becomes active.
+  void acknowledge(std::uint32_t id);
+  /// Writes ICCEOIR. False if the interrupt was not active (a mistake of the software; nothing
+  /// happens).
+  bool end(std::uint32_t id);
+  /// ICCHPIR: like ICCIAR, without effects, and whatever the priorities of mask and running
+  /// interrupt.
+  std::uint32_t highest_pending() const;
+  /// The most urgent interrupt that is active, of equal ones the lowest; 1023 if none is.
+  std::uint16_t first_active() const;
+  /// ICCRPR: priority of the most urgent active interrupt, 0xFF if idle.
+  std::uint32_t running_priority() const;
+
+ private:
+  std::uint32_t waiting(unsigned n) const {
+    return pending(n) & enabled.word(n) & ~active.word(n) & targeted.word(n);
+  }
+  std::uint32_t candidate() const;
+  std::uint32_t forwarded(unsigned n) const;
+  bool preempts(std::uint32_t id) const;
+  Line line_of(std::uint32_t id) const;
+  std::uint32_t as_seen(std::uint32_t id) const;
+};
 
 /// The interrupt controller of the Cortex-A9 MPCore for CPU 0: registers of distributor and CPU
 /// interface around InterruptLogic. Combinational: an input that rises lowers nIRQ at the same

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ps/private_timer/down_counter.h>
 #include <vp/clock.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -8,6 +7,45 @@
 #include <systemc>
 
 namespace ps {
+
+/// A counter of the Cortex-A9 that counts down to 0, raises an event there, and starts again or
+/// stops. No process counts: it is computed from the cycles of the clock.
+///
+/// From `n` to 0 it takes n counts, and one more from 0 to the start value: a period is load + 1.
+class DownCounter {
+ public:
+  struct Offsets {
+    std::uint32_t load, counter, control;
+  };
+
+  DownCounter(vp::RegisterBank& bank, const Offsets& offsets, const vp::Clock& clock);
+
+  vp::Register& load;
+  vp::Register& counter;
+  vp::Register& control;
+
+  /// The counter now.
+  std::uint32_t value() const;
+  /// Software set the counter.
+  void set(std::uint32_t value);
+  /// Software wrote the control register.
+  void control_written();
+  /// Takes the event that is due; to be called on the cycle of next_event(). True if there was one.
+  bool take_event();
+  /// The cycle of the next event; vp::Clock::never if none comes.
+  std::uint64_t next_event() const;
+
+ private:
+  bool running() const;
+  std::uint64_t cycles_per_count() const;
+  void rebase(std::uint32_t value);
+
+  const vp::Clock& clock_;
+  std::uint32_t running_control_ = 0;  ///< control as the counter runs with since origin_
+  std::uint32_t base_ = 0;             ///< counter at origin_
+  std::uint64_t origin_ = 0;           ///< cycle
+  bool expired_ = true;                ///< stands at 0 and has told of it
+};
 
 /// Private timer and watchdog of a Cortex-A9. No process counts.
 ///

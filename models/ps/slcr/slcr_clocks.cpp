@@ -7,9 +7,113 @@
 #include <vp/error.h>
 #include <vp/report.h>
 
+#include <algorithm>
+
+namespace ps::clock_tree {
+
+namespace {
+
+constexpr std::uint32_t largest_divisor = 63;
+
+/// UG585 table 25-6, by the largest feedback divider of a row.
+struct LoopFilter {
+  std::uint32_t to, charge_pump, resistor, lock_count;
+};
+constexpr std::uint32_t largest_feedback = 66;
+constexpr LoopFilter loop_filters[] = {
+    {13, 2, 6, 750},  {14, 2, 6, 700},  {15, 2, 6, 650},  {16, 2, 10, 625},
+    {17, 2, 10, 575}, {18, 2, 10, 550}, {19, 2, 10, 525}, {20, 2, 12, 500},
+    {21, 2, 12, 475}, {22, 2, 12, 450}, {23, 2, 12, 425}, {25, 2, 12, 400},
+    {26, 2, 12, 375}, {28, 2, 12, 350}, {30, 2, 12, 325}, {33, 2, 2, 300},
+    {36, 2, 2, 275},  {40, 2, 2, 250},  {47, 3, 12, 250}, {largest_feedback, 2, 4, 250}};
+
+std::uint64_t distance(std::uint64_t a, std::uint64_t b) {
+  return a > b ? a - b : b - a;
+}
+
+}  // namespace
+
+std::uint32_t pll_feedback(std::uint32_t pll_ctrl) {
+  return (pll_ctrl & slcr::pll_ctrl::PLL_FDIV) >> slcr::pll_ctrl::PLL_FDIV_shift;
+}
+std::uint32_t pll_lock_cycles(std::uint32_t pll_cfg) {
+  return (pll_cfg & slcr::pll_cfg::LOCK_CNT) >> slcr::pll_cfg::LOCK_CNT_shift;
+}
+std::uint32_t pll_ctrl_of(std::uint32_t feedback) {
+  return feedback << slcr::pll_ctrl::PLL_FDIV_shift | slcr::pll_ctrl::PLL_BYPASS_QUAL;
+}
+std::uint32_t pll_cfg_of(std::uint32_t feedback) {
+  constexpr std::uint32_t res_shift = 4, cp_shift = 8;
+  for (const LoopFilter& row : loop_filters) {
+    if (feedback > row.to) continue;
+    return row.lock_count << slcr::pll_cfg::LOCK_CNT_shift | row.charge_pump << cp_shift |
+           row.resistor << res_shift;
+  }
+  return pll_cfg_of(largest_feedback);
+}
+std::uint32_t source(std::uint32_t clk_ctrl) {
+  return (clk_ctrl & slcr::clk_ctrl::SRCSEL) >> slcr::clk_ctrl::SRCSEL_shift;
+}
+std::uint32_t divisor0(std::uint32_t clk_ctrl) {
+  return (clk_ctrl & slcr::clk_ctrl::DIVISOR0) >> slcr::clk_ctrl::DIVISOR0_shift;
+}
+std::uint32_t divisor1(std::uint32_t clk_ctrl) {
+  return (clk_ctrl & slcr::clk_ctrl::DIVISOR1) >> slcr::clk_ctrl::DIVISOR1_shift;
+}
+
+std::uint64_t divided_hz(double source_hz, std::uint32_t divisor0, std::uint32_t divisor1) {
+  const std::uint32_t divisor =
+      std::max<std::uint32_t>(divisor0, 1) * std::max<std::uint32_t>(divisor1, 1);
+  return static_cast<std::uint64_t>(source_hz / divisor + 0.5);
+}
+
+std::uint32_t Dividers::clk_ctrl() const {
+  return source << slcr::clk_ctrl::SRCSEL_shift | divisor0 << slcr::clk_ctrl::DIVISOR0_shift |
+         divisor1 << slcr::clk_ctrl::DIVISOR1_shift;
+}
+
+Dividers nearest_dividers(std::uint64_t hertz, const PllOutputs& plls) {
+  const struct {
+    std::uint32_t select;
+    double hertz;
+  } sources[] = {{slcr::peripheral_source::io_pll, plls.io},
+                 {slcr::peripheral_source::arm_pll, plls.arm},
+                 {slcr::peripheral_source::ddr_pll, plls.ddr}};
+  Dividers best{slcr::peripheral_source::io_pll, 1, 1, divided_hz(plls.io, 1)};
+  for (const auto& source : sources) {
+    // By growing difference of the divisors, so that the first of equals is the one wanted.
+    for (std::uint32_t difference = 0; difference < largest_divisor; ++difference) {
+      for (std::uint32_t small = 1; small + difference <= largest_divisor; ++small) {
+        const std::uint64_t given = divided_hz(source.hertz, small + difference, small);
+        if (distance(given, hertz) < distance(best.hertz, hertz)) {
+          best = {source.select, small + difference, small, given};
+        }
+      }
+    }
+  }
+  return best;
+}
+
+std::uint32_t nearest_cpu_divisor(std::uint64_t hertz, double source_hz) {
+  std::uint32_t best = 2;
+  for (std::uint32_t divisor = 4; divisor <= largest_divisor; ++divisor) {
+    if (distance(divided_hz(source_hz, divisor), hertz) <
+        distance(divided_hz(source_hz, best), hertz)) {
+      best = divisor;
+    }
+  }
+  return best;
+}
+
+}  // namespace ps::clock_tree
+
 namespace ps {
 
 namespace {
+
+constexpr std::uint32_t thr_ctrl_offset = slcr::FPGA0_THR_CTRL - slcr::FPGA0_CLK_CTRL;
+constexpr std::uint32_t thr_cnt_offset = slcr::FPGA0_THR_CNT - slcr::FPGA0_CLK_CTRL;
+constexpr std::uint32_t thr_sta_offset = slcr::FPGA0_THR_STA - slcr::FPGA0_CLK_CTRL;
 
 constexpr double ps_per_second = 1e12;
 
@@ -18,6 +122,91 @@ void follow(vp::Clock* clock, std::uint64_t hertz) {
 }
 
 }  // namespace
+
+Fclk::Fclk(sc_core::sc_module_name name, vp::RegisterBank& bank, std::uint32_t offset)
+    : sc_module(name),
+      clk_ctrl_(bank[offset]),
+      thr_ctrl_(bank[offset + thr_ctrl_offset]),
+      thr_cnt_(bank[offset + thr_cnt_offset]) {
+  bank[offset + thr_sta_offset].computed_by([this] { return status(); });
+  SC_HAS_PROCESS(Fclk);
+  SC_METHOD(end_of_pulses);
+  sensitive << last_pulse_;
+  dont_initialize();
+}
+
+void Fclk::drive(vp::Clock& clock, double source_hz) {
+  clock_ = &clock;
+  source_hz_ = source_hz;
+  hertz_ = clock.frequency_hz();
+}
+
+std::uint32_t Fclk::source() const {
+  return clock_tree::source(clk_ctrl_);
+}
+
+std::uint64_t Fclk::programmed_hz(double source_hz) const {
+  return clock_tree::divided_hz(source_hz, clock_tree::divisor0(clk_ctrl_),
+                                clock_tree::divisor1(clk_ctrl_));
+}
+
+void Fclk::follow(double source_hz) {
+  if (source_hz != source_hz_) divide(source_hz);
+}
+
+void Fclk::divide(double source_hz) {
+  source_hz_ = source_hz;
+  hertz_ = programmed_hz(source_hz);
+  apply();
+}
+
+bool Fclk::throttled() const {
+  return (thr_cnt_ & slcr::thr::LAST_CNT) != 0;
+}
+
+void Fclk::throttle_written() {
+  const bool start = thr_ctrl_.any(slcr::thr_ctrl::CPU_START);
+  if (throttled() && !throttled_ && clock_) first_cycle_ = clock_->cycle();
+  throttled_ = throttled();
+  if (!throttled_) {
+    pulsing_ = false;
+    last_pulse_.cancel();
+  } else if (start && !started_) {
+    start_pulses();
+  }
+  started_ = start;
+  apply();
+}
+
+// The first pulse is the next edge.
+void Fclk::start_pulses() {
+  if (!clock_ || hertz_ == 0) return;
+  if (clock_->frequency_hz() != hertz_) clock_->set_frequency(hertz_);
+  pulsing_ = true;
+  first_cycle_ = clock_->cycle();
+  const std::uint64_t last = clock_->time_of(first_cycle_ + (thr_cnt_ & slcr::thr::LAST_CNT));
+  last_pulse_.cancel();
+  last_pulse_.notify(vp::from_ps(last - vp::to_ps(sc_core::sc_time_stamp())));
+  clock_->scheduler().forget_horizon();  // the program that wrote this may be ahead of SystemC
+}
+
+void Fclk::end_of_pulses() {
+  pulsing_ = false;
+  apply();
+}
+
+void Fclk::apply() {
+  if (!clock_) return;
+  const std::uint64_t hertz = throttled() && !pulsing_ ? 0 : hertz_;
+  if (clock_->frequency_hz() != hertz) clock_->set_frequency(hertz);
+}
+
+std::uint32_t Fclk::status() const {
+  if (!throttled()) return slcr::thr::RUNNING;
+  const std::uint64_t given = clock_ ? clock_->cycle() - first_cycle_ : 0;
+  const auto shown = static_cast<std::uint32_t>(std::min<std::uint64_t>(given, 0xFFFF));
+  return shown | (pulsing_ ? slcr::thr::RUNNING : 0);
+}
 
 void Slcr::wire_clocks() {
   registers[slcr::PLL_STATUS].computed_by([this] { return pll_status(); });

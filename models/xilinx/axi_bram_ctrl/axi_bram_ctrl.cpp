@@ -1,7 +1,6 @@
 #include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 #include <vp/clock_scheduler.h>
@@ -25,7 +24,7 @@ std::uint64_t beats_of(std::uint64_t address, std::uint64_t bytes) {
 
 AxiBramCtrl::AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                          const AxiBramCtrlBuild& build)
-    : sc_module(name),
+    : MemoryTarget(name, "s_axi"),
       memory_size("memory_size", build.memory_size, vp::Unit::bytes, {2048, 4u << 20},
                   vp::Source::published, "bytes behind the controller, a power of two (PG078)"),
       axi4_lite("axi4_lite", build.axi4_lite, vp::Source::published,
@@ -36,16 +35,13 @@ AxiBramCtrl::AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                    "clocks from the address to the first word"),
       write_latency("write_latency", 2, vp::Unit::cycles, {1, 64}, vp::Source::assumed,
                     "clocks from the address to the first word, and response"),
-      s_axi("s_axi"),
       clock_(s_axi_aclk),
       memory_(memory_size, 0) {
   if ((memory_size & (memory_size - 1)) != 0) {
     throw vp::InputError(std::string(memory_size.name()) + " = " + std::to_string(memory_size) +
                          " B: must be a power of two");
   }
-  s_axi.register_b_transport(this, &AxiBramCtrl::b_transport);
-  s_axi.register_transport_dbg(this, &AxiBramCtrl::transport_dbg);
-  s_axi.register_get_direct_mem_ptr(this, &AxiBramCtrl::get_direct_mem_ptr);
+  show(memory_.data(), 0, memory_.size());
 }
 
 void AxiBramCtrl::before_end_of_elaboration() {
@@ -60,38 +56,10 @@ void AxiBramCtrl::on_change(vp::SignalBase&, std::uint32_t) {
 tlm::tlm_response_status AxiBramCtrl::check(const tlm::tlm_generic_payload& payload) const {
   const std::uint64_t address = payload.get_address();
   const std::uint64_t length = payload.get_data_length();
-  const std::uint64_t width = payload.get_streaming_width();
-  if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) return tlm::TLM_COMMAND_ERROR_RESPONSE;
-  if (length == 0 || width == 0) return tlm::TLM_BURST_ERROR_RESPONSE;
-  const std::uint64_t span = std::min(length, width);
-  if (address >= memory_.size() || span > memory_.size() - address) {
-    return tlm::TLM_ADDRESS_ERROR_RESPONSE;
-  }
-  const std::uint64_t most = axi4_lite ? 1 : most_beats;
-  if (beats_of(address, length) > most || address % boundary + span > boundary) {
-    return tlm::TLM_BURST_ERROR_RESPONSE;
-  }
-  if (payload.get_byte_enable_ptr() && payload.get_byte_enable_length() == 0) {
-    return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
-  }
-  return tlm::TLM_OK_RESPONSE;
-}
-
-/// Bytes beyond the streaming width go to the first addresses again (AXI: a FIXED burst).
-void AxiBramCtrl::move(tlm::tlm_generic_payload& payload) {
-  unsigned char* memory = memory_.data() + payload.get_address();
-  const unsigned width = payload.get_streaming_width();
-  const unsigned char* enables = payload.get_byte_enable_ptr();
-  unsigned char* data = payload.get_data_ptr();
-  for (unsigned i = 0; i < payload.get_data_length(); ++i) {
-    if (enables && enables[i % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED) continue;
-    unsigned char& byte = memory[i % width];
-    if (payload.is_read()) {
-      data[i] = byte;
-    } else {
-      byte = data[i];
-    }
-  }
+  const std::uint64_t span = std::min<std::uint64_t>(length, payload.get_streaming_width());
+  const bool fits = length != 0 && beats_of(address, length) <= (axi4_lite ? 1 : most_beats) &&
+                    address % boundary + span <= boundary;
+  return fits ? tlm::TLM_OK_RESPONSE : tlm::TLM_BURST_ERROR_RESPONSE;
 }
 
 // Contention is arithmetic: a burst starts when the controller is free. Returns its end.
@@ -114,11 +82,11 @@ void AxiBramCtrl::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_tim
     payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
     return;
   }
-  const tlm::tlm_response_status status = check(payload);
-  payload.set_response_status(status);
-  if (status != tlm::TLM_OK_RESPONSE) return;
-  move(payload);
-  payload.set_dmi_allowed(true);
+  MemoryTarget::b_transport(payload, delay);
+}
+
+void AxiBramCtrl::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  if (!payload.is_response_ok()) return;
   const std::uint64_t burst_beats = beats_of(payload.get_address(), payload.get_data_length());
   beats.add(burst_beats);
   ++(payload.is_read() ? reads : writes);
@@ -127,33 +95,16 @@ void AxiBramCtrl::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_tim
   delay = vp::from_ps(end - now);
 }
 
-unsigned AxiBramCtrl::transport_dbg(tlm::tlm_generic_payload& payload) {
-  const std::uint64_t address = payload.get_address();
-  if (address >= memory_.size() || payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
-  const auto length = static_cast<unsigned>(
-      std::min<std::uint64_t>(payload.get_data_length(), memory_.size() - address));
-  if (payload.is_read()) {
-    std::memcpy(payload.get_data_ptr(), memory_.data() + address, length);
-  } else {
-    std::memcpy(memory_.data() + address, payload.get_data_ptr(), length);
-  }
-  return length;
+sc_core::sc_time AxiBramCtrl::latency(bool read) const {
+  return vp::from_ps(clock_.duration_ps(read ? read_latency : write_latency));
 }
 
 bool AxiBramCtrl::get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
+  if (!in_reset()) return MemoryTarget::get_direct_mem_ptr(payload, dmi);
   dmi.init();
-  if (payload.get_address() >= memory_.size() || in_reset()) {
-    dmi.set_start_address(payload.get_address());
-    dmi.set_end_address(payload.get_address());
-    return false;
-  }
-  dmi.set_dmi_ptr(memory_.data());
-  dmi.set_start_address(0);
-  dmi.set_end_address(memory_.size() - 1);
-  dmi.set_read_latency(vp::from_ps(clock_.duration_ps(read_latency)));
-  dmi.set_write_latency(vp::from_ps(clock_.duration_ps(write_latency)));
-  dmi.allow_read_write();
-  return true;
+  dmi.set_start_address(payload.get_address());
+  dmi.set_end_address(payload.get_address());
+  return false;
 }
 
 }  // namespace xilinx

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <tlm_utils/simple_target_socket.h>
 #include <cstdint>
 #include <systemc>
 #include <tlm>
@@ -8,6 +7,7 @@
 
 #include <vp/clock.h>
 #include <vp/counter.h>
+#include <vp/memory_target.h>
 #include <vp/parameter.h>
 #include <vp/signal.h>
 
@@ -27,7 +27,7 @@ struct AxiBramCtrlBuild {
 /// each port of the memory: the next one begins when it is free. Bursts obey AXI: at most 256
 /// beats, none across a 4 KiB boundary; others are answered with TLM_BURST_ERROR_RESPONSE. Time is
 /// annotated, never waited for. Direct access (DMI) is given, with latencies.
-class AxiBramCtrl : public sc_core::sc_module, public vp::SignalListener {
+class AxiBramCtrl : public vp::MemoryTarget, public vp::SignalListener {
  public:
   /// Throws vp::InputError if the memory's size is no power of two.
   AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
@@ -40,7 +40,7 @@ class AxiBramCtrl : public sc_core::sc_module, public vp::SignalListener {
   vp::Parameter<std::uint32_t> read_latency;
   vp::Parameter<std::uint32_t> write_latency;
 
-  tlm_utils::simple_target_socket<AxiBramCtrl> s_axi;
+  tlm_utils::simple_target_socket<MemoryTarget>& s_axi = socket;
   vp::In<bool> s_axi_aresetn{"s_axi_aresetn"};  ///< may be left open
 
   vp::Counter reads{"reads", "read bursts"};
@@ -53,13 +53,12 @@ class AxiBramCtrl : public sc_core::sc_module, public vp::SignalListener {
  private:
   void before_end_of_elaboration() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
-  void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
-  unsigned transport_dbg(tlm::tlm_generic_payload& payload);
-  bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
-
   bool in_reset() const { return s_axi_aresetn.bound() && !s_axi_aresetn; }
-  tlm::tlm_response_status check(const tlm::tlm_generic_payload& payload) const;
-  void move(tlm::tlm_generic_payload& payload);
+  void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+  tlm::tlm_response_status check(const tlm::tlm_generic_payload& payload) const override;
+  void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+  sc_core::sc_time latency(bool read) const override;
+  bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) override;
   std::uint64_t take_port(bool read, std::uint64_t earliest_ps, std::uint64_t burst_beats);
 
   vp::Clock& clock_;

@@ -1,17 +1,82 @@
 #pragma once
 
-#include <cstdint>
-#include <systemc>
-
 #include <axi_gpio_registers.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
-#include <xilinx/axi_gpio/axi_gpio_channel.h>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <systemc>
 
 namespace xilinx {
+
+/// Which way the pins of a GPIO channel go.
+enum class GpioDirection { mixed, all_outputs, all_inputs };
+
+/// Build options of one channel, as Vivado asks for them.
+struct GpioChannelBuild {
+  GpioDirection direction = GpioDirection::mixed;
+  std::uint32_t width = 32;
+  std::uint32_t dout_default = 0;
+  std::uint32_t tri_default = 0xFFFFFFFF;
+};
+
+/// The pins of one channel, with the synchroniser of the inputs.
+///
+/// No process runs per clock: the synchroniser's output is computed from the last few changes of
+/// the pins. All bits of a value are taken to pass it together (the hardware gives no such
+/// guarantee: use a strobe).
+class AxiGpioChannel {
+ public:
+  /// `prefix` is "gpio" or "gpio2"; parameters and pins become members of `owner`.
+  AxiGpioChannel(const std::string& prefix, const GpioChannelBuild& build, vp::Clocked& owner);
+
+  vp::Parameter<GpioDirection> direction;
+  vp::Parameter<std::uint32_t> width;
+  vp::Parameter<std::uint32_t> dout_default;
+  vp::Parameter<std::uint32_t> tri_default;
+
+  vp::In<std::uint32_t> io_i;      ///< pins; 0 if left open
+  vp::Signal<std::uint32_t> io_o;  ///< the output register; 0 for a channel of inputs
+  vp::Signal<std::uint32_t> io_t;  ///< 1: the pin is an input
+
+  std::uint32_t mask() const { return width == 32 ? 0xFFFFFFFF : (1u << width) - 1; }
+
+  /// Shows the registers at the pins.
+  void drive(std::uint32_t data, std::uint32_t tri);
+
+  /// The pins' level before the first edge.
+  void start();
+  /// The pins changed after edge `cycle`, as the input has it now. `track`: take_changes() is to
+  /// tell of it.
+  void record(std::uint64_t cycle, bool track);
+  /// What stands behind `latency` flip-flops after edge `cycle`.
+  std::uint32_t delayed(std::uint64_t cycle, std::uint64_t latency) const;
+  /// The first edge after `cycle` on which that may be another; vp::Clock::never if the pins have
+  /// not changed since.
+  std::uint64_t next_delayed(std::uint64_t cycle, std::uint64_t latency) const;
+
+  /// Edge on which the next change of the inputs is `latency` edges old; vp::Clock::never if none
+  /// is under way.
+  std::uint64_t next_change(std::uint64_t latency) const;
+  /// Takes the changes that are `latency` edges old at `cycle`. True if an input bit changed.
+  bool take_changes(std::uint64_t cycle, std::uint64_t latency);
+
+ private:
+  struct Sample {
+    std::uint64_t cycle;
+    std::uint32_t value;
+  };
+  /// Longest time for which delayed() looks back, in edges.
+  static constexpr std::uint64_t memory = 16;
+
+  std::deque<Sample> history_;  ///< oldest first, never empty once started
+  std::deque<Sample> under_way_;
+  std::uint32_t last_taken_ = 0;
+};
 
 /// Build options of an AXI GPIO, as Vivado asks for them; the defaults of its parameters.
 struct AxiGpioBuild {

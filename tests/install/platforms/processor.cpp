@@ -4,7 +4,7 @@
 #include <ps/cpu/cost_table.h>
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/program.h>
-#include <ps/ddr/ddr.h>
+#include <ps/memory/memory.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>

@@ -2,6 +2,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 
+#include <ps/memory/memory.h>
+
 #include "bench.h"
 
 using namespace bench;

@@ -1,5 +1,5 @@
 // Interrupts reach the handler at exact times, wherever the program is.
-#include <ps/interconnect/gp_port.h>
+#include <ps/interconnect/interconnect.h>
 #include <boost/test/unit_test.hpp>
 
 #include "bench.h"

@@ -1,7 +1,7 @@
 #include <simulation.h>
 #include <sys/mman.h>
 
-#include <ps/ddr/ddr.h>
+#include <ps/memory/memory.h>
 #include <vp/configuration.h>
 #include <vp/error.h>
 #include <vp/mm_link.h>

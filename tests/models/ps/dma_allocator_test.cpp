@@ -1,4 +1,4 @@
-#include <ps/ddr/dma_allocator.h>
+#include <ps/memory/memory.h>
 #include <boost/test/unit_test.hpp>
 
 BOOST_AUTO_TEST_SUITE(dma_allocator)

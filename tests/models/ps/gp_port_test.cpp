@@ -1,6 +1,5 @@
 // Access times of the port to the PL and of the private bus.
-#include <ps/interconnect/gp_port.h>
-#include <ps/interconnect/private_bus.h>
+#include <ps/interconnect/interconnect.h>
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 
@@ -98,8 +97,8 @@ BOOST_AUTO_TEST_CASE(a_stopped_clock_is_an_error_not_a_hang) {
       false);
   BOOST_CHECK_THROW(b.cpu.check(), vp::ProtocolError);
   BOOST_TEST(b.failure() ==
-             "bus hang: read of 0x00000010 through port, but the clock pl_clock of the PL is "
-             "stopped, at 0 ps in function 'inner' of program 'bench'");
+             "bus hang: read of 0x00000010 through port, but the clock pl_clock is stopped"
+             ", at 0 ps in function 'inner' of program 'bench'");
 }
 
 BOOST_AUTO_TEST_CASE(a_clock_that_changes_on_the_way) {
@@ -113,8 +112,8 @@ BOOST_AUTO_TEST_CASE(a_clock_that_changes_on_the_way) {
 
 BOOST_AUTO_TEST_CASE(private_accesses_take_cycles_of_the_cpu) {
   Bench b;
-  ps::PrivateBus bus("private_bus", b.cpu_clock);
-  b.bus.map("private", ps::PrivateBus::base, ps::PrivateBus::size, vp::Router::Addresses::absolute)
+  ps::RegisterBus bus("private_bus", b.cpu_clock, ps::private_bus_times);
+  b.bus.map("private", ps::private_bus_base, ps::private_bus_size, vp::Router::Addresses::absolute)
       .bind(bus.socket);
   Device timer("timer", b.scheduler);
   bus.devices.map("timer", 0xF8F0'0200, 0x20).bind(timer.socket);
@@ -131,8 +130,8 @@ BOOST_AUTO_TEST_CASE(private_accesses_take_cycles_of_the_cpu) {
 
 BOOST_AUTO_TEST_CASE(nothing_at_a_private_address) {
   Bench b;
-  ps::PrivateBus bus("private_bus", b.cpu_clock);
-  b.bus.map("private", ps::PrivateBus::base, ps::PrivateBus::size, vp::Router::Addresses::absolute)
+  ps::RegisterBus bus("private_bus", b.cpu_clock, ps::private_bus_times);
+  b.bus.map("private", ps::private_bus_base, ps::private_bus_size, vp::Router::Addresses::absolute)
       .bind(bus.socket);
   b.run([] { return hal_read32(0xF8F0'0600) ? 1 : 0; }, false);
   BOOST_TEST(b.failure().find("0xF8F00600: DECERR") != std::string::npos, b.failure());

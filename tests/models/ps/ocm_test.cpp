@@ -1,8 +1,8 @@
 // On-chip memory, and the bus to the I/O peripherals.
 #include "bus_master.h"
 
-#include <ps/ocm/ocm.h>
-#include <ps/peripheral_bus/peripheral_bus.h>
+#include <ps/interconnect/interconnect.h>
+#include <ps/memory/memory.h>
 #include <boost/test/unit_test.hpp>
 
 #include "bench.h"
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(debug_and_direct_access) {
 
 BOOST_AUTO_TEST_CASE(peripheral_accesses_take_cycles_of_the_cpu) {
   Bench b;
-  ps::PeripheralBus bus("peripheral_bus", b.cpu_clock);
+  ps::RegisterBus bus("peripheral_bus", b.cpu_clock, ps::peripheral_bus_times);
   b.bus.map("peripherals", 0xE000'0000, 0x1000, vp::Router::Addresses::absolute).bind(bus.socket);
   Device device("uart0", b.scheduler);
   bus.devices.map("uart0", 0xE000'0000, 0x1000).bind(device.socket);
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(peripheral_accesses_take_cycles_of_the_cpu) {
 
 BOOST_AUTO_TEST_CASE(nothing_at_a_peripheral_address) {
   Bench b;
-  ps::PeripheralBus bus("peripheral_bus", b.cpu_clock);
+  ps::RegisterBus bus("peripheral_bus", b.cpu_clock, ps::peripheral_bus_times);
   b.bus.map("peripherals", 0xE000'0000, 0x1000, vp::Router::Addresses::absolute).bind(bus.socket);
   b.run([] { return static_cast<int>(hal_read32(0xE000'0000)); }, false);
   BOOST_TEST(b.failure().find("0xE0000000: DECERR") != std::string::npos, b.failure());

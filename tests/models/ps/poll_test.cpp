@@ -1,5 +1,5 @@
 // Polls with and without the reads that cannot see anything new: no difference anywhere.
-#include <ps/interconnect/gp_port.h>
+#include <ps/interconnect/interconnect.h>
 #include <vp/report.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <algorithm>

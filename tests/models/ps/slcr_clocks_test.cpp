@@ -1,5 +1,5 @@
 // Clocks of the SLCR: what software programs, the clocks of the simulation do.
-#include <ps/slcr/clock_tree.h>
+#include <ps/slcr/slcr_clocks.h>
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 #include <sstream>

@@ -8,10 +8,12 @@
 
 #include <memory_target.h>
 #include <simulation.h>
+#include <vp/bridge.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>
+#include <vp/error.h>
 #include <vp/mm_link.h>
 #include <vp/register_bank.h>
 #include <vp/register_route.h>
@@ -88,6 +90,14 @@ struct Observer : vp::MmObserver {
   unsigned seen = 0;
 };
 
+/// A request is on its way for 13 ns and leaves at an edge; the answer takes 6 ns, a read at least
+/// 100 periods of a GHz, a write none.
+struct Port : vp::Bridge {
+  Port(sc_core::sc_module_name name, const vp::Clock& clock)
+      : Bridge(name, clock, Leaves::on_an_edge) {}
+  Times times(bool read) const override { return {13'000, read ? 100'000u : 0u, 6'000}; }
+};
+
 struct Bench : kit::Simulation {
   explicit Bench(bool by_route, std::vector<std::string> settings = {})
       : scope(with(std::move(settings))), initiator("initiator", scheduler, by_route) {
@@ -99,6 +109,9 @@ struct Bench : kit::Simulation {
         .bind(inner.socket);
     inner.map("bank", 0x4120'0000, 0x1'0000).bind(bank.socket);
     inner.map("memory", 0x4130'0000, 0x100).bind(memory.socket);
+    outer.map("port", 0x6000'0000, 0x1'0000).bind(port.socket);
+    port.link.socket.bind(behind_port.socket);
+    behind_port.map("far_bank", 0x0, 0x1'0000).bind(far_bank.socket);
     bank[0x10].after_write([this](std::uint32_t word) {
       effects.push_back(std::to_string(word) + " at " + std::to_string(scheduler.now_ps()));
     });
@@ -138,12 +151,17 @@ struct Bench : kit::Simulation {
   vp::Router inner{"inner", &clock};
   vp::RegisterBank bank{"bank", registers, {}, &scheduler};
   kit::MemoryTarget memory{"memory", 0x100};
+  vp::Clock port_clock{"port_clock", scheduler, 125'000'000};
+  Port port{"port", port_clock};
+  vp::Router behind_port{"behind_port"};
+  vp::RegisterBank far_bank{"far_bank", registers, {}, &scheduler};
   std::ostringstream text;
   vp::ReportRouter reports;
   std::vector<std::string> effects;
 };
 
 constexpr std::uint64_t base = 0x4120'0000;
+constexpr std::uint64_t port_base = 0x6000'0000;
 
 /// Runs a script both ways and compares. Returns how many accesses went by a route.
 unsigned compare(const std::function<void(Bench&)>& script,
@@ -177,6 +195,78 @@ BOOST_AUTO_TEST_CASE(latencies_on_the_way) {
   BOOST_TEST(compare(everything, {"inner.read_latency=3 cycles"}) == 12u);
   BOOST_TEST(
       compare(everything, {"inner.read_latency=7 cycles", "inner.write_latency=11 cycles"}) == 12u);
+}
+
+BOOST_AUTO_TEST_CASE(a_bridge_is_passed_in_the_same_time) {
+  const unsigned used = compare([](Bench& b) {
+    b.initiator.access(true, port_base);
+    b.initiator.access(false, port_base, 5);
+    b.initiator.access(true, port_base + 0x4);
+    b.scheduler.pass_until(b.scheduler.now_ps() + 3'333);
+    b.initiator.access(false, port_base + 0x8, 1);
+    b.port_clock.set_frequency(40'000'000);
+    b.initiator.access(true, port_base);
+    b.initiator.access(true, port_base + 0xC);  // a hole
+  });
+  BOOST_TEST(used == 5u);
+}
+
+BOOST_AUTO_TEST_CASE(the_times_of_a_bridge) {
+  for (const bool by_route : {false, true}) {
+    Bench bench(by_route);
+    bench.run([](Bench& b) {
+      b.initiator.access(true, port_base);      // leaves at 16 ns, the second edge after 13
+      b.initiator.access(false, port_base, 5);  // leaves at 113, so at 120 ns
+    });
+    const std::vector<std::string> expected{"read 1610612736 17 status 1 at 16000 until 100000",
+                                            "write 1610612736 5 status 1 at 120000 until 126000"};
+    BOOST_TEST(bench.initiator.lines == expected, boost::test_tools::per_element());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_that_changes_while_a_bridge_holds_a_request) {
+  const unsigned used = compare([](Bench& b) {
+    sc_core::sc_spawn([&b] {
+      sc_core::wait(5, sc_core::SC_NS);
+      b.port_clock.set_frequency(10'000'000);  // edges at 105 ns, 205 ns …
+    });
+    b.initiator.access(true, port_base);
+    BOOST_TEST(b.initiator.lines.back() == "read 1610612736 17 status 1 at 105000 until 111000");
+  });
+  BOOST_TEST(used == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_bridge_whose_clock_stands_is_a_bus_that_hangs) {
+  for (const bool by_route : {false, true}) {
+    Bench bench(by_route);
+    std::string message;
+    bench.run([&](Bench& b) {
+      b.port_clock.set_frequency(0);
+      try {
+        b.initiator.access(true, port_base + 4);
+      } catch (const vp::ProtocolError& error) {
+        message = error.what();
+      }
+    });
+    BOOST_TEST(message ==
+               "bus hang: read of 0x00000004 through port, but the clock port_clock is stopped");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(direct_memory_behind_a_bridge_is_refused) {
+  Bench bench(true);
+  bench.run([](Bench& b) {
+    tlm::tlm_generic_payload payload;
+    payload.set_address(port_base);
+    payload.set_read();
+    payload.set_data_length(4);
+    tlm::tlm_dmi dmi;
+    BOOST_TEST(!b.initiator.link.direct_memory(payload, dmi));
+    std::uint32_t word = 0;
+    payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+    BOOST_TEST(b.initiator.link.transport_debug(payload) == 4u, "but a debugger may look");
+    BOOST_TEST(word == 0x11u);
+  });
 }
 
 BOOST_AUTO_TEST_CASE(errors_are_answered_and_counted_the_same) {

@@ -16,11 +16,11 @@
 
 namespace vp {
 
-/// A part of the way to a register that takes time: a port of the bus, an interconnect. It says
-/// when an access passes it; the route lets the time pass.
-class RouteStage {
+/// A part of a bus on which accesses take time: a port, an interconnect. It says when an access
+/// passes it; whoever brings the access through lets the time pass.
+class BusStage {
  public:
-  virtual ~RouteStage() = default;
+  virtual ~BusStage() = default;
 
   /// One access in this stage.
   struct Passage {
@@ -42,16 +42,16 @@ class RouteStage {
 };
 
 /// Throws ProtocolError: an access never leaves `stage`, which sees it at `address`.
-[[noreturn]] void report_bus_hang(const RouteStage& stage, bool read, std::uint64_t address);
+[[noreturn]] void report_bus_hang(const BusStage& stage, bool read, std::uint64_t address);
 
 /// The way of one address from an initiator to its register, found once: the links on it, the
 /// stages that take time, the register. An access does what b_transport() through all the sockets
 /// does, at the same times, but without them.
 ///
-/// It is found by get_direct_mem_ptr() with an extension: who knows that adds himself and passes
-/// the call on. A link that somebody observes, a foreign interconnect and a foreign target do not,
-/// and are reached through their sockets. As with direct memory, invalidate_direct_mem_ptr() takes
-/// it back.
+/// It is found by get_direct_mem_ptr() with an extension: each part that knows the extension adds
+/// itself and passes the call on. A link that somebody observes, a foreign interconnect and a
+/// foreign target do not, and are reached through their sockets. As with direct memory,
+/// invalidate_direct_mem_ptr() takes it back.
 class RegisterRoute {
  public:
   /// The way from `first` on, which may turn out not to be known.
@@ -65,7 +65,7 @@ class RegisterRoute {
   /// The route that `payload` asks for; null if it asks for ordinary direct memory.
   static RegisterRoute* asked_for(const tlm::tlm_generic_payload& payload);
   void add(MmLink& link) { links_.push_back(&link); }
-  void add(const RouteStage& stage, std::uint64_t address) { stops_.push_back({&stage, address}); }
+  void add(const BusStage& stage, std::uint64_t address) { stops_.push_back({&stage, address}); }
   void end_at(RegisterBank& bank, Register& target, std::uint64_t address,
               ClockScheduler& scheduler);
 
@@ -78,7 +78,7 @@ class RegisterRoute {
     std::size_t stage_;      ///< that it is in
     std::uint64_t time_ps_;  ///< when it entered that
     std::uint64_t changes_;  ///< of clocks, until then
-    std::array<RouteStage::Passage, most_stages> passages_;
+    std::array<BusStage::Passage, most_stages> passages_;
   };
   /// An access leaves the initiator at `start_ps`.
   void begin(Access& access, bool read, std::uint64_t start_ps) const;
@@ -116,7 +116,7 @@ class RegisterRoute {
   static constexpr std::uint64_t word_bytes = 4;
 
   struct Stop {
-    const RouteStage* stage;
+    const BusStage* stage;
     std::uint64_t address;  ///< as the stage sees it
   };
   void enter(Access& access, std::uint64_t ps) const {
@@ -129,10 +129,10 @@ class RegisterRoute {
     ++access.stage_;
     enter(access, ps);
   }
-  void wait_to_leave(const Stop& stop, RouteStage::Passage& passage, bool read,
+  void wait_to_leave(const Stop& stop, BusStage::Passage& passage, bool read,
                      std::uint64_t& changes) const;
-  bool look_again(const Stop& stop, RouteStage::Passage& passage, std::uint64_t& changes) const;
-  Answer transfer_through(const RouteStage& stage, std::uint64_t now_ps, bool read,
+  bool look_again(const Stop& stop, BusStage::Passage& passage, std::uint64_t& changes) const;
+  Answer transfer_through(const BusStage& stage, std::uint64_t now_ps, bool read,
                           std::uint32_t& word);
   Answer transfer_through_all(std::uint64_t now_ps, bool read, std::uint32_t& word);
   void count_on_links();
@@ -148,7 +148,7 @@ class RegisterRoute {
   std::vector<MmLink*> links_;
   std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();
   std::vector<Stop> stops_;
-  const RouteStage* single_stage_ = nullptr;  ///< if there is one, as on nearly every route
+  const BusStage* single_stage_ = nullptr;  ///< if there is one, as on nearly every route
   RegisterBank* bank_ = nullptr;
   Register* register_ = nullptr;
   std::uint64_t address_ = 0;  ///< as the bank sees it
@@ -194,11 +194,11 @@ inline void RegisterRoute::count(bool read, bool failed) {
   }
 }
 
-inline RegisterRoute::Answer RegisterRoute::transfer_through(const RouteStage& stage,
+inline RegisterRoute::Answer RegisterRoute::transfer_through(const BusStage& stage,
                                                              std::uint64_t now_ps, bool read,
                                                              std::uint32_t& word) {
   std::uint64_t changes = scheduler_->clock_changes();
-  RouteStage::Passage passage;
+  BusStage::Passage passage;
   stage.enter(read, now_ps, passage);
   const Stop& stop = stops_.front();
   if (passage.leaves_ps == Clock::never) report_bus_hang(stage, read, stop.address);

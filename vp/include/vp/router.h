@@ -24,7 +24,7 @@ class Clock;
 /// A miss, and an access that leaves its region, are answered with TLM_ADDRESS_ERROR_RESPONSE (AXI:
 /// DECERR). Each region has a named link below the router. The address of a payload is restored
 /// after every call.
-class Router : public sc_core::sc_module, private RouteStage {
+class Router : public sc_core::sc_module, private BusStage {
  public:
   /// What a target sees as address.
   enum class Addresses {

@@ -1,6 +1,5 @@
 #include <ucontext.h>
 
-#include <ps/cpu/host_watch.h>
 #include <ps/cpu/program_watch.h>
 
 extern "C" void __sanitizer_cov_trace_pc(void);

@@ -1,0 +1,162 @@
+#include <sys/mman.h>
+
+#include <ps/memory/memory.h>
+#include <vp/clock.h>
+#include <vp/clock_scheduler.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace ps {
+
+using namespace vp::literals;
+
+namespace {
+
+/// The first mapping of this process that lies in [first, end): "/usr/bin/x at 0x400000 to
+/// 0x452000".
+std::string occupant(std::uint64_t first, std::uint64_t end) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream fields(line);
+    std::uint64_t from = 0, to = 0;
+    char dash = 0;
+    fields >> std::hex >> from >> dash >> to;
+    if (!fields || to <= first || from >= end) continue;
+    std::string permissions, offset, device, inode, name;
+    fields >> permissions >> offset >> device >> inode;
+    std::getline(fields >> std::ws, name);
+    if (name.empty()) name = "memory without a name (another platform in this process?)";
+    return name + " at " + vp::hex(from) + " to " + vp::hex(to);
+  }
+  return {};
+}
+
+std::uint64_t round_up(std::uint64_t value, std::uint64_t power_of_two) {
+  return (value + power_of_two - 1) & ~(power_of_two - 1);
+}
+
+constexpr std::uint64_t page = 4096;
+
+/// The size as a whole number of pages, so that the range can be mapped.
+std::uint64_t checked_size(const std::string& name, std::uint64_t size) {
+  if (size % page == 0) return size;
+  throw vp::InputError(name + ".size is " + std::to_string(size) +
+                       " B: it must be a multiple of 4096");
+}
+
+std::uint64_t checked_dma_base(const std::string& name, std::uint64_t dma_base, std::uint64_t end) {
+  if (dma_base < end) return dma_base;
+  throw vp::InputError(name + ".dma_base is " + vp::hex(dma_base) + ", but the memory ends at " +
+                       vp::hex(end) + ": choose a lower address or a larger " + name + ".size");
+}
+
+}  // namespace
+
+FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
+    : size_(size) {
+  void* wanted = reinterpret_cast<void*>(first);
+  void* got = mmap(wanted, size, PROT_READ | PROT_WRITE,
+                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+  if (got == wanted) {
+    data_ = static_cast<unsigned char*>(got);
+    return;
+  }
+  const std::string reason = got == MAP_FAILED ? std::strerror(errno) : "address not granted";
+  if (got != MAP_FAILED) munmap(got, size);
+  const std::string range = vp::hex(first) + " to " + vp::hex(first + size);
+  const std::string who = occupant(first, first + size);
+  throw vp::InputError(
+      what + " needs the host addresses " + range + ", " +
+      (who.empty() ? "which the host refuses (" + reason + "): choose a smaller size"
+                   : "but they are occupied by " + who +
+                         ": build programs position-independent (-pie), or choose a smaller size"));
+}
+
+FixedMapping::~FixedMapping() {
+  munmap(data_, size_);
+}
+
+void FixedMapping::clear() {
+  madvise(data_, size_, MADV_DONTNEED);
+}
+
+std::optional<std::uint32_t> DmaAllocator::allocate(std::size_t size, std::size_t alignment) {
+  if (alignment == 0 || (alignment & (alignment - 1)) != 0) return std::nullopt;
+  const std::uint64_t range = end_ - first_;
+  if (size > range || alignment > range) return std::nullopt;
+  const std::uint64_t start = round_up(next_, std::max<std::uint64_t>(alignment, cache_line));
+  // An empty buffer has an address of its own, too.
+  const std::uint64_t end = start + round_up(std::max<std::uint64_t>(size, 1), cache_line);
+  if (end > end_) return std::nullopt;
+  next_ = end;
+  return static_cast<std::uint32_t>(start);
+}
+
+Ddr::Ddr(sc_core::sc_module_name name)
+    : MemoryTarget(name),
+      size(
+          "size", 511_MiB, vp::Unit::bytes, {1_MiB, 1023_MiB}, vp::Source::published,
+          "DDR from address 0x100000 on: 512 MiB less the first (ZedBoard), at most 1 GiB (UG585)"),
+      dma_base("dma_base", 0x1000'0000, vp::Unit::address, {base, 0x3FFF'F000},
+               vp::Source::decision, "first address of the DMA buffers"),
+      memory_(std::string(this->name()) + " (DDR)", base, checked_size(this->name(), size)),
+      dma_memory_(checked_dma_base(this->name(), dma_base, base + size), base + size) {
+  show(memory_.data(), base, size);
+}
+
+unsigned char* Ddr::at(std::uint32_t address, std::uint64_t bytes) const {
+  if (contains(address, bytes)) return memory_.data() + (address - base);
+  throw vp::ProtocolError(std::to_string(bytes) + " bytes at " + vp::hex(address) +
+                          " are not in the DDR (" + vp::hex(base) + " to " + vp::hex(end() - 1) +
+                          ")");
+}
+
+void Ddr::account(tlm::tlm_command command, std::uint64_t bytes) {
+  if (command == tlm::TLM_READ_COMMAND) {
+    ++reads;
+    bytes_read.add(bytes);
+  } else if (command == tlm::TLM_WRITE_COMMAND) {
+    ++writes;
+    bytes_written.add(bytes);
+  }
+}
+
+void Ddr::clear() {
+  memory_.clear();
+  dma_memory_.reset();
+}
+
+void Ddr::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+  if (payload.is_response_ok()) account(payload.get_command(), payload.get_data_length());
+}
+
+Ocm::Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock)
+    : MemoryTarget(name),
+      read_cycles("read_cycles", 24, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
+                  "CPU cycles of a read through the SCU: about those of the L2 cache"),
+      write_cycles("write_cycles", 24, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,
+                   "CPU cycles of a write through the SCU"),
+      cpu_clock_(cpu_clock),
+      memory_(size, 0) {
+  show(memory_.data(), 0, size);
+}
+
+void Ocm::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  constexpr unsigned bytes_per_cycle = 8;  // a 64-bit port
+  const unsigned length = payload.get_data_length();
+  const unsigned further = length == 0 ? 0 : (length - 1) / bytes_per_cycle;
+  const std::uint32_t first = payload.is_read() ? read_cycles : write_cycles;
+  delay += vp::from_ps(cpu_clock_.duration_ps(first + further));
+  if (payload.is_response_ok()) ++(payload.is_read() ? reads : writes);
+}
+
+sc_core::sc_time Ocm::latency(bool read) const {
+  return vp::from_ps(cpu_clock_.duration_ps(read ? read_cycles : write_cycles));
+}
+
+}  // namespace ps

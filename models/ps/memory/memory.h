@@ -1,0 +1,139 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include <vp/counter.h>
+#include <vp/memory_target.h>
+#include <vp/parameter.h>
+
+namespace vp {
+class Clock;
+}
+
+namespace ps {
+
+/// Zeroed host memory at chosen host addresses, for as long as the object lives. Pages take memory
+/// when first touched.
+class FixedMapping {
+ public:
+  /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
+  /// memory, and who occupies the range.
+  FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size);
+  ~FixedMapping();
+  FixedMapping(const FixedMapping&) = delete;
+  FixedMapping& operator=(const FixedMapping&) = delete;
+
+  unsigned char* data() const { return data_; }
+  std::uint64_t size() const { return size_; }
+  /// Gives all pages back: the memory reads 0 again.
+  void clear();
+
+ private:
+  unsigned char* data_;
+  std::uint64_t size_;
+};
+
+/// Hands out memory for DMA buffers from one range of bus addresses, front to back; nothing is
+/// given back one by one.
+class DmaAllocator {
+ public:
+  /// The CPU's cache line: buffers share none, so that cache maintenance of one cannot touch
+  /// another.
+  static constexpr std::uint32_t cache_line = 32;
+
+  /// The range [first, end).
+  DmaAllocator(std::uint64_t first, std::uint64_t end) : first_(first), end_(end), next_(first) {}
+
+  /// Bus address of `size` bytes, aligned to `alignment` (a power of two; at least a cache line).
+  /// Empty if the range is used up or the alignment is no power of two.
+  std::optional<std::uint32_t> allocate(std::size_t size, std::size_t alignment);
+  /// All of it is free again.
+  void reset() { next_ = first_; }
+
+  std::uint64_t first() const { return first_; }
+  std::uint64_t end() const { return end_; }
+  std::uint64_t used() const { return next_ - first_; }
+
+ private:
+  std::uint64_t first_;
+  std::uint64_t end_;
+  std::uint64_t next_;
+};
+
+/// The DDR memory: host memory at the same numeric addresses as on the chip, so that a pointer of
+/// the program and a bus address are one number. Map it with vp::Router::Addresses::absolute.
+///
+/// Accesses take no time here: the latency from a port to the memory belongs to the port (it is
+/// published for the whole path).
+class Ddr : public vp::MemoryTarget {
+ public:
+  explicit Ddr(sc_core::sc_module_name name);
+  const char* kind() const override { return "ps::Ddr"; }
+
+  /// First byte: the lowest megabyte belongs to the on-chip memory (UG585 4.1).
+  static constexpr std::uint64_t base = 0x0010'0000;
+
+  vp::Parameter<std::uint64_t> size;
+  vp::Parameter<std::uint64_t> dma_base;
+
+  vp::Counter reads{"reads", "read transactions, direct access included"};
+  vp::Counter writes{"writes", "write transactions, direct access included"};
+  vp::Counter bytes_read{"bytes_read", "bytes read by devices"};
+  vp::Counter bytes_written{"bytes_written", "bytes written by devices"};
+
+  using MemoryTarget::contains;
+  /// One past the last address.
+  using MemoryTarget::end;
+  /// Host pointer of a bus address; the same number. Throws vp::ProtocolError if it is outside.
+  unsigned char* at(std::uint32_t address, std::uint64_t bytes = 1) const;
+  /// Counts one transaction that went through direct access.
+  void account(tlm::tlm_command command, std::uint64_t bytes);
+
+  /// Memory for DMA buffers: from `dma_base` to the end.
+  DmaAllocator& dma_memory() { return dma_memory_; }
+  /// All of it is 0 and free again.
+  void clear();
+
+ private:
+  void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+
+  FixedMapping memory_;
+  DmaAllocator dma_memory_;
+};
+
+/// The on-chip memory, 256 KiB at the top of the address space, as boot code leaves it (UG585
+/// chapter 29). Map it with relative addresses.
+///
+/// An access takes its latency for the first 8 bytes and a CPU cycle for each further 8.
+class Ocm : public vp::MemoryTarget {
+ public:
+  static constexpr std::uint64_t base = 0xFFFC'0000;
+  static constexpr std::uint64_t size = 0x4'0000;
+
+  Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock);
+  const char* kind() const override { return "ps::Ocm"; }
+
+  vp::Parameter<std::uint32_t> read_cycles;
+  vp::Parameter<std::uint32_t> write_cycles;
+
+  vp::Counter reads{"reads", "read transactions"};
+  vp::Counter writes{"writes", "write transactions"};
+
+  /// The bytes, for loading and for tests.
+  std::vector<unsigned char>& contents() { return memory_; }
+
+ private:
+  void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+  sc_core::sc_time latency(bool read) const override;
+
+  const vp::Clock& cpu_clock_;
+  std::vector<unsigned char> memory_;
+};
+
+}  // namespace ps
