@@ -96,7 +96,6 @@ void Clock::set_frequency(std::uint64_t hertz) {
 
 void Clock::start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   times_.restart(cycles, ps, hertz);
-  cycle_ps_ = never;
   next_ = {cycles + 1, never, 0};
   if (!times_.stands()) next_ = times_.edge(cycles + 1);
 }

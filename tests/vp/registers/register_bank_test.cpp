@@ -57,6 +57,10 @@ BOOST_FIXTURE_TEST_CASE(reset_values_and_access_policies, Bench) {
     BOOST_TEST(master.read(0x00) == 0x05u);
     master.write(0x00, 0xFFFFFFFF);
     BOOST_TEST(master.read(0x00) == 0xFFu, "only writable bits change");
+    bank[0x00] = 0xABCD'EF55;
+    master.write(0x00, 0x11);
+    BOOST_TEST(master.read(0x00) == 0xABCD'EF11u, "the others keep what the hardware set");
+    master.write(0x00, 0xFF);
 
     master.write(0x04, 0x12345678);
     BOOST_TEST(master.response() == tlm::TLM_OK_RESPONSE, "AXI acknowledges it");
@@ -81,6 +85,28 @@ BOOST_FIXTURE_TEST_CASE(reset_values_and_access_policies, Bench) {
   });
   bank.reset();
   for (const vp::Register& r : bank.registers()) BOOST_TEST(r.value() == r.info().reset);
+}
+
+BOOST_FIXTURE_TEST_CASE(what_a_register_did_is_over_when_it_is_removed, Bench) {
+  unsigned effects = 0;
+  vp::Register& control = bank[0x00];
+  control.computed_by([] { return 77u; });
+  control.after_read([&](std::uint32_t) { ++effects; });
+  control.after_write([&](std::uint32_t) { ++effects; });
+  control.stable_until([] { return vp::Clock::never; });
+  control.remove();
+  master.simulate([&] {
+    BOOST_TEST(master.read(0x00) == 0u);
+    master.write(0x00, 0xFF);
+    BOOST_TEST(master.response() == tlm::TLM_OK_RESPONSE);
+    std::uint32_t word = 0xFF;
+    BOOST_TEST(master.debug(tlm::TLM_WRITE_COMMAND, 0x00, &word, 4) == 4u);
+  });
+  bank.reset();
+  BOOST_TEST(control.value() == 0u);
+  BOOST_TEST(effects == 0u);
+  BOOST_TEST(control.use().reads == 1u, "but it is counted");
+  BOOST_TEST(control.use().writes == 1u);
 }
 
 BOOST_FIXTURE_TEST_CASE(strict_bank_refuses_odd_accesses, Bench) {
