@@ -311,7 +311,8 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   // They were printed when they came.
   std::vector<std::string> warnings = warner.all();
   warnings.insert(warnings.end(), facts.warnings.begin(), facts.warnings.end());
-  result.finish(facts, origin, warnings, incomplete(runner));
+  facts.incomplete = incomplete(runner);
+  result.finish(facts, origin, warnings);
   if (memory) {
     memory->configuration = configuration.values();
     return verdict(options, runner, facts, runner.error(), err);

@@ -7,7 +7,6 @@
 
 #include <host/document.h>
 #include <vp/error.h>
-#include <vp/text.h>
 
 namespace platform::page {
 
@@ -52,28 +51,17 @@ Json mean_error(const Json& result, const char* name) {
   return count == 0 ? Json() : Json(sum / static_cast<double>(count));
 }
 
-/// Adds "what: a, b" if there are any.
-void add_reason(Json& reasons, const char* what, const std::vector<std::string>& names) {
-  if (!names.empty()) reasons.push_back(what + vp::join(names, ", "));
-}
-
-/// What went wrong, and why the point cannot be built.
+/// Why the point failed, or is not feasible; none if it is.
 Json reasons_of(const Json& outcome) {
   Json reasons = Json::array();
   if (outcome.value("status", "") == "failed") {
     reasons.push_back("failed: " + outcome.value(Json::json_pointer("/failure/message"), ""));
   }
-  std::vector<std::string> slow, unknown, large;
-  for (const Json& module : part(outcome, "/result/timing/modules")) {
-    if (module.value("met", true)) continue;
-    (module.value("lower_bound", false) ? unknown : slow).push_back(module.value("name", ""));
+  const Json& verdict = part(outcome, "/result/verdict");
+  for (const Json& each : verdict) {
+    if (each.is_object() && each.contains("why")) reasons.push_back(each["why"]);
   }
-  for (const Json& kind : part(outcome, "/result/resources/over")) {
-    large.push_back(kind.is_string() ? kind.get<std::string>() : kind.dump());
-  }
-  add_reason(reasons, "misses timing: ", slow);
-  add_reason(reasons, "timing not proven: ", unknown);
-  add_reason(reasons, "too large: ", large);
+  if (verdict.is_null() && reasons.empty()) reasons.push_back("without a verdict");
   return reasons;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <report/error_measure.h>
+#include <report/verdict.h>
 #include <report/words.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -150,6 +151,21 @@ std::string mean_error_text(const Summary& summary) {
       over);
 }
 
+std::string verdict_text(const Verdict& verdict) {
+  if (verdict.feasible() != Holds::yes) {
+    return fmt::format("verdict  {}: {}\n",
+                       verdict.feasible() == Holds::no ? "INFEASIBLE" : "unknown",
+                       fmt::join(verdict.reasons(), "\n         "));
+  }
+  std::string margins;
+  for (const Verdict::Part& part : verdict.parts) {
+    if (part.by.empty()) continue;
+    margins += fmt::format("{}{} {:.0f} % ({})", margins.empty() ? "   to spare: " : ", ",
+                           part.name, *part.margin_percent, part.by);
+  }
+  return "verdict  feasible" + margins + "\n";
+}
+
 std::string end_text(const RunFacts& facts) {
   if (!facts.end) return "no frames: the program was stopped";
   return fmt::format("no frames: the program ended at {} with exit code {}",
@@ -179,6 +195,7 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   text += point;
   text += fps_text(summary);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
+  text += verdict_text(verdict_of(facts, summary));
   if (facts.power && facts.resources && facts.timing) {
     text += design_text(*facts.power, *facts.resources, *facts.timing);
   }

@@ -97,6 +97,7 @@ Json to_json(const ClockReport& report) {
     entry["name"] = clock.name;
     entry["wish_mhz"] = mhz(clock.wish_mhz);
     entry["frequency_mhz"] = mhz(clock.frequency_mhz);
+    entry["offset_percent"] = rounded(100 * (clock.made_mhz / clock.wish_mhz - 1), percent_places);
     Json& made = entry["made"];
     made["mhz"] = mhz(clock.made_mhz);
     made["pll"] = clock.pll;
@@ -126,10 +127,26 @@ Json to_json(const TimingReport& timing) {
     entry["frequency_mhz"] = rounded(module.frequency_mhz, mhz_places);
     entry["fmax_mhz"] = rounded(module.fmax_mhz, mhz_places);
     entry["lower_bound"] = module.lower_bound;
+    if (module.reachable_mhz > 0)
+      entry["reachable_mhz"] = rounded(module.reachable_mhz, mhz_places);
     entry["met"] = module.met;
     entry["margin_percent"] = rounded(module.margin_percent, percent_places);
     entry["source"] = module.source;
     json["modules"].push_back(entry);
+  }
+  return json;
+}
+
+Json to_json(const Verdict& verdict) {
+  Json json;
+  json["feasible"] = to_string(verdict.feasible());
+  for (const Verdict::Part& part : verdict.parts) {
+    Json& entry = json[part.name];
+    entry["holds"] = to_string(part.holds);
+    if (part.margin_percent)
+      entry["margin_percent"] = rounded(*part.margin_percent, percent_places);
+    if (!part.by.empty()) entry["by"] = part.by;
+    if (part.holds != Holds::yes) entry["why"] = part.why;
   }
   return json;
 }

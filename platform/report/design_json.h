@@ -2,6 +2,7 @@
 
 #include <report/design_report.h>
 #include <report/result_json.h>
+#include <report/verdict.h>
 
 namespace platform::report {
 
@@ -14,6 +15,8 @@ Json to_json(const PowerReport& power);
 Json to_json(const ResourceReport& resources);
 Json to_json(const TimingReport& timing);
 Json to_json(const ClockReport& clocks);
+/// `feasible`, and by part `holds` ("yes", "no", "unknown") and what else is known.
+Json to_json(const Verdict& verdict);
 
 /// Places of watts and millijoules: sums of what stands in the file hold to 1e-9.
 constexpr int energy_places = 12;

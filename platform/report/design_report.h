@@ -58,6 +58,17 @@ struct ResourceReport {
   std::vector<std::string> over;  ///< "lut", "ff", "bram36", "dsp": what there is not enough of
 };
 
+/// What logic is built of.
+struct Primitive {
+  const char* key;   ///< in result.json
+  const char* text;  ///< for people
+  double ResourceReport::Amount::*amount;
+};
+inline constexpr Primitive primitives[] = {{"lut", "LUT", &ResourceReport::Amount::lut},
+                                           {"ff", "FF", &ResourceReport::Amount::ff},
+                                           {"bram36", "BRAM36", &ResourceReport::Amount::bram36},
+                                           {"dsp", "DSP", &ResourceReport::Amount::dsp}};
+
 /// Whether each module is fast enough for its clock.
 struct TimingReport {
   struct Module {
@@ -69,6 +80,7 @@ struct TimingReport {
     bool met = true;
     double margin_percent = 0;  ///< by how much the clock could rise; negative: must fall
     std::string source;
+    double reachable_mhz = 0;  ///< the highest clock up to fmax that the chip makes; 0: not known
 
     /// Clocked above what it is known to reach: it may work or not.
     bool unknown() const { return !met && lower_bound; }
@@ -121,7 +133,7 @@ std::vector<std::string> resource_warnings(const ResourceReport& resources);
 /// A junction above what the device is specified for.
 std::vector<std::string> power_warnings(const PowerReport& power);
 
-/// "power", "timing" and "resources" for the console, a line each.
+/// "power", "timing" and "fits" for the console, a line each.
 std::string design_text(const PowerReport& power, const ResourceReport& resources,
                         const TimingReport& timing);
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
-#include <report/design_report.h>
+#include <report/verdict.h>
 #include <vp/text.h>
 
 namespace platform::report {
@@ -13,16 +12,6 @@ namespace {
 
 /// Highest junction temperature of a device of the commercial range (DS187).
 constexpr double commercial_limit_c = 85;
-
-struct Primitive {
-  const char* key;
-  const char* text;
-  double ResourceReport::Amount::*amount;
-};
-constexpr Primitive primitives[] = {{"lut", "LUT", &ResourceReport::Amount::lut},
-                                    {"ff", "FF", &ResourceReport::Amount::ff},
-                                    {"bram36", "BRAM36", &ResourceReport::Amount::bram36},
-                                    {"dsp", "DSP", &ResourceReport::Amount::dsp}};
 
 std::string mhz(double value) {
   std::string text = vp::format_fixed(value, 3);
@@ -38,16 +27,6 @@ std::string power_line(const PowerReport& power) {
   return text + fmt::format("   junction {:.0f} C   ({})\n", power.junction_c, power.mode);
 }
 
-/// The module that says most about the clocks: of those that miss the one that misses by most, a
-/// known limit before an unknown one; if none does, the one with the least margin to a known limit.
-const TimingReport::Module& critical_module(const TimingReport& timing) {
-  const auto rank = [](const TimingReport::Module& m) {
-    return std::tuple(m.met, m.lower_bound, m.margin_percent);
-  };
-  return *std::min_element(timing.modules.begin(), timing.modules.end(),
-                           [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-}
-
 std::string timing_line(const TimingReport& timing) {
   if (timing.modules.empty()) return "";
   const TimingReport::Module& critical = critical_module(timing);
@@ -60,9 +39,13 @@ std::string timing_line(const TimingReport& timing) {
       std::count_if(timing.modules.begin(), timing.modules.end(),
                     [&](const auto& m) { return unknown ? m.unknown() : m.missed(); });
   const std::string others = alike > 1 ? fmt::format(" and {} more", alike - 1) : "";
-  return fmt::format("timing   {} {}{}: {}, {} {}\n", unknown ? "unknown for" : "MISSED by",
+  const std::string reachable = critical.reachable_mhz > 0
+                                    ? fmt::format("; the chip has {}", mhz(critical.reachable_mhz))
+                                    : "";
+  return fmt::format("timing   {} {}{}: {}, {} {}{}\n", unknown ? "unknown for" : "MISSED by",
                      critical.name, others, mhz(critical.frequency_mhz),
-                     unknown ? "known to work up to" : "at most", mhz(critical.fmax_mhz));
+                     unknown ? "known to work up to" : "at most", mhz(critical.fmax_mhz),
+                     reachable);
 }
 
 std::string resource_line(const ResourceReport& resources) {

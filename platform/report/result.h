@@ -32,6 +32,12 @@ struct Counts {
   /// Words, corners, blobs and candidates for which the software had no room.
   std::uint64_t software_overflow = 0;
   std::uint64_t malformed = 0;  ///< blob words without partner, boxes that end before they start
+
+  /// What found no room, or was damaged by that.
+  std::uint64_t lost() const {
+    return feature_overflow + label_overflow + bridge_overflow + crossing_overflow +
+           software_overflow + malformed;
+  }
 };
 
 /// A marker that the software identified.
@@ -96,12 +102,13 @@ struct ProgramEnd {
 
 /// The design point that ran.
 struct RunFacts {
-  std::string fidelity;                              ///< "tlm" or "clocked"
-  std::string system;                                ///< "hybrid" or "ps-only"
-  std::string design;                                ///< which IP variants: "thesis"
-  std::string profile;                               ///< cost table of the software
-  std::map<std::string, std::string> configuration;  ///< path -> "value unit"
-  std::optional<ProgramEnd> end = std::nullopt;      ///< of the program; none: it was stopped
+  std::string fidelity;                                  ///< "tlm" or "clocked"
+  std::string system;                                    ///< "hybrid" or "ps-only"
+  std::string design;                                    ///< which IP variants: "thesis"
+  std::string profile;                                   ///< cost table of the software
+  std::map<std::string, std::string> configuration;      ///< path -> "value unit"
+  std::optional<ProgramEnd> end = std::nullopt;          ///< of the program; none: it was stopped
+  std::optional<std::string> incomplete = std::nullopt;  ///< why the run ended early, if it did
   // What the design costs; none: not known.
   std::optional<PowerReport> power = std::nullopt;
   std::optional<ResourceReport> resources = std::nullopt;

@@ -10,12 +10,11 @@ void ResultDocument::add(const FrameReport& frame) {
 }
 
 void ResultDocument::finish(const RunFacts& facts, const Provenance&,
-                            const std::vector<std::string>& warnings,
-                            const std::optional<std::string>& incomplete) {
+                            const std::vector<std::string>& warnings) {
   json_ = Json::object();
   json_["schema"] = result_schema;
   add_run(json_, facts);
-  add_end(json_, facts, warnings, incomplete);
+  add_end(json_, facts, warnings);
   json_["frames"] = std::move(frames_);
   add_figures(json_, facts, summary_);
 }

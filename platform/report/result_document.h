@@ -15,8 +15,7 @@ class ResultDocument : public ResultSink {
 
   void add(const FrameReport& frame) override;
   void finish(const RunFacts& facts, const Provenance& provenance,
-              const std::vector<std::string>& warnings,
-              const std::optional<std::string>& incomplete = std::nullopt) override;
+              const std::vector<std::string>& warnings) override;
 
   /// Null until finish().
   const Json& json() const { return json_; }

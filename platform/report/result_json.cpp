@@ -101,6 +101,7 @@ Json to_json(const FrameReport& frame) {
   json["index"] = frame.index;
   json["threshold"] = frame.threshold;
   if (!frame.delivered()) json["gave_up"] = frame.gave_up;
+  if (frame.truth) json["scene_marker"] = frame.truth->marker_id;
   json["counts"] = counts_json(frame.counts);
   json["markers"] = Json::array();
   for (const FoundMarker& found : frame.markers)

@@ -11,10 +11,9 @@ void add_run(Json& json, const RunFacts& facts) {
   json["profile"] = facts.profile;
 }
 
-void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings,
-             const std::optional<std::string>& incomplete) {
+void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings) {
   if (!warnings.empty()) json["warnings"] = warnings;
-  if (incomplete) json["incomplete"] = *incomplete;
+  if (facts.incomplete) json["incomplete"] = *facts.incomplete;
   if (facts.end) json["program_end"] = to_json(*facts.end);
 }
 
@@ -27,8 +26,9 @@ void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
       json["summary"]["energy_per_frame_mj"] =
           rounded(facts.power->energy_per_frame_mj, energy_places);
     }
-    json["power"] = to_json(*facts.power);
   }
+  json["verdict"] = to_json(verdict_of(facts, summary));
+  if (facts.power) json["power"] = to_json(*facts.power);
   if (facts.resources) json["resources"] = to_json(*facts.resources);
   if (facts.timing) json["timing"] = to_json(*facts.timing);
   if (facts.clocks) json["clocks"] = to_json(*facts.clocks);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +14,9 @@ constexpr int result_schema = 1;
 void add_run(Json& json, const RunFacts& facts);
 
 /// Adds how it went.
-void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings,
-             const std::optional<std::string>& incomplete);
+void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings);
 
-/// Adds what stands behind the frames: summary, power, resources, timing.
+/// Adds what stands behind the frames: summary, verdict, power, resources, timing, clocks.
 void add_figures(Json& json, const RunFacts& facts, const Summary& summary);
 
 }  // namespace platform::report

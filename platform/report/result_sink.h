@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +14,9 @@ class ResultSink {
   virtual ~ResultSink() = default;
 
   virtual void add(const FrameReport& frame) = 0;
-  /// `warnings` are those of the whole run. `incomplete` says why the run ended early, if it did.
+  /// `warnings` are those of the whole run.
   virtual void finish(const RunFacts& facts, const Provenance& provenance,
-                      const std::vector<std::string>& warnings,
-                      const std::optional<std::string>& incomplete) = 0;
+                      const std::vector<std::string>& warnings) = 0;
 
   const Summary& summary() const { return summary_; }
 

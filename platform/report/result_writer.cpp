@@ -62,15 +62,14 @@ void ResultWriter::add(const FrameReport& frame) {
 }
 
 void ResultWriter::finish(const RunFacts& facts, const Provenance& provenance,
-                          const std::vector<std::string>& warnings,
-                          const std::optional<std::string>& incomplete) {
+                          const std::vector<std::string>& warnings) {
   Json head;
   head["schema"] = result_schema;
   head["provenance"] = to_json(provenance);
   add_run(head, facts);
   head["configuration"] = Json::object();
   for (const auto& [path, value] : facts.configuration) head["configuration"][path] = value;
-  add_end(head, facts, warnings, incomplete);
+  add_end(head, facts, warnings);
 
   folder_.add(name);
   file_.write(opened(head) + "  \"frames\": [");

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,8 +49,7 @@ class ResultWriter : public ResultSink {
   /// left out.
   void add(const FrameReport& frame) override;
   void finish(const RunFacts& facts, const Provenance& provenance,
-              const std::vector<std::string>& warnings,
-              const std::optional<std::string>& incomplete = std::nullopt) override;
+              const std::vector<std::string>& warnings) override;
 
  private:
   struct Close {

@@ -21,6 +21,7 @@ void Statistic::add(double value) {
 void Summary::add(const FrameReport& frame) {
   ++frames_;
   if (!frame.warnings.empty()) ++warned_;
+  if (frame.counts.lost() != 0) ++lossy_;
   for (const vp::Interval& part : periods_.next(frame)) open_ps_ += part.to_ps - part.from_ps;
   if (!frame.delivered()) return;
   if (open_ps_ > 0) fps_.add(ps_per_s / static_cast<double>(open_ps_));
@@ -59,7 +60,10 @@ void Summary::add_markers(const FrameReport& frame) {
     translation_mm_.add(error.translation_mm);
     rotation_deg_.add(error.rotation_deg);
   }
-  if (frame.truth && !frame.markers.empty() && !right) ++mistaken_;
+  const bool overlooked = frame.truth && !right;
+  if (overlooked) ++overlooked_;
+  if (overlooked && !frame.markers.empty()) ++mistaken_;
+  if (!overlooked && frame.counts.lost() == 0) ++fulfilled_;
 }
 
 }  // namespace platform::report

@@ -52,6 +52,13 @@ class Summary {
   std::uint64_t detected() const { return detected_; }
   /// Frames with ground truth in which another marker was identified, and not the true one.
   std::uint64_t mistaken() const { return mistaken_; }
+  /// Frames in which something was lost.
+  std::uint64_t lossy() const { return lossy_; }
+  /// Frames with a result that lacks the marker of the scene.
+  std::uint64_t overlooked() const { return overlooked_; }
+  /// Frames that did their job: a result, nothing lost, and the marker of the scene, if it is
+  /// known.
+  std::uint64_t fulfilled() const { return fulfilled_; }
   /// Frames with warnings.
   std::uint64_t warned() const { return warned_; }
   /// Results per second from the first frame's start to the last result; 0 without any.
@@ -72,6 +79,9 @@ class Summary {
   std::uint64_t frames_ = 0;
   std::uint64_t detected_ = 0;
   std::uint64_t mistaken_ = 0;
+  std::uint64_t lossy_ = 0;
+  std::uint64_t overlooked_ = 0;
+  std::uint64_t fulfilled_ = 0;
   std::uint64_t warned_ = 0;
   std::uint64_t busy_ps_ = 0;  ///< until the last result
   std::uint64_t open_ps_ = 0;  ///< since then

@@ -91,7 +91,7 @@ void find_in_frames(const Json& frames, const Found& found) {
         }
       } else if (name == "time_us" && frame.contains("gave_up")) {
         continue;  // stages that were not reached
-      } else if (name != "index") {
+      } else if (name != "index" && name != "scene_marker") {
         gather(value, "frames." + name, all);
       }
     }
@@ -115,6 +115,21 @@ void find_in_timing(const Json& modules, const Found& found) {
   found("timing.unknown", unknown);
 }
 
+/// What is no, unknown and yes becomes 0, 0.5 and 1.
+template <class Found>
+void find_in_verdict(const Json& verdict, const Found& found) {
+  const auto add = [&](const std::string& path, const Json& holds) {
+    const auto* text = holds.get_ptr<const std::string*>();
+    if (text) found(path, *text == "yes" ? 1.0 : *text == "unknown" ? 0.5 : 0.0);
+  };
+  for (const auto& [name, part] : verdict.items()) {
+    if (name == "feasible")
+      add("verdict.feasible", part);
+    else if (part.is_object() && part.contains("holds"))
+      add("verdict." + name + ".holds", part["holds"]);
+  }
+}
+
 /// Calls found(path, value) for each figure, in the order of the result.
 template <class Found>
 void find_figures(const Json& result, const Found& found) {
@@ -127,6 +142,7 @@ void find_figures(const Json& result, const Found& found) {
       walk(value, path, found);
     }
     if (name == "timing" && value.contains("modules")) find_in_timing(value["modules"], found);
+    if (name == "verdict") find_in_verdict(value, found);
   }
 }
 

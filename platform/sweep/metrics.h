@@ -53,7 +53,8 @@ class Metrics {
 /// them: "frames.counts.corners.mean", "frames.time_us.receive.max" (of those with a result),
 /// "frames.error.corner_px.mean" (of the markers whose truth is known). Of the timing also
 /// "timing.failed" and "timing.unknown": how many modules are clocked above a known limit, and
-/// above one of which only a lower bound is known.
+/// above one of which only a lower bound is known. Of the verdict "verdict.feasible" and
+/// "verdict.<part>.holds": 1 for yes, 0 for no, 0.5 for unknown.
 Metrics metrics_of(const Json& result);
 
 /// metrics_of() of one result after another: those of the same shape as the one before cost no new

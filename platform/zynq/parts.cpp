@@ -70,11 +70,9 @@ report::ResourceReport resource_report(const std::vector<Part>& parts,
     total.bram36 += amount.bram36;
     total.dsp += amount.dsp;
   }
-  const auto& available = report.available;
-  if (total.lut > available.lut) report.over.emplace_back("lut");
-  if (total.ff > available.ff) report.over.emplace_back("ff");
-  if (total.bram36 > available.bram36) report.over.emplace_back("bram36");
-  if (total.dsp > available.dsp) report.over.emplace_back("dsp");
+  for (const report::Primitive& p : report::primitives) {
+    if (total.*p.amount > report.available.*p.amount) report.over.emplace_back(p.key);
+  }
   return report;
 }
 
@@ -92,7 +90,8 @@ TimingClosure::TimingClosure(sc_core::sc_module_name name, const std::vector<Par
 }
 
 report::TimingReport TimingClosure::report(
-    const std::function<std::uint64_t(const vp::Clock&)>& fastest) const {
+    const std::function<std::uint64_t(const vp::Clock&)>& fastest,
+    const std::function<double(double)>& made_below_hz) const {
   report::TimingReport report;
   for (const Limit& limit : limits_) {
     report::TimingReport::Module module;
@@ -101,6 +100,7 @@ report::TimingReport TimingClosure::report(
     const std::uint64_t hz = fastest(*limit.ip.clock);
     module.frequency_mhz = static_cast<double>(hz) / device::hz_per_mhz;
     module.fmax_mhz = static_cast<double>(limit.fmax) / device::hz_per_mhz;
+    module.reachable_mhz = made_below_hz(static_cast<double>(limit.fmax)) / device::hz_per_mhz;
     // Another limit than ours is the user's, and is one.
     module.lower_bound = limit.ip.estimate.lower_bound && !limit.fmax.is_changed();
     module.met = hz <= limit.fmax;

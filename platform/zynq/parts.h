@@ -42,9 +42,10 @@ class TimingClosure : public sc_core::sc_module {
   TimingClosure(sc_core::sc_module_name name, const std::vector<Part>& parts,
                 const device::Device& device);
 
-  /// `fastest_hz` tells the highest frequency that a clock had.
-  report::TimingReport report(
-      const std::function<std::uint64_t(const vp::Clock&)>& fastest_hz) const;
+  /// `fastest_hz` tells the highest frequency that a clock had, `made_below_hz` the highest that
+  /// the chip makes up to another; 0: none.
+  report::TimingReport report(const std::function<std::uint64_t(const vp::Clock&)>& fastest_hz,
+                              const std::function<double(double)>& made_below_hz) const;
 
  private:
   struct Limit : sc_core::sc_module {

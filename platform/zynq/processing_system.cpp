@@ -7,6 +7,7 @@
 #include <uart_registers.h>
 #include <vp/error.h>
 #include <vp/hierarchy.h>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -117,6 +118,13 @@ void ProcessingSystem::connect_interrupts() {
                  {uart::uart1_interrupt, &uart1.irq}};
   for (const Interrupt& interrupt : interrupts_) gic.connect(interrupt.id, *interrupt.source);
   cpu.n_irq(gic.n_irq);
+}
+
+double ProcessingSystem::highest_fclk_hz(double most_hz) const {
+  constexpr auto kind = device::ClockKind::fclk;
+  const double limit_hz = device::hz_per_mhz * limit_of(chip_.data, kind).value;
+  const auto near = planner_.neighbours(std::min(most_hz, limit_hz), kind, plan_);
+  return near.below ? near.below->hz : 0;
 }
 
 bool ProcessingSystem::clocks_are_made() const {

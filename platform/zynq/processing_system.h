@@ -77,6 +77,8 @@ class ProcessingSystem : public sc_core::sc_module {
   /// What the vendor's tool makes of the frequencies that are configured, used or not; FCLK in the
   /// order of fclks(). After start_clocks().
   const device::ClockPlan& clock_plan() const { return plan_; }
+  /// The highest clock of the PL up to `most_hz` that the chip has by that plan; 0: none.
+  double highest_fclk_hz(double most_hz) const;
   /// Whether the clocks follow that plan.
   bool clocks_are_made() const;
 

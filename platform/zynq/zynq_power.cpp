@@ -189,7 +189,8 @@ report::ClockReport ZynqPower::clock_report() const {
 
 report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {
   if (!options.pl_design) return {};
-  return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); });
+  return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); },
+                       [this](double hz) { return zynq_.ps.highest_fclk_hz(hz); });
 }
 
 }  // namespace platform

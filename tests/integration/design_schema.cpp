@@ -23,6 +23,10 @@ class Checker {
     if (object(json, "resources")) resources(json["resources"]);
     if (object(json, "timing")) timing(json["timing"]);
     if (object(json, "clocks")) clocks(json["clocks"]);
+    if (object(json, "verdict"))
+      verdict(json["verdict"], json.contains("resources") &&
+                                   json["resources"].contains("modules") &&
+                                   !json["resources"]["modules"].empty());
   }
 
  private:
@@ -42,6 +46,9 @@ class Checker {
   void number(const Json& json, const std::string& key) {
     expect(json.contains(key) && json[key].is_number() && json[key] >= 0,
            key + " is missing or no number from 0 on");
+  }
+  void signed_number(const Json& json, const std::string& key) {
+    expect(json.contains(key) && json[key].is_number(), key + " is missing or no number");
   }
   void text(const Json& json, const std::string& key) {
     expect(json.contains(key) && json[key].is_string() && json[key] != "",
@@ -111,12 +118,35 @@ class Checker {
       text(module, "clock");
       number(module, "frequency_mhz");
       number(module, "fmax_mhz");
+      number(module, "reachable_mhz");
       truth(module, "lower_bound");
       truth(module, "met");
       expect(module.contains("margin_percent") && module["margin_percent"].is_number(),
              "margin_percent is missing");
       text(module, "source");
     }
+  }
+
+  /// Without PL nothing must fit or be fast enough: there is no margin.
+  void verdict(const Json& json, bool has_pl) {
+    const std::vector<std::string> holds{"no", "unknown", "yes"};
+    one_of(json, "feasible", holds);
+    std::string worst = "yes";
+    for (const std::string name : {"ran", "job", "fits", "clocks", "timing"}) {
+      if (!object(json, name)) continue;
+      const Json& part = json[name];
+      one_of(part, "holds", holds);
+      const std::string how = part.contains("holds") && part["holds"].is_string()
+                                  ? part["holds"].get<std::string>()
+                                  : "";
+      if (how == "no" || worst == "yes") worst = how;
+      if (how != "yes") text(part, "why");
+      const bool limited = name == "clocks" || (has_pl && (name == "fits" || name == "timing"));
+      if (limited) text(part, "by");
+      if (limited || name == "job") signed_number(part, "margin_percent");
+    }
+    expect(json.contains("feasible") && json["feasible"] == worst,
+           "the worst part does not decide");
   }
 
   void clocks(const Json& json) {
@@ -143,8 +173,7 @@ class Checker {
         }
       }
       one_of(clock, "limit_confidence", {"published", "derived", "assumed"});
-      expect(clock.contains("margin_percent") && clock["margin_percent"].is_number(),
-             "margin_percent of a clock is missing");
+      for (const char* key : {"margin_percent", "offset_percent"}) signed_number(clock, key);
       truth(clock, "within");
       truth(clock, "makeable");
     }

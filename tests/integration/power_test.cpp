@@ -134,6 +134,12 @@ BOOST_AUTO_TEST_CASE(the_clock_that_a_chip_has_is_simulated_judged_and_said) {
   BOOST_TEST(clock["within"] == true);
   BOOST_TEST(made.result["timing"]["met"] == false);  // Fmax is 55 MHz
   BOOST_TEST(contains(made.outcome.out,
+                      "MISSED by pl.blob_detection: 55.556 MHz, at most 55 MHz; "
+                      "the chip has 52.632 MHz\n"),
+             made.outcome.out);
+  BOOST_TEST(
+      contains(made.outcome.out, "verdict  INFEASIBLE: timing missed by pl.blob_detection\n"));
+  BOOST_TEST(contains(made.outcome.out,
                       "clock    ps.fclk_clk1 is 55.556 MHz: no PLL gives 55 MHz; else 52.632 MHz"),
              made.outcome.out);
   BOOST_TEST(made.result["configuration"]["ps.fclk_clk1.frequency"] == "55 MHz");

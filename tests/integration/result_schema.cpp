@@ -157,7 +157,13 @@ class Checker {
           {"identification", Kind::number},
           {"pose", Kind::number},
           {"frame", Kind::number}});
-    for (const Json& found : json["markers"]) marker(found, where + ".markers");
+    bool of_scene = false;
+    for (const Json& found : json["markers"]) {
+      marker(found, where + ".markers");
+      of_scene = of_scene || found.contains("truth");
+    }
+    if (of_scene || json.contains("scene_marker"))
+      keys(json, where, {{"scene_marker", Kind::count}});
   }
 
   /// The times of the frames, in their order; all but frame and upload are parts of another.

@@ -108,6 +108,11 @@ BOOST_AUTO_TEST_CASE(a_damaged_result_is_refused) {
              boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(a_point_without_a_verdict_is_not_feasible) {
+  const Json row = Json::parse(page::point_row(Json::parse(R"({"status":"done","result":{}})")));
+  BOOST_TEST(row["reasons"] == Json::parse(R"(["without a verdict"])"));
+}
+
 BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
   const kit::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "points");
@@ -115,12 +120,11 @@ BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
     {"key":"p","swept":{"a.b":"50 MHz"}},{"key":"q","swept":{"a.b":"60 MHz"}},
     {"key":"r","swept":{"a.b":"0 Hz"}},{"key":"not_yet","swept":{"a.b":"70 MHz"}}]})");
   kit::write_file(folder / "points/p.json", R"({"outcome":{"status":"done","result":{
-    "summary":{"fps":{"mean":140.5}},"frames":[{"markers":[{"error":{"corner_px":1}}]},
+    "verdict":{"feasible":"yes","ran":{"holds":"yes"}},"summary":{"fps":{"mean":140.5}},"frames":[{"markers":[{"error":{"corner_px":1}}]},
     {"markers":[{"error":{"corner_px":2}},{}]}]}}})");
   kit::write_file(folder / "points/q.json", R"({"outcome":{"status":"done","result":{
-    "timing":{"modules":[{"name":"pl.a","met":false},{"name":"x","met":true},
-    {"name":"pl.b","met":false},{"name":"pl.c","met":false,"lower_bound":true}]},
-    "resources":{"over":["lut"]}}}})");
+    "verdict":{"feasible":"no","ran":{"holds":"yes"},"fits":{"holds":"no","why":"too big"},
+    "timing":{"holds":"unknown","why":"timing unknown for pl.c"}}}}})");
   kit::write_file(folder / "points/r.json",
                   R"({"outcome":{"status":"failed","failure":{"message":"it stood"}}})");
   const std::string known = page::sweep_json(
@@ -140,9 +144,8 @@ BOOST_AUTO_TEST_CASE(a_sweep_has_a_row_a_point) {
   BOOST_TEST(first["metrics"][11] == 1.5);
   BOOST_TEST(first["metrics"][2].is_null(), "no zero for what is not known");
   BOOST_TEST(first["reasons"].empty());
-  BOOST_TEST(
-      sweep["points"][1]["reasons"] ==
-      Json::parse(R"(["misses timing: pl.a, pl.b","timing not proven: pl.c","too large: lut"])"));
+  BOOST_TEST(sweep["points"][1]["reasons"] ==
+             Json::parse(R"(["too big","timing unknown for pl.c"])"));
   BOOST_TEST(sweep["points"][1]["failed"] == false);
   BOOST_TEST(sweep["points"][2]["failed"] == true);
   BOOST_TEST(sweep["points"][2]["reasons"] == Json::parse(R"(["failed: it stood"])"));

@@ -154,6 +154,32 @@ BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
   BOOST_TEST(contains(text(), "timing   MISSED by c: 120 MHz, at most 130 MHz\n"), text());
 }
 
+BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
+  report::Summary summary;
+  summary.add(found_frame("z1.0"));
+  report::RunFacts run = facts();
+  run.end = {0, 1'250'000'000};
+  run.resources.emplace();
+  run.resources->total.lut = 100;
+  run.resources->available.lut = 150;
+  run.clocks.emplace();
+  run.timing = {true, {{"a", "clk", 100, 110, false, true, 10, ""}}};
+  std::string text = report::summary_text(summary, run);
+  BOOST_TEST(contains(text, "\nverdict  feasible   to spare: fits 50 % (lut), timing 10 % (a)\n"),
+             text);
+  run.timing->modules[0].met = false;
+  run.timing->modules[0].lower_bound = true;
+  text = report::summary_text(summary, run);
+  BOOST_TEST(contains(text, "\nverdict  unknown: timing unknown for a\n"), text);
+  run.end->exit_code = 1;
+  text = report::summary_text(summary, run);
+  BOOST_TEST(contains(text,
+                      "\nverdict  INFEASIBLE: the program ended with exit code 1\n"
+                      "         timing unknown for a\n"),
+             text);
+  check_width(text);
+}
+
 BOOST_AUTO_TEST_CASE(an_empty_run) {
   report::RunFacts run = facts();
   BOOST_TEST(contains(report::summary_text({}, run), "no frames: the program was stopped   ("));

@@ -24,7 +24,9 @@ Json written(const std::vector<report::FrameReport>& frames,
   report::ResultWriter writer(output);
   for (const report::FrameReport& frame : frames) writer.add(frame);
   BOOST_TEST(!std::filesystem::exists(folder / "result.json"), "not before it is complete");
-  writer.finish(facts(), provenance(), warnings, incomplete);
+  report::RunFacts facts = report_test::facts();
+  facts.incomplete = incomplete;
+  writer.finish(facts, provenance(), warnings);
   BOOST_TEST(folder.entries() == (std::vector<std::string>{".markervp", "result.json"}));
   return Json::parse(kit::read_file(folder / "result.json"));
 }
@@ -44,11 +46,12 @@ BOOST_AUTO_TEST_SUITE(result_writer)
 BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
   const Json json = written({found_frame("z1.0")});
   BOOST_TEST(keys(json) == (Keys{"schema", "provenance", "fidelity", "system", "design", "profile",
-                                 "configuration", "frames", "stages", "summary"}));
+                                 "configuration", "frames", "stages", "summary", "verdict"}));
   BOOST_TEST(json["schema"] == 1);
   BOOST_TEST(json["configuration"]["pl.clk"] == "50 MHz");
   const Json& frame = json["frames"][0];
-  BOOST_TEST(keys(frame) == (Keys{"input", "index", "threshold", "counts", "markers", "time_us"}));
+  BOOST_TEST(keys(frame) ==
+             (Keys{"input", "index", "threshold", "scene_marker", "counts", "markers", "time_us"}));
   BOOST_TEST(
       keys(frame["counts"]) ==
       (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow", "label_overflow",
@@ -149,7 +152,9 @@ BOOST_AUTO_TEST_CASE(in_memory_it_is_the_same_without_provenance_and_configurati
     report::ResultDocument document;
     for (const report::FrameReport& one : frames) document.add(one);
     BOOST_TEST(document.json().is_null());
-    document.finish(facts(), provenance(), {"no camera"}, "interrupted");
+    report::RunFacts stopped = facts();
+    stopped.incomplete = "interrupted";
+    document.finish(stopped, provenance(), {"no camera"});
     BOOST_TEST(document.summary().frames() == frames.size());
     BOOST_TEST(document.take().dump(-1, ' ', false, Json::error_handler_t::replace) == file.dump());
   }

@@ -155,6 +155,14 @@ BOOST_AUTO_TEST_CASE(fmax_scales_with_the_speed_grade) {
   BOOST_TEST(own.module("pl.blob_detection").fmax_mhz == 60.0);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_advised_can_be_made_and_is_within_the_speed_grade) {
+  Platform usual(Settings{});
+  BOOST_TEST(usual.module("pl.blob_detection").reachable_mhz == 1000.0 / 19, near);
+  BOOST_TEST(usual.module("pl.corner_detection").reachable_mhz == 100.0, near);
+  Platform fast(Settings{{"timing.blob_detection.fmax", "400 MHz"}, {"ps.ethernet", "false"}});
+  BOOST_TEST(fast.module("pl.blob_detection").reachable_mhz == 1600.0 / 7, near);
+}
+
 BOOST_AUTO_TEST_CASE(power_follows_the_chip) {
   // At the same temperature the smaller die leaks 0.874 of the larger; it stays cooler, too.
   const double large = static_w(Settings{}), small = static_w(Settings{{"device", "xc7z010"}});

@@ -30,14 +30,16 @@ function timing(run, say) {
     return;
   }
   if (!module.met) {
-    say("bad", `${plain(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz. What this page says holds for the model, not for a chip.`);
+    say("bad", `${plain(module.name)} misses timing: its Fmax is ${fmax} MHz, its clock ${now} MHz${module.reachable_mhz ? `; the next below that the PLLs make is ${tidy(module.reachable_mhz)} MHz` : ""}. What this page says holds for the model, not for a chip.`);
     return;
   }
+  // Only a clock that the chip can have is worth a try.
+  const next = module.reachable_mhz ?? module.fmax_mhz;
   const stream = run.stageMean("feature_extraction");
   const frame = run.stageMean("frame");
-  const gain = stream * (1 - module.frequency_mhz / module.fmax_mhz);
+  const gain = stream * (1 - module.frequency_mhz / next);
   const more = Number.isFinite(gain) && run.hybrid && gain > 0
-    ? ` At ${fmax} MHz a frame would take about ${significant((frame - gain) / 1e3, 3)} ms: ${fixed(1e6 / (frame - gain), 0)} frames/s (derived).` : "";
+    ? ` At ${tidy(next)} MHz${next < module.fmax_mhz ? ", the next clock that the PLLs make," : ""} a frame would take about ${significant((frame - gain) / 1e3, 3)} ms: ${fixed(1e6 / (frame - gain), 0)} frames/s (derived).` : "";
   say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits the pixel clock, now ${now} MHz.${more}`);
 }
 

@@ -3,7 +3,6 @@ import { h } from "../kit/dom.js";
 import { counted, fixed, signed, significant } from "../kit/format.js";
 import { legend, origin } from "../kit/origin.js";
 import { value } from "../published.js";
-import { losses, timingOf } from "./facts.js";
 
 const target = 60; // frames per second: what the thesis calls real time
 
@@ -85,25 +84,14 @@ function chips(run) {
   const { summary, result } = run;
   const chip = (good, text) => h("li", { class: good ? "good" : "bad" }, h("span", { "aria-hidden": "true" }, good ? "✓" : "✕"), " ", text);
   const list = [];
-  if (summary.delivered < summary.frames) list.push(chip(false, `Result delivered for ${summary.delivered} of ${counted(summary.frames, "frame")}`));
-  if (summary.frames) {
-    list.push(chip(summary.detected === summary.frames, `Marker found in ${summary.detected} of ${counted(summary.frames, "frame")}`));
+  const said = { ran: "Ran to its end", job: "Did its job", fits: `Fits ${result.resources?.device ?? "the device"}`, clocks: "Clocks can be made", timing: "Meets timing" };
+  for (const [name, text] of Object.entries(said)) {
+    const part = result.verdict?.[name];
+    const nothing = part?.holds === "yes" && ["fits", "timing"].includes(name) && !Number.isFinite(part.margin_percent); // no PL
+    if (part && !nothing) list.push(chip(part.holds === "yes", part.holds === "yes" ? text : part.why[0].toUpperCase() + part.why.slice(1)));
   }
+  if (summary.frames) list.push(chip(summary.detected === summary.frames, `Marker found in ${summary.detected} of ${counted(summary.frames, "frame")}`));
   if (summary.fps) list.push(chip(summary.fps.mean >= target, `${summary.fps.mean >= target ? "Reaches" : "Misses"} ${target} frames/s`));
-  if (result.timing) {
-    const names = (verdict) => (result.timing.modules ?? []).filter((module) => timingOf(module) === verdict).map((module) => module.name).join(", ");
-    if (result.timing.met) list.push(chip(true, "Meets timing"));
-    if (names("missed")) list.push(chip(false, `Misses timing: ${names("missed")}`));
-    if (names("unknown")) list.push(chip(false, `Timing unknown: ${names("unknown")}`));
-  }
-  if (result.resources) {
-    const device = result.resources.device ?? "the device";
-    list.push(chip(result.resources.fits, result.resources.fits ? `Fits ${device}` : `Does not fit ${device}`));
-  }
-  const lost = run.frames.reduce((sum, frame) => sum + Object.keys(losses).filter((key) => key.endsWith("_overflow")).reduce((own, key) => own + (frame.counts?.[key] ?? 0), 0), 0);
-  if (summary.frames) list.push(chip(lost === 0, lost === 0 ? "Nothing lost in buffers" : `${counted(lost, "word")} lost in buffers`));
-  if (result.program_end && result.program_end.exit_code !== 0) list.push(chip(false, `Program ended with ${result.program_end.exit_code}`));
-  if (result.incomplete) list.push(chip(false, `Incomplete: ${result.incomplete}`));
   return list;
 }
 

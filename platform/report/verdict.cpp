@@ -1,0 +1,157 @@
+#include <report/verdict.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include <report/words.h>
+#include <vp/text.h>
+
+namespace platform::report {
+
+namespace {
+
+using Part = Verdict::Part;
+
+Part not_known(const char* name) {
+  return {name, Holds::unknown, std::nullopt, "", fmt::format("{} not known", name)};
+}
+
+/// The least margin so far, and whose it is.
+void narrow(Part& part, double margin_percent, const std::string& by) {
+  if (part.margin_percent && *part.margin_percent <= margin_percent) return;
+  part.margin_percent = margin_percent;
+  part.by = by;
+}
+
+Part ran(const RunFacts& facts) {
+  const auto no = [](std::string why) {
+    return Part{"ran", Holds::no, std::nullopt, "", std::move(why)};
+  };
+  if (facts.incomplete) return no(*facts.incomplete);
+  if (!facts.end) return no("the program did not end");
+  if (facts.end->exit_code != 0)
+    return no(fmt::format("the program ended with exit code {}", facts.end->exit_code));
+  return {"ran"};
+}
+
+Part job(const Summary& summary) {
+  Part part{"job"};
+  if (summary.frames() == 0) {
+    part.holds = Holds::no;
+    part.why = "no frames";
+    return part;
+  }
+  const auto all = static_cast<double>(summary.frames());
+  part.margin_percent = 100 * (static_cast<double>(summary.fulfilled()) / all - 1);
+  if (summary.fulfilled() == summary.frames()) return part;
+  part.holds = Holds::no;
+  std::vector<std::string> reasons;
+  const auto add = [&](std::uint64_t frames, const char* what) {
+    if (frames != 0)
+      reasons.push_back(
+          fmt::format("{} of {} {}", frames, counted(summary.frames(), "frame"), what));
+  };
+  add(summary.frames() - summary.delivered(), "without a result");
+  add(summary.lossy(), "with losses");
+  add(summary.overlooked(), "without the marker of the scene");
+  part.why = vp::join(reasons, ", ");
+  return part;
+}
+
+Part fits(const std::optional<ResourceReport>& resources) {
+  if (!resources) return not_known("fits");
+  Part part{"fits"};
+  for (const Primitive& primitive : primitives) {
+    const double used = resources->total.*primitive.amount;
+    if (used > 0)
+      narrow(part, 100 * (resources->available.*primitive.amount / used - 1), primitive.key);
+  }
+  if (resources->over.empty()) return part;
+  part.holds = Holds::no;
+  part.why =
+      fmt::format("too big for an {} ({})", resources->device, vp::join(resources->over, ", "));
+  return part;
+}
+
+Part clocks(const std::optional<ClockReport>& report) {
+  if (!report) return not_known("clocks");
+  Part part{"clocks"};
+  std::vector<std::string> fast, impossible;
+  for (const ClockReport::Clock& clock : report->clocks) {
+    narrow(part, clock.margin_percent, clock.name);
+    if (!clock.within) fast.push_back(clock.name);
+    if (clock.within && !clock.makeable) impossible.push_back(clock.name);
+  }
+  if (report->legal) return part;
+  part.holds = Holds::no;
+  if (!fast.empty())
+    part.why = fmt::format("{} too fast for an {}", vp::join(fast, ", "), report->device);
+  if (!impossible.empty())
+    part.why +=
+        fmt::format("{}no PLL makes {}", fast.empty() ? "" : ", ", vp::join(impossible, ", "));
+  return part;
+}
+
+Part timing(const std::optional<TimingReport>& report) {
+  if (!report) return not_known("timing");
+  Part part{"timing"};
+  if (report->modules.empty()) return part;
+  const TimingReport::Module& critical = critical_module(*report);
+  part.margin_percent = critical.margin_percent;
+  part.by = critical.name;
+  if (critical.met) return part;
+  const bool unknown = critical.unknown();
+  part.holds = unknown ? Holds::unknown : Holds::no;
+  const auto alike = std::count_if(
+      report->modules.begin(), report->modules.end(),
+      [&](const TimingReport::Module& m) { return unknown ? m.unknown() : m.missed(); });
+  part.why = fmt::format("timing {} {}{}", unknown ? "unknown for" : "missed by", critical.name,
+                         alike > 1 ? fmt::format(" and {} more", alike - 1) : "");
+  return part;
+}
+
+}  // namespace
+
+const char* to_string(Holds holds) {
+  switch (holds) {
+    case Holds::no:
+      return "no";
+    case Holds::unknown:
+      return "unknown";
+    case Holds::yes:
+      break;
+  }
+  return "yes";
+}
+
+const TimingReport::Module& critical_module(const TimingReport& timing) {
+  const auto rank = [](const TimingReport::Module& m) {
+    return std::tuple(m.met, m.lower_bound, m.margin_percent);
+  };
+  return *std::min_element(timing.modules.begin(), timing.modules.end(),
+                           [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+}
+
+Verdict verdict_of(const RunFacts& facts, const Summary& summary) {
+  return {{ran(facts), job(summary), fits(facts.resources), clocks(facts.clocks),
+           timing(facts.timing)}};
+}
+
+Holds Verdict::feasible() const {
+  Holds worst = Holds::yes;
+  for (const Part& part : parts) worst = std::min(worst, part.holds);
+  return worst;
+}
+
+std::vector<std::string> Verdict::reasons() const {
+  std::vector<std::string> reasons;
+  for (const Part& part : parts) {
+    if (part.holds != Holds::yes) reasons.push_back(part.why);
+  }
+  return reasons;
+}
+
+}  // namespace platform::report

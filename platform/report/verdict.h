@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <report/result.h>
+#include <report/summary.h>
+
+/// The verdict on a design point: the one rule of what is feasible. Console and page show it,
+/// sweeps and their analyses read it from result.json.
+namespace platform::report {
+
+enum class Holds { no, unknown, yes };  // the worse, the less
+
+/// "no", "unknown", "yes".
+const char* to_string(Holds holds);
+
+struct Verdict {
+  struct Part {
+    const char* name;
+    Holds holds = Holds::yes;
+    /// How far from the limit, in % of what is used; negative: beyond. None: there is no limit.
+    std::optional<double> margin_percent = std::nullopt;
+    std::string by = {};   ///< what is nearest to the limit, or furthest beyond
+    std::string why = {};  ///< why it does not hold, or is unknown
+  };
+
+  /// "ran": the program ended by itself, with 0.
+  /// "job": each frame has a result, nothing was lost in buffers, and the marker was found wherever
+  ///        the scene has one. The margin is the share of such frames, less 100 %.
+  /// "fits": LUT, flip-flops, block memories and DSP of the device.
+  /// "clocks": CPU, DDR and FCLK are within the speed grade, and PLLs and dividers make them.
+  /// "timing": no IP is clocked above its Fmax; unknown where only a lower bound of that is known.
+  std::vector<Part> parts;
+
+  /// The worst of all parts.
+  Holds feasible() const;
+  /// Why it is not feasible: of each part that is not `yes`.
+  std::vector<std::string> reasons() const;
+};
+
+/// What is not known of the facts is `unknown`. Without a PL there is nothing that must fit or be
+/// fast enough.
+Verdict verdict_of(const RunFacts& facts, const Summary& summary);
+
+/// The module that says most about the clocks: of those that miss the one that misses by most, a
+/// known limit before an unknown one; if none does, the one with the least margin to a known limit.
+/// `timing` has modules.
+const TimingReport::Module& critical_module(const TimingReport& timing);
+
+}  // namespace platform::report
