@@ -8,6 +8,7 @@
 #include <sweep/compare.h>
 #include <sweep/pareto.h>
 #include <sweep/sensitivity.h>
+#include <sweep/summary.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
@@ -59,12 +60,8 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
   if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
   if (!problem) wrote += ", " + svg;
-  const auto unknown = std::count_if(pareto.points.begin(), pareto.points.end(),
-                                     [](const sweep::RankedPoint& point) { return point.unknown; });
   out << sweep::pareto_table(results, objectives, pareto);
-  if (unknown != 0)
-    out << "\nleft out: " << report::counted(static_cast<std::uint64_t>(unknown), "point")
-        << " of unknown timing: clocked above limits of which only a lower bound is known\n";
+  out << "\n" << sweep::verdicts_text(results) << "\n";
   for (const auto& [metric, count] : pareto.lacking)
     out << "\nleft out: " << report::counted(count, "point") << " without '" << metric << "'\n";
   out << "\nwrote " << wrote << std::endl;
@@ -81,7 +78,7 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
   }
   std::string csv;
   for (const sweep::Expression& figure : figures) {
-    const sweep::SensitivityReport report = sweep::sensitivity(results, figure);
+    const sweep::SensitivityReport report = sweep::sensitivity(results, figure, options.all);
     out << figure.text() << "   (" << report.method << "; "
         << (report.method == "one-at-a-time" ? "base " : "mean ") << sweep::readable(report.base)
         << ")\n\n"

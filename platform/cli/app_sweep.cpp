@@ -65,6 +65,7 @@ void add_sweep(CLI::App& app, SweepOptions& target) {
   command->add_flag("--yes", target.yes, "run even a very large sweep");
   command->add_flag("--dry-run", target.dry_run, "check everything, show the points, run nothing");
   command->add_flag("--no-report", target.no_report, "no page report.html");
+  command->add_flag("--require-all", target.require_all, "exit code 1 if a point failed to run");
   add_run_options(*command, target);
   command->footer(sweep_help);
 }
@@ -86,7 +87,8 @@ void add_pareto(CLI::App& app, ParetoOptions& target) {
       ->type_name("FIGURE")
       ->expected(1)
       ->take_all();
-  command->add_option("--constraint", target.constraints, "what must hold: 'timing.met == 1'")
+  command
+      ->add_option("--constraint", target.constraints, "what must hold: 'summary.fps.mean >= 60'")
       ->type_name("CONDITION")
       ->expected(1)
       ->take_all();
@@ -100,6 +102,7 @@ void add_sensitivity(CLI::App& app, SensitivityOptions& target) {
       ->type_name("FIGURE")
       ->expected(1)
       ->take_all();
+  command->add_flag("--all", target.all, "take all points that ran, feasible or not");
 }
 
 void add_compare(CLI::App& app, CompareOptions& target) {

@@ -147,6 +147,7 @@ struct SweepOptions {
   bool yes = false;
   bool dry_run = false;
   bool retry_failed = false;
+  bool require_all = false;
   bool isolate = false;  ///< a process of its own for each point
   bool no_report = false;
   std::uint32_t chunk = 0;    ///< 0: some seconds' worth
@@ -173,6 +174,7 @@ struct ParetoOptions {
 struct SensitivityOptions {
   std::string folder;
   std::vector<std::string> figures;
+  bool all = false;  ///< not only feasible points
 };
 
 /// `markervp compare`.

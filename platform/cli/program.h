@@ -16,6 +16,7 @@ enum ExitCode {
   run_failed = 1,  ///< the program said so, or a required marker was not found
   wrong_input = 2,
   protocol_broken = 3,
+  points_failed = 4,  ///< some points of a sweep did not run
   interrupted = host::interrupted_code,
 };
 

@@ -222,11 +222,14 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
         << " are missing; the same command goes on" << std::endl;
     return interrupted;
   }
-  if (results.failed() == results.rows.size() && results.failed() != 0) {
-    err << "markervp: every point failed" << std::endl;
-    return run_failed;
-  }
-  return done;
+  if (results.failed() == 0) return done;
+  const bool all = results.failed() == results.rows.size();
+  err << "markervp: "
+      << (all ? "every point"
+              : report::counted(results.failed(), "point") + " of " +
+                    std::to_string(results.rows.size()))
+      << " failed" << std::endl;
+  return all || options.require_all ? run_failed : points_failed;
 }
 
 }  // namespace

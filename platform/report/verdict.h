@@ -16,6 +16,9 @@ enum class Holds { no, unknown, yes };  // the worse, the less
 /// "no", "unknown", "yes".
 const char* to_string(Holds holds);
 
+/// The names of its parts, in order.
+inline constexpr const char* verdict_parts[] = {"ran", "job", "fits", "clocks", "timing"};
+
 struct Verdict {
   struct Part {
     const char* name;

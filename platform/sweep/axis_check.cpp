@@ -42,20 +42,20 @@ bool changes_others(const Elaborated& built, const ParameterTable& base, const s
 
 }  // namespace
 
-bool check_values(const AxisValues& axis, const Spec& spec,
-                  const std::vector<ProgramTable>& programs, const Platform& platform) {
-  const ParameterKind kind = programs.front().table.kind(axis.path());
+bool check_values(const AxisValues& axis, const std::vector<Base>& bases,
+                  const Platform& platform) {
+  const ParameterKind kind = bases.front().table.kind(axis.path());
   std::vector<std::string> values = axis.values();
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   if (kind.kind == Kind::quantity) values = extremes(values, kind);
   bool influences = kind.kind != Kind::quantity;
   for (const std::string& value : values) {
-    for (const ProgramTable& program : programs) {
-      Build build{program.program, spec.set};
+    for (const Base& base : bases) {
+      Build build = base.build;
       build.settings[axis.path()] = value;
       try {
-        if (changes_others(platform.elaborate(build, axis.where()), program.table, axis.path()))
+        if (changes_others(platform.elaborate(build, axis.where()), base.table, axis.path()))
           influences = true;
       } catch (const vp::InputError& error) {
         // Other errors come from values together; such a point fails, and says why.

@@ -9,15 +9,14 @@
 
 namespace platform::sweep {
 
-/// A PS program, and the parameters of the platform with it.
-struct ProgramTable {
-  std::string program;
-  const ParameterTable& table;
+/// What all points of a PS program and a design start from, and the parameters of that platform.
+struct Base {
+  Build build;
+  ParameterTable table;
 };
 
 /// Builds the platform with values of the axis, so that a wrong one shows before the first point:
 /// throws vp::InputError. Returns whether other parameters, or the picture's size, follow from it.
-bool check_values(const AxisValues& axis, const Spec& spec,
-                  const std::vector<ProgramTable>& programs, const Platform& platform);
+bool check_values(const AxisValues& axis, const std::vector<Base>& bases, const Platform& platform);
 
 }  // namespace platform::sweep

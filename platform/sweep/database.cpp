@@ -20,7 +20,7 @@ namespace {
 constexpr const char* tables = R"(
 CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE points(key TEXT PRIMARY KEY, position INTEGER UNIQUE, status TEXT, exit_code INTEGER,
-                    signal INTEGER, message TEXT, program TEXT, inputs TEXT);
+                    signal INTEGER, message TEXT, program TEXT, inputs TEXT, feasible TEXT);
 CREATE TABLE parameters(key TEXT REFERENCES points, path TEXT, value TEXT, number REAL,
                         PRIMARY KEY(key, path)) WITHOUT ROWID;
 CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
@@ -178,13 +178,14 @@ void add_parameters(const Database& database, const Results& results) {
 }
 
 void add_points(const Database& database, const Results& results) {
-  Insert points(database, "points", 8);
+  Insert points(database, "points", 9);
   for (const std::size_t position : by_key(results)) {
     const ResultRow& row = results.rows[position];
     const std::string status = row.failed ? "failed" : "done";
     points.row(row.key, static_cast<std::int64_t>(position), status,
                std::int64_t{row.failed ? row.failure.exit_code : 0},
-               std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs);
+               std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs,
+               std::string(to_string(results.feasible(row))));
   }
 }
 

@@ -152,6 +152,7 @@ Json to_json(const Manifest& manifest) {
   json["input"] = input_json(manifest.input);
   json["sampling"] = manifest.sampling;
   json["swept"] = manifest.swept;
+  if (!manifest.job.empty()) json["job"] = manifest.job;
   json["metrics"] = manifest.metrics;
   json["objectives"] = manifest.objectives;
   json["families"] = Json::array();
@@ -189,6 +190,7 @@ Manifest manifest_from(const Json& json, const std::string& origin) {
     manifest.input = input_from(json.at("input"));
     manifest.sampling = json.at("sampling").get<std::string>();
     manifest.swept = json.at("swept").get<std::vector<std::string>>();
+    manifest.job = json.value("job", "");
     manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
     manifest.objectives = json.at("objectives").get<std::vector<std::string>>();
     for (const Json& family : json.at("families")) {

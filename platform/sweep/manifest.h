@@ -65,6 +65,7 @@ struct Manifest {
   InputChoice input;
   std::string sampling;            ///< "grid", "morris", …
   std::vector<std::string> swept;  ///< paths in order
+  std::string job;                 ///< see Spec::job; empty: the usual
   std::vector<std::string> metrics;
   std::vector<std::string> objectives;
   std::vector<Family> families;

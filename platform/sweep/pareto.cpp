@@ -6,6 +6,7 @@
 #include <set>
 
 #include <sweep/csv_line.h>
+#include <sweep/summary.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
 
@@ -72,22 +73,13 @@ std::vector<double> figures_of(const ResultRow& row, const std::vector<Objective
   return figures;
 }
 
-/// Decides whether the point is feasible.
-void judge(RankedPoint& point, const std::vector<Expression>& constraints) {
-  Value granted;
-  granted.number = 1;
-  const auto hold = [&](bool timing_granted) {
-    return std::all_of(constraints.begin(), constraints.end(), [&](const Expression& constraint) {
-      return !missing_in(*point.row, constraint) && constraint.holds([&](const std::string& name) {
-        if (timing_granted && name == "timing.met") return granted;
-        return value_in(*point.row, name);
-      });
-    });
-  };
-  point.feasible = hold(false);
-  const double* failed = point.row->metrics.find("timing.failed");
-  const bool only_bounds = failed && *failed == 0;
-  point.unknown = !point.feasible && only_bounds && hold(true);
+report::Holds feasible(const Results& results, const ResultRow& row,
+                       const std::vector<Expression>& constraints) {
+  const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+  for (const Expression& constraint : constraints) {
+    if (missing_in(row, constraint) || !constraint.holds(lookup)) return report::Holds::no;
+  }
+  return results.feasible(row);
 }
 
 /// Counts the metrics that the point lacks, each once.
@@ -105,6 +97,7 @@ std::vector<const Expression*> checked(const Results& results,
                                        const std::vector<Objective>& objectives,
                                        const std::vector<Expression>& constraints) {
   std::vector<const Expression*> all;
+  if (results.job) check_names(results, *results.job, "job '" + results.job->text() + "'");
   for (const Objective& objective : objectives) {
     all.push_back(&objective.figure());
     check_names(results, *all.back(), "objective '" + objective.figure().text() + "'");
@@ -155,23 +148,25 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives,
     RankedPoint point;
     point.row = &row;
     point.figures = figures_of(row, objectives);
-    judge(point, constraints);
+    point.feasible = feasible(results, row, constraints);
     count_lacking(row, expressions, pareto.lacking);
     pareto.points.push_back(std::move(point));
   }
   if (pareto.points.empty()) throw vp::InputError("the sweep has no point with a result");
   std::vector<std::vector<double>> figures;
-  std::vector<RankedPoint*> feasible;
+  std::vector<RankedPoint*> ranked;
   for (RankedPoint& point : pareto.points) {
-    if (!point.feasible || point.figures.empty()) continue;
-    feasible.push_back(&point);
+    if (point.feasible != report::Holds::yes || point.figures.empty()) continue;
+    ranked.push_back(&point);
     figures.push_back(point.figures);
   }
-  if (feasible.empty())
-    throw vp::InputError("no point meets the constraints and has a value of every objective");
+  if (ranked.empty())
+    throw vp::InputError("no point is feasible" +
+                         std::string(constraints.empty() ? "" : ", meets the constraints") +
+                         " and has a value of every objective: " + verdicts_text(results));
   const std::vector<bool> maximise = directions(objectives);
   const std::vector<std::size_t> front = fronts(figures, maximise);
-  for (std::size_t i = 0; i < feasible.size(); ++i) feasible[i]->front = front[i];
+  for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->front = front[i];
   pareto.knee = knee_of(pareto.points, maximise);
   return pareto;
 }
@@ -211,10 +206,7 @@ std::string pareto_csv(const Results& results, const std::vector<Objective>& obj
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     const RankedPoint& point = pareto.points[i];
     std::vector<std::string> fields{point.row->key, std::to_string(point.front),
-                                    pareto.knee == i ? "1" : "0",
-                                    point.unknown    ? "unknown"
-                                    : point.feasible ? "1"
-                                                     : "0"};
+                                    pareto.knee == i ? "1" : "0", to_string(point.feasible)};
     for (const std::string& path : results.manifest.swept) fields.push_back(point.row->value(path));
     for (const double figure : point.figures) fields.push_back(csv_number(figure));
     fields.resize(head.size());

@@ -15,11 +15,10 @@ namespace platform::sweep {
 struct RankedPoint {
   const ResultRow* row = nullptr;
   std::vector<double> figures;  ///< of each objective; empty: it has no value of one of them
-  bool feasible = true;         ///< all constraints hold
-  bool unknown = false;         ///< infeasible, but only because `timing.met` is false, and that
-                                ///< only by limits that are lower bounds: it may be feasible
-  std::size_t front = 0;        ///< 1: nothing is better in all objectives; 2: once the first front
-                                ///< is taken away; … 0: infeasible, or without figures
+  /// The verdict on it (Results::feasible); no if a constraint does not hold.
+  report::Holds feasible = report::Holds::yes;
+  std::size_t front = 0;  ///< 1: nothing is better in all objectives; 2: once the first front
+                          ///< is taken away; … 0: not feasible, or without figures
 };
 
 struct Pareto {
@@ -33,7 +32,8 @@ struct Pareto {
 /// better in one. The knee is the point of the first front nearest to the best value of every
 /// objective, each objective scaled to 0 … 1 over that front. A point without a metric of an
 /// objective cannot be compared and is not ranked; without one of a constraint it does not meet it.
-/// Throws vp::InputError for a metric that no point has, or no point.
+/// Points that are not feasible are on no front. Throws vp::InputError for a metric that no point
+/// has, or no point, and says what the points fail by.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
             const std::vector<Expression>& constraints);
 
@@ -44,7 +44,7 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
 /// The first front as a table, the knee marked.
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto);
-/// All points: key, front, knee, feasible (1, 0 or unknown), swept parameters, objectives.
+/// All points: key, front, knee, feasible (yes, no or unknown), swept parameters, objectives.
 std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
                        const Pareto& pareto);
 

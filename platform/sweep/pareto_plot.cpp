@@ -61,8 +61,9 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
   script << "set encoding utf8\n"
          << "set terminal svg size 800,560 font 'sans,14' noenhanced background rgb 'white'\n"
          << block("infeasible", pareto,
-                  [&](std::size_t i) { return !points[i].feasible && !points[i].unknown; })
-         << block("unknown", pareto, [&](std::size_t i) { return points[i].unknown; })
+                  [&](std::size_t i) { return points[i].feasible == report::Holds::no; })
+         << block("unknown", pareto,
+                  [&](std::size_t i) { return points[i].feasible == report::Holds::unknown; })
          << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
          << block("front", pareto, [&](std::size_t i) { return points[i].front == 1; })
          << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
@@ -75,7 +76,7 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
             "graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
          // Okabe and Ito's palette: every eye tells them apart.
          << "plot $infeasible with points pt 2 ps 0.8 lc rgb '#999999' title 'infeasible', "
-            "$unknown with points pt 8 ps 0.9 lc rgb '#e69f00' title 'timing unknown', "
+            "$unknown with points pt 8 ps 0.9 lc rgb '#e69f00' title 'unknown', "
             "$dominated with points pt 7 ps 0.6 lc rgb '#56b4e9' title 'dominated', "
             "$front with linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2' title 'Pareto front', "
             "$knee with points pt 6 ps 2 lw 3 lc rgb '#d55e00' title 'knee'\n";

@@ -67,6 +67,7 @@ class Planner {
 
  private:
   void check_objectives() const {
+    if (spec_.job) Expression(spec_.job->text, spec_.job->where);
     for (const std::string& objective : spec_.objectives) Objective(objective, spec_.origin);
   }
 
@@ -84,9 +85,27 @@ class Planner {
         programs_ = axis.values;
       }
     }
+    find_bases();
+  }
+
+  // A design has parameters of its own, and others follow from them.
+  void find_bases() {
+    std::vector<std::string> designs;
+    for (const Dimension& dimension : spec_.dimensions) {
+      for (const Axis& axis : dimension.axes) {
+        if (axis.path == "design") designs = axis.values;
+      }
+    }
     for (const std::string& program : programs_) {
       const Build build{program, spec_.set};
-      tables_.emplace_back(platform_.elaborate(build, spec_.set_where));
+      if (designs.empty())
+        bases_.push_back({build, ParameterTable(platform_.elaborate(build, spec_.set_where))});
+      for (const std::string& design : designs) {
+        Build with_design = build;
+        with_design.settings["design"] = design;
+        ParameterTable table(platform_.elaborate(with_design, spec_.set_where));
+        bases_.push_back({std::move(with_design), std::move(table)});
+      }
     }
   }
 
@@ -97,10 +116,10 @@ class Planner {
         manifest_.swept.push_back(axis.path);
         ParameterKind kind;
         if (!is_special(axis.path)) {
-          for (const ParameterTable& table : tables_) table.find(axis.path, axis.where);
+          for (const Base& base : bases_) base.table.find(axis.path, axis.where);
           if (spec_.set.count(axis.path) != 0)
             throw vp::InputError(axis.where + ": '" + axis.path + "' is swept, and fixed by 'set'");
-          kind = tables_.front().kind(axis.path);
+          kind = bases_.front().table.kind(axis.path);
         }
         group.emplace_back(axis, kind);
       }
@@ -123,10 +142,7 @@ class Planner {
 
   void check(const AxisValues& axis) {
     if (is_special(axis.path())) return;
-    std::vector<ProgramTable> programs;
-    for (std::size_t i = 0; i < programs_.size(); ++i)
-      programs.push_back({programs_[i], tables_[i]});
-    if (check_values(axis, spec_, programs, platform_)) influential_.insert(axis.path());
+    if (check_values(axis, bases_, platform_)) influential_.insert(axis.path());
   }
 
   bool allowed(const Assignment& point) const {
@@ -143,7 +159,7 @@ class Planner {
       value.text = swept != nullptr ? *swept : spec_.program;
       return value;
     }
-    const ParameterTable& table = tables_.front();
+    const ParameterTable& table = bases_.front().table;
     const std::string text =
         swept != nullptr ? *swept : table.find(name, spec_.origin + ": constraints").value;
     const ParameterKind kind = table.kind(name);
@@ -166,6 +182,7 @@ class Planner {
     manifest_.tables = table_contents();
     manifest_.input = {spec_.camera, spec_.fit, spec_.frames, spec_.repeat};
     manifest_.sampling = to_string(spec_.sampling.method);
+    if (spec_.job) manifest_.job = spec_.job->text;
     manifest_.metrics = spec_.metrics;
     manifest_.objectives = spec_.objectives;
   }
@@ -227,11 +244,13 @@ class Planner {
       size = table.size();
     } catch (const vp::InputError&) {
       // These values do not go together: the points run, fail and say why.
-      const std::size_t program =
-          std::find(programs_.begin(), programs_.end(), build.program) - programs_.begin();
-      family.configuration = tables_[program].values();
-      family.defaults = tables_[program].defaults();
-      size = tables_[program].size();
+      const ParameterTable& table =
+          std::find_if(bases_.begin(), bases_.end(), [&](const Base& base) {
+            return base.build.program == build.program;
+          })->table;
+      family.configuration = table.values();
+      family.defaults = table.defaults();
+      size = table.size();
       for (const auto& [path, value] : build.settings) family.configuration[path] = value;
     }
     family.contents =
@@ -256,7 +275,7 @@ class Planner {
   const PlanOptions& options_;
   const Platform& platform_;
   std::vector<std::string> programs_;
-  std::vector<ParameterTable> tables_;  ///< of each program
+  std::vector<Base> bases_;  ///< of each program and design
   std::vector<AxisGroup> groups_;
   std::vector<Expression> constraints_;
   std::set<std::string> influential_;  ///< parameters from which others follow

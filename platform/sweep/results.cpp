@@ -40,6 +40,7 @@ ResultRow row_of(const Manifest& manifest, const Bases& bases, const PlannedPoin
 template <class OutcomeAt>
 Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
   Results results;
+  if (!manifest.job.empty()) results.job.emplace(manifest.job, manifest.name);
   const Bases bases = bases_of(manifest);
   results.rows.reserve(manifest.points.size());
   for (std::size_t i = 0; i < manifest.points.size(); ++i) {
@@ -79,6 +80,23 @@ std::string ResultRow::value(const std::string& path) const {
 
 std::uint64_t Results::failed() const {
   return std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) { return row.failed; });
+}
+
+report::Holds Results::holds(const ResultRow& row, const std::string& part) const {
+  if (part == "ran" && row.failed) return report::Holds::no;
+  if (part == "job" && job && !row.metrics.empty()) {
+    const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+    return !missing_in(row, *job) && job->holds(lookup) ? report::Holds::yes : report::Holds::no;
+  }
+  const double* found = row.metrics.find("verdict." + part + ".holds");
+  if (!found || (*found > 0 && *found < 1)) return report::Holds::unknown;
+  return *found == 0 ? report::Holds::no : report::Holds::yes;
+}
+
+report::Holds Results::feasible(const ResultRow& row) const {
+  report::Holds worst = report::Holds::yes;
+  for (const char* part : report::verdict_parts) worst = std::min(worst, holds(row, part));
+  return worst;
 }
 
 std::vector<std::string> Results::metric_names() const {

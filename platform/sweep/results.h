@@ -2,9 +2,11 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <report/verdict.h>
 #include <sweep/expression.h>
 #include <sweep/outcome.h>
 #include <sweep/parameter_table.h>
@@ -34,9 +36,14 @@ struct ResultRow : Outcome {
 struct Results {
   Manifest manifest;
   std::vector<ResultRow> rows;
-  std::uint64_t missing = 0;  ///< points not computed yet
+  std::uint64_t missing = 0;      ///< points not computed yet
+  std::optional<Expression> job;  ///< what the study asks of a point instead of the usual job
 
   std::uint64_t failed() const;
+  /// Whether a part (report::verdict_parts) of the verdict on the point holds.
+  report::Holds holds(const ResultRow& row, const std::string& part) const;
+  /// Whether all do: the only rule of what is feasible.
+  report::Holds feasible(const ResultRow& row) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
   /// Those that the sweep asks for; all if it does not.

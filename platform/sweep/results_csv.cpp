@@ -6,7 +6,7 @@ namespace platform::sweep {
 
 std::string results_csv(const Results& results) {
   const std::vector<std::string> metrics = results.chosen_metrics();
-  std::vector<std::string> head{"key", "status", "message"};
+  std::vector<std::string> head{"key", "status", "message", "feasible"};
   head.insert(head.end(), results.manifest.swept.begin(), results.manifest.swept.end());
   head.insert(head.end(), metrics.begin(), metrics.end());
   std::string text = csv_line(head);
@@ -18,7 +18,8 @@ std::string results_csv(const Results& results) {
       for (const std::string& name : metrics) places.push_back(row.metrics.place_of(name));
     }
     before = &row.metrics;
-    std::vector<std::string> fields{row.key, row.failed ? "failed" : "done", row.failure.message};
+    std::vector<std::string> fields{row.key, row.failed ? "failed" : "done", row.failure.message,
+                                    to_string(results.feasible(row))};
     for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
     const std::vector<double>& values = row.metrics.values();
     for (const std::size_t place : places)

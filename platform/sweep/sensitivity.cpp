@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <sweep/csv_line.h>
+#include <sweep/summary.h>
 #include <sweep/text_table.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -18,7 +19,8 @@ constexpr int bar_length = 24;
 
 class Analysis {
  public:
-  Analysis(const Results& results, const Expression& figure) : results_(results), figure_(figure) {
+  Analysis(const Results& results, const Expression& figure, bool all)
+      : results_(results), figure_(figure), all_(all) {
     for (const ResultRow& row : results.rows) rows_[row.key] = &row;
   }
 
@@ -32,8 +34,8 @@ class Analysis {
       main_effects();
     }
     if (report_.rows.empty())
-      throw vp::InputError("sensitivity: too few points have a result for '" + figure_.text() +
-                           "'");
+      throw vp::InputError("sensitivity: too few points count for '" + figure_.text() + "': " +
+                           verdicts_text(results_) + (all_ ? "" : "; --all takes all that ran"));
     std::stable_sort(report_.rows.begin(), report_.rows.end(), stronger);
     return std::move(report_);
   }
@@ -48,9 +50,10 @@ class Analysis {
     return found == rows_.end() ? std::nullopt : figure(*found->second);
   }
 
-  /// None: the point failed, or lacks what the figure is made of.
+  /// None: the point does not count, or lacks what the figure is made of.
   std::optional<double> figure(const ResultRow& row) const {
     if (row.failed || missing_in(row, figure_)) return std::nullopt;
+    if (!all_ && results_.feasible(row) != report::Holds::yes) return std::nullopt;
     return figure_.evaluate([&](const std::string& name) { return value_in(row, name); }).number;
   }
 
@@ -105,8 +108,9 @@ class Analysis {
     const std::optional<double> base =
         effects.empty() ? std::nullopt : figure(effects.front().from);
     if (!base)
-      throw vp::InputError("sensitivity: the base point failed, is not computed yet or has no '" +
-                           figure_.text() + "'");
+      throw vp::InputError(
+          "sensitivity: the base point is not feasible, is not computed yet or has no '" +
+          figure_.text() + "'" + (all_ ? "" : "; --all takes all that ran"));
     report_.base = *base;
     std::map<std::string, Sensitivity> rows;
     for (const KeyedEffect& effect : effects) {
@@ -174,6 +178,7 @@ class Analysis {
 
   const Results& results_;
   const Expression& figure_;
+  const bool all_;
   std::map<std::string, const ResultRow*> rows_;
   SensitivityReport report_;
 };
@@ -185,8 +190,8 @@ std::string bar(double size, double largest) {
 
 }  // namespace
 
-SensitivityReport sensitivity(const Results& results, const Expression& figure) {
-  return Analysis(results, figure).report();
+SensitivityReport sensitivity(const Results& results, const Expression& figure, bool all) {
+  return Analysis(results, figure, all).report();
 }
 
 std::string sensitivity_table(const SensitivityReport& report) {

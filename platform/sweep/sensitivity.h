@@ -30,14 +30,15 @@ struct SensitivityReport {
   std::string method;  ///< "morris", "one-at-a-time", or "main effects" of any other sweep
   double base = 0;     ///< the figure at the base point, or its mean
   std::vector<Sensitivity> rows;  ///< the strongest first
-  std::size_t skipped = 0;  ///< effects, or points, left out: a point failed, is missing or has no
-                            ///< value of the figure
+  std::size_t skipped = 0;  ///< effects, or points, left out: a point is not feasible, is missing
+                            ///< or has no value of the figure
 };
 
 /// How the figure depends on each swept parameter: Morris' elementary effects or a tornado, if the
 /// sweep was made for it; otherwise main effects (the mean of the figure for each value). Throws
-/// vp::InputError for an metric that no point has, or too few points.
-SensitivityReport sensitivity(const Results& results, const Expression& figure);
+/// vp::InputError for a metric that no point has, or too few points. `all`: points that ran count
+/// even if they are not feasible.
+SensitivityReport sensitivity(const Results& results, const Expression& figure, bool all = false);
 
 std::string sensitivity_table(const SensitivityReport& report);
 std::string sensitivity_csv(const std::string& figure, const SensitivityReport& report);

@@ -39,6 +39,10 @@ class Reader : private YamlReader {
         {"zip", [&](const YAML::Node& n) { read_zip(n); }},
         {"sample", [&](const YAML::Node& n) { read_sampling(n); }},
         {"constraints", [&](const YAML::Node& n) { read_constraints(n); }},
+        {"job",
+         [&](const YAML::Node& n) {
+           spec_.job = {scalar(n, "job"), where(n)};
+         }},
         {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
     for_each(root, keys, "a sweep");

@@ -52,6 +52,34 @@ std::string failures_text(const Results& results) {
 
 }  // namespace
 
+std::string verdicts_text(const Results& results) {
+  constexpr std::pair<const char*, const char*> parts[] = {{"ran", "did not run"},
+                                                           {"job", "did not do their job"},
+                                                           {"fits", "do not fit"},
+                                                           {"clocks", "have impossible clocks"},
+                                                           {"timing", "miss timing"}};
+  const auto count = [&](const auto& wanted) {
+    return std::count_if(results.rows.begin(), results.rows.end(), wanted);
+  };
+  using report::Holds;
+  std::string text = std::to_string(count([&](const ResultRow& row) {
+                       return results.feasible(row) == Holds::yes;
+                     })) +
+                     " of " + report::counted(results.rows.size(), "point") + " feasible";
+  const auto add = [&](auto number, const std::string& what) {
+    if (number != 0) text += ", " + std::to_string(number) + " " + what;
+  };
+  for (const auto& [part, what] : parts) {
+    add(count([&, name = part](const ResultRow& row) {
+          return results.holds(row, name) == Holds::no;
+        }),
+        what);
+  }
+  add(count([&](const ResultRow& row) { return results.feasible(row) == Holds::unknown; }),
+      "unknown");
+  return text;
+}
+
 std::string sweep_text(const Results& results, std::size_t most_rows) {
   const std::vector<std::string> figures = key_figures(results);
   std::vector<std::string> names = results.manifest.swept;
@@ -76,6 +104,7 @@ std::string sweep_text(const Results& results, std::size_t most_rows) {
     text += "… and " + report::counted(results.rows.size() - most_rows, "point") +
             " more: see sweep.csv\n";
   const std::string failures = failures_text(results);
+  text += "\n" + verdicts_text(results) + "\n";
   if (!failures.empty()) text += "\n" + failures;
   if (!results.manifest.text.empty()) {
     text += "\n" + results.manifest.text;

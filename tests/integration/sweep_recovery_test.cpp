@@ -126,8 +126,11 @@ BOOST_FIXTURE_TEST_CASE(two_sweeps_in_one_folder_are_refused, Sweeps) {
 BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {
   write("s.yaml", "parameters: {pl.width: [640 px, 600 px]}");
   const kit::Outcome outcome = run({"sweep", "s.yaml"});
-  BOOST_TEST(outcome.exit_code == 0);
+  BOOST_TEST(outcome.exit_code == 4);
+  BOOST_TEST(contains(outcome.err, "1 point of 2 failed"), outcome.err);
   BOOST_TEST(contains(outcome.out, "1 point failed: "), outcome.out);
+  BOOST_TEST(contains(outcome.out, "1 of 2 points feasible, 1 did not run\n"), outcome.out);
+  BOOST_TEST(run({"sweep", "s.yaml", "--require-all"}).exit_code == 1);
   BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now, 2 there before, 1 failed"));
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--retry-failed"}).out, "1 computed now"));
 }

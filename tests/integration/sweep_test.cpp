@@ -49,7 +49,7 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, 
     return run(all);
   };
   const kit::Outcome alone = with({"1", "--isolate", "--output", "alone"});
-  BOOST_TEST(alone.exit_code == 0, alone.err);
+  BOOST_TEST(alone.exit_code == 4, alone.err);  // no image is 600 px wide
   with({"1", "--output", "one"});
   with({"2", "--output", "two"});
   BOOST_TEST(points("alone").size() > 20u);
@@ -174,7 +174,10 @@ BOOST_FIXTURE_TEST_CASE(pareto_and_sensitivity_read_the_folder, Sweeps) {
   run({"sweep", "s.yaml"});
   const kit::Outcome pareto = run({"pareto", "out/s"});
   BOOST_TEST(pareto.exit_code == 0);
-  BOOST_TEST(contains(pareto.out, "100 MHz"), pareto.out);
+  // Above 55 MHz blob detection misses timing.
+  BOOST_TEST(contains(pareto.out, "50 MHz"), pareto.out);
+  BOOST_TEST(!contains(pareto.out, "100 MHz"), pareto.out);
+  BOOST_TEST(contains(pareto.out, "2 of 4 points feasible, 2 miss timing\n"), pareto.out);
   BOOST_TEST(contains(kit::read_file(*this / "out/s/pareto.csv"), "max summary.fps.mean"));
   BOOST_TEST(contains(run({"sensitivity", "out/s"}).out, "ps.fclk_clk1.frequency"));
   BOOST_TEST(run({"pareto", "nowhere"}).exit_code == 2);

@@ -1,6 +1,7 @@
 #include <sweep/objective.h>
 #include <sweep/pareto.h>
 #include <sweep/sensitivity.h>
+#include <sweep/summary.h>
 
 #include <utility>
 
@@ -11,6 +12,13 @@ using sweep_test::complaint;
 using sweep_test::contains;
 
 namespace {
+
+/// Those of a feasible point.
+Metrics feasible(std::vector<std::pair<std::string, double>> figures) {
+  for (const char* part : platform::report::verdict_parts)
+    figures.emplace_back("verdict." + std::string(part) + ".holds", 1);
+  return Metrics(std::move(figures));
+}
 
 /// FPS and watts of five points, one of which failed.
 Results example() {
@@ -23,7 +31,7 @@ Results example() {
     ResultRow row;
     row.key = std::to_string(i);
     row.swept = {{"clock", std::to_string(50 * (i + 1)) + " MHz"}};
-    row.metrics = {{"fps", fps[i]}, {"watts", watts[i]}};
+    row.metrics = feasible({{"fps", fps[i]}, {"watts", watts[i]}});
     results.rows.push_back(row);
   }
   ResultRow failed;
@@ -92,7 +100,7 @@ BOOST_AUTO_TEST_CASE(the_knee_measures_in_parts_of_the_front) {
   Results results = example();
   const double fps[] = {100, 160, 200, 140}, watts[] = {1, 1.4, 2, 1.35};
   for (int i = 0; i < 4; ++i) {
-    results.rows[i].metrics = {{"fps", fps[i]}, {"watts", watts[i]}, {"same", 7}};
+    results.rows[i].metrics = feasible({{"fps", fps[i]}, {"watts", watts[i]}, {"same", 7}});
   }
   const Pareto pareto = rank(results, fps_and_watts(), {});
   BOOST_TEST(pareto.points[3].front == 1u);
@@ -112,39 +120,69 @@ BOOST_AUTO_TEST_CASE(the_knee_is_near_the_best_of_everything) {
   BOOST_TEST(contains(pareto_table(results, fps_and_watts(), pareto), "knee"));
 }
 
-BOOST_AUTO_TEST_CASE(above_a_mere_lower_bound_timing_is_unknown) {
+// The verdict of each point: feasible, unknown timing, no marker, and what ran before there were
+// verdicts.
+BOOST_AUTO_TEST_CASE(only_feasible_points_are_ranked) {
+  using platform::report::Holds;
   Results results = example();
-  const double met[] = {1, 0, 0, 0};
-  const double failed[] = {0, 0, 1, 0};
+  const double timing[] = {1, 0.5, 1, 1}, job[] = {1, 1, 0, 1};
   for (int i = 0; i < 4; ++i) {
-    ResultRow& row = results.rows[i];
-    row.metrics = {{"fps", *row.metrics.find("fps")},
-                   {"watts", *row.metrics.find("watts")},
-                   {"timing.met", met[i]},
-                   {"timing.failed", failed[i]}};
+    std::vector<std::pair<std::string, double>> figures{
+        {"fps", *results.rows[i].metrics.find("fps")},
+        {"watts", *results.rows[i].metrics.find("watts")},
+        {"verdict.fits.holds", 1},
+        {"verdict.clocks.holds", 1}};
+    if (i < 3) {
+      figures.insert(figures.end(), {{"verdict.ran.holds", 1},
+                                     {"verdict.job.holds", job[i]},
+                                     {"verdict.timing.holds", timing[i]}});
+    }
+    results.rows[i].metrics = Metrics(std::move(figures));
   }
-  const std::vector<Expression> constraints{Expression("timing.met == 1", "here"),
-                                            Expression("fps != 90", "here")};
-  const Pareto pareto = rank(results, fps_and_watts(), constraints);
-  BOOST_TEST(pareto.points[0].feasible);
-  BOOST_TEST(!pareto.points[0].unknown);
-  BOOST_TEST(pareto.points[1].unknown);
-  BOOST_TEST(pareto.points[1].front == 0u);
-  BOOST_TEST(!pareto.points[2].unknown);
-  // It breaks another constraint, too.
-  BOOST_TEST(!pareto.points[3].unknown);
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST((pareto.points[0].feasible == Holds::yes));
+  BOOST_TEST(pareto.points[0].front == 1u);
+  BOOST_TEST((pareto.points[1].feasible == Holds::unknown));
+  BOOST_TEST((pareto.points[2].feasible == Holds::no));
+  BOOST_TEST((pareto.points[3].feasible == Holds::unknown));
+  for (const int i : {1, 2, 3}) BOOST_TEST(pareto.points[i].front == 0u);
   BOOST_TEST(contains(pareto_csv(results, fps_and_watts(), pareto), "1,0,0,unknown,100 MHz"));
+  BOOST_TEST(verdicts_text(results) ==
+             "1 of 5 points feasible, 1 did not run, 1 did not do their job, 2 unknown");
+  BOOST_TEST(contains(
+      complaint([&] { rank(results, fps_and_watts(), {Expression("fps > 60", "here")}); }),
+      "no point is feasible, meets the constraints and has a value of every objective: 1 of 5"));
+  // A constraint that does not hold is one reason more.
+  BOOST_TEST((rank(results, fps_and_watts(), {Expression("fps < 60", "here")}).points[1].feasible ==
+              Holds::no));
+  // Sensitivity, too.
+  BOOST_TEST(sensitivity(results, Expression("fps", "here")).skipped == 4u);
+  BOOST_TEST(sensitivity(results, Expression("fps", "here"), true).skipped == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_study_may_ask_for_another_job) {
+  using platform::report::Holds;
+  Results results = example();
+  results.job.emplace("fps >= 100", "here");
+  BOOST_TEST((results.feasible(results.rows[0]) == Holds::no));
+  BOOST_TEST((results.feasible(results.rows[1]) == Holds::yes));
+  BOOST_TEST((results.holds(results.rows[4], "job") == Holds::unknown));
+  BOOST_TEST((results.feasible(results.rows[4]) == Holds::no));
+  BOOST_TEST(rank(results, fps_and_watts(), {}).points[0].front == 0u);
+  results.job.emplace("markers > 0", "here");
+  BOOST_TEST(contains(complaint([&] { rank(results, fps_and_watts(), {}); }),
+                      "job 'markers > 0': unknown metric 'markers'"));
 }
 
 BOOST_AUTO_TEST_CASE(constraints_take_points_out) {
   const Results results = example();
   const Pareto pareto = rank(results, fps_and_watts(), {Expression("clock >= 150 MHz", "here")});
-  BOOST_TEST(!pareto.points[0].feasible);
+  BOOST_TEST((pareto.points[0].feasible == platform::report::Holds::no));
   BOOST_TEST(pareto.points[2].front == 1u);
   BOOST_TEST(pareto.points[3].front == 1u);
   BOOST_TEST(contains(
       complaint([&] { rank(results, fps_and_watts(), {Expression("fps > 1000", "here")}); }),
-      "no point meets"));
+      "no point is feasible, meets the constraints"));
   BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max fsp", "here")}, {}); }),
                       "did you mean 'fps'"));
 }
@@ -156,9 +194,9 @@ Results without_marker() {
   for (int i = 0; i < 4; ++i) {
     ResultRow& row = results.rows[i];
     if (i == 1) continue;
-    row.metrics = {{"fps", *row.metrics.find("fps")},
-                   {"watts", *row.metrics.find("watts")},
-                   {"error", error[i]}};
+    row.metrics = feasible({{"fps", *row.metrics.find("fps")},
+                            {"watts", *row.metrics.find("watts")},
+                            {"error", error[i]}});
   }
   return results;
 }
@@ -174,14 +212,14 @@ BOOST_AUTO_TEST_CASE(a_point_without_a_metric_is_left_out_and_counted) {
   BOOST_TEST(pareto.points[2].front == 1u);
   BOOST_TEST(pareto.points[3].front == 2u);
   BOOST_TEST((pareto.lacking == std::map<std::string, std::uint64_t>{{"error", 1}}));
-  BOOST_TEST(contains(pareto_csv(results, objectives, pareto), "1,0,0,1,100 MHz,,\n"),
+  BOOST_TEST(contains(pareto_csv(results, objectives, pareto), "1,0,0,yes,100 MHz,,\n"),
              pareto_csv(results, objectives, pareto));
   BOOST_TEST(!contains(pareto_table(results, objectives, pareto), "100 MHz"));
   // Without the objective it is ranked; a constraint on what it lacks is not met.
   BOOST_TEST(rank(results, fps_and_watts(), {}).points[1].front == 1u);
   const Pareto bounded = rank(results, fps_and_watts(), {Expression("not error > 100", "here")});
-  BOOST_TEST(!bounded.points[1].feasible);
-  BOOST_TEST(bounded.points[2].feasible);
+  BOOST_TEST((bounded.points[1].feasible == platform::report::Holds::no));
+  BOOST_TEST((bounded.points[2].feasible == platform::report::Holds::yes));
   BOOST_TEST(bounded.lacking.at("error") == 1u);
   BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max eror", "here")}, {}); }),
                       "did you mean 'error'"));

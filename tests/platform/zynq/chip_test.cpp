@@ -156,10 +156,13 @@ BOOST_AUTO_TEST_CASE(fmax_scales_with_the_speed_grade) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_advised_can_be_made_and_is_within_the_speed_grade) {
-  Platform usual(Settings{});
-  BOOST_TEST(usual.module("pl.blob_detection").reachable_mhz == 1000.0 / 19, near);
-  BOOST_TEST(usual.module("pl.corner_detection").reachable_mhz == 100.0, near);
-  Platform fast(Settings{{"timing.blob_detection.fmax", "400 MHz"}, {"ps.ethernet", "false"}});
+  {
+    const Platform usual(Settings{});
+    BOOST_TEST(usual.module("pl.blob_detection").reachable_mhz == 1000.0 / 19, near);
+    BOOST_TEST(usual.module("pl.corner_detection").reachable_mhz == 100.0, near);
+  }
+  const Platform fast(
+      Settings{{"timing.blob_detection.fmax", "400 MHz"}, {"ps.ethernet", "false"}});
   BOOST_TEST(fast.module("pl.blob_detection").reachable_mhz == 1600.0 / 7, near);
 }
 

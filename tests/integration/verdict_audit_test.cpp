@@ -1,0 +1,280 @@
+// The verdicts of 500 random points, derived once more from the figures in their results and from
+// data/devices, without the code that made them.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+#include "sweeps.h"
+
+using namespace sweep_test;
+
+namespace {
+
+constexpr const char* space = R"(
+sample: {method: random, points: 500, seed: 15}
+parameters:
+  inputs: [demo, z4.5, roll30, squares5]
+  device: [xc7z007s-1, xc7z010-2, xc7z020-1]
+  design: [thesis, ps-only]
+  clocks: [made, exact]
+  ps.ethernet: [true, false]
+  ps.slcr.ps_clk: [33.333333333333332 MHz, 50 MHz]
+  ps.cpu_clk.frequency: {start: 100 MHz, stop: 1000 MHz}
+  ps.fclk_clk0.frequency: {start: 5 MHz, stop: 300 MHz}
+  ps.fclk_clk1.frequency: {start: 5 MHz, stop: 120 MHz}
+  ps.m_axi_gp0.read_clocks: [4 cycles, 8 cycles, 16 cycles]
+  pl.corner_detection.threshold: {start: 5, stop: 80}
+  pl.blob_detection.label_count: {start: 4, stop: 400}
+  pl.blob_detection.minimum_side: {start: 4 px, stop: 60 px}
+  pl.feature_packaging.buffer_depth: {start: 2, stop: 300}
+  pl.axi_threshold_bridge.fifo_depth: {start: 1, stop: 128}
+  pl.axi_dma_1.burst_beats: [2, 8, 16, 32]
+  profile: [thesis, a9-O0, a9-O2]
+  sw.margin: {start: 0 px, stop: 12 px}
+  sw.canonical_width: [24 px, 60 px, 120 px]
+  power.mode: [vivado-default, activity]
+  power.ddr.frequency: {start: 300 MHz, stop: 533 MHz}
+  timing.blob_detection.fmax: [40 MHz, 55 MHz, 90 MHz, 130 MHz]
+  timing.corner_detection.fmax: [100 MHz, 110 MHz]
+zip:
+  - pl.width: [640 px, 640 px, 320 px, 480 px]
+    pl.height: [480 px, 480 px, 240 px, 320 px]
+metrics: [verdict.feasible, summary.fps.mean]
+)";
+
+/// A part of a verdict as it should be.
+struct Part {
+  std::string holds = "yes";
+  bool has_margin = false;
+  double margin = 0;
+
+  void narrow(double percent) {
+    margin = has_margin ? std::min(margin, percent) : percent;
+    has_margin = true;
+  }
+};
+
+class Auditor {
+ public:
+  Auditor()
+      : chips_(Json::parse(kit::read_file(MARKERVP_SOURCE "/data/devices/zynq7000-artix7.json"))) {}
+
+  /// Each part of the verdict on a result of the device, with the crystal in MHz.
+  std::map<std::string, Part> parts(const Json& result, const std::string& device,
+                                    double crystal) const {
+    const std::string part = device.substr(0, device.rfind('-'));
+    const Json& grade = chips_["grades"][device.substr(device.rfind('-') + 1)];
+    return {{"ran", ran(result)},
+            {"job", job(result["frames"])},
+            {"fits", fits(result["resources"], chips_["parts"][part])},
+            {"clocks", clocks(result["clocks"], grade, crystal)},
+            {"timing", timing(result["timing"])}};
+  }
+
+ private:
+  static double figure(const Json& json, const char* name) { return json.at(name).at("value"); }
+
+  static Part ran(const Json& result) {
+    const bool good = !result.contains("incomplete") && result.contains("program_end") &&
+                      result["program_end"]["exit_code"] == 0;
+    return {good ? "yes" : "no"};
+  }
+
+  static bool did_its_job(const Json& frame) {
+    if (frame.contains("gave_up")) return false;
+    for (const char* loss : {"feature_overflow", "label_overflow", "bridge_overflow",
+                             "crossing_overflow", "software_overflow", "malformed"}) {
+      if (frame["counts"][loss] != 0) return false;
+    }
+    if (!frame.contains("scene_marker")) return true;
+    for (const Json& marker : frame["markers"]) {
+      if (marker["id"] == frame["scene_marker"]) return true;
+    }
+    return false;
+  }
+
+  static Part job(const Json& frames) {
+    if (frames.empty()) return {"no"};
+    double good = 0;
+    for (const Json& frame : frames) good += did_its_job(frame) ? 1 : 0;
+    const double margin = 100 * good / static_cast<double>(frames.size()) - 100;
+    return {margin < 0 ? "no" : "yes", true, margin};
+  }
+
+  static Part fits(const Json& resources, const Json& chip) {
+    Part part;
+    for (const char* kind : {"lut", "ff", "bram36", "dsp"}) {
+      double used = 0;
+      for (const Json& module : resources["modules"]) used += module[kind].get<double>();
+      if (used == 0) continue;
+      const double margin = 100 * (figure(chip, kind) / used - 1);
+      part.narrow(margin);
+      if (margin < 0) part.holds = "no";
+    }
+    return part;
+  }
+
+  /// Whether crystal x feedback / divisor comes within 50 ppm, by trying all.
+  bool is_made(double mhz, const std::string& kind, const Json& grade, double crystal) const {
+    const Json& family = chips_["family"];
+    const auto most = static_cast<int>(figure(family, "divisor_max"));
+    for (int feedback = static_cast<int>(figure(family, "pll_feedback_min"));
+         feedback <= figure(family, "pll_feedback_max"); ++feedback) {
+      const double vco = crystal * feedback;
+      if (vco < figure(family, "vco_min_mhz") * 0.99995 ||
+          vco > figure(grade, "vco_max_mhz") * 1.00005)
+        continue;
+      for (int a = 1; a <= most; ++a) {
+        for (int b = 1; b <= (kind == "fclk_mhz" ? most : 1); ++b) {
+          if (kind == "cpu_621_mhz" && (a == 1 || a == 3)) continue;
+          if (kind == "ddr_mhz" && a % 2 != 0) continue;
+          if (std::abs(vco / (a * b) - mhz) <= 50e-6 * mhz) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  Part clocks(const Json& clocks, const Json& grade, double crystal) const {
+    Part part;
+    for (const Json& clock : clocks["list"]) {
+      const std::string name = clock["name"];
+      const char* kind = name == "ps.cpu_clk"  ? "cpu_621_mhz"
+                         : name == "power.ddr" ? "ddr_mhz"
+                                               : "fclk_mhz";
+      const double mhz = clock["frequency_mhz"], limit = figure(grade, kind);
+      part.narrow(100 * (limit / mhz - 1));
+      if (mhz > limit * 1.00005 || !is_made(mhz, kind, grade, crystal)) part.holds = "no";
+    }
+    return part;
+  }
+
+  static Part timing(const Json& timing) {
+    Part missed, unknown, known, bound;
+    for (const Json& module : timing["modules"]) {
+      const bool is_bound = module["lower_bound"];
+      const double margin =
+          100 * (module["fmax_mhz"].get<double>() / module["frequency_mhz"].get<double>() - 1);
+      (margin < 0 ? is_bound ? unknown : missed : is_bound ? bound : known).narrow(margin);
+    }
+    missed.holds = "no";
+    unknown.holds = "unknown";
+    for (const Part& worst : {missed, unknown, known}) {
+      if (worst.has_margin) return worst;
+    }
+    return bound;
+  }
+
+  Json chips_;
+};
+
+/// Of one frame: a rate is that of a result, or there is none.
+void check_rate(const Json& result) {
+  const bool delivered = !result["frames"].empty() && !result["frames"][0].contains("gave_up");
+  BOOST_TEST(result["summary"].contains("fps") == delivered);
+  if (!delivered) return;
+  const double us = result["frames"][0]["time_us"]["frame"];
+  BOOST_TEST(result["summary"]["fps"]["mean"].get<double>() == 1e6 / us,
+             boost::test_tools::tolerance(1e-6));
+}
+
+/// Of an IP without a limit of the user's own, and the factor of the grade, which says itself.
+void check_fmax(const Json& timing, const std::string& device) {
+  const std::map<char, double> factor{{'1', 1.0}, {'2', 1.18}};
+  for (const Json& module : timing["modules"]) {
+    if (module["name"] == "pl.blob_detection" || module["name"] == "pl.corner_detection") continue;
+    BOOST_TEST(module["fmax_mhz"].get<double>() == 100 * factor.at(device.back()));
+  }
+}
+
+/// What points were like: of each part, how often it holds.
+struct Seen {
+  std::map<std::string, std::map<std::string, int>> parts;
+  std::set<std::string> devices;
+  std::size_t judged = 0;
+  Json feasible, device;  ///< a result with a PL, and of which device
+};
+
+void audit(const Auditor& auditor, const Json& point, Seen& seen) {
+  const Json& outcome = point["outcome"];
+  if (!outcome.contains("result")) {
+    ++seen.parts["ran"]["no"];
+    return;
+  }
+  const Json& result = outcome["result"];
+  const Json& configuration = point["identity"]["configuration"];
+  const std::string device = configuration["device"];
+  BOOST_TEST(result["clocks"]["device"] == device);
+  const double crystal = std::stod(configuration["ps.slcr.ps_clk"].get<std::string>());
+  const Json& verdict = result["verdict"];
+  std::string worst = "yes";
+  for (const auto& [name, part] : auditor.parts(result, device, crystal)) {
+    const Json& found = verdict[name];
+    BOOST_TEST(found["holds"] == part.holds, name << ": " << found);
+    BOOST_TEST(found.contains("margin_percent") == part.has_margin, name << ": " << found);
+    if (part.has_margin) {
+      BOOST_TEST(std::abs(found["margin_percent"].get<double>() - part.margin) < 0.002,
+                 name << ": " << found << ", should be " << part.margin);
+    }
+    if (part.holds == "no" || worst == "yes") worst = part.holds;
+    ++seen.parts[name][part.holds];
+  }
+  BOOST_TEST(verdict["feasible"] == worst);
+  check_rate(result);
+  check_fmax(result["timing"], device);
+  ++seen.parts["feasible"][worst];
+  seen.devices.insert(device);
+  if (worst == "yes" && !result["timing"]["modules"].empty()) {
+    seen.feasible = result;
+    seen.device = device;
+  }
+  ++seen.judged;
+}
+
+/// The audit would notice: each of these turns a part of a feasible result into a "no".
+void check_that_faults_are_found(const Auditor& auditor, const Seen& seen) {
+  const std::pair<const char*, std::pair<const char*, Json>> faults[] = {
+      {"ran", {"/program_end/exit_code", 1}},
+      {"ran", {"/incomplete", "interrupted"}},
+      {"job", {"/frames/0/gave_up", "too late"}},
+      {"job", {"/frames/0/counts/malformed", 1}},
+      {"job", {"/frames/0/markers", Json::array()}},
+      {"job", {"/frames", Json::array()}},
+      {"fits", {"/resources/modules/0/lut", 1'000'000}},
+      {"clocks", {"/clocks/list/0/frequency_mhz", 900.0}},
+      {"clocks", {"/clocks/list/1/frequency_mhz", 57.123456}},
+      {"timing", {"/timing/modules/2/frequency_mhz", 500.0}}};
+  for (const auto& [part, fault] : faults) {
+    Json changed = seen.feasible;
+    changed[Json::json_pointer(fault.first)] = fault.second;
+    BOOST_TEST(auditor.parts(changed, seen.device, 100.0 / 3).at(part).holds == "no", fault.first);
+  }
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(no_verdict_of_500_random_points_is_wrong, Sweeps) {
+  const Auditor auditor;
+  Seen seen;
+  write("audit.yaml", space);
+  const kit::Outcome outcome = run({"sweep", "audit.yaml", "--no-report"});
+  BOOST_TEST((outcome.exit_code == 0 || outcome.exit_code == 4), outcome.err);
+  for (const auto& [file, text] : points("out/audit")) {
+    BOOST_TEST_CONTEXT(file) {
+      audit(auditor, Json::parse(text), seen);
+    }
+  }
+  BOOST_TEST(seen.devices.size() == 3u);
+  BOOST_TEST(seen.judged >= 450u);
+  // The space holds all that a verdict can be.
+  for (const char* part : {"job", "fits", "clocks", "timing", "feasible"}) {
+    BOOST_TEST(seen.parts[part]["yes"] > 10, part);
+    BOOST_TEST(seen.parts[part]["no"] > 10, part);
+  }
+  BOOST_TEST(seen.parts["timing"]["unknown"] > 0);
+  BOOST_TEST_REQUIRE(!seen.feasible.is_null());
+  check_that_faults_are_found(auditor, seen);
+}
