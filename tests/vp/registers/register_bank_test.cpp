@@ -275,6 +275,50 @@ BOOST_FIXTURE_TEST_CASE(build_options_change_registers, Bench) {
   BOOST_TEST(bank[0x10].value() == 0u);
 }
 
+BOOST_FIXTURE_TEST_CASE(every_byte_must_be_enabled, Bench) {
+  master.simulate([&] {
+    std::uint32_t word = 0;
+    for (unsigned off = 0; off < 4; ++off) {
+      unsigned char enables[] = {TLM_BYTE_ENABLED, TLM_BYTE_ENABLED, TLM_BYTE_ENABLED,
+                                 TLM_BYTE_ENABLED};
+      enables[off] = TLM_BYTE_DISABLED;
+      master.prepare(tlm::TLM_WRITE_COMMAND, 0x00, &word, 4);
+      master.payload.set_byte_enable_ptr(enables);
+      master.payload.set_byte_enable_length(4);
+      master.send();
+      BOOST_TEST(master.response() == tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE, "byte " << off);
+    }
+    unsigned char enabled = TLM_BYTE_ENABLED;
+    for (const unsigned length : {0u, 1u}) {
+      master.prepare(tlm::TLM_WRITE_COMMAND, 0x00, &word, 4);
+      master.payload.set_byte_enable_ptr(&enabled);
+      master.payload.set_byte_enable_length(length);
+      master.send();
+      BOOST_TEST(master.response() ==
+                 (length == 0 ? tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE : tlm::TLM_OK_RESPONSE));
+    }
+  });
+}
+
+BOOST_FIXTURE_TEST_CASE(a_refused_read_leaves_the_data_alone, Bench) {
+  bank.hold_in_reset(true);
+  master.simulate([&] {
+    std::uint32_t word = 0x1234'5678;
+    master.prepare(tlm::TLM_READ_COMMAND, 0x00, &word, 4);
+    master.send();
+    BOOST_TEST(master.response() == tlm::TLM_GENERIC_ERROR_RESPONSE);
+    BOOST_TEST(word == 0x1234'5678u);
+  });
+}
+
+BOOST_FIXTURE_TEST_CASE(a_hole_answers_no_more_than_a_register_in_reset, LenientBench) {
+  bank.hold_in_reset(true);
+  master.simulate([&] {
+    master.read(hole);
+    BOOST_TEST(master.response() == tlm::TLM_GENERIC_ERROR_RESPONSE);
+  });
+}
+
 BOOST_FIXTURE_TEST_CASE(access_in_reset_is_an_error, Bench) {
   master.simulate([&] {
     master.write(0x00, 0x33);
