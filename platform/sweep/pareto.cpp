@@ -36,14 +36,17 @@ std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
                                    const std::vector<bool>& maximise) {
   std::vector<double> low(maximise.size(), std::numeric_limits<double>::infinity());
   std::vector<double> high(maximise.size(), -std::numeric_limits<double>::infinity());
+  std::size_t size = 0;
   for (const RankedPoint& point : points) {
     if (point.front != 1) continue;
+    ++size;
     for (std::size_t i = 0; i < maximise.size(); ++i) {
       low[i] = std::min(low[i], point.figures[i]);
       high[i] = std::max(high[i], point.figures[i]);
     }
   }
   std::optional<std::size_t> knee;
+  if (size <= 2) return knee;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < points.size(); ++p) {
     if (points[p].front != 1) continue;

@@ -30,10 +30,10 @@ struct Pareto {
 
 /// Sorts the points into fronts: one dominates another if it is no worse in every objective and
 /// better in one. The knee is the point of the first front nearest to the best value of every
-/// objective, each objective scaled to 0 … 1 over that front. A point without a metric of an
-/// objective cannot be compared and is not ranked; without one of a constraint it does not meet it.
-/// Points that are not feasible are on no front. Throws vp::InputError for a metric that no point
-/// has, or no point, and says what the points fail by.
+/// objective, each objective scaled to 0 … 1 over that front; a front of two has none. A point
+/// without a metric of an objective cannot be compared and is not ranked; without one of a
+/// constraint it does not meet it. Points that are not feasible are on no front. Throws
+/// vp::InputError for a metric that no point has, or no point, and says what the points fail by.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
             const std::vector<Expression>& constraints);
 

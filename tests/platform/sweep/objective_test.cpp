@@ -75,13 +75,23 @@ BOOST_AUTO_TEST_CASE(equal_in_one_objective_and_better_in_another_dominates) {
              boost::test_tools::per_element());
 }
 
-// The two ends of a front are equally far from the best of everything.
+// A third and two thirds on the way are equally far from the best of everything.
 BOOST_AUTO_TEST_CASE(of_equally_good_knees_the_first_is_taken) {
   Results results = example();
+  for (int i = 0; i < 4; ++i)
+    results.rows[i].metrics = feasible({{"fps", 10.0 * i}, {"watts", 1.0 * i}});
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 1u);
+  std::swap(results.rows[1], results.rows[2]);
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_front_of_two_has_no_knee) {
+  Results results = example();
   results.rows.resize(2);  // (50, 1 W) and (100, 1.1 W)
-  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 0u);
-  std::swap(results.rows[0], results.rows[1]);
-  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 0u);
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points[0].front == 1u);
+  BOOST_TEST(pareto.points[1].front == 1u);
+  BOOST_TEST(!pareto.knee.has_value());
 }
 
 BOOST_AUTO_TEST_CASE(the_table_of_a_front_grows_in_its_first_objective) {
