@@ -4,8 +4,8 @@
 #   lib/libmarkervp_*.a        the libraries
 #   include/markervp/<root>/   one include root for each layer, as in the source tree
 #   lib/cmake/markervp/        find_package(markervp)
-#   share/markervp/            program/ and platform/ are templates; chip/ builds programs for the chip; markervp.gdb has
-#                              commands for gdb
+#   share/markervp/            program/ and platform/ are templates; rtl/ has the IP in SystemVerilog; chip/ builds programs for
+#                              the chip; markervp.gdb has commands for gdb
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/markervp")
 set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/markervp")
@@ -84,13 +84,19 @@ markervp_install_headers(sw/drivers sw)
 markervp_install_headers(sw/marker sw)
 markervp_install_headers(sw/apps/common sw/apps)
 markervp_install_headers(sw/apps/hybrid sw/apps)
-foreach(folder designs input report scene trace zynq)
+foreach(folder designs device input report scene trace zynq)
   markervp_install_headers(platform/${folder} platform)
 endforeach()
 
 install(TARGETS hybrid ps-only blink LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
 install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
+# The IP in SystemVerilog, a folder each.
+file(GLOB rtl_files CONFIGURE_DEPENDS models/pl/*/rtl/*.sv)
+foreach(file IN LISTS rtl_files)
+  string(REGEX REPLACE "^.*/([a-z_]+)/rtl/[^/]+$" "\\1" ip "${file}")
+  install(FILES "${file}" DESTINATION "${data_folder}/rtl/${ip}")
+endforeach()
 # The chip has a compiler of its own: what a program needs there is installed as source.
 install(DIRECTORY sw/chip/ DESTINATION "${data_folder}/chip")
 install(DIRECTORY sw/hal sw/marker sw/drivers DESTINATION "${data_folder}/chip/source/sw")
@@ -110,8 +116,9 @@ foreach(component programs models designs)
   install(EXPORT markervp_${component} NAMESPACE markervp:: DESTINATION "${package_folder}"
     FILE markervp_${component}.cmake)
 endforeach()
+set(MARKERVP_RTL_FOLDER "${data_folder}/rtl")
 configure_package_config_file(cmake/markervpConfig.cmake.in "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
-  INSTALL_DESTINATION "${package_folder}")
+  INSTALL_DESTINATION "${package_folder}" PATH_VARS MARKERVP_RTL_FOLDER)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(FILES
@@ -119,4 +126,6 @@ install(FILES
   "${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
   cmake/MarkervpDesign.cmake
   cmake/MarkervpProgram.cmake
+  cmake/MarkervpRtl.cmake
+  cmake/MarkervpRtl.cpp.in
   DESTINATION "${package_folder}")

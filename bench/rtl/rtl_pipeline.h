@@ -14,8 +14,8 @@
 
 namespace bench {
 
-/// Feeds frames to the Verilated feature extraction (models/pl/feature_extraction/rtl) as fast as it
-/// takes them. `Model` is what Verilator made of it.
+/// Feeds frames to the Verilated feature extraction (models/pl/feature_extraction/rtl) as fast as
+/// it takes them. `Model` is what Verilator made of it.
 template <class Model>
 class RtlPipeline {
  public:

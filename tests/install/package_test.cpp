@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(requests_that_it_refuses) {
   const kit::Outcome component = find_package("REQUIRED COMPONENTS programms");
   BOOST_TEST(component.exit_code != 0);
   BOOST_TEST(contains(component.err, "no component 'programms'"), component.err);
-  BOOST_TEST(contains(component.err, "programs, models, designs"), component.err);
+  BOOST_TEST(contains(component.err, "programs, models, designs, rtl"), component.err);
   const kit::Outcome version = find_package("99.0 REQUIRED");
   BOOST_TEST(version.exit_code != 0);
   BOOST_TEST(contains(version.err, "compatible with requested version \"99.0\""), version.err);

@@ -1,6 +1,7 @@
 #include <pl/blob_detection/models.h>
 #include <pl/common/estimate.h>
 #include <pl/common/packet.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
@@ -8,8 +9,25 @@ Models<BlobDetection>& BlobDetection::models() {
   static Models<BlobDetection> models{
       "blob_detection",
       {model<BlobDetection, BlobDetectionClocked>("clocked", by_pixel, no_image),
-       model<BlobDetection, BlobDetectionTlm>("tlm", by_frame, no_image)}};
+       model<BlobDetection, BlobDetectionTlm>("tlm", by_frame, no_image)},
+      rtl_model<BlobDetection>()};
   return models;
+}
+
+void BlobDetection::connect(RtlPins& pins) {
+  pins.input(ena);
+  pins.input(rst);
+  pins.input(pixel);
+  pins.input(x, 10);
+  pins.input(y, 9);
+  pins.output(blob_out);
+  pins.output(blob_start);
+  pins.output(blob_end);
+  pins.output(idle);
+  pins.report(label_overflow);
+  pins.parameter("WIDTH", "pl.width", geometry_.width);
+  pins.parameter("LABELS", label_count.name(), label_count);
+  pins.parameter("MINIMUM_SIDE", minimum_side.name(), minimum_side);
 }
 
 void BlobDetectionClocked::edge() {

@@ -10,6 +10,8 @@
 
 namespace pl {
 
+class RtlPins;
+
 /// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`, decision).
 class BlobDetection : public vp::Clocked, public vp::Ip {
  public:
@@ -56,6 +58,9 @@ class BlobDetection : public vp::Clocked, public vp::Ip {
   }
 
   const Geometry geometry_;
+
+  /// All ports but the clock, to RTL that stands in its place.
+  void connect(RtlPins& pins);
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <vp/error.h>
+#include <vp/text.h>
 
 namespace pl {
 
@@ -24,12 +25,36 @@ std::string words(Passage image) {
 
 }  // namespace
 
-ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, Fidelity otherwise,
-                       const Feeds& feeds)
+bool is_rtl_file(const std::string& name) {
+  const std::string ending = ".so";
+  return name.find('/') != std::string::npos ||
+         (name.size() > ending.size() &&
+          name.compare(name.size() - ending.size(), ending.size(), ending) == 0);
+}
+
+ModelName::ModelName(const std::string& ip, std::string otherwise,
+                     const std::vector<std::string>& names, bool takes_rtl)
+    : ParameterBase(ip.c_str(), vp::Unit::none, vp::Source::decision,
+                    "how this IP is modelled: clock by clock, whole frames, or RTL"),
+      value_(otherwise) {
+  const vp::Setting* given = setting();
+  if (given && takes_rtl && is_rtl_file(given->text)) {
+    value_ = given->text;
+  } else if (given) {
+    value_ = names[choice(*given, names)];
+  }
+  publish(value_, std::move(otherwise),
+          vp::one_of(names) + (takes_rtl ? ", or the file of RTL, .so" : ""));
+}
+
+ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,
+                       Fidelity otherwise, const Feeds& feeds)
     : traits_(std::move(traits)),
-      parameter_(ip.c_str(), usual(otherwise, feeds), names_of(traits_), vp::Source::decision,
-                 "how this IP is modelled: clock by clock, or whole frames") {
-  while (traits_[chosen_].name != parameter_.get()) ++chosen_;
+      parameter_(ip, usual(otherwise, feeds), names_of(traits_), takes_rtl) {
+  while (chosen_ < traits_.size() && traits_[chosen_].name != parameter_.get()) ++chosen_;
+  // RTL has the ports of the clocked model.
+  if (chosen_ == traits_.size())
+    traits_.push_back({parameter_.get(), traits_.front().takes, traits_.front().gives});
   for (const ChoiceBase* other : feeds) check(*other);
 }
 

@@ -63,9 +63,16 @@ Model<Ip> model(std::string name, Passage takes, Passage gives) {
 template <class Ip>
 class Models {
  public:
-  /// `ip`: the name of the instance, and of its key in `fidelity`.
-  Models(std::string ip, std::initializer_list<Model<Ip>> models)
-      : ip_(std::move(ip)), models_(models) {}
+  /// Makes the IP of RTL in a shared object (rtl_model.h).
+  using MakeRtl = std::function<std::unique_ptr<Ip>(const char* name, const Site& site,
+                                                    const std::string& file)>;
+
+  /// `ip`: the name of the instance, and of its key in `fidelity`. `rtl`: empty for an IP in whose
+  /// place no RTL can stand.
+  Models(std::string ip, std::initializer_list<Model<Ip>> models, MakeRtl rtl = {})
+      : make_rtl(std::move(rtl)), ip_(std::move(ip)), models_(models) {}
+
+  const MakeRtl make_rtl;
 
   /// Throws std::logic_error for a name that there is.
   void add(Model<Ip> model) {
@@ -83,6 +90,20 @@ class Models {
   std::vector<Model<Ip>> models_;
 };
 
+/// A shared object with RTL: a name with a folder in it, or the ending .so.
+bool is_rtl_file(const std::string& name);
+
+/// `fidelity.<ip>`: the name of a model, or the file of RTL.
+class ModelName : public vp::ParameterBase {
+ public:
+  ModelName(const std::string& ip, std::string otherwise, const std::vector<std::string>& names,
+            bool takes_rtl);
+  const std::string& get() const { return value_; }
+
+ private:
+  std::string value_;
+};
+
 /// The part of Choice that does not depend on the IP.
 class ChoiceBase {
  public:
@@ -93,9 +114,11 @@ class ChoiceBase {
 
  protected:
   /// `traits` is never empty.
-  ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, Fidelity otherwise,
-             const Feeds& feeds);
+  ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,
+             Fidelity otherwise, const Feeds& feeds);
   std::size_t chosen() const { return chosen_; }
+  /// The file of RTL, or the name of the model.
+  const std::string& text() const { return parameter_.get(); }
 
  private:
   std::string usual(Fidelity otherwise, const Feeds& feeds) const;
@@ -103,7 +126,7 @@ class ChoiceBase {
   void check(const ChoiceBase& other) const;
 
   std::vector<ModelTraits> traits_;
-  vp::Parameter<std::string> parameter_;  ///< `fidelity.<ip>`
+  ModelName parameter_;
   std::size_t chosen_ = 0;
 };
 
@@ -117,9 +140,17 @@ class Choice : public ChoiceBase {
   /// What it feeds has chosen before. Throws vp::InputError if that cannot take what a configured
   /// model gives.
   Choice(const Models<Ip>& models, Fidelity otherwise, const Feeds& feeds = {})
-      : ChoiceBase(models.ip(), {models.list().begin(), models.list().end()}, otherwise, feeds),
-        ip_(models.ip()),
-        make_(models.list()[chosen()].make) {}
+      : ChoiceBase(models.ip(), {models.list().begin(), models.list().end()},
+                   models.make_rtl != nullptr, otherwise, feeds),
+        ip_(models.ip()) {
+    if (chosen() < models.list().size()) {
+      make_ = models.list()[chosen()].make;
+    } else {
+      make_ = [make = models.make_rtl, file = text()](const char* name, const Site& site) {
+        return make(name, site, file);
+      };
+    }
+  }
 
   std::unique_ptr<Ip> make(const Site& site) const { return make_(ip_.c_str(), site); }
 

@@ -1,5 +1,6 @@
 #include <pl/common/estimate.h>
 #include <pl/common/packet.h>
+#include <pl/common/rtl_model.h>
 #include <pl/corner_detection/models.h>
 
 namespace pl {
@@ -8,8 +9,21 @@ Models<CornerDetection>& CornerDetection::models() {
   static Models<CornerDetection> models{
       "corner_detection",
       {model<CornerDetection, CornerDetectionClocked>("clocked", by_pixel, no_image),
-       model<CornerDetection, CornerDetectionTlm>("tlm", by_frame, no_image)}};
+       model<CornerDetection, CornerDetectionTlm>("tlm", by_frame, no_image)},
+      rtl_model<CornerDetection>()};
   return models;
+}
+
+void CornerDetection::connect(RtlPins& pins) {
+  pins.input(ena);
+  pins.input(rst);
+  pins.input(pixel);
+  pins.input(x, 10);
+  pins.input(y, 9);
+  pins.output(corner_out);
+  pins.output(corner_data);
+  pins.parameter("WIDTH", "pl.width", geometry_.width);
+  pins.parameter("THRESHOLD", threshold.name(), threshold);
 }
 
 CornerDetectionClocked::CornerDetectionClocked(sc_core::sc_module_name name, const Site& site)

@@ -10,6 +10,8 @@
 
 namespace pl {
 
+class RtlPins;
+
 /// Corner Detection (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
 class CornerDetection : public vp::Clocked, public vp::Ip {
  public:
@@ -41,6 +43,9 @@ class CornerDetection : public vp::Clocked, public vp::Ip {
   }
 
   const Geometry geometry_;
+
+  /// All ports but the clock, to RTL that stands in its place.
+  void connect(RtlPins& pins);
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -1,4 +1,5 @@
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <pl/global_threshold/models.h>
 
 namespace pl {
@@ -7,8 +8,29 @@ Models<GlobalThreshold>& GlobalThreshold::models() {
   static Models<GlobalThreshold> models{
       "global_threshold",
       {model<GlobalThreshold, GlobalThresholdClocked>("clocked", by_pixel, by_pixel),
-       model<GlobalThreshold, GlobalThresholdTlm>("tlm", by_frame, by_frame)}};
+       model<GlobalThreshold, GlobalThresholdTlm>("tlm", by_frame, by_frame)},
+      rtl_model<GlobalThreshold>()};
   return models;
+}
+
+void GlobalThreshold::connect(RtlPins& pins) {
+  pins.input(por);
+  pins.input(rst);
+  pins.input(frame_ena);
+  pins.input(wr_thresh);
+  pins.input(threshold);
+  pins.input(pixel);
+  pins.input(x, 10);
+  pins.input(y, 9);
+  pins.output(binary_ena);
+  pins.output(binary_out);
+  pins.output(binary_x);
+  pins.output(binary_y);
+  pins.output(thresh_out);
+  pins.output(thresh_data);
+  pins.report(active_threshold);
+  pins.parameter("WIDTH", "pl.width", geometry_.width);
+  pins.parameter("HEIGHT", "pl.height", geometry_.height);
 }
 
 void GlobalThresholdClocked::edge() {

@@ -10,6 +10,8 @@
 
 namespace pl {
 
+class RtlPins;
+
 /// Global Threshold (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives
 /// it).
 class GlobalThreshold : public vp::Clocked, public vp::Ip {
@@ -49,6 +51,9 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
   }
 
   const Geometry geometry_;
+
+  /// All ports but the clock, to RTL that stands in its place.
+  void connect(RtlPins& pins);
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -17,6 +17,7 @@
 ///   foreign.clk(clock.pin());     their clock is ours
 ///   foreign.in(ours.out);         a vp::Signal is an sc_signal_in_if of its type
 ///   ours.in(wire);                a vp::In takes an sc_signal that a foreign sc_out drives
+///   vp::Driver d{"d", wire, ours.out};  a vp::Signal has what that drives
 ///
 /// All of them sample what stood before an edge, so a module can be replaced by a foreign one of
 /// the same function and nothing changes.
@@ -74,38 +75,48 @@ class FollowerBase : public sc_core::sc_module {
   unsigned changes_ = 0;  ///< at that time
 };
 
-/// A signal of ours that follows one of SystemC, for our ports to read.
+/// Drives a signal of ours with what one of SystemC has: an output of ours behind which a foreign
+/// module stands.
 template <class T, class U>
-class Follower : public FollowerBase {
+class Driver : public FollowerBase {
  public:
-  Follower(sc_core::sc_module_name name, const sc_core::sc_signal_in_if<U>& source)
-      : FollowerBase(name), source_(source) {
-    SC_HAS_PROCESS(Follower);
+  Driver(sc_core::sc_module_name name, const sc_core::sc_signal_in_if<U>& source, Signal<T>& driven)
+      : FollowerBase(name), source_(source), driven_(driven) {
+    SC_HAS_PROCESS(Driver);
     SC_METHOD(follow);
     sensitive << source.value_changed_event();
     dont_initialize();
   }
 
-  Signal<T> signal{"signal"};
-
  private:
   // Before anybody drove it, a wire may well be unknown.
   void start_of_simulation() override {
     T value{};
-    if (from_systemc(source_.read(), value)) signal = value;
+    if (from_systemc(source_.read(), value)) driven_ = value;
   }
   void follow() {
-    begin_change(signal.scheduler());
+    begin_change(driven_.scheduler());
     T value{};
     if (!from_systemc(source_.read(), value)) {
       std::ostringstream text;
       text << source_.read();
-      refuse_value(text.str(), signal.width());
+      refuse_value(text.str(), driven_.width());
     }
-    signal = value;
+    driven_ = value;
   }
 
   const sc_core::sc_signal_in_if<U>& source_;
+  Signal<T>& driven_;
+};
+
+/// A signal of ours that follows one of SystemC, for our ports to read.
+template <class T, class U>
+class Follower : public Driver<T, U> {
+ public:
+  Follower(sc_core::sc_module_name name, const sc_core::sc_signal_in_if<U>& source)
+      : Driver<T, U>(name, source, signal) {}
+
+  Signal<T> signal{"signal"};
 };
 
 /// A signal of ours as one of SystemC of another type, for ports such as sc_in<sc_uint<10>>.

@@ -43,8 +43,8 @@ struct Rtl {
 
   /// Cells by type of the whole hierarchy, after synthesis for the 7 series.
   std::map<std::string, int> synthesise(const std::string& top) const {
-    const kit::Outcome outcome = yosys(
-        sources(), "synth_xilinx -family xc7 -top " + top + "; tee -o cells.txt stat");
+    const kit::Outcome outcome =
+        yosys(sources(), "synth_xilinx -family xc7 -top " + top + "; tee -o cells.txt stat");
     BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.out + outcome.err);
     std::string text = kit::read_file(folder / "cells.txt");
     const std::size_t whole = text.find("=== design hierarchy ===");
@@ -100,8 +100,8 @@ BOOST_AUTO_TEST_CASE(a_wrong_width_and_a_latch_are_noticed) {
   BOOST_TEST(elaborate({folder / "latch.sv"}, "latch").exit_code != 0);
 }
 
-// Line buffers are block RAM; boxes, free labels and the words that wait are distributed memory, not
-// thousands of registers.
+// Line buffers are block RAM; boxes, free labels and the words that wait are distributed memory,
+// not thousands of registers.
 BOOST_AUTO_TEST_CASE(memories_become_memories) {
   auto corner = synthesise("corner_detection");
   BOOST_TEST(corner["RAMB18E1"] + 2 * corner["RAMB36E1"] == 8);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <stdint.h>
+
+// What a shared object with Verilated RTL (cmake: markervp_add_rtl) says of itself: plain C, so
+// that it may be built with any compiler and Verilator.
+
+#define RTL_INTERFACE 1
+#define RTL_SYMBOL "markervp_rtl"
+
+struct RtlPort {
+  const char* name;
+  uint32_t bits;      // 1 to 64; kept in the smallest of 8, 16, 32 or 64 bits that holds them
+  int output;         // as the module sees it
+  const char* place;  // file:line
+};
+
+struct RtlParameter {
+  const char* name;
+  uint64_t value;
+};
+
+struct RtlDescriptor {
+  uint32_t interface;  // RTL_INTERFACE; the rest holds only if it is the same
+  const char* ip;      // the IP in whose place it stands
+  const char* top;     // its module
+  const char* place;   // file:line
+  uint32_t port_count;
+  const RtlPort* ports;
+  uint32_t parameter_count;
+  const RtlParameter* parameters;
+
+  void* (*create)(const char* name);
+  void (*destroy)(void* model);
+  void (*eval)(void* model);
+  void* (*pin)(void* model, uint32_t port);  // where the value of a port is kept
+};

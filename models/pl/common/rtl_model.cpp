@@ -1,0 +1,125 @@
+#include <pl/common/rtl_model.h>
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include <vp/error.h>
+
+namespace pl {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* rebuild = "build it with markervp_add_rtl() of this markervp";
+
+const RtlDescriptor& open(const std::string& file) {
+  const std::string whose = "RTL '" + file + "' ";
+  void* library = ::dlopen(fs::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) throw vp::InputError(whose + "cannot be loaded: " + ::dlerror());
+  void* symbol = ::dlsym(library, RTL_SYMBOL);
+  if (!symbol) throw vp::InputError(whose + "is none: it has no '" RTL_SYMBOL "'; " + rebuild);
+  const RtlDescriptor& rtl = *reinterpret_cast<const RtlDescriptor* (*)()>(symbol)();
+  if (rtl.interface != RTL_INTERFACE) {
+    throw vp::InputError(whose + "has interface " + std::to_string(rtl.interface) + ", this is " +
+                         std::to_string(RTL_INTERFACE) + ": " + rebuild);
+  }
+  return rtl;
+}
+
+std::string direction(bool output) {
+  return output ? "output" : "input";
+}
+
+std::string declaration(const std::string& name, unsigned bits, bool output) {
+  const std::string range = bits == 1 ? "" : "[" + std::to_string(bits - 1) + ":0] ";
+  return "'" + direction(output) + " logic " + range + name + "'";
+}
+
+}  // namespace
+
+RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::string& instance)
+    : file_(file),
+      ip_(ip),
+      rtl_(open(file)),
+      model_(rtl_.create(instance.c_str()), rtl_.destroy),
+      connected_(rtl_.port_count) {
+  if (rtl_.ip != ip)
+    refuse(rtl_.place, std::string("it was built as ") + rtl_.ip + "; set pl.fidelity." + rtl_.ip);
+}
+
+void RtlPins::clock(const char* name) {
+  clk_ = static_cast<std::uint8_t*>(pin(name, 1, false));
+}
+
+void RtlPins::parameter(const char* name, const std::string& key, std::uint64_t value) const {
+  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i) {
+    const RtlParameter& parameter = rtl_.parameters[i];
+    if (parameter.name != std::string(name) || parameter.value == value) continue;
+    refuse(rtl_.place, std::string(name) + " is " + std::to_string(parameter.value) + ", and " +
+                           key + " " + std::to_string(value) + ": build it with PARAMETERS " +
+                           name + "=" + std::to_string(value));
+  }
+}
+
+void RtlPins::complete() const {
+  for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
+    if (!connected_[i]) {
+      refuse(rtl_.ports[i].place, std::string("the IP has no port '") + rtl_.ports[i].name +
+                                      "': remove it from module '" + rtl_.top + "'");
+    }
+  }
+}
+
+std::string RtlPins::last_name(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+const RtlPort* RtlPins::find(const std::string& name) const {
+  for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
+    if (rtl_.ports[i].name == name) return &rtl_.ports[i];
+  }
+  return nullptr;
+}
+
+void* RtlPins::pin(const std::string& name, unsigned bits, bool output) {
+  const RtlPort* port = find(name);
+  const std::string wanted = declaration(name, bits, output);
+  if (!port) {
+    refuse(rtl_.place, std::string("module '") + rtl_.top + "' lacks the port '" + name +
+                           "': declare " + wanted);
+  }
+  if (port->bits != bits || (port->output != 0) != output) {
+    refuse(port->place, "port '" + name + "' is an " + direction(port->output != 0) + " of " +
+                            std::to_string(port->bits) + " bits: declare " + wanted);
+  }
+  const auto index = static_cast<std::uint32_t>(port - rtl_.ports);
+  connected_[index] = true;
+  return rtl_.pin(model_.get(), index);
+}
+
+void RtlPins::refuse(const std::string& place, const std::string& why) const {
+  throw vp::InputError("RTL '" + file_ + "' does not fit " + ip_ + ": " + place + ": " + why);
+}
+
+void RtlPins::store(void* place, unsigned bits, std::uint64_t value) {
+  if (bits <= 8) {
+    *static_cast<std::uint8_t*>(place) = static_cast<std::uint8_t>(value);
+  } else if (bits <= 16) {
+    *static_cast<std::uint16_t*>(place) = static_cast<std::uint16_t>(value);
+  } else if (bits <= 32) {
+    *static_cast<std::uint32_t*>(place) = static_cast<std::uint32_t>(value);
+  } else {
+    *static_cast<std::uint64_t*>(place) = value;
+  }
+}
+
+std::uint64_t RtlPins::load(const void* place, unsigned bits) {
+  if (bits <= 8) return *static_cast<const std::uint8_t*>(place);
+  if (bits <= 16) return *static_cast<const std::uint16_t*>(place);
+  if (bits <= 32) return *static_cast<const std::uint32_t*>(place);
+  return *static_cast<const std::uint64_t*>(place);
+}
+
+}  // namespace pl

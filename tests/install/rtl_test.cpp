@@ -1,0 +1,157 @@
+// RTL built outside of the tree, in place of models of the installed executable.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "installation.h"
+
+using namespace install_test;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Rtl {
+  std::string file(const std::string& ip) const {
+    installed.build(installed / "share/markervp/platform/rtl", "my_rtl");
+    return installed.beside("my_rtl/" + ip + ".so");
+  }
+  std::string setting(const std::string& ip) const { return "pl.fidelity." + ip + "=" + file(ip); }
+
+  Json run(const std::string& name, const Words& more) const {
+    Words arguments{"run", "--output", name, "--no-pictures", "--no-report"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const kit::Outcome outcome = installed.markervp(arguments);
+    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+    BOOST_TEST(outcome.err == "");
+    return Json::parse(kit::read_file(installed.beside(name + "/result.json")));
+  }
+
+  /// A module in place of the corner detection, of which `ports` and `body` are given, built with
+  /// `more` of the CMake function's arguments.
+  kit::Outcome configure(const std::string& name, const std::string& ports, const std::string& body,
+                         const std::string& more = "") const {
+    const std::string folder = installed.beside(name + "_source");
+    std::filesystem::create_directory(folder);
+    kit::write_file(folder + "/" + name + ".sv",
+                    "module " + name + "(\n" + ports + ");\n" + body + "\nendmodule\n");
+    kit::write_file(folder + "/CMakeLists.txt",
+                    "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+                    "find_package(markervp REQUIRED COMPONENTS rtl)\nmarkervp_add_rtl(" +
+                        name + " IP corner_detection TOP " + name + " SOURCES " + name + ".sv " +
+                        more + ")\n");
+    return installed.configure(folder, name);
+  }
+  /// How a run ends that loads it.
+  kit::Outcome load(const std::string& name, const std::string& ports,
+                    const std::string& body) const {
+    const kit::Outcome configured = configure(name, ports, body);
+    BOOST_TEST_REQUIRE(configured.exit_code == 0, configured.err);
+    const kit::Outcome built = installed.build_target(name, "all");
+    BOOST_TEST_REQUIRE(built.exit_code == 0, built.out + built.err);
+    return installed.markervp(
+        {"run", "--output", "never", "--set",
+         "pl.fidelity.corner_detection=" + installed.beside(name + "/" + name + ".so")});
+  }
+
+  const Installation& installed = Installation::get();
+};
+
+const std::string inputs =
+    "input logic clk,\ninput logic ena,\ninput logic rst,\ninput logic [7:0] pixel,\n"
+    "input logic [9:0] x,\ninput logic [8:0] y,\n";
+const std::string outputs = "output logic corner_out,\noutput logic [31:0] corner_data";
+const std::string nothing =
+    "assign corner_out = &{1'b0, clk, ena, rst, pixel, x, y};\n"
+    "assign corner_data = 0;";
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(rtl, Rtl)
+
+// Each among models of whole frames, and all of them together; Verilog and VHDL.
+BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
+  const Json models = run("models", {"demo", "z2.0"});
+  const Words detectors{"corner_detection", "global_threshold", "blob_detection"};
+  for (const std::string& ip : detectors) {
+    Words arguments{"demo", "z2.0", "--set", setting(ip)};
+    // The binary image goes from one to the other pixel by pixel.
+    if (ip == "global_threshold")
+      arguments.insert(arguments.end(), {"--set", "pl.fidelity.blob_detection=clocked"});
+    BOOST_TEST(run("rtl_" + ip, arguments)["frames"] == models["frames"], ip);
+  }
+  Words all{"demo", "z2.0"};
+  for (const std::string& ip : detectors) all.insert(all.end(), {"--set", setting(ip)});
+  BOOST_TEST(run("rtl_all", all)["frames"] == models["frames"]);
+}
+
+// `verilator --sc`, and a module that knows nothing of ours, at the pins.
+BOOST_AUTO_TEST_CASE(systemc_at_the_pins) {
+  installed.build(project("pins"), "pins");
+  const std::string design = installed.beside("pins/pins.so");
+  const Json models = run("without_pins", {"demo"});
+  const Json pins =
+      run("with_pins", {"demo", "--design", design, "--set", "pl.fidelity.corner_detection=pins"});
+  BOOST_TEST(pins["frames"] == models["frames"]);
+  BOOST_TEST(pins["summary"]["detected"] == 1);
+  const kit::Outcome told = installed.markervp(
+      {"run", "demo", "--design", design, "--output", "told", "--no-report", "--no-pictures"});
+  BOOST_TEST(contains(told.out, "pixels counted: 307200\n"), told.out);
+}
+
+BOOST_AUTO_TEST_CASE(ports_that_do_not_fit_are_named_with_file_and_line) {
+  const std::string narrow =
+      "input logic clk,\ninput logic ena,\ninput logic rst,\n"
+      "input logic [6:0] pixel,\ninput logic [9:0] x,\ninput logic [8:0] y,\n";
+  check_refused(load("narrow", narrow + outputs, nothing),
+                {"narrow.so", "corner_detection", "narrow.sv:5", "'pixel'", "7 bits",
+                 "'input logic [7:0] pixel'"});
+  check_refused(
+      load("lacking", inputs + "output logic corner_out",
+           "assign corner_out = &{1'b0, clk, ena, rst, pixel, x, y};"),
+      {"lacking.sv:1", "lacks the port 'corner_data'", "'output logic [31:0] corner_data'"});
+  check_refused(load("extra", inputs + "input logic debug,\n" + outputs,
+                     "assign corner_out = &{1'b0, clk, ena, rst, pixel, x, y, debug};\n"
+                     "assign corner_data = 0;"),
+                {"extra.sv:8", "no port 'debug'", "remove it"});
+}
+
+BOOST_AUTO_TEST_CASE(another_ip_another_size_and_no_rtl_are_refused) {
+  const auto refused = [this](const Words& settings) {
+    Words arguments{"run", "--output", "never"};
+    for (const std::string& setting : settings)
+      arguments.insert(arguments.end(), {"--set", setting});
+    return installed.markervp(arguments);
+  };
+  check_refused(refused({"pl.fidelity.corner_detection=" + file("blob_detection")}),
+                {"built as blob_detection", "pl.fidelity.blob_detection"});
+  check_refused(refused({setting("corner_detection"), "pl.corner_detection.threshold=40"}),
+                {"corner_detection.sv", "THRESHOLD is 30", "PARAMETERS THRESHOLD=40"});
+  check_refused(refused({setting("global_threshold"), "pl.fidelity.blob_detection=clocked",
+                         "pl.width=320 px"}),
+                {"WIDTH is 640", "pl.width", "PARAMETERS WIDTH=320"});
+  check_refused(refused({"pl.fidelity.corner_detection=./none.so"}),
+                {"none.so", "cannot be loaded"});
+  check_refused(
+      refused({"pl.fidelity.corner_detection=" + (installed / "lib/markervp/programs/hybrid.so")}),
+      {"hybrid.so", "is none", "markervp_add_rtl"});
+}
+
+BOOST_AUTO_TEST_CASE(what_verilator_refuses_is_told_when_it_is_configured) {
+  const auto refused = [](const kit::Outcome& outcome, const Words& parts) {
+    BOOST_TEST(outcome.exit_code != 0);
+    for (const std::string& part : parts) BOOST_TEST(contains(outcome.err, part), outcome.err);
+  };
+  refused(configure("wrong", inputs + outputs, "assign corner_out = nobody;"),
+          {"wrong.sv:10", "nobody", "markervp_add_rtl(wrong)", "mend"});
+  refused(configure("latch", inputs + outputs,
+                    "always_comb if (ena) corner_out = clk ^ rst ^ ^pixel ^ ^x ^ ^y;\n"
+                    "assign corner_data = 0;"),
+          {"latch.sv:10", "atch", "mend"});
+  refused(configure("top", inputs + outputs, nothing, "TOP another"), {"another", "mend"});
+  refused(configure("missing", inputs + outputs, nothing, "missing_too.sv"),
+          {"there is no file", "missing_too.sv"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
