@@ -4,12 +4,12 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <report/words.h>
+#include <report/console.h>
 #include <sweep/compare.h>
 #include <sweep/pareto.h>
+#include <sweep/results.h>
 #include <sweep/sensitivity.h>
-#include <sweep/summary.h>
-#include <sweep/text_table.h>
+#include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 

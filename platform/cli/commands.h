@@ -7,7 +7,7 @@
 
 #include <cli/options.h>
 #include <cli/simulation.h>
-#include <report/result_document.h>
+#include <report/result_json.h>
 
 namespace CLI {
 class App;
@@ -63,7 +63,8 @@ int list_clocks(const ClocksOptions& options, std::ostream& out);
 /// Prints the coefficients of the power model.
 int print_power_table(const PowerTableOptions& options, std::ostream& out);
 
-/// Prints what the design of options.design takes. Throws vp::InputError for figures that cannot be.
+/// Prints what the design of options.design takes. Throws vp::InputError for figures that cannot
+/// be.
 int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
 
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.

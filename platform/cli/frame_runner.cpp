@@ -5,7 +5,7 @@
 
 #include <cli/interrupt.h>
 #include <host/standard_streams.h>
-#include <picture/annotate.h>
+#include <picture/picture.h>
 #include <report/console.h>
 #include <vp/error.h>
 

@@ -12,7 +12,7 @@
 #include <host/output_folder.h>
 #include <input/frame_source.h>
 #include <page/run_extras.h>
-#include <report/result_sink.h>
+#include <report/result_writer.h>
 #include <vp/progress.h>
 
 namespace platform::cli {

@@ -3,8 +3,7 @@
 #include <ostream>
 
 #include <cli/commands.h>
-#include <cli/map_fields.h>
-#include <cli/map_markdown.h>
+#include <cli/map.h>
 #include <cli/program.h>
 #include <vp/error.h>
 #include <vp/text.h>

@@ -2,9 +2,9 @@
 
 #include <ostream>
 
-#include <cli/version.h>
-#include <sweep/identity_parts.h>
-#include <sweep/point_file.h>
+#include <cli/provenance.h>
+#include <sweep/identity.h>
+#include <sweep/point.h>
 #include <vp/error.h>
 
 namespace platform::cli {

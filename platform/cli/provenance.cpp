@@ -1,11 +1,22 @@
-#include <cli/provenance.h>
-
 #include <unistd.h>
 
-#include <cli/version.h>
+#include <cli/provenance.h>
 #include <report/utc_time.h>
 
 namespace platform::cli {
+
+std::string program_version() {
+  return MARKERVP_VERSION;
+}
+
+std::string source_revision() {
+  return MARKERVP_REVISION;
+}
+
+std::string version_text() {
+  const std::string revision = source_revision();
+  return "markervp " + program_version() + (revision.empty() ? "" : " (" + revision + ")");
+}
 
 namespace {
 

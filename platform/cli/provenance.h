@@ -9,6 +9,13 @@
 
 namespace platform::cli {
 
+/// "0.1.0".
+std::string program_version();
+/// The state of the sources as git described it when the build was configured; may be empty.
+std::string source_revision();
+/// What --version prints.
+std::string version_text();
+
 /// Where a run's result comes from: program, command line, host, now.
 report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
                               const vp::Configuration& configuration);

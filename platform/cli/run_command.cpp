@@ -21,7 +21,6 @@
 #include <page/run_extras.h>
 #include <report/console.h>
 #include <report/result_writer.h>
-#include <report/words.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
 

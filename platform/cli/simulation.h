@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <input/frame_source.h>
 #include <input/image_file.h>
-#include <input/input_frame.h>
 #include <report/hardware_map.h>
 #include <report/result.h>
 #include <report/timeline.h>

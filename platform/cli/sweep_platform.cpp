@@ -7,12 +7,12 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <cli/provenance.h>
 #include <cli/run_child.h>
-#include <cli/version.h>
 #include <designs/designs.h>
-#include <input/kept_scenes.h>
+#include <input/frame_source.h>
 #include <run/program_file.h>
-#include <sweep/parameter_table.h>
+#include <sweep/axes.h>
 #include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <vp/text.h>

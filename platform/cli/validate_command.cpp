@@ -9,10 +9,9 @@
 #include <host/output_folder.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
-#include <validation/console.h>
-#include <validation/markdown.h>
 #include <validation/plots.h>
 #include <validation/result_files.h>
+#include <validation/words.h>
 #include <vp/output_file.h>
 
 namespace platform::cli {

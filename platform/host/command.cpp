@@ -1,5 +1,3 @@
-#include <host/command.h>
-
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -8,6 +6,9 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+
+#include <host/command.h>
+#include <vp/output_file.h>
 
 namespace platform::host {
 
@@ -70,6 +71,21 @@ CommandEnd run_command(const std::vector<std::string>& arguments) {
 std::string shell_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+CommandEnd draw_with_gnuplot(const std::string& file, const std::string& script) {
+  vp::OutputFile plot(file, vp::OutputFile::By::name);
+  const vp::PartFile commands(plot.part() + ".gnuplot");
+  vp::write_file(commands.path(), "set output " + gnuplot_quoted(plot.part()) + "\n" + script);
+  CommandEnd end = run_command({"gnuplot", commands.path()});
+  if (end.exit_code == 0) plot.commit();
+  return end;
+}
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
   return result + "'";
 }
 

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <input/input_frame.h>
-#include <input/input_options.h>
+#include <input/input_list.h>
+#include <scene/camera.h>
+#include <scene/grey_image.h>
+#include <scene/scene.h>
 
 namespace platform::input {
+
+/// One image as the platform takes it: of the platform's resolution, with the camera that saw it.
+struct InputFrame {
+  std::string
+      name;  ///< scene, file ("photo.png") or file and picture number ("clip.avi#12"); no folders
+  GreyImage image;
+  Camera camera;
+  std::optional<GroundTruth> truth;  ///< of scenes
+};
 
 /// Frames one after the other, in memory that does not grow with their number.
 class FrameSource {
@@ -35,5 +47,14 @@ class FrameSource {
 /// folder), a folder without images, or a video without frames.
 std::unique_ptr<FrameSource> open_inputs(const std::vector<std::string>& inputs,
                                          const InputOptions& options);
+
+/// Renders the scenes among these inputs now, once, for this process and those that it forks:
+/// rendering takes longer than simulating a frame. Stops when those kept fill `most_bytes`; others
+/// are rendered when they are needed. Throws vp::InputError for an unknown input.
+void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& options,
+                 std::size_t most_bytes);
+
+/// A kept scene as that camera sees it; null if it was not kept.
+const InputFrame* kept_scene(const std::string& name, const Camera& camera);
 
 }  // namespace platform::input

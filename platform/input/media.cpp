@@ -1,11 +1,11 @@
-#include <input/media.h>
-
 #include <dlfcn.h>
 
 #include <cstdlib>
 #include <filesystem>
 
+#include <input/image_file.h>
 #include <input/library_folder.h>
+#include <input/media.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -16,13 +16,13 @@ namespace platform::input {
 
 namespace {
 
-constexpr const char* file_name = "libmarkervp_media.so";
+constexpr const char* plugin_name = "libmarkervp_media.so";
 
 }  // namespace
 
 const Media& load_media(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
-    const std::string path = (std::filesystem::path(folder) / file_name).string();
+    const std::string path = (std::filesystem::path(folder) / plugin_name).string();
     if (!std::filesystem::exists(path)) continue;
     // imgcodecs reads its limit once, when it is loaded.
     ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(most_pixels).c_str(), 1);
@@ -39,13 +39,25 @@ const Media& load_media(const std::vector<std::string>& folders) {
     }
     return *entry();
   }
-  throw vp::InputError("image and video files cannot be read: " + std::string(file_name) +
+  throw vp::InputError("image and video files cannot be read: " + std::string(plugin_name) +
                        " is missing in " + vp::one_of(folders) + "; install markervp completely");
 }
 
 const Media& media() {
   static const Media& loaded = load_media(library_folders());
   return loaded;
+}
+
+std::unique_ptr<VideoStream> open_video(const std::string& path) {
+  require_regular_file(path);
+  Decoded<std::unique_ptr<VideoStream>> video = media().open_video(path);
+  const Unreadable* fault = std::get_if<Unreadable>(&video);
+  if (fault == nullptr) return std::get<std::unique_ptr<VideoStream>>(std::move(video));
+  if (*fault == Unreadable::too_large) {
+    throw vp::InputError("video '" + path + "' has pictures of " + too_many_pixels);
+  }
+  throw vp::InputError("'" + path + "' is neither an image nor a video that can be read: " +
+                       "convert it to PNG or AVI");
 }
 
 }  // namespace platform::input

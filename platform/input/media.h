@@ -58,6 +58,10 @@ const Media& media();
 /// The same from the first of `folders` that has it, without remembering it.
 const Media& load_media(const std::vector<std::string>& folders);
 
+/// Opens a video file. Throws vp::InputError if it is no regular file, no video that can be read,
+/// or has pictures of more than most_pixels.
+std::unique_ptr<VideoStream> open_video(const std::string& path);
+
 }  // namespace platform::input
 
 /// The plug-in's entry point.

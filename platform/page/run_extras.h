@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <report/result.h>
@@ -9,6 +10,9 @@
 #include <vp/configuration.h>
 
 namespace platform::page {
+
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
 
 /// What the page of a run shows besides result.json: images with their features, and what the
 /// parameters mean. Memory does not grow with the number of frames.

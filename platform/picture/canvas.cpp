@@ -4,8 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include <picture/palette.h>
-
 namespace platform::picture {
 
 namespace {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include <report/result_parts.h>
+#include <report/result_json.h>
 
 namespace platform::report {
 

@@ -7,10 +7,27 @@
 #include <vector>
 
 #include <host/output_folder.h>
-#include <report/result_sink.h>
+#include <report/result.h>
+#include <report/summary.h>
 #include <vp/output_file.h>
 
 namespace platform::report {
+
+/// Where a run's results go, frame by frame and in the end.
+class ResultSink {
+ public:
+  virtual ~ResultSink() = default;
+
+  virtual void add(const FrameReport& frame) = 0;
+  /// `warnings` are those of the whole run.
+  virtual void finish(const RunFacts& facts, const Provenance& provenance,
+                      const std::vector<std::string>& warnings) = 0;
+
+  const Summary& summary() const { return summary_; }
+
+ protected:
+  Summary summary_;
+};
 
 /// Writes `result.json`, schema 1, in memory that does not grow with the number of frames: frames
 /// wait in a file without a name until the header is known. The result appears under its name when

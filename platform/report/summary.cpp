@@ -1,10 +1,39 @@
-#include <report/summary.h>
-
+#include <Eigen/Core>
 #include <algorithm>
 
-#include <report/error_measure.h>
+#include <report/summary.h>
 
 namespace platform::report {
+
+MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth) {
+  MarkerError error;
+  for (std::size_t i = 0; i < found.corners_px.size(); ++i) {
+    const PixelPoint &a = found.corners_px[i], &b = truth.corners_px[i];
+    error.corner_px += Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() / 4;
+  }
+  if (found.has_pose) {
+    error.translation_mm = translation_error_mm(found.pose, truth.pose);
+    error.rotation_deg = rotation_error_deg(found.pose, truth.pose);
+  }
+  return error;
+}
+
+const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found) {
+  return frame.truth && frame.truth->marker_id == found.id ? &*frame.truth : nullptr;
+}
+
+std::vector<vp::Interval> FramePeriods::next(const FrameReport& frame) {
+  std::vector<vp::Interval> period;
+  if (end_ps_) {
+    const std::uint64_t upload = frame.start_ps - std::min(frame.start_ps, frame.upload_ps);
+    period.push_back({*end_ps_, std::max(*end_ps_, upload)});
+    period.push_back({std::max(*end_ps_, frame.start_ps), frame.end_ps});
+  } else {
+    period.push_back({frame.start_ps, frame.end_ps});
+  }
+  end_ps_ = frame.end_ps;
+  return period;
+}
 
 bool has_parts(const std::vector<StageTime>& stages, const std::string& stage) {
   return std::any_of(stages.begin(), stages.end(),

@@ -1,13 +1,43 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <report/frame_period.h>
 #include <report/result.h>
+#include <vp/power_meter.h>
 
 namespace platform::report {
+
+/// Distance of a found marker from the truth.
+struct MarkerError {
+  double corner_px = 0;       ///< mean distance of the four corners
+  double translation_mm = 0;  ///< distance of the translations
+  double rotation_deg = 0;    ///< angle of the rotation between the two
+};
+
+/// Translation and rotation are meaningless for a marker without pose.
+MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth);
+
+/// The truth of this marker: null if none is known or the marker is another one.
+const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found);
+
+/// Cuts a run into the periods of its frames, for whoever divides by time: the frame rate and the
+/// power use the same ones.
+///
+/// A period reaches from the end of the frame before it (its own start, for the first) to its own
+/// end, without the time in which its image was only uploaded (thesis 5.5: images are preloaded).
+class FramePeriods {
+ public:
+  /// The period of the next frame, in order of time.
+  std::vector<vp::Interval> next(const FrameReport& frame);
+  /// End of the last frame; 0 before the first.
+  std::uint64_t end_ps() const { return end_ps_.value_or(0); }
+
+ private:
+  std::optional<std::uint64_t> end_ps_;
+};
 
 constexpr double ps_per_us = 1e6;
 constexpr double ps_per_s = 1e12;

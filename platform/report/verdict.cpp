@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include <report/words.h>
+#include <report/console.h>
 #include <vp/text.h>
 
 namespace platform::report {

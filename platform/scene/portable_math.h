@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace platform {
 
 /// The few functions that the renderer needs, from + - * / alone: libm's may differ in the last bit
@@ -23,5 +25,32 @@ SinCos portable_sin_cos_degrees(double degrees);
 /// Sine and cosine of a fraction of a full turn, [0, 1]. Absolute error below 1e-15; exact at
 /// quarters.
 SinCos portable_sin_cos_turn(double turn);
+
+/// SplitMix64 (Steele, Lea, Flood 2014): 64 random bits a call, the same on every host.
+class RandomBits {
+ public:
+  explicit RandomBits(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next();
+
+  /// Uniform in (0, 1], in steps of 2^-53: never 0, so that its logarithm exists.
+  double next_unit();
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Normal numbers of mean 0 and deviation 1 by the Box-Muller transform, which makes them in pairs.
+class GaussianNoise {
+ public:
+  explicit GaussianNoise(std::uint64_t seed) : bits_(seed) {}
+
+  double next();
+
+ private:
+  RandomBits bits_;
+  double spare_ = 0;
+  bool has_spare_ = false;
+};
 
 }  // namespace platform

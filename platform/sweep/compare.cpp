@@ -5,8 +5,8 @@
 #include <set>
 
 #include <host/document.h>
-#include <sweep/point_file.h>
-#include <sweep/text_table.h>
+#include <sweep/point.h>
+#include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <sweep/results.h>
-#include <sweep/run_log.h>
+#include <sweep/store.h>
 
 namespace platform::sweep {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <sweep/manifest.h>
-#include <sweep/outcome.h>
+#include <sweep/point.h>
 #include <sweep/store.h>
 
 namespace platform::sweep {

@@ -15,11 +15,11 @@
 #include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/run_child.h>
-#include <page/sweep_block.h>
+#include <page/report_page.h>
 #include <sweep/engine.h>
-#include <sweep/point_worker.h>
-#include <sweep/run_log.h>
+#include <sweep/store.h>
 #include <sweep/words.h>
+#include <sweep/worker.h>
 #include <vp/output_file.h>
 
 namespace platform::sweep {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <sweep/content_hash.h>
+#include <sweep/identity.h>
 #include <vp/error.h>
 
 namespace platform::sweep {

@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,25 @@ class MetricsReader {
   Metrics::Names paths_;            ///< of the result before, as they were found
   std::vector<std::size_t> order_;  ///< places of the values in `before_`, by path
   Metrics before_;
+};
+
+/// Which of the figures that a sweep asks for do not exist. What figures there are, only results
+/// tell.
+class FigureNames {
+ public:
+  explicit FigureNames(const Manifest& manifest);
+
+  /// What to say of those that the first result does not have; nothing of later results. Figures of
+  /// frames may be in another: they depend on what was found.
+  std::vector<std::string> missing_in_first(const Metrics& result);
+  /// What to say of those that no result has, whose names are these, sorted.
+  std::vector<std::string> missing_in_all(const Metrics::Names& known) const;
+
+ private:
+  std::vector<std::string> missing(const Metrics::Names& known) const;
+
+  std::set<std::string> asked_;
+  bool seen_ = false;
 };
 
 }  // namespace platform::sweep

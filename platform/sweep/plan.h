@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <sweep/axes.h>
 #include <sweep/manifest.h>
-#include <sweep/parameter_table.h>
 #include <sweep/spec.h>
 
 namespace platform::sweep {

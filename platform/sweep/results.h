@@ -7,10 +7,9 @@
 #include <vector>
 
 #include <report/verdict.h>
+#include <sweep/axes.h>
 #include <sweep/expression.h>
-#include <sweep/outcome.h>
-#include <sweep/parameter_table.h>
-#include <sweep/point_file.h>
+#include <sweep/point.h>
 #include <sweep/store.h>
 
 namespace platform::sweep {
@@ -67,5 +66,16 @@ const std::string* missing_in(const ResultRow& row, const Expression& expression
 
 /// What a name means for a point that has it: a metric, a parameter, or system and inputs.
 Value value_in(const ResultRow& row, const std::string& name);
+
+/// One line a point: key, status, message, the swept parameters, the metrics.
+std::string results_csv(const Results& results);
+
+/// How many points are feasible, and how many fail each part of the verdict: "3 of 12 points
+/// feasible; 2 did not run, 7 miss timing".
+std::string verdicts_text(const Results& results);
+
+/// What a sweep found, for a terminal: a table of points (at most `most_rows`), what failed and
+/// why, and the sweep's own text.
+std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 
 }  // namespace platform::sweep

@@ -5,9 +5,8 @@
 #include <map>
 #include <optional>
 
-#include <sweep/csv_line.h>
-#include <sweep/summary.h>
-#include <sweep/text_table.h>
+#include <sweep/results.h>
+#include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

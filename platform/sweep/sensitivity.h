@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <sweep/objective.h>
+#include <sweep/pareto.h>
 #include <sweep/results.h>
 
 namespace platform::sweep {

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include <trace/stepper.h>
+#include <trace/replay.h>
 #include <vp/error.h>
 #include <vp/wave_expression.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <trace/replay.h>
-#include <trace/stepper.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 

@@ -83,4 +83,106 @@ class Replay final : public vp::WaveValues, private vp::WaveHandler {
   std::vector<Slot> changed_;
 };
 
+/// Reads a trace one instant at a time, for those who read two.
+class Stepper final : private vp::WaveHandler {
+ public:
+  struct Change {
+    std::uint32_t net;
+    std::string text;  ///< of bits without leading zeros
+  };
+
+  explicit Stepper(TraceFile& file) : file_(file) {}
+
+  /// False: the trace is over. Throws vp::InputError.
+  bool next() {
+    changes_.clear();
+    if (over_) return false;
+    now_ps_ = next_ps_;
+    stopped_ = false;
+    file_.reader().read(*this);
+    over_ = !stopped_;
+    return started_;
+  }
+  std::uint64_t now_ps() const { return now_ps_; }
+  const std::vector<Change>& changes() const { return changes_; }
+
+ private:
+  bool at(std::uint64_t ps) override {
+    next_ps_ = ps;
+    if (!started_) {
+      started_ = true;
+      now_ps_ = ps;
+      return true;
+    }
+    stopped_ = true;
+    return false;
+  }
+  void change(std::uint32_t net, const vp::WaveValue& value) override {
+    std::string_view text = value.text;
+    if (value.kind == vp::WaveVariable::Kind::bits) {
+      while (text.size() > 1 && text[0] == '0' && text[1] <= '1') text.remove_prefix(1);
+      while (text.size() > 1 && text[0] == text[1] && text[0] != '0' && text[0] != '1') {
+        text.remove_prefix(1);
+      }
+    }
+    changes_.push_back({net, std::string(text)});
+  }
+
+  TraceFile& file_;
+  bool started_ = false, stopped_ = false, over_ = false;
+  std::uint64_t now_ps_ = 0, next_ps_ = 0;
+  std::vector<Change> changes_;
+};
+
+/// A value for people: vectors in hexadecimal, the rest as it is.
+std::string readable(const std::string& text, vp::WaveVariable::Kind kind, unsigned width);
+
+/// Counts the edges of a clock up to now: of its wire, if it is in the trace, else of a frequency:
+/// edge n falls at round(n · 10¹² / f) ps, as everywhere in the platform.
+class SampleClock {
+ public:
+  /// `hertz` counts only if the trace has no wire called `path`.
+  SampleClock(Replay& replay, TraceFile& file, const std::string& path, std::uint64_t hertz)
+      : replay_(replay), hertz_(hertz) {
+    const int variable = file.find(path);
+    if (variable >= 0) wire_ = replay.watch(static_cast<std::uint32_t>(variable));
+  }
+
+  bool has_wire() const { return wire_.has_value(); }
+  std::uint64_t hertz() const { return hertz_; }
+
+  /// In every instant, before edges().
+  void instant(std::uint64_t ps) {
+    if (!wire_) {
+      // The last n with n · 10¹² / f < ps + 1/2.
+      constexpr unsigned __int128 twice = 2'000'000'000'000;
+      const auto scaled = (static_cast<unsigned __int128>(ps) * 2 + 1) * hertz_;
+      edges_ = static_cast<std::uint64_t>((scaled + twice - 1) / twice) - (hertz_ != 0 ? 1 : 0);
+      return;
+    }
+    const bool high = replay_.known(*wire_) && replay_.bits(*wire_) != 0;
+    const bool was_high = replay_.was_known(*wire_) && replay_.bits_before(*wire_) != 0;
+    edges_ += high && !was_high && replay_.was_known(*wire_);
+    if (high && !was_high) last_edge_ps_ = ps;
+    on_edge_ = last_edge_ps_ == ps;
+  }
+  std::uint64_t edges() const { return edges_; }
+
+  /// True if an edge falls on `ps`, the present instant.
+  bool falls_on(std::uint64_t ps) const {
+    if (wire_) return on_edge_;
+    constexpr unsigned __int128 second = 1'000'000'000'000;
+    const auto place = (static_cast<unsigned __int128>(edges_) * second + hertz_ / 2) / hertz_;
+    return static_cast<std::uint64_t>(place) == ps;
+  }
+
+ private:
+  Replay& replay_;
+  std::optional<Replay::Slot> wire_;
+  std::uint64_t hertz_;
+  std::uint64_t edges_ = 0;
+  std::uint64_t last_edge_ps_ = ~std::uint64_t{0};
+  bool on_edge_ = false;
+};
+
 }  // namespace platform::trace

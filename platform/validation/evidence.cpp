@@ -1,10 +1,14 @@
-#include <validation/evidence.h>
-
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
+#include <string>
 
-#include <validation/measures.h>
+#include <scene/catalogue.h>
+#include <scene/portable_math.h>
+#include <scene/renderer.h>
+#include <validation/evidence.h>
+#include <validation/measured.h>
 
 namespace platform::validation {
 
@@ -83,6 +87,83 @@ std::optional<TurnStudy> study_turns(const Measured& measured, double published_
   study.growth = 1 + (corner_growth->value - 1) * study.factor;
   study.deviation_ms = corner->spread.value_or(0) * study.factor;
   return study;
+}
+
+namespace {
+
+constexpr std::array<const char*, 7> ps_stages{
+    "corner_detection", "threshold", "blob_detection", "receive", "evaluation",
+    "identification",   "pose"};
+constexpr std::array<const char*, 3> on_the_pl_or_ps{"corner_detection", "threshold",
+                                                     "blob_detection"};
+
+/// FNV-1a.
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const unsigned char character : text) hash = (hash ^ character) * 0x100000001B3u;
+  return hash;
+}
+
+void repeat(Frame& frame, const std::string& system, std::uint32_t repetitions) {
+  GaussianNoise noise(seed_of(system + " " + frame.input));
+  double ps = 0, pl = 0;
+  for (std::uint32_t i = 0; i < repetitions; ++i) {
+    ps += noise.next() * ps_jitter_us / repetitions;
+    pl += noise.next() * pl_jitter_us / repetitions;
+  }
+  auto& times = frame.times_us;
+  double ps_time = 0, extraction = 0;
+  for (const char* stage : ps_stages) {
+    if (times.count(stage) != 0) ps_time += times[stage];
+  }
+  for (const char* stage : ps_stages) {
+    if (times.count(stage) == 0 || ps_time == 0) continue;
+    const double change = ps * times[stage] / ps_time;
+    times[stage] += change;
+    const auto feature = std::find_if(on_the_pl_or_ps.begin(), on_the_pl_or_ps.end(),
+                                      [&](const char* name) { return std::string(name) == stage; });
+    if (feature != on_the_pl_or_ps.end()) extraction += change;
+  }
+  const bool all_on_ps = times.count("capture") != 0;
+  times["feature_extraction"] += all_on_ps ? extraction : pl;
+  times["frame"] += all_on_ps ? ps : ps + pl;
+}
+
+}  // namespace
+
+Run repeated(const Run& run, std::uint32_t repetitions) {
+  Run result = run;
+  if (repetitions < 2) return result;
+  for (Frame& frame : result.frames) repeat(frame, run.system, repetitions);
+  return result;
+}
+
+std::uint64_t count_dark(const GreyImage& image, std::uint32_t threshold) {
+  const auto dark = std::count_if(image.pixels.begin(), image.pixels.end(),
+                                  [&](std::uint8_t pixel) { return pixel <= threshold; });
+  return static_cast<std::uint64_t>(dark);
+}
+
+std::uint64_t count_evaluated(const GreyImage& image, int threshold) {
+  constexpr int radius = 3;
+  std::uint64_t count = 0;
+  for (int y = radius; y < image.height - radius; ++y) {
+    for (int x = radius; x < image.width - radius; ++x) {
+      const int limit = image.at(x, y) + threshold;
+      const bool vertical = image.at(x, y - radius) > limit || image.at(x, y + radius) > limit;
+      if (vertical && (image.at(x - radius, y) > limit || image.at(x + radius, y) > limit)) ++count;
+    }
+  }
+  return count;
+}
+
+std::vector<ImageWork> image_work(const std::vector<const Frame*>& frames, int corner_threshold) {
+  std::vector<ImageWork> work;
+  for (const Frame* frame : frames) {
+    const GreyImage image = render(make_scene(frame->input));
+    work.push_back({count_dark(image, frame->threshold), count_evaluated(image, corner_threshold)});
+  }
+  return work;
 }
 
 }  // namespace platform::validation

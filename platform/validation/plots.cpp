@@ -1,11 +1,92 @@
-#include <validation/plots.h>
-
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <stdexcept>
 
+#include <host/command.h>
+#include <validation/plots.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
 namespace platform::validation {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int panel_width = 430, panel_height = 310;  // px
+
+/// Line styles 1 to 6: colours that people with any colour vision can tell apart (Okabe and Ito
+/// 2008), each with a point of its own. Style 9: what the thesis prints.
+constexpr const char* styles = R"(
+set style line 1 lc rgb '#0072B2' lw 2 pt 7 ps 0.6
+set style line 2 lc rgb '#D55E00' lw 2 pt 5 ps 0.6
+set style line 3 lc rgb '#009E73' lw 2 pt 9 ps 0.7
+set style line 4 lc rgb '#E69F00' lw 2 pt 13 ps 0.8
+set style line 5 lc rgb '#CC79A7' lw 2 pt 11 ps 0.7
+set style line 6 lc rgb '#56B4E9' lw 2 pt 4 ps 0.7
+set style line 9 lc rgb '#333333' lw 1.5 dt (8,5) pt 2 ps 1
+set style fill solid 0.9 noborder
+set border 3 lc rgb '#666666'
+set tics nomirror out scale 0.5
+set grid ytics lc rgb '#DDDDDD' lw 1 dt 1
+set key top left samplen 2 spacing 1.1
+)";
+
+/// What every panel begins with: the one before may have changed it.
+constexpr const char* fresh = R"(
+unset label
+unset arrow
+unset logscale
+set style data points
+set xtics autofreq norotate
+set ytics autofreq
+set autoscale
+set offsets 0, 0, 0, 0
+set key top left Left reverse
+)";
+
+}  // namespace
+
+PlotScript::PlotScript(int columns, int rows) : columns_(columns), rows_(rows) {}
+
+void PlotScript::data(const std::string& name, const std::vector<std::vector<double>>& rows) {
+  data_ += "$" + name + " << EOD\n";
+  for (const std::vector<double>& row : rows) {
+    std::vector<std::string> cells;
+    for (const double value : row) cells.push_back(vp::format_fixed(value, 6));
+    data_ += vp::join(cells, " ") + "\n";
+  }
+  data_ += "EOD\n";
+}
+
+void PlotScript::panel(const std::string& title, const std::string& x_label,
+                       const std::string& y_label, const std::string& commands) {
+  panels_ += fresh;
+  panels_ += "set title " + host::gnuplot_quoted(title) + "\nset xlabel " +
+             host::gnuplot_quoted(x_label) + "\nset ylabel " + host::gnuplot_quoted(y_label) +
+             "\n" + commands + "\n";
+}
+
+std::string PlotScript::text() const {
+  const std::string size = fmt::format("{},{}", columns_ * panel_width, rows_ * panel_height);
+  return fmt::format("set terminal svg size {} dynamic font 'sans-serif,12' background '#FFFFFF'\n",
+                     size) +
+         "set encoding utf8\n" + data_ + styles +
+         fmt::format("set multiplot layout {},{}\n", rows_, columns_) + panels_ +
+         "unset multiplot\n";
+}
+
+bool draw(const Plot& plot, const fs::path& folder) {
+  const host::CommandEnd end =
+      host::draw_with_gnuplot((folder / (plot.name + ".svg")).string(), plot.script);
+  if (end.exit_code == host::no_such_command) return false;
+  if (end.exit_code != 0) {
+    throw vp::InputError("gnuplot could not draw '" + plot.name +
+                         "': " + std::string(vp::trim(end.out)));
+  }
+  return true;
+}
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <validation/row_rules.h>
 
-#include <validation/jitter.h>
-#include <validation/measures.h>
+#include <validation/evidence.h>
+#include <validation/measured.h>
 
 namespace platform::validation {
 

@@ -2,15 +2,67 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <profiles/cost_profile.h>
 #include <validation/evidence.h>
-#include <validation/judgement.h>
 #include <validation/measured.h>
+#include <validation/published.h>
+#include <validation/row_rules.h>
 
 namespace platform::validation {
+
+/// Timing rows must be this near the published value, %.
+inline constexpr double band_percent = 5;
+
+/// What a published value was to the model.
+enum class Use {
+  calibration,  ///< a constant of the profile was fitted to it
+  follows,      ///< plain sum, difference or ratio of such values
+  taken,        ///< put in as data
+  predicted,
+};
+
+enum class Verdict {
+  met,          ///< within the band
+  met_rounded,  ///< within the band of a value that the thesis would print the same
+  known_miss,   ///< off for a known reason, by as much as that reason explains
+  missed,
+  explained,  ///< an accuracy
+  absent,     ///< not modelled by this run
+  given,      ///< an input
+};
+
+/// A published value and what became of it.
+struct Row {
+  Published published;
+  Kind kind = Kind::timing;
+  std::string how;
+  std::optional<Measurement> modelled;
+  double difference_percent = 0;  ///< of the value as printed
+  Use use = Use::predicted;
+  Verdict verdict = Verdict::missed;
+  std::string reason;  ///< empty for rows that are met
+};
+
+/// All rows, in the table's order. `fitted_to`: IDs of the values that the profile was fitted to.
+/// Throws vp::InputError for a published value that there is no rule for.
+std::vector<Row> judge_rows(const std::vector<Published>& published, const Measured& measured,
+                            const std::set<std::string>& fitted_to);
+
+/// A condition of the verdict.
+struct Gate {
+  std::string name;
+  bool passed = false;
+  std::string text;  ///< with the numbers
+};
+
+/// The conditions: rows, detections, and that both systems found the same.
+std::vector<Gate> judge_gates(const std::vector<Row>& rows, const Measured& measured);
+
+bool all_passed(const std::vector<Gate>& gates);
 
 /// Everything that the report says.
 struct Validation {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include <validation/judgement.h>
+#include <validation/plots.h>
 #include <validation/validation.h>
 
 /// Phrases that console, files and the page of the documentation share.
+
 namespace platform::validation {
 
 /// "12.16 x", "6144.63 us"; percent and numbers without unit have none of their own.
@@ -27,5 +29,12 @@ std::string turn_text(const TurnStudy& study);
 
 /// "validation passed: …" or "validation FAILED: …", with the gates that failed.
 std::string verdict_line(const Validation& validation);
+
+/// The whole report for a terminal: every row, the reasons, the gates and the verdict.
+std::string console_text(const Validation& validation);
+
+/// The page docs/validation.md. Its pictures are expected in `pictures`, relative to it.
+std::string markdown_text(const Validation& validation, const std::vector<Plot>& plots,
+                          const std::string& pictures);
 
 }  // namespace platform::validation

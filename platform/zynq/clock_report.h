@@ -1,6 +1,6 @@
 #pragma once
 
-#include <report/design_report.h>
+#include <report/result.h>
 #include <zynq/power_options.h>
 #include <zynq/power_states.h>
 #include <zynq/zynq.h>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <hal/hal.h>
-#include <input/input_frame.h>
+#include <input/frame_source.h>
 #include <ps/cpu/test_bench.h>
 #include <report/result.h>
 #include <vp/report.h>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <device/device.h>
-#include <report/design_report.h>
+#include <report/result.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include <power/power_table.h>
-#include <report/design_report.h>
-#include <report/frame_period.h>
 #include <report/result.h>
+#include <report/summary.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
 #include <zynq/parts.h>

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <input/input_frame.h>
+#include <input/frame_source.h>
 #include <report/result.h>
 
 namespace integration {

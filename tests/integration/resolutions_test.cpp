@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include <report/error_measure.h>
-#include <scene/noise.h>
+#include <report/summary.h>
+#include <scene/portable_math.h>
 #include <vp/error.h>
 
 #include "platform_run.h"

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <report/error_measure.h>
+#include <report/summary.h>
 #include <scene/catalogue.h>
 
 #include "platform_run.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <sweep/point_file.h>
+#include <sweep/point.h>
 
 #include "sweeps.h"
 

@@ -1,4 +1,4 @@
-#include <cli/map_fields.h>
+#include <cli/map.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
 

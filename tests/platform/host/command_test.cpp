@@ -1,5 +1,4 @@
 #include <host/command.h>
-#include <host/gnuplot.h>
 
 #include <boost/test/unit_test.hpp>
 #include <csignal>

@@ -1,4 +1,3 @@
-#include <host/file_lock.h>
 #include <host/output_folder.h>
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include <input/fit.h>
+#include <input/input_list.h>
 
 #include "image_kit.h"
 

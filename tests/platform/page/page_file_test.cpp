@@ -1,8 +1,8 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include <page/base64.h>
 #include <page/page_file.h>
+#include <page/run_extras.h>
 
 namespace page = platform::page;
 using Json = nlohmann::json;

@@ -1,4 +1,4 @@
-#include <picture/annotate.h>
+#include <picture/picture.h>
 
 #include <scene/renderer.h>
 #include <boost/test/unit_test.hpp>

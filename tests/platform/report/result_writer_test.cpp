@@ -1,10 +1,9 @@
-#include <report/result_document.h>
+#include <report/result_json.h>
 #include <report/result_writer.h>
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include <report/result_json.h>
 #include <vp/error.h>
 
 #include "report_kit.h"

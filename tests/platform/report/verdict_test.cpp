@@ -1,4 +1,4 @@
-#include <report/design_json.h>
+#include <report/result_json.h>
 #include <report/verdict.h>
 
 #include <boost/test/unit_test.hpp>

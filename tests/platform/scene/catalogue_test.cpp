@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include <scene/catalogue.h>
-#include <scene/dictionary.h>
+#include <scene/scene.h>
 
 #include "scene_kit.h"
 

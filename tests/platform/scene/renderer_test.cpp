@@ -5,8 +5,8 @@
 #include <map>
 
 #include <scene/catalogue.h>
-#include <scene/dictionary.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 using namespace platform;
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include <sweep/engine.h>
-#include <sweep/run_log.h>
+#include <sweep/store.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"

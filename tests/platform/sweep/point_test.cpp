@@ -1,8 +1,8 @@
-#include <sweep/content_hash.h>
-#include <sweep/csv_line.h>
+#include <sweep/identity.h>
 #include <sweep/metrics.h>
-#include <sweep/point_file.h>
+#include <sweep/point.h>
 #include <sweep/store.h>
+#include <sweep/tables.h>
 #include <vp/decimal.h>
 
 #include "sweep_kit.h"

@@ -1,8 +1,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <sweep/point_message.h>
-#include <sweep/work_queue.h>
+#include <sweep/worker.h>
 
 #include "sweep_kit.h"
 

@@ -2,12 +2,11 @@
 #include <profiles/cost_profile.h>
 #include <scene/catalogue.h>
 #include <scene/renderer.h>
-#include <validation/console.h>
-#include <validation/jitter.h>
-#include <validation/markdown.h>
+#include <validation/evidence.h>
 #include <validation/plots.h>
 #include <validation/result_files.h>
 #include <validation/validation.h>
+#include <validation/words.h>
 #include <vp/error.h>
 
 #include <algorithm>

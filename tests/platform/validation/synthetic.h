@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <validation/judgement.h>
 #include <validation/measured.h>
 #include <validation/published.h>
+#include <validation/validation.h>
 
 /// Runs made by hand, with times that are easy to reckon with.
 namespace synthetic {

@@ -1,0 +1,234 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include <cli/app.h>
+
+namespace platform::cli {
+
+namespace {
+
+constexpr std::uint64_t most_points = 10'000'000;
+constexpr std::uint32_t most_jobs = 1024;
+constexpr std::uint32_t most_tasks = 1'000'000;
+
+constexpr const char* sweep_help =
+    R"(FILE is a YAML file (docs/exploration.md), or a study that --list shows:
+  markervp sweep pixel-clock                   results in out/pixel-clock
+  markervp sweep mine.yaml --dry-run           check it and show its points
+  markervp sweep mine.yaml --engine slurm      on a cluster
+A sweep may be stopped at any time: the same command goes on. No point is computed twice.)";
+
+constexpr const char* pareto_help =
+    R"(  markervp pareto out/pixel-clock --objective 'max summary.fps.mean' \
+      --objective 'min power.total_w.nominal' --constraint 'timing.met == 1'
+Without objectives those of the sweep. Writes pareto.csv and pareto.svg into DIR.)";
+
+template <class Number>
+CLI::Validator number_range(Number least, Number most) {
+  return CLI::Range(least, most).description("");
+}
+
+void add_run_options(CLI::App& command, SweepOptions& target) {
+  command.add_option("-j,--jobs", target.jobs, "processes at a time (default: one a core)")
+      ->type_name("N")
+      ->check(number_range(std::uint32_t{1}, most_jobs));
+  command.add_option("--engine", target.engine, "where to compute (default: local)")
+      ->type_name("local|slurm")
+      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  command.add_flag("--retry-failed", target.retry_failed, "compute points that failed once more");
+  command.add_flag(
+      "--isolate", target.isolate,
+      "each point in a process of its own (default: those of PS programs of your own)");
+  command
+      .add_option("--chunk", target.chunk, "Slurm: points a task (default: some seconds' worth)")
+      ->type_name("N")
+      ->check(number_range(std::uint32_t{1}, most_tasks));
+  command.add_option("--at-once", target.at_once, "Slurm: tasks at a time (default: all that fit)")
+      ->type_name("N")
+      ->check(number_range(std::uint32_t{1}, most_tasks));
+  command
+      .add_option("--sbatch", target.sbatch, "Slurm: one more option for sbatch: --partition=long")
+      ->type_name("OPTION")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_sweep(CLI::App& app, SweepOptions& target) {
+  CLI::App* command = app.add_subcommand("sweep", "compute many design points");
+  command->add_option("FILE", target.file, "what to sweep")->type_name("");
+  command->add_flag("--list", target.list, "the studies that come with the program");
+  command->add_option("-o,--output", target.output, "folder for the results (default: out/NAME)")
+      ->type_name("DIR");
+  command->add_option("--limit", target.limit, "only the first points")
+      ->type_name("N")
+      ->check(number_range(std::uint64_t{1}, most_points));
+  command->add_flag("--yes", target.yes, "run even a very large sweep");
+  command->add_flag("--dry-run", target.dry_run, "check everything, show the points, run nothing");
+  command->add_flag("--no-report", target.no_report, "no page report.html");
+  command->add_flag("--require-all", target.require_all, "exit code 1 if a point failed to run");
+  add_run_options(*command, target);
+  command->footer(sweep_help);
+}
+
+/// What Slurm calls. Not for people: without a group it is in no help.
+void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
+  CLI::App* command = app.add_subcommand("sweep-worker", "compute a task of a sweep on a cluster");
+  command->group("");
+  command->add_option("DIR", target.folder, "the sweep")->required();
+  command->add_option("SUBMISSION", target.submission, "its number")->required();
+  command->add_option("TASK", target.task, "its number")->required();
+  command->add_option("POINTS", target.points_a_process, "points a process")->required();
+}
+
+void add_pareto(CLI::App& app, ParetoOptions& target) {
+  CLI::App* command = app.add_subcommand("pareto", "the best points of a sweep");
+  command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR")->required();
+  command->add_option("--objective", target.objectives, "what is better: 'max summary.fps.mean'")
+      ->type_name("FIGURE")
+      ->expected(1)
+      ->take_all();
+  command
+      ->add_option("--constraint", target.constraints, "what must hold: 'summary.fps.mean >= 60'")
+      ->type_name("CONDITION")
+      ->expected(1)
+      ->take_all();
+  command->footer(pareto_help);
+}
+
+void add_sensitivity(CLI::App& app, SensitivityOptions& target) {
+  CLI::App* command = app.add_subcommand("sensitivity", "which parameters of a sweep matter");
+  command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR")->required();
+  command->add_option("--figure", target.figures, "of what (default: the sweep's objectives)")
+      ->type_name("FIGURE")
+      ->expected(1)
+      ->take_all();
+  command->add_flag("--all", target.all, "take all points that ran, feasible or not");
+}
+
+void add_compare(CLI::App& app, CompareOptions& target) {
+  CLI::App* command = app.add_subcommand("compare", "in what two runs or points differ");
+  command->add_option("A", target.first, "result.json, its folder, or a point's file")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("B", target.second, "the other")->type_name("FILE")->required();
+}
+
+}  // namespace
+
+void add_exploration(CLI::App& app, CommandLine& target) {
+  add_sweep(app, target.sweep);
+  add_sweep_worker(app, target.sweep_worker);
+  add_pareto(app, target.pareto);
+  add_sensitivity(app, target.sensitivity);
+  add_compare(app, target.compare);
+}
+
+namespace {
+
+constexpr const char* check_help = R"(A check a line, '#' begins a comment:
+  clock 100 MHz
+  name: always CONDITION | never CONDITION
+  name: at CONDITION holds CONDITION
+  name: within 20 cycles of CONDITION holds CONDITION
+  name: stable VALUE while CONDITION
+  name: increases VALUE when CONDITION [restart CONDITION]
+  name: bursts of 32 beats CONDITION last CONDITION
+docs/traces.md has examples; share/markervp/checks a set for our system.)";
+
+/// A command of `trace`, with what all take.
+CLI::App* add(CLI::App& trace, TraceCommandOptions& target, const std::string& name,
+              const std::string& what) {
+  CLI::App* command = trace.add_subcommand(name, what);
+  command->callback([&target, name] { target.command = name; });
+  return command;
+}
+
+void add_file(CLI::App& command, TraceCommandOptions& target) {
+  command.add_option("TRACE", target.file, "a .vcd or .fst")->type_name("FILE")->required();
+  command.add_option("--map", target.map, "other names: lines 'ours = theirs'")->type_name("FILE");
+}
+
+void add_design(CLI::App& command, TraceCommandOptions& target) {
+  command
+      .add_option("--design", target.design, "whose signals they are (default: the usual design)")
+      ->type_name("NAME");
+}
+
+void add_filter(CLI::App& command, TraceCommandOptions& target) {
+  command.add_option("--filter", target.filter, "only these: 'pl.corner_detection.**'")
+      ->type_name("GLOB")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_window(CLI::App& command, TraceCommandOptions& target) {
+  command.add_option("--window", target.window, "only then: 6ms:7ms")->type_name("FROM:TO");
+}
+
+}  // namespace
+
+void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
+  CLI::App* trace = app.add_subcommand("trace", "ask a recorded trace");
+  trace->require_subcommand(1);
+
+  CLI::App* list = add(*trace, target, "list", "names and widths of the signals");
+  add_file(*list, target);
+  add_filter(*list, target);
+
+  CLI::App* stats = add(*trace, target, "stats",
+                        "handshakes, buffers, interrupts, frames and functions in numbers");
+  add_file(*stats, target);
+  add_design(*stats, target);
+  stats
+      ->add_option("--clock", target.clock,
+                   "of the links, if the trace has no clocks (default: 100 MHz)")
+      ->type_name("FREQUENCY");
+  CLI::Option* json = stats->add_flag("--json", target.json, "for programs");
+  stats->add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
+
+  CLI::App* check = add(*trace, target, "check", "assertions; exit code 1 if one fails");
+  check->add_option("CHECKS", target.checks, "a .checks file")->type_name("FILE")->required();
+  add_file(*check, target);
+  check->add_flag("--skip-missing", target.skip_missing, "leave out checks without their signals");
+  check->add_flag("--require-exercised", target.require_exercised,
+                  "exit code 1, too, if a check looked at nothing or was left out");
+  check
+      ->add_option("-o,--output", target.output,
+                   "save file for GTKWave at the failure (default: TRACE.failed.gtkw)")
+      ->type_name("FILE");
+  check->footer(check_help);
+
+  CLI::App* diff = add(*trace, target, "diff", "where two traces part; exit code 1 if they do");
+  add_file(*diff, target);
+  diff->add_option("OTHER", target.other, "the other trace")->type_name("FILE")->required();
+  diff->add_option("--align", target.align, "what is compared: equal times, or frame by frame")
+      ->type_name("time|frame")
+      ->check(CLI::IsMember({"time", "frame"}).description(""));
+  diff->add_option("--frame", target.frame, "its changes begin frames (default: ps.cpu.frame)")
+      ->type_name("SIGNAL");
+  add_filter(*diff, target);
+
+  CLI::App* cut = add(*trace, target, "cut", "write a part: a window, some signals");
+  add_file(*cut, target);
+  cut->add_option("OUTPUT", target.other, "a .vcd or .fst")->type_name("FILE")->required();
+  add_window(*cut, target);
+  add_filter(*cut, target);
+
+  CLI::App* convert = add(*trace, target, "convert", "write as the other format, under our names");
+  add_file(*convert, target);
+  convert->add_option("OUTPUT", target.other, "a .vcd or .fst")->type_name("FILE")->required();
+
+  CLI::App* plot = add(*trace, target, "plot", "draw signals as SVG");
+  add_file(*plot, target);
+  plot->add_option("SIGNAL", target.signals, "names, or their ends")->type_name("")->required();
+  add_window(*plot, target);
+  plot->add_option("--marker", target.marker, "a line at a time: 6.1ms")->type_name("TIME");
+  plot->add_option("-o,--output", target.output, "picture (default: plot.svg)")->type_name("FILE");
+
+  CLI::App* gtkw = add(*trace, target, "gtkw", "write save and translate files for GTKWave");
+  add_file(*gtkw, target);
+  add_design(*gtkw, target);
+  gtkw->add_option("-o,--output", target.output, "folder (default: here)")->type_name("DIR");
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,397 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <cli/program.h>
+#include <designs/designs.h>
+#include <device/clock_plan.h>
+#include <device/device.h>
+#include <power/design_estimate.h>
+#include <power/power_table.h>
+#include <report/console.h>
+#include <scene/catalogue.h>
+#include <vp/decimal.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform::cli {
+
+namespace {
+
+std::string span(const SceneGroup& group) {
+  if (group.scenes.size() == 1) return group.scenes.front();
+  return group.scenes.front() + ".." + group.scenes.back();
+}
+
+void print_groups(std::ostream& out) {
+  const auto row = [&](const std::string& name, const std::string& section,
+                       const std::string& scenes, const std::string& what) {
+    out << fmt::format("{:<8} {:<7} {:<19} {}\n", name, section, scenes, what);
+  };
+  row("group", "thesis", "scenes", "what");
+  for (const SceneGroup& group : scene_groups()) {
+    row(group.name, group.section, span(group), group.description);
+  }
+  out << "\n'markervp scenes GROUP' shows a group, 'markervp run NAME' runs a scene or a group.\n";
+}
+
+void print_group(const SceneGroup& group, std::ostream& out) {
+  out << group.description << (group.section.empty() ? "" : " (thesis " + group.section + ")")
+      << "\n\n";
+  out << fmt::format("{:<11} {:>6}  {:>7}  {:>24}  {}\n", "scene", "marker", "squares",
+                     "top left corner, m", "rotation");
+  for (const std::string& name : group.scenes) {
+    const Scene scene = make_scene(name);
+    const Eigen::Vector3d& t = scene.pose.translation;
+    const auto metres = [&](std::size_t axis) { return vp::format_fixed(t[axis], 3); };
+    out << fmt::format("{:<11} {:>6}  {:>7}  {:>8}{:>8}{:>8}  {}\n", name, scene.marker_id,
+                       scene.squares.size() + 1, metres(0), metres(1), metres(2),
+                       report::angles_text(scene.pose.rotation));
+  }
+}
+
+const SceneGroup& find_group(const std::string& name) {
+  std::vector<std::string> names;
+  for (const SceneGroup& group : scene_groups()) {
+    if (group.name == name) return group;
+    names.push_back(group.name);
+  }
+  const std::string nearest = vp::nearest_match(name, names);
+  throw vp::InputError("unknown group of scenes '" + name +
+                       "': " + (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                       "there are " + vp::join(names, ", "));
+}
+
+}  // namespace
+
+int list_scenes(const ScenesOptions& options, std::ostream& out) {
+  if (options.names_only) {
+    const auto names = options.group.empty() ? scene_names() : find_group(options.group).scenes;
+    for (const std::string& name : names) out << name << "\n";
+  } else if (options.group.empty()) {
+    print_groups(out);
+  } else {
+    print_group(find_group(options.group), out);
+  }
+  return done;
+}
+
+int list_designs(const DesignsOptions& options, std::ostream& out) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::string text = fmt::format("{:<12} {:<20} {}\n", "design", "PS programs", "what");
+  for (const DesignInfo* design : builtin_designs()) {
+    list.push_back({{"name", design->name},
+                    {"description", design->description},
+                    {"programs", design->programs}});
+    text += fmt::format("{:<12} {:<20} {}\n", design->name, vp::join(design->programs, ", "),
+                        design->description);
+  }
+  if (options.json) {
+    out << list.dump(2) << "\n";
+  } else {
+    out << text << "\nThe first is the usual one; 'markervp run --design NAME' takes another.\n";
+  }
+  return done;
+}
+
+namespace {
+
+using device::Device;
+using device::FigureInfo;
+
+void print_table(std::ostream& out) {
+  out << fmt::format("{:<10} {:>7} {:>7} {:>7} {:>4} {:>5} {:>11} {:>8} {:>8} {:>8} {:>5} {:>7}\n",
+                     "device", "LUT", "FF", "BRAM36", "DSP", "cores", "CPU, MHz", "DDR, MHz",
+                     "FCLK,MHz", "VCO, MHz", "Fmax", "static");
+  for (const Device& d : device::devices()) {
+    out << fmt::format(
+        "{:<10} {:>7} {:>7} {:>7} {:>4} {:>5} {:>11} {:>8.0f} {:>8.0f} {:>8.0f} {:>5} {:>5.0f}mW\n",
+        d.name(), d.lut.value, d.ff.value, d.bram36.value, d.dsp.value, d.cores.value,
+        fmt::format("{:.0f} / {:.0f}", d.cpu_621_mhz.value, d.cpu_421_mhz.value), d.ddr_mhz.value,
+        d.fclk_mhz.value, d.vco_max_mhz.value, fmt::format("x{:.2f}", d.fmax_factor.value),
+        1000 * d.static_w.value);
+  }
+  out << "\nClocks are the highest of the speed grade; CPU by ratio, 6:2:1 / 4:2:1; static power "
+         "at "
+         "25 C.\n'markervp devices DEVICE' has every figure with its source, '--set "
+         "device=DEVICE' uses one.\n";
+}
+
+void print_device(const Device& device, std::ostream& out) {
+  out << fmt::format("{}, IDCODE 0x{:08X}\n\n", device.name(), device.idcode());
+  for (const FigureInfo& info : device::figures()) {
+    const device::Figure& figure = device.*info.figure;
+    out << fmt::format("{:<16} {:>11}  {:<9}  {}\n{:31}{}\n", info.name,
+                       fmt::format("{:.10g} {}", figure.value, info.unit),
+                       to_string(figure.confidence), info.documentation, "", figure.source);
+  }
+}
+
+nlohmann::ordered_json as_json(const Device& device) {
+  nlohmann::ordered_json json;
+  json["name"] = device.name();
+  json["part"] = device.part;
+  json["grade"] = device.grade;
+  for (const FigureInfo& info : device::figures()) {
+    const device::Figure& figure = device.*info.figure;
+    json[info.name] = {{"value", figure.value},
+                       {"unit", info.unit},
+                       {"confidence", to_string(figure.confidence)},
+                       {"source", figure.source}};
+  }
+  return json;
+}
+
+}  // namespace
+
+int list_devices(const DevicesOptions& options, std::ostream& out) {
+  if (options.json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    if (options.device.empty()) {
+      for (const Device& device : device::devices()) list.push_back(as_json(device));
+    } else {
+      list.push_back(as_json(device::find_device(options.device)));
+    }
+    out << list.dump(2) << "\n";
+  } else if (options.device.empty()) {
+    print_table(out);
+  } else {
+    print_device(device::find_device(options.device), out);
+  }
+  return done;
+}
+
+namespace {
+
+using device::ClockKind;
+using device::ClockPlan;
+using device::ClockPlanner;
+using device::MadeClock;
+using Json = nlohmann::ordered_json;
+
+constexpr double hz_per_mhz = 1e6;
+constexpr std::size_t most_fclk = 4;
+
+ClockKind kind_of(const std::string& name) {
+  if (name == "cpu") return ClockKind::cpu_621;
+  if (name == "cpu-421") return ClockKind::cpu_421;
+  return name == "ddr" ? ClockKind::ddr : ClockKind::fclk;
+}
+
+double frequency(const std::string& text, const std::string& what) {
+  double hz = 0;
+  try {
+    hz = vp::parse_quantity(text, vp::Unit::frequency).to_double();
+  } catch (const vp::InputError& error) {
+    throw vp::InputError(what + " '" + text + "' " + error.what());
+  }
+  if (hz < 1) throw vp::InputError(what + " '" + text + "': give at least 1 Hz");
+  return hz;
+}
+
+std::string mhz(double hz) {
+  return fmt::format("{:.6f} MHz", hz / hz_per_mhz);
+}
+
+double percent(double hz, double wish_hz) {
+  return 100 * (hz / wish_hz - 1);
+}
+
+std::string pll_text(const MadeClock& clock) {
+  return fmt::format("{} PLL {:.3f} MHz x{}", to_string(clock.pll), clock.vco_hz / hz_per_mhz,
+                     clock.feedback);
+}
+
+std::string divisor_text(const MadeClock& clock) {
+  return clock.divisor1 == 1 ? fmt::format("/ {}", clock.divisor0)
+                             : fmt::format("/ {} / {}", clock.divisor0, clock.divisor1);
+}
+
+/// A wish and what can be had of it.
+struct Answer {
+  double wish_hz;
+  MadeClock made;
+  ClockPlanner::Neighbours neighbours;
+  std::vector<device::NearClock> near;
+};
+
+/// FCLK wishes are those of one chip; of the others each is asked for alone.
+class Question {
+ public:
+  explicit Question(const ClocksOptions& options)
+      : options_(options),
+        kind_(kind_of(options.kind)),
+        crystal_hz_(options.crystal ? frequency(*options.crystal, "the crystal")
+                                    : device::zedboard_crystal_hz),
+        planner_(device::find_device(options.device), crystal_hz_) {
+    wishes_.ethernet = !options.no_ethernet;
+    std::vector<double> wishes;
+    for (const std::string& text : options.wishes) wishes.push_back(frequency(text, "the wish"));
+    if (kind_ == ClockKind::fclk) {
+      if (wishes.size() > most_fclk) {
+        throw vp::InputError(
+            fmt::format("{} wishes: a chip has {} clocks to the PL", wishes.size(), most_fclk));
+      }
+      wishes_.fclk_hz = wishes;
+    }
+    plan_ = planner_.plan(wishes_);
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+      const double wish_hz = wishes[i];
+      answers_.push_back(
+          {wish_hz, kind_ == ClockKind::fclk ? plan_.fclk[i] : planner_.own_pll(wish_hz, kind_),
+           planner_.neighbours(wish_hz, kind_, plan_),
+           planner_.near(wish_hz, kind_, plan_, wishes_.ethernet, options.count)});
+    }
+  }
+
+  void print(std::ostream& out) const {
+    out << fmt::format("{}, crystal {}", planner_.device().name(), mhz(crystal_hz_));
+    if (kind_ == ClockKind::fclk) {
+      out << fmt::format(", {}: I/O PLL {} (x{})", wishes_.ethernet ? "Ethernet" : "no Ethernet",
+                         mhz(crystal_hz_ * plan_.io_feedback), plan_.io_feedback);
+    }
+    out << "\n";
+    for (const Answer& answer : answers_) print(answer, out);
+  }
+
+  Json json() const {
+    Json json;
+    json["device"] = planner_.device().name();
+    json["crystal_mhz"] = crystal_hz_ / hz_per_mhz;
+    json["kind"] = options_.kind;
+    json["limit_mhz"] = limit().value;
+    if (kind_ == ClockKind::fclk) {
+      json["ethernet"] = wishes_.ethernet;
+      json["io_feedback"] = plan_.io_feedback;
+    }
+    json["clocks"] = Json::array();
+    for (const Answer& answer : answers_) {
+      Json entry;
+      entry["wish_mhz"] = answer.wish_hz / hz_per_mhz;
+      entry["made"] = as_json(answer.made, answer.wish_hz);
+      const auto& [below, above] = answer.neighbours;
+      entry["below"] = below ? as_json(*below, answer.wish_hz) : Json();
+      entry["above"] = above ? as_json(*above, answer.wish_hz) : Json();
+      for (const device::NearClock& near : answer.near) {
+        Json made = as_json(near.clock, answer.wish_hz);
+        made["how"] = to_string(near.effort);
+        entry["near"].push_back(made);
+      }
+      json["clocks"].push_back(entry);
+    }
+    return json;
+  }
+
+ private:
+  const device::Figure& limit() const { return limit_of(planner_.device(), kind_); }
+
+  static Json as_json(const MadeClock& clock, double wish_hz) {
+    Json json;
+    json["mhz"] = clock.hz / hz_per_mhz;
+    json["offset_percent"] = percent(clock.hz, wish_hz);
+    json["pll"] = to_string(clock.pll);
+    json["vco_mhz"] = clock.vco_hz / hz_per_mhz;
+    json["feedback"] = clock.feedback;
+    json["divisors"] = {clock.divisor0, clock.divisor1};
+    return json;
+  }
+
+  static std::string neighbour(const std::optional<MadeClock>& clock, double wish_hz) {
+    if (!clock) return "none";
+    return fmt::format("{} ({:+.3f} %)", mhz(clock->hz), percent(clock->hz, wish_hz));
+  }
+
+  void print(const Answer& answer, std::ostream& out) const {
+    const double wish_hz = answer.wish_hz;
+    out << fmt::format("\n{} {}: the vendor's tool makes {} ({:+.3f} %), {} {}\n",
+                       kind_ == ClockKind::fclk  ? "FCLK"
+                       : kind_ == ClockKind::ddr ? "DDR"
+                                                 : "CPU",
+                       mhz(wish_hz), mhz(answer.made.hz), percent(answer.made.hz, wish_hz),
+                       pll_text(answer.made), divisor_text(answer.made));
+    if (answer.made.hz > limit().value * hz_per_mhz * (1 + device::crystal_tolerance)) {
+      out << fmt::format("  ABOVE the {:.10g} MHz of the speed grade ({})\n", limit().value,
+                         to_string(limit().confidence));
+    }
+    out << fmt::format("  below {}, above {}\n\n", neighbour(answer.neighbours.below, wish_hz),
+                       neighbour(answer.neighbours.above, wish_hz));
+    out << fmt::format("{:>14} {:>11}  {:<25} {:<10}  {}\n", "MHz", "offset, %", "PLL", "dividers",
+                       "how");
+    for (const device::NearClock& near : answer.near) {
+      out << fmt::format("{:>14.6f} {:>+11.4f}  {:<25} {:<10}  {}\n", near.clock.hz / hz_per_mhz,
+                         percent(near.clock.hz, wish_hz), pll_text(near.clock),
+                         divisor_text(near.clock), to_string(near.effort));
+    }
+  }
+
+  const ClocksOptions& options_;
+  ClockKind kind_;
+  double crystal_hz_;
+  ClockPlanner planner_;
+  device::ClockWishes wishes_;
+  ClockPlan plan_;
+  std::vector<Answer> answers_;
+};
+
+}  // namespace
+
+int list_clocks(const ClocksOptions& options, std::ostream& out) {
+  const Question question(options);
+  if (options.json) {
+    out << question.json().dump(2) << "\n";
+  } else {
+    question.print(out);
+  }
+  return done;
+}
+
+namespace {
+
+void print_watts(std::ostream& out, const std::string& name, const vp::Band& watts) {
+  out << fmt::format("  {:<26}{:>8.3f}   {:.3f} to {:.3f}\n", name, watts.nominal, watts.low,
+                     watts.high);
+}
+
+}  // namespace
+
+int print_power_estimate(const PowerTableOptions& options, std::ostream& out) {
+  const power::DesignFigures design = power::read_design_figures(options.design);
+  const power::PowerEstimate estimate =
+      power::estimate_power(design, power::PowerTable::load(options.table));
+  out << fmt::format("{}, table '{}'           W   band\n", design.device.name(), options.table);
+  for (const auto& [kind, watts] : estimate.ledger.by_group()) print_watts(out, kind, watts);
+  out << "\nby module\n";
+  for (const auto& [module, watts] : estimate.ledger.by_module()) print_watts(out, module, watts);
+  out << "\nby rail\n";
+  for (const auto& [rail, watts] : estimate.ledger.by_rail()) print_watts(out, rail, watts);
+  out << '\n';
+  print_watts(out, "total", estimate.ledger.total());
+  out << fmt::format("  {:<26}{:>6.1f} C\n", "junction", estimate.junction_c);
+  return done;
+}
+
+int print_power_table(const PowerTableOptions& options, std::ostream& out) {
+  const power::PowerTable table = power::PowerTable::load(options.table);
+  if (options.markdown) {
+    out << power::as_markdown(table);
+    return done;
+  }
+  out << fmt::format("{:<22} {:>9} {:>9} {:>9}  {:<14} {}\n", "coefficient", "low", "nominal",
+                     "high", "unit", "status");
+  for (const power::Coefficient& entry : table.entries()) {
+    out << fmt::format("{:<22} {:>9.6g} {:>9.6g} {:>9.6g}  {:<14} {}\n", entry.name,
+                       entry.value.low, entry.value.nominal, entry.value.high, entry.unit,
+                       entry.status);
+  }
+  out << fmt::format(
+      "\nTable '{}'. 'markervp power --markdown' prints the sources. An own table, or a changed "
+      "copy of\nthis one: 'markervp power FILE.json' checks it, '--set power.table=FILE.json' uses "
+      "it.\n",
+      table.name());
+  return done;
+}
+
+}  // namespace platform::cli

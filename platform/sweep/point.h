@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+
+#include <sweep/manifest.h>
+#include <sweep/metrics.h>
+#include <vp/error.h>
+
+namespace platform::sweep {
+
+/// How a point's run failed.
+struct Failure {
+  int exit_code = -1;  ///< -1: a signal ended it
+  int signal = 0;
+  std::string message;  ///< one line
+};
+
+/// A point and its result, as points/KEY.json holds it:
+///
+///   markervp_point  version of the format
+///   key             hash of `identity`, the file's name
+///   identity        everything that decides the result
+///   run             program, inputs and settings to run it again
+///   digest          hash of `outcome`
+///   outcome         status "done" or "failed"; failure {exit_code, signal, message};
+///                   result: result.json without provenance and configuration; of a failed point
+///                   only if its program ended by itself
+struct PointRecord {
+  std::string key;
+  std::string identity;  ///< as text, which is hashed and written more often than looked into
+  Json run;
+  Json outcome;
+
+  Json identity_json() const { return Json::parse(identity); }
+  bool failed() const { return outcome.at("status") == "failed"; }
+};
+
+PointRecord done_record(const Manifest& manifest, const PlannedPoint& point, Json result);
+/// `result`: what there is of one, or null.
+PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
+                          const Failure& failure, Json result = nullptr);
+
+std::string point_text(const PointRecord& record);
+
+/// A point's file that is not whole: the power failed while it was on its way to the disk.
+class HalfPoint : public vp::InputError {
+ public:
+  using vp::InputError::InputError;
+};
+
+/// Throws vp::InputError: cannot be read, no point file, of another version of the format, changed;
+/// HalfPoint for one that is not whole.
+/// Without `verify` the hashes are taken as they stand, for a file that was verified before.
+PointRecord read_point(const std::string& path, bool verify = true);
+
+/// What sweeps tell of a computed point; its file has the rest.
+struct Outcome {
+  bool failed = false;
+  Failure failure;  ///< if it failed
+  Metrics metrics;  ///< empty if there is no result
+  std::string row;  ///< of the point in report.html, see page/report_page.h
+};
+
+Outcome outcome_of(const PointRecord& record);
+
+}  // namespace platform::sweep

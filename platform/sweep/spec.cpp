@@ -1,0 +1,360 @@
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <input/library_folder.h>
+#include <sweep/spec.h>
+#include <vp/error.h>
+#include <vp/input_file.h>
+#include <vp/text.h>
+#include <vp/yaml.h>
+
+namespace platform::sweep {
+
+namespace {
+
+/// Takes values out of YAML that a person wrote. Each function throws vp::InputError that names
+/// file and line, and says what is expected there.
+class YamlReader {
+ protected:
+  using Keys = std::map<std::string, std::function<void(const YAML::Node&)>>;
+
+  explicit YamlReader(std::string origin) : origin_(std::move(origin)) {}
+
+  /// File and line.
+  std::string where(const YAML::Node& node) const;
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& problem) const;
+
+  /// Calls what belongs to each key of the map; no key may be unknown, or twice.
+  void for_each(const YAML::Node& map, const Keys& keys, const std::string& what) const;
+  std::string scalar(const YAML::Node& node, const std::string& key) const;
+  /// One value or a list of them.
+  std::vector<std::string> scalars(const YAML::Node& node, const std::string& key) const;
+  /// One of `names`.
+  std::string choice(const YAML::Node& node, const std::string& key,
+                     const std::vector<std::string>& names) const;
+  std::uint64_t whole(const YAML::Node& node, const std::string& key, std::uint64_t min,
+                      std::uint64_t max) const;
+
+ private:
+  std::string origin_;
+};
+
+std::string YamlReader::where(const YAML::Node& node) const {
+  if (node.Mark().is_null()) return origin_;
+  return origin_ + ":" + std::to_string(node.Mark().line + 1);
+}
+
+void YamlReader::fail(const YAML::Node& node, const std::string& problem) const {
+  throw vp::InputError(where(node) + ": " + problem);
+}
+
+void YamlReader::for_each(const YAML::Node& map, const Keys& keys, const std::string& what) const {
+  if (!map.IsMap()) fail(map, what + " is 'key: value' lines");
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    const auto found = keys.find(key);
+    if (found == keys.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, unused] : keys) names.push_back(name);
+      const std::string nearest = vp::nearest_match(key, names);
+      fail(entry.first, "unknown key '" + key + "' of " + what + ": " +
+                            (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                            "there are " + vp::join(names, ", "));
+    }
+    if (!seen.insert(key).second) fail(entry.first, "'" + key + "' stands there twice");
+    found->second(entry.second);
+  }
+}
+
+std::string YamlReader::scalar(const YAML::Node& node, const std::string& key) const {
+  if (!node.IsScalar()) fail(node, "'" + key + "' takes one value");
+  return node.Scalar();
+}
+
+std::vector<std::string> YamlReader::scalars(const YAML::Node& node, const std::string& key) const {
+  if (node.IsScalar()) return {node.Scalar()};
+  if (!node.IsSequence() || node.size() == 0) fail(node, "'" + key + "' takes a list of values");
+  std::vector<std::string> values;
+  for (const YAML::Node& item : node) values.push_back(scalar(item, key));
+  return values;
+}
+
+std::string YamlReader::choice(const YAML::Node& node, const std::string& key,
+                               const std::vector<std::string>& names) const {
+  const std::string value = scalar(node, key);
+  if (std::find(names.begin(), names.end(), value) != names.end()) return value;
+  const std::string nearest = vp::nearest_match(value, names);
+  fail(node, "'" + value + "' for '" + key + "': write " + vp::one_of(names) +
+                 (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
+}
+
+std::uint64_t YamlReader::whole(const YAML::Node& node, const std::string& key, std::uint64_t min,
+                                std::uint64_t max) const {
+  const std::string text = scalar(node, key);
+  std::uint64_t value = 0;
+  const bool digits = !text.empty() && text.size() < 19 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  if (digits) value = std::stoull(text);
+  if (!digits || value < min || value > max) {
+    fail(node, "'" + text + "' for '" + key + "': write a whole number from " +
+                   std::to_string(min) + " to " + std::to_string(max));
+  }
+  return value;
+}
+
+}  // namespace
+
+namespace {
+
+constexpr const char* inputs_axis = "inputs";
+
+class Reader : private YamlReader {
+ public:
+  Reader(Spec& spec, const std::string& origin) : YamlReader(origin), spec_(spec) {}
+
+  void read(const YAML::Node& root) {
+    if (!root.IsMap()) fail(root, "expected 'key: value' lines");
+    const Keys keys{
+        {"title", [&](const YAML::Node& n) { spec_.title = scalar(n, "title"); }},
+        {"text", [&](const YAML::Node& n) { spec_.text = scalar(n, "text"); }},
+        {"inputs", [&](const YAML::Node& n) { spec_.inputs = scalars(n, "inputs"); }},
+        {"system", [&](const YAML::Node& n) { read_program(n, "system"); }},
+        {"program", [&](const YAML::Node& n) { read_program(n, "program"); }},
+        {"camera", [&](const YAML::Node& n) { spec_.camera = scalar(n, "camera"); }},
+        {"fit",
+         [&](const YAML::Node& n) {
+           spec_.fit = choice(n, "fit", {"crop", "scale"});
+         }},
+        {"frames", [&](const YAML::Node& n) { spec_.frames = whole(n, "frames", 1, most_frames); }},
+        {"repeat", [&](const YAML::Node& n) { spec_.repeat = whole(n, "repeat", 1, most_frames); }},
+        {"fidelity", [&](const YAML::Node& n) { set("fidelity", scalar(n, "fidelity"), n); }},
+        {"set", [&](const YAML::Node& n) { read_set(n, ""); }},
+        {"parameters", [&](const YAML::Node& n) { read_parameters(n); }},
+        {"zip", [&](const YAML::Node& n) { read_zip(n); }},
+        {"sample", [&](const YAML::Node& n) { read_sampling(n); }},
+        {"constraints", [&](const YAML::Node& n) { read_constraints(n); }},
+        {"job",
+         [&](const YAML::Node& n) {
+           spec_.job = {scalar(n, "job"), where(n)};
+         }},
+        {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
+        {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
+    for_each(root, keys, "a sweep");
+  }
+
+ private:
+  static constexpr std::uint64_t most_frames = 1'000'000;
+  static constexpr std::uint64_t most_points = 10'000'000;
+
+  void read_program(const YAML::Node& node, const std::string& key) {
+    if (!spec_.program.empty()) fail(node, "'system' and 'program' both name the PS program");
+    spec_.program = scalar(node, key);
+  }
+
+  void set(const std::string& path, const std::string& value, const YAML::Node& node) {
+    if (spec_.set_where.empty()) spec_.set_where = where(node);
+    if (!spec_.set.emplace(path, value).second) fail(node, "'" + path + "' is set twice");
+  }
+
+  void read_set(const YAML::Node& node, const std::string& prefix) {
+    if (!node.IsMap()) fail(node, "'set' is 'path: value' lines");
+    for (const auto& entry : node) {
+      const std::string path = prefix + scalar(entry.first, "set");
+      if (entry.second.IsMap()) {
+        read_set(entry.second, path + ".");
+      } else {
+        set(path, scalar(entry.second, path), entry.first);
+      }
+    }
+  }
+
+  void check_new(const std::string& path, const YAML::Node& node) {
+    if (!swept_.insert(path).second) fail(node, "'" + path + "' is swept twice");
+  }
+
+  void read_parameters(const YAML::Node& node) {
+    if (!node.IsMap()) fail(node, "'parameters' is 'path: values' lines");
+    for (const auto& entry : node) {
+      spec_.dimensions.push_back({{axis(entry.first, entry.second)}});
+    }
+  }
+
+  void read_zip(const YAML::Node& node) {
+    if (!node.IsSequence()) fail(node, "'zip' is a list of groups of 'path: values' lines");
+    for (const YAML::Node& group : node) {
+      if (!group.IsMap() || group.size() == 0)
+        fail(group, "a group of 'zip' is 'path: values' lines");
+      Dimension dimension;
+      for (const auto& entry : group) dimension.axes.push_back(axis(entry.first, entry.second));
+      spec_.dimensions.push_back(std::move(dimension));
+    }
+  }
+
+  Axis axis(const YAML::Node& key, const YAML::Node& node) {
+    Axis result;
+    result.path = scalar(key, "parameters");
+    result.where = where(key);
+    check_new(result.path, key);
+    if (result.path == inputs_axis) {
+      read_input_sets(node, result);
+    } else if (node.IsMap()) {
+      result.range = range(node, result.path);
+    } else if (node.IsSequence() && node.size() == 0) {
+      fail(key, "'" + result.path + "' has no values");
+    } else {
+      result.values = scalars(node, result.path);
+    }
+    return result;
+  }
+
+  void add_inputs(Axis& axis, const std::string& label, const std::vector<std::string>& inputs) {
+    axis.values.push_back(label);
+    spec_.input_sets[label] = inputs;
+  }
+
+  void read_input_sets(const YAML::Node& node, Axis& axis) {
+    if (node.IsMap()) {
+      for (const auto& entry : node) {
+        const std::string label = scalar(entry.first, inputs_axis);
+        add_inputs(axis, label, scalars(entry.second, label));
+      }
+      return;
+    }
+    if (!node.IsSequence() || node.size() == 0) {
+      fail(node, "'inputs' under parameters is a list of inputs, or 'name: [inputs]' lines");
+    }
+    for (const YAML::Node& item : node) {
+      const std::vector<std::string> inputs = scalars(item, inputs_axis);
+      add_inputs(axis, vp::join(inputs, "+"), inputs);
+    }
+  }
+
+  ValueRange range(const YAML::Node& node, const std::string& path) {
+    ValueRange range;
+    const Keys keys{{"start", [&](const YAML::Node& n) { range.start = scalar(n, "start"); }},
+                    {"stop", [&](const YAML::Node& n) { range.stop = scalar(n, "stop"); }},
+                    {"step", [&](const YAML::Node& n) { range.step = scalar(n, "step"); }},
+                    {"count",
+                     [&](const YAML::Node& n) {
+                       range.count = static_cast<std::uint32_t>(whole(n, "count", 1, most_points));
+                     }},
+                    {"scale", [&](const YAML::Node& n) {
+                       range.logarithmic = choice(n, "scale", {"linear", "log"}) == "log";
+                     }}};
+    for_each(node, keys, "the range of '" + path + "'");
+    if (range.start.empty() || range.stop.empty())
+      fail(node, "the range of '" + path + "' needs 'start' and 'stop'");
+    if (range.step && range.count)
+      fail(node, "the range of '" + path + "' has 'step' and 'count': leave out one");
+    if (range.step && range.logarithmic)
+      fail(node, "the range of '" + path + "' is logarithmic: give 'count' instead of 'step'");
+    return range;
+  }
+
+  void read_sampling(const YAML::Node& node) {
+    Sampling& sampling = spec_.sampling;
+    sampling.where = where(node);
+    bool has_points = false;
+    using Method = Sampling::Method;
+    const std::map<std::string, Method> methods{{"random", Method::random},
+                                                {"sobol", Method::sobol},
+                                                {"morris", Method::morris},
+                                                {"one-at-a-time", Method::one_at_a_time}};
+    const Keys keys{
+        {"method",
+         [&](const YAML::Node& n) {
+           sampling.method =
+               methods.at(choice(n, "method", {"random", "sobol", "morris", "one-at-a-time"}));
+         }},
+        {"points",
+         [&](const YAML::Node& n) {
+           sampling.points = whole(n, "points", 1, most_points);
+           has_points = true;
+         }},
+        {"seed",
+         [&](const YAML::Node& n) { sampling.seed = whole(n, "seed", 0, 1'000'000'000'000); }},
+        {"trajectories",
+         [&](const YAML::Node& n) {
+           sampling.trajectories = static_cast<std::uint32_t>(whole(n, "trajectories", 2, 10'000));
+         }},
+        {"levels", [&](const YAML::Node& n) {
+           sampling.levels = static_cast<std::uint32_t>(whole(n, "levels", 2, 1000));
+           if (sampling.levels % 2 != 0) fail(n, "'levels' of Morris' method is an even number");
+         }}};
+    for_each(node, keys, "'sample'");
+    if (sampling.method == Method::grid) fail(node, "'sample' needs 'method'");
+    const bool counted = sampling.method == Method::random || sampling.method == Method::sobol;
+    if (counted != has_points)
+      fail(node, counted ? "'sample' needs 'points'" : "this method takes no 'points'");
+  }
+
+  void read_constraints(const YAML::Node& node) {
+    if (node.IsScalar()) {
+      spec_.constraints.push_back({node.Scalar(), where(node)});
+      return;
+    }
+    if (!node.IsSequence()) fail(node, "'constraints' is a list of conditions");
+    for (const YAML::Node& item : node) {
+      spec_.constraints.push_back({scalar(item, "constraints"), where(item)});
+    }
+  }
+
+  Spec& spec_;
+  std::set<std::string> swept_;
+};
+
+}  // namespace
+
+Spec parse_spec(const std::string& text, const std::string& origin) {
+  Spec spec;
+  spec.origin = origin;
+  spec.source = text;
+  spec.name = std::filesystem::path(origin).stem().string();
+  Reader(spec, origin).read(vp::load_yaml(text, origin));
+  return spec;
+}
+
+Spec read_spec(const std::string& file) {
+  return parse_spec(vp::read_text(file, "sweep"), file);
+}
+
+namespace fs = std::filesystem;
+
+std::vector<Study> studies() {
+  std::vector<Study> found;
+  std::error_code ignored;
+  for (const std::string& folder : input::library_folders()) {
+    for (const auto& entry : fs::directory_iterator(fs::path(folder) / "studies", ignored)) {
+      if (entry.path().extension() != ".yaml") continue;
+      const Spec spec = read_spec(entry.path().string());
+      found.push_back({spec.name, spec.title, entry.path().string()});
+    }
+    if (!found.empty()) break;
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Study& a, const Study& b) { return a.name < b.name; });
+  return found;
+}
+
+std::string sweep_file(const std::string& name) {
+  std::error_code ignored;
+  if (fs::exists(name, ignored)) return name;
+  std::vector<std::string> names;
+  for (const Study& study : studies()) {
+    if (study.name == name) return study.file;
+    names.push_back(study.name);
+  }
+  const std::string nearest = vp::nearest_match(name, names);
+  throw vp::InputError("no sweep '" + name +
+                       "': " + (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                       "name a YAML file, or a study that 'markervp sweep --list' shows");
+}
+
+}  // namespace platform::sweep

@@ -1,0 +1,292 @@
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <new>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include <cli/interrupt.h>
+#include <cli/program.h>
+#include <page/report_page.h>
+#include <sweep/words.h>
+#include <sweep/worker.h>
+#include <vp/output_file.h>
+
+namespace platform::sweep {
+
+WorkQueue::WorkQueue(std::size_t items, std::uint32_t slots)
+    : items_(items), bytes_(sizeof(Shared) + slots * sizeof(Slot)) {
+  void* memory = ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED)
+    throw std::system_error(errno, std::generic_category(), "no memory for a sweep's processes");
+  shared_ = new (memory) Shared;
+  for (std::uint32_t slot = 0; slot < slots; ++slot) new (this->slots() + slot) Slot(0);
+}
+
+WorkQueue::~WorkQueue() {
+  ::munmap(shared_, bytes_);
+}
+
+std::optional<std::size_t> WorkQueue::take(std::uint32_t slot) {
+  const std::uint64_t item = shared_->next++;
+  if (item >= items_) return std::nullopt;
+  hold(slot, item);
+  return item;
+}
+
+std::optional<std::size_t> WorkQueue::held(std::uint32_t slot) const {
+  const std::uint64_t item = slots()[slot];
+  if (item == 0) return std::nullopt;
+  return item - 1;
+}
+
+namespace {
+
+template <class Number>
+void put(std::string& bytes, Number value) {
+  static_assert(std::is_arithmetic_v<Number>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void put_text(std::string& bytes, std::string_view text) {
+  put(bytes, std::uint64_t{text.size()});
+  bytes += text;
+}
+
+/// Takes values off the front of bytes that are all there.
+class Taker {
+ public:
+  explicit Taker(std::string_view bytes) : rest_(bytes) {}
+
+  template <class Number>
+  Number take() {
+    Number value{};
+    std::memcpy(&value, rest_.data(), sizeof value);
+    rest_.remove_prefix(sizeof value);
+    return value;
+  }
+  std::string take_text() {
+    const auto size = take<std::uint64_t>();
+    std::string text(rest_.substr(0, size));
+    rest_.remove_prefix(size);
+    return text;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+}  // namespace
+
+std::string MessageWriter::bytes(const PointMessage& message) {
+  std::string body;
+  put(body, static_cast<std::uint8_t>(message.kind));
+  put(body, message.item);
+  put(body, message.wall_s);
+  put(body, message.cpu_s);
+  put(body, message.failed);
+  put(body, message.failure.exit_code);
+  put(body, message.failure.signal);
+  put_text(body, message.failure.message);
+  put_text(body, message.row);
+  const Metrics& metrics = message.metrics;
+  const bool same = metrics.shares_names(before_) || metrics.names() == before_.names();
+  put(body, same);
+  put(body, std::uint64_t{metrics.values().size()});
+  if (!same) {
+    for (const std::string& name : metrics.names()) put_text(body, name);
+    before_ = metrics;
+  }
+  for (const double value : metrics.values()) put(body, value);
+  std::string bytes;
+  put_text(bytes, body);
+  return bytes;
+}
+
+std::optional<PointMessage> MessageReader::next() {
+  std::uint64_t size = 0;
+  if (waiting_.size() < sizeof size) return std::nullopt;
+  std::memcpy(&size, waiting_.data(), sizeof size);
+  if (waiting_.size() < sizeof size + size) return std::nullopt;
+  Taker taker(std::string_view(waiting_).substr(sizeof size));
+  PointMessage message;
+  message.kind = static_cast<PointMessage::Kind>(taker.take<std::uint8_t>());
+  message.item = taker.take<std::uint64_t>();
+  message.wall_s = taker.take<double>();
+  message.cpu_s = taker.take<double>();
+  message.failed = taker.take<bool>();
+  message.failure.exit_code = taker.take<int>();
+  message.failure.signal = taker.take<int>();
+  message.failure.message = taker.take_text();
+  message.row = taker.take_text();
+  const bool same = taker.take<bool>();
+  const auto count = taker.take<std::uint64_t>();
+  std::shared_ptr<const Metrics::Names> names = before_.shared_names();
+  if (!same) {
+    auto read = std::make_shared<Metrics::Names>();
+    for (std::uint64_t i = 0; i < count; ++i) read->push_back(taker.take_text());
+    names = *read == known_.names() ? known_.shared_names() : std::move(read);
+  }
+  std::vector<double> values;
+  values.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) values.push_back(taker.take<double>());
+  message.metrics = Metrics(std::move(names), std::move(values));
+  before_ = message.metrics;
+  waiting_.erase(0, sizeof size + size);
+  return message;
+}
+
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+double cpu_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// What the last frame that warns at all warns of first, as the end of a message.
+std::string last_warning(const Json& result) {
+  const Json frames = result.value("frames", Json::array());
+  for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame) {
+    if (frame->contains("warnings")) return ": " + frame->at("warnings").at(0).get<std::string>();
+  }
+  return "";
+}
+
+/// True if the message is one of a full or failing disk: a run that ends with it says nothing about
+/// its point.
+bool is_storage_problem(const std::string& message) {
+  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE};
+  return std::any_of(std::begin(reasons), std::end(reasons), [&](int reason) {
+    return message.find(std::strerror(reason)) != std::string::npos;
+  });
+}
+
+/// The first parameter that the platform had with another value than the point is named after, or
+/// that only one of them has.
+std::string difference(const Manifest& manifest, const PlannedPoint& point,
+                       const std::map<std::string, std::string>& actual) {
+  std::string first;
+  auto found = actual.begin();  // both are sorted
+  manifest.visit_configuration(point, [&](const std::string& path, const std::string& planned) {
+    if (!first.empty()) return;
+    if (found != actual.end() && found->first == path && found->second == planned) {
+      ++found;
+    } else {
+      first = found != actual.end() && found->first < path ? found->first : path;
+    }
+  });
+  return first.empty() && found != actual.end() ? found->first : first;
+}
+
+}  // namespace
+
+PointWorker::PointWorker(const PointList& list, WorkQueue& queue, std::uint32_t slot, int pipe)
+    : list_(list), queue_(queue), slot_(slot), pipe_(pipe) {}
+
+void PointWorker::work(std::uint32_t most) {
+  for (std::uint32_t count = 0; count < most; ++count) {
+    if (queue_.stopped() || cli::InterruptGuard::interrupted()) return;
+    const std::optional<std::size_t> item = queue_.take(slot_);
+    if (!item || !complete(*item)) return;
+  }
+}
+
+void PointWorker::work_on(std::size_t item) {
+  queue_.hold(slot_, item);
+  complete(item);
+}
+
+bool PointWorker::complete(std::size_t item) {
+  const HostClock::time_point begin = HostClock::now();
+  PointMessage message;
+  try {
+    message = compute(item);
+  } catch (const vp::OutputError& error) {
+    message.kind = PointMessage::Kind::no_storage;
+    message.failure.message = error.what();
+  }
+  message.item = item;
+  message.wall_s = std::chrono::duration<double>(HostClock::now() - begin).count();
+  tell(message);
+  queue_.release(slot_);
+  return clean_;
+}
+
+PointMessage PointWorker::compute(std::size_t item) {
+  const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
+  PointMessage message;
+  const host::FileLock claim = list_.store.claim(point.key);
+  if (list_.store.has(point.key)) {
+    message.kind = PointMessage::Kind::there;
+  } else {
+    compute_claimed(point, message);
+  }
+  return message;
+}
+
+void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& message) {
+  const double start = cpu_seconds();
+  const PointRun asked = run_of(list_.manifest, point);
+  PointResult found;
+  std::ostringstream said;
+  const int code = cli::exit_code_of([&] { return list_.run(asked, found, said); }, said);
+  message.cpu_s = cpu_seconds() - start;
+  clean_ = code == cli::done;
+  std::string text = clean_ ? "" : last_line(said.str());
+  if (code == cli::interrupted) {
+    message.kind = PointMessage::Kind::interrupted;
+    return;
+  }
+  if (!clean_ && is_storage_problem(text)) throw vp::OutputError(text);
+  if (!clean_) {
+    message.failed = true;
+    Json result;
+    if (code == cli::run_failed) {
+      // The program ended by itself: what it found until then says why.
+      result = std::move(found.result);
+      text += last_warning(result);
+      message.metrics = metrics_.read(result);
+    }
+    message.failure = {code, 0, text};
+    finish(failed_record(list_.manifest, point, message.failure, std::move(result)), message);
+    return;
+  }
+  const std::string changed = difference(list_.manifest, point, found.configuration);
+  if (!changed.empty()) {
+    clean_ = false;
+    message.kind = PointMessage::Kind::fault;
+    message.failure = {cli::run_failed, 0,
+                       "the platform was built with another value than planned: " + changed};
+    return;
+  }
+  message.metrics = metrics_.read(found.result);
+  finish(done_record(list_.manifest, point, std::move(found.result)), message);
+}
+
+void PointWorker::finish(const PointRecord& record, PointMessage& message) {
+  message.row = page::point_row(record.outcome);
+  list_.store.write(record);
+}
+
+void PointWorker::tell(const PointMessage& message) {
+  const std::string text = writer_.bytes(message);
+  for (std::string_view bytes = text; !bytes.empty();) {
+    const ssize_t count = ::write(pipe_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw std::system_error(errno, std::generic_category(), "pipe to the sweep");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace platform::sweep

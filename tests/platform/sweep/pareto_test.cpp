@@ -1,0 +1,285 @@
+#include <sweep/pareto.h>
+#include <sweep/results.h>
+#include <sweep/sensitivity.h>
+
+#include <utility>
+
+#include "sweep_kit.h"
+
+using namespace platform::sweep;
+using sweep_test::complaint;
+using sweep_test::contains;
+
+namespace {
+
+/// Those of a feasible point.
+Metrics feasible(std::vector<std::pair<std::string, double>> figures) {
+  for (const char* part : platform::report::verdict_parts)
+    figures.emplace_back("verdict." + std::string(part) + ".holds", 1);
+  return Metrics(std::move(figures));
+}
+
+/// FPS and watts of five points, one of which failed.
+Results example() {
+  Results results;
+  results.manifest.name = "example";
+  results.manifest.swept = {"clock"};
+  const double fps[] = {50, 100, 150, 90};
+  const double watts[] = {1, 1.1, 3, 2};
+  for (int i = 0; i < 4; ++i) {
+    ResultRow row;
+    row.key = std::to_string(i);
+    row.swept = {{"clock", std::to_string(50 * (i + 1)) + " MHz"}};
+    row.metrics = feasible({{"fps", fps[i]}, {"watts", watts[i]}});
+    results.rows.push_back(row);
+  }
+  ResultRow failed;
+  failed.failed = true;
+  failed.swept = {{"clock", "1 MHz"}};
+  results.rows.push_back(failed);
+  return results;
+}
+
+std::vector<Objective> fps_and_watts() {
+  return {Objective("max fps", "here"), Objective("min watts", "here")};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(analysis)
+
+BOOST_AUTO_TEST_CASE(objectives_say_which_way_is_better) {
+  BOOST_TEST(Objective("max a / b", "x").maximise());
+  BOOST_TEST(!Objective("min a", "x").maximise());
+  for (const char* wrong : {"a", "maximum a", "max ", ""})
+    BOOST_TEST(contains(complaint([&] { Objective(wrong, "x"); }), "max METRIC"), wrong);
+}
+
+BOOST_AUTO_TEST_CASE(fronts_are_peeled_one_by_one) {
+  const std::vector<std::size_t> front =
+      fronts({{1, 1}, {2, 2}, {3, 3}, {2, 4}, {2, 2}}, {true, false});
+  BOOST_TEST(front == (std::vector<std::size_t>{1, 1, 1, 2, 1}), boost::test_tools::per_element());
+}
+
+// A point loses to one that is better in one objective and equal in the others.
+BOOST_AUTO_TEST_CASE(equal_in_one_objective_and_better_in_another_dominates) {
+  using Fronts = std::vector<std::size_t>;
+  BOOST_TEST(fronts({{1, 1}, {1, 2}}, {true, true}) == (Fronts{2, 1}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{1, 1}, {1, 2}}, {true, false}) == (Fronts{1, 2}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{5, 1}, {4, 1}, {3, 1}}, {false, true}) == (Fronts{3, 2, 1}),
+             boost::test_tools::per_element());
+  BOOST_TEST(fronts({{1, 1}, {1, 1}}, {true, true}) == (Fronts{1, 1}),
+             boost::test_tools::per_element());
+}
+
+// A third and two thirds on the way are equally far from the best of everything.
+BOOST_AUTO_TEST_CASE(of_equally_good_knees_the_first_is_taken) {
+  Results results = example();
+  for (int i = 0; i < 4; ++i)
+    results.rows[i].metrics = feasible({{"fps", 10.0 * i}, {"watts", 1.0 * i}});
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 1u);
+  std::swap(results.rows[1], results.rows[2]);
+  BOOST_TEST(rank(results, fps_and_watts(), {}).knee.value() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_front_of_two_has_no_knee) {
+  Results results = example();
+  results.rows.resize(2);  // (50, 1 W) and (100, 1.1 W)
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points[0].front == 1u);
+  BOOST_TEST(pareto.points[1].front == 1u);
+  BOOST_TEST(!pareto.knee.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(the_table_of_a_front_grows_in_its_first_objective) {
+  Results results = example();
+  std::swap(results.rows[0], results.rows[2]);
+  const std::string table =
+      pareto_table(results, fps_and_watts(), rank(results, fps_and_watts(), {}));
+  BOOST_TEST(table.find("50 MHz") < table.find("100 MHz"), table);
+  BOOST_TEST(table.find("100 MHz") < table.find("150 MHz"), table);
+  BOOST_TEST(table.find("200 MHz") == std::string::npos, "not on the front");
+}
+
+// Distances are in parts of what the front spans: 40 of 100 frames/s away is nearer than 0.5 of
+// 1 W.
+BOOST_AUTO_TEST_CASE(the_knee_measures_in_parts_of_the_front) {
+  Results results = example();
+  const double fps[] = {100, 160, 200, 140}, watts[] = {1, 1.4, 2, 1.35};
+  for (int i = 0; i < 4; ++i) {
+    results.rows[i].metrics = feasible({{"fps", fps[i]}, {"watts", watts[i]}, {"same", 7}});
+  }
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points[3].front == 1u);
+  BOOST_TEST(pareto.knee.value() == 1u);
+  std::vector<Objective> objectives = fps_and_watts();
+  objectives.emplace_back("max same", "here");
+  BOOST_TEST(rank(results, objectives, {}).knee.value() == 1u, "what is equal everywhere");
+}
+
+BOOST_AUTO_TEST_CASE(the_knee_is_near_the_best_of_everything) {
+  const Results results = example();
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST(pareto.points.size() == 4u);
+  BOOST_TEST(pareto.points[3].front == 2u);
+  BOOST_REQUIRE(pareto.knee.has_value());
+  BOOST_TEST(*pareto.knee == 1u);
+  BOOST_TEST(contains(pareto_table(results, fps_and_watts(), pareto), "knee"));
+}
+
+// The verdict of each point: feasible, unknown timing, no marker, and what ran before there were
+// verdicts.
+BOOST_AUTO_TEST_CASE(only_feasible_points_are_ranked) {
+  using platform::report::Holds;
+  Results results = example();
+  const double timing[] = {1, 0.5, 1, 1}, job[] = {1, 1, 0, 1};
+  for (int i = 0; i < 4; ++i) {
+    std::vector<std::pair<std::string, double>> figures{
+        {"fps", *results.rows[i].metrics.find("fps")},
+        {"watts", *results.rows[i].metrics.find("watts")},
+        {"verdict.fits.holds", 1},
+        {"verdict.clocks.holds", 1}};
+    if (i < 3) {
+      figures.insert(figures.end(), {{"verdict.ran.holds", 1},
+                                     {"verdict.job.holds", job[i]},
+                                     {"verdict.timing.holds", timing[i]}});
+    }
+    results.rows[i].metrics = Metrics(std::move(figures));
+  }
+  const Pareto pareto = rank(results, fps_and_watts(), {});
+  BOOST_TEST((pareto.points[0].feasible == Holds::yes));
+  BOOST_TEST(pareto.points[0].front == 1u);
+  BOOST_TEST((pareto.points[1].feasible == Holds::unknown));
+  BOOST_TEST((pareto.points[2].feasible == Holds::no));
+  BOOST_TEST((pareto.points[3].feasible == Holds::unknown));
+  for (const int i : {1, 2, 3}) BOOST_TEST(pareto.points[i].front == 0u);
+  BOOST_TEST(contains(pareto_csv(results, fps_and_watts(), pareto), "1,0,0,unknown,100 MHz"));
+  BOOST_TEST(verdicts_text(results) ==
+             "1 of 5 points feasible, 1 did not run, 1 did not do their job, 2 unknown");
+  BOOST_TEST(contains(
+      complaint([&] { rank(results, fps_and_watts(), {Expression("fps > 60", "here")}); }),
+      "no point is feasible, meets the constraints and has a value of every objective: 1 of 5"));
+  // A constraint that does not hold is one reason more.
+  BOOST_TEST((rank(results, fps_and_watts(), {Expression("fps < 60", "here")}).points[1].feasible ==
+              Holds::no));
+  // Sensitivity, too.
+  BOOST_TEST(sensitivity(results, Expression("fps", "here")).skipped == 4u);
+  BOOST_TEST(sensitivity(results, Expression("fps", "here"), true).skipped == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_study_may_ask_for_another_job) {
+  using platform::report::Holds;
+  Results results = example();
+  results.job.emplace("fps >= 100", "here");
+  BOOST_TEST((results.feasible(results.rows[0]) == Holds::no));
+  BOOST_TEST((results.feasible(results.rows[1]) == Holds::yes));
+  BOOST_TEST((results.holds(results.rows[4], "job") == Holds::unknown));
+  BOOST_TEST((results.feasible(results.rows[4]) == Holds::no));
+  BOOST_TEST(rank(results, fps_and_watts(), {}).points[0].front == 0u);
+  results.job.emplace("markers > 0", "here");
+  BOOST_TEST(contains(complaint([&] { rank(results, fps_and_watts(), {}); }),
+                      "job 'markers > 0': unknown metric 'markers'"));
+}
+
+BOOST_AUTO_TEST_CASE(constraints_take_points_out) {
+  const Results results = example();
+  const Pareto pareto = rank(results, fps_and_watts(), {Expression("clock >= 150 MHz", "here")});
+  BOOST_TEST((pareto.points[0].feasible == platform::report::Holds::no));
+  BOOST_TEST(pareto.points[2].front == 1u);
+  BOOST_TEST(pareto.points[3].front == 1u);
+  BOOST_TEST(contains(
+      complaint([&] { rank(results, fps_and_watts(), {Expression("fps > 1000", "here")}); }),
+      "no point is feasible, meets the constraints"));
+  BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max fsp", "here")}, {}); }),
+                      "did you mean 'fps'"));
+}
+
+/// The example, whose second point found no marker: it has no error.
+Results without_marker() {
+  Results results = example();
+  const double error[] = {5, 0, 2, 4};
+  for (int i = 0; i < 4; ++i) {
+    ResultRow& row = results.rows[i];
+    if (i == 1) continue;
+    row.metrics = feasible({{"fps", *row.metrics.find("fps")},
+                            {"watts", *row.metrics.find("watts")},
+                            {"error", error[i]}});
+  }
+  return results;
+}
+
+BOOST_AUTO_TEST_CASE(a_point_without_a_metric_is_left_out_and_counted) {
+  const Results results = without_marker();
+  const std::vector<Objective> objectives{Objective("max fps", "here"),
+                                          Objective("min error", "here")};
+  const Pareto pareto = rank(results, objectives, {});
+  BOOST_TEST(pareto.points.size() == 4u);
+  BOOST_TEST(pareto.points[1].figures.empty());
+  BOOST_TEST(pareto.points[1].front == 0u);
+  BOOST_TEST(pareto.points[2].front == 1u);
+  BOOST_TEST(pareto.points[3].front == 2u);
+  BOOST_TEST((pareto.lacking == std::map<std::string, std::uint64_t>{{"error", 1}}));
+  BOOST_TEST(contains(pareto_csv(results, objectives, pareto), "1,0,0,yes,100 MHz,,\n"),
+             pareto_csv(results, objectives, pareto));
+  BOOST_TEST(!contains(pareto_table(results, objectives, pareto), "100 MHz"));
+  // Without the objective it is ranked; a constraint on what it lacks is not met.
+  BOOST_TEST(rank(results, fps_and_watts(), {}).points[1].front == 1u);
+  const Pareto bounded = rank(results, fps_and_watts(), {Expression("not error > 100", "here")});
+  BOOST_TEST((bounded.points[1].feasible == platform::report::Holds::no));
+  BOOST_TEST((bounded.points[2].feasible == platform::report::Holds::yes));
+  BOOST_TEST(bounded.lacking.at("error") == 1u);
+  BOOST_TEST(contains(complaint([&] { rank(results, {Objective("max eror", "here")}, {}); }),
+                      "did you mean 'error'"));
+  Results none = example();
+  for (ResultRow& row : none.rows) row.failed = true;
+  BOOST_TEST(contains(complaint([&] { rank(none, objectives, {}); }), "no point with a result"));
+}
+
+BOOST_AUTO_TEST_CASE(sensitivity_leaves_out_points_without_the_figure) {
+  Results results = without_marker();
+  const Expression error("error", "here");
+  const SensitivityReport effects = sensitivity(results, error);
+  BOOST_TEST(effects.method == "main effects");
+  BOOST_TEST(effects.skipped == 2u);  // and the one that failed
+  BOOST_TEST(effects.base == (5 + 2 + 4) / 3.0);
+  BOOST_TEST(effects.rows.at(0).low == 2);
+  BOOST_TEST(effects.rows.at(0).high == 5);
+  results.manifest.sampling = "morris";
+  results.manifest.effects = {{"0", "1", "clock", 0.5}, {"0", "2", "clock", 0.5}};
+  const SensitivityReport morris = sensitivity(results, error);
+  BOOST_TEST(morris.skipped == 1u);
+  BOOST_TEST(morris.rows.at(0).mean == -6);
+  results.manifest.sampling = "one-at-a-time";
+  results.manifest.effects = {{"1", "0", "clock", 0}};
+  BOOST_TEST(contains(complaint([&] { sensitivity(results, error); }), "has no 'error'"));
+  results.manifest.effects = {{"0", "1", "clock", 0}, {"0", "2", "clock", 0}};
+  BOOST_TEST(sensitivity(results, error).skipped == 1u);
+  BOOST_TEST(contains(complaint([&] { sensitivity(results, Expression("eror", "here")); }),
+                      "did you mean 'error'"));
+}
+
+BOOST_AUTO_TEST_CASE(elementary_effects_are_averaged) {
+  Results results = example();
+  results.manifest.sampling = "morris";
+  results.manifest.effects = {{"0", "1", "clock", 0.5}, {"3", "1", "clock", -0.5}};
+  const SensitivityReport report = sensitivity(results, Expression("fps", "here"));
+  BOOST_REQUIRE(report.rows.size() == 1u);
+  BOOST_TEST(report.rows[0].mean == 40);  // 100 and -20
+  BOOST_TEST(report.rows[0].mean_size == 60);
+  BOOST_TEST(report.rows[0].count == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_tornado_has_low_and_high) {
+  Results results = example();
+  results.manifest.sampling = "one-at-a-time";
+  results.manifest.effects = {{"1", "0", "clock", 0}, {"1", "2", "clock", 0}};
+  const SensitivityReport report = sensitivity(results, Expression("fps", "here"));
+  BOOST_TEST(report.base == 100);
+  BOOST_TEST(report.rows.at(0).low == 50);
+  BOOST_TEST(report.rows.at(0).high == 150);
+  BOOST_TEST(report.rows.at(0).high_at == "150 MHz");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
