@@ -7,6 +7,7 @@
 
 #include <cli/options.h>
 #include <cli/simulation.h>
+#include <host/process.h>
 #include <report/result_json.h>
 
 namespace CLI {
@@ -16,6 +17,14 @@ class App;
 /// The commands of the program. Each returns the exit code and throws vp::InputError for what the
 /// user got wrong.
 namespace platform::cli {
+
+using host::done;
+using host::ExitCode;
+using host::interrupted;
+using host::points_failed;
+using host::protocol_broken;
+using host::run_failed;
+using host::wrong_input;
 
 /// Runs the platform on the inputs. Everything is checked before the first frame and before
 /// anything is written; results up to an error in the middle are kept, and the result file says

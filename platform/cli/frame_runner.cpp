@@ -3,8 +3,7 @@
 #include <ostream>
 #include <utility>
 
-#include <cli/interrupt.h>
-#include <host/standard_streams.h>
+#include <host/process.h>
 #include <picture/picture.h>
 #include <report/console.h>
 #include <vp/error.h>
@@ -29,7 +28,7 @@ void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
 }
 
 const input::InputFrame* FrameRunner::give(input::FrameSource& source) {
-  if (error_ || InterruptGuard::interrupted()) return nullptr;
+  if (error_ || host::InterruptGuard::noted()) return nullptr;
   try {
     std::optional<input::InputFrame> frame =
         first_ ? std::exchange(first_, std::nullopt) : source.next();

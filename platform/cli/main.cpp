@@ -5,8 +5,7 @@
 
 #include <cli/program.h>
 #include <cli/zynq_simulation.h>
-#include <host/ending.h>
-#include <host/standard_streams.h>
+#include <host/process.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
 int sc_main(int, char**) {
@@ -20,11 +19,11 @@ int main(int argc, char* argv[]) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const int code = platform::cli::run_program(arguments, platform::cli::make_zynq_simulation,
                                               std::cout, std::cerr);
-  if (code != platform::cli::done) return code;
-  return platform::cli::exit_code_of(
+  if (code != platform::host::done) return code;
+  return platform::host::exit_code_of(
       [] {
         platform::host::check_standard_output();
-        return platform::cli::done;
+        return platform::host::done;
       },
       std::cerr);
 }

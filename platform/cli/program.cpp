@@ -1,39 +1,15 @@
 #include <cli/program.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <exception>
-#include <filesystem>
-#include <new>
 #include <ostream>
 
 #include <cli/app.h>
 #include <cli/commands.h>
-#include <host/standard_streams.h>
-#include <vp/error.h>
+#include <host/process.h>
 
 namespace platform::cli {
 
 namespace {
-
-/// What a message quotes may be anything: lines, escape sequences of the terminal, a megabyte. One
-/// line comes of it, with the beginning, which says where, and the end, which says what to do.
-std::string one_line(std::string text) {
-  constexpr std::size_t longest = 4000;
-  constexpr std::size_t part = 1500;
-  if (text.size() > longest) {
-    text = text.substr(0, part) + " [... " + std::to_string(text.size() - 2 * part) +
-           " characters ...] " + text.substr(text.size() - part);
-  }
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, ' ');
-  return text;
-}
-
-int fail(std::ostream& err, const std::string& message, ExitCode code) {
-  err << "markervp: " << one_line(message) << std::endl;
-  return code;
-}
 
 int run_command(const CLI::App& app, const CommandLine& line,
                 const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
@@ -70,28 +46,6 @@ int written(int code, std::ostream& out) {
 
 }  // namespace
 
-int exit_code_of(const std::function<int()>& work, std::ostream& err) {
-  try {
-    return work();
-  } catch (const vp::InputError& error) {
-    return fail(err, error.what(), wrong_input);
-  } catch (const vp::ProtocolError& error) {
-    return fail(err, error.what(), protocol_broken);
-  } catch (const std::bad_alloc&) {
-    return fail(
-        err,
-        "not enough memory on this machine: choose smaller images, depths or files, or give "
-        "it more",
-        wrong_input);
-  } catch (const std::filesystem::filesystem_error& error) {
-    const std::string file = error.path1().string();
-    return fail(err, (file.empty() ? "" : "'" + file + "': ") + error.code().message(),
-                wrong_input);
-  } catch (const std::exception& error) {
-    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
-  }
-}
-
 int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
                 std::ostream& out, std::ostream& err) {
   CommandLine line;
@@ -100,12 +54,12 @@ int run_program(const std::vector<std::string>& arguments, const SimulationFacto
     app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      return fail(err, usage_error(*app, error, arguments), wrong_input);
+      return host::fail(err, usage_error(*app, error, arguments), wrong_input);
     }
     app->exit(error, out, err);
-    return exit_code_of([&] { return written(done, out); }, err);
+    return host::exit_code_of([&] { return written(done, out); }, err);
   }
-  return exit_code_of(
+  return host::exit_code_of(
       [&] { return written(run_command(*app, line, arguments, make_simulation, out, err), out); },
       err);
 }

@@ -1,7 +1,5 @@
-#include <unistd.h>
-
 #include <cli/provenance.h>
-#include <report/utc_time.h>
+#include <host/machine.h>
 
 namespace platform::cli {
 
@@ -18,16 +16,6 @@ std::string version_text() {
   return "markervp " + program_version() + (revision.empty() ? "" : " (" + revision + ")");
 }
 
-namespace {
-
-std::string host_name() {
-  char name[256] = "";
-  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
-  return name;
-}
-
-}  // namespace
-
 report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
                               const vp::Configuration& configuration) {
   report::Provenance result;
@@ -36,8 +24,8 @@ report::Provenance provenance(const RunOptions& options, const std::vector<std::
   result.revision = source_revision();
   result.configuration_hash = configuration.hash();
   result.command_line = arguments;
-  result.host = host_name();
-  result.date = report::utc_now();
+  result.host = host::host_name();
+  result.date = host::utc_now();
   result.details.emplace_back("output", options.output);
   if (options.camera) result.details.emplace_back("camera", *options.camera);
   if (options.program) result.details.emplace_back("program_file", *options.program);

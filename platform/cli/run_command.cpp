@@ -10,12 +10,12 @@
 
 #include <cli/commands.h>
 #include <cli/frame_runner.h>
-#include <cli/interrupt.h>
 #include <cli/point_options.h>
 #include <cli/program.h>
 #include <cli/provenance.h>
 #include <cli/trace_window.h>
 #include <host/output_folder.h>
+#include <host/process.h>
 #include <page/page_file.h>
 #include <page/report_page.h>
 #include <page/run_extras.h>
@@ -161,7 +161,7 @@ bool is_input_error(const std::exception_ptr& error) {
 /// The reason without folders, which belong into the provenance only.
 std::optional<std::string> incomplete(const FrameRunner& runner) {
   if (runner.error()) return "stopped by an error";
-  if (InterruptGuard::interrupted()) return "interrupted";
+  if (host::InterruptGuard::noted()) return "interrupted";
   return std::nullopt;
 }
 
@@ -240,7 +240,7 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner, b
 int verdict(const RunOptions& options, const FrameRunner& runner, const report::RunFacts& facts,
             const std::exception_ptr& error, std::ostream& err) {
   if (error) std::rethrow_exception(error);
-  if (InterruptGuard::interrupted()) {
+  if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted; results up to here are kept" << std::endl;
     return interrupted;
   }
@@ -288,7 +288,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   std::unique_ptr<report::ResultWriter> file;
   if (folder) file = std::make_unique<report::ResultWriter>(*folder);
   report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
-  const InterruptGuard guard(*simulation);
+  const host::InterruptGuard guard([&] { simulation->interrupt(); });
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
   runner.run(*simulation, {folder && !options.no_pictures ? &*folder : nullptr, !options.quiet, bar,

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <cli/commands.h>
-#include <cli/interrupt.h>
 #include <cli/program.h>
 #include <cli/sweep_platform.h>
 #include <designs/plugin.h>
+#include <host/process.h>
 #include <page/report_page.h>
 #include <report/console.h>
 #include <run/program_file.h>
@@ -163,7 +163,7 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
                      const SimulationFactory& make_simulation, std::ostream& err) {
   if (pending.empty()) return {};
   const sweep::RunPoint run = point_runner(make_simulation);
-  const InterruptGuard guard;
+  const host::InterruptGuard guard;
   vp::Progress bar(manifest.name, pending.size());
   const auto progress = [&](std::uint64_t points) { bar.update(points); };
   sweep::FigureNames figures(manifest);
@@ -258,7 +258,7 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
 
 int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation) {
   const sweep::Store store(options.folder);
-  const InterruptGuard guard;
+  const host::InterruptGuard guard;
   return sweep::run_slurm_task(store, options.submission, options.task, warm_up,
                                point_runner(make_simulation), options.points_a_process);
 }

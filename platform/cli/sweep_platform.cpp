@@ -8,8 +8,8 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/provenance.h>
-#include <cli/run_child.h>
 #include <designs/designs.h>
+#include <host/child.h>
 #include <input/frame_source.h>
 #include <run/program_file.h>
 #include <sweep/axes.h>
@@ -60,7 +60,7 @@ sweep::Elaborated elaborated_from(const Json& json) {
 
 sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin,
                             const SimulationFactory& make_simulation) {
-  RunChild child([&](std::ostream& out, std::ostream&) {
+  host::Child child([&](std::ostream& out, std::ostream&) {
     vp::Configuration configuration;
     for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
     SimulationOptions options;
@@ -69,7 +69,7 @@ sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin
     out << "\n" << to_json(configuration.parameters(), simulation->image_size()).dump();
     return done;
   });
-  const ChildEnd end = child.wait();
+  const host::ChildEnd end = child.wait();
   const Json description = Json::parse(last_line(end.out), nullptr, false);
   if (end.exit_code == done && description.is_object()) return elaborated_from(description);
   const std::string name = "markervp: ";

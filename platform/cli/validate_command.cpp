@@ -5,7 +5,7 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <cli/run_child.h>
+#include <host/child.h>
 #include <host/output_folder.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
@@ -40,10 +40,10 @@ RunOptions run_options(const ValidateOptions& options, const std::string& system
 }
 
 /// Exit code of a run that did not end well, after its messages; equal ones are printed once.
-int failure(const std::vector<ChildEnd>& ends, std::ostream& err) {
+int failure(const std::vector<host::ChildEnd>& ends, std::ostream& err) {
   int code = done;
   std::string printed;
-  for (const ChildEnd& end : ends) {
+  for (const host::ChildEnd& end : ends) {
     const std::string message =
         end.signal != 0 ? "markervp: a run was ended by signal " + std::to_string(end.signal) + "\n"
                         : end.err;
@@ -57,8 +57,8 @@ int failure(const std::vector<ChildEnd>& ends, std::ostream& err) {
 /// Both systems on all images, side by side if there are jobs enough.
 int run_systems(const ValidateOptions& options, const std::vector<std::string>& arguments,
                 const SimulationFactory& make_simulation, std::ostream& err) {
-  std::vector<RunChild> children;
-  std::vector<ChildEnd> ends;
+  std::vector<host::Child> children;
+  std::vector<host::ChildEnd> ends;
   for (const char* system : systems) {
     const RunOptions run_it = run_options(options, system);
     children.emplace_back([&, run_it](std::ostream& child_out, std::ostream& child_err) {
@@ -67,7 +67,7 @@ int run_systems(const ValidateOptions& options, const std::vector<std::string>& 
     if (options.jobs == 1) ends.push_back(children.back().wait());
   }
   if (ends.empty()) {
-    for (RunChild& child : children) ends.push_back(child.wait());
+    for (host::Child& child : children) ends.push_back(child.wait());
   }
   return failure(ends, err);
 }

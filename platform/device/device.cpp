@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 std::vector<Device> installed_devices() {
   std::vector<Device> all;
   std::string searched;
-  for (const std::string& library : input::library_folders()) {
+  for (const std::string& library : host::library_folders()) {
     const fs::path folder = fs::path(library) / "devices";
     if (searched.empty()) searched = folder.string();
     std::error_code ignored;

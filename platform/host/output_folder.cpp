@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include <host/machine.h>
 #include <host/output_folder.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
@@ -59,9 +60,7 @@ constexpr const char* list_name = ".markervp";
 constexpr const char* choose_another = "; choose another with --output";
 
 std::string who_am_i() {
-  char host[256] = "unknown host";
-  ::gethostname(host, sizeof host - 1);
-  return "process " + std::to_string(::getpid()) + " on " + host;
+  return "process " + std::to_string(::getpid()) + " on " + host_name();
 }
 
 std::string content_of(int descriptor) {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <host/machine.h>
 #include <input/image_file.h>
-#include <input/library_folder.h>
 #include <input/media.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -44,7 +44,7 @@ const Media& load_media(const std::vector<std::string>& folders) {
 }
 
 const Media& media() {
-  static const Media& loaded = load_media(library_folders());
+  static const Media& loaded = load_media(host::library_folders());
   return loaded;
 }
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include <host/document.h>
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <power/known_coefficients.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -25,7 +25,7 @@ constexpr int version = 1;
 
 std::vector<fs::path> table_folders() {
   std::vector<fs::path> folders;
-  for (const std::string& folder : input::library_folders())
+  for (const std::string& folder : host::library_folders())
     folders.push_back(fs::path(folder) / "power");
   return folders;
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <profiles/kernels.h>
 #include <profiles/profile_file.h>
 #include <vp/error.h>
@@ -27,7 +27,7 @@ const char* name_of(Optimisation optimisation) {
 /// Where installed profiles may be.
 std::vector<fs::path> profile_folders() {
   std::vector<fs::path> folders;
-  for (const std::string& folder : input::library_folders()) {
+  for (const std::string& folder : host::library_folders()) {
     folders.push_back(fs::path(folder) / "profiles");
   }
   return folders;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -22,7 +22,7 @@ bool is_own_program(const std::string& name) {
 std::string installed_program(const std::string& name, const std::string& folder) {
   std::vector<std::string> folders;
   if (!folder.empty()) folders.push_back(folder);
-  for (const std::string& library : input::library_folders())
+  for (const std::string& library : host::library_folders())
     folders.push_back((fs::path(library) / "programs").string());
   std::error_code ignored;
   for (const std::string& programs : folders) {

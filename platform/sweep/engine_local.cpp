@@ -12,9 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include <cli/interrupt.h>
-#include <cli/program.h>
-#include <cli/run_child.h>
+#include <host/child.h>
+#include <host/process.h>
 #include <page/report_page.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
@@ -79,7 +78,7 @@ class Pool {
 
   Tally run() {
     for (;;) {
-      if (cli::InterruptGuard::interrupted()) stop();
+      if (host::InterruptGuard::noted()) stop();
       while (running_.size() < options_.jobs && has_work()) start();
       if (running_.empty() && !find_lost()) break;
       if (running_.empty()) continue;
@@ -96,7 +95,7 @@ class Pool {
     std::optional<std::size_t> only;  ///< the item that it was started for
     Pipe pipe;
     MessageReader reader;
-    std::optional<cli::RunChild> child;
+    std::optional<host::Child> child;
   };
 
   void stop() {
@@ -123,7 +122,7 @@ class Pool {
       if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
       PointWorker worker(list_, queue_, running.slot, running.pipe.writing());
       running.only ? worker.work_on(*running.only) : worker.work(options_.points_a_process);
-      return cli::done;
+      return host::done;
     });
     running.pipe.close_writing();
   }
@@ -197,14 +196,14 @@ class Pool {
 
   /// A process that was killed, or ended itself, loses the point that it was at.
   void ended(Running& running) {
-    const cli::ChildEnd end = running.child->wait();
+    const host::ChildEnd end = running.child->wait();
     free_slots_.push_back(running.slot);
     std::optional<std::size_t> item = queue_.held(running.slot);
     if (!item) item = running.only;
     queue_.release(running.slot);
     if (item && !told_[*item]) {
       if (!tally_.interrupted) again_or_failed(*item, failure_of(end));
-    } else if (end.exit_code != cli::done && ++useless_ == most_useless) {
+    } else if (end.exit_code != host::done && ++useless_ == most_useless) {
       throw std::runtime_error("the processes of the sweep end before they begin: " +
                                failure_of(end).message);
     }
@@ -236,7 +235,7 @@ class Pool {
     return !again_.empty();
   }
 
-  static Failure failure_of(const cli::ChildEnd& end) {
+  static Failure failure_of(const host::ChildEnd& end) {
     if (end.signal != 0) {
       return {-1, end.signal,
               std::string("the process was ended by a signal: ") + ::strsignal(end.signal)};

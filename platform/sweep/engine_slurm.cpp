@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <cli/interrupt.h>
-#include <cli/program.h>
-#include <host/command.h>
+#include <host/child.h>
 #include <host/document.h>
 #include <host/output_folder.h>
+#include <host/process.h>
 #include <sweep/engine_slurm.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
@@ -248,7 +247,7 @@ class Cluster {
       const std::size_t left = missing(store_, manifest_, wanted).size();
       if (progress_) progress_(total_ - left);
       if (left == 0) return;
-      if (cli::InterruptGuard::interrupted()) {
+      if (host::InterruptGuard::noted()) {
         tally_.interrupted = true;
         cancel(job);
         return;
@@ -311,7 +310,7 @@ int run_slurm_task(
   warm(manifest, positions);
   const Tally tally =
       run_local(store, manifest, positions, {1, "slurm", points_a_process}, run, nullptr);
-  return tally.interrupted ? cli::interrupted : cli::done;
+  return tally.interrupted ? host::interrupted : host::done;
 }
 
 }  // namespace platform::sweep

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <host/document.h>
+#include <host/machine.h>
 #include <input/camera_file.h>
 #include <input/input_list.h>
-#include <input/library_folder.h>
 #include <scene/catalogue.h>
 #include <sweep/identity.h>
 #include <vp/error.h>
@@ -153,7 +153,7 @@ Json program_identity(const std::string& version, const std::string& revision) {
 Json table_contents() {
   Json json = Json::object();
   std::error_code ignored;
-  for (const std::string& folder : input::library_folders()) {
+  for (const std::string& folder : host::library_folders()) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
       const fs::path relative = entry.path().lexically_relative(folder);

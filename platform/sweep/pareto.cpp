@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string_view>
 
-#include <host/command.h>
+#include <host/child.h>
 #include <sweep/pareto.h>
 #include <sweep/results.h>
 #include <sweep/tables.h>

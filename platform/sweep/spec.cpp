@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <sweep/spec.h>
 #include <vp/error.h>
 #include <vp/input_file.h>
@@ -330,7 +330,7 @@ namespace fs = std::filesystem;
 std::vector<Study> studies() {
   std::vector<Study> found;
   std::error_code ignored;
-  for (const std::string& folder : input::library_folders()) {
+  for (const std::string& folder : host::library_folders()) {
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / "studies", ignored)) {
       if (entry.path().extension() != ".yaml") continue;
       const Spec spec = read_spec(entry.path().string());

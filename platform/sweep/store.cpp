@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <host/document.h>
-#include <report/utc_time.h>
+#include <host/machine.h>
 #include <sweep/identity.h>
 #include <sweep/store.h>
 #include <sweep/tables.h>
@@ -138,12 +138,10 @@ host::FileLock Store::claim(const std::string& key) const {
 
 namespace {
 
-std::string host_name() {
+std::string node_name() {
   // Several Slurm nodes may be one machine.
-  if (const char* node = std::getenv("SLURMD_NODENAME")) return node;
-  char name[256] = "unknown";
-  ::gethostname(name, sizeof name - 1);
-  return name;
+  const char* const node = std::getenv("SLURMD_NODENAME");
+  return node != nullptr ? node : host::host_name();
 }
 
 std::optional<double> seconds(const Json& entry, const char* name) {
@@ -168,7 +166,7 @@ std::optional<RunEntry> entry_of(const std::string& line) {
 }  // namespace
 
 RunLog::RunLog(const Store& store, const std::string& engine)
-    : engine_(engine), host_(host_name()) {
+    : engine_(engine), host_(node_name()) {
   path_ = store.path("runs/" + host_ + "-" + std::to_string(::getpid()) + ".jsonl");
 }
 
@@ -181,7 +179,7 @@ void RunLog::add(const std::string& key, double wall_s, double cpu_s, int attemp
   json["key"] = key;
   json["engine"] = engine_;
   json["host"] = host_;
-  json["date"] = report::utc_now();
+  json["date"] = host::utc_now();
   json["attempt"] = attempt;
   json["wall_s"] = std::stod(vp::format_fixed(wall_s, 4));
   json["cpu_s"] = std::stod(vp::format_fixed(cpu_s, 4));

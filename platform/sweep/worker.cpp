@@ -13,8 +13,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <cli/interrupt.h>
-#include <cli/program.h>
+#include <host/process.h>
 #include <page/report_page.h>
 #include <sweep/words.h>
 #include <sweep/worker.h>
@@ -196,7 +195,7 @@ PointWorker::PointWorker(const PointList& list, WorkQueue& queue, std::uint32_t 
 
 void PointWorker::work(std::uint32_t most) {
   for (std::uint32_t count = 0; count < most; ++count) {
-    if (queue_.stopped() || cli::InterruptGuard::interrupted()) return;
+    if (queue_.stopped() || host::InterruptGuard::noted()) return;
     const std::optional<std::size_t> item = queue_.take(slot_);
     if (!item || !complete(*item)) return;
   }
@@ -240,11 +239,11 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
   const PointRun asked = run_of(list_.manifest, point);
   PointResult found;
   std::ostringstream said;
-  const int code = cli::exit_code_of([&] { return list_.run(asked, found, said); }, said);
+  const int code = host::exit_code_of([&] { return list_.run(asked, found, said); }, said);
   message.cpu_s = cpu_seconds() - start;
-  clean_ = code == cli::done;
+  clean_ = code == host::done;
   std::string text = clean_ ? "" : last_line(said.str());
-  if (code == cli::interrupted) {
+  if (code == host::interrupted) {
     message.kind = PointMessage::Kind::interrupted;
     return;
   }
@@ -252,7 +251,7 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
   if (!clean_) {
     message.failed = true;
     Json result;
-    if (code == cli::run_failed) {
+    if (code == host::run_failed) {
       // The program ended by itself: what it found until then says why.
       result = std::move(found.result);
       text += last_warning(result);
@@ -266,7 +265,7 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
   if (!changed.empty()) {
     clean_ = false;
     message.kind = PointMessage::Kind::fault;
-    message.failure = {cli::run_failed, 0,
+    message.failure = {host::run_failed, 0,
                        "the platform was built with another value than planned: " + changed};
     return;
   }

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include <host/command.h>
+#include <host/child.h>
 #include <validation/plots.h>
 #include <vp/error.h>
 #include <vp/text.h>

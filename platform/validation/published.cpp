@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include <input/library_folder.h>
+#include <host/machine.h>
 #include <validation/published.h>
 #include <vp/error.h>
 #include <vp/input_file.h>
@@ -77,11 +77,11 @@ class Reader {
 
 fs::path published_file() {
   std::error_code ignored;
-  for (const std::string& folder : input::library_folders()) {
+  for (const std::string& folder : host::library_folders()) {
     const fs::path file = fs::path(folder) / "published.csv";
     if (fs::exists(file, ignored)) return file;
   }
-  throw vp::InputError("no published.csv in " + vp::one_of(input::library_folders()) +
+  throw vp::InputError("no published.csv in " + vp::one_of(host::library_folders()) +
                        ": install markervp completely");
 }
 

@@ -1,4 +1,4 @@
-#include <host/standard_streams.h>
+#include <host/process.h>
 
 #include <fcntl.h>
 #include <sys/wait.h>

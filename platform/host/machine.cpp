@@ -1,8 +1,26 @@
-#include <input/library_folder.h>
+#include <unistd.h>
 
+#include <ctime>
 #include <filesystem>
 
-namespace platform::input {
+#include <host/machine.h>
+
+namespace platform::host {
+
+std::string host_name() {
+  char name[256] = "";
+  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
+  return name;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
 
 std::vector<std::string> library_folders() {
   std::error_code error;
@@ -14,4 +32,4 @@ std::vector<std::string> library_folders() {
   return folders;
 }
 
-}  // namespace platform::input
+}  // namespace platform::host

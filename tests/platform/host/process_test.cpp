@@ -1,4 +1,4 @@
-#include <host/ending.h>
+#include <host/process.h>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(a_signal_removes_part_files_and_ends_the_process) {
     if (signal == SIGQUIT) {
       BOOST_TEST((WIFSIGNALED(status) && WTERMSIG(status) == signal));
     } else {
-      BOOST_TEST((WIFEXITED(status) && WEXITSTATUS(status) == platform::host::interrupted_code));
+      BOOST_TEST((WIFEXITED(status) && WEXITSTATUS(status) == platform::host::interrupted));
     }
     BOOST_TEST(entries().empty());
   }

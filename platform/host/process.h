@@ -1,0 +1,79 @@
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include <vp/host_ticks.h>
+
+/// This process: its standard streams, and how signals and errors end it.
+namespace platform::host {
+
+/// Exit codes of the program (README).
+enum ExitCode {
+  done = 0,
+  run_failed = 1,  ///< the program said so, or a required marker was not found
+  wrong_input = 2,
+  protocol_broken = 3,
+  points_failed = 4,  ///< some points of a sweep did not run
+  interrupted = 130,  ///< by Ctrl-C (SIGINT), SIGTERM or SIGHUP
+};
+
+/// Prints `message` as one line of the program's on `err`; returns `code`.
+int fail(std::ostream& err, const std::string& message, ExitCode code);
+
+/// What `work` returns, or the code of the error that it throws, after one line about it on `err`.
+int exit_code_of(const std::function<int()>& work, std::ostream& err);
+
+/// Sets what signals do to this process, once at its start: those that end it remove its part files
+/// first; a pipe without reader and a file that grows too large are errors of writing, not signals.
+void prepare_signals();
+
+/// Ends the process because of `signal`, after removing its part files: with `interrupted`, or as
+/// the system does after SIGQUIT. For signal handlers.
+[[noreturn]] void end_by(int signal);
+
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP is only noted, so that a run ends
+/// after the current frame and keeps its results. The second ends the process at once.
+class InterruptGuard : private vp::HostTicks::Listener {
+ public:
+  /// Of work that ends in bounded time by itself.
+  InterruptGuard() : InterruptGuard(std::function<void()>()) {}
+  /// The first signal is followed up, too: where the next frame does not come soon, `interrupt` is
+  /// called, in the signal handler; what has not ended within a second is ended. A second of the
+  /// host's processor, or of waiting: a busy machine loses no results.
+  explicit InterruptGuard(std::function<void()> interrupt);
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  /// A signal was noted since the innermost guard was made.
+  static bool noted();
+
+ private:
+  static void on_signal(int signal);
+  void on_host_tick(std::uint64_t spent_ns, void* context) override;
+
+  std::function<void()> interrupt_;  ///< none: without bound
+  std::uint64_t spent_ns_ = 0;       ///< since the signal
+  InterruptGuard* outer_;
+  struct sigaction old_interrupt_;
+  struct sigaction old_terminate_;
+  struct sigaction old_hang_up_;
+};
+
+/// Makes sure that descriptors 0 to 2 are taken: otherwise the first file that is opened becomes
+/// the standard output of a program that was started without one. Writing to them fails.
+void fill_standard_descriptors();
+
+/// Throws vp::OutputError if what went to `out` could not all be written. Call it right after
+/// writing: errno says why.
+void check_written(std::ostream& out);
+
+/// The same for all that this process wrote to its standard output, also with printf(), and for
+/// what the system tells only when the descriptor is closed.
+void check_standard_output();
+
+}  // namespace platform::host

@@ -1,0 +1,120 @@
+#include <host/child.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <ostream>
+#include <utility>
+
+#include <vp/error.h>
+
+#include "temporary_files.h"
+
+using platform::host::Child;
+using platform::host::ChildEnd;
+
+BOOST_AUTO_TEST_SUITE(child)
+
+BOOST_AUTO_TEST_CASE(tells_exit_code_and_what_was_printed) {
+  Child child([](std::ostream& out, std::ostream& err) {
+    out << std::string(100'000, 'x');
+    err << "careful\n";
+    return 1;
+  });
+  const ChildEnd end = child.wait();
+  BOOST_TEST(end.exit_code == 1);
+  BOOST_TEST(end.signal == 0);
+  BOOST_TEST(end.out == std::string(100'000, 'x'));
+  BOOST_TEST(end.err == "careful\n");
+}
+
+BOOST_AUTO_TEST_CASE(an_error_gives_its_exit_code_and_one_line) {
+  Child input([](std::ostream&, std::ostream&) -> int { throw vp::InputError("no\nimage"); });
+  const ChildEnd wrong = input.wait();
+  BOOST_TEST(wrong.exit_code == 2);
+  BOOST_TEST(wrong.err == "markervp: no image\n");
+  Child protocol([](std::ostream&, std::ostream&) -> int { throw vp::ProtocolError("late"); });
+  BOOST_TEST(protocol.wait().exit_code == 3);
+  Child strange([](std::ostream&, std::ostream&) -> int { throw 42; });
+  BOOST_TEST(strange.wait().exit_code == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_crash_stays_in_the_child) {
+  Child child([](std::ostream&, std::ostream&) -> int {
+    ::signal(SIGABRT, SIG_DFL);
+    std::abort();
+  });
+  const ChildEnd end = child.wait();
+  BOOST_TEST(end.exit_code == -1);
+  BOOST_TEST(end.signal == SIGABRT);
+}
+
+BOOST_AUTO_TEST_CASE(ends_with_its_object) {
+  pid_t process = 0;
+  {
+    Child child([](std::ostream&, std::ostream&) {
+      ::pause();
+      return 0;
+    });
+    const Child moved(std::move(child));
+    process = moved.pid();
+    BOOST_TEST(!moved.ended());
+    BOOST_TEST(::kill(process, 0) == 0);
+  }
+  BOOST_TEST(::kill(process, 0) != 0);
+}
+
+BOOST_AUTO_TEST_CASE(two_run_side_by_side) {
+  Child first([](std::ostream& out, std::ostream&) {
+    out << 1;
+    return 0;
+  });
+  Child second([](std::ostream& out, std::ostream&) {
+    out << 2;
+    return 0;
+  });
+  BOOST_TEST(second.wait().out == "2");
+  BOOST_TEST(first.wait().out == "1");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(command, kit::TemporaryFolder)
+
+BOOST_AUTO_TEST_CASE(tells_how_it_ended_and_what_it_printed) {
+  const platform::host::CommandEnd end =
+      platform::host::run_command({"sh", "-c", "echo out; echo err >&2; exit 3"});
+  BOOST_TEST(end.exit_code == 3);
+  BOOST_TEST(end.out == "out\nerr\n");
+  BOOST_TEST(platform::host::run_command({"sh", "-c", "kill -9 $$"}).exit_code == -1);
+  BOOST_TEST(platform::host::run_command({"no-such-command"}).exit_code ==
+             platform::host::no_such_command);
+}
+
+/// A pipe without reader ends it, though we ignore that signal.
+BOOST_AUTO_TEST_CASE(signals_have_their_usual_effect_in_it) {
+  auto* const handler = std::signal(SIGPIPE, SIG_IGN);
+  BOOST_TEST(platform::host::run_command({"sh", "-c", "kill -PIPE $$; echo alive"}).exit_code ==
+             -1);
+  std::signal(SIGPIPE, handler);
+}
+
+BOOST_AUTO_TEST_CASE(a_plot_is_there_whole_or_not_at_all) {
+  const std::string file = *this / "it's a plot.svg";
+  const platform::host::CommandEnd end =
+      platform::host::draw_with_gnuplot(file, "set terminal svg\nplot x\n");
+  if (end.exit_code == platform::host::no_such_command) {
+    BOOST_TEST_MESSAGE("gnuplot is not installed: nothing to test");
+    return;
+  }
+  BOOST_TEST(end.exit_code == 0);
+  BOOST_TEST(entries() == std::vector<std::string>{"it's a plot.svg"});
+  BOOST_TEST(kit::read_file(file).find("</svg>") != std::string::npos);
+  BOOST_TEST(
+      platform::host::draw_with_gnuplot(*this / "b.svg", "set terminal svg\nplot (\n").exit_code !=
+      0);
+  BOOST_TEST(entries().size() == 1u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
