@@ -48,7 +48,7 @@ std::vector<sweep::Objective> objectives_of(const std::vector<std::string>& aske
 int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err) {
   const sweep::Results results = results_of(options.folder, err);
   const std::vector<sweep::Objective> objectives = objectives_of(options.objectives, results);
-  std::vector<sweep::Expression> constraints;
+  std::vector<vp::Expression> constraints;
   for (const std::string& text : options.constraints)
     constraints.emplace_back(text, "--constraint");
   const sweep::Pareto pareto = sweep::rank(results, objectives, constraints);
@@ -70,14 +70,14 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
 
 int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
   const sweep::Results results = results_of(options.folder, err);
-  std::vector<sweep::Expression> figures;
+  std::vector<vp::Expression> figures;
   for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
   if (figures.empty()) {
     for (const sweep::Objective& objective : objectives_of({}, results))
       figures.push_back(objective.figure());
   }
   std::string csv;
-  for (const sweep::Expression& figure : figures) {
+  for (const vp::Expression& figure : figures) {
     const sweep::SensitivityReport report = sweep::sensitivity(results, figure, options.all);
     out << figure.text() << "   (" << report.method << "; "
         << (report.method == "one-at-a-time" ? "base " : "mean ") << sweep::readable(report.base)

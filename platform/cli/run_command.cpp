@@ -38,11 +38,7 @@ vp::TraceLevel trace_level(const std::string& text) {
 
 vp::FrameTrigger trace_trigger(const RunOptions& options) {
   vp::FrameTrigger trigger;
-  try {
-    trigger.condition = vp::WaveExpression(*options.trace_trigger);
-  } catch (const vp::InputError& error) {
-    throw vp::InputError(std::string("--trace-trigger ") + error.what());
-  }
+  trigger.condition = vp::Expression(*options.trace_trigger, "--trace-trigger");
   trigger.frames_before = options.trace_before;
   trigger.buffer = options.trace_buffer << 20;
   if (options.trace_frame) trigger.frame = *options.trace_frame;

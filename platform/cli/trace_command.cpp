@@ -13,6 +13,7 @@
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
+#include <vp/trace_filter.h>
 #include <vp/unit.h>
 
 namespace platform::cli {
@@ -72,7 +73,7 @@ int stats(const TraceCommandOptions& options, std::ostream& out) {
 /// waited for.
 void write_failure(TraceFile& file, const trace::CheckResult& result, const std::string& to) {
   std::vector<std::string> paths;
-  for (const vp::WaveExpression* expression : {&result.check->first, &result.check->second}) {
+  for (const vp::Expression* expression : {&result.check->first, &result.check->second}) {
     for (const std::string& name : expression->names()) {
       paths.push_back(file.paths()[vp::find_path(name, file.paths(), "")]);
     }
@@ -126,7 +127,7 @@ CheckCounts print_checks(const std::vector<trace::CheckResult>& results, std::os
 int check(const TraceCommandOptions& options, std::ostream& out) {
   const auto checks = trace::read_checks(options.checks);
   TraceFile file(options.file, name_map(options));
-  const auto results = trace::run_checks(file, checks, options.checks, options.skip_missing);
+  const auto results = trace::run_checks(file, checks, options.skip_missing);
   const CheckCounts counts = print_checks(results, out);
   if (counts.failed > 0) {
     const trace::CheckResult* first = nullptr;

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <vp/error.h>
+#include <vp/shared_object.h>
 #include <zynq/design_plugin.h>
 #include <filesystem>
 #include <map>
@@ -33,8 +34,9 @@ void check(const std::string& file, const DesignDescriptor& descriptor) {
 }
 
 DesignInfo open(const std::string& file) {
-  void* handle = ::dlopen(fs::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) refuse(file, std::string("cannot be loaded: ") + ::dlerror());
+  const std::string path = fs::absolute(file).string();
+  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) refuse(file, "cannot be loaded: " + vp::load_problem(path, ::dlerror()));
   const auto* descriptor = static_cast<const DesignDescriptor*>(::dlsym(handle, symbol));
   if (!descriptor)
     refuse(file, std::string("is none: it has no '") + symbol + "'; write MARKERVP_DESIGN(…)");

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <ctime>
 #include <iostream>
 #include <system_error>
 #include <utility>
@@ -135,16 +136,24 @@ Child::Child(Child&& other) noexcept
       err_(std::exchange(other.err_, -1)) {}
 
 Child::~Child() {
-  if (process_ > 0) {
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-  }
+  if (process_ > 0) end();
   ::close(out_);
   ::close(err_);
 }
 
+// It takes its part files away; what does not hear is ended.
+void Child::end() {
+  constexpr timespec pause{0, 10'000'000};
+  constexpr int most_pauses = 200;
+  ::kill(process_, SIGTERM);
+  for (int i = 0; i < most_pauses && !ended(); ++i) ::nanosleep(&pause, nullptr);
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+}
+
 void Child::become(const Work& work, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Not SIGKILL: it would leave part files.
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(run_failed);
   ::dup2(out_, STDOUT_FILENO);
   ::dup2(err_, STDERR_FILENO);

@@ -63,6 +63,7 @@ class Child {
   ChildEnd wait();
 
  private:
+  void end();
   [[noreturn]] void become(const Work& work, pid_t parent);
 
   pid_t process_ = 0;

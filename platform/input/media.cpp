@@ -7,6 +7,7 @@
 #include <input/image_file.h>
 #include <input/media.h>
 #include <vp/error.h>
+#include <vp/shared_object.h>
 #include <vp/text.h>
 
 #define MARKERVP_TEXT_OF(name) #name
@@ -28,8 +29,8 @@ const Media& load_media(const std::vector<std::string>& folders) {
     ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(most_pixels).c_str(), 1);
     void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-      throw vp::InputError("image and video files cannot be read: " + std::string(::dlerror()) +
-                           "; install markervp completely");
+      throw vp::InputError("image and video files cannot be read: '" + path + "': " +
+                           vp::load_problem(path, ::dlerror()) + "; install markervp completely");
     }
     const auto entry = reinterpret_cast<decltype(&MARKERVP_MEDIA_ENTRY)>(
         ::dlsym(library, MARKERVP_TEXT(MARKERVP_MEDIA_ENTRY)));

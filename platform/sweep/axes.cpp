@@ -62,6 +62,18 @@ double number_of(const ParameterKind& kind, const std::string& text) {
   return vp::parse_quantity(text, kind.unit).to_double();
 }
 
+vp::ExpressionValue value_of(const ParameterKind& kind, const std::string& text) {
+  vp::ExpressionValue value;
+  value.is_text = kind.kind == ParameterKind::Kind::text;
+  if (value.is_text) {
+    value.text = text;
+  } else {
+    value.unit = kind.unit;
+    value.number = number_of(kind, text);
+  }
+  return value;
+}
+
 ParameterTable::ParameterTable(const Elaborated& elaborated)
     : parameters_(elaborated.parameters), size_(elaborated.size) {
   for (std::size_t i = 0; i < parameters_.size(); ++i) index_[parameters_[i].path] = i;
@@ -73,12 +85,12 @@ const vp::ParameterDescription& ParameterTable::find(const std::string& path,
   if (found != index_.end()) return parameters_[found->second];
   const std::string nearest = vp::nearest_match(path, paths());
   throw vp::InputError(
-      where + ": unknown parameter '" + path + "': " +
+      (where.empty() ? "" : where + ": ") + "unknown parameter '" + path + "': " +
       (nearest.empty() ? "'markervp config' prints them all" : "did you mean '" + nearest + "'?"));
 }
 
 ParameterKind ParameterTable::kind(const std::string& path) const {
-  return kind_of(find(path, "sweep"));
+  return kind_of(find(path));
 }
 
 std::vector<std::string> ParameterTable::paths() const {

@@ -8,6 +8,7 @@
 #include <input/image_file.h>
 #include <sweep/spec.h>
 #include <vp/configuration.h>
+#include <vp/expression.h>
 #include <vp/unit.h>
 
 namespace platform::sweep {
@@ -29,6 +30,9 @@ std::string normalised(const ParameterKind& kind, const std::string& text);
 /// The value in the base unit; 1 and 0 for true and false. Throws vp::InputError for a text.
 double number_of(const ParameterKind& kind, const std::string& text);
 
+/// What it is in an expression.
+vp::ExpressionValue value_of(const ParameterKind& kind, const std::string& text);
+
 /// What a platform is built from, and so what a point is.
 struct Build {
   std::string program;  ///< name or file of the PS program; empty: the usual
@@ -47,7 +51,8 @@ class ParameterTable {
   explicit ParameterTable(const Elaborated& elaborated);
 
   /// Throws vp::InputError for an unknown path, with the nearest; `where` says who asked.
-  const vp::ParameterDescription& find(const std::string& path, const std::string& where) const;
+  const vp::ParameterDescription& find(const std::string& path,
+                                       const std::string& where = "") const;
   bool has(const std::string& path) const { return index_.count(path) != 0; }
   ParameterKind kind(const std::string& path) const;
   std::vector<std::string> paths() const;

@@ -88,45 +88,45 @@ std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
 std::vector<double> figures_of(const ResultRow& row, const std::vector<Objective>& objectives) {
   std::vector<double> figures;
   for (const Objective& objective : objectives) {
-    if (missing_in(row, objective.figure())) return {};
-    const auto lookup = [&](const std::string& name) { return value_in(row, name); };
-    figures.push_back(objective.figure().evaluate(lookup).number);
+    const std::optional<double> figure = figure_in(row, objective.figure());
+    if (!figure) return {};
+    figures.push_back(*figure);
   }
   return figures;
 }
 
 report::Holds feasible(const Results& results, const ResultRow& row,
-                       const std::vector<Expression>& constraints) {
+                       const std::vector<vp::Expression>& constraints) {
   const auto lookup = [&](const std::string& name) { return value_in(row, name); };
-  for (const Expression& constraint : constraints) {
+  for (const vp::Expression& constraint : constraints) {
     if (missing_in(row, constraint) || !constraint.holds(lookup)) return report::Holds::no;
   }
   return results.feasible(row);
 }
 
 /// Counts the metrics that the point lacks, each once.
-void count_lacking(const ResultRow& row, const std::vector<const Expression*>& expressions,
+void count_lacking(const ResultRow& row, const std::vector<const vp::Expression*>& expressions,
                    std::map<std::string, std::uint64_t>& lacking) {
   std::set<std::string> names;
-  for (const Expression* expression : expressions) {
+  for (const vp::Expression* expression : expressions) {
     if (const std::string* name = missing_in(row, *expression)) names.insert(*name);
   }
   for (const std::string& name : names) ++lacking[name];
 }
 
 /// All that points are judged by. Throws for a name that no point has.
-std::vector<const Expression*> checked(const Results& results,
-                                       const std::vector<Objective>& objectives,
-                                       const std::vector<Expression>& constraints) {
-  std::vector<const Expression*> all;
-  if (results.job) check_names(results, *results.job, "job '" + results.job->text() + "'");
+std::vector<const vp::Expression*> checked(const Results& results,
+                                           const std::vector<Objective>& objectives,
+                                           const std::vector<vp::Expression>& constraints) {
+  std::vector<const vp::Expression*> all;
+  if (results.job) check_names(results, *results.job);
   for (const Objective& objective : objectives) {
     all.push_back(&objective.figure());
-    check_names(results, *all.back(), "objective '" + objective.figure().text() + "'");
+    check_names(results, *all.back());
   }
-  for (const Expression& constraint : constraints) {
+  for (const vp::Expression& constraint : constraints) {
     all.push_back(&constraint);
-    check_names(results, constraint, "constraint '" + constraint.text() + "'");
+    check_names(results, constraint);
   }
   return all;
 }
@@ -162,9 +162,9 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
 }
 
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
-            const std::vector<Expression>& constraints) {
+            const std::vector<vp::Expression>& constraints) {
   Pareto pareto;
-  const std::vector<const Expression*> expressions = checked(results, objectives, constraints);
+  const std::vector<const vp::Expression*> expressions = checked(results, objectives, constraints);
   for (const ResultRow& row : results.rows) {
     if (row.failed) continue;
     RankedPoint point;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <sweep/expression.h>
 #include <sweep/results.h>
+#include <vp/expression.h>
 
 namespace platform::sweep {
 
@@ -18,11 +18,11 @@ class Objective {
   Objective(const std::string& text, const std::string& where);
 
   bool maximise() const { return maximise_; }
-  const Expression& figure() const { return figure_; }
+  const vp::Expression& figure() const { return figure_; }
 
  private:
   bool maximise_;
-  Expression figure_;
+  vp::Expression figure_;
 };
 
 /// A point in an analysis by objectives.
@@ -49,7 +49,7 @@ struct Pareto {
 /// constraint it does not meet it. Points that are not feasible are on no front. Throws
 /// vp::InputError for a metric that no point has, or no point, and says what the points fail by.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives,
-            const std::vector<Expression>& constraints);
+            const std::vector<vp::Expression>& constraints);
 
 /// The fronts of figures alone, 1 for the best; `maximise` says which way each objective goes.
 std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,

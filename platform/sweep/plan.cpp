@@ -8,12 +8,12 @@
 
 #include <sweep/axes.h>
 #include <sweep/expansion.h>
-#include <sweep/expression.h>
 #include <sweep/identity.h>
 #include <sweep/pareto.h>
 #include <sweep/plan.h>
 #include <vp/decimal.h>
 #include <vp/error.h>
+#include <vp/expression.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
@@ -137,7 +137,7 @@ class Planner {
 
  private:
   void check_objectives() const {
-    if (spec_.job) Expression(spec_.job->text, spec_.job->where);
+    if (spec_.job) vp::Expression(spec_.job->text, spec_.job->where);
     for (const std::string& objective : spec_.objectives) Objective(objective, spec_.origin);
   }
 
@@ -218,29 +218,15 @@ class Planner {
   bool allowed(const Assignment& point) const {
     const auto lookup = [&](const std::string& name) { return value_of(point, name); };
     return std::all_of(constraints_.begin(), constraints_.end(),
-                       [&](const Expression& condition) { return condition.holds(lookup); });
+                       [&](const vp::Expression& condition) { return condition.holds(lookup); });
   }
 
-  Value value_of(const Assignment& point, const std::string& name) const {
-    Value value;
+  vp::ExpressionValue value_of(const Assignment& point, const std::string& name) const {
     const std::string* swept = find(point, name);
-    if (is_special(name)) {
-      value.is_text = true;
-      value.text = swept != nullptr ? *swept : spec_.program;
-      return value;
-    }
+    if (is_special(name))
+      return sweep::value_of(ParameterKind(), swept != nullptr ? *swept : spec_.program);
     const ParameterTable& table = bases_.front().table;
-    const std::string text =
-        swept != nullptr ? *swept : table.find(name, spec_.origin + ": constraints").value;
-    const ParameterKind kind = table.kind(name);
-    if (kind.kind == Kind::text) {
-      value.is_text = true;
-      value.text = text;
-    } else {
-      value.unit = kind.unit;
-      value.number = number_of(kind, text);
-    }
-    return value;
+    return sweep::value_of(table.kind(name), swept != nullptr ? *swept : table.find(name).value);
   }
 
   void describe() {
@@ -347,7 +333,7 @@ class Planner {
   std::vector<std::string> programs_;
   std::vector<Base> bases_;  ///< of each program and design
   std::vector<AxisGroup> groups_;
-  std::vector<Expression> constraints_;
+  std::vector<vp::Expression> constraints_;
   std::set<std::string> influential_;  ///< parameters from which others follow
   std::map<std::pair<std::string, std::map<std::string, std::string>>, BuiltFamily> families_;
   std::map<std::tuple<std::string, int, int>, std::size_t> input_sets_;

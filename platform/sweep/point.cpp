@@ -20,8 +20,8 @@ std::string last_line(const std::string& text) {
 
 namespace {
 
-constexpr int schema = 1;
-constexpr const char* mark = "markervp_point";
+constexpr int point_schema = 1;
+constexpr const char* point_mark = "markervp_point";
 
 PointRecord new_record(const Manifest& manifest, const PlannedPoint& point) {
   PointRecord record;
@@ -85,7 +85,7 @@ std::string point_text(const PointRecord& record) {
   const std::string outcome = dump(record.outcome);
   std::string text;
   text.reserve(outcome.size() + record.identity.size() + 4096);
-  text += "{\"" + std::string(mark) + "\":" + std::to_string(schema);
+  text += "{\"" + std::string(point_mark) + "\":" + std::to_string(point_schema);
   text += ",\n\"key\":" + dump(record.key);
   text += ",\n\"identity\":" + record.identity;
   text += ",\n\"run\":" + dump(record.run);
@@ -97,11 +97,12 @@ std::string point_text(const PointRecord& record) {
 PointRecord read_point(const std::string& path, bool verify) {
   Json json = whole_json(path);
   const std::string start = "'" + path + "' ";
-  if (!json.is_object() || !json.contains(mark))
+  if (!json.is_object() || !json.contains(point_mark))
     throw vp::InputError(start + "is no point of a sweep: move it elsewhere");
-  if (json[mark] != schema) {
-    throw vp::InputError(start + "has version " + json[mark].dump() +
-                         " of the format, this program reads version " + std::to_string(schema) +
+  if (json[point_mark] != point_schema) {
+    throw vp::InputError(start + "has version " + json[point_mark].dump() +
+                         " of the format, this program reads version " +
+                         std::to_string(point_schema) +
                          ": remove it, and the sweep computes it again");
   }
   try {

@@ -149,7 +149,7 @@ Results read_results(const Store& store, Manifest manifest,
   });
 }
 
-void check_names(const Results& results, const Expression& expression, const std::string& where) {
+void check_names(const Results& results, const vp::Expression& expression) {
   if (results.failed() == results.rows.size()) return;  // then nobody knows what there would be
   std::vector<std::string> known = results.metric_names();
   if (results.rows.front().base) {
@@ -161,35 +161,31 @@ void check_names(const Results& results, const Expression& expression, const std
         std::any_of(results.rows.begin(), results.rows.end(), has_it))
       continue;
     const std::string nearest = vp::nearest_match(name, known);
-    throw vp::InputError(
-        where + ": unknown metric '" + name + "': " +
-        (nearest.empty() ? "sweep.csv has their names" : "did you mean '" + nearest + "'?"));
+    expression.refuse(name, "unknown metric '" + name + "'" +
+                                (nearest.empty() ? ": 'markervp metrics' lists them"
+                                                 : "; did you mean '" + nearest + "'?"));
   }
 }
 
-const std::string* missing_in(const ResultRow& row, const Expression& expression) {
+const std::string* missing_in(const ResultRow& row, const vp::Expression& expression) {
   const auto& names = expression.names();
   const auto missing = std::find_if(names.begin(), names.end(),
                                     [&](const std::string& name) { return !has(row, name); });
   return missing == names.end() ? nullptr : &*missing;
 }
 
-Value value_in(const ResultRow& row, const std::string& name) {
-  Value value;
-  if (const double* metric = row.metrics.find(name)) {
-    value.number = *metric;
-    return value;
-  }
+vp::ExpressionValue value_in(const ResultRow& row, const std::string& name) {
+  if (const double* metric = row.metrics.find(name)) return static_cast<long double>(*metric);
   const std::string text = row.value(name);
-  const ParameterKind kind = kind_of({name, text, text, "", {}, ""});
-  if (kind.kind == ParameterKind::Kind::quantity) {
-    value.number = number_of(kind, text);
-    value.unit = kind.unit;
-  } else {
-    value.is_text = true;
-    value.text = text;
-  }
-  return value;
+  return value_of(kind_of({name, text, text, "", {}, ""}), text);
+}
+
+std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expression) {
+  if (missing_in(row, expression)) return std::nullopt;
+  const vp::ExpressionValue value =
+      expression.value([&](const std::string& name) { return value_in(row, name); });
+  if (!value.known) return std::nullopt;
+  return static_cast<double>(value.number);
 }
 
 std::string results_csv(const Results& results) {

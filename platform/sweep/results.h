@@ -8,9 +8,9 @@
 
 #include <report/verdict.h>
 #include <sweep/axes.h>
-#include <sweep/expression.h>
 #include <sweep/point.h>
 #include <sweep/store.h>
+#include <vp/expression.h>
 
 namespace platform::sweep {
 
@@ -35,8 +35,8 @@ struct ResultRow : Outcome {
 struct Results {
   Manifest manifest;
   std::vector<ResultRow> rows;
-  std::uint64_t missing = 0;      ///< points not computed yet
-  std::optional<Expression> job;  ///< what the study asks of a point instead of the usual job
+  std::uint64_t missing = 0;          ///< points not computed yet
+  std::optional<vp::Expression> job;  ///< what the study asks of a point instead of the usual job
 
   std::uint64_t failed() const;
   /// Whether a part (report::verdict_parts) of the verdict on the point holds.
@@ -57,15 +57,18 @@ Results read_results(const Store& store, Manifest manifest);
 Results read_results(const Store& store, Manifest manifest,
                      const std::map<std::size_t, Outcome>& known);
 
-/// Throws vp::InputError for a name in `expression` that no point has a value of, with the nearest;
-/// `where` says who asked.
-void check_names(const Results& results, const Expression& expression, const std::string& where);
+/// Throws vp::InputError for a name in `expression` that no point has a value of, with the nearest.
+void check_names(const Results& results, const vp::Expression& expression);
 
 /// The first name in `expression` that this point has no value of; null if it has all.
-const std::string* missing_in(const ResultRow& row, const Expression& expression);
+const std::string* missing_in(const ResultRow& row, const vp::Expression& expression);
 
 /// What a name means for a point that has it: a metric, a parameter, or system and inputs.
-Value value_in(const ResultRow& row, const std::string& name);
+vp::ExpressionValue value_in(const ResultRow& row, const std::string& name);
+
+/// What the expression comes to for this point; none if the point has no value of a name in it, or
+/// it divides by zero.
+std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expression);
 
 /// One line a point: key, status, message, the swept parameters, the metrics.
 std::string results_csv(const Results& results);

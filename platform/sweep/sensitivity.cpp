@@ -18,13 +18,13 @@ constexpr int bar_length = 24;
 
 class Analysis {
  public:
-  Analysis(const Results& results, const Expression& figure, bool all)
+  Analysis(const Results& results, const vp::Expression& figure, bool all)
       : results_(results), figure_(figure), all_(all) {
     for (const ResultRow& row : results.rows) rows_[row.key] = &row;
   }
 
   SensitivityReport report() {
-    check_names(results_, figure_, "sensitivity");
+    check_names(results_, figure_);
     if (results_.manifest.sampling == "morris") {
       morris();
     } else if (results_.manifest.sampling == "one-at-a-time") {
@@ -51,9 +51,9 @@ class Analysis {
 
   /// None: the point does not count, or lacks what the figure is made of.
   std::optional<double> figure(const ResultRow& row) const {
-    if (row.failed || missing_in(row, figure_)) return std::nullopt;
+    if (row.failed) return std::nullopt;
     if (!all_ && results_.feasible(row) != report::Holds::yes) return std::nullopt;
-    return figure_.evaluate([&](const std::string& name) { return value_in(row, name); }).number;
+    return figure_in(row, figure_);
   }
 
   /// Those that have the figure, with it.
@@ -176,7 +176,7 @@ class Analysis {
   }
 
   const Results& results_;
-  const Expression& figure_;
+  const vp::Expression& figure_;
   const bool all_;
   std::map<std::string, const ResultRow*> rows_;
   SensitivityReport report_;
@@ -189,7 +189,7 @@ std::string bar(double size, double largest) {
 
 }  // namespace
 
-SensitivityReport sensitivity(const Results& results, const Expression& figure, bool all) {
+SensitivityReport sensitivity(const Results& results, const vp::Expression& figure, bool all) {
   return Analysis(results, figure, all).report();
 }
 

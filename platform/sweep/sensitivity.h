@@ -38,7 +38,8 @@ struct SensitivityReport {
 /// sweep was made for it; otherwise main effects (the mean of the figure for each value). Throws
 /// vp::InputError for a metric that no point has, or too few points. `all`: points that ran count
 /// even if they are not feasible.
-SensitivityReport sensitivity(const Results& results, const Expression& figure, bool all = false);
+SensitivityReport sensitivity(const Results& results, const vp::Expression& figure,
+                              bool all = false);
 
 std::string sensitivity_table(const SensitivityReport& report);
 std::string sensitivity_csv(const std::string& figure, const SensitivityReport& report);

@@ -28,17 +28,13 @@ struct ChecksReader {
   std::vector<Check> checks;
   std::map<std::string, std::uint64_t> line_of;  ///< of a check's name
 
+  std::string where() const { return "checks '" + file + "', line " + std::to_string(line); }
+
   [[noreturn]] void fail(const std::string& problem) const {
-    throw vp::InputError("checks '" + file + "', line " + std::to_string(line) + ": " + problem);
+    throw vp::InputError(where() + ": " + problem);
   }
 
-  vp::WaveExpression expression(std::string_view text) const {
-    try {
-      return vp::WaveExpression(text);
-    } catch (const vp::InputError& error) {
-      fail(error.what());
-    }
-  }
+  vp::Expression expression(std::string_view text) const { return vp::Expression(text, where()); }
 
   /// The two sides of the word `at`, which stands between blanks.
   std::pair<std::string, std::string> split_at(const std::string& text, const std::string& at,
@@ -162,11 +158,11 @@ std::vector<Check> read_checks(const std::string& file) {
 
 namespace {
 
-std::string shown(const std::optional<vp::WaveNumber>& number) {
-  if (!number) return "x";
-  const auto whole = static_cast<std::uint64_t>(*number);
-  if (static_cast<vp::WaveNumber>(whole) == *number) return std::to_string(whole);
-  return vp::format_fixed(static_cast<double>(*number), 6);
+std::string shown(const vp::ExpressionValue& value) {
+  if (!value.known) return "x";
+  const auto whole = static_cast<std::uint64_t>(value.number);
+  if (static_cast<long double>(whole) == value.number) return std::to_string(whole);
+  return vp::format_fixed(static_cast<double>(value.number), 6);
 }
 
 /// A check at work. Conditions are looked at when a signal of theirs was written.
@@ -176,10 +172,9 @@ class Judge {
       : check_(check), replay_(replay), first_(check.first), second_(check.second) {
     result.check = &check;
     const auto number_of = [&](const std::string& name) {
-      const Replay::Slot slot = replay.watch(name, "check '" + check.name + "': ");
-      if (replay.kind(slot) == vp::WaveVariable::Kind::text) {
-        throw vp::InputError("check '" + check.name + "': '" + name + "' is a text, no number");
-      }
+      const Replay::Slot slot = replay.watch(name);
+      if (replay.kind(slot) == vp::WaveVariable::Kind::text)
+        throw vp::InputError("'" + name + "' is a text, no number");
       slots.push_back(slot);
       return slot;
     };
@@ -227,21 +222,17 @@ class Judge {
     waiting_.pop_front();
   }
   /// True in the instant in which it becomes true; an edge is true in its instant only.
-  bool comes_true(const vp::WaveExpression& condition, bool& stood) const {
+  bool comes_true(const vp::Expression& condition, bool& stood) const {
     const bool holds = condition.holds(replay_);
     const bool comes = holds && (!stood || condition.is_event());
     stood = holds;
     return comes;
   }
   /// Values as they were before this instant, for those who sample them on a clock edge.
-  struct Past final : vp::WaveValues {
+  struct Past final : vp::ExpressionValues {
     explicit Past(const Replay& replay) : replay(replay) {}
-    std::optional<vp::WaveNumber> now(std::uint32_t slot) const override {
-      return replay.before(slot);
-    }
-    std::optional<vp::WaveNumber> before(std::uint32_t slot) const override {
-      return replay.before(slot);
-    }
+    vp::ExpressionValue now(std::uint32_t slot) const override { return replay.before(slot); }
+    vp::ExpressionValue before(std::uint32_t slot) const override { return replay.before(slot); }
     const Replay& replay;
   };
 
@@ -250,11 +241,11 @@ class Judge {
 
   const Check& check_;
   Replay& replay_;
-  vp::WaveExpression first_, second_, restart_;
+  vp::Expression first_, second_, restart_;
   bool first_stood_ = false, second_stood_ = false, restart_stood_ = false;
   std::deque<std::uint64_t> waiting_;  ///< deadlines
   std::uint64_t looked_ps_ = 0;        ///< of `stable`: when one of its signals was written last
-  std::optional<vp::WaveNumber> last_;
+  std::optional<vp::ExpressionValue> last_;
   std::unique_ptr<SampleClock> clock_;
   bool sampled_ = false;
   std::uint64_t edges_ = 0, beats_ = 0;
@@ -265,9 +256,9 @@ void Judge::instant(std::uint64_t ps) {
     case Check::Kind::always:
     case Check::Kind::never: {
       const auto value = first_.value(replay_);
-      if (!value) return;
+      if (!value.known) return;
       ++result.occasions;
-      const bool wrong = (*value != 0) == (check_.kind == Check::Kind::never);
+      const bool wrong = value.holds() == (check_.kind == Check::Kind::never);
       if (wrong && !first_stood_)
         fail(ps, check_.kind == Check::Kind::never ? "it holds" : "it does not hold");
       first_stood_ = wrong;
@@ -292,7 +283,8 @@ void Judge::instant(std::uint64_t ps) {
       if (!second_.holds(past)) return;
       ++result.occasions;
       const auto now = first_.value(replay_), before = first_.value(past);
-      if (now && before && *now != *before) fail(ps, shown(*now) + " after " + shown(*before));
+      if (now.known && before.known && now.number != before.number)
+        fail(ps, shown(now) + " after " + shown(before));
       return;
     }
     case Check::Kind::increases:
@@ -310,9 +302,9 @@ void Judge::increases(std::uint64_t ps) {
   if (!second_stood_) return;
   const auto value = first_.value(replay_);
   // While the condition stands, only another value is another one.
-  if (!value || (!comes && last_ && *value == *last_)) return;
+  if (!value.known || (!comes && last_ && value.number == last_->number)) return;
   ++result.occasions;
-  if (last_ && *value <= *last_) fail(ps, shown(*value) + " after " + shown(*last_));
+  if (last_ && value.number <= last_->number) fail(ps, shown(value) + " after " + shown(*last_));
   last_ = value;
 }
 
@@ -368,7 +360,7 @@ struct Court : Replay::Listener {
 }  // namespace
 
 std::vector<CheckResult> run_checks(TraceFile& trace, const std::vector<Check>& checks,
-                                    const std::string& file, bool skip_missing) {
+                                    bool skip_missing) {
   Replay replay(trace);
   Court court(replay);
   std::vector<CheckResult> skipped;
@@ -377,8 +369,7 @@ std::vector<CheckResult> run_checks(TraceFile& trace, const std::vector<Check>& 
       court.judges.emplace_back(check, replay, trace);
     } catch (const vp::InputError& error) {
       if (!skip_missing) {
-        throw vp::InputError("checks '" + file + "', line " + std::to_string(check.line) + ": " +
-                             error.what() + " (in '" + trace.name() + "')");
+        throw vp::InputError(std::string(error.what()) + " (in '" + trace.name() + "')");
       }
       CheckResult result;
       result.check = &check;

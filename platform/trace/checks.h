@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <trace/trace_file.h>
-#include <vp/wave_expression.h>
+#include <vp/expression.h>
 
 namespace platform::trace {
 
@@ -25,8 +25,8 @@ struct Check {
   std::string name;
   std::string text;  ///< as written
   std::uint64_t line = 0;
-  vp::WaveExpression first, second;
-  std::optional<vp::WaveExpression> restart;  ///< of `increases`: begins anew when it comes true
+  vp::Expression first, second;
+  std::optional<vp::Expression> restart;  ///< of `increases`: begins anew when it comes true
   std::uint64_t limit_ps = 0;
   std::uint64_t limit = 0;
   std::uint64_t clock_hz = 0;  ///< that stands above it in the file
@@ -51,6 +51,6 @@ struct CheckResult {
 /// Judges the trace. Throws vp::InputError for a signal that it lacks, unless `skip_missing`; if
 /// then nothing is left, too.
 std::vector<CheckResult> run_checks(TraceFile& trace, const std::vector<Check>& checks,
-                                    const std::string& file, bool skip_missing);
+                                    bool skip_missing);
 
 }  // namespace platform::trace

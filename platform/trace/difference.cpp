@@ -9,7 +9,7 @@
 
 #include <trace/replay.h>
 #include <vp/error.h>
-#include <vp/wave_expression.h>
+#include <vp/trace_filter.h>
 
 namespace platform::trace {
 

@@ -263,7 +263,10 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
   }
   double sum_ps = 0, most_ps = 0, busy_ps = 0;
   std::uint64_t complete = 0;
-  std::optional<std::uint64_t> last_end_ps;
+  // As the run's report counts: from result to result, over frames that the software gave up, the
+  // uploads excluded.
+  std::optional<std::uint64_t> since_ps;
+  std::uint64_t upload_ps = 0;
   for (const Frame& frame : frames_) {
     const bool any = frame.end_ps || !frame.functions.empty();
     if (!any || (frame_ && frame.taken_ps == 0 && !frame.end_ps)) continue;
@@ -271,19 +274,17 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
       functions.rows.push_back(
           {frame.number, name, function.calls, static_cast<double>(function.self_ps) / ps_per_us});
     }
+    const std::uint64_t start = frame.start_ps.value_or(frame.taken_ps);
+    if (since_ps && frame.upload_end_ps) upload_ps += *frame.upload_end_ps - *frame.upload_ps;
+    if (!since_ps) since_ps = start;
     if (frame.end_ps) {
-      const std::uint64_t start = frame.start_ps.value_or(frame.taken_ps);
       const auto latency = static_cast<double>(*frame.end_ps - start);
       ++complete;
       sum_ps += latency;
       most_ps = std::max(most_ps, latency);
-      // As the run's report counts: from result to result, the upload excluded.
-      const std::uint64_t upload =
-          frame.upload_end_ps ? *frame.upload_end_ps - *frame.upload_ps : 0;
-      busy_ps += last_end_ps ? static_cast<double>(*frame.end_ps - *last_end_ps) -
-                                   static_cast<double>(upload)
-                             : latency;
-      last_end_ps = frame.end_ps;
+      busy_ps += static_cast<double>(*frame.end_ps - *since_ps - upload_ps);
+      since_ps = frame.end_ps;
+      upload_ps = 0;
       std::vector<Table::Cell> row = {frame.number, static_cast<double>(frame.taken_ps) / ps_per_us,
                                       static_cast<double>(start) / ps_per_us,
                                       static_cast<double>(*frame.end_ps) / ps_per_us,

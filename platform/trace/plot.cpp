@@ -5,6 +5,7 @@
 
 #include <trace/replay.h>
 #include <vp/text.h>
+#include <vp/trace_filter.h>
 #include <vp/unit.h>
 
 namespace platform::trace {
@@ -104,7 +105,7 @@ class Plotter final : public Replay::Listener {
   void add(Row& row, std::uint64_t ps) {
     const auto number = replay_.now(row.slot);
     Piece piece{place(ps), readable(replay_.text(row.slot), row.kind, row.width),
-                replay_.known(row.slot), number ? static_cast<double>(*number) : 0};
+                replay_.known(row.slot), static_cast<double>(number.number)};
     if (ps <= options_.from_ps) row.pieces.clear();  // stood before the window
     if (!row.pieces.empty() && piece.x - row.pieces.back().x < 1) {
       piece.x = row.pieces.back().x;

@@ -1,4 +1,5 @@
 #include <trace/replay.h>
+#include <vp/trace_filter.h>
 
 namespace platform::trace {
 
@@ -16,12 +17,13 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
   return static_cast<Slot>(slot_of_net_[v.net]);
 }
 
-Replay::Slot Replay::watch(const std::string& name, const std::string& where) {
-  return watch(vp::find_path(name, file_.paths(), where));
+Replay::Slot Replay::watch(const std::string& name) {
+  return watch(vp::find_path(name, file_.paths()));
 }
 
-std::optional<vp::WaveNumber> Replay::number(const Value& value) {
-  if (!value.known || value.kind == vp::WaveVariable::Kind::text) return std::nullopt;
+vp::ExpressionValue Replay::number(const Value& value) {
+  if (!value.known || value.kind == vp::WaveVariable::Kind::text)
+    return vp::ExpressionValue::unknown();
   if (value.kind == vp::WaveVariable::Kind::real) return value.real;
   return value.bits;
 }

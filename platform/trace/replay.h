@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <trace/trace_file.h>
-#include <vp/wave_expression.h>
+#include <vp/expression.h>
 
 namespace platform::trace {
 
 /// Plays a trace back instant by instant: the values that stand, and those before the instant. A
 /// clock edge samples the latter.
-class Replay final : public vp::WaveValues, private vp::WaveHandler {
+class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
  public:
   using Slot = std::uint32_t;
 
@@ -29,7 +29,7 @@ class Replay final : public vp::WaveValues, private vp::WaveHandler {
   /// Follows the variable; the same net gives the same slot.
   Slot watch(std::uint32_t variable);
   /// Follows the signal a user wrote: see vp::find_path().
-  Slot watch(const std::string& name, const std::string& where);
+  Slot watch(const std::string& name);
 
   void run(Listener& listener);
 
@@ -38,10 +38,8 @@ class Replay final : public vp::WaveValues, private vp::WaveHandler {
   /// Slots that were written in this instant.
   const std::vector<Slot>& changed() const { return changed_; }
 
-  std::optional<vp::WaveNumber> now(Slot slot) const override { return number(slots_[slot].now); }
-  std::optional<vp::WaveNumber> before(Slot slot) const override {
-    return number(slots_[slot].before);
-  }
+  vp::ExpressionValue now(Slot slot) const override { return number(slots_[slot].now); }
+  vp::ExpressionValue before(Slot slot) const override { return number(slots_[slot].before); }
   bool known(Slot slot) const { return slots_[slot].now.known; }
   std::uint64_t bits(Slot slot) const { return slots_[slot].now.bits; }
   bool was_known(Slot slot) const { return slots_[slot].before.known; }
@@ -66,7 +64,7 @@ class Replay final : public vp::WaveValues, private vp::WaveHandler {
     bool touched;
     Value now, before;
   };
-  static std::optional<vp::WaveNumber> number(const Value& value);
+  static vp::ExpressionValue number(const Value& value);
   bool at(std::uint64_t ps) override;
   void change(std::uint32_t net, const vp::WaveValue& value) override;
   bool finish_instant();

@@ -7,7 +7,7 @@
 #include <vp/error.h>
 #include <vp/input_file.h>
 #include <vp/text.h>
-#include <vp/wave_expression.h>
+#include <vp/trace_filter.h>
 
 namespace platform::trace {
 

@@ -45,7 +45,7 @@ void FrameBench::place(const input::InputFrame& frame) {
   frame_.cy = frame.camera.cy;
 }
 
-void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
+bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
                          std::uint64_t now_ps) {
   cache_contract_.published();
   zynq_.settle();
@@ -58,7 +58,9 @@ void FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   }
   spin_watch_.finish();
   take_new_warnings(report.warnings);
+  const bool delivered = report.delivered();
   stop_ = !done_(std::move(report)) || stop_;
+  return delivered;
 }
 
 double FrameBench::option(std::uint32_t option, const hal_option_info&) {

@@ -36,7 +36,7 @@ class FrameBench : public ps::TestBench {
 
   // ps::TestBench
   const hal_frame* next_frame(std::uint64_t now_ps) override;
-  void publish(std::uint32_t kind, const void* data, std::size_t size,
+  bool publish(std::uint32_t kind, const void* data, std::size_t size,
                std::uint64_t now_ps) override;
   double option(std::uint32_t option, const hal_option_info& info) override;
 

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(trace_options) {
   run_refuses({"--trace-trigger", "a rises"}, {"options of the trace", "--trace"});
   run_refuses({"--trace-before", "2"}, {"--trace-before", "--trace-trigger"});
   run_refuses({"--trace", "a.vcd", "--trace-trigger", "a +"},
-              {"--trace-trigger 'a +', column 4", "a value is missing"});
+              {"--trace-trigger: 'a +', column 4", "a value is missing"});
   run_refuses({"--trace", "a.vcd", "--trace-trigger", "feature_overflw rises"},
               {"no signal 'feature_overflw'", "feature_overflow"});
   run_refuses({"--trace-clocks"}, {"options of the trace", "--trace"});

@@ -1,5 +1,6 @@
 #include <vp/error.h>
 #include <vp/frame_gate.h>
+#include <vp/trace_filter.h>
 
 #include <cstring>
 #include <utility>
@@ -24,18 +25,14 @@ std::uint64_t take(const unsigned char*& at) {
 }  // namespace
 
 /// Values of the gate for the condition.
-class FrameGate::Values final : public WaveValues {
+class FrameGate::Values final : public ExpressionValues {
  public:
   explicit Values(const FrameGate& gate) : gate_(gate) {}
-  std::optional<WaveNumber> now(std::uint32_t id) const override {
-    return number(id, gate_.values_[id]);
-  }
-  std::optional<WaveNumber> before(std::uint32_t id) const override {
-    return number(id, gate_.before_[id]);
-  }
+  ExpressionValue now(std::uint32_t id) const override { return number(id, gate_.values_[id]); }
+  ExpressionValue before(std::uint32_t id) const override { return number(id, gate_.before_[id]); }
 
  private:
-  std::optional<WaveNumber> number(std::uint32_t id, std::uint64_t bits) const {
+  ExpressionValue number(std::uint32_t id, std::uint64_t bits) const {
     if (gate_.kinds_[id] != Kind::real) return bits;
     double real = 0;
     std::memcpy(&real, &bits, sizeof real);
@@ -52,7 +49,11 @@ FrameGate::~FrameGate() = default;
 std::vector<std::string> FrameGate::needed(const std::vector<std::string>& paths) const {
   std::vector<std::string> names = {paths[find_path(trigger_.frame, paths, where)]};
   for (const std::string& name : trigger_.condition.names()) {
-    names.push_back(paths[find_path(name, paths, where)]);
+    try {
+      names.push_back(paths[find_path(name, paths)]);
+    } catch (const InputError& error) {
+      trigger_.condition.refuse(name, error.what());
+    }
   }
   return names;
 }
@@ -66,14 +67,16 @@ FrameGate::Id FrameGate::add(std::string_view path, Kind kind, unsigned width) {
 void FrameGate::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) {
   watched_.assign(paths_.size(), 0);
   const auto number_of = [this](const std::string& name) {
-    const Id id = find_path(name, paths_, where);
-    if (kinds_[id] == Kind::text) {
-      throw InputError(where + ("'" + name + "' is a text; only numbers can trigger"));
-    }
+    const Id id = find_path(name, paths_);
+    if (kinds_[id] == Kind::text)
+      throw InputError("'" + name + "' is a text: only numbers trigger");
     watched_[id] = 1;
     return id;
   };
-  frame_id_ = number_of(trigger_.frame);
+  frame_id_ = find_path(trigger_.frame, paths_, where);
+  if (kinds_[frame_id_] == Kind::text)
+    throw InputError(where + ("'" + trigger_.frame + "' is a text, no number of frames"));
+  watched_[frame_id_] = 1;
   trigger_.condition.bind(number_of);
   begun_ = true;
   time_ps_ = ps;

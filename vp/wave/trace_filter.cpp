@@ -145,4 +145,29 @@ std::string TraceFilter::suggestion(const Pattern& pattern, const std::vector<st
          (more ? " and others" : "");
 }
 
+std::uint32_t find_path(const std::string& name, const std::vector<std::string>& paths,
+                        const std::string& where) {
+  std::vector<std::string> fitting;
+  std::uint32_t place = 0;
+  const std::string ending = "." + name;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i] == name) return static_cast<std::uint32_t>(i);
+    if (paths[i].size() <= ending.size() ||
+        paths[i].compare(paths[i].size() - ending.size(), ending.size(), ending) != 0) {
+      continue;
+    }
+    place = static_cast<std::uint32_t>(i);
+    fitting.push_back(paths[i]);
+  }
+  if (fitting.size() == 1) return place;
+  constexpr std::size_t most = 4;
+  if (fitting.size() > most) fitting.resize(most);
+  if (!fitting.empty()) {
+    throw InputError(where + "'" + name + "' may be " + one_of(fitting) + ": write more of it");
+  }
+  const std::string nearest = nearest_match(name, paths);
+  throw InputError(where + "there is no signal '" + name + "'" +
+                   (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
 }  // namespace vp

@@ -62,7 +62,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   vp::Signal<bool> in_handler{"in_handler"};     ///< from interrupt entry to exit
   vp::Signal<bool> asleep{"asleep"};             ///< waits for an interrupt
   vp::Signal<std::uint32_t> frame{"frame"};      ///< images that the program took
-  vp::Signal<std::uint32_t> results{"results"};  ///< results that it published
+  vp::Signal<std::uint32_t> results{"results"};  ///< results that it delivered
   // For traces: names of the annotated function, and of the handler while it runs.
   vp::TextSignal function_name{"function_name", [this] { return name_of_function(); }, {&function}};
   vp::TextSignal handler_name{"handler_name", [this] { return name_of_handler(); }, {&in_handler}};

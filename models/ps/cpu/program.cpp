@@ -8,6 +8,7 @@
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/error.h>
+#include <vp/shared_object.h>
 #include <algorithm>
 #include <cerrno>
 #include <climits>
@@ -375,7 +376,8 @@ class SharedObject {
         stopped_by([&] { handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); });
     if (!stopped.empty()) throw vp::ProtocolError(at_end(path, "constructor", stopped));
     if (handle) return handle;
-    throw vp::InputError("cannot load program '" + path + "': " + dlerror());
+    throw vp::InputError("cannot load program '" + path +
+                         "': " + vp::load_problem(path, dlerror()));
   }
 
   static std::string at_end(const std::string& path, const char* what, const std::string& problem) {

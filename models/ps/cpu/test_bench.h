@@ -15,8 +15,9 @@ class TestBench {
 
   /// The next image, or null when the run is over. Valid until the next call.
   virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
-  /// A result; `data` is valid during the call only.
-  virtual void publish(std::uint32_t kind, const void* data, std::size_t size,
+  /// What came of a frame; `data` is valid during the call only. False: no result, the program gave
+  /// the frame up.
+  virtual bool publish(std::uint32_t kind, const void* data, std::size_t size,
                        std::uint64_t now_ps) = 0;
   /// The value of the program's option number `option`.
   virtual double option(std::uint32_t option, const hal_option_info& info) = 0;

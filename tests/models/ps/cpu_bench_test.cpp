@@ -16,8 +16,9 @@ struct Recorder : ps::TestBench {
     frame.index = static_cast<std::uint32_t>(asked.size() - 1);
     return frame.index < frames ? &frame : nullptr;
   }
-  void publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now) override {
+  bool publish(std::uint32_t kind, const void* data, std::size_t size, std::uint64_t now) override {
     results.push_back({kind, std::string(static_cast<const char*>(data), size), now});
+    return true;
   }
   double option(std::uint32_t option, const hal_option_info& info) override {
     return info.maximum + option;

@@ -242,7 +242,7 @@ namespace {
 
 struct ThrowingBench : ps::TestBench {
   const hal_frame* next_frame(std::uint64_t) override { throw vp::InputError("no such image"); }
-  void publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override {}
+  bool publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override { return true; }
   double option(std::uint32_t, const hal_option_info&) override { return 1; }
 };
 

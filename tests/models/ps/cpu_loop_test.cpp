@@ -14,8 +14,9 @@ namespace {
 
 struct Recorder : ps::TestBench {
   const hal_frame* next_frame(std::uint64_t) override { return nullptr; }
-  void publish(std::uint32_t, const void* data, std::size_t, std::uint64_t) override {
+  bool publish(std::uint32_t, const void* data, std::size_t, std::uint64_t) override {
     std::memcpy(&interrupts, data, sizeof interrupts);
+    return true;
   }
   double option(std::uint32_t, const hal_option_info&) override { return 0; }
   int interrupts = 0;
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(simulated_time_images_and_the_simulator_s_own_time_are_no_r
       burn(std::chrono::milliseconds(frames == 0 ? 500 : 0));
       return frames++ < 6 ? &frame : nullptr;
     }
-    void publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override {}
+    bool publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override { return true; }
     double option(std::uint32_t, const hal_option_info&) override { return 0; }
     hal_frame frame{};
     int frames = 0;

@@ -14,9 +14,10 @@ const std::string programs = MARKERVP_TEST_PROGRAMS "/";
 
 struct Recorder : ps::TestBench {
   const hal_frame* next_frame(std::uint64_t) override { return nullptr; }
-  void publish(std::uint32_t, const void* data, std::size_t size, std::uint64_t) override {
+  bool publish(std::uint32_t, const void* data, std::size_t size, std::uint64_t) override {
     seen.resize(size / sizeof(int));
     std::memcpy(seen.data(), data, size);
+    return true;
   }
   double option(std::uint32_t, const hal_option_info&) override { return 0; }
   std::vector<int> seen;

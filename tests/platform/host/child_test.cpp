@@ -3,11 +3,15 @@
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <ostream>
 #include <utility>
 
+#include <host/process.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 
 #include "temporary_files.h"
 
@@ -61,6 +65,39 @@ BOOST_AUTO_TEST_CASE(ends_with_its_object) {
     process = moved.pid();
     BOOST_TEST(!moved.ended());
     BOOST_TEST(::kill(process, 0) == 0);
+  }
+  BOOST_TEST(::kill(process, 0) != 0);
+}
+
+BOOST_AUTO_TEST_CASE(its_part_files_go_with_it) {
+  const kit::TemporaryFolder folder;
+  {
+    const Child child([&](std::ostream&, std::ostream&) {
+      platform::host::prepare_signals();
+      const vp::OutputFile file(folder / "picture", vp::OutputFile::By::name);
+      vp::write_file(file.part(), "half");
+      vp::write_file(folder / "begun", "");
+      while (true) ::pause();
+      return 0;
+    });
+    while (!std::filesystem::exists(folder / "begun")) ::usleep(1000);
+    BOOST_TEST(folder.entries().size() == 2u);
+  }
+  BOOST_TEST(folder.entries() == std::vector<std::string>{"begun"});
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_hear_is_ended) {
+  const kit::TemporaryFolder folder;
+  pid_t process = 0;
+  {
+    const Child child([&](std::ostream&, std::ostream&) {
+      std::signal(SIGTERM, SIG_IGN);
+      vp::write_file(folder / "deaf", "");
+      while (true) ::pause();
+      return 0;
+    });
+    process = child.pid();
+    while (!std::filesystem::exists(folder / "deaf")) ::usleep(1000);
   }
   BOOST_TEST(::kill(process, 0) != 0);
 }

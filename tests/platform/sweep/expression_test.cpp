@@ -1,89 +1,110 @@
-#include <sweep/expression.h>
+// The same text means the same in a trigger, a check, a constraint and a metric.
+#include <sweep/pareto.h>
+#include <trace/checks.h>
+#include <vp/frame_gate.h>
 
+#include <map>
+#include <vector>
+
+#include "../trace/waves.h"
 #include "sweep_kit.h"
 
-using platform::sweep::Expression;
-using platform::sweep::Value;
-using sweep_test::complaint;
-using sweep_test::contains;
+using namespace platform;
 
 namespace {
 
-Value lookup(const std::string& name) {
-  Value value;
-  if (name == "system") {
-    value.is_text = true;
-    value.text = "hybrid";
-  } else if (name == "clock") {
-    value.number = 50e6;
-    value.unit = vp::Unit::frequency;
-  } else {
-    value.number = 7;
-  }
-  return value;
+/// Whether a frame is kept in which n becomes 7; m stays 0.
+bool triggers(const std::string& text) {
+  const kit::TemporaryFolder folder;
+  vp::FrameTrigger trigger;
+  trigger.condition = vp::Expression(text, "--trace-trigger");
+  vp::FrameGate gate(vp::open_wave_writer(folder / "t.vcd"), trigger);
+  gate.add("ps.cpu.frame", vp::WaveWriter::Kind::wire, 32);
+  const auto n = gate.add("pl.n", vp::WaveWriter::Kind::wire, 8);
+  gate.add("pl.m", vp::WaveWriter::Kind::wire, 8);
+  gate.begin(0, {1, 0, 0});
+  gate.set_time(10);
+  gate.change(n, 7);
+  gate.set_time(20);
+  gate.close(30);
+  return gate.kept() != 0;
 }
 
-double evaluated(const std::string& text) {
-  return Expression(text, "here").evaluate(lookup).number;
+/// Whether `always` passes on a trace with these values.
+bool passes(const std::string& text) {
+  const Waves waves("pl.n 8, pl.m 8", "#0 b111 ! b0 \"\n#10 b111 !\n#20\n");
+  kit::write_file(waves / "x.checks", "it: always " + text + "\n");
+  const auto checks = trace::read_checks(waves / "x.checks");
+  trace::TraceFile file(waves.file);
+  const auto result = run_checks(file, checks, false).front();
+  return result.exercised() && result.failures == 0;
+}
+
+sweep::Results one_point() {
+  sweep::Results results;
+  sweep::ResultRow row;
+  row.metrics = {{"n", 7}, {"m", 0}};
+  results.rows.push_back(row);
+  return results;
+}
+
+bool feasible(const std::string& text) {
+  const sweep::Results results = one_point();
+  const vp::Expression constraint(text, "x");
+  sweep::check_names(results, constraint);
+  return sweep::figure_in(results.rows.front(), constraint).value_or(0) != 0;
+}
+
+bool is_true(const std::string& text) {
+  const sweep::Results results = one_point();
+  const sweep::Objective objective("max " + text, "x");
+  sweep::check_names(results, objective.figure());
+  return sweep::figure_in(results.rows.front(), objective.figure()).value_or(0) != 0;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(expressions)
 
-BOOST_AUTO_TEST_CASE(arithmetic_binds_as_usual) {
-  BOOST_TEST(evaluated("1 + 2 * 3 - 4 / 2") == 5);
-  BOOST_TEST(evaluated("-(1 + 2) * 2") == -6);
-  BOOST_TEST(evaluated("1.5e2 - 50") == 100);
-}
-
-BOOST_AUTO_TEST_CASE(conditions_combine) {
-  BOOST_TEST(evaluated("n == 7 and not n > 7") == 1);
-  BOOST_TEST(evaluated("n < 7 or n != 7 or n >= 8") == 0);
-  BOOST_TEST(evaluated("true and false") == 0);
-}
-
-BOOST_AUTO_TEST_CASE(units_are_checked) {
-  BOOST_TEST(evaluated("clock <= 0.05 GHz") == 1);
-  BOOST_TEST(evaluated("clock / 25 MHz") == 2);
-  BOOST_TEST(
-      contains(complaint([] { evaluated("clock <= 100"); }), "compares Hz and a plain number"));
-  BOOST_TEST(contains(complaint([] { evaluated("clock + 1 ms"); }), "adds"));
-  BOOST_TEST(contains(complaint([] { evaluated("n < 3 parsec"); }), "no unit"));
-}
-
-BOOST_AUTO_TEST_CASE(texts_are_equal_or_not) {
-  BOOST_TEST(evaluated("system == 'hybrid'") == 1);
-  BOOST_TEST(evaluated("system != \"ps-only\"") == 1);
-  BOOST_TEST(contains(complaint([] { evaluated("system < 'x'"); }), "only == and !="));
-  BOOST_TEST(contains(complaint([] { evaluated("system == n"); }), "quotes"));
-}
-
-BOOST_AUTO_TEST_CASE(mistakes_are_named) {
-  for (const char* wrong : {"", "1 +", "(1", "1 = 1", "n n", "'open", "1 ** 2", "n / 0"}) {
-    const std::string said = complaint([&] { evaluated(wrong); });
-    BOOST_TEST(contains(said, "here: '"), wrong << " gave: " << said);
-  }
-  BOOST_TEST(contains(complaint([] { evaluated(std::string(5000, '(')); }), "more than 100"));
-}
-
-/// They overran the stack.
-BOOST_AUTO_TEST_CASE(length_is_bounded) {
-  const auto repeated = [](const std::string& part, std::size_t times) {
-    std::string text;
-    for (std::size_t i = 0; i < times; ++i) text += part;
-    return text;
+BOOST_AUTO_TEST_CASE(the_same_text_means_the_same_everywhere) {
+  const std::map<std::string, bool> expected = {
+      {"n == 7", true},
+      {"n == 3 + 2 * 2", true},
+      {"n < 7 or m > 0", false},
+      {"not n < 7 and m == 0", true},
+      {"not (n == 7 or n == 8)", false},
+      {"n / 2 == 3.5", true},
+      {"-n + 7 == m", true},
+      {"n - 1 - 1 == 5", true},
+      {"n[2:1] == 3 and n[0]", true},
+      {"n == 0x7", true},
+      {"n * 50 MHz >= 0.35 GHz", true},
+      {"n / m == 0 or n != 7", false},
+      {"not not n", true},
+      {"'a' == 'a' and n > 6.99", true},
+      {"`n` >= 7 and true", true},
+      {"n / m > 0", false},
+      {"not n / m > 0", false},
   };
-  BOOST_TEST(evaluated("0" + repeated(" + 1", 400)) == 400);
-  BOOST_TEST(evaluated(repeated("not ", 300'001) + "n") == 0);
-  BOOST_TEST(evaluated(repeated("not ", 300'000) + "n") == 1, "a truth, not the number");
-  for (const char* part : {" + 1", " or n", " and n", "*1"}) {
-    const std::string said = complaint([&] { evaluated("n" + repeated(part, 300'000)); });
-    BOOST_TEST(contains(said, "more than 1000 values and operators"), said);
-    BOOST_TEST(said.size() < 400u, "the message repeats the expression");
+  for (const auto& [text, value] : expected) {
+    BOOST_TEST(triggers(text) == value, "trigger " << text);
+    BOOST_TEST(passes(text) == value, "check " << text);
+    BOOST_TEST(feasible(text) == value, "constraint " << text);
+    BOOST_TEST(is_true(text) == value, "metric " << text);
   }
-  BOOST_TEST(
-      contains(complaint([&] { evaluated(repeated("- ", 300'000) + "1"); }), "more than 100"));
+}
+
+BOOST_AUTO_TEST_CASE(the_same_mistake_is_told_the_same_everywhere) {
+  for (const char* text : {"n ==", "n = 7", "(n > 1", "n > 3 parsec", "n + 1 ms > 2", "k == 7"}) {
+    std::vector<std::string> said;
+    for (bool (*place)(const std::string&) : {triggers, passes, feasible, is_true}) {
+      const std::string message = sweep_test::complaint([&] { place(text); });
+      const auto column = message.find(", column ");
+      BOOST_REQUIRE_MESSAGE(column != std::string::npos, text << ": " << message);
+      said.push_back(message.substr(column, 11));
+    }
+    for (const std::string& other : said) BOOST_TEST(other == said.front(), text);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

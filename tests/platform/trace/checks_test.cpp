@@ -12,7 +12,7 @@ platform::trace::CheckResult judge(const std::string& check, const std::string& 
   kit::write_file(waves / "x.checks", check + "\n");
   const auto checks = platform::trace::read_checks(waves / "x.checks");
   platform::trace::TraceFile file(waves.file);
-  auto result = run_checks(file, checks, "x.checks", false).front();
+  auto result = run_checks(file, checks, false).front();
   result.check = nullptr;  // it goes with `checks`
   return result;
 }
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_file_are_shown_with_their_line) {
   BOOST_TEST(refusal("n: bursts of 0 beats a last c").find("above 0") != std::string::npos);
   BOOST_TEST(refusal("n: always a\nn: never a").find("a check 'n' in line 1") != std::string::npos);
   BOOST_TEST(refusal("# none").find("there is none in it") != std::string::npos);
-  BOOST_TEST(refusal("n: always d").find("line 1: check 'n': there is no signal 'd'") !=
+  BOOST_TEST(refusal("n: always d").find("line 1: 'd', column 1: there is no signal 'd'") !=
              std::string::npos);
 }
 
@@ -149,13 +149,13 @@ BOOST_AUTO_TEST_CASE(checks_without_their_signals_can_be_left_out) {
   kit::write_file(waves / "x.checks", "one: always z\ntwo: never a\n");
   const auto checks = platform::trace::read_checks(waves / "x.checks");
   platform::trace::TraceFile file(waves.file);
-  const auto results = run_checks(file, checks, "x.checks", true);
+  const auto results = run_checks(file, checks, true);
   BOOST_TEST(results[0].skipped);
   BOOST_TEST(results[1].failures == 1u);
   kit::write_file(waves / "y.checks", "one: always z\n");
   const auto none = platform::trace::read_checks(waves / "y.checks");
   platform::trace::TraceFile again(waves.file);
-  BOOST_TEST(complaint([&] { run_checks(again, none, "y.checks", true); }) != "");
+  BOOST_TEST(complaint([&] { run_checks(again, none, true); }) != "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -154,7 +154,7 @@ std::vector<std::string> failures(const Story& story, bool all_seen) {
   const auto checks = platform::trace::read_checks(shipped);
   platform::trace::TraceFile file(folder / "t.vcd");
   std::vector<std::string> failing;
-  for (const auto& result : run_checks(file, checks, shipped, false)) {
+  for (const auto& result : run_checks(file, checks, false)) {
     if (result.failures != 0) failing.push_back(result.check->name);
     if (all_seen && result.occasions == 0) failing.push_back("unseen " + result.check->name);
   }

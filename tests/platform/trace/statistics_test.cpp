@@ -210,6 +210,22 @@ BOOST_AUTO_TEST_CASE(rate_and_latency_of_two_frames) {
   BOOST_TEST(n.whole("frames", 0, "feature_words") == 2u, "0 is what a reset shows");
 }
 
+// The software gives up the second of three frames: no result, but its time counts.
+BOOST_AUTO_TEST_CASE(a_frame_that_was_given_up_has_no_result) {
+  const Waves waves(
+      "ps.cpu.frame 32, ps.cpu.results 32, ps.cpu.function 32, ps.cpu.function_name string, "
+      "pl.control_block.ena 1",
+      "#0 b0 ! b0 \" b0 # s $ 0%\n#10 b1 !\n#20 1%\n#70 b10 ! b1 \"\n"
+      "#72 b1 # supload $\n#77 b0 # s $ 0%\n#80 1%\n#100 b11 !\n"
+      "#102 b1 # supload $\n#107 b0 # s $ 0%\n#110 1%\n#130 b10 \"\n#140\n");
+  const Numbers n(waves);
+  const auto same = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(n.whole("summary", 0, "frames") == 2u);
+  BOOST_TEST(n.whole("frames", 1, "frame") == 2u);
+  BOOST_TEST(n.real("summary", 0, "latency_mean_us") == 0.035, same);
+  BOOST_TEST(n.real("summary", 0, "fps_mean") == 2 / 100e-9, same);
+}
+
 // Without the PL a frame begins with `capture`.
 BOOST_AUTO_TEST_CASE(stages_of_a_frame_that_software_captures) {
   const Waves waves(

@@ -14,7 +14,7 @@ struct GateFixture : TraceFixture {
     options.trigger->frame = "top.slow.odd";
   }
   WaveText kept(const std::string& condition, unsigned before = 0) {
-    options.trigger->condition = vp::WaveExpression(condition);
+    options.trigger->condition = vp::Expression(condition);
     options.trigger->frames_before = before;
     run(200'000);
     return WaveText(options.file.string());
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(signals_of_the_trigger_are_traced_whatever_the_filter_says)
 }
 
 BOOST_AUTO_TEST_CASE(no_such_frame_no_file) {
-  options.trigger->condition = vp::WaveExpression("fast.count == 77");
+  options.trigger->condition = vp::Expression("fast.count == 77");
   Platform platform(options);
   sc_core::sc_start(sc_core::sc_time(200, sc_core::SC_NS));
   BOOST_TEST(!platform.tracer.close());
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(no_such_frame_no_file) {
 }
 
 BOOST_AUTO_TEST_CASE(unknown_signals_are_refused_before_the_run) {
-  options.trigger->condition = vp::WaveExpression("fast.cont == 1");
+  options.trigger->condition = vp::Expression("fast.cont == 1");
   BOOST_CHECK_EXCEPTION(run(1000), vp::InputError, [](const auto& error) {
     return std::string(error.what()).find("no signal 'fast.cont'") != std::string::npos;
   });
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(unknown_signals_are_refused_before_the_run) {
 BOOST_AUTO_TEST_CASE(a_small_buffer_gives_up_the_beginning) {
   options.trigger->frame = "top.fast.odd";  // stands still once the counter sleeps
   options.trigger->buffer = 1;
-  options.trigger->condition = vp::WaveExpression("slow.count == 15");
+  options.trigger->condition = vp::Expression("slow.count == 15");
   options.level = vp::TraceLevel::registers;
   Platform platform(options, 3);
   sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));

@@ -119,4 +119,19 @@ BOOST_AUTO_TEST_CASE(malformed_patterns_are_refused) {
   BOOST_TEST(made("***").find("'**' stands for whole levels") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_signal_is_found_by_the_end_of_its_path) {
+  const std::vector<std::string> paths = {"pl.one.count", "pl.two.count", "pl.two.full",
+                                          "full_time"};
+  BOOST_TEST(vp::find_path("full", paths, "") == 2u);
+  BOOST_TEST(vp::find_path("two.count", paths, "") == 1u);
+  BOOST_TEST(vp::find_path("pl.one.count", paths, "") == 0u);
+  const auto fails = [&](const std::string& name, const std::string& expected) {
+    BOOST_CHECK_EXCEPTION(vp::find_path(name, paths, "line 3: "), vp::InputError,
+                          [&](const auto& error) { return error.what() == expected; });
+  };
+  fails("count", "line 3: 'count' may be pl.one.count or pl.two.count: write more of it");
+  fails("ful", "line 3: there is no signal 'ful'; did you mean 'pl.two.full'?");
+  fails("zzzzzzzz", "line 3: there is no signal 'zzzzzzzz'");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

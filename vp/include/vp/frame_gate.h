@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vp/wave_expression.h>
+#include <vp/expression.h>
 #include <vp/wave_writer.h>
 
 #include <deque>
@@ -14,7 +14,7 @@ namespace vp {
 
 /// Which frames a trace keeps.
 struct FrameTrigger {
-  WaveExpression condition;            ///< a frame in which it comes true is kept
+  Expression condition;                ///< a frame in which it comes true is kept
   std::string frame = "ps.cpu.frame";  ///< the signal whose changes begin a frame
   unsigned frames_before = 0;          ///< frames kept before such a frame
   /// Bytes of changes held until a frame is judged; about 4 a change. The oldest are given up.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,5 +42,10 @@ class TraceFilter {
 
   std::vector<Pattern> patterns_;
 };
+
+/// The place in `paths` of a signal that a user wrote: its whole path, or the end of one path only
+/// ("feature_overflow"). Throws InputError that begins with `where` and names what is near.
+std::uint32_t find_path(const std::string& name, const std::vector<std::string>& paths,
+                        const std::string& where = "");
 
 }  // namespace vp

@@ -1,0 +1,497 @@
+#include <vp/error.h>
+#include <vp/expression.h>
+#include <vp/text.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace vp {
+
+namespace {
+
+using Limits = ExpressionLimits;
+
+bool starts_name(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool continues_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '$';
+}
+bool starts_number(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.';
+}
+
+constexpr std::string_view operators_of_words[] = {"and", "or", "rises", "falls", "changes"};
+
+std::optional<Unit> dimension(const std::string& name) {
+  for (const Unit unit :
+       {Unit::frequency, Unit::time, Unit::bytes, Unit::pixels, Unit::length, Unit::power,
+        Unit::energy, Unit::voltage, Unit::cycles, Unit::percent, Unit::angle, Unit::temperature}) {
+    const std::vector<std::string> known = allowed_units(unit);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return unit;
+  }
+  return std::nullopt;
+}
+
+/// Addresses are plain numbers.
+Unit plain(Unit unit) {
+  return unit == Unit::address ? Unit::none : unit;
+}
+
+std::string unit_text(Unit unit) {
+  const std::string base = base_unit(unit);
+  return base.empty() ? "a plain number" : base;
+}
+
+ExpressionValue truth(bool known, bool value) {
+  return known ? ExpressionValue(static_cast<long double>(value)) : ExpressionValue::unknown();
+}
+
+}  // namespace
+
+/// Recursive descent; every function takes what it knows off the front.
+class ExpressionParser {
+ public:
+  explicit ExpressionParser(Expression& target) : target_(target), rest_(target.text_) {}
+
+  void parse() {
+    target_.root_ = either();
+    skip();
+    if (!rest_.empty()) fail("an operator is missing, or this is too much");
+  }
+
+ private:
+  using Operation = Expression::Operation;
+  using Node = Expression::Node;
+
+  std::uint32_t column() const {
+    return static_cast<std::uint32_t>(target_.text_.size() - rest_.size() + 1);
+  }
+  [[noreturn]] void fail(const std::string& problem) const { target_.fail(column(), problem); }
+  void skip() {
+    while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) != 0) {
+      rest_.remove_prefix(1);
+    }
+  }
+  /// Takes `symbol`, a word as a whole.
+  bool take(std::string_view symbol) {
+    skip();
+    if (rest_.substr(0, symbol.size()) != symbol) return false;
+    if (starts_name(symbol.front()) && rest_.size() > symbol.size() &&
+        continues_name(rest_[symbol.size()])) {
+      return false;
+    }
+    rest_.remove_prefix(symbol.size());
+    return true;
+  }
+  std::string_view take_word() {
+    const auto end = std::find_if_not(rest_.begin(), rest_.end(), continues_name);
+    const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+  std::uint32_t add(Node node, std::uint32_t column) {
+    if (target_.nodes_.size() == Limits::most_parts) {
+      fail("more than " + std::to_string(Limits::most_parts) +
+           " values and operators: write several expressions");
+    }
+    node.column = column;
+    target_.nodes_.push_back(node);
+    return static_cast<std::uint32_t>(target_.nodes_.size() - 1);
+  }
+  std::uint32_t add(Operation operation, std::uint32_t column, std::uint32_t left,
+                    std::uint32_t right = 0) {
+    Node node;
+    node.operation = operation;
+    node.left = left;
+    node.right = right;
+    return add(node, column);
+  }
+  std::uint32_t add(ExpressionValue constant, std::uint32_t column) {
+    target_.constants_.push_back(std::move(constant));
+    return add(Operation::constant, column,
+               static_cast<std::uint32_t>(target_.constants_.size() - 1));
+  }
+
+  std::uint32_t either() {
+    std::uint32_t left = both();
+    for (std::uint32_t at = here(); take("or"); at = here())
+      left = add(Operation::either, at, left, both());
+    return left;
+  }
+  std::uint32_t both() {
+    std::uint32_t left = inverted();
+    for (std::uint32_t at = here(); take("and"); at = here())
+      left = add(Operation::both, at, left, inverted());
+    return left;
+  }
+  /// Two of them, which make a truth of a number, say what any even number of them says.
+  std::uint32_t inverted() {
+    const std::uint32_t at = here();
+    std::size_t count = 0;
+    while (take("not")) ++count;
+    std::uint32_t inner = comparison();
+    for (count = count == 0 ? 0 : 2 - count % 2; count > 0; --count)
+      inner = add(Operation::invert, at, inner);
+    return inner;
+  }
+  std::uint32_t comparison() {
+    const std::uint32_t left = sum();
+    const std::uint32_t at = here();
+    if (take("rises")) return add(Operation::rises, at, left);
+    if (take("falls")) return add(Operation::falls, at, left);
+    if (take("changes")) return add(Operation::changes, at, left);
+    static constexpr std::pair<const char*, Operation> symbols[] = {
+        {"==", Operation::equal},         {"!=", Operation::unequal}, {"<=", Operation::less_equal},
+        {">=", Operation::greater_equal}, {"<", Operation::less},     {">", Operation::greater}};
+    for (const auto& [symbol, operation] : symbols) {
+      if (take(symbol)) return add(operation, at, left, sum());
+    }
+    if (rest_.substr(0, 1) == "=") fail("write '==' to compare");
+    return left;
+  }
+  std::uint32_t sum() {
+    std::uint32_t left = product();
+    for (;;) {
+      const std::uint32_t at = here();
+      if (take("+")) {
+        left = add(Operation::plus, at, left, product());
+      } else if (take("-")) {
+        left = add(Operation::minus, at, left, product());
+      } else {
+        return left;
+      }
+    }
+  }
+  std::uint32_t product() {
+    std::uint32_t left = factor();
+    for (;;) {
+      const std::uint32_t at = here();
+      if (take("*")) {
+        left = add(Operation::times, at, left, factor());
+      } else if (take("/")) {
+        left = add(Operation::over, at, left, factor());
+      } else {
+        return left;
+      }
+    }
+  }
+  std::uint32_t factor() {
+    if (++depth_ > Limits::deepest) {
+      fail("more than " + std::to_string(Limits::deepest) +
+           " brackets and signs inside each other: write it flatter");
+    }
+    const std::uint32_t at = here();
+    const std::uint32_t result = take("-") ? add(Operation::negate, at, factor()) : value();
+    --depth_;
+    return result;
+  }
+  std::uint32_t value() {
+    const std::uint32_t at = here();
+    if (rest_.empty()) fail("a value is missing");
+    if (take("(")) {
+      const std::uint32_t inner = either();
+      if (!take(")")) fail("a ')' is missing");
+      return inner;
+    }
+    const char c = rest_.front();
+    if (c == '\'' || c == '"') {
+      ExpressionValue constant;
+      constant.is_text = true;
+      constant.text = quoted(c);
+      return add(std::move(constant), at);
+    }
+    if (starts_number(c)) return add(number(), at);
+    if (c == '`') return name(quoted(c), at);
+    if (!starts_name(c)) fail("here should be a value: a number, a name, a text in quotes or '('");
+    const std::string word(take_word());
+    if (word == "true" || word == "false") return add(ExpressionValue(word == "true"), at);
+    return name(word, at);
+  }
+  std::uint32_t here() {
+    skip();
+    return column();
+  }
+  std::string quoted(char quote) {
+    const std::size_t end = rest_.find(quote, 1);
+    if (end == std::string_view::npos) fail(std::string("a closing ") + quote + " is missing");
+    const std::string text(rest_.substr(1, end - 1));
+    rest_.remove_prefix(end + 1);
+    return text;
+  }
+  ExpressionValue number() { return rest_.substr(0, 2) == "0x" ? hexadecimal() : decimal(); }
+  ExpressionValue hexadecimal() {
+    std::uint64_t bits = 0;
+    const auto result = std::from_chars(rest_.data() + 2, rest_.data() + rest_.size(), bits, 16);
+    if (result.ec != std::errc()) fail("this is no number of at most 64 bits");
+    rest_.remove_prefix(static_cast<std::size_t>(result.ptr - rest_.data()));
+    return ExpressionValue(static_cast<long double>(bits));
+  }
+  ExpressionValue decimal() {
+    const char* const end = rest_.data() + rest_.size();
+    std::uint64_t whole = 0;
+    double real = 0;
+    const auto as_whole = std::from_chars(rest_.data(), end, whole);
+    const auto as_real = std::from_chars(rest_.data(), end, real);
+    const bool is_whole = as_whole.ec == std::errc() && as_whole.ptr == as_real.ptr;
+    if (!is_whole && as_real.ec != std::errc()) fail("this is no number");
+    const std::string digits(rest_.data(), as_real.ptr);
+    const std::string_view start = rest_;
+    rest_.remove_prefix(digits.size());
+    const std::string unit = unit_name();
+    ExpressionValue value(is_whole ? static_cast<long double>(whole)
+                                   : static_cast<long double>(real));
+    if (unit.empty()) return value;
+    value.unit = *dimension(unit);
+    try {
+      value.number = parse_quantity(digits + " " + unit, value.unit).to_double();
+    } catch (const InputError& error) {
+      rest_ = start;
+      fail("'" + digits + "' " + error.what());
+    }
+    return value;
+  }
+  /// The unit that stands behind a number; empty if there is none.
+  std::string unit_name() {
+    if (take("%")) return "%";
+    skip();
+    if (rest_.empty() || !starts_name(rest_.front())) return "";
+    const std::string_view start = rest_;
+    const std::string word(take_word());
+    if (dimension(word)) return word;
+    rest_ = start;
+    for (const std::string_view other : operators_of_words) {
+      if (word == other) return "";
+    }
+    fail("'" + word + "' is no unit");
+  }
+  std::uint32_t name(const std::string& text, std::uint32_t at) {
+    auto& names = target_.names_;
+    auto place = std::find(names.begin(), names.end(), text);
+    if (place == names.end()) {
+      place = names.insert(names.end(), text);
+      target_.columns_.push_back(at);
+    }
+    Node node;
+    node.operation = Operation::name;
+    node.left = static_cast<std::uint32_t>(place - names.begin());
+    if (take("[")) slice(node);
+    return add(node, at);
+  }
+  void slice(Node& node) {
+    node.sliced = true;
+    node.high = bit();
+    node.low = take(":") ? bit() : node.high;
+    if (!take("]")) fail("a ']' is missing");
+    if (node.low > node.high) fail("bits are written [high:low]");
+  }
+  unsigned bit() {
+    skip();
+    unsigned value = 0;
+    const auto result = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (result.ec != std::errc() || value > 63) fail("a bit is a number from 0 to 63");
+    rest_.remove_prefix(static_cast<std::size_t>(result.ptr - rest_.data()));
+    return value;
+  }
+
+  Expression& target_;
+  std::string_view rest_;
+  unsigned depth_ = 0;
+};
+
+Expression::Expression(std::string_view text, std::string where)
+    : text_(trim(text)), where_(std::move(where)) {
+  ExpressionParser(*this).parse();
+}
+
+void Expression::fail(std::uint32_t column, const std::string& problem) const {
+  throw InputError((where_.empty() ? "" : where_ + ": ") + "'" + excerpt(text_) + "', column " +
+                   std::to_string(column) + ": " + problem);
+}
+
+void Expression::refuse(const std::string& name, const std::string& problem) const {
+  const auto place = std::find(names_.begin(), names_.end(), name);
+  fail(place == names_.end() ? 1 : columns_[static_cast<std::size_t>(place - names_.begin())],
+       problem);
+}
+
+bool Expression::is_event() const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
+    return node.operation >= Operation::rises && node.operation <= Operation::changes;
+  });
+}
+
+void Expression::bind(const std::function<std::uint32_t(const std::string& name)>& number_of) {
+  bound_.clear();
+  for (const std::string& name : names_) {
+    try {
+      bound_.push_back(number_of(name));
+    } catch (const InputError& error) {
+      refuse(name, error.what());
+    }
+  }
+  // Units are compared whether or not the values are known.
+  evaluate(
+      root_, [](std::uint32_t, bool) { return ExpressionValue::unknown(); }, false);
+}
+
+ExpressionValue Expression::value(const ExpressionValues& values) const {
+  return evaluate(
+      root_,
+      [&](std::uint32_t place, bool past) {
+        return past ? values.before(bound_[place]) : values.now(bound_[place]);
+      },
+      false);
+}
+
+ExpressionValue Expression::value(const Lookup& lookup) const {
+  for (const Node& node : nodes_) {
+    if (node.operation >= Operation::rises && node.operation <= Operation::changes)
+      fail(node.column, "'rises', 'falls' and 'changes' are for traces: here nothing was before");
+  }
+  std::vector<ExpressionValue> found;
+  for (const std::string& name : names_) {
+    try {
+      found.push_back(lookup(name));
+    } catch (const InputError& error) {
+      refuse(name, error.what());
+    }
+  }
+  return evaluate(
+      root_, [&](std::uint32_t place, bool) { return found[place]; }, false);
+}
+
+ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, bool past) const {
+  const Node& node = nodes_[place];
+  switch (node.operation) {
+    case Operation::constant:
+      return constants_[node.left];
+    case Operation::name:
+      return named(node, at, past);
+    case Operation::either:
+    case Operation::both:
+    case Operation::invert:
+      return logic(node, at, past);
+    default:
+      break;
+  }
+  ExpressionValue left = evaluate(node.left, at, past);
+  if (node.operation == Operation::negate) {
+    check_number(node, left);
+    left.number = -left.number;
+    return left;
+  }
+  // Before this instant nothing moves: both sides of an edge are one value. To compute it twice
+  // would double the work with each edge inside another.
+  const bool edge = node.operation >= Operation::rises && node.operation <= Operation::changes;
+  const ExpressionValue right =
+      edge && past ? left : evaluate(edge ? node.left : node.right, at, past || edge);
+  if (node.operation < Operation::plus) return compared(node, left, right);
+  check_number(node, left);
+  check_number(node, right);
+  if (node.operation == Operation::times || node.operation == Operation::over)
+    return scaled(node, std::move(left), right);
+  check_same_unit(node, left, right, "adds");
+  left.number += node.operation == Operation::plus ? right.number : -right.number;
+  left.known = left.known && right.known;
+  return left;
+}
+
+ExpressionValue Expression::named(const Node& node, const At& at, bool past) const {
+  ExpressionValue whole = at(node.left, past);
+  if (!node.sliced) return whole;
+  check_number(node, whole);
+  const unsigned width = node.high - node.low + 1;
+  const std::uint64_t mask = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+  constexpr auto most = static_cast<long double>(std::numeric_limits<std::uint64_t>::max());
+  whole.known = whole.known && whole.number >= 0 && whole.number <= most;
+  if (whole.known)
+    whole.number =
+        static_cast<long double>(static_cast<std::uint64_t>(whole.number) >> node.low & mask);
+  return whole;
+}
+
+/// One side may decide although the other is not known.
+ExpressionValue Expression::logic(const Node& node, const At& at, bool past) const {
+  const ExpressionValue left = evaluate(node.left, at, past);
+  check_number(node, left);
+  if (node.operation == Operation::invert) return truth(left.known, left.number == 0);
+  const ExpressionValue right = evaluate(node.right, at, past);
+  check_number(node, right);
+  const bool decides = node.operation == Operation::either;
+  const auto decided = [&](const ExpressionValue& side) {
+    return side.known && (side.number != 0) == decides;
+  };
+  if (decided(left) || decided(right)) return truth(true, decides);
+  return truth(left.known && right.known, !decides);
+}
+
+ExpressionValue Expression::scaled(const Node& node, ExpressionValue left,
+                                   const ExpressionValue& right) const {
+  const Unit units[] = {plain(left.unit), plain(right.unit)};
+  left.known = left.known && right.known;
+  if (node.operation == Operation::times) {
+    if (units[0] != Unit::none && units[1] != Unit::none)
+      fail(node.column, "multiplies " + unit_text(left.unit) + " by " + unit_text(right.unit));
+    left.number *= right.number;
+    if (units[0] == Unit::none) left.unit = right.unit;
+    return left;
+  }
+  if (units[1] != Unit::none) {
+    check_same_unit(node, left, right, "divides");
+    left.unit = Unit::none;
+  }
+  left.known = left.known && right.number != 0;
+  if (left.known) left.number /= right.number;
+  return left;
+}
+
+ExpressionValue Expression::compared(const Node& node, const ExpressionValue& left,
+                                     const ExpressionValue& right) const {
+  const bool equality = node.operation == Operation::equal ||
+                        node.operation == Operation::unequal ||
+                        node.operation == Operation::changes;
+  if (left.is_text != right.is_text)
+    fail(node.column, "compares a text with a number: texts stand in quotes");
+  if (left.is_text && !equality) fail(node.column, "compares texts: only == and != do that");
+  check_same_unit(node, left, right, "compares");
+  const auto order = [&] {
+    if (left.is_text) return left.text.compare(right.text);
+    return left.number < right.number ? -1 : static_cast<int>(left.number > right.number);
+  };
+  const bool known = left.known && right.known;
+  switch (node.operation) {
+    case Operation::equal:
+      return truth(known, order() == 0);
+    case Operation::changes:
+    case Operation::unequal:
+      return truth(known, order() != 0);
+    case Operation::falls:
+    case Operation::less:
+      return truth(known, order() < 0);
+    case Operation::less_equal:
+      return truth(known, order() <= 0);
+    case Operation::rises:
+    case Operation::greater:
+      return truth(known, order() > 0);
+    default:
+      return truth(known, order() >= 0);
+  }
+}
+
+void Expression::check_number(const Node& node, const ExpressionValue& value) const {
+  if (value.is_text) fail(node.column, "calculates with the text '" + excerpt(value.text) + "'");
+}
+
+void Expression::check_same_unit(const Node& node, const ExpressionValue& left,
+                                 const ExpressionValue& right, const char* what) const {
+  if (plain(left.unit) == plain(right.unit)) return;
+  fail(node.column,
+       std::string(what) + " " + unit_text(left.unit) + " and " + unit_text(right.unit));
+}
+
+}  // namespace vp
