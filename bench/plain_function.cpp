@@ -1,7 +1,5 @@
 #include "plain_function.h"
 
-#include <pl/common/packet.h>
-
 namespace bench {
 
 namespace {
@@ -50,7 +48,7 @@ void PixelDetector::detect(const std::uint8_t* image, Detected& result) {
       if (corner_.push(image[i], x, y, corner)) {
         result.corners.push_back(
             {pl::CornerFrame::clock(geometry_, corner.x, corner.y),
-             pl::packet::corner(corner.strength, corner.direction, corner.x, corner.y)});
+             geometry_.words().corner(corner.strength, corner.direction, corner.x, corner.y)});
       }
       const bool dark = threshold_.push(image[i]);
       words_[i / 32] = words_[i / 32] >> 1 | std::uint32_t{dark} << 31;
@@ -69,8 +67,8 @@ void PixelDetector::label(bool ena, bool dark, std::uint32_t x, std::uint32_t y,
   if (!blob_.step(ena, dark, x, y)) return;
   const pl::BoundingBox& box = blob_.retired();
   if (!box.at_least(minimum_side)) return;
-  result.blobs.push_back({latency + step, pl::packet::blob_start(number_, box.sx, box.sy),
-                          pl::packet::blob_end(number_, box.ex, box.ey)});
+  result.blobs.push_back({latency + step, geometry_.words().blob_start(number_, box.sx, box.sy),
+                          geometry_.words().blob_end(number_, box.ex, box.ey)});
   ++number_;
 }
 
@@ -82,7 +80,7 @@ std::optional<marker::Pose> PlainFunction<Detector>::run(const std::uint8_t* ima
   pack();
   Memory& m = *memory_;
   m.features.clear();
-  marker::decode(m.words.words.data(), m.words.stored(), m.features);
+  marker::decode(m.words.words.data(), m.words.stored(), geometry_.words(), m.features);
   m.candidates.count = m.candidates.lost = 0;
   marker::evaluate_features(m.features, {margin_px}, m.candidates);
   const marker::BinaryImage binary{detector_.binary(), geometry_.width, geometry_.height, false};
@@ -109,7 +107,7 @@ void PlainFunction<Detector>::pack() {
     words.push(corner.word);
   }
   push_blobs_before(~std::uint64_t{0});
-  words.push(pl::packet::end_of_frame);
+  words.push(marker_logic::WordFormat::end_of_frame);
 }
 
 template class PlainFunction<FrameDetector>;

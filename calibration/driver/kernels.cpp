@@ -116,10 +116,11 @@ void measure_decode(Random& random) {
     list.push_back(marker::packet::encode_start(features.blobs[i]));
     list.push_back(marker::packet::encode_end(features.blobs[i]));
   }
-  list.push_back(marker::packet::end_of_frame);
+  list.push_back(marker_logic::WordFormat::end_of_frame);
   const auto count = static_cast<std::uint32_t>(list.size());
   measure(
-      "decode", [&] { marker::decode(list.data(), count, features); }, of_features);
+      "decode", [&] { marker::decode(list.data(), count, marker::packet::usual_format, features); },
+      of_features);
 }
 
 void measure_evaluation(Random& random) {
@@ -196,7 +197,7 @@ void measure_hardware(Random& random) {
   const std::uint32_t count = 1 + random.below(100);
   for (std::uint32_t i = 0; i < count; ++i)
     list.push_back(marker::packet::encode(random_corner(random)));
-  list.push_back(marker::packet::end_of_frame);
+  list.push_back(marker_logic::WordFormat::end_of_frame);
   link.initialise();
   Devices::show(list);
   measure(

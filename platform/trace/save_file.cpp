@@ -38,6 +38,11 @@ Translation::Translation(TraceFile& file, Replay& replay, const Vocabulary& word
     function_ = replay.watch(static_cast<std::uint32_t>(number));
     function_name_ = replay.watch(static_cast<std::uint32_t>(name));
   }
+  for (const std::string& field : words.fields) {
+    const int signal = file.find(field);
+    field_widths_.push_back(signal < 0 ? 0u
+                                       : file.variable(static_cast<std::uint32_t>(signal)).width);
+  }
   for (const auto& [path, name_of_file] : translated_) {
     const int variable = file.find(path);
     if (variable < 0 || name_of_file != Vocabulary::words) continue;
@@ -104,7 +109,7 @@ std::string Translation::word_file() const {
   constexpr unsigned width = 32;
   std::string text = hex_of(0, width) + " -\n";
   for (const std::uint64_t word : words_)
-    text += hex_of(word, width) + " " + vocabulary_.meaning(word) + "\n";
+    text += hex_of(word, width) + " " + vocabulary_.meaning(word, field_widths_) + "\n";
   return text;
 }
 

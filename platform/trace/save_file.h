@@ -43,6 +43,7 @@ class Translation final : public Replay::Listener {
   std::map<std::uint64_t, std::string> functions_;
   std::vector<Replay::Slot> packets_;
   std::set<std::uint64_t> words_;
+  std::vector<unsigned> field_widths_;
 };
 
 /// A save file for GTKWave.

@@ -22,8 +22,10 @@ struct Vocabulary {
     bool (*counts)(std::uint64_t word);
   };
   std::vector<WordKind> word_kinds;
-  /// What a word says, for GTKWave.
-  std::string (*meaning)(std::uint64_t word) = nullptr;
+  /// What a word says, for GTKWave. `widths`: of `fields`, signals that tell by their width how a
+  /// word is divided; 0 for one that the trace lacks.
+  std::string (*meaning)(std::uint64_t word, const std::vector<unsigned>& widths) = nullptr;
+  std::vector<std::string> fields;
 
   /// How full a buffer is, the signal that tells its depth, and the depth if the trace lacks that.
   struct Buffer {

@@ -2,6 +2,11 @@
 #include <marker/work.h>
 
 namespace marker {
+namespace {
+
+constexpr std::uint32_t number_mask = 0x7FF;  // as in the thesis' words
+
+}  // namespace
 
 void BlobGrouping::detect(const BinaryImage& image, const BlobOptions& options,
                           FeatureSet& features) {
@@ -104,7 +109,7 @@ void BlobGrouping::ended(const BoundingBox& box) {
     return;
   }
   features_->push(BoundingBox{box.sx, box.sy, box.ex, box.ey,
-                              static_cast<std::uint16_t>(number_++ & packet::number_mask)});
+                              static_cast<std::uint16_t>(number_++ & number_mask)});
 }
 
 void BlobGrouping::count_work(const BinaryImage& image) const {

@@ -40,14 +40,20 @@ class OpenBlobs {
   std::uint32_t count_ = 0;
 };
 
-void end_blob(std::uint32_t word, OpenBlobs& open, FeatureSet& features) {
+using packet::WordFormat;
+
+std::uint16_t narrow(std::uint32_t field) {
+  return static_cast<std::uint16_t>(field);
+}
+
+void end_blob(std::uint32_t word, const WordFormat& format, OpenBlobs& open, FeatureSet& features) {
   BoundingBox box{};
-  if (!open.close(packet::number(word), &box)) {
+  if (!open.close(narrow(format.number(word)), &box)) {
     ++features.malformed;
     return;
   }
-  box.ex = packet::x(word);
-  box.ey = packet::y(word);
+  box.ex = narrow(format.x(word));
+  box.ey = narrow(format.y(word));
   if (box.ex < box.sx || box.ey < box.sy) {
     ++features.malformed;
     return;
@@ -73,22 +79,23 @@ void FeatureSet::push(const BoundingBox& box) {
   blobs[blob_count++] = box;
 }
 
-void decode(const std::uint32_t* words, std::uint32_t count, FeatureSet& features) {
+void decode(const std::uint32_t* words, std::uint32_t count, const WordFormat& format,
+            FeatureSet& features) {
   const FunctionScope scope(Function::decode);
   features.clear();
   OpenBlobs open;
   std::uint32_t decoded = 0;
   for (; decoded < count; ++decoded) {
     const std::uint32_t word = words[decoded];
-    const packet::Kind kind = packet::kind(word);
-    if (kind == packet::Kind::end) break;
-    if (kind == packet::Kind::corner) {
-      features.push(packet::corner(word));
-    } else if (kind == packet::Kind::blob_start) {
-      features.malformed +=
-          open.open({packet::x(word), packet::y(word), 0, 0, packet::number(word)});
+    const WordFormat::Kind kind = WordFormat::kind(word);
+    if (kind == WordFormat::Kind::end) break;
+    if (kind == WordFormat::Kind::corner) {
+      features.push(packet::corner(word, format));
+    } else if (kind == WordFormat::Kind::blob_start) {
+      features.malformed += open.open(
+          {narrow(format.x(word)), narrow(format.y(word)), 0, 0, narrow(format.number(word))});
     } else {
-      end_blob(word, open, features);
+      end_blob(word, format, open, features);
     }
   }
   features.malformed += open.count();

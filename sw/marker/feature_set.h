@@ -47,7 +47,9 @@ struct FeatureSet {
 };
 
 /// Decodes `count` words up to the end word into `features` (thesis 4.5.2). A blob's start and end
-/// words are paired by their number; corners may come between them.
-void decode(const std::uint32_t* words, std::uint32_t count, FeatureSet& features);
+/// words are paired by their number; corners may come between them. `format`: of frames of this
+/// size.
+void decode(const std::uint32_t* words, std::uint32_t count, const packet::WordFormat& format,
+            FeatureSet& features);
 
 }  // namespace marker

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <marker_logic.h>
+
 namespace marker {
 
 /// A camera image, row by row.
@@ -10,11 +12,10 @@ struct GreyImage {
   std::uint32_t width, height;  ///< px
 };
 
-/// The largest image that the PS finds features in: what the PL's packets can address, too.
-inline constexpr std::uint32_t max_image_width = 1024;
-inline constexpr std::uint32_t max_image_height = 512;
+/// The largest image that the PS finds features in: what the PL can find them in, too.
+inline constexpr std::uint32_t max_image_width = marker_logic::max_width;
+inline constexpr std::uint32_t max_image_height = marker_logic::max_height;
 
-/// Words of a binary image: 32 pixels each.
-inline constexpr std::uint32_t pixels_per_word = 32;
+using marker_logic::pixels_per_word;
 
 }  // namespace marker

@@ -51,6 +51,23 @@ BOOST_AUTO_TEST_CASE(tlm_is_the_default) {
   BOOST_TEST(place.result()["configuration"]["pl.fidelity.blob_detection"] == "tlm");
 }
 
+BOOST_AUTO_TEST_CASE(larger_frames_than_the_thesis_packets_could_address) {
+  for (const char* size : {"1280x720", "1920x1080"}) {
+    BOOST_TEST_CONTEXT(size) {
+      const std::string width = std::string(size).substr(0, 4),
+                        height = std::string(size).substr(5);
+      const Arguments scene = with(with({"demo", "--repeat", "2"}, "pl.width=" + width + " px"),
+                                   "pl.height=" + height + " px");
+      const Json fast = result_of(with(scene, "fidelity=tlm"));
+      const Json slow = result_of(with(scene, "fidelity=clocked"));
+      BOOST_TEST(difference(fast, slow) == "");
+      BOOST_TEST(fast["summary"]["detected"] == 2);
+      // The frame store alone is more than the chip has: said by the resources.
+      BOOST_TEST(fast["resources"]["over"].dump().find("bram36") != std::string::npos);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_trace_shows_the_clocked_model_unless_asked_otherwise) {
   const Arguments trace{"demo",  "--quiet",        "--no-pictures", "--trace",
                         "a.vcd", "--trace-window", "6ms:6.01ms"};

@@ -57,7 +57,8 @@ bool has(const std::vector<std::string>& words, const std::string& word) {
 BOOST_AUTO_TEST_SUITE(resolutions)
 
 BOOST_AUTO_TEST_CASE(markers_are_found_in_scenes_of_other_sizes) {
-  for (const Size size : {Size{320, 240}, {160, 128}, {512, 512}, {640, 512}, {1024, 512}}) {
+  for (const Size size :
+       {Size{320, 240}, {160, 128}, {512, 512}, {640, 512}, {1024, 512}, {1280, 720}}) {
     BOOST_TEST_CONTEXT(size.width << "x" << size.height) {
       const PlatformRun run = run_scenes({"z1.0", "roll90"}, resolution(size));
       for (const FrameReport& frame : run.frames) {
@@ -126,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_frame_of_noise_does_no_harm_to_the_next) {
 }
 
 BOOST_AUTO_TEST_CASE(sizes_that_cannot_be_built_are_refused) {
-  for (const Size size : {Size{0, 480}, {640, 0}, {650, 480}, {1056, 512}, {640, 528}, {96, 16}}) {
+  for (const Size size : {Size{0, 480}, {640, 0}, {650, 480}, {2080, 512}, {640, 2064}, {96, 16}}) {
     BOOST_TEST_CONTEXT(size.width << "x" << size.height) {
       BOOST_CHECK_THROW(run_images({}, resolution(size)), vp::InputError);
     }

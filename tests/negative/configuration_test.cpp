@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
   set_refused("pl.corner_detection.threshold=", {"pl.corner_detection.threshold"});
   set_refused("pl.width=650 px", {"pl.width", "multiple of 32"});
   set_refused("pl.height=481 px", {"pl.height", "multiple of 1024"});
-  set_refused("pl.width=1056 px", {"pl.width", "1024"});
+  set_refused("pl.width=2080 px", {"pl.width", "2048"});
 }
 
 /// Values that are allowed one by one and do not fit together.

@@ -55,7 +55,9 @@ Models<AxiImageStore>& AxiImageStore::models() {
 }
 
 AxiImageStore::AxiImageStore(sc_core::sc_module_name name, const Site& site)
-    : Clocked(name, site.clk), Ip(&site.clk) {
+    : Clocked(name, site.clk),
+      Ip(&site.clk),
+      address("address", marker_logic::bits_for(site.geometry.pixels() / 4, 17)) {
   wake_on(ena);
   wake_on(rst);
   wake_on(m.tvalid);

@@ -26,7 +26,7 @@ class AxiImageStore : public vp::Clocked, public vp::Ip {
   virtual void settle() {}
 
   /// Words stored since the last rise of `ena`.
-  vp::Signal<std::uint32_t> address{"address", 17};
+  vp::Signal<std::uint32_t> address;
 
  protected:
   AxiImageStore(sc_core::sc_module_name name, const Site& site);

@@ -1,6 +1,5 @@
 #include <pl/blob_detection/models.h>
 #include <pl/common/estimate.h>
-#include <pl/common/packet.h>
 #include <pl/common/rtl_model.h>
 
 namespace pl {
@@ -48,8 +47,8 @@ void BlobDetectionClocked::edge() {
 bool BlobDetectionClocked::filter() {
   const BoundingBox& box = core_.retired();
   if (!box.at_least(minimum_side)) return false;
-  blob_start = packet::blob_start(number_, box.sx, box.sy);
-  blob_end = packet::blob_end(number_, box.ex, box.ey);
+  blob_start = geometry_.words().blob_start(number_, box.sx, box.sy);
+  blob_end = geometry_.words().blob_end(number_, box.ex, box.ey);
   ++number_;
   return true;
 }
@@ -68,14 +67,14 @@ namespace {
 
 /// Labels for which the thesis' figures are taken to hold (decision: it does not give the number).
 constexpr std::uint32_t thesis_labels = 128;
-constexpr std::uint32_t box_bits = 38;  ///< four coordinates
+constexpr std::uint32_t thesis_box_bits = 38;  ///< four coordinates
 
 /// LUT of the logic around the labels. Each has its box in registers, a comparison that finds out
 /// when it expires, a choice of what its box becomes, and its share of the multiplexers through
 /// which seven neighbours look up their widths.
-constexpr std::uint32_t logic_of_labels(std::uint32_t labels) {
+constexpr std::uint32_t logic_of_labels(std::uint32_t labels, std::uint32_t box_bits) {
   constexpr std::uint32_t look_up = 42;  // 7 neighbours × 20 bits × 0.3 LUT an input
-  constexpr std::uint32_t read_out = 11, grow = 2 * box_bits, expire = 45, choose = 10;
+  const std::uint32_t read_out = 11, grow = 2 * box_bits, expire = 45, choose = 10;
   return 600 + (look_up + read_out + grow + expire + choose) * labels;
 }
 
@@ -84,14 +83,16 @@ constexpr std::uint32_t logic_of_labels(std::uint32_t labels) {
 // Grows with the labels. Its power was measured for the whole module (thesis 4.6.1).
 vp::IpEstimate BlobDetection::own_estimate() const {
   const std::uint32_t labels = label_count;
+  const std::uint32_t box_bits = 2 * geometry_.words().number_shift();
   std::uint32_t label_bits = 1;
   while ((std::uint64_t{1} << label_bits) < labels) ++label_bits;
 
   vp::IpEstimate e;
   e.kind = "blob_detection";
-  e.size = static_cast<double>(logic_of_labels(labels)) / logic_of_labels(thesis_labels);
+  e.size = static_cast<double>(logic_of_labels(labels, box_bits)) /
+           logic_of_labels(thesis_labels, thesis_box_bits);
   e.includes_memory = true;
-  e.lut = logic_of_labels(labels);
+  e.lut = logic_of_labels(labels, box_bits);
   e.ff = 250 + (box_bits + 1) * labels;
   e.bram36 = xilinx::block_ram_36(geometry_.width, label_bits);  // labels of the line above
   add_fifo(e, labels, label_bits);                               // free labels

@@ -50,7 +50,7 @@ class BlobCore {
   void reset();
 
  private:
-  std::uint32_t raster(std::uint32_t x, std::uint32_t y) const { return y * 2048 + x; }
+  std::uint32_t raster(std::uint32_t x, std::uint32_t y) const { return y * 4096 + x; }
   /// The first position at which no pixel can join the box: two right of its end in the row below
   /// it.
   std::uint32_t expiry(const BoundingBox& box) const { return raster(box.ex + 3u, box.ey + 1u); }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <pl/common/packet.h>
-
 namespace pl {
 
 namespace {
@@ -204,8 +202,9 @@ void BlobFrame::fill(Label label, std::uint32_t first, std::uint32_t last) {
 void BlobFrame::emit(Label label, std::uint64_t clock) {
   const BoundingBox& box = boxes_[label];
   if (!box.at_least(minimum_side_)) return;
-  blobs_->push_back({latency + clock, packet::blob_start(number_, box.sx, box.sy),
-                     packet::blob_end(number_, box.ex, box.ey)});
+  const marker_logic::WordFormat words = geometry_.words();
+  blobs_->push_back({latency + clock, words.blob_start(number_, box.sx, box.sy),
+                     words.blob_end(number_, box.ex, box.ey)});
   ++number_;
 }
 

@@ -21,15 +21,19 @@ class PixelFilter : public vp::Clocked, public vp::Ip {
   vp::In<std::uint16_t> y{"y", this};
   vp::Signal<bool> frame_ena{"frame_ena"};
   vp::Signal<std::uint8_t> pixel_out{"pixel_out"};
-  vp::Signal<std::uint16_t> pixel_x{"pixel_x", 10};
-  vp::Signal<std::uint16_t> pixel_y{"pixel_y", 9};
+  vp::Signal<std::uint16_t> pixel_x;
+  vp::Signal<std::uint16_t> pixel_y;
   // Whole frames.
   FrameIn<GreyFrames> frames_in{"frames_in"};
   GreyFrames frames{"frames", clock()};
 
  protected:
   PixelFilter(sc_core::sc_module_name name, const Site& site)
-      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
+      : Clocked(name, site.clk),
+        Ip(&site.clk),
+        pixel_x("pixel_x", site.geometry.words().x_bits()),
+        pixel_y("pixel_y", site.geometry.words().y_bits()),
+        geometry_(site.geometry) {
     wake_on(rst);
     wake_on(ena);
   }

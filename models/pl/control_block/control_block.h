@@ -3,22 +3,13 @@
 #include <cstdint>
 #include <systemc>
 
+#include <marker_logic.h>
 #include <vp/ip.h>
 #include <vp/signal.h>
 
 namespace pl {
 
-/// The bits of the control packet (figure 4.19 is not in the text of the thesis: decision).
-namespace control_packet {
-
-constexpr std::uint32_t ena = 1u << 0;
-constexpr std::uint32_t rst = 1u << 1;
-constexpr std::uint32_t ready_shift = 2;  ///< two bits, toggling
-constexpr std::uint32_t wr_en = 1u << 4;
-constexpr std::uint32_t wr_thresh = 1u << 5;
-constexpr std::uint32_t threshold_shift = 8;  ///< eight bits
-
-}  // namespace control_packet
+namespace control_packet = marker_logic::control;
 
 /// Control Block (thesis 4.4.1, ports of table B.4): splits the control packet. Combinational, at
 /// every fidelity.

@@ -1,5 +1,4 @@
 #include <pl/common/estimate.h>
-#include <pl/common/packet.h>
 #include <pl/common/rtl_model.h>
 #include <pl/corner_detection/models.h>
 
@@ -44,7 +43,7 @@ void CornerDetectionClocked::edge() {
     if (core_.push(pixel, x, y, corner)) {
       in_flight_ |= 1u << (CornerCore::latency - 1);
       const unsigned last = slot_ == 0 ? CornerCore::latency : slot_ - 1;
-      data_[last] = packet::corner(corner.strength, corner.direction, corner.x, corner.y);
+      data_[last] = geometry_.words().corner(corner.strength, corner.direction, corner.x, corner.y);
     }
   } else if (!leaves && in_flight_ == 0) {
     sleep();
@@ -63,7 +62,8 @@ void CornerDetectionClocked::reset() {
 // The non-maximum suppression is the thesis' pipelined one. To see what one would allow that
 // compares nine strengths in one clock, set timing.corner_detection.fmax to 36.63 MHz (4.3.4.4).
 vp::IpEstimate CornerDetection::own_estimate() const {
-  constexpr std::uint32_t fast_modules = 9, circle = 16, lines = 8, line_depth = 1024;
+  constexpr std::uint32_t fast_modules = 9, circle = 16, lines = 8;
+  const std::uint32_t line_depth = 1u << marker_logic::bits_for(geometry_.width, 10);
   constexpr std::uint32_t compare_and_subtract = 25, sum = 150, contiguous = 60, direction = 40;
   constexpr std::uint32_t fast_lut = circle * compare_and_subtract + sum + contiguous + direction;
   constexpr std::uint32_t fast_ff = circle * 9 + 15;  // differences, then strength and direction

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <pl/common/packet.h>
 #include <pl/corner_detection/core.h>
 
 namespace pl {
@@ -116,6 +115,7 @@ void CornerFrame::find_maxima(std::uint32_t y, std::vector<StampedWord>& corners
   const std::uint16_t *above = scores(y - 1).strength.data(), *here = scores(y).strength.data(),
                       *below = scores(y + 1).strength.data();
   const std::uint8_t* pixels = image_ + std::size_t{y} * geometry_.width;
+  const marker_logic::WordFormat words = geometry_.words();
   for_each_column(scores(y).corners, [&](std::uint32_t x) {
     if (x < reach || x + reach >= geometry_.width) return;
     const std::uint16_t s = here[x];
@@ -123,7 +123,7 @@ void CornerFrame::find_maxima(std::uint32_t y, std::vector<StampedWord>& corners
     if (s < std::max({here[x + 1], below[x - 1], below[x], below[x + 1]})) return;
     const std::uint32_t direction =
         fast::direction(look(pixels + x, geometry_.width, threshold_).bright);
-    corners.push_back({clock(geometry_, x, y), packet::corner(s, direction, x, y)});
+    corners.push_back({clock(geometry_, x, y), words.corner(s, direction, x, y)});
   });
 }
 

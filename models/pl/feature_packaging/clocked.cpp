@@ -1,7 +1,7 @@
 #include <pl/feature_packaging/clocked.h>
 
+#include <marker_logic.h>
 #include <pl/common/estimate.h>
-#include <pl/common/packet.h>
 
 namespace pl {
 
@@ -75,7 +75,7 @@ void FeaturePackagingClocked::show_next(std::uint32_t corners, std::uint32_t blo
   } else if (blobs != 0) {
     feature = blobs_.pop();
   } else if (done && !ended_ && quiet) {
-    feature = packet::end_of_frame;
+    feature = marker_logic::WordFormat::end_of_frame;
     ended_ = true;
   } else {
     return;

@@ -35,15 +35,19 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
   vp::Signal<bool> binary_out{"binary_out"};  ///< 1 is dark
-  vp::Signal<std::uint16_t> binary_x{"binary_x", 10};
-  vp::Signal<std::uint16_t> binary_y{"binary_y", 9};
+  vp::Signal<std::uint16_t> binary_x;
+  vp::Signal<std::uint16_t> binary_y;
   // The images as a whole.
   FrameIn<GreyFrames> frames{"frames"};
   BinaryFrames binary_frames{"binary_frames", clock()};
 
  protected:
   GlobalThreshold(sc_core::sc_module_name name, const Site& site)
-      : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
+      : Clocked(name, site.clk),
+        Ip(&site.clk),
+        binary_x("binary_x", site.geometry.words().x_bits()),
+        binary_y("binary_y", site.geometry.words().y_bits()),
+        geometry_(site.geometry) {
     wake_on(por);
     wake_on(rst);
     wake_on(frame_ena);

@@ -25,7 +25,8 @@ class SensorInputClocked final : public SensorInput {
   std::uint32_t address_ = 0;
   std::uint16_t column_ = 0, row_ = 0;
   bool running_ = false;
-  vp::Probe<std::uint32_t> address_probe_{"address", address_, 19};
+  vp::Probe<std::uint32_t> address_probe_{"address", address_,
+                                          marker_logic::bits_for(geometry_.pixels(), 19)};
   vp::Probe<bool> running_probe_{"running", running_};
 };
 
@@ -134,6 +135,8 @@ Models<SensorInput>& SensorInput::models() {
 SensorInput::SensorInput(sc_core::sc_module_name name, const Site& site)
     : Clocked(name, site.clk),
       Ip(&site.clk),
+      pixel_x("pixel_x", site.geometry.words().x_bits()),
+      pixel_y("pixel_y", site.geometry.words().y_bits()),
       frames("frames", site.clk, site.geometry),
       geometry_(site.geometry) {
   wake_on(ena);

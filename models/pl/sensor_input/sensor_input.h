@@ -53,8 +53,8 @@ class SensorInput : public vp::Clocked, public vp::Ip {
   vp::Signal<bool> frame_ena{"frame_ena"};
   // Pixel by pixel.
   vp::Signal<std::uint8_t> pixel{"pixel"};
-  vp::Signal<std::uint16_t> pixel_x{"pixel_x", 10};
-  vp::Signal<std::uint16_t> pixel_y{"pixel_y", 9};
+  vp::Signal<std::uint16_t> pixel_x;
+  vp::Signal<std::uint16_t> pixel_y;
   // Whole frames.
   SensorFrames frames;
 

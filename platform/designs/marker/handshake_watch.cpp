@@ -1,8 +1,7 @@
 #include <designs/marker/handshake_watch.h>
 
 #include <axi_gpio_registers.h>
-#include <pl/common/packet.h>
-#include <pl/control_block/control_block.h>
+#include <marker_logic.h>
 #include <vp/register_bank.h>
 #include <vp/report.h>
 #include <vp/text.h>
@@ -14,10 +13,9 @@ namespace platform {
 
 namespace {
 
-namespace packet = pl::control_packet;
+namespace packet = marker_logic::control;
 
 constexpr std::uint32_t control = 1, feature = 2, frame = 3;  // what changed
-constexpr std::uint32_t ready_mask = 3u << packet::ready_shift;
 
 }  // namespace
 
@@ -50,7 +48,7 @@ void HandshakeWatch::on_change(vp::SignalBase& signal, std::uint32_t id) {
 
 // Without `ena` the hardware does not look at `ready`.
 void HandshakeWatch::control_written(std::uint32_t word) {
-  const bool toggled = ((word ^ packet_) & ready_mask) != 0;
+  const bool toggled = ((word ^ packet_) & packet::ready) != 0;
   packet_ = word;
   if ((word & packet::rst) != 0) unacknowledged_ = false;
   if (!toggled || (word & packet::rst) != 0 || (word & packet::ena) == 0) return;
@@ -70,7 +68,7 @@ void HandshakeWatch::word_shown(std::uint32_t word) {
 }
 
 void HandshakeWatch::register_read(std::uint32_t word) {
-  if (word != pl::packet::end_of_frame || reads_at_end_ ||
+  if (word != marker_logic::WordFormat::end_of_frame || reads_at_end_ ||
       logic_.feature_packaging.feature.get() != word) {
     return;
   }

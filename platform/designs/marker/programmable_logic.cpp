@@ -1,5 +1,6 @@
 #include <designs/marker/programmable_logic.h>
 
+#include <marker_logic.h>
 #include <xilinx/common/estimate.h>
 #include <initializer_list>
 
@@ -7,10 +8,7 @@ namespace platform {
 
 namespace {
 
-// Vivado's defaults for these IP; 64 KiB each.
-constexpr std::uint64_t axi_dma_0_base = 0x4040'0000, axi_dma_1_base = 0x4041'0000,
-                        axi_gpio_0_base = 0x4120'0000, axi_gpio_1_base = 0x4121'0000,
-                        segment = 0x1'0000;
+namespace addresses = marker_logic::addresses;
 
 constexpr std::uint32_t memory_masters = 2;
 
@@ -41,10 +39,14 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
       axi_dma_0("axi_dma_0", system_clk, one_channel(true)),
       axi_dma_1("axi_dma_1", system_clk, one_channel(false)),
       concat("concat", build.interrupts) {
-  axi_interconnect.map("axi_dma_0", axi_dma_0_base, segment).bind(axi_dma_0.s_axi_lite.socket);
-  axi_interconnect.map("axi_dma_1", axi_dma_1_base, segment).bind(axi_dma_1.s_axi_lite.socket);
-  axi_interconnect.map("axi_gpio_0", axi_gpio_0_base, segment).bind(axi_gpio_0.s_axi.socket);
-  axi_interconnect.map("axi_gpio_1", axi_gpio_1_base, segment).bind(axi_gpio_1.s_axi.socket);
+  axi_interconnect.map("axi_dma_0", addresses::dma_image, addresses::segment)
+      .bind(axi_dma_0.s_axi_lite.socket);
+  axi_interconnect.map("axi_dma_1", addresses::dma_binary, addresses::segment)
+      .bind(axi_dma_1.s_axi_lite.socket);
+  axi_interconnect.map("axi_gpio_0", addresses::gpio_control, addresses::segment)
+      .bind(axi_gpio_0.s_axi.socket);
+  axi_interconnect.map("axi_gpio_1", addresses::gpio_features, addresses::segment)
+      .bind(axi_gpio_1.s_axi.socket);
 
   axi_gpio_0.s_axi_aresetn(proc_sys_reset.peripheral_aresetn);
   axi_gpio_1.s_axi_aresetn(proc_sys_reset.peripheral_aresetn);
@@ -63,8 +65,8 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
   axi_dma_1.s2mm().m_axi.link.socket.bind(axi_mem_interconnect.socket);
   axi_dma_0.share_memory_path(memory_path_);
   axi_dma_1.share_memory_path(memory_path_);
-  concat.connect(0, axi_dma_0.mm2s_introut);
-  concat.connect(1, axi_dma_1.s2mm_introut);
+  concat.connect(addresses::dma_image_line, axi_dma_0.mm2s_introut);
+  concat.connect(addresses::dma_binary_line, axi_dma_1.s2mm_introut);
   name_groups();
   count_work();
 }

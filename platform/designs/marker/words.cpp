@@ -1,28 +1,41 @@
 #include <designs/marker/words.h>
 
+#include <marker_logic.h>
+
 namespace platform {
 
 namespace {
 
-// Thesis table 4.4.
-constexpr std::uint64_t end_word = 0xFFFF'FFFF, corner = 1u << 31, blob_start = 1u << 30;
+using marker_logic::WordFormat;
+using Kind = WordFormat::Kind;
 
+Kind kind(std::uint64_t word) {
+  return WordFormat::kind(static_cast<std::uint32_t>(word));
+}
 bool is_corner(std::uint64_t word) {
-  return word != end_word && (word & corner) != 0;
+  return kind(word) == Kind::corner;
 }
 bool is_blob(std::uint64_t word) {
-  return (word & corner) == 0 && (word & blob_start) != 0;
+  return kind(word) == Kind::blob_start;
 }
 
-std::string meaning(std::uint64_t word) {
-  if (word == end_word) return "?dark red?end of frame";
-  const std::string place = std::to_string(word & 0x3FF) + "," + std::to_string(word >> 10 & 0x1FF);
-  if ((word & corner) != 0) {
-    return "?dark blue?corner " + place + " " + "NSEW"[word >> 19 & 3] + " " +
-           std::to_string(word >> 21 & 0x3FF);
+/// `widths`: of the sensor's coordinates.
+std::string meaning(std::uint64_t word, const std::vector<unsigned>& widths) {
+  const WordFormat format{1u << widths[0], 1u << widths[1]};
+  const auto w = static_cast<std::uint32_t>(word);
+  const std::string place = std::to_string(format.x(w)) + "," + std::to_string(format.y(w));
+  switch (kind(word)) {
+    case Kind::end:
+      return "?dark red?end of frame";
+    case Kind::corner:
+      return "?dark blue?corner " + place + " " + "NSEW"[format.direction(w)] + " " +
+             std::to_string(format.strength(w));
+    case Kind::blob_start:
+      return "?dark green?blob " + std::to_string(format.number(w)) + " from " + place;
+    case Kind::blob_end:
+      break;
   }
-  const std::string number = std::to_string(word >> 19 & 0x7FF);
-  return "?dark green?blob " + number + ((word & blob_start) != 0 ? " from " : " to ") + place;
+  return "?dark green?blob " + std::to_string(format.number(w)) + " to " + place;
 }
 
 std::vector<trace::Vocabulary::Group> groups() {
@@ -52,6 +65,7 @@ trace::Vocabulary make() {
   v.word = "pl.feature_packaging.feature";
   v.word_kinds = {{"corners", is_corner}, {"blobs", is_blob}};
   v.meaning = meaning;
+  v.fields = {"pl.sensor_input.pixel_x", "pl.sensor_input.pixel_y"};
   // Usual depths: thesis 4.4.3; decision of the bridge.
   v.buffers = {{"pl.feature_packaging.corner_count", "pl.feature_packaging.depth", 100},
                {"pl.feature_packaging.blob_count", "pl.feature_packaging.depth", 100},
@@ -60,8 +74,10 @@ trace::Vocabulary make() {
               {"label_overflow", "pl.blob_detection.label_overflow"},
               {"bridge_overflow", "pl.axi_threshold_bridge.bridge_overflow"},
               {"crossing_overflow", "pl.clock_crossing.crossing_overflow"}};
-  v.interrupts = {{"pl.axi_dma_0.mm2s_introut", 61, "DMA 0: image", "dark blue"},
-                  {"pl.axi_dma_1.s2mm_introut", 62, "DMA 1: binary image", "dark red"}};
+  v.interrupts = {{"pl.axi_dma_0.mm2s_introut", marker_logic::addresses::dma_image_interrupt,
+                   "DMA 0: image", "dark blue"},
+                  {"pl.axi_dma_1.s2mm_introut", marker_logic::addresses::dma_binary_interrupt,
+                   "DMA 1: binary image", "dark red"}};
   v.functions = {"upload",
                  "capture",
                  "receive",

@@ -75,7 +75,7 @@ bool read_golden(const GoldenText& text, marker::WordStore& words, std::uint32_t
     }
     reader.skip_line();
   }
-  words.push(marker::packet::end_of_frame);
+  words.push(marker_logic::WordFormat::end_of_frame);
   return reader.is_well_formed() && count == binary_words && words.lost() == 0;
 }
 

@@ -103,7 +103,7 @@ bool SelfTest::run(const GoldenText& text) {
     return false;
   }
   hal_cache_flush(binary_.data, binary_.size);
-  marker::decode(words_.words.data(), words_.stored(), features_);
+  marker::decode(words_.words.data(), words_.stored(), {width, height}, features_);
   marker::evaluate_features(features_, {}, candidates_);
   Message().text("algorithms: ").text(text.name).write();
   print_features();

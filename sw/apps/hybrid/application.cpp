@@ -2,22 +2,16 @@
 #include <apps/common/search.h>
 #include <apps/hybrid/application.h>
 #include <marker/work.h>
+#include <marker_logic.h>
 
 namespace hybrid {
 namespace {
 
 using marker::Status;
 
-/// Limits of the PL: whole words of 32 pixels, whole bursts of 1024, coordinates of 10 and 9 bits.
-constexpr std::uint32_t pixels_per_word = 32;
-constexpr std::uint32_t pixels_per_packet = 1024;
-constexpr std::uint32_t max_width = marker::packet::x_mask + 1;
-constexpr std::uint32_t max_height = marker::packet::y_mask + 1;
-
-constexpr bool is_supported(std::uint32_t width, std::uint32_t height) {
-  return width > 0 && height > 0 && width <= max_width && height <= max_height &&
-         width % pixels_per_word == 0 && width * height % pixels_per_packet == 0;
-}
+/// Of the memory for binary images that is taken before the first frame: what the thesis' feature
+/// words can address.
+constexpr std::uint32_t usual_pixels = 1024 * 512;
 
 constexpr std::uint32_t binary_bytes(const hal_frame& frame) {
   return frame.width * frame.height / 8;
@@ -43,8 +37,8 @@ int Application::run() {
 bool Application::initialise() {
   options_ = read_options();
   recovery_due_ = false;
-  binary_ = hal_dma_allocate(max_width * max_height / 8, BurstChain::burst_bytes);
-  if (binary_.data != nullptr) hal_cache_flush(binary_.data, binary_.size);
+  binary_ = {};
+  reserve(usual_pixels / 8);
   if (link_.initialise()) return true;
   apps::Message().text("hybrid: a DMA engine does not leave reset").write();
   return false;
@@ -55,8 +49,16 @@ std::uint64_t Application::counts(double milliseconds) const {
                                     (drivers::GlobalTimer::counts_per_second / 1000.0));
 }
 
-Status Application::admit(const hal_frame& frame) const {
-  if (!is_supported(frame.width, frame.height)) return Status::unsupported_size;
+/// Makes room for a binary image; what is too small is given up.
+void Application::reserve(std::uint32_t bytes) {
+  if (binary_.size >= bytes) return;
+  binary_ = hal_dma_allocate(bytes, BurstChain::burst_bytes);
+  if (binary_.data != nullptr) hal_cache_flush(binary_.data, binary_.size);
+}
+
+Status Application::admit(const hal_frame& frame) {
+  if (!marker_logic::is_legal_size(frame.width, frame.height)) return Status::unsupported_size;
+  reserve(binary_bytes(frame));
   if (binary_.data == nullptr) return Status::no_memory;
   return Status::ok;
 }
@@ -94,7 +96,8 @@ Status Application::receive(const hal_frame& frame) {
 
   if (status == Status::ok) status = link_.await_binary_image(counts(options_.binary_timeout));
   hal_cache_invalidate(binary_.data, binary_bytes(frame));
-  marker::decode(words_.words.data(), words_.stored(), result_.features);
+  marker::decode(words_.words.data(), words_.stored(), {frame.width, frame.height},
+                 result_.features);
   times.receive.end = times.frame.end = link_.now();
   result_.feature_words = words_.count;
   result_.lost_words = words_.lost();

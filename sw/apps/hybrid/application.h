@@ -20,7 +20,8 @@ class Application {
   bool initialise();
   void process(const hal_frame& frame);
   marker::Status receive(const hal_frame& frame);
-  marker::Status admit(const hal_frame& frame) const;
+  marker::Status admit(const hal_frame& frame);
+  void reserve(std::uint32_t bytes);
   void find_marker(const hal_frame& frame);
   void report(marker::Status status) const;
   std::uint64_t counts(double milliseconds) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <drivers/axi_dma.h>
+#include <marker_logic.h>
 
 #include <cstdint>
 
@@ -10,7 +11,7 @@ namespace hybrid {
 /// (thesis 4.5.1).
 class BurstChain {
  public:
-  static constexpr std::uint32_t burst_bytes = 128;  ///< 32 words (thesis 4.5.1.1)
+  static constexpr std::uint32_t burst_bytes = marker_logic::burst_bytes;
 
   bool initialise(const drivers::AxiDmaConfig& config) { return dma_.initialise(config); }
 

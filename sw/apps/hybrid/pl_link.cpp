@@ -1,11 +1,12 @@
-#include <apps/hybrid/control_packet.h>
 #include <apps/hybrid/pl_link.h>
 #include <drivers/platform_addresses.h>
 #include <marker/work.h>
+#include <marker_logic.h>
 
 namespace hybrid {
 namespace {
 
+namespace control = marker_logic::control;
 using marker::Status;
 
 /// CPU cycles of a polling round besides the read: compare, count, branch (assumed).
@@ -119,7 +120,7 @@ Status PlLink::receive_features(marker::WordStore& words, std::uint64_t timeout)
     last = poll.value;
     words.push(last);
     marker::work(marker::Work::words_received, 1);
-    if (last == marker::packet::end_of_frame) return Status::ok;
+    if (last == marker_logic::WordFormat::end_of_frame) return Status::ok;
     if (words.lost() > 0) return Status::too_many_features;
     control(packet_ ^ control::ready);
   }

@@ -1,5 +1,5 @@
 // Buffers, order, overflow and the end word of the feature packaging, at its ports.
-#include <pl/common/packet.h>
+#include <pl/common/geometry.h>
 #include <pl/feature_packaging/clocked.h>
 #include <boost/test/unit_test.hpp>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-constexpr std::uint32_t end_word = pl::packet::end_of_frame;
+constexpr std::uint32_t end_word = marker_logic::WordFormat::end_of_frame;
 
 /// The module alone. Every method works through whole system clocks.
 struct Packaging : kit::Simulation {
@@ -81,12 +81,12 @@ struct Packaging : kit::Simulation {
 BOOST_AUTO_TEST_SUITE(feature_packaging)
 
 BOOST_AUTO_TEST_CASE(packets_have_the_fields_of_the_table) {
-  BOOST_TEST(pl::packet::corner(1372, 2, 0x155, 0xAA) ==
+  BOOST_TEST(pl::Geometry{}.words().corner(1372, 2, 0x155, 0xAA) ==
              (1u << 31 | 343u << 21 | 2u << 19 | 0xAAu << 10 | 0x155u));
-  BOOST_TEST(pl::packet::corner(4095, 3, 1023, 510) != end_word);
-  BOOST_TEST(pl::packet::blob_start(5, 7, 9) == (1u << 30 | 5u << 19 | 9u << 10 | 7u));
-  BOOST_TEST(pl::packet::blob_end(2047, 639, 479) == (2047u << 19 | 479u << 10 | 639u));
-  BOOST_TEST(pl::packet::blob_start(2048, 0, 0) == 1u << 30);  // modulo 2048
+  BOOST_TEST(pl::Geometry{}.words().corner(4095, 3, 1023, 510) != end_word);
+  BOOST_TEST(pl::Geometry{}.words().blob_start(5, 7, 9) == (1u << 30 | 5u << 19 | 9u << 10 | 7u));
+  BOOST_TEST(pl::Geometry{}.words().blob_end(2047, 639, 479) == (2047u << 19 | 479u << 10 | 639u));
+  BOOST_TEST(pl::Geometry{}.words().blob_start(2048, 0, 0) == 1u << 30);  // modulo 2048
 }
 
 BOOST_AUTO_TEST_CASE(the_first_word_after_rst_comes_by_itself) {

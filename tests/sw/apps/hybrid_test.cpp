@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(smaller_images_take_fewer_bursts) {
 }
 
 BOOST_AUTO_TEST_CASE(sizes_that_the_packets_do_not_allow_are_refused) {
-  const std::uint32_t sizes[][2] = {{0, 0}, {648, 480}, {1056, 480}, {640, 544}, {32, 31}};
+  const std::uint32_t sizes[][2] = {{0, 0}, {648, 480}, {2080, 480}, {640, 2080}, {32, 31}};
   for (const auto& size : sizes) platform.add_frame(size[0], size[1]);
   BOOST_TEST(run() == 1);
   for (std::size_t i = 0; i < 5; ++i) {

@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(binary_image_is_not_that_of_a_dma) {
 
 BOOST_AUTO_TEST_CASE(unsupported_sizes_are_reported_and_the_next_frame_goes_on) {
   platform.add_frame(100, 100);
-  platform.add_frame(1056, 32);
+  platform.add_frame(2080, 32);
   add_marker(7);
   BOOST_TEST(run() == 1);
   BOOST_TEST((result(0).status == Status::unsupported_size));

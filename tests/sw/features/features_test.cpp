@@ -40,7 +40,7 @@ Words corners_of_ps(Detectors& detectors, const Picture& picture, std::uint32_t 
   detectors.corners.detect(grey(picture), threshold, detectors.features);
   Words words;
   for (std::uint32_t i = 0; i < detectors.features.corner_count; ++i) {
-    words.push_back(packet::encode(detectors.features.corners[i]));
+    words.push_back(packet::encode(detectors.features.corners[i], picture.geometry.words()));
   }
   return words;
 }
@@ -69,8 +69,10 @@ Blobs blobs_of_ps(Detectors& detectors, const Picture& picture, const Words& bin
                          options, detectors.features);
   Blobs blobs{{}, detectors.blobs.label_overflow()};
   for (std::uint32_t i = 0; i < detectors.features.blob_count; ++i) {
-    blobs.words.push_back(packet::encode_start(detectors.features.blobs[i]));
-    blobs.words.push_back(packet::encode_end(detectors.features.blobs[i]));
+    blobs.words.push_back(
+        packet::encode_start(detectors.features.blobs[i], picture.geometry.words()));
+    blobs.words.push_back(
+        packet::encode_end(detectors.features.blobs[i], picture.geometry.words()));
   }
   return blobs;
 }
@@ -145,10 +147,10 @@ BOOST_AUTO_TEST_CASE(any_picture_gives_the_features_of_the_pl) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_largest_picture_fits) {
+BOOST_AUTO_TEST_CASE(large_pictures_fit) {
   const auto detectors = std::make_unique<Detectors>();
-  for (const Picture& picture : patterns({marker::max_image_width, marker::max_image_height})) {
-    check(*detectors, picture);
+  for (const pl::Geometry& size : {pl::Geometry{1024, 512}, {1920, 1080}}) {
+    for (const Picture& picture : patterns(size)) check(*detectors, picture);
   }
 }
 

@@ -18,7 +18,8 @@ namespace {
 struct Decoded {
   Decoded() { fake_hal::reset(); }
   const FeatureSet& operator()(const std::vector<std::uint32_t>& words) {
-    marker::decode(words.data(), static_cast<std::uint32_t>(words.size()), *features);
+    marker::decode(words.data(), static_cast<std::uint32_t>(words.size()), packet::usual_format,
+                   *features);
     return *features;
   }
   std::unique_ptr<FeatureSet> features = std::make_unique<FeatureSet>();
@@ -34,8 +35,8 @@ const BoundingBox box_1{105, 106, 150, 160, 1};
 BOOST_FIXTURE_TEST_SUITE(feature_set, Decoded)
 
 BOOST_AUTO_TEST_CASE(corners_keep_the_order_of_arrival) {
-  const auto& f =
-      (*this)({packet::encode(corner_a), packet::encode(corner_b), packet::end_of_frame});
+  const auto& f = (*this)(
+      {packet::encode(corner_a), packet::encode(corner_b), packet::WordFormat::end_of_frame});
   BOOST_REQUIRE(f.corner_count == 2u);
   BOOST_TEST(f.corners[0].x == 10);
   BOOST_TEST(f.corners[1].x == 11);
@@ -47,9 +48,9 @@ BOOST_AUTO_TEST_CASE(corners_keep_the_order_of_arrival) {
 }
 
 BOOST_AUTO_TEST_CASE(blob_halves_are_paired_by_number_across_a_corner) {
-  const auto& f =
-      (*this)({packet::encode_start(box_0), packet::encode(corner_a), packet::encode_start(box_1),
-               packet::encode_end(box_1), packet::encode_end(box_0), packet::end_of_frame});
+  const auto& f = (*this)({packet::encode_start(box_0), packet::encode(corner_a),
+                           packet::encode_start(box_1), packet::encode_end(box_1),
+                           packet::encode_end(box_0), packet::WordFormat::end_of_frame});
   BOOST_REQUIRE(f.blob_count == 2u);
   BOOST_TEST(f.blobs[0].sx == 105);
   BOOST_TEST(f.blobs[0].ey == 160);
@@ -62,7 +63,7 @@ BOOST_AUTO_TEST_CASE(blob_halves_are_paired_by_number_across_a_corner) {
 }
 
 BOOST_AUTO_TEST_CASE(end_word_only) {
-  const auto& f = (*this)({packet::end_of_frame});
+  const auto& f = (*this)({packet::WordFormat::end_of_frame});
   BOOST_TEST(f.corner_count == 0u);
   BOOST_TEST(f.blob_count == 0u);
 }
@@ -72,17 +73,18 @@ BOOST_AUTO_TEST_CASE(nothing_at_all) {
 }
 
 BOOST_AUTO_TEST_CASE(words_after_the_end_word_do_not_count) {
-  BOOST_TEST((*this)({packet::end_of_frame, packet::encode(corner_a)}).corner_count == 0u);
+  BOOST_TEST((*this)({packet::WordFormat::end_of_frame, packet::encode(corner_a)}).corner_count ==
+             0u);
 }
 
 BOOST_AUTO_TEST_CASE(end_without_start_is_malformed) {
-  const auto& f = (*this)({packet::encode_end(box_0), packet::end_of_frame});
+  const auto& f = (*this)({packet::encode_end(box_0), packet::WordFormat::end_of_frame});
   BOOST_TEST(f.blob_count == 0u);
   BOOST_TEST(f.malformed == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(start_without_end_is_malformed) {
-  const auto& f = (*this)({packet::encode_start(box_0), packet::end_of_frame});
+  const auto& f = (*this)({packet::encode_start(box_0), packet::WordFormat::end_of_frame});
   BOOST_TEST(f.blob_count == 0u);
   BOOST_TEST(f.malformed == 1u);
 }

@@ -1,6 +1,6 @@
 // Each worked example of the thesis' appendix C, with the numbers of its text.
 #include <pl/blob_detection/core.h>
-#include <pl/common/packet.h>
+#include <pl/common/geometry.h>
 #include <pl/corner_detection/core.h>
 #include <pl/global_threshold/core.h>
 #include <boost/test/unit_test.hpp>
@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(c5_the_only_corner_of_the_array_has_1372_and_leaves_as_343)
   BOOST_TEST(trace.at("packet_strength", out) == 343u);
   BOOST_TEST(1372 >> 2 == 343);
   BOOST_TEST(trace.at("packet_direction", out) == 2u);
-  BOOST_TEST(trace.at("corner_detection.corner_data", out) == pl::packet::corner(1372, 2, 20, 12));
+  BOOST_TEST(trace.at("corner_detection.corner_data", out) ==
+             pl::Geometry{}.words().corner(1372, 2, 20, 12));
 }
 
 BOOST_AUTO_TEST_CASE(c6_pixel_80_below_threshold_100_is_dark_and_counted_from_15_to_16) {
@@ -207,8 +208,10 @@ BOOST_AUTO_TEST_CASE(c12_sides_of_79_and_45_pass_the_filter) {
   BOOST_TEST(trace.at("packet_sy", out) == 0u);
   BOOST_TEST(trace.at("packet_ex", out) == 79u);
   BOOST_TEST(trace.at("packet_ey", out) == 45u);
-  BOOST_TEST(trace.at("blob_detection.blob_start", out) == pl::packet::blob_start(0, 0, 0));
-  BOOST_TEST(trace.at("blob_detection.blob_end", out) == pl::packet::blob_end(0, 79, 45));
+  BOOST_TEST(trace.at("blob_detection.blob_start", out) ==
+             pl::Geometry{}.words().blob_start(0, 0, 0));
+  BOOST_TEST(trace.at("blob_detection.blob_end", out) ==
+             pl::Geometry{}.words().blob_end(0, 79, 45));
   BOOST_TEST(trace.at("blob_detection.blob_out", out + clock_ps) == 0u);
 }
 

@@ -1,6 +1,6 @@
 #include "reference.h"
 
-#include <pl/common/packet.h>
+#include <marker_logic.h>
 #include <pl/corner_detection/core.h>
 
 using harness::Image;
@@ -13,7 +13,7 @@ std::vector<Word> reference_corners(const Image& image, const pl::Geometry& g,
   for (std::uint32_t i = 0; i < g.pixels(); ++i) {
     pl::Corner c;
     if (!core.push(image[i], i % g.width, i / g.width, c)) continue;
-    words.push_back({'C', 7 + i, pl::packet::corner(c.strength, c.direction, c.x, c.y), 0});
+    words.push_back({'C', 7 + i, g.words().corner(c.strength, c.direction, c.x, c.y), 0});
   }
   return words;
 }
@@ -77,8 +77,8 @@ void BlobReference::step(bool ena, bool dark, std::uint32_t x, std::uint32_t y) 
 void BlobReference::filter() {
   const pl::BoundingBox& box = core_.retired();
   if (!retired_ || !box.at_least(minimum_side_)) return;
-  words.push_back({'B', 5 + retired_clock_, pl::packet::blob_start(number_, box.sx, box.sy),
-                   pl::packet::blob_end(number_, box.ex, box.ey)});
+  words.push_back({'B', 5 + retired_clock_, geometry_.words().blob_start(number_, box.sx, box.sy),
+                   geometry_.words().blob_end(number_, box.ex, box.ey)});
   ++number_;
 }
 

@@ -1,6 +1,6 @@
 #include "driver.h"
 
-#include <pl/common/packet.h>
+#include <marker_logic.h>
 
 namespace harness {
 
@@ -53,7 +53,7 @@ void Driver::run() {
 
 void Driver::receive() {
   std::uint32_t last = 0;
-  while (last != pl::packet::end_of_frame) {
+  while (last != marker_logic::WordFormat::end_of_frame) {
     while (feature_.get() == last) wait(feature_.value_changed_event());
     last = feature_.get();
     features.push_back(last);

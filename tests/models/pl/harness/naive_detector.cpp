@@ -79,13 +79,17 @@ class Detector {
 std::vector<Word> naive_words(const Image& image, int width, int height, unsigned corner_threshold,
                               unsigned grey_threshold) {
   const Detector detector(image, width, height, corner_threshold);
+  // Coordinates beyond 1024 x 512 take their bits from the strength.
+  const int more_x = width > 1024 ? 1 : 0, more_y = height > 1024 ? 2 : height > 512 ? 1 : 0;
+  const int y_at = 10 + more_x, direction_at = y_at + 9 + more_y, strength_at = direction_at + 2;
   std::vector<Word> words;
   for (int y = 4; y <= height - 5; ++y) {
     for (int x = 4; x <= width - 5; ++x) {
       if (!detector.is_maximum(x, y)) continue;
       const auto strength = static_cast<std::uint32_t>(detector.strength(x, y));
-      const std::uint32_t packet = 1u << 31 | strength / 4 << 21 | detector.direction(x, y) << 19 |
-                                   static_cast<std::uint32_t>(y) << 10 |
+      const std::uint32_t packet = 1u << 31 | strength >> (2 + more_x + more_y) << strength_at |
+                                   detector.direction(x, y) << direction_at |
+                                   static_cast<std::uint32_t>(y) << y_at |
                                    static_cast<std::uint32_t>(x);
       words.push_back({'C', 7 + static_cast<std::uint64_t>((y + 4) * width + x + 4), packet, 0});
     }
