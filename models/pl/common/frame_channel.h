@@ -40,8 +40,15 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   FrameChannel(const char* name, vp::Clock& clk) : sc_object(name), clock_(clk) {}
   const char* kind() const override { return "pl::FrameChannel"; }
 
-  /// Of the frame that began last: valid until the next one begins.
-  const Element* data() const { return data_; }
+  /// Of the frame that began last: valid until the next one begins. Throws vp::ProtocolError if an
+  /// enable came before any frame.
+  const Element* data() const {
+    if (data_ == nullptr) {
+      throw vp::ProtocolError(std::string(name()) +
+                              ": pixels are enabled, but no frame was offered: call begin() before");
+    }
+    return data_;
+  }
   /// Its elements; 0 before the first frame.
   std::uint32_t size() const { return size_; }
   /// The edge on which the pixel of this raster index leaves.

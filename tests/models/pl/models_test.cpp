@@ -142,4 +142,14 @@ BOOST_AUTO_TEST_CASE(frames_of_nobody_are_refused_with_the_name_of_the_port) {
   BOOST_TEST(contains(why, "port 'corner_detection.frames' is connected to nothing"));
 }
 
+BOOST_AUTO_TEST_CASE(an_enable_without_a_frame_is_told_with_the_name_of_the_channel) {
+  kit::Simulation simulation;
+  vp::ClockScheduler scheduler{"scheduler"};
+  vp::Clock clk{"clk", scheduler, 50'000'000};
+  const pl::FrameChannel<std::uint8_t> channel{"channel", clk};
+  BOOST_CHECK_EXCEPTION(channel.data(), vp::ProtocolError, [](const vp::ProtocolError& error) {
+    return std::string(error.what()).find("channel: pixels are enabled, but no frame") == 0;
+  });
+}
+
 BOOST_AUTO_TEST_SUITE_END()
