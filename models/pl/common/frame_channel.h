@@ -44,8 +44,9 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   /// enable came before any frame.
   const Element* data() const {
     if (data_ == nullptr) {
-      throw vp::ProtocolError(std::string(name()) +
-                              ": pixels are enabled, but no frame was offered: call begin() before");
+      throw vp::ProtocolError(
+          std::string(name()) +
+          ": pixels are enabled, but no frame was offered: call begin() before");
     }
     return data_;
   }
