@@ -166,13 +166,13 @@ int list_devices(const DevicesOptions& options, std::ostream& out) {
 
 namespace {
 
+using device::hz_per_mhz;
 using device::ClockKind;
 using device::ClockPlan;
 using device::ClockPlanner;
 using device::MadeClock;
 using Json = nlohmann::ordered_json;
 
-constexpr double hz_per_mhz = 1e6;
 constexpr std::size_t most_fclk = 4;
 
 ClockKind kind_of(const std::string& name) {

@@ -15,15 +15,6 @@ constexpr double full_voltage = 1.5, low_voltage = 1.35;
 /// LUT over flip-flops in the reports that calibration/power/refit.py fits.
 constexpr double least_depth = 0.5, most_depth = 4.5;
 
-vp::Band operator*(const vp::Band& a, const vp::Band& b) {
-  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
-}
-
-vp::Band less(const vp::Band& a, const vp::Band& b) {
-  return {std::max(0.0, a.low - b.low), std::max(0.0, a.nominal - b.nominal),
-          std::max(0.0, a.high - b.high)};
-}
-
 }  // namespace
 
 vp::Band logic_energy(const PowerTable& table, double lut, double ff) {
@@ -82,7 +73,7 @@ vp::EnergyLedger static_energy(const PowerTable& table, double scale, const vp::
                         high = point(&vp::Band::high);
   junction_c = nominal.junction_c;
   const vp::Band whole{low.static_w * seconds, nominal.static_w * seconds, high.static_w * seconds};
-  const vp::Band leaking = less(whole, base * seconds);
+  const vp::Band leaking = whole - base * seconds;
   const std::string source = "static.leakage (" + table.at("static.leakage").status + ")";
 
   vp::EnergyLedger ledger;
@@ -91,7 +82,7 @@ vp::EnergyLedger static_energy(const PowerTable& table, double scale, const vp::
        {std::pair{"Vccpint", "static.share_vccpint"}, std::pair{"Vccint", "static.share_vccint"}}) {
     const vp::Band part = leaking * table.value(share);
     ledger.add({"static", "static", rail, vp::PowerKind::leakage, source, part});
-    rest = less(rest, part);
+    rest = rest - part;
   }
   ledger.add({"static", "static", "Vccaux and others", vp::PowerKind::leakage, source, rest});
   return ledger;

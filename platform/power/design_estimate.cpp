@@ -20,7 +20,6 @@ using device::hz_per_mhz;
 using vp::PowerKind;
 
 constexpr double per_cent = 1e-2;
-constexpr double default_toggle_rate = 0.125;
 constexpr double default_cpu_mhz = 666.666687,
                  default_ddr_mhz = 533.333374;  // of ZedBoard's preset
 constexpr double most_mhz = 1000, most_pins = 400, most_mmcm = 8;

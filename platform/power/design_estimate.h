@@ -14,19 +14,22 @@
 // clocks. The vendor's default activity, as power.mode=vivado-default.
 namespace platform::power {
 
+/// Of signals, a clock: the vendor's default.
+constexpr double default_toggle_rate = 0.125;
+
 /// What stands on one clock of the PL.
 struct ClockDomain {
   std::string name;
   double mhz = 0;
   double lut = 0, ff = 0, bram36 = 0, dsp = 0;
-  double toggle_rate = 0.125;  ///< of signals, a clock; the vendor's default
+  double toggle_rate = default_toggle_rate;
 };
 
 /// Pins of the PL.
 struct Pins {
   double count = 0;
-  double mhz = 0;              ///< of their data
-  double toggle_rate = 0.125;  ///< a clock of theirs
+  double mhz = 0;                            ///< of their data
+  double toggle_rate = default_toggle_rate;  ///< of their clock
 };
 
 /// Settings of the processing system.

@@ -12,23 +12,15 @@ namespace platform {
 
 namespace {
 
+using power::nano;
+using power::pico;
 using power::PowerTable;
 using vp::Band;
 using vp::PowerKind;
 
-constexpr double nano = 1e-9;  // nJ; mW/MHz is nJ a clock
-constexpr double pico = 1e-12;
 constexpr double line_bytes = 32;      // of the L2 cache
 constexpr double hp_port_bytes = 8;    // a beat
 constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
-
-Band operator*(const Band& a, const Band& b) {
-  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
-}
-Band operator-(const Band& a, const Band& b) {
-  return {std::max(0.0, a.low - b.low), std::max(0.0, a.nominal - b.nominal),
-          std::max(0.0, a.high - b.high)};
-}
 
 /// What the memory masters of the PL write, which goes past the DDR's own counters where it is
 /// direct access. Their reads only upload images here, which is no frame's work.
@@ -111,7 +103,9 @@ class Builder {
   Band full_ddr() const {
     return power::ddr_io_power(table_, {options_.ddr.width, ddr_mhz(), options_.ddr.voltage});
   }
-  double ddr_mhz() const { return static_cast<double>(ddr_hz(zynq_, options_)) / device::hz_per_mhz; }
+  double ddr_mhz() const {
+    return static_cast<double>(ddr_hz(zynq_, options_)) / device::hz_per_mhz;
+  }
 
   void add_ddr() {
     const std::string source = origin(wide("ps.ddr_current_"));
@@ -186,7 +180,8 @@ class Builder {
 
   /// Energy of a clock in which the logic works. A coefficient of an IP is for all of it.
   Band logic(const Part& ip, const std::string& coefficient, const Band& clock) const {
-    if (coefficient == "pl.logic") return power::logic_energy(table_, ip.estimate.lut, ip.estimate.ff);
+    if (coefficient == "pl.logic")
+      return power::logic_energy(table_, ip.estimate.lut, ip.estimate.ff);
     const Band value = table_.value(coefficient) * nano * ip.estimate.size - clock;
     if (!ip.estimate.includes_memory) return value;
     return value - power::block_memory_energy(table_, ip.estimate.bram36);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -53,6 +54,16 @@ struct Band {
 
 inline Band operator*(const Band& band, double factor) {
   return {band.low * factor, band.nominal * factor, band.high * factor};
+}
+
+inline Band operator*(const Band& a, const Band& b) {
+  return {a.low * b.low, a.nominal * b.nominal, a.high * b.high};
+}
+
+/// What is left of `a` without its part `b`: no estimate goes below 0.
+inline Band operator-(const Band& a, const Band& b) {
+  return {std::max(0.0, a.low - b.low), std::max(0.0, a.nominal - b.nominal),
+          std::max(0.0, a.high - b.high)};
 }
 
 /// What makes a part of the power flow.
