@@ -18,8 +18,9 @@ PowerOptions::PowerOptions(bool uses_pl)
           "theta_ja", 11.5, vp::Unit::none, {0, 100}, vp::Source::published,
           "how much hotter the junction gets, C/W (vendor's estimates: medium board, 250 LFM)"),
       pl_design("pl_design", uses_pl, vp::Source::decision,
-                "whether the PL holds the design; a system without it leaves the PL unconfigured "
-                "(default: what the design says)") {}
+                "whether the PL holds the design; a system without it leaves the PL unconfigured") {
+  pl_design.follows("design");
+}
 
 PowerOptions::Ddr::Ddr(sc_core::sc_module_name name)
     : sc_module(name),

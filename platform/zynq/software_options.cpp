@@ -46,6 +46,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
            {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
            "how the software is compiled; the thesis' times are those of -O0, the vendor tool's "
            "default") {
+  opt_.follows("profile");
   for (std::uint32_t i = 0; i < program.option_count; ++i) {
     const hal_option_info& info = program.options[i];
     const vp::Unit dimension = dimension_of(info.unit, program, info.name);
@@ -60,6 +61,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
     const auto& parameter = parameters_.emplace_back(
         info.name, is_clock ? static_cast<double>(cpu_hz) : info.default_value * base, dimension,
         range, vp::Source::decision, info.documentation);
+    if (is_clock) parameter.follows("ps.cpu_clk.frequency");
     values_.push_back(parameter.get() / base);
   }
 }

@@ -50,6 +50,23 @@ BOOST_AUTO_TEST_CASE(a_printed_configuration_makes_the_same_run) {
   check_round_trip({"--program", MARKERVP_LOSSES});
 }
 
+BOOST_AUTO_TEST_CASE(what_follows_another_key_follows_it_from_a_printed_configuration_too) {
+  const Workplace place;
+  for (const std::string change :
+       {"fidelity=clocked", "profile=a9-O2", "ps.cpu_clk.frequency=500 MHz"}) {
+    const auto config = [&](const Arguments& arguments) {
+      Arguments all{"config", "--system", change == "fidelity=clocked" ? "hybrid" : "ps-only"};
+      all.insert(all.end(), arguments.begin(), arguments.end());
+      const kit::Outcome printed = kit::run_process(MARKERVP_EXECUTABLE, all, place.path());
+      BOOST_TEST(printed.exit_code == 0, printed.err);
+      return printed.out;
+    };
+    kit::write_file(place / "d.yaml", config({}));
+    BOOST_TEST(config({"--config", "d.yaml", "--set", change}) == config({"--set", change}),
+               change);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_program_is_built_for_the_clock_that_it_has) {
   const Workplace place;
   const auto clock = [&](const Arguments& more) {

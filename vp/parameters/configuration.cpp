@@ -121,6 +121,7 @@ std::string quoted(const std::string& value) {
 std::string comment(const ParameterDescription& parameter) {
   std::vector<std::string> facts{to_string(parameter.source)};
   if (!parameter.allowed.empty()) facts.push_back(parameter.allowed);
+  if (!parameter.follows.empty()) facts.push_back("follows " + parameter.follows);
   if (parameter.value != parameter.default_value)
     facts.push_back("default " + parameter.default_value);
   std::string text = parameter.documentation + " (" + join(facts, "; ") + ")";
@@ -128,24 +129,40 @@ std::string comment(const ParameterDescription& parameter) {
   return text;
 }
 
+/// True for what a file must hold; the rest follows from it.
+bool is_pinned(const ParameterDescription& parameter) {
+  return parameter.follows.empty() || parameter.value != parameter.default_value;
+}
+
+/// A line of YAML at its depth; as a comment if it is not `live`.
+std::string yaml_line(std::size_t depth, bool live, const std::string& text) {
+  return std::string(2 * depth, ' ') + (live ? "" : "# ") + text;
+}
+
 /// Parameters (those of one module together, as Configuration::parameters() orders them) as YAML
 /// that reads back.
 std::string write_yaml(const std::vector<ParameterDescription>& parameters) {
   constexpr std::size_t comment_column = 48;
+  const auto holds_pinned = [&parameters](const std::string& group) {
+    return std::any_of(parameters.begin(), parameters.end(), [&group](const auto& parameter) {
+      return is_pinned(parameter) && parameter.path.compare(0, group.size(), group) == 0;
+    });
+  };
   std::string text;
   std::vector<std::string> open;
   for (const ParameterDescription& parameter : parameters) {
     std::vector<std::string> parts = split(parameter.path, '.');
     const std::string name = parts.back();
     parts.pop_back();
-    const auto [common, unused] =
-        std::mismatch(parts.begin(), parts.end(), open.begin(), open.end());
-    (void)unused;
+    const auto common = std::mismatch(parts.begin(), parts.end(), open.begin(), open.end()).first;
     for (auto group = common; group != parts.end(); ++group) {
-      text += std::string(2 * (group - parts.begin()), ' ') + *group + ":\n";
+      const std::string path = join({parts.begin(), group + 1}, ".") + ".";
+      text += yaml_line(group - parts.begin(), holds_pinned(path), *group + ":\n");
     }
-    std::string line = std::string(2 * parts.size(), ' ') + name + ": ";
-    line += is_plain(parameter.value) ? parameter.value : quoted(parameter.value);
+    std::string line =
+        yaml_line(parts.size(), is_pinned(parameter),
+                  name + ": " +
+                      (is_plain(parameter.value) ? parameter.value : quoted(parameter.value)));
     line.resize(std::max(line.size(), comment_column), ' ');
     text += line + "  # " + comment(parameter) + "\n";
     open = std::move(parts);
@@ -211,6 +228,10 @@ void Configuration::add(ParameterDescription description) {
   } else {
     parameters_[position->second] = std::move(description);
   }
+}
+
+void Configuration::set_follows(const std::string& path, const std::string& others) {
+  parameters_.at(index_.at(path)).follows = others;
 }
 
 std::string Configuration::unknown_key(const std::string& key, const Setting& setting) const {

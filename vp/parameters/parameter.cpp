@@ -28,6 +28,11 @@ void ParameterBase::publish(std::string value, std::string default_value, std::s
   }
 }
 
+void ParameterBase::follows(const std::string& others) const {
+  if (Configuration* configuration = Configuration::current())
+    configuration->set_follows(name(), others);
+}
+
 Decimal::Whole ParameterBase::whole_value(const Setting& setting, Decimal::Whole min,
                                           Decimal::Whole max) const {
   std::optional<Decimal::Whole> value;

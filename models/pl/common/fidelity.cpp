@@ -45,6 +45,7 @@ ModelName::ModelName(const std::string& ip, std::string otherwise,
   }
   publish(value_, std::move(otherwise),
           vp::one_of(names) + (takes_rtl ? ", or the file of RTL, .so" : ""));
+  follows("fidelity");
 }
 
 ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,

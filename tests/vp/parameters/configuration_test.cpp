@@ -193,6 +193,54 @@ BOOST_AUTO_TEST_CASE(prints_the_effective_tree) {
              "0 to 255)\n");
 }
 
+/// Two clocks of which the second, and a whole group, follow the first.
+struct Divided : sc_core::sc_module {
+  struct Outputs : sc_core::sc_module {
+    Outputs(const sc_core::sc_module_name& name, std::uint64_t hz)
+        : sc_core::sc_module(name), rate("rate", hz / 4, Unit::frequency, Source::derived, "out") {
+      rate.follows("clocks.fast");
+    }
+    Parameter<std::uint64_t> rate;
+  };
+  explicit Divided(const sc_core::sc_module_name& name) : sc_core::sc_module(name) {
+    slow.follows("clocks.fast");
+  }
+  Parameter<std::uint64_t> fast{"fast", 100'000'000, Unit::frequency, Source::decision, "in"};
+  Parameter<std::uint64_t> slow{"slow", fast / 2, Unit::frequency, Source::derived, "half"};
+  Outputs outputs{"outputs", fast};
+};
+
+std::string printed_divided(Configuration& configuration) {
+  const kit::Simulation fresh;
+  const Configuration::Scope scope(configuration);
+  const Divided divided("clocks");
+  return configuration.to_yaml();
+}
+
+BOOST_AUTO_TEST_CASE(a_default_that_follows_is_shown_but_not_pinned) {
+  const std::string printed = printed_divided(configuration);
+  BOOST_TEST(printed ==
+             "clocks:\n"
+             "  fast: 100 MHz                                   # in (decision)\n"
+             "  # slow: 50 MHz                                  # half (derived; follows "
+             "clocks.fast)\n"
+             "  # outputs:\n"
+             "    # rate: 25 MHz                                # out (derived; follows "
+             "clocks.fast)\n");
+  Configuration again;
+  again.load_text(printed, "printed.yaml");
+  again.set("clocks.fast=80 MHz");
+  again.set("clocks.outputs.rate=1 MHz");
+  BOOST_TEST(printed_divided(again) ==
+             "clocks:\n"
+             "  fast: 80 MHz                                    # in (decision; default 100 MHz)\n"
+             "  # slow: 40 MHz                                  # half (derived; follows "
+             "clocks.fast)\n"
+             "  outputs:\n"
+             "    rate: 1 MHz                                   # out (derived; follows "
+             "clocks.fast; default 20 MHz)\n");
+}
+
 BOOST_AUTO_TEST_CASE(the_printed_tree_reads_back) {
   configuration.set("pl.clock=33.333333 MHz");
   configuration.set("pl.note", "null: # \"quoted\" \\ \t\x01 text, \u00b5");

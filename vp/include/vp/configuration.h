@@ -32,6 +32,7 @@ struct ParameterDescription {
   std::string allowed;        ///< "1 MHz to 1 GHz", "clocked or tlm"; may be empty
   Source source = Source::decision;
   std::string documentation;  ///< one line
+  std::string follows = {};   ///< what its default is computed from: "ps.cpu_clk.frequency"
 };
 
 /// The values a user set, over the defaults that stand beside the parameters in code.
@@ -54,6 +55,8 @@ class Configuration {
   const Setting* find(const std::string& path) const;
   /// Called by each parameter when it is built.
   void add(ParameterDescription description);
+  /// Called for a parameter whose default is computed from `others`.
+  void set_follows(const std::string& path, const std::string& others);
 
   /// After elaboration: throws if a key was set that no parameter has.
   void check_unused() const;
@@ -62,7 +65,8 @@ class Configuration {
   /// submodules, in the order of their construction.
   std::vector<ParameterDescription> parameters() const;
   /// The effective tree as YAML that load_text() reads back: value, documentation, source, and
-  /// default where changed.
+  /// default where changed. A default that follows other parameters is a comment: written as a
+  /// value it would no longer follow them.
   std::string to_yaml() const;
   /// The effective tree as {path: "value unit"}.
   std::map<std::string, std::string> values() const;

@@ -37,6 +37,9 @@ class ParameterBase : public sc_core::sc_object {
   /// True if its value is not the default. Nothing may depend on whether a user wrote the default
   /// down: `markervp config` writes down all values, and a run of that file is the same run.
   bool is_changed() const { return is_changed_; }
+  /// Says that the default was computed from `others`, their paths: `markervp config` shows such a
+  /// default, but does not write it down as a value.
+  void follows(const std::string& others) const;
   /// The value as it stands in the effective configuration, with its unit.
   const std::string& text() const { return text_; }
 
