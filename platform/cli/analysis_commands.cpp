@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <report/console.h>
 #include <sweep/compare.h>
+#include <sweep/metric_catalogue.h>
 #include <sweep/pareto.h>
 #include <sweep/results.h>
 #include <sweep/sensitivity.h>
@@ -32,26 +33,42 @@ sweep::Results results_of(const std::string& folder, std::ostream& err) {
   return results;
 }
 
+/// Those that were asked for, else the study's.
 std::vector<sweep::Objective> objectives_of(const std::vector<std::string>& asked,
                                             const sweep::Results& results) {
-  const std::vector<std::string>& texts = asked.empty() ? results.manifest.objectives : asked;
-  if (texts.empty())
-    throw vp::InputError("the sweep names no objectives: give --objective 'max summary.fps.mean'");
   std::vector<sweep::Objective> objectives;
-  for (const std::string& text : texts)
-    objectives.emplace_back(text, asked.empty() ? results.manifest.name : "--objective");
+  for (const std::string& text : asked) objectives.emplace_back(text, "--objective");
+  if (asked.empty()) objectives = sweep::objectives_of(results);
+  if (objectives.empty() && results.failed() != results.rows.size())
+    throw vp::InputError(
+        "no point has a value of the study's objectives: give --objective 'max summary.fps.mean' "
+        "or another; sweep.csv shows what there is");
   return objectives;
 }
 
 }  // namespace
 
+int list_metrics(const MetricsOptions& options, std::ostream& out) {
+  out << sweep::metric_table(options.part);
+  if (options.part.empty())
+    out << "\n* stands for a name; sweep.csv has them all. Constraints, objectives and figures may "
+           "calculate with metrics and\nparameters (docs/expressions.md).\n";
+  return done;
+}
+
 int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err) {
-  const sweep::Results results = results_of(options.folder, err);
-  const std::vector<sweep::Objective> objectives = objectives_of(options.objectives, results);
-  std::vector<vp::Expression> constraints;
+  sweep::Results results = results_of(options.folder, err);
   for (const std::string& text : options.constraints)
-    constraints.emplace_back(text, "--constraint");
-  const sweep::Pareto pareto = sweep::rank(results, objectives, constraints);
+    results.constraints.emplace_back(text, "--constraint");
+  const std::vector<sweep::Objective> objectives = objectives_of(options.objectives, results);
+  for (const sweep::Objective& objective : objectives)
+    sweep::check_names(results, objective.figure());
+  for (const vp::Expression& constraint : results.constraints)
+    sweep::check_names(results, constraint);
+  const sweep::Pareto pareto = sweep::rank(results, objectives);
+  const auto is_best = [](const sweep::RankedPoint& point) { return point.front == 1; };
+  if (std::none_of(pareto.points.begin(), pareto.points.end(), is_best))
+    throw vp::InputError(sweep::why_no_point(results));
   const std::filesystem::path folder = options.folder;
   const std::string csv = (folder / "pareto.csv").string();
   const std::string svg = (folder / "pareto.svg").string();

@@ -80,6 +80,12 @@ void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
   command->add_option("POINTS", target.points_a_process, "points a process")->required();
 }
 
+void add_metrics(CLI::App& app, MetricsOptions& target) {
+  CLI::App* command = app.add_subcommand("metrics", "list what sweeps can be judged by");
+  command->add_option("NAME", target.part, "only those that have this in their name")
+      ->type_name("");
+}
+
 void add_pareto(CLI::App& app, ParetoOptions& target) {
   CLI::App* command = app.add_subcommand("pareto", "the best points of a sweep");
   command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR")->required();
@@ -118,6 +124,7 @@ void add_compare(CLI::App& app, CompareOptions& target) {
 void add_exploration(CLI::App& app, CommandLine& target) {
   add_sweep(app, target.sweep);
   add_sweep_worker(app, target.sweep_worker);
+  add_metrics(app, target.metrics);
   add_pareto(app, target.pareto);
   add_sensitivity(app, target.sensitivity);
   add_compare(app, target.compare);

@@ -88,6 +88,9 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
 /// Computes the points of one task of a sweep on a cluster.
 int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation);
 
+/// Lists what sweeps can be judged by.
+int list_metrics(const MetricsOptions& options, std::ostream& out);
+
 int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err);
 
 int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err);

@@ -80,6 +80,7 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
   if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
   ++frames_;
   if (progress_) progress_->update(frames_);
+  if (outputs.done) ++*outputs.done;
   if (!outputs.text) return;
   outputs.out << report::frame_text(report, source_.size());
   host::check_written(outputs.out);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -25,6 +26,7 @@ class FrameRunner {
     host::OutputFolder* pictures = nullptr;  ///< gets a picture a frame; null: none
     bool text = true;                        ///< a few lines per frame on `out`
     bool progress = false;                   ///< a bar on stderr
+    std::atomic<std::uint64_t>* done;        ///< counts frames; null: nobody asks
     std::ostream& out;
     report::ResultSink& result;
     page::RunExtras* page = nullptr;  ///< gets images and features; null: no page

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,6 +50,8 @@ struct RunOptions : PlatformOptions {
   bool no_pictures = false;
   bool no_report = false;
   bool quiet = false;
+  /// Counts frames that are done, in memory that another process may watch; null: nobody does.
+  std::atomic<std::uint64_t>* frames_done = nullptr;
 };
 
 /// `markervp scenes`.
@@ -60,6 +63,11 @@ struct ScenesOptions {
 /// `markervp designs`.
 struct DesignsOptions {
   bool json = false;
+};
+
+/// `markervp metrics`.
+struct MetricsOptions {
+  std::string part;  ///< of their names; empty: all
 };
 
 /// `markervp config`.
@@ -199,6 +207,7 @@ struct CommandLine {
   CompletionOptions completion;
   SweepOptions sweep;
   SweepWorkerOptions sweep_worker;
+  MetricsOptions metrics;
   ParetoOptions pareto;
   SensitivityOptions sensitivity;
   CompareOptions compare;

@@ -32,6 +32,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);
   if (command == "sweep-worker") return sweep_worker(line.sweep_worker, make_simulation);
+  if (command == "metrics") return list_metrics(line.metrics, out);
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
   if (command == "compare") return compare_runs(line.compare, out);

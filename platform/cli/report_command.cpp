@@ -5,6 +5,7 @@
 #include <cli/program.h>
 #include <page/page_file.h>
 #include <page/report_page.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 
 namespace platform::cli {
@@ -20,7 +21,14 @@ int make_report(const ReportOptions& options, std::ostream& out) {
     if (options.output) {
       throw vp::InputError("--output is for a comparison: the page of one folder stands in it");
     }
-    page::write_report(options.folders[0]);
+    const std::string& folder = options.folders[0];
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored)) {
+      const sweep::Store store(folder);
+      sweep::write_page(sweep::read_results(store, store.read_manifest()), folder);
+    } else {
+      page::write_report(folder);
+    }
     file = (std::filesystem::path(options.folders[0]) / "report.html").string();
   } else {
     file = options.output.value_or("compare.html");

@@ -288,7 +288,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
   runner.run(*simulation, {folder && !options.no_pictures ? &*folder : nullptr, !options.quiet, bar,
-                           out, result, page ? &extras : nullptr});
+                           options.frames_done, out, result, page ? &extras : nullptr});
 
   report::RunFacts facts = simulation->facts();
   const bool ran = runner.frames() > 0 || facts.end;

@@ -15,12 +15,12 @@
 #include <cli/sweep_platform.h>
 #include <designs/plugin.h>
 #include <host/process.h>
-#include <page/report_page.h>
 #include <report/console.h>
 #include <run/program_file.h>
 #include <sweep/database.h>
 #include <sweep/engine_slurm.h>
 #include <sweep/metrics.h>
+#include <sweep/report.h>
 #include <sweep/results.h>
 #include <sweep/spec.h>
 #include <sweep/tables.h>
@@ -34,8 +34,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Points that --dry-run shows.
-constexpr std::size_t shown_points = 20;
+/// Points that --dry-run shows, and that it builds.
+constexpr std::size_t shown_points = 20, most_built = 500;
+
+/// What a sweep ends with if points failed, but `some` did not.
+int points_failed_code(const SweepOptions& options, bool some) {
+  return some && !options.require_all ? points_failed : run_failed;
+}
 
 std::uint32_t cores() {
   cpu_set_t set;
@@ -52,7 +57,7 @@ int list_studies(std::ostream& out) {
   return done;
 }
 
-int show_points(const sweep::Manifest& manifest, std::ostream& out) {
+void show_points(const sweep::Manifest& manifest, std::ostream& out) {
   std::vector<std::string> head = sweep::short_names(manifest.swept);
   head.emplace_back("key");
   sweep::TextTable table(head);
@@ -69,8 +74,20 @@ int show_points(const sweep::Manifest& manifest, std::ostream& out) {
   }
   out << table.text();
   if (manifest.points.size() > shown_points) out << "…\n";
-  out << report::counted(manifest.points.size(), "point") << "; nothing was run\n";
-  return done;
+}
+
+/// Shows the points, and which of them a run would refuse. Returns what it would end with.
+int dry_run(const SweepOptions& options, const sweep::Manifest& manifest,
+            const sweep::Platform& platform, std::ostream& out) {
+  if (options.engine == "slurm") sweep::largest_array();
+  show_points(manifest, out);
+  const sweep::Refusals refusals = sweep::try_points(manifest, platform, most_built);
+  for (const auto& [reason, count] : refusals.reasons)
+    out << report::counted(count, "point") << " will fail: " << reason << "\n";
+  const std::size_t points = manifest.points.size();
+  if (points > most_built) out << "built the first " << most_built << " of them to see\n";
+  out << report::counted(points, "point") << "; nothing was run\n";
+  return refusals.points() == 0 ? done : points_failed_code(options, refusals.built != 0);
 }
 
 void warn(const std::vector<std::string>& warnings, std::ostream& err) {
@@ -166,10 +183,6 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   const host::InterruptGuard guard;
   vp::Progress bar(manifest.name, pending.size());
   const auto progress = [&](std::uint64_t points) { bar.update(points); };
-  sweep::FigureNames figures(manifest);
-  const auto on_result = [&](const sweep::Metrics& metrics) {
-    warn(figures.missing_in_first(metrics), err);
-  };
   if (options.engine == "slurm") {
     warm_up(manifest, {pending.front()});
     const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name,
@@ -178,14 +191,8 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   }
   warm_up(manifest, pending);
   const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
-                                  points_a_process(manifest, options.isolate), on_result};
+                                  points_a_process(manifest, options.isolate)};
   return run_local(store, manifest, pending, local, run, progress);
-}
-
-page::PointRows rows_of(const sweep::Results& results) {
-  page::PointRows rows;
-  for (const sweep::ResultRow& row : results.rows) rows.emplace(row.key, row.row);
-  return rows;
 }
 
 /// What was done, and what stands in the folder for it.
@@ -195,8 +202,7 @@ void write_results(const SweepOptions& options, const sweep::Store& store,
   vp::write_file_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results,
                         sweep::complete_runs(store, results.manifest));
-  const bool page =
-      !options.no_report && page::write_sweep_report(store.folder(), rows_of(results));
+  const bool page = !options.no_report && sweep::write_page(results, store.folder());
   out << sweep::sweep_text(results) << "\n"
       << report::counted(results.rows.size(), "point") << ": " << tally.computed
       << " computed now, " << results.manifest.points.size() - pending << " there before, "
@@ -214,7 +220,7 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
   const sweep::Results results = sweep::read_results(store, manifest, known);
   write_results(options, store, results, tally, before.pending.size(), out);
   if (results.failed() != results.rows.size())
-    warn(sweep::FigureNames(manifest).missing_in_all(results.metric_names()), err);
+    warn(sweep::missing_figures(manifest, results.metric_names()), err);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
         << report::counted(manifest.points.size(), "point")
@@ -228,7 +234,7 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
               : report::counted(results.failed(), "point") + " of " +
                     std::to_string(results.rows.size()))
       << " failed" << std::endl;
-  return all || options.require_all ? run_failed : points_failed;
+  return points_failed_code(options, !all);
 }
 
 }  // namespace
@@ -241,7 +247,7 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
   const sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
   const sweep::Platform platform = sweep_platform(make_simulation);
   const sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
-  if (options.dry_run) return show_points(manifest, out);
+  if (options.dry_run) return dry_run(options, manifest, platform, out);
   try {
     sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();

@@ -1,18 +1,25 @@
 #include <algorithm>
+#include <atomic>
+#include <boost/interprocess/anonymous_shared_memory.hpp>
+#include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <ostream>
+#include <thread>
 
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <host/child.h>
 #include <host/output_folder.h>
+#include <input/frame_source.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
 #include <validation/plots.h>
 #include <validation/result_files.h>
 #include <validation/words.h>
 #include <vp/output_file.h>
+#include <vp/progress.h>
 
 namespace platform::cli {
 
@@ -54,20 +61,35 @@ int failure(const std::vector<host::ChildEnd>& ends, std::ostream& err) {
   return code;
 }
 
+/// Waits for the run's end and shows meanwhile how many frames are done.
+host::ChildEnd watch(host::Child& run, vp::Progress& bar, const std::atomic<std::uint64_t>& done) {
+  while (!run.ended()) {
+    bar.update(done);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return run.wait();
+}
+
 /// Both systems on all images, side by side if there are jobs enough.
 int run_systems(const ValidateOptions& options, const std::vector<std::string>& arguments,
                 const SimulationFactory& make_simulation, std::ostream& err) {
   std::vector<host::Child> children;
   std::vector<host::ChildEnd> ends;
+  const auto memory =
+      boost::interprocess::anonymous_shared_memory(sizeof(std::atomic<std::uint64_t>));
+  auto& frames_done = *new (memory.get_address()) std::atomic<std::uint64_t>(0);
+  const std::uint64_t frames = input::open_inputs(validation::all_tests, {})->size().value_or(0);
+  vp::Progress bar("frames", std::size(systems) * frames);
   for (const char* system : systems) {
-    const RunOptions run_it = run_options(options, system);
+    RunOptions run_it = run_options(options, system);
+    run_it.frames_done = &frames_done;
     children.emplace_back([&, run_it](std::ostream& child_out, std::ostream& child_err) {
       return run(run_it, arguments, make_simulation, child_out, child_err);
     });
-    if (options.jobs == 1) ends.push_back(children.back().wait());
+    if (options.jobs == 1) ends.push_back(watch(children.back(), bar, frames_done));
   }
   if (ends.empty()) {
-    for (host::Child& child : children) ends.push_back(child.wait());
+    for (host::Child& child : children) ends.push_back(watch(child, bar, frames_done));
   }
   return failure(ends, err);
 }

@@ -52,7 +52,6 @@ struct LocalOptions {
   std::uint32_t jobs = 1;
   std::string name = "local";  ///< stands in the records of runs
   std::uint32_t points_a_process = usual_points_a_process;
-  std::function<void(const Metrics&)> on_result = nullptr;  ///< of each point with a result
 };
 
 /// Computes the points at these positions of the manifest in `jobs` processes at a time, which take

@@ -14,7 +14,6 @@
 
 #include <host/child.h>
 #include <host/process.h>
-#include <page/report_page.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
 #include <sweep/words.h>
@@ -180,10 +179,9 @@ class Pool {
     log_.add(list_.manifest.points[position].key, message.wall_s, message.cpu_s,
              attempts_[message.item]);
     Outcome& outcome = tally_.outcomes[position];
-    outcome = {message.failed, message.failure, message.metrics, message.row};
+    outcome = {message.failed, message.failure, message.metrics, message.complaints};
     outcome.metrics.share_names(names_);
     names_ = outcome.metrics;
-    if (options_.on_result && !outcome.metrics.empty()) options_.on_result(outcome.metrics);
     ++tally_.computed;
     step(message.item);
   }
@@ -222,7 +220,6 @@ class Pool {
     message.item = item;
     message.failed = true;
     message.failure = failure;
-    message.row = page::point_row(record.outcome);
     done(message);
   }
 

@@ -35,9 +35,6 @@ struct ArrayJob {
   std::vector<std::string> options;  ///< more for sbatch: "--partition=dse"
 };
 
-/// Tasks that one array may have. Throws vp::InputError if there is no Slurm here.
-std::uint32_t largest_array();
-
 /// Hands the tasks to Slurm; one that loses its node is put back into the queue. Returns the job's
 /// number. Throws vp::InputError with what sbatch said.
 std::string submit(const ArrayJob& job);
@@ -65,6 +62,8 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
+}  // namespace
+
 std::uint32_t largest_array() {
   const host::CommandEnd end = host::run_command({"scontrol", "show", "config"});
   if (end.exit_code == host::no_such_command)
@@ -80,6 +79,8 @@ std::uint32_t largest_array() {
   // The largest number of a task is one less.
   return static_cast<std::uint32_t>(std::max(2L, std::strtol(&end.out[digits], nullptr, 10)) - 1);
 }
+
+namespace {
 
 std::string submit(const ArrayJob& job) {
   std::string array = "--array=0-" + std::to_string(job.tasks - 1);

@@ -17,6 +17,9 @@ struct SlurmOptions {
   std::uint32_t points_a_process = usual_points_a_process;
 };
 
+/// Tasks that one array may have. Throws vp::InputError if Slurm does not answer here.
+std::uint32_t largest_array();
+
 /// Computes the points at these positions on a cluster, through arrays of tasks that each compute
 /// several points; the folder must be one that all nodes see. A job that an earlier call left in
 /// the queue is waited for first. On Ctrl-C the job is cancelled. Points that no task completes, in

@@ -155,6 +155,7 @@ Json to_json(const Manifest& manifest) {
   if (!manifest.job.empty()) json["job"] = manifest.job;
   json["metrics"] = manifest.metrics;
   json["objectives"] = manifest.objectives;
+  json["constraints"] = manifest.constraints;
   json["families"] = Json::array();
   for (const Family& family : manifest.families) {
     json["families"].push_back({{"program", family.program},
@@ -193,6 +194,7 @@ Manifest manifest_from(const Json& json, const std::string& origin) {
     manifest.job = json.value("job", "");
     manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
     manifest.objectives = json.at("objectives").get<std::vector<std::string>>();
+    manifest.constraints = json.value("constraints", std::vector<std::string>());
     for (const Json& family : json.at("families")) {
       manifest.families.push_back(
           {family.at("program").get<std::string>(),

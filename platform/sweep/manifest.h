@@ -29,6 +29,7 @@ struct Family {
   std::map<std::string, std::string> configuration;  ///< effective, complete
   std::map<std::string, std::string> defaults;       ///< of the same parameters
   Json contents;                                     ///< hashes of the program and of table files
+  std::string problem = {};                          ///< why it cannot be built; not in the file
 };
 
 /// Inputs as they are named and as they are.
@@ -68,6 +69,7 @@ struct Manifest {
   std::string job;                 ///< see Spec::job; empty: the usual
   std::vector<std::string> metrics;
   std::vector<std::string> objectives;
+  std::vector<std::string> constraints;  ///< on metrics; those on parameters chose the points
   std::vector<Family> families;
   std::vector<InputSet> input_sets;
   std::vector<PlannedPoint> points;  ///< without duplicates, in the order of the sweep

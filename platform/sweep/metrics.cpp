@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -217,53 +218,27 @@ Metrics MetricsReader::read(const Json& result) {
   return before_;
 }
 
-namespace {
-
-std::string advice(const std::string& name, const Metrics::Names& known) {
-  const std::string nearest = vp::nearest_match(name, known);
-  return nearest.empty() ? ": a sweep without 'metrics' puts all that there are into sweep.csv"
-                         : ": did you mean '" + nearest + "'?";
-}
-
-}  // namespace
-
-FigureNames::FigureNames(const Manifest& manifest)
-    : asked_(manifest.metrics.begin(), manifest.metrics.end()) {
-  for (const std::string& text : manifest.objectives) {
-    const Objective objective(text, manifest.name);
-    for (const std::string& name : objective.figure().names()) asked_.insert(name);
-  }
-  // Objectives may use parameters, too.
+std::vector<std::string> missing_figures(const Manifest& manifest, const Metrics::Names& known) {
+  std::set<std::string> asked(manifest.metrics.begin(), manifest.metrics.end());
+  const auto ask = [&](const vp::Expression& expression) {
+    asked.insert(expression.names().begin(), expression.names().end());
+  };
+  for (const std::string& text : manifest.objectives) ask(Objective(text, manifest.name).figure());
+  for (const std::string& text : manifest.constraints) ask(vp::Expression(text, manifest.name));
+  if (!manifest.job.empty()) ask(vp::Expression(manifest.job, manifest.name));
+  // They may use parameters, too.
   for (const Family& family : manifest.families) {
-    for (const auto& [path, value] : family.configuration) asked_.erase(path);
+    for (const auto& [path, value] : family.configuration) asked.erase(path);
   }
-  for (const char* special : {"system", "program", "inputs"}) asked_.erase(special);
-}
-
-std::vector<std::string> FigureNames::missing_in_first(const Metrics& result) {
+  for (const char* special : {"system", "program", "inputs"}) asked.erase(special);
   std::vector<std::string> complaints;
-  if (std::exchange(seen_, true)) return complaints;
-  for (const std::string& name : missing(result.names())) {
-    if (name.rfind("frames.", 0) != 0)
-      complaints.push_back("the first result has no metric '" + name + "'" +
-                           advice(name, result.names()));
+  for (const std::string& name : asked) {
+    if (std::binary_search(known.begin(), known.end(), name)) continue;
+    const std::string nearest = vp::nearest_match(name, known);
+    complaints.push_back("no result has the metric '" + name + "'" +
+                         (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
   }
   return complaints;
-}
-
-std::vector<std::string> FigureNames::missing_in_all(const Metrics::Names& known) const {
-  std::vector<std::string> complaints;
-  for (const std::string& name : missing(known))
-    complaints.push_back("no result has the metric '" + name + "'" + advice(name, known));
-  return complaints;
-}
-
-std::vector<std::string> FigureNames::missing(const Metrics::Names& known) const {
-  std::vector<std::string> names;
-  std::copy_if(asked_.begin(), asked_.end(), std::back_inserter(names), [&](const auto& name) {
-    return !std::binary_search(known.begin(), known.end(), name);
-  });
-  return names;
 }
 
 }  // namespace platform::sweep

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <sstream>
-#include <string_view>
 
 #include <host/child.h>
+#include <sweep/metric_catalogue.h>
 #include <sweep/pareto.h>
 #include <sweep/results.h>
 #include <sweep/tables.h>
@@ -95,15 +97,6 @@ std::vector<double> figures_of(const ResultRow& row, const std::vector<Objective
   return figures;
 }
 
-report::Holds feasible(const Results& results, const ResultRow& row,
-                       const std::vector<vp::Expression>& constraints) {
-  const auto lookup = [&](const std::string& name) { return value_in(row, name); };
-  for (const vp::Expression& constraint : constraints) {
-    if (missing_in(row, constraint) || !constraint.holds(lookup)) return report::Holds::no;
-  }
-  return results.feasible(row);
-}
-
 /// Counts the metrics that the point lacks, each once.
 void count_lacking(const ResultRow& row, const std::vector<const vp::Expression*>& expressions,
                    std::map<std::string, std::uint64_t>& lacking) {
@@ -114,23 +107,6 @@ void count_lacking(const ResultRow& row, const std::vector<const vp::Expression*
   for (const std::string& name : names) ++lacking[name];
 }
 
-/// All that points are judged by. Throws for a name that no point has.
-std::vector<const vp::Expression*> checked(const Results& results,
-                                           const std::vector<Objective>& objectives,
-                                           const std::vector<vp::Expression>& constraints) {
-  std::vector<const vp::Expression*> all;
-  if (results.job) check_names(results, *results.job);
-  for (const Objective& objective : objectives) {
-    all.push_back(&objective.figure());
-    check_names(results, *all.back());
-  }
-  for (const vp::Expression& constraint : constraints) {
-    all.push_back(&constraint);
-    check_names(results, constraint);
-  }
-  return all;
-}
-
 std::vector<std::string> texts(const std::vector<Objective>& objectives) {
   std::vector<std::string> result;
   for (const Objective& objective : objectives) result.push_back(objective.figure().text());
@@ -139,42 +115,54 @@ std::vector<std::string> texts(const std::vector<Objective>& objectives) {
 
 }  // namespace
 
+// Seen best first by the first objective, a point is dominated only by what was seen before it, and
+// if a front has such a point, so have all fronts before that one.
 std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
                                 const std::vector<bool>& maximise) {
-  std::vector<std::size_t> front(figures.size(), 0);
-  std::vector<std::size_t> left(figures.size());
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
-  for (std::size_t number = 1; !left.empty(); ++number) {
-    std::vector<std::size_t> dominated;
-    for (const std::size_t i : left) {
-      const bool is_dominated = std::any_of(left.begin(), left.end(), [&](std::size_t j) {
-        return dominates(figures[j], figures[i], maximise);
-      });
-      if (is_dominated) {
-        dominated.push_back(i);
-      } else {
-        front[i] = number;
-      }
+  std::vector<std::size_t> order(figures.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      if (figures[a][i] != figures[b][i]) return (figures[a][i] > figures[b][i]) == maximise[i];
     }
-    left = std::move(dominated);
+    return a < b;
+  });
+  std::vector<std::vector<std::size_t>> members;
+  std::vector<std::size_t> front(figures.size(), 0);
+  for (const std::size_t i : order) {
+    const auto dominates_it = [&](std::size_t j) {
+      return dominates(figures[j], figures[i], maximise);
+    };
+    const auto found =
+        std::partition_point(members.begin(), members.end(), [&](const auto& of_front) {
+          // With two objectives the last one is the best in the second.
+          if (maximise.size() <= 2) return dominates_it(of_front.back());
+          return std::any_of(of_front.rbegin(), of_front.rend(), dominates_it);
+        });
+    front[i] = static_cast<std::size_t>(found - members.begin()) + 1;
+    if (found == members.end()) {
+      members.push_back({i});
+    } else {
+      found->push_back(i);
+    }
   }
   return front;
 }
 
-Pareto rank(const Results& results, const std::vector<Objective>& objectives,
-            const std::vector<vp::Expression>& constraints) {
+Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   Pareto pareto;
-  const std::vector<const vp::Expression*> expressions = checked(results, objectives, constraints);
+  std::vector<const vp::Expression*> expressions;
+  for (const Objective& objective : objectives) expressions.push_back(&objective.figure());
+  for (const vp::Expression& constraint : results.constraints) expressions.push_back(&constraint);
   for (const ResultRow& row : results.rows) {
     if (row.failed) continue;
     RankedPoint point;
     point.row = &row;
     point.figures = figures_of(row, objectives);
-    point.feasible = feasible(results, row, constraints);
+    point.feasible = results.feasible(row);
     count_lacking(row, expressions, pareto.lacking);
     pareto.points.push_back(std::move(point));
   }
-  if (pareto.points.empty()) throw vp::InputError("the sweep has no point with a result");
   std::vector<std::vector<double>> figures;
   std::vector<RankedPoint*> ranked;
   for (RankedPoint& point : pareto.points) {
@@ -182,15 +170,105 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives,
     ranked.push_back(&point);
     figures.push_back(point.figures);
   }
-  if (ranked.empty())
-    throw vp::InputError("no point is feasible" +
-                         std::string(constraints.empty() ? "" : ", meets the constraints") +
-                         " and has a value of every objective: " + verdicts_text(results));
   const std::vector<bool> maximise = directions(objectives);
   const std::vector<std::size_t> front = fronts(figures, maximise);
   for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->front = front[i];
   pareto.knee = knee_of(pareto.points, maximise);
   return pareto;
+}
+
+std::vector<Objective> objectives_of(const Results& results) {
+  std::vector<std::string> texts = results.manifest.objectives;
+  if (texts.empty()) texts = {"max summary.fps.mean", "min power.total_w.nominal"};
+  std::vector<Objective> objectives;
+  for (const std::string& text : texts) {
+    Objective objective(text, results.manifest.name);
+    const auto has_it = [&](const ResultRow& row) {
+      return figure_in(row, objective.figure()).has_value();
+    };
+    if (std::any_of(results.rows.begin(), results.rows.end(), has_it))
+      objectives.push_back(std::move(objective));
+  }
+  return objectives;
+}
+
+std::vector<std::size_t> best_first(const Pareto& pareto,
+                                    const std::vector<Objective>& objectives) {
+  std::vector<std::size_t> order(pareto.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto is_before = [&](std::size_t a, std::size_t b) {
+    const RankedPoint& left = pareto.points[a];
+    const RankedPoint& right = pareto.points[b];
+    if (left.front == 0 || right.front == 0) return left.front > right.front;
+    if (left.front != right.front) return left.front < right.front;
+    return objectives.front().maximise() ? left.figures[0] > right.figures[0]
+                                         : left.figures[0] < right.figures[0];
+  };
+  std::stable_sort(order.begin(), order.end(), is_before);
+  return order;
+}
+
+namespace {
+
+/// How far the point is from being feasible: parts of its verdict that do not hold, then the
+/// constraints.
+std::pair<std::ptrdiff_t, double> distance(const Results& results, const ResultRow& row) {
+  const auto parts = std::count_if(
+      std::begin(report::verdict_parts), std::end(report::verdict_parts),
+      [&](const char* part) { return results.holds(row, part) != report::Holds::yes; });
+  double shortfall = 0;
+  for (const vp::Expression* constraint : results.broken(row)) {
+    const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+    shortfall += missing_in(row, *constraint) ? 1 : constraint->shortfall(lookup);
+  }
+  return {parts, shortfall};
+}
+
+/// "clock = 50 MHz, labels = 16: breaks fps >= 200 (fps = 50)".
+std::string described(const Results& results, const ResultRow& row) {
+  std::vector<std::string> values, figures;
+  for (const std::string& path : results.manifest.swept)
+    values.push_back(path + " = " + row.value(path));
+  std::set<std::string> names;
+  for (const vp::Expression* constraint : results.broken(row))
+    names.insert(constraint->names().begin(), constraint->names().end());
+  for (const std::string& name : names) {
+    if (const double* found = row.metrics.find(name))
+      figures.push_back(name + " = " + readable(*found));
+  }
+  return vp::join(values, ", ") + ": " + vp::join(results.reasons(row), "; ") +
+         (figures.empty() ? "" : " (" + vp::join(figures, ", ") + ")");
+}
+
+}  // namespace
+
+std::string why_no_point(const Results& results) {
+  std::vector<const ResultRow*> ran;
+  for (const ResultRow& row : results.rows) {
+    if (!row.failed) ran.push_back(&row);
+  }
+  if (ran.empty()) return "the sweep has no point with a result";
+  const auto is_feasible = [&](const ResultRow* row) {
+    return results.feasible(*row) == report::Holds::yes;
+  };
+  if (std::any_of(ran.begin(), ran.end(), is_feasible))
+    return "no feasible point has a value of every objective";
+  std::string text = "no point is feasible: " + verdicts_text(results);
+  for (const vp::Expression& constraint : results.constraints) {
+    const auto breaks = [&](const ResultRow* row) {
+      const auto broken = results.broken(*row);
+      return std::find(broken.begin(), broken.end(), &constraint) != broken.end();
+    };
+    const auto count = std::count_if(ran.begin(), ran.end(), breaks);
+    if (count != 0)
+      text += "; '" + constraint.text() + "' rules out " + std::to_string(count) + " of " +
+              std::to_string(ran.size());
+  }
+  const ResultRow* nearest =
+      *std::min_element(ran.begin(), ran.end(), [&](const ResultRow* a, const ResultRow* b) {
+        return distance(results, *a) < distance(results, *b);
+      });
+  return text + "; the nearest is " + described(results, *nearest);
 }
 
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
@@ -200,14 +278,8 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
   std::vector<std::string> head = short_names(names);
   head.emplace_back("");
   TextTable table(head);
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
-    if (pareto.points[i].front == 1) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return pareto.points[a].figures[0] < pareto.points[b].figures[0];
-  });
-  for (const std::size_t i : order) {
+  for (const std::size_t i : best_first(pareto, objectives)) {
+    if (pareto.points[i].front != 1) break;
     std::vector<std::string> row;
     for (const std::string& path : results.manifest.swept)
       row.push_back(pareto.points[i].row->value(path));
@@ -239,26 +311,10 @@ std::string pareto_csv(const Results& results, const std::vector<Objective>& obj
 
 namespace {
 
-/// The unit that the metric's name ends with, as " / W"; empty for a count or an expression.
-std::string axis_unit(const std::string& metric) {
-  constexpr std::pair<const char*, const char*> units[] = {
-      {"fps", "1/s"}, {"_w", "W"},   {"_us", "µs"}, {"_mj", "mJ"},   {"_mm", "mm"},
-      {"_px", "px"},  {"_deg", "°"}, {"_c", "°C"},  {"_mhz", "MHz"}, {"_percent", "%"}};
-  if (metric.find_first_of(" */+-()") != std::string::npos) return "";
-  for (const std::string& part : vp::split(metric, '.')) {
-    for (const auto& [end, unit] : units) {
-      const std::string_view wanted = end;
-      if (part.size() >= wanted.size() &&
-          part.compare(part.size() - wanted.size(), wanted.size(), wanted) == 0)
-        return std::string(" / ") + unit;
-    }
-  }
-  return "";
-}
-
 std::string axis_label(const Objective& objective) {
   const std::string text = objective.figure().text();
-  return text + axis_unit(text) +
+  const std::string unit = unit_of_metric(text);
+  return text + (unit.empty() ? "" : " / " + unit) +
          (objective.maximise() ? "  (more is better)" : "  (less is better)");
 }
 

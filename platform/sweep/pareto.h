@@ -29,7 +29,6 @@ class Objective {
 struct RankedPoint {
   const ResultRow* row = nullptr;
   std::vector<double> figures;  ///< of each objective; empty: it has no value of one of them
-  /// The verdict on it (Results::feasible); no if a constraint does not hold.
   report::Holds feasible = report::Holds::yes;
   std::size_t front = 0;  ///< 1: nothing is better in all objectives; 2: once the first front
                           ///< is taken away; … 0: not feasible, or without figures
@@ -45,11 +44,22 @@ struct Pareto {
 /// Sorts the points into fronts: one dominates another if it is no worse in every objective and
 /// better in one. The knee is the point of the first front nearest to the best value of every
 /// objective, each objective scaled to 0 … 1 over that front; a front of two has none. A point
-/// without a metric of an objective cannot be compared and is not ranked; without one of a
-/// constraint it does not meet it. Points that are not feasible are on no front. Throws
-/// vp::InputError for a metric that no point has, or no point, and says what the points fail by.
-Pareto rank(const Results& results, const std::vector<Objective>& objectives,
-            const std::vector<vp::Expression>& constraints);
+/// without a metric of an objective cannot be compared and is not ranked. Points that are not
+/// feasible are on no front.
+Pareto rank(const Results& results, const std::vector<Objective>& objectives);
+
+/// The study's objectives, or frame rate and power if it names none; without those that no point
+/// has a value of.
+std::vector<Objective> objectives_of(const Results& results);
+
+/// Positions in `points`: front by front, in each the best by the first objective first; then those
+/// that are on no front, in the order of the sweep.
+std::vector<std::size_t> best_first(const Pareto& pareto, const std::vector<Objective>& objectives);
+
+/// Why no point is on a front: what rules out how many, and the point that is nearest to being
+/// feasible. Of those that break as few parts of the verdict it is the one whose constraints fall
+/// short the least.
+std::string why_no_point(const Results& results);
 
 /// The fronts of figures alone, 1 for the best; `maximise` says which way each objective goes.
 std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <sweep/axes.h>
 #include <sweep/expansion.h>
 #include <sweep/identity.h>
+#include <sweep/metric_catalogue.h>
 #include <sweep/pareto.h>
 #include <sweep/plan.h>
 #include <vp/decimal.h>
@@ -117,28 +119,71 @@ class Planner {
       throw vp::InputError(spec_.origin +
                            ": the sweep varies nothing: say what under 'parameters' (also 'inputs' "
                            "and 'system', to compare them) or under 'zip'");
-    check_objectives();
     find_programs();
+    check_metrics();
     make_axes();
     const double count = point_count(spec_, groups_);
     ask_about(count);
     for (const AxisGroup& group : groups_) {
       for (const AxisValues& axis : group) check(axis);
     }
-    for (const Condition& condition : spec_.constraints)
-      constraints_.emplace_back(condition.text, condition.where);
+    sort_constraints();
     const Expansion expansion = expand(
         spec_, groups_, [this](const Assignment& point) { return allowed(point); },
         options_.limit.value_or(static_cast<std::uint64_t>(most_points)));
-    describe();
+    describe(static_cast<double>(expansion.points.size()) < count);
     add_points(expansion);
     return std::move(manifest_);
   }
 
  private:
-  void check_objectives() const {
-    if (spec_.job) vp::Expression(spec_.job->text, spec_.job->where);
-    for (const std::string& objective : spec_.objectives) Objective(objective, spec_.origin);
+  void check_metrics() const {
+    if (spec_.job) check_names(vp::Expression(spec_.job->text, spec_.job->where));
+    for (const std::string& metric : spec_.metrics) {
+      try {
+        check_metric(metric, parameters());
+      } catch (const vp::InputError& error) {
+        throw vp::InputError(spec_.origin + ": metrics: " + error.what());
+      }
+    }
+    for (const std::string& text : spec_.objectives)
+      check_names(Objective(text, spec_.origin + ": objectives").figure());
+  }
+
+  void check_names(const vp::Expression& expression) const {
+    for (const std::string& name : expression.names()) {
+      try {
+        check_metric(name, parameters());
+      } catch (const vp::InputError& error) {
+        expression.refuse(name, error.what());
+      }
+    }
+  }
+
+  /// Of all designs and programs, and what else a point is named by.
+  std::vector<std::string> parameters() const {
+    std::vector<std::string> names{"system", "program", "inputs"};
+    for (const Base& base : bases_) {
+      for (std::string& path : base.table.paths()) names.push_back(std::move(path));
+    }
+    return names;
+  }
+
+  /// What speaks of parameters alone chooses the points; the rest judges their results.
+  void sort_constraints() {
+    for (const Condition& condition : spec_.constraints) {
+      vp::Expression expression(condition.text, condition.where);
+      check_names(expression);
+      const auto& names = expression.names();
+      const bool known = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        return is_special(name) || bases_.front().table.has(name);
+      });
+      if (known) {
+        constraints_.push_back(std::move(expression));
+      } else {
+        manifest_.constraints.push_back(expression.text());
+      }
+    }
   }
 
   // Each program has its own options; what is swept must exist in all.
@@ -229,10 +274,11 @@ class Planner {
     return sweep::value_of(table.kind(name), swept != nullptr ? *swept : table.find(name).value);
   }
 
-  void describe() {
+  void describe(bool is_part) {
     manifest_.name = spec_.name;
     manifest_.title = spec_.title;
-    manifest_.text = spec_.text;
+    // It speaks of all points.
+    if (!is_part || !options_.limit) manifest_.text = spec_.text;
     manifest_.source = spec_.source;
     manifest_.program = program_identity(platform_.version, platform_.revision);
     manifest_.tables = table_contents();
@@ -291,14 +337,15 @@ class Planner {
   const BuiltFamily& family_of(const Build& build) {
     const auto known = families_.find({build.program, build.settings});
     if (known != families_.end()) return known->second;
-    Family family{build.program, {}, {}, {}};
+    Family family{build.program, {}, {}, {}, {}};
     input::ImageSize size{};
     try {
       const ParameterTable table(platform_.elaborate(build, spec_.origin));
       family.configuration = table.values();
       family.defaults = table.defaults();
       size = table.size();
-    } catch (const vp::InputError&) {
+    } catch (const vp::InputError& error) {
+      family.problem = error.what();
       // These values do not go together: the points run, fail and say why.
       const ParameterTable& table =
           std::find_if(bases_.begin(), bases_.end(), [&](const Base& base) {
@@ -341,6 +388,29 @@ class Planner {
 };
 
 }  // namespace
+
+std::uint64_t Refusals::points() const {
+  return std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& reason) { return sum + reason.second; });
+}
+
+Refusals try_points(const Manifest& manifest, const Platform& platform, std::size_t most) {
+  Refusals refusals;
+  for (std::size_t i = 0; i < std::min(most, manifest.points.size()); ++i) {
+    const PlannedPoint& point = manifest.points[i];
+    const Family& family = manifest.families[point.family];
+    std::string problem = family.problem;
+    try {
+      // Without changes it is what its family was built as.
+      if (problem.empty() && !point.changes.empty())
+        platform.elaborate({family.program, manifest.settings(point)}, manifest.name);
+    } catch (const vp::InputError& error) {
+      problem = error.what();
+    }
+    ++(problem.empty() ? refusals.built : refusals.reasons[problem]);
+  }
+  return refusals;
+}
 
 Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform) {
   return Planner(spec, options, platform).plan();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,16 @@ struct PlanOptions {
 inline constexpr double most_points_unasked = 100'000;
 /// More points no machine gets through.
 inline constexpr double most_points = 10'000'000;
+
+/// Points that cannot be built.
+struct Refusals {
+  std::map<std::string, std::uint64_t> reasons;  ///< and how many points each refuses
+  std::uint64_t built = 0;                       ///< points that can be built
+  std::uint64_t points() const;
+};
+
+/// Builds the platform of each point, of `most` points at most.
+Refusals try_points(const Manifest& manifest, const Platform& platform, std::size_t most);
 
 /// Checks all keys, units, ranges, names and inputs, and finds every point. Throws vp::InputError.
 Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform);

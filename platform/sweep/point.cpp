@@ -51,12 +51,11 @@ Json whole_json(const std::string& path) {
   }
 }
 
-/// File names may hold any bytes; JSON holds UTF-8 only.
-std::string dump(const Json& json) {
+}  // namespace
+
+std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
-
-}  // namespace
 
 PointRecord done_record(const Manifest& manifest, const PlannedPoint& point, Json result) {
   PointRecord record = new_record(manifest, point);
@@ -82,14 +81,14 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
 // A member a line. The outcome is most of it, and is put into words once, for the digest and the
 // file.
 std::string point_text(const PointRecord& record) {
-  const std::string outcome = dump(record.outcome);
+  const std::string outcome = json_text(record.outcome);
   std::string text;
   text.reserve(outcome.size() + record.identity.size() + 4096);
   text += "{\"" + std::string(point_mark) + "\":" + std::to_string(point_schema);
-  text += ",\n\"key\":" + dump(record.key);
+  text += ",\n\"key\":" + json_text(record.key);
   text += ",\n\"identity\":" + record.identity;
-  text += ",\n\"run\":" + dump(record.run);
-  text += ",\n\"digest\":" + dump(content_hash(outcome));
+  text += ",\n\"run\":" + json_text(record.run);
+  text += ",\n\"digest\":" + json_text(content_hash(outcome));
   text += ",\n\"outcome\":" + outcome + "}\n";
   return text;
 }
@@ -106,10 +105,10 @@ PointRecord read_point(const std::string& path, bool verify) {
                          ": remove it, and the sweep computes it again");
   }
   try {
-    PointRecord record{json.at("key").get<std::string>(), dump(json.at("identity")),
+    PointRecord record{json.at("key").get<std::string>(), json_text(json.at("identity")),
                        std::move(json.at("run")), std::move(json.at("outcome"))};
     const bool whole = !verify || (key_of(record.identity) == record.key &&
-                                   content_hash(dump(record.outcome)) == json.at("digest"));
+                                   content_hash(json_text(record.outcome)) == json.at("digest"));
     if (whole && (record.failed() || record.outcome.contains("result"))) return record;
   } catch (const Json::exception&) {
   }

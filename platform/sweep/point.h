@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <sweep/manifest.h>
 #include <sweep/metrics.h>
@@ -42,6 +44,9 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
 
 std::string point_text(const PointRecord& record);
 
+/// As text. File names may hold any bytes, JSON only UTF-8: others are replaced.
+std::string json_text(const Json& json);
+
 /// A point's file that is not whole: the power failed while it was on its way to the disk.
 class HalfPoint : public vp::InputError {
  public:
@@ -58,9 +63,13 @@ struct Outcome {
   bool failed = false;
   Failure failure;  ///< if it failed
   Metrics metrics;  ///< empty if there is no result
-  std::string row;  ///< of the point in report.html, see page/report_page.h
+  /// The parts of its verdict (report::verdict_parts) that are not `yes`, each with why.
+  std::vector<std::pair<std::string, std::string>> complaints;
 };
 
 Outcome outcome_of(const PointRecord& record);
+
+/// Outcome::complaints of an `outcome`, a member of a point's file.
+std::vector<std::pair<std::string, std::string>> complaints_of(const Json& outcome);
 
 }  // namespace platform::sweep

@@ -4,9 +4,8 @@
 #include <set>
 #include <utility>
 
-#include <page/report_page.h>
 #include <report/console.h>
-#include <sweep/pareto.h>
+#include <sweep/metric_catalogue.h>
 #include <sweep/results.h>
 #include <sweep/tables.h>
 #include <vp/error.h>
@@ -44,6 +43,8 @@ template <class OutcomeAt>
 Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
   Results results;
   if (!manifest.job.empty()) results.job.emplace(manifest.job, manifest.name);
+  for (const std::string& text : manifest.constraints)
+    results.constraints.emplace_back(text, manifest.name);
   const Bases bases = bases_of(manifest);
   results.rows.reserve(manifest.points.size());
   for (std::size_t i = 0; i < manifest.points.size(); ++i) {
@@ -99,7 +100,33 @@ report::Holds Results::holds(const ResultRow& row, const std::string& part) cons
 report::Holds Results::feasible(const ResultRow& row) const {
   report::Holds worst = report::Holds::yes;
   for (const char* part : report::verdict_parts) worst = std::min(worst, holds(row, part));
-  return worst;
+  return broken(row).empty() ? worst : report::Holds::no;
+}
+
+std::vector<const vp::Expression*> Results::broken(const ResultRow& row) const {
+  std::vector<const vp::Expression*> broken;
+  if (row.failed) return broken;
+  const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+  for (const vp::Expression& constraint : constraints) {
+    if (missing_in(row, constraint) || !constraint.holds(lookup)) broken.push_back(&constraint);
+  }
+  return broken;
+}
+
+std::vector<std::string> Results::reasons(const ResultRow& row) const {
+  std::vector<std::string> reasons;
+  if (row.failed) reasons.push_back("failed: " + row.failure.message);
+  for (const auto& [part, why] : row.complaints) {
+    const bool told = part == "ran" && row.failed;
+    if (!told && !(part == "job" && job)) reasons.push_back(why);
+  }
+  if (job && holds(row, "job") == report::Holds::no)
+    reasons.push_back("not its job: " + job->text());
+  for (const vp::Expression* constraint : broken(row))
+    reasons.push_back("breaks " + constraint->text());
+  if (reasons.empty() && feasible(row) != report::Holds::yes)
+    reasons.emplace_back("without a verdict");
+  return reasons;
 }
 
 std::vector<std::string> Results::metric_names() const {
@@ -126,8 +153,19 @@ Outcome outcome_of(const PointRecord& record) {
                        failure.value("message", "")};
   }
   if (record.outcome.contains("result")) outcome.metrics = metrics_of(record.outcome.at("result"));
-  outcome.row = page::point_row(record.outcome);
+  outcome.complaints = complaints_of(record.outcome);
   return outcome;
+}
+
+std::vector<std::pair<std::string, std::string>> complaints_of(const Json& outcome) {
+  std::vector<std::pair<std::string, std::string>> complaints;
+  const Json::json_pointer verdict("/result/verdict");
+  if (!outcome.contains(verdict)) return complaints;
+  for (const auto& [part, judged] : outcome.at(verdict).items()) {
+    if (judged.is_object() && judged.contains("why"))
+      complaints.emplace_back(part, judged["why"].get<std::string>());
+  }
+  return complaints;
 }
 
 Results read_results(const Store& store, Manifest manifest) {
@@ -161,7 +199,8 @@ void check_names(const Results& results, const vp::Expression& expression) {
         std::any_of(results.rows.begin(), results.rows.end(), has_it))
       continue;
     const std::string nearest = vp::nearest_match(name, known);
-    expression.refuse(name, "unknown metric '" + name + "'" +
+    expression.refuse(name, (kind_of_metric(name) ? "no point has '" : "unknown metric '") + name +
+                                "'" +
                                 (nearest.empty() ? ": 'markervp metrics' lists them"
                                                  : "; did you mean '" + nearest + "'?"));
   }
@@ -213,49 +252,6 @@ std::string results_csv(const Results& results) {
   return text;
 }
 
-namespace {
-
-/// Columns that fit a terminal.
-constexpr std::size_t most_metrics = 6;
-/// Reasons of failure that are printed.
-constexpr std::size_t most_reasons = 8;
-
-/// The figures that the sweep is about: its metrics, else those of its objectives, else the
-/// speed. Those that no result has are left out.
-std::vector<std::string> key_figures(const Results& results) {
-  std::vector<std::string> wanted = results.manifest.metrics;
-  if (wanted.empty()) {
-    for (const std::string& objective : results.manifest.objectives) {
-      const Objective parsed(objective, results.manifest.name);
-      for (const std::string& name : parsed.figure().names()) wanted.push_back(name);
-    }
-  }
-  if (wanted.empty()) wanted = {"summary.fps.mean", "summary.latency_us.mean"};
-  const std::vector<std::string> known = results.metric_names();
-  std::vector<std::string> figures;
-  for (const std::string& name : wanted) {
-    if (figures.size() < most_metrics && std::binary_search(known.begin(), known.end(), name))
-      figures.push_back(name);
-  }
-  return figures;
-}
-
-std::string failures_text(const Results& results) {
-  std::map<std::string, std::uint64_t> reasons;
-  for (const ResultRow& row : results.rows) {
-    if (row.failed) ++reasons[row.failure.message];
-  }
-  std::string text;
-  std::size_t printed = 0;
-  for (const auto& [reason, count] : reasons) {
-    if (printed++ == most_reasons) return text + "and other reasons: see sweep.csv\n";
-    text += report::counted(count, "point") + " failed: " + reason + "\n";
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string verdicts_text(const Results& results) {
   constexpr std::pair<const char*, const char*> parts[] = {{"ran", "did not run"},
                                                            {"job", "did not do their job"},
@@ -281,39 +277,8 @@ std::string verdicts_text(const Results& results) {
   }
   add(count([&](const ResultRow& row) { return results.feasible(row) == Holds::unknown; }),
       "unknown");
-  return text;
-}
-
-std::string sweep_text(const Results& results, std::size_t most_rows) {
-  const std::vector<std::string> figures = key_figures(results);
-  std::vector<std::string> names = results.manifest.swept;
-  names.insert(names.end(), figures.begin(), figures.end());
-  TextTable table(short_names(names));
-  std::size_t rows = 0;
-  for (const ResultRow& row : results.rows) {
-    if (rows++ == most_rows) break;
-    std::vector<std::string> fields;
-    for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
-    for (const std::string& name : figures) {
-      const double* found = row.metrics.find(name);
-      const std::string none = row.failed ? "failed" : "-";
-      fields.push_back(found ? readable(*found) : none);
-    }
-    table.add(fields);
-  }
-  std::string text =
-      (results.manifest.title.empty() ? results.manifest.name : results.manifest.title) + "\n\n" +
-      table.text();
-  if (results.rows.size() > most_rows)
-    text += "… and " + report::counted(results.rows.size() - most_rows, "point") +
-            " more: see sweep.csv\n";
-  const std::string failures = failures_text(results);
-  text += "\n" + verdicts_text(results) + "\n";
-  if (!failures.empty()) text += "\n" + failures;
-  if (!results.manifest.text.empty()) {
-    text += "\n" + results.manifest.text;
-    if (text.back() != '\n') text += "\n";
-  }
+  add(count([&](const ResultRow& row) { return !results.broken(row).empty(); }),
+      "break a constraint");
   return text;
 }
 

@@ -37,12 +37,17 @@ struct Results {
   std::vector<ResultRow> rows;
   std::uint64_t missing = 0;          ///< points not computed yet
   std::optional<vp::Expression> job;  ///< what the study asks of a point instead of the usual job
+  std::vector<vp::Expression> constraints;  ///< what else is asked of a result
 
   std::uint64_t failed() const;
   /// Whether a part (report::verdict_parts) of the verdict on the point holds.
   report::Holds holds(const ResultRow& row, const std::string& part) const;
-  /// Whether all do: the only rule of what is feasible.
+  /// The constraints that a point which ran breaks. One on what the point lacks is broken.
+  std::vector<const vp::Expression*> broken(const ResultRow& row) const;
+  /// Whether all parts and constraints hold: the only rule of what is feasible.
   report::Holds feasible(const ResultRow& row) const;
+  /// Why it failed or is not feasible; empty if it is.
+  std::vector<std::string> reasons(const ResultRow& row) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
   /// Those that the sweep asks for; all if it does not.
@@ -74,11 +79,7 @@ std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expr
 std::string results_csv(const Results& results);
 
 /// How many points are feasible, and how many fail each part of the verdict: "3 of 12 points
-/// feasible; 2 did not run, 7 miss timing".
+/// feasible, 2 did not run, 7 miss timing".
 std::string verdicts_text(const Results& results);
-
-/// What a sweep found, for a terminal: a table of points (at most `most_rows`), what failed and
-/// why, and the sweep's own text.
-std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 
 }  // namespace platform::sweep

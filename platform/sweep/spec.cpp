@@ -12,6 +12,7 @@
 #include <vp/error.h>
 #include <vp/input_file.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 #include <vp/yaml.h>
 
 namespace platform::sweep {
@@ -144,6 +145,7 @@ class Reader : private YamlReader {
          [&](const YAML::Node& n) {
            spec_.job = {scalar(n, "job"), where(n)};
          }},
+        {"target_rate", [&](const YAML::Node& n) { read_rate(n); }},
         {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
     for_each(root, keys, "a sweep");
@@ -152,6 +154,7 @@ class Reader : private YamlReader {
  private:
   static constexpr std::uint64_t most_frames = 1'000'000;
   static constexpr std::uint64_t most_points = 10'000'000;
+  static constexpr double most_rate = 1e6;
 
   void read_program(const YAML::Node& node, const std::string& key) {
     if (!spec_.program.empty()) fail(node, "'system' and 'program' both name the PS program");
@@ -304,6 +307,23 @@ class Reader : private YamlReader {
     for (const YAML::Node& item : node) {
       spec_.constraints.push_back({scalar(item, "constraints"), where(item)});
     }
+  }
+
+  /// "60 fps": what a point must reach.
+  void read_rate(const YAML::Node& node) {
+    const std::string text = scalar(node, "target_rate");
+    const std::size_t unit = text.find("fps");
+    const std::string number(vp::trim(text.substr(0, unit)));
+    double rate = 0;
+    try {
+      rate = vp::parse_quantity(number, vp::Unit::none).to_double();
+    } catch (const vp::InputError&) {  // told below, with what else is wrong
+    }
+    if (unit == std::string::npos || unit + 3 != text.size() || !(rate > 0) || rate > most_rate)
+      fail(node,
+           "'" + text +
+               "' for 'target_rate': write frames a second from above 0 to 1000000, as '60 fps'");
+    spec_.constraints.push_back({"summary.fps.mean >= " + number, where(node)});
   }
 
   Spec& spec_;

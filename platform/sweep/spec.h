@@ -67,7 +67,7 @@ struct Spec {
 
   std::vector<Dimension> dimensions;
   Sampling sampling;
-  std::vector<Condition> constraints;
+  std::vector<Condition> constraints;   ///< on parameters, and on metrics; a rate is one of these
   std::optional<Condition> job;         ///< what a point must have done; none: the usual
   std::vector<std::string> metrics;     ///< columns; empty: all
   std::vector<std::string> objectives;  ///< "max summary.fps.mean"

@@ -27,6 +27,7 @@ std::size_t width(const std::string& text) {
 }
 
 std::string last_parts(const std::string& name, std::size_t count) {
+  if (name.find(' ') != std::string::npos) return name;  // an expression
   const std::vector<std::string> parts = vp::split(name, '.');
   const std::size_t first = parts.size() > count ? parts.size() - count : 0;
   return vp::join({parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end()}, ".");

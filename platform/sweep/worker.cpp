@@ -14,7 +14,6 @@
 #include <utility>
 
 #include <host/process.h>
-#include <page/report_page.h>
 #include <sweep/words.h>
 #include <sweep/worker.h>
 #include <vp/output_file.h>
@@ -95,7 +94,11 @@ std::string MessageWriter::bytes(const PointMessage& message) {
   put(body, message.failure.exit_code);
   put(body, message.failure.signal);
   put_text(body, message.failure.message);
-  put_text(body, message.row);
+  put(body, std::uint64_t{message.complaints.size()});
+  for (const auto& [part, why] : message.complaints) {
+    put_text(body, part);
+    put_text(body, why);
+  }
   const Metrics& metrics = message.metrics;
   const bool same = metrics.shares_names(before_) || metrics.names() == before_.names();
   put(body, same);
@@ -125,7 +128,10 @@ std::optional<PointMessage> MessageReader::next() {
   message.failure.exit_code = taker.take<int>();
   message.failure.signal = taker.take<int>();
   message.failure.message = taker.take_text();
-  message.row = taker.take_text();
+  for (auto left = taker.take<std::uint64_t>(); left != 0; --left) {
+    std::string part = taker.take_text();
+    message.complaints.emplace_back(std::move(part), taker.take_text());
+  }
   const bool same = taker.take<bool>();
   const auto count = taker.take<std::uint64_t>();
   std::shared_ptr<const Metrics::Names> names = before_.shared_names();
@@ -274,7 +280,7 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
 }
 
 void PointWorker::finish(const PointRecord& record, PointMessage& message) {
-  message.row = page::point_row(record.outcome);
+  message.complaints = complaints_of(record.outcome);
   list_.store.write(record);
 }
 

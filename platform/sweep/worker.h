@@ -69,7 +69,7 @@ struct PointMessage {
   bool failed = false;
   Failure failure;
   Metrics metrics;
-  std::string row;  ///< as Outcome has it
+  std::vector<std::pair<std::string, std::string>> complaints;  ///< as Outcome has them
 };
 
 /// Names go over the pipe when they differ from those of the message before.

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <set>
 #include <sstream>
 
+#include <sweep/metric_catalogue.h>
 #include <sweep/point.h>
 
 #include "sweeps.h"
@@ -117,26 +119,87 @@ BOOST_FIXTURE_TEST_CASE(a_sweep_of_nothing_is_a_mistake, Sweeps) {
                       "wrong.yaml:3:4: this is not YAML"));
 }
 
-BOOST_FIXTURE_TEST_CASE(figures_that_no_result_has_are_named, Sweeps) {
-  write("s.yaml", R"(
-parameters: {sw.margin: [4 px, 5 px]}
-metrics: [summary.fps.mean, summary.fps.men, sw.margin]
-objectives: [max summary.fps.mean, min power.totl_w.nominal]
-)");
+BOOST_FIXTURE_TEST_CASE(figures_that_do_not_exist_are_refused_before_the_first_point, Sweeps) {
+  const std::string start = "parameters: {sw.margin: [4 px, 5 px]}\n";
+  BOOST_TEST(contains(problem(start + "metrics: [summary.fps.men, sw.margin]\n"),
+                      "wrong.yaml: metrics: unknown metric 'summary.fps.men'; did you mean "
+                      "'summary.fps.mean'?"));
+  BOOST_TEST(
+      contains(problem(start + "objectives: [max 2 * power.totl_w.nominal]\n"),
+               "'2 * power.totl_w.nominal', column 5: unknown metric 'power.totl_w.nominal'; "
+               "did you mean 'power.total_w.nominal'?"));
+  BOOST_TEST(
+      contains(problem(start + "constraints: [timing.mett == 1]\n"),
+               "wrong.yaml:2: 'timing.mett == 1', column 1: unknown metric 'timing.mett'; did "
+               "you mean 'timing.met'?"));
+  for (const char* wrong : {"60", "fps", "0 fps", "60 fpss", "60 Hz fps"})
+    BOOST_TEST(contains(problem(start + "target_rate: " + wrong + "\n"), "as '60 fps'"), wrong);
+  BOOST_TEST(
+      contains(problem(start + "job: summary.detectd > 0\n"), "did you mean 'summary.detected'?"));
+  write("s.yaml", start + "metrics: [summary.fps.mean, power.modules.pl.blob.w, sw.margin]\n");
   const kit::Outcome outcome = run({"sweep", "s.yaml"});
   BOOST_TEST(outcome.exit_code == 0);
-  for (const char* who : {"the first result has no metric", "no result has the metric"}) {
-    const std::string start = "warning: " + std::string(who);
-    BOOST_TEST(
-        contains(outcome.err, start + " 'summary.fps.men': did you mean 'summary.fps.mean'?"),
-        outcome.err);
-    BOOST_TEST(contains(outcome.err,
-                        start + " 'power.totl_w.nominal': did you mean 'power.total_w.nominal'?"),
-               outcome.err);
-  }
+  BOOST_TEST(contains(outcome.err, "no result has the metric 'power.modules.pl.blob.w'"),
+             outcome.err);
   BOOST_TEST(!contains(outcome.err, "'sw.margin'"), outcome.err);
   write("t.yaml", clocks);
   BOOST_TEST(run({"sweep", "t.yaml"}).err == "");
+}
+
+BOOST_FIXTURE_TEST_CASE(every_metric_has_a_meaning, Sweeps) {
+  write("s.yaml", "inputs: [demo]\nparameters: {system: [hybrid, ps-only]}\n");
+  BOOST_TEST(run({"sweep", "s.yaml", "--no-report"}).exit_code == 0);
+  std::istringstream lines(kit::read_file(*this / "out/s/sweep.csv"));
+  std::string head, name;
+  std::getline(lines, head);
+  std::istringstream names(head);
+  for (const char* column : {"key", "status", "message", "feasible", "system"}) {
+    std::getline(names, name, ',');
+    BOOST_TEST(name == column);
+  }
+  std::set<std::string> kinds;
+  while (std::getline(names, name, ',')) {
+    const platform::sweep::MetricKind* kind = platform::sweep::kind_of_metric(name);
+    BOOST_REQUIRE_MESSAGE(kind != nullptr, name);
+    kinds.insert(kind->pattern);
+  }
+  for (const platform::sweep::MetricKind& kind : platform::sweep::metric_kinds())
+    BOOST_TEST(kinds.count(kind.pattern) == 1u, kind.pattern);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_rate_and_constraints_on_metrics_judge_the_results, Sweeps) {
+  write("s.yaml",
+        std::string(clocks) + "target_rate: 80 fps\nconstraints: [summary.detected == 1]\n");
+  const std::string text = run({"sweep", "s.yaml"}).out;
+  const auto apart = text.find("Not feasible:");
+  BOOST_REQUIRE_MESSAGE(apart != std::string::npos, text);
+  BOOST_TEST(text.find("50 MHz") < apart, text);
+  BOOST_TEST(text.find("25 MHz") > apart, text);
+  BOOST_TEST(contains(text, "breaks summary.fps.mean >= 80"), text);
+  BOOST_TEST(contains(text, "1 of 4 points feasible, 2 miss timing, 1 break a constraint"), text);
+  BOOST_TEST(contains(kit::read_file(*this / "out/s/manifest.json"), "summary.fps.mean >= 80"));
+  write("t.yaml", std::string(clocks) + "target_rate: 1000 fps\n");
+  run({"sweep", "t.yaml"});
+  const kit::Outcome none = run({"pareto", "out/t"});
+  BOOST_TEST(none.exit_code == 2);
+  BOOST_TEST(contains(none.err,
+                      "'summary.fps.mean >= 1000' rules out 4 of 4; the nearest is "
+                      "ps.fclk_clk1.frequency = 50 MHz"),
+             none.err);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_dry_run_tells_which_points_cannot_be_built, Sweeps) {
+  write("s.yaml", "parameters: {pl.width: [640 px, 644 px], pl.height: [480 px, 482 px]}\n");
+  const kit::Outcome dry = run({"sweep", "s.yaml", "--dry-run"});
+  BOOST_TEST(contains(dry.out, "1 point will fail: frames of 644x480 px cannot be built"), dry.out);
+  BOOST_TEST(!std::filesystem::exists(*this / "out"));
+  const kit::Outcome ran = run({"sweep", "s.yaml"});
+  BOOST_TEST(contains(ran.out, "3 did not run"), ran.out);
+  BOOST_TEST(dry.exit_code == 4);
+  BOOST_TEST(ran.exit_code == 4);
+  BOOST_TEST(run({"sweep", "s.yaml", "--dry-run", "--require-all"}).exit_code == 1);
+  write("t.yaml", clocks);
+  BOOST_TEST(run({"sweep", "t.yaml", "--dry-run"}).exit_code == 0);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_huge_sweep_asks_first, Sweeps) {

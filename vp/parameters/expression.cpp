@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -348,7 +349,7 @@ ExpressionValue Expression::value(const ExpressionValues& values) const {
       false);
 }
 
-ExpressionValue Expression::value(const Lookup& lookup) const {
+std::vector<ExpressionValue> Expression::looked_up(const Lookup& lookup) const {
   for (const Node& node : nodes_) {
     if (node.operation >= Operation::rises && node.operation <= Operation::changes)
       fail(node.column, "'rises', 'falls' and 'changes' are for traces: here nothing was before");
@@ -361,8 +362,36 @@ ExpressionValue Expression::value(const Lookup& lookup) const {
       refuse(name, error.what());
     }
   }
+  return found;
+}
+
+ExpressionValue Expression::value(const Lookup& lookup) const {
+  const std::vector<ExpressionValue> found = looked_up(lookup);
   return evaluate(
       root_, [&](std::uint32_t place, bool) { return found[place]; }, false);
+}
+
+double Expression::shortfall(const Lookup& lookup) const {
+  const std::vector<ExpressionValue> found = looked_up(lookup);
+  return shortfall(root_, [&](std::uint32_t place, bool) { return found[place]; });
+}
+
+double Expression::shortfall(std::uint32_t place, const At& at) const {
+  if (evaluate(place, at, false).holds()) return 0;
+  const Node& node = nodes_[place];
+  if (node.operation == Operation::both)
+    return shortfall(node.left, at) + shortfall(node.right, at);
+  if (node.operation == Operation::either)
+    return std::min(shortfall(node.left, at), shortfall(node.right, at));
+  const bool compares =
+      node.operation == Operation::equal ||
+      (node.operation >= Operation::less && node.operation <= Operation::greater_equal);
+  if (!compares) return 1;
+  const ExpressionValue left = evaluate(node.left, at, false);
+  const ExpressionValue right = evaluate(node.right, at, false);
+  const long double scale = std::max(std::fabs(left.number), std::fabs(right.number));
+  if (!left.known || !right.known || left.is_text || !(scale > 0)) return 1;
+  return static_cast<double>(std::fabs(left.number - right.number) / scale);
 }
 
 ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, bool past) const {

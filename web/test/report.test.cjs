@@ -226,8 +226,9 @@ test("the timeline is moved by keyboard, and has its numbers as a table", () => 
 }));
 
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
-  await page.locator("#points tbody button").nth(4).click();
-  assert.match(await page.locator("#point pre").textContent(), /^markervp run --point 'out\/a sweep\/points\/00000004cafe.json'$/);
+  const button = page.locator("#points tbody button").nth(4);
+  await button.click();
+  assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json'`);
   await page.locator("#maps select").first().selectOption({ label: "Power" });
   assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);
 }));
@@ -238,6 +239,39 @@ test("points that failed are counted, crossed in the map and say why", () => ope
   assert.match(await page.locator("#trade-off .note").textContent(), /56 points that failed are left out here/);
   assert.match(await page.locator("#maps .note").textContent(), /Crossed cells failed/);
 }));
+
+test("a sweep shows what its study asks for: the best points first, the others apart with why", () => open("sweep", async (page) => {
+  const verdict = await page.locator("#verdict").textContent();
+  assert.match(verdict, /A point must have summary.detected >= 40/);
+  assert.match(verdict, /Most: Frame rate.*fclk_clk1.frequency \d+ MHz, cpu_clk.frequency \d+ MHz, blob_detection.label_count \d+, profile/s);
+  assert.match(verdict, /Least: Power/);
+  const captions = await page.$$eval("#points table caption", (all) => all.map((each) => each.textContent));
+  assert.deepEqual(captions, ["Feasible points, the best first", "Not feasible or not proven", "Failed"]);
+  const tables = page.locator("#points table");
+  const rates = await tables.nth(0).locator("tbody tr").evaluateAll((rows) => rows.map((row) => row.cells[0].textContent));
+  const list = blocks.sweep.sweep.points;
+  const fronts = rates.map((key) => list.find((p) => p.key.startsWith(key)).front);
+  assert.deepEqual(fronts, [...fronts].sort((a, b) => a - b));
+  assert.equal(fronts[0], 1);
+  assert.match(await tables.nth(1).locator("tbody").textContent(), /misses timing|too large/);
+  assert.match(await tables.nth(2).locator("tbody").textContent(), /the binary image timed out/);
+}));
+
+for (const name of ["run", "comparison"]) {
+  test(`${name}: at 400 px no legend covers its chart`, () => open(name, async (page) => {
+    await scrollThrough(page);
+    const covered = await page.$$eval(".chart-area svg", (charts) => charts.flatMap((svg) => {
+      const texts = [...svg.querySelectorAll("text")].map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }));
+      return texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => a.box.left < b.box.right && b.box.left < a.box.right && a.box.top + 2 < b.box.bottom && b.box.top + 2 < a.box.bottom)
+        .map((b) => `${a.text} on ${b.text}`));
+    }));
+    assert.deepEqual(covered, []);
+    const stages = page.locator('.chart-area[aria-label^="Stages of a frame"] svg');
+    const lowest = await stages.locator("text", { hasText: /^pose$/ }).evaluate((text) => text.getBoundingClientRect().bottom);
+    const first = await stages.locator("text", { hasText: /^(This run|A.*a)$/ }).first().evaluate((text) => text.getBoundingClientRect().top);
+    assert.ok(lowest <= first, `the legend ends at ${lowest}, the first bar begins at ${first}`);
+  }, { viewport: { width: 400, height: 900 } }));
+}
 
 test("a click on a point of the trade-off opens it", () => open("sweep", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');

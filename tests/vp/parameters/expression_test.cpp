@@ -169,6 +169,22 @@ BOOST_AUTO_TEST_CASE(units_of_signals_are_checked_when_they_are_bound) {
   BOOST_CHECK_THROW(expression.bind([](const std::string&) { return 0u; }), vp::InputError);
 }
 
+BOOST_AUTO_TEST_CASE(what_does_not_hold_tells_how_far_it_is) {
+  const auto shortfall = [](const std::string& text) {
+    return vp::Expression(text, "here").shortfall([](const std::string& name) {
+      return name == "n" ? vp::ExpressionValue(50.0L) : vp::ExpressionValue::unknown();
+    });
+  };
+  BOOST_TEST(shortfall("n >= 50") == 0);
+  BOOST_TEST(shortfall("n >= 200") == 0.75);
+  BOOST_TEST(shortfall("n <= 40") == 0.2);
+  BOOST_TEST(shortfall("n == 100") == 0.5);
+  BOOST_TEST(shortfall("n >= 200 and n >= 100 and n > 1") == 1.25);
+  BOOST_TEST(shortfall("n >= 200 or n >= 100") == 0.5);
+  for (const char* text : {"not n >= 10", "n != 50", "unknown > 1", "n < 0 * n - 0 * n", "0 > 0"})
+    BOOST_TEST(shortfall(text) == 1, text);
+}
+
 BOOST_AUTO_TEST_CASE(texts_are_equal_or_not) {
   BOOST_TEST(point_value("system == 'hybrid'") == 1);
   BOOST_TEST(point_value("system != \"ps-only\"") == 1);

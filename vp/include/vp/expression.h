@@ -74,6 +74,10 @@ class Expression {
   /// what `lookup` throws and where units or texts do not go together.
   ExpressionValue value(const Lookup& lookup) const;
   bool holds(const Lookup& lookup) const { return value(lookup).holds(); }
+  /// How far it is from holding, without dimension: 0 if it holds; of a comparison of numbers by
+  /// how much they differ, in parts of the greater; of several joined by `and` the sum, by `or` the
+  /// least; of what is not known, or no comparison, 1.
+  double shortfall(const Lookup& lookup) const;
 
   /// Throws InputError "where: 'text', column 5: problem" that points to a name in it.
   [[noreturn]] void refuse(const std::string& name, const std::string& problem) const;
@@ -112,6 +116,8 @@ class Expression {
   using At = std::function<ExpressionValue(std::uint32_t place, bool past)>;
 
   [[noreturn]] void fail(std::uint32_t column, const std::string& problem) const;
+  std::vector<ExpressionValue> looked_up(const Lookup& lookup) const;
+  double shortfall(std::uint32_t place, const At& at) const;
   ExpressionValue evaluate(std::uint32_t place, const At& at, bool past) const;
   ExpressionValue logic(const Node& node, const At& at, bool past) const;
   ExpressionValue named(const Node& node, const At& at, bool past) const;

@@ -40,6 +40,15 @@ const observer = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) entry.target.draw?.();
 }, { rootMargin: "200px" });
 
+/** Puts the plot below its legend, however many lines that takes. Returns by how much the chart must be higher for it. */
+function belowLegend(instance, { legend, grid }) {
+  if (!legend) return 0;
+  const drawn = instance.getViewOfComponentModel(instance.getModel().getComponent("legend")).group.getBoundingRect();
+  const more = Math.max(0, Math.ceil(legend.top + drawn.height) + 8 - grid.top);
+  instance.setOption({ grid: { top: grid.top + more } });
+  return more;
+}
+
 /**
  * @param name      short, for file names
  * @param title     heading of the figure
@@ -61,6 +70,10 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     const own = option();
     return { ...common, ...own, tooltip: own.tooltip ? { ...common.tooltip, ...own.tooltip } : { show: false } };
   };
+  const fit = () => {
+    target.style.height = `${height + belowLegend(instance, option())}px`;
+    instance.resize();
+  };
   const draw = () => {
     if (instance) return instance;
     if (screen) {
@@ -70,6 +83,7 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     }
     instance = echarts.init(target, null, { renderer: canvas ? "canvas" : "svg" });
     instance.setOption(full());
+    fit();
     target.dataset.drawn = "true";
     ready?.(instance);
     return instance;
@@ -78,8 +92,16 @@ export function chart({ name, title, summary, note, height = 280, least, option,
   observer.observe(target);
   const entry = {
     target, draw,
-    redraw() { if (screen) return instance?.redraw(); instance?.setOption(full(), { notMerge: true }); if (instance) ready?.(instance, true); },
-    resize() { instance?.resize(); },
+    redraw() {
+      if (screen || !instance) return instance?.redraw();
+      instance.setOption(full(), { notMerge: true });
+      fit();
+      ready?.(instance, true);
+    },
+    resize() {
+      instance?.resize();
+      if (instance && !screen) fit();
+    },
     instance: () => instance,
   };
   charts.push(entry);
@@ -90,10 +112,11 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     for (const series of [complete.series ?? []].flat()) series.progressive = 0;
     return complete;
   };
-  const size = () => ({ width: target.clientWidth || 900, height });
+  const size = () => ({ width: target.clientWidth || 900, height: target.clientHeight || height });
   const saveSvg = () => {
     const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
     copy.setOption(whole());
+    belowLegend(copy, option());
     download(name + ".svg", copy.renderToSVGString(), "image/svg+xml");
     copy.dispose();
   };
@@ -103,6 +126,7 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     Object.assign(holder.style, { width: area.width + "px", height: area.height + "px" });
     const copy = echarts.init(holder, null, { renderer: "canvas", devicePixelRatio: 2, ...area });
     copy.setOption(whole());
+    belowLegend(copy, option());
     download(name + ".png", copy.getDataURL({ type: "png", pixelRatio: 2, backgroundColor: palette().page }), "image/png");
     copy.dispose();
   };

@@ -25,9 +25,10 @@ function opener(open, pick) {
   return (instance, again) => again || instance.on("click", (event) => { const point = pick(event); if (point) open(point); });
 }
 
-/** Lines of equal energy a frame, from edge to edge of the plot. */
+/** Lines of equal energy a frame, from edge to edge of the plot; none where it does not show rate and power. */
 function isoLines(sweep, points, floor, ceiling) {
-  const { fps, power } = sweep;
+  const { x: fps, y: power } = sweep;
+  if (fps?.id !== "summary.fps.mean" || power?.id !== "power.total_w.nominal") return [];
   const energies = points.map((p) => 1e3 * power.of(p) / fps.of(p));
   const [least, most] = [Math.min(...energies), Math.max(...energies)];
   if (!(most > least)) return [];
@@ -44,16 +45,17 @@ function isoLines(sweep, points, floor, ceiling) {
 }
 
 export function tradeOff(sweep, open) {
-  const { fps, power, front } = sweep;
-  if (!fps || !power) return null;
-  const known = sweep.whole.filter((p) => Number.isFinite(fps.of(p)) && Number.isFinite(power.of(p)));
+  const { x, y, front } = sweep;
+  if (!x || !y) return null;
+  const known = sweep.whole.filter((p) => Number.isFinite(x.of(p)) && Number.isFinite(y.of(p)));
   if (known.length === 0) return null;
   const onFront = new Set(front);
-  const place = (p) => ({ value: [fps.of(p), power.of(p)], point: p });
-  const powers = known.map((p) => power.of(p));
+  const place = (p) => ({ value: [x.of(p), y.of(p)], point: p });
+  const powers = known.map((p) => y.of(p));
   const range = Math.max(...powers) - Math.min(...powers) || 0.1;
   const tick = roundStep(range * 1.16, 6);
   const floor = Math.floor((Math.min(...powers) - range * 0.08) / tick) * tick, ceiling = Math.ceil((Math.max(...powers) + range * 0.08) / tick) * tick;
+  const lines = isoLines(sweep, known, floor, ceiling);
   const groups = () => {
     const c = palette();
     return [
@@ -65,24 +67,24 @@ export function tradeOff(sweep, open) {
   const reasons = [...new Set(known.flatMap((p) => p.reasons))].sort((a, b) => a.length - b.length);
   const failed = sweep.points.length - sweep.whole.length;
   return chart({
-    name: "trade-off", title: "Frame rate and power", height: 440, canvas: true,
-    note: `On the front no feasible point is both faster and thriftier. Grey lines: equal energy a frame.${reasons.length ? " Crossed: not feasible, or not proven (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
+    name: "trade-off", title: `${x.name} and ${y.name.toLowerCase()}`, height: 440, canvas: true,
+    note: `No feasible point beats one of the front in all that the study asks for.${lines.length ? " Grey lines: equal energy a frame." : ""}${reasons.length ? " Crossed: not feasible, or not proven (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
     summary: `${counted(known.length, "point")}, ${fixed(known.filter((p) => p.reasons.length).length, 0)} of them not feasible or not proven. The front has ${counted(front.length, "point")}` +
-      (front.length ? `, from ${value(fps, front[0])} at ${value(power, front[0])} to ${value(fps, front.at(-1))} at ${value(power, front.at(-1))}.` : "."),
+      (front.length ? `, from ${value(x, front[0])} at ${value(y, front[0])} to ${value(x, front.at(-1))} at ${value(y, front.at(-1))}.` : "."),
     option: () => {
       const c = palette();
       return {
         legend: { top: 0, left: 0, itemWidth: 9, itemHeight: 9, data: groups().map((g) => g.name), textStyle: { color: c.soft } },
         grid: { left: 20, right: 64, top: 36, bottom: 34, containLabel: true },
-        xAxis: axis({ type: "value", scale: true, name: "Frame rate, frames/s" }),
-        yAxis: axis({ type: "value", min: floor, max: ceiling, interval: tick, name: "Power, W", nameGap: 44, axisLabel: { formatter: (v) => significant(Number(v.toPrecision(9)), tick < 0.01 ? 4 : 3) } }),
+        xAxis: axis({ type: "value", scale: true, name: sweep.label(x) }),
+        yAxis: axis({ type: "value", min: floor, max: ceiling, interval: tick, name: sweep.label(y), nameGap: 44, axisLabel: { formatter: (v) => significant(Number(v.toPrecision(9)), tick < 0.01 ? 4 : 3) } }),
         tooltip: { show: true, trigger: "item", formatter: (p) => (p.data.point ? describe(sweep, p.data.point) : p.seriesName) },
         series: [
-          ...isoLines(sweep, known, floor, ceiling).map(({ mj, line }) => ({ type: "line", name: `${mj} mJ`, silent: true, symbol: "none", clip: true, data: line, z: 0,
+          ...lines.map(({ mj, line }) => ({ type: "line", name: `${mj} mJ`, silent: true, symbol: "none", clip: true, data: line, z: 0,
             lineStyle: { color: c.faint, width: 1, type: "dotted", opacity: 0.8 }, endLabel: { show: true, distance: 2, formatter: `${tidy(Number(mj.toPrecision(6)))} mJ`, color: c.faint, fontSize: 11 } })),
-          { type: "line", name: "front", silent: true, symbol: "none", data: front.map((p) => [fps.of(p), power.of(p)]), step: "start", lineStyle: { color: c.green, width: 1.5 }, z: 1 },
+          sweep.objectives.length <= 2 && { type: "line", name: "front", silent: true, symbol: "none", data: front.map((p) => [x.of(p), y.of(p)]), step: x.better > 0 && y.better < 0 ? "start" : undefined, lineStyle: { color: c.green, width: 1.5 }, z: 1 },
           ...groups().map((g) => ({ type: "scatter", name: g.name, symbol: g.symbol, symbolSize: g.size, itemStyle: g.style, data: g.points.map(place), z: g.name === "Pareto front" ? 4 : 2 })),
-        ],
+        ].filter(Boolean),
       };
     },
     ready: opener(open, (event) => event.data?.point),
@@ -96,16 +98,16 @@ function clipped(reason) {
   return text.length > 56 ? text.slice(0, 55) + "…" : text;
 }
 
-export const columnsOf = (sweep) => [
+export const columnsOf = (sweep, rows = sweep.points) => [
   ...sweep.parameters.map((p) => ({ title: p.name, value: (point) => (p.numeric ? p.of(point) : p.text(point)), show: (_, point) => p.text(point), number: p.numeric, csv: sweep.label(p) })),
-  ...(sweep.points.some((p) => p.reasons.length > 0) ? [{ title: "Why not", value: (point) => point.reasons.join("; "), show: clipped }] : []),
+  ...(rows.some((p) => p.reasons.length > 0) ? [{ title: "Why not", value: (point) => point.reasons.join("; "), show: clipped }] : []),
   ...sweep.metrics.map((m) => ({ title: m.name, unit: m.unit, csv: sweep.label(m), number: true, value: (point) => m.of(point), show: (v) => (Number.isFinite(v) ? tidy(v) : "") })),
 ];
 
 export function parallel(sweep, open) {
   const axes = [...sweep.parameters, ...sweep.metrics.filter((m) => new Set(sweep.whole.map((p) => m.of(p)).filter(Number.isFinite)).size > 1).slice(0, 6)];
   if (axes.length < 2) return null;
-  const colourBy = sweep.metrics.find((m) => m.id === "summary/energy_per_frame_mj") ?? sweep.metrics[0] ?? axes[0];
+  const colourBy = sweep.metrics.find((m) => m.id === "summary.energy_per_frame_mj") ?? sweep.metrics[0] ?? axes[0];
   const points = sweep.whole.filter((p) => axes.every((a) => Number.isFinite(a.of(p))));
   if (points.length === 0) return null;
   const values = points.map((p) => colourBy.of(p)).filter(Number.isFinite);
@@ -119,7 +121,7 @@ export function parallel(sweep, open) {
       return {
         parallel: { left: 56, right: 72, top: 56, bottom: 24, parallelAxisDefault: {
           nameTextStyle: { color: c.soft, fontSize: 11, lineHeight: 14 }, nameGap: 12, axisLine: { lineStyle: { color: c.faint } }, axisTick: { show: false },
-          axisLabel: { color: c.soft, fontSize: 11 }, areaSelectStyle: { width: 18, color: c.orange, opacity: 0.35, borderColor: c.orange, borderWidth: 1 } } },
+          axisLabel: { color: c.ink, fontSize: 11, textBorderColor: c.page, textBorderWidth: 4 }, z: 4, areaSelectStyle: { width: 18, color: c.orange, opacity: 0.35, borderColor: c.orange, borderWidth: 1 } } },
         parallelAxis: axes.map((a, dim) => ({ dim, name: a.parameter ? shortName(a, "\n") : `${a.name}\n${a.unit}`, scale: true, minInterval: points.every((p) => Number.isInteger(a.of(p))) ? 1 : undefined, type: a.numeric ? "value" : "category", data: a.numeric ? undefined : a.words })),
         visualMap: { show: false, min: Math.min(...values), max: Math.max(...values), dimension: axes.length, inRange: { color: [c.green, c.yellow, c.vermillion] } },
         series: [{ type: "parallel", lineStyle: { width: points.length > 1000 ? 0.6 : 1.1, opacity: points.length > 1000 ? 0.25 : 0.6 }, inactiveOpacity: 0.03, progressive: 400,
@@ -140,7 +142,7 @@ export function parallel(sweep, open) {
 export function heatMap(sweep, open) {
   const axes = sweep.parameters;
   if (axes.length < 2 || sweep.metrics.length === 0) return null;
-  const chosen = { x: axes[0], y: axes[1], z: sweep.fps ?? sweep.metrics[0] };
+  const chosen = { x: axes[0], y: axes[1], z: sweep.objectives.find((o) => !o.parameter) ?? sweep.metrics[0] };
   let figure = null;
   const holder = h("div");
   const build = () => {
@@ -208,11 +210,11 @@ export function heatMap(sweep, open) {
   return h("div", {}, h("div", { class: "controls" }, choice("Figure", "z", sweep.metrics), choice("Across", "x", axes), choice("Up", "y", axes)), holder);
 }
 
-/** How far the mean of a figure moves over each parameter's range. */
+/** How far the mean of a figure moves over each parameter's range, as `markervp sensitivity` counts it. */
 function swings(sweep, metric) {
   return sweep.parameters.map((parameter) => {
     const groups = new Map();
-    for (const p of sweep.whole) {
+    for (const p of sweep.feasible) {
       const v = metric.of(p);
       if (!Number.isFinite(v)) continue;
       const key = parameter.of(p);
@@ -227,13 +229,13 @@ function swings(sweep, metric) {
 }
 
 export function tornado(sweep) {
-  const metric = sweep.fps ?? sweep.metrics[0];
+  const metric = sweep.objectives[0] ?? sweep.fps ?? sweep.metrics[0];
   if (!metric) return null;
   const rows = swings(sweep, metric);
   if (rows.length === 0) return null;
   return chart({
-    name: "tornado", title: `What moves ${metric.name.toLowerCase()}, ${metric.unit}`, height: 44 * rows.length + 70,
-    note: `Mean over all points at the least and the most favourable value of each parameter${sweep.whole.length < sweep.points.length ? "; points that failed do not count" : ""}.`,
+    name: "tornado", title: `What moves ${sweep.label(metric)}`, height: 44 * rows.length + 70,
+    note: `Mean over all points at the least and the most favourable value of each parameter${sweep.feasible.length < sweep.points.length ? "; only feasible points count" : ""}.`,
     summary: rows.slice().reverse().map((r) => `${r.parameter.name}: ${significant(r.low.mean, 4)} at ${r.low.text}, ${significant(r.high.mean, 4)} at ${r.high.text}`).join(". "),
     option: () => {
       const c = palette();

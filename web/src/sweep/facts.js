@@ -1,11 +1,12 @@
 // The points of a sweep as numbers: "50 MHz" is 50 on an axis in MHz.
 
+/** Name, unit and which way is better, where the path says less. */
 const names = {
-  "summary/fps/mean": ["Frame rate", "frames/s", 1], "summary/latency_us/mean": ["Latency", "ms", -1, 1e-3], "summary/power_w/total": ["Power", "W", -1],
-  "summary/energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power/junction_c": ["Junction", "°C", -1], "summary/detected": ["Frames with marker", "", 1], "summary/frames": ["Frames", "", 1],
-  "resources/total/lut": ["LUT", "", -1], "resources/total/ff": ["Flip-flops", "", -1], "resources/total/bram36": ["BRAM 36 Kb", "", -1],
-  "resources/total/dsp": ["DSP", "", -1], "error/corner_px": ["Corner error", "px", -1], "error/translation_mm": ["Translation error", "mm", -1],
-  "error/rotation_deg": ["Rotation error", "°", -1],
+  "summary.fps.mean": ["Frame rate", "frames/s", 1], "summary.latency_us.mean": ["Latency", "ms", -1, 1e-3], "power.total_w.nominal": ["Power", "W", -1],
+  "summary.energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power.junction_c": ["Junction", "°C", -1], "summary.detected": ["Frames with marker", "", 1], "summary.frames": ["Frames", "", 1],
+  "resources.total.lut": ["LUT", "", -1], "resources.total.ff": ["Flip-flops", "", -1], "resources.total.bram36": ["BRAM 36 Kb", "", -1],
+  "resources.total.dsp": ["DSP", "", -1], "frames.error.corner_px.mean": ["Corner error", "px", -1], "frames.error.translation_mm.mean": ["Translation error", "mm", -1],
+  "frames.error.rotation_deg.mean": ["Rotation error", "°", -1],
 };
 
 const scales = { Hz: ["MHz", 1e-6], kHz: ["MHz", 1e-3], MHz: ["MHz", 1], GHz: ["MHz", 1e3] };
@@ -30,21 +31,24 @@ function parameterAxis(sweep, index) {
 }
 
 function metricAxis(sweep, index) {
-  const path = sweep.metrics[index];
-  const [name, unit, better, scale = 1] = names[path] ?? [path, "", 0];
+  const { path, unit: given } = sweep.metrics[index];
+  const [name, unit, better, scale = 1] = names[path] ?? [path, given, 0];
   return {
     id: path, name, unit, better, numeric: true,
     of: (point) => (point.metrics[index] === null || point.metrics[index] === undefined ? NaN : point.metrics[index] * scale),
   };
 }
 
-/** Points that no other feasible one beats in rate and power. */
-function paretoFront(points, fps, power) {
-  const feasible = points.filter((p) => p.reasons.length === 0 && Number.isFinite(fps.of(p)) && Number.isFinite(power.of(p)))
-    .sort((a, b) => power.of(a) - power.of(b) || fps.of(b) - fps.of(a));
-  const front = [];
-  for (const point of feasible) if (front.length === 0 || fps.of(point) > fps.of(front.at(-1))) front.push(point);
-  return front;
+/** The axis of an objective: the page has a figure for each, or it is a parameter. */
+function objectiveAxis(axes, { metric, better }) {
+  return { ...axes.find((axis) => axis.id === metric), better };
+}
+
+/** The feasible points front by front, in each the best first; then the others. */
+function bestFirst(points, objective) {
+  const rank = (p) => (p.reasons.length === 0 && p.front > 0 ? p.front : Infinity);
+  const order = (a, b) => (rank(a) === rank(b) ? 0 : rank(a) - rank(b)) || Number(a.failed) - Number(b.failed) || (objective ? (objective.of(b) - objective.of(a)) * objective.better || 0 : 0);
+  return points.map((p, i) => [p, i]).sort(([a, i], [b, j]) => order(a, b) || i - j).map(([p]) => p);
 }
 
 /** Names of values on an axis: those that differ, and the unit. */
@@ -56,13 +60,16 @@ export function makeSweep(sweep) {
   const parameters = sweep.swept.map((_, index) => parameterAxis(sweep, index)).filter((axis) => axis.words.length > 1);
   const metrics = sweep.metrics.map((_, index) => metricAxis(sweep, index)).filter((axis) => sweep.points.some((p) => Number.isFinite(axis.of(p))));
   const find = (id) => metrics.find((axis) => axis.id === id);
-  const fps = find("summary/fps/mean");
-  const power = find("summary/power_w/total");
+  const fps = find("summary.fps.mean");
+  const power = find("power.total_w.nominal");
+  const objectives = sweep.objectives.map((objective) => objectiveAxis([...metrics, ...parameters], objective)).filter((axis) => axis.id);
+  const [x, y] = [objectives[0] ?? fps, objectives[1] ?? power];
+  const front = sweep.points.filter((p) => p.front === 1 && p.reasons.length === 0).sort((a, b) => x.of(a) - x.of(b) || y.of(a) - y.of(b));
   return {
-    ...sweep, parameters, metrics, fps, power,
+    ...sweep, parameters, metrics, fps, power, objectives, x, y, front,
+    points: bestFirst(sweep.points, objectives[0]),
     whole,
     feasible: sweep.points.filter((p) => p.reasons.length === 0),
-    front: fps && power ? paretoFront(sweep.points, fps, power) : [],
     label: (axis) => axis.name + (axis.unit ? `, ${axis.unit}` : ""),
     show: (axis, point) => (axis.parameter ? axis.text(point) : axis.of(point)),
   };

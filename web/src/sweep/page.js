@@ -28,16 +28,15 @@ function pointPanel(sweep) {
 }
 
 function verdict(sweep) {
-  const best = (metric, better) => {
-    const list = sweep.feasible.filter((p) => metric && Number.isFinite(metric.of(p)));
-    return list.length ? list.reduce((a, b) => ((metric.of(b) - metric.of(a)) * better > 0 ? b : a)) : null;
+  const best = (axis) => {
+    const list = sweep.feasible.filter((p) => Number.isFinite(axis.of(p)));
+    return list.length ? list.reduce((a, b) => ((axis.of(b) - axis.of(a)) * axis.better > 0 ? b : a)) : null;
   };
-  const energy = sweep.metrics.find((m) => m.id === "summary/energy_per_frame_mj");
-  const tile = (label, metric, better) => {
-    const point = best(metric, better);
-    return point && h("div", { class: "tile" }, h("dt", {}, label),
-      h("dd", { class: "figure" }, h("span", { class: "value" }, significant(metric.of(point), 4)), h("span", { class: "unit" }, " " + metric.unit)),
-      h("dd", { class: "band" }, sweep.parameters.slice(0, 3).map((p) => `${p.name.split(".").slice(-2).join(".")} ${p.text(point)}`).join(", ")));
+  const tile = (axis) => {
+    const point = best(axis);
+    return point && h("div", { class: "tile" }, h("dt", {}, `${axis.better > 0 ? "Most" : "Least"}: ${axis.name}`),
+      h("dd", { class: "figure" }, h("span", { class: "value" }, significant(axis.of(point), 4)), h("span", { class: "unit" }, " " + axis.unit)),
+      h("dd", { class: "band" }, sweep.parameters.map((p) => `${p.name.split(".").slice(-2).join(".")} ${p.text(point)}`).join(", ")));
   };
   const failed = sweep.points.length - sweep.whole.length;
   const bad = sweep.whole.length - sweep.feasible.length;
@@ -45,7 +44,14 @@ function verdict(sweep) {
     h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} not feasible or not proven`),
       failed > 0 && h("li", { class: "bad" }, `${fixed(failed, 0)} failed`),
       sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
-    h("dl", { class: "tiles" }, tile("Fastest", sweep.fps, 1), tile("Least power", sweep.power, -1), tile("Least energy per frame", energy, -1)));
+    sweep.constraints.length > 0 && h("p", { class: "note", style: { margin: "0 0 14px" } }, `A point must have ${sweep.constraints.join(" and ")}.`),
+    h("dl", { class: "tiles" }, sweep.objectives.map(tile)));
+}
+
+function points(sweep, wanted, caption, name, open) {
+  const rows = sweep.points.filter(wanted);
+  const key = { title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) };
+  return rows.length > 0 && dataTable({ columns: [key, ...columnsOf(sweep, rows)], rows, caption, name, exportable: true, limit: 20 });
 }
 
 export function sweepPage(data) {
@@ -59,6 +65,7 @@ export function sweepPage(data) {
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, open)), panel,
       section("space", "Design space", parallel(sweep, open)), section("maps", "Map", heatMap(sweep, open)), section("influence", "Influence", tornado(sweep)),
-      section("points", "Points", dataTable({ columns: [{ title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) }, ...columnsOf(sweep)], rows: sweep.points, caption: "All points", name: "points", exportable: true, limit: 20 }))],
+      section("points", "Points", points(sweep, (p) => p.reasons.length === 0, "Feasible points, the best first", "points", open),
+        points(sweep, (p) => p.reasons.length > 0 && !p.failed, "Not feasible or not proven", "not-feasible", open), points(sweep, (p) => p.failed, "Failed", "failed", open))],
   };
 }

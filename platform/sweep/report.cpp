@@ -1,0 +1,275 @@
+#include <sweep/report.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <page/page_file.h>
+#include <page/report_page.h>
+#include <report/console.h>
+#include <sweep/metric_catalogue.h>
+#include <sweep/pareto.h>
+#include <sweep/tables.h>
+#include <vp/text.h>
+
+namespace platform::sweep {
+
+namespace {
+
+/// Columns of figures that fit a terminal.
+constexpr std::size_t most_figures = 6;
+/// Reasons of failure that are printed.
+constexpr std::size_t most_reasons = 8;
+
+/// Figures that the page has of every sweep.
+constexpr const char* usual_figures[] = {"summary.fps.mean",
+                                         "summary.latency_us.mean",
+                                         "power.total_w.nominal",
+                                         "summary.energy_per_frame_mj",
+                                         "power.junction_c",
+                                         "summary.detected",
+                                         "summary.frames",
+                                         "resources.total.lut",
+                                         "resources.total.ff",
+                                         "resources.total.bram36",
+                                         "resources.total.dsp",
+                                         "frames.error.corner_px.mean",
+                                         "frames.error.translation_mm.mean",
+                                         "frames.error.rotation_deg.mean"};
+
+/// The swept parameters that differ.
+std::vector<std::string> decisive(const Results& results) {
+  std::vector<std::string> paths;
+  for (const std::string& path : results.manifest.swept) {
+    const auto differs = [&](const ResultRow& row) {
+      return row.value(path) != results.rows.front().value(path);
+    };
+    if (std::any_of(results.rows.begin(), results.rows.end(), differs)) paths.push_back(path);
+  }
+  return paths.empty() ? results.manifest.swept : paths;
+}
+
+/// A figure of a point: a metric, or what an objective makes of some.
+struct Column {
+  std::string text;
+  vp::Expression expression;
+};
+
+/// Columns without those that no result has, each once.
+class Columns {
+ public:
+  explicit Columns(const Results& results) : results_(results) {}
+
+  void add(const std::string& text, vp::Expression expression) {
+    const auto is_it = [&](const Column& other) { return other.text == text; };
+    const auto has_it = [&](const ResultRow& row) {
+      return figure_in(row, expression).has_value();
+    };
+    const auto& swept = results_.manifest.swept;
+    if (std::none_of(list_.begin(), list_.end(), is_it) &&
+        std::find(swept.begin(), swept.end(), text) == swept.end() &&
+        std::any_of(results_.rows.begin(), results_.rows.end(), has_it))
+      list_.push_back({text, std::move(expression)});
+  }
+  void add(const std::string& name) {
+    add(name, vp::Expression("`" + name + "`", results_.manifest.name));
+  }
+  bool empty() const { return list_.empty(); }
+  std::vector<Column> take() { return std::move(list_); }
+
+ private:
+  const Results& results_;
+  std::vector<Column> list_;
+};
+
+/// What the sweep is about: its objectives, what it has constraints on, its metrics; else the
+/// speed.
+Columns asked_of(const Results& results) {
+  Columns columns(results);
+  for (const Objective& objective : objectives_of(results))
+    columns.add(objective.figure().text(), objective.figure());
+  for (const vp::Expression& constraint : results.constraints) {
+    for (const std::string& name : constraint.names()) columns.add(name);
+  }
+  for (const std::string& metric : results.manifest.metrics) columns.add(metric);
+  if (columns.empty()) columns.add("summary.fps.mean");
+  return columns;
+}
+
+/// Points as lines of a terminal, at most so many in all.
+class PointLines {
+ public:
+  PointLines(const Results& results, std::size_t most)
+      : paths_(decisive(results)), columns_(asked_of(results).take()), left_(most) {
+    if (columns_.size() > most_figures) columns_.resize(most_figures);
+  }
+
+  /// Each point with a word or more on it, under this heading.
+  using Points = std::vector<std::pair<const ResultRow*, std::string>>;
+  std::string text(const Points& points, const std::string& heading) {
+    std::vector<std::string> names = paths_;
+    for (const Column& column : columns_) names.push_back(column.text);
+    std::vector<std::string> head = short_names(names);
+    head.push_back(heading);
+    TextTable table(head);
+    const std::size_t shown = std::min(left_, points.size());
+    for (std::size_t i = 0; i < shown; ++i) table.add(line(*points[i].first, points[i].second));
+    left_ -= shown;
+    std::string text = shown == 0 ? "" : table.text();
+    if (points.size() > shown)
+      text += "… and " + report::counted(points.size() - shown, "point") + " more: see sweep.csv\n";
+    return text;
+  }
+
+ private:
+  std::vector<std::string> line(const ResultRow& row, const std::string& last) const {
+    std::vector<std::string> fields;
+    for (const std::string& path : paths_) fields.push_back(row.value(path));
+    for (const Column& column : columns_) {
+      const std::optional<double> found = figure_in(row, column.expression);
+      fields.push_back(found ? readable(*found) : "-");
+    }
+    fields.push_back(last);
+    return fields;
+  }
+
+  std::vector<std::string> paths_;
+  std::vector<Column> columns_;
+  std::size_t left_;
+};
+
+/// The points that ran: the best first, then those that are not feasible.
+std::string ranked_text(const Results& results, const std::vector<Objective>& objectives,
+                        PointLines& lines) {
+  const Pareto pareto = rank(results, objectives);
+  PointLines::Points good, bad;
+  for (const std::size_t i : best_first(pareto, objectives)) {
+    const RankedPoint& point = pareto.points[i];
+    if (point.feasible == report::Holds::yes) {
+      good.emplace_back(point.row, pareto.knee == i ? "knee" : point.front == 1 ? "front" : "");
+    } else {
+      bad.emplace_back(point.row, vp::join(results.reasons(*point.row), "; "));
+    }
+  }
+  std::string text = lines.text(good, "");
+  if (good.empty()) text = why_no_point(results) + "\n";
+  if (!bad.empty()) text += "\nNot feasible:\n\n" + lines.text(bad, "why");
+  return text;
+}
+
+/// The points that failed, by reason.
+std::string failures_text(const Results& results, PointLines& lines) {
+  std::map<std::string, PointLines::Points> reasons;
+  for (const ResultRow& row : results.rows) {
+    if (row.failed) reasons[row.failure.message].emplace_back(&row, "");
+  }
+  std::string text;
+  std::size_t printed = 0;
+  for (const auto& [reason, points] : reasons) {
+    if (printed++ == most_reasons) return text + "\nand other reasons: see sweep.csv\n";
+    text += "\n" + report::counted(points.size(), "point") + " failed: " + reason + "\n\n" +
+            lines.text(points, "");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string sweep_text(const Results& results, std::size_t most_rows) {
+  const Manifest& manifest = results.manifest;
+  std::string text = (manifest.title.empty() ? manifest.name : manifest.title) + "\n";
+  if (results.rows.empty()) return text;
+  PointLines lines(results, most_rows);
+  if (results.failed() != results.rows.size())
+    text += "\n" + ranked_text(results, objectives_of(results), lines);
+  text += failures_text(results, lines);
+  text += "\n" + verdicts_text(results) + "\n";
+  if (!manifest.text.empty() && results.missing == 0) {
+    text += "\n" + manifest.text;
+    if (text.back() != '\n') text += "\n";
+  }
+  return text;
+}
+
+namespace {
+
+Json objectives_json(const std::vector<Objective>& objectives) {
+  Json json = Json::array();
+  for (const Objective& objective : objectives) {
+    const std::string& metric = objective.figure().text();
+    json.push_back({{"metric", metric},
+                    {"unit", unit_of_metric(metric)},
+                    {"better", objective.maximise() ? 1 : -1}});
+  }
+  return json;
+}
+
+Json effects_json(const Manifest& manifest) {
+  Json json = Json::array();
+  for (const KeyedEffect& effect : manifest.effects)
+    json.push_back({effect.from, effect.to, effect.path, effect.delta});
+  return json;
+}
+
+Json point_json(const Results& results, const ResultRow& row, const std::vector<Column>& columns) {
+  Json json{{"key", row.key}, {"swept", Json::array()}, {"metrics", Json::array()}};
+  for (const std::string& path : results.manifest.swept) json["swept"].push_back(row.value(path));
+  for (const Column& column : columns) {
+    const std::optional<double> value = figure_in(row, column.expression);
+    json["metrics"].push_back(value ? Json(*value) : Json());
+  }
+  json["failed"] = row.failed;
+  json["reasons"] = results.reasons(row);
+  return json;
+}
+
+/// The front of each point that has one.
+std::map<const ResultRow*, std::size_t> fronts_of(const Results& results,
+                                                  const std::vector<Objective>& objectives) {
+  std::map<const ResultRow*, std::size_t> found;
+  for (const RankedPoint& point : rank(results, objectives).points) found[point.row] = point.front;
+  return found;
+}
+
+}  // namespace
+
+std::string page_block(const Results& results, const std::string& folder) {
+  const Manifest& manifest = results.manifest;
+  const std::vector<Objective> objectives = objectives_of(results);
+  Columns asked = asked_of(results);
+  for (const char* name : usual_figures) asked.add(name);
+  const std::vector<Column> columns = asked.take();
+  Json json{{"name", manifest.name},
+            {"title", manifest.title},
+            {"text", results.missing == 0 ? manifest.text : ""},
+            {"folder", folder},
+            {"swept", manifest.swept},
+            {"effects", effects_json(manifest)},
+            {"missing", results.missing},
+            {"objectives", objectives_json(objectives)},
+            {"constraints", Json::array()},
+            {"metrics", Json::array()}};
+  for (const vp::Expression& constraint : results.constraints)
+    json["constraints"].push_back(constraint.text());
+  for (const Column& column : columns)
+    json["metrics"].push_back({{"path", column.text}, {"unit", unit_of_metric(column.text)}});
+  const std::map<const ResultRow*, std::size_t> fronts = fronts_of(results, objectives);
+  std::string points;
+  for (const ResultRow& row : results.rows) {
+    Json point = point_json(results, row, columns);
+    const auto ranked = fronts.find(&row);
+    point["front"] = ranked == fronts.end() ? 0 : ranked->second;
+    points += (points.empty() ? "" : ",") + json_text(point);
+  }
+  std::string text = json_text(json);
+  text.back() = ',';
+  return text + "\"points\":[" + points + "]}";
+}
+
+bool write_page(const Results& results, const std::string& folder) {
+  return page::write_page((std::filesystem::path(folder) / page::report_name).string(),
+                          {{"sweep", page_block(results, folder)}});
+}
+
+}  // namespace platform::sweep

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include <sweep/results.h>
+
+namespace platform::sweep {
+
+/// What a sweep found, for a terminal: the best points first, then those that are not feasible and
+/// those that failed, with why, at most `most_rows` in all; and the sweep's own text, which speaks
+/// of all its points and is left out where some are missing.
+std::string sweep_text(const Results& results, std::size_t most_rows = 40);
+
+/// The block "sweep" of the page: what sweep_text() says, for all points, and more figures:
+///
+///   {"name", "title", "text", "folder", "swept": [path…], "effects": […], "missing",
+///    "objectives": [{"metric", "unit", "better": 1 or -1}], "constraints": [text…],
+///    "metrics": [{"path", "unit"}],
+///    "points": [{"key", "swept": [value…], "metrics": [number or null…], "failed",
+///                "reasons": [text…], "front": 0 for none}]}
+///
+/// "metrics" of a point that failed are those until then.
+std::string page_block(const Results& results, const std::string& folder);
+
+/// Writes report.html of a sweep into its folder. False if the program was built without the page.
+bool write_page(const Results& results, const std::string& folder);
+
+}  // namespace platform::sweep
