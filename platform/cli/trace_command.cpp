@@ -4,6 +4,7 @@
 #include <cli/program.h>
 #include <cli/trace_window.h>
 #include <designs/designs.h>
+#include <host/output_folder.h>
 #include <trace/checks.h>
 #include <trace/cut.h>
 #include <trace/difference.h>
@@ -233,8 +234,9 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
 
 int gtkw(const TraceCommandOptions& options, std::ostream& out) {
   TraceFile file(options.file, name_map(options));
-  for (const std::string& name :
-       trace::write_save_files(file, words_of(options), options.output.value_or("."))) {
+  const std::string folder = options.output.value_or(".");
+  host::prepare_output_folder(folder);
+  for (const std::string& name : trace::write_save_files(file, words_of(options), folder)) {
     out << "wrote " << name << "\n";
   }
   return done;

@@ -228,7 +228,11 @@ std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& wor
   };
 
   const auto with_names = [&](std::vector<SaveFile::Line> lines) {
-    for (SaveFile::Line& line : lines) line.translate = translation.file_for(line.path);
+    for (SaveFile::Line& line : lines) {
+      const std::string name = translation.file_for(line.path);
+      // GTKWave looks from where it is started.
+      if (!name.empty()) line.translate = (root / name).lexically_normal().string();
+    }
     return lines;
   };
   SaveFile page;

@@ -67,7 +67,8 @@ std::string save_file_text(const SaveFile& save);
 
 /// Save files for what is in the trace: `system.gtkw`, one `<ip>.gtkw` for each IP with its
 /// signals, and the translate files they use (`*.flt`: functions, interrupts, directions,
-/// features). Reads the trace. Returns the names of the files written. Throws vp::InputError.
+/// features). `folder` exists; the pages name the translate files by it. Reads the trace. Returns
+/// the names of the files written. Throws vp::InputError.
 std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& words,
                                           const std::string& folder);
 

@@ -1,11 +1,16 @@
 // What a trace says is what the simulation counted.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include "executable.h"
 
@@ -174,6 +179,81 @@ bool has_display() {
   return std::filesystem::exists("/usr/bin/xvfb-run");
 }
 
+/// The signals of a VCD file that change after the first instant.
+std::set<std::string> moving(const std::string& file) {
+  std::istringstream lines(kit::read_file(file));
+  std::map<std::string, std::string> paths;  // by code
+  std::map<std::string, int> changes;
+  std::vector<std::string> scopes;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, kind, width, code, name;
+    words >> first;
+    if (first == "$scope") {
+      words >> kind >> name;
+      scopes.push_back(name);
+    } else if (first == "$upscope") {
+      scopes.pop_back();
+    } else if (first == "$var") {
+      words >> kind >> width >> code >> name;
+      for (auto scope = scopes.rbegin(); scope != scopes.rend(); ++scope)
+        name = *scope + "." + name;
+      paths[code] = name;
+    } else if (!first.empty() && first[0] != '#' && first[0] != '$') {
+      const bool vector = (words >> code) && true;
+      ++changes[vector ? code : first.substr(1)];
+    }
+  }
+  std::set<std::string> moved;
+  for (const auto& [code, path] : paths) {
+    if (changes[code] > 1) moved.insert(path);
+  }
+  return moved;
+}
+
+BOOST_AUTO_TEST_CASE(a_run_says_which_fidelity_a_trace_chose_and_what_tlm_does_not_play) {
+  const auto said = [&](const std::string& file, integration::Arguments more) {
+    more.insert(more.begin(), {"demo", "-q", "--no-pictures", "--no-report", "--trace", file});
+    const kit::Outcome outcome = run(more);
+    BOOST_TEST(outcome.exit_code == 0, outcome.err);
+    return outcome.out;
+  };
+  const std::string chose = "--trace chose fidelity clocked";
+  BOOST_TEST(said("c.vcd", {}).find(chose) != std::string::npos);
+  const std::string asked = said("a.vcd", {"--fidelity", "clocked", "--trace-window", "0us:1us"});
+  BOOST_TEST(asked.find("fidelity clocked") == std::string::npos, asked);
+  const std::string tlm = said("t.vcd", {"--fidelity", "tlm"});
+  BOOST_TEST(
+      tlm.find("fidelity tlm does not play pl.sensor_input.pixel, .pixel_x, .pixel_y, "
+               "pl.image_stream.*, pl.global_threshold.thresh_*, .binary_*, "
+               "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, "
+               ".fifo_count, pl.binary_stream.*: --fidelity clocked does") != std::string::npos,
+      tlm);
+  const std::set<std::string> clocked = moving(*this / "c.vcd"), frames = moving(*this / "t.vcd");
+  std::set<std::string> still;
+  std::set_difference(clocked.begin(), clocked.end(), frames.begin(), frames.end(),
+                      std::inserter(still, still.end()));
+  const std::set<std::string> expected{"pl.axi_threshold_bridge.fifo_count",
+                                       "pl.axi_threshold_bridge.thresh_seen",
+                                       "pl.binary_stream.tdata",
+                                       "pl.binary_stream.tlast",
+                                       "pl.binary_stream.tvalid",
+                                       "pl.clock_crossing.binary.toggle",
+                                       "pl.clock_crossing.binary.word",
+                                       "pl.global_threshold.binary_out",
+                                       "pl.global_threshold.binary_x",
+                                       "pl.global_threshold.binary_y",
+                                       "pl.global_threshold.thresh_data",
+                                       "pl.global_threshold.thresh_out",
+                                       "pl.image_stream.tdata",
+                                       "pl.image_stream.tlast",
+                                       "pl.image_stream.tvalid",
+                                       "pl.sensor_input.pixel",
+                                       "pl.sensor_input.pixel_x",
+                                       "pl.sensor_input.pixel_y"};
+  BOOST_TEST(still == expected, boost::test_tools::per_element());
+}
+
 // What GTKWave itself says of the pages as they open.
 BOOST_AUTO_TEST_CASE(gtkwave_opens_where_there_is_something_to_see,
                      *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
@@ -232,17 +312,17 @@ BOOST_AUTO_TEST_CASE(gtkwave_shows_our_page_with_names_in_place_of_numbers,
                        return has_display();
                      })) {
   record({"z1.0", "--trace-window", "7995us:8005us"});
-  BOOST_TEST(ask({"gtkw", "t.vcd"}).exit_code == 0);
+  BOOST_TEST(ask({"gtkw", "t.vcd", "-o", "out/pages"}).exit_code == 0);
   const auto grab = [&](const std::string& name) {
     kit::write_file(*this / "p.tcl", "gtkwave::/Time/Zoom/Zoom_Full\ngtkwave::/File/Grab_To_File " +
                                          name +
                                          "\nset f [open shown w]\n"
                                          "puts $f [gtkwave::getDisplayedSignals]\nclose $f\n"
                                          "gtkwave::/File/Quit\n");
-    kit::run_process(
-        "/usr/bin/xvfb-run",
-        {"-a", "-s", "-screen 0 1400x900x24", "gtkwave", "-S", "p.tcl", "t.vcd", "system.gtkw"},
-        path());
+    kit::run_process("/usr/bin/xvfb-run",
+                     {"-a", "-s", "-screen 0 1400x900x24", "gtkwave", "-S", "p.tcl", "t.vcd",
+                      "out/pages/system.gtkw"},
+                     path());
     return *this / name;
   };
   const std::string picture = grab("p.png");
@@ -255,7 +335,7 @@ BOOST_AUTO_TEST_CASE(gtkwave_shows_our_page_with_names_in_place_of_numbers,
   BOOST_TEST(pixels_of(picture, dark_green) > 300u, "the handler's function");
   BOOST_TEST(pixels_of(picture, dark_red) > 300u, "the interrupt");
   for (const char* file : {"function.flt", "feature.flt", "interrupt.flt"}) {
-    std::filesystem::remove(*this / file);
+    std::filesystem::remove(*this / ("out/pages/" + std::string(file)));
   }
   const std::string without = grab("w.png");
   BOOST_TEST(pixels_of(without, wave_green) > 20'000u);
