@@ -13,6 +13,7 @@
 #include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
+#include <vp/text.h>
 
 namespace platform::cli {
 
@@ -41,8 +42,9 @@ std::vector<sweep::Objective> objectives_of(const std::vector<std::string>& aske
   if (asked.empty()) objectives = sweep::objectives_of(results);
   if (objectives.empty() && results.failed() != results.rows.size())
     throw vp::InputError(
-        "no point has a value of the study's objectives: give --objective 'max summary.fps.mean' "
-        "or another; sweep.csv shows what there is");
+        "no point has a value of the study's objectives (" +
+        vp::join(results.manifest.objectives, ", ") +
+        "): give --objective 'max summary.fps.mean' or another; sweep.csv shows what there is");
   return objectives;
 }
 

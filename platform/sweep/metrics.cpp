@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include <sweep/metric_catalogue.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <vp/text.h>
@@ -234,7 +235,9 @@ std::vector<std::string> missing_figures(const Manifest& manifest, const Metrics
   std::vector<std::string> complaints;
   for (const std::string& name : asked) {
     if (std::binary_search(known.begin(), known.end(), name)) continue;
-    const std::string nearest = vp::nearest_match(name, known);
+    const MetricKind* kind = kind_of_metric(name);
+    const bool well_spelt = kind && std::string_view(kind->pattern).find('*') == std::string::npos;
+    const std::string nearest = well_spelt ? "" : vp::nearest_match(name, known);
     complaints.push_back("no result has the metric '" + name + "'" +
                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
   }

@@ -188,6 +188,21 @@ BOOST_FIXTURE_TEST_CASE(a_rate_and_constraints_on_metrics_judge_the_results, Swe
              none.err);
 }
 
+BOOST_FIXTURE_TEST_CASE(an_objective_that_no_point_has_is_named, Sweeps) {
+  write("s.yaml",
+        "inputs: z4.0\nset: {pl.height: 224 px}\nparameters: {pl.width: [320 px]}\n"
+        "objectives: [min frames.error.translation_mm.mean]\n");
+  const kit::Outcome sweep = run({"sweep", "s.yaml", "--no-report"});
+  BOOST_TEST(contains(sweep.err, "no result has the metric 'frames.error.translation_mm.mean'\n"),
+             sweep.err);
+  const kit::Outcome pareto = run({"pareto", "out/s"});
+  BOOST_TEST(pareto.exit_code == 2);
+  BOOST_TEST(contains(pareto.err,
+                      "no point has a value of the study's objectives (min "
+                      "frames.error.translation_mm.mean): give --objective"),
+             pareto.err);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_dry_run_tells_which_points_cannot_be_built, Sweeps) {
   write("s.yaml", "parameters: {pl.width: [640 px, 644 px], pl.height: [480 px, 482 px]}\n");
   const kit::Outcome dry = run({"sweep", "s.yaml", "--dry-run"});
