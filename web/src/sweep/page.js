@@ -51,7 +51,7 @@ function verdict(sweep) {
 function points(sweep, wanted, caption, name, open) {
   const rows = sweep.points.filter(wanted);
   const key = { title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) };
-  return rows.length > 0 && dataTable({ columns: [key, ...columnsOf(sweep, rows)], rows, caption, name, exportable: true, limit: 20 });
+  return rows.length > 0 && h("div", {}, h("h3", {}, caption), dataTable({ columns: [key, ...columnsOf(sweep, rows)], rows, caption, name, exportable: true, limit: 20 }));
 }
 
 export function sweepPage(data) {
