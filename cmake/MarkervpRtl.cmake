@@ -48,7 +48,7 @@ function(markervp_add_rtl NAME)
   target_include_directories(${NAME} PRIVATE "${markervp_rtl_include}")
   verilate(${NAME} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
     VERILATOR_ARGS -O3 --x-assign fast --x-initial fast --noassert ${parameters})
-  target_compile_options(${NAME} PRIVATE -O3 -w)
+  target_compile_options(${NAME} PRIVATE $<IF:$<CONFIG:Debug>,-O0,-O3> -w)
   set_target_properties(${NAME} PROPERTIES
     PREFIX "" SUFFIX .so CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()

@@ -30,6 +30,11 @@ Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 w
 configuration or input, or something could not be written, 3 hardware or software broke a protocol
 rule.)";
 
+constexpr const char* rtl_check_help =
+    R"(  markervp rtl check corner_detection --rtl build demo z2.0 noise.png
+Both get the same inputs in the running system. The first output that differs ends it: port, clock
+and both values are told, and lockstep.vcd and lockstep.gtkw show the clocks around it.)";
+
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
 any the demo scene runs. Results: result.json and an annotated picture per frame.)";
@@ -185,6 +190,24 @@ void add_run(CLI::App& app, RunOptions& target) {
   command->footer(run_examples);
 }
 
+void add_rtl(CLI::App& app, RtlOptions& target) {
+  CLI::App* rtl = app.add_subcommand("rtl", "RTL and the models of its IP");
+  rtl->require_subcommand(1);
+  CLI::App* check = rtl->add_subcommand("check", "run RTL in lock-step with its model");
+  check->add_option("IP", target.ip, "in whose place it stands: corner_detection")
+      ->type_name("")
+      ->required();
+  check->add_option("--rtl", target.rtl, "what markervp_add_rtl() built, or the folder it lies in")
+      ->type_name("FILE")
+      ->required();
+  add_input_options(*check, target.run);
+  add_design_option(*check, target.run.configuration);
+  add_configuration_options(*check, target.run.configuration);
+  check->add_option("-o,--output", target.run.output, "folder for the results (default: out)")
+      ->type_name("DIR");
+  check->footer(rtl_check_help);
+}
+
 void add_scenes(CLI::App& app, ScenesOptions& target) {
   CLI::App* command = app.add_subcommand("scenes", "list the scenes that can be rendered");
   command->add_option("GROUP", target.group, "only this group, in detail")->type_name("");
@@ -320,6 +343,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_devices(*app, target.devices);
   add_clocks(*app, target.clocks);
   add_power(*app, target.power);
+  add_rtl(*app, target.rtl);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
   add_completion(*app, target.completion);

@@ -36,6 +36,7 @@ struct RunOptions : PlatformOptions {
   std::string trace_level = "ports";
   bool trace_clocks = false;
   std::optional<std::string> trace_trigger;
+  bool trace_trigger_expected = true;  ///< it is told if it never comes true
   std::optional<std::string> trace_frame;
   unsigned trace_before = 0;
   std::size_t trace_buffer = 256;  ///< MiB
@@ -52,6 +53,13 @@ struct RunOptions : PlatformOptions {
   bool quiet = false;
   /// Counts frames that are done, in memory that another process may watch; null: nobody does.
   std::atomic<std::uint64_t>* frames_done = nullptr;
+};
+
+/// `markervp rtl`.
+struct RtlOptions {
+  std::string ip;
+  std::string rtl;  ///< check: shared object, or a folder with <ip>.so in it or in its `build`
+  RunOptions run;
 };
 
 /// `markervp scenes`.
@@ -194,6 +202,7 @@ struct CompareOptions {
 /// Everything the user typed.
 struct CommandLine {
   RunOptions run;
+  RtlOptions rtl;
   ScenesOptions scenes;
   DesignsOptions designs;
   ConfigOptions config;

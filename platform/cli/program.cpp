@@ -29,6 +29,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "power")
     return line.power.design.empty() ? print_power_table(line.power, out)
                                      : print_power_estimate(line.power, out);
+  if (command == "rtl") return ask_rtl(line.rtl, arguments, make_simulation, out, err);
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);
   if (command == "sweep-worker") return sweep_worker(line.sweep_worker, make_simulation);

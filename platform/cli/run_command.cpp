@@ -44,6 +44,7 @@ vp::FrameTrigger trace_trigger(const RunOptions& options) {
   trigger.condition = vp::Expression(*options.trace_trigger, "--trace-trigger");
   trigger.frames_before = options.trace_before;
   trigger.buffer = options.trace_buffer << 20;
+  trigger.expected = options.trace_trigger_expected;
   if (options.trace_frame) trigger.frame = *options.trace_frame;
   return trigger;
 }

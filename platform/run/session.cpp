@@ -102,6 +102,8 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   try {
     sc_core::sc_start();
     zynq_->ps.cpu.check();
+  } catch (const sc_core::sc_report& report) {  // of a model: vp::error()
+    error = std::make_exception_ptr(vp::ProtocolError(report.get_msg()));
   } catch (...) {
     error = std::current_exception();
   }

@@ -103,7 +103,7 @@ bool Tracer::close() {
 
 void Tracer::warn_of_gate() const {
   const std::string file = "'" + options_.file.string() + "'";
-  if (gate_->kept() == 0) {
+  if (gate_->kept() == 0 && options_.trigger->expected) {
     warn(*this, "/markervp/trace/trigger",
          "no trace " + file + ": in no frame '" + options_.trigger->condition.text() +
              "' came true");

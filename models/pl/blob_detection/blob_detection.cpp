@@ -9,7 +9,7 @@ Models<BlobDetection>& BlobDetection::models() {
       "blob_detection",
       {model<BlobDetection, BlobDetectionClocked>("clocked", by_pixel, no_image),
        model<BlobDetection, BlobDetectionTlm>("tlm", by_frame, no_image)},
-      rtl_model<BlobDetection>()};
+      rtl_model<BlobDetection, BlobDetectionClocked>()};
   return models;
 }
 
@@ -20,8 +20,8 @@ void BlobDetection::connect(RtlPins& pins) {
   pins.input(x, 10);
   pins.input(y, 9);
   pins.output(blob_out);
-  pins.output(blob_start);
-  pins.output(blob_end);
+  pins.output(blob_start, &blob_out);
+  pins.output(blob_end, &blob_out);
   pins.output(idle);
   pins.report(label_overflow);
   pins.parameter("WIDTH", "pl.width", geometry_.width);

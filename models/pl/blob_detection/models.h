@@ -11,7 +11,7 @@
 namespace pl {
 
 /// Blob Detection clock by clock.
-class BlobDetectionClocked final : public BlobDetection {
+class BlobDetectionClocked : public BlobDetection {
  public:
   BlobDetectionClocked(sc_core::sc_module_name name, const Site& site)
       : BlobDetection(name, site), core_(geometry_, label_count) {}

@@ -25,11 +25,15 @@ std::string words(Passage image) {
 
 }  // namespace
 
-bool is_rtl_file(const std::string& name) {
+std::optional<RtlFile> RtlFile::parse(const std::string& text) {
+  const std::string beside = "lockstep:";
+  const bool lockstep = text.compare(0, beside.size(), beside) == 0;
+  const std::string path = lockstep ? text.substr(beside.size()) : text;
   const std::string ending = ".so";
-  return name.find('/') != std::string::npos ||
-         (name.size() > ending.size() &&
-          name.compare(name.size() - ending.size(), ending.size(), ending) == 0);
+  const bool ends_so = path.size() > ending.size() &&
+                       path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  if (!ends_so && path.find('/') == std::string::npos) return std::nullopt;
+  return RtlFile{path, lockstep};
 }
 
 ModelName::ModelName(const std::string& ip, std::string otherwise,
@@ -38,13 +42,13 @@ ModelName::ModelName(const std::string& ip, std::string otherwise,
                     "how this IP is modelled: clock by clock, whole frames, or RTL"),
       value_(otherwise) {
   const vp::Setting* given = setting();
-  if (given && takes_rtl && is_rtl_file(given->text)) {
+  if (given && takes_rtl && RtlFile::parse(given->text)) {
     value_ = given->text;
   } else if (given) {
     value_ = names[choice(*given, names)];
   }
   publish(value_, std::move(otherwise),
-          vp::one_of(names) + (takes_rtl ? ", or the file of RTL, .so" : ""));
+          vp::one_of(names) + (takes_rtl ? ", or RTL: file .so, or lockstep:file .so" : ""));
   follows("fidelity");
 }
 

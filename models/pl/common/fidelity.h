@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -58,14 +59,24 @@ Model<Ip> model(std::string name, Passage takes, Passage gives) {
           }};
 }
 
+/// A shared object with RTL, as `fidelity.<ip>` names it: "corner.so" in place of the IP,
+/// "lockstep:corner.so" beside its clocked model, which it must equal.
+struct RtlFile {
+  std::string path;
+  bool lockstep = false;
+
+  /// None if `text` names no file: it has no folder in it, and does not end in .so.
+  static std::optional<RtlFile> parse(const std::string& text);
+};
+
 /// All models of an IP, "clocked" first. The IP's folder lists its own; a design from outside may
 /// add others before the logic is built.
 template <class Ip>
 class Models {
  public:
   /// Makes the IP of RTL in a shared object (rtl_model.h).
-  using MakeRtl = std::function<std::unique_ptr<Ip>(const char* name, const Site& site,
-                                                    const std::string& file)>;
+  using MakeRtl =
+      std::function<std::unique_ptr<Ip>(const char* name, const Site& site, const RtlFile& rtl)>;
 
   /// `ip`: the name of the instance, and of its key in `fidelity`. `rtl`: empty for an IP in whose
   /// place no RTL can stand.
@@ -90,10 +101,7 @@ class Models {
   std::vector<Model<Ip>> models_;
 };
 
-/// A shared object with RTL: a name with a folder in it, or the ending .so.
-bool is_rtl_file(const std::string& name);
-
-/// `fidelity.<ip>`: the name of a model, or the file of RTL.
+/// `fidelity.<ip>`: the name of a model, or RtlFile.
 class ModelName : public vp::ParameterBase {
  public:
   ModelName(const std::string& ip, std::string otherwise, const std::vector<std::string>& names,
@@ -117,7 +125,6 @@ class ChoiceBase {
   ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,
              Fidelity otherwise, const Feeds& feeds);
   std::size_t chosen() const { return chosen_; }
-  /// The file of RTL, or the name of the model.
   const std::string& text() const { return parameter_.get(); }
 
  private:
@@ -146,9 +153,8 @@ class Choice : public ChoiceBase {
     if (chosen() < models.list().size()) {
       make_ = models.list()[chosen()].make;
     } else {
-      make_ = [make = models.make_rtl, file = text()](const char* name, const Site& site) {
-        return make(name, site, file);
-      };
+      make_ = [make = models.make_rtl, rtl = *RtlFile::parse(text())](
+                  const char* name, const Site& site) { return make(name, site, rtl); };
     }
   }
 

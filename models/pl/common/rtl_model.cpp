@@ -5,6 +5,9 @@
 #include <filesystem>
 
 #include <vp/error.h>
+#include <vp/report.h>
+#include <vp/text.h>
+#include <vp/unit.h>
 
 namespace pl {
 
@@ -26,6 +29,17 @@ const RtlDescriptor& open(const std::string& file) {
                          std::to_string(RTL_INTERFACE) + ": " + rebuild);
   }
   return rtl;
+}
+
+/// Behind the first difference, for a trace.
+constexpr std::uint64_t clocks_shown = 8;
+
+std::uint64_t mask(unsigned bits) {
+  return bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+}
+
+std::string number(std::uint64_t value, unsigned bits) {
+  return bits <= 4 ? std::to_string(value) : vp::hex(value);
 }
 
 std::string direction(bool output) {
@@ -70,6 +84,44 @@ void RtlPins::complete() const {
                                       "': remove it from module '" + rtl_.top + "'");
     }
   }
+}
+
+RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins)
+    : Clocked(name, clk), pins_(pins), edges_left_(clocks_shown) {
+  for (const vp::InBase* input : pins_.inputs()) taps_.emplace_back(nullptr, input, *this);
+  for (const RtlPins::Output& output : pins_.outputs()) {
+    taps_.emplace_back(&output.port, nullptr, *this);
+    outputs_.emplace_back(output.port.basename(), output.bits);
+  }
+}
+
+void RtlShadow::edge() {
+  if (difference_.empty()) {
+    difference_ = difference();
+    differs = !difference_.empty();
+  } else if (--edges_left_ == 0) {
+    vp::error(*this, "/markervp/rtl/lockstep", difference_);
+  }
+  pins_.clock_edge();
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.outputs()[i].value();
+}
+
+std::string RtlShadow::difference() const {
+  if (this_edge() < 2) return "";  // nothing was clocked yet
+  std::string text;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const RtlPins::Output& output = pins_.outputs()[i];
+    const std::uint64_t model = output.port.bits() & mask(output.bits);
+    const std::uint64_t rtl = outputs_[i].get();
+    if (model == rtl || (output.valid && !*output.valid)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(output.port.basename()) + " is " +
+            number(model, output.bits) + ", and " + number(rtl, output.bits) + " in the RTL";
+  }
+  if (text.empty()) return "";
+  const std::uint64_t edge = this_edge() - 1;
+  return "RTL '" + pins_.file() + "' differs from the model behind edge " + std::to_string(edge) +
+         " of " + clock().basename() + ", at " + vp::format_time(clock().time_of(edge)) + ": " +
+         text;
 }
 
 std::string RtlPins::last_name(const std::string& path) {

@@ -9,7 +9,7 @@ Models<CornerDetection>& CornerDetection::models() {
       "corner_detection",
       {model<CornerDetection, CornerDetectionClocked>("clocked", by_pixel, no_image),
        model<CornerDetection, CornerDetectionTlm>("tlm", by_frame, no_image)},
-      rtl_model<CornerDetection>()};
+      rtl_model<CornerDetection, CornerDetectionClocked>()};
   return models;
 }
 
@@ -20,7 +20,7 @@ void CornerDetection::connect(RtlPins& pins) {
   pins.input(x, 10);
   pins.input(y, 9);
   pins.output(corner_out);
-  pins.output(corner_data);
+  pins.output(corner_data, &corner_out);
   pins.parameter("WIDTH", "pl.width", geometry_.width);
   pins.parameter("THRESHOLD", threshold.name(), threshold);
 }

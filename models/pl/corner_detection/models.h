@@ -12,7 +12,7 @@
 namespace pl {
 
 /// Corner Detection clock by clock.
-class CornerDetectionClocked final : public CornerDetection {
+class CornerDetectionClocked : public CornerDetection {
  public:
   CornerDetectionClocked(sc_core::sc_module_name name, const Site& site);
 

@@ -9,7 +9,7 @@ Models<GlobalThreshold>& GlobalThreshold::models() {
       "global_threshold",
       {model<GlobalThreshold, GlobalThresholdClocked>("clocked", by_pixel, by_pixel),
        model<GlobalThreshold, GlobalThresholdTlm>("tlm", by_frame, by_frame)},
-      rtl_model<GlobalThreshold>()};
+      rtl_model<GlobalThreshold, GlobalThresholdClocked>()};
   return models;
 }
 
@@ -23,11 +23,11 @@ void GlobalThreshold::connect(RtlPins& pins) {
   pins.input(x, 10);
   pins.input(y, 9);
   pins.output(binary_ena);
-  pins.output(binary_out);
-  pins.output(binary_x);
-  pins.output(binary_y);
+  pins.output(binary_out, &binary_ena);
+  pins.output(binary_x, &binary_ena);
+  pins.output(binary_y, &binary_ena);
   pins.output(thresh_out);
-  pins.output(thresh_data);
+  pins.output(thresh_data, &thresh_out);
   pins.report(active_threshold);
   pins.parameter("WIDTH", "pl.width", geometry_.width);
   pins.parameter("HEIGHT", "pl.height", geometry_.height);

@@ -10,7 +10,7 @@
 namespace pl {
 
 /// Global Threshold clock by clock.
-class GlobalThresholdClocked final : public GlobalThreshold {
+class GlobalThresholdClocked : public GlobalThreshold {
  public:
   GlobalThresholdClocked(sc_core::sc_module_name name, const Site& site)
       : GlobalThreshold(name, site) {}

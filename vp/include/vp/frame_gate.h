@@ -19,6 +19,7 @@ struct FrameTrigger {
   unsigned frames_before = 0;          ///< frames kept before such a frame
   /// Bytes of changes held until a frame is judged; about 4 a change. The oldest are given up.
   std::size_t buffer = std::size_t{256} << 20;
+  bool expected = true;  ///< it is told if it never comes true
 };
 
 /// A writer before another one that passes on the frames in which something happens. In between

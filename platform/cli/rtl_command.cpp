@@ -1,0 +1,132 @@
+// `markervp rtl`: RTL and its models.
+#include <cli/commands.h>
+#include <host/document.h>
+#include <report/console.h>
+#include <trace/replay.h>
+#include <trace/save_file.h>
+#include <trace/trace_file.h>
+#include <vp/error.h>
+#include <vp/output_file.h>
+#include <vp/text.h>
+
+#include <filesystem>
+#include <ostream>
+#include <sstream>
+
+namespace platform::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The shared object that `rtl` names, or that lies in this folder or its `build`.
+std::string object_of(const std::string& rtl, const std::string& ip) {
+  std::error_code ignored;
+  if (!fs::is_directory(rtl, ignored)) return fs::absolute(rtl).string();
+  for (const char* place : {"", "build"}) {
+    const fs::path file = fs::path(rtl) / place / (ip + ".so");
+    if (fs::exists(file, ignored)) return fs::absolute(file).string();
+  }
+  throw vp::InputError("--rtl '" + rtl + "': there is no " + ip + ".so in it, nor in its build: " +
+                       "build it with markervp_add_rtl(" + ip + " IP " + ip + " TOP …)");
+}
+
+/// Finds when a signal is first high.
+class FirstHigh final : public trace::Replay::Listener {
+ public:
+  FirstHigh(trace::TraceFile& file, const std::string& signal)
+      : replay_(file), slot_(replay_.watch(signal)) {
+    replay_.run(*this);
+  }
+  /// 0: never.
+  std::uint64_t ps() const { return ps_; }
+
+ private:
+  bool instant(std::uint64_t ps) override {
+    if (!replay_.known(slot_) || replay_.bits(slot_) == 0) return true;
+    ps_ = ps;
+    return false;
+  }
+
+  trace::Replay replay_;
+  trace::Replay::Slot slot_;
+  std::uint64_t ps_ = 0;
+};
+
+/// A page for GTKWave with all signals of `ip` and its RTL, around the clock of the difference.
+void write_page(const std::string& trace_file, const std::string& ip,
+                const std::string& page_file) {
+  std::uint64_t seen_ps = 0;
+  {
+    trace::TraceFile file(trace_file);
+    seen_ps = FirstHigh(file, "pl." + ip + ".rtl.differs").ps();
+  }
+  trace::TraceFile file(trace_file);
+  std::vector<std::string> model, rtl;
+  for (const std::string& path : file.paths()) {
+    if (path.find(".rtl.") != std::string::npos) {
+      rtl.push_back(path);
+    } else if (path.find("pl." + ip + ".") == 0) {
+      model.push_back(path);
+    }
+  }
+  constexpr std::uint64_t around_ps = 1'000'000;  // 50 pixel clocks of the thesis
+  trace::SaveFile page;
+  page.comment = ip + ": the model, and the RTL beside it";
+  page.lines = trace::save_lines(file, model);
+  const auto beside = trace::save_lines(file, rtl);
+  page.lines.insert(page.lines.end(), beside.begin(), beside.end());
+  page.marker_ps = seen_ps;
+  page.start_ps = seen_ps > around_ps ? seen_ps - around_ps : 0;
+  page.end_ps = seen_ps + around_ps / 4;
+  page.timescale_fs = file.reader().timescale_fs();
+  vp::write_file(page_file, trace::save_file_text(page));
+}
+
+std::uint64_t frames_of(const fs::path& folder) {
+  const std::string file = (folder / "result.json").string();
+  const auto result = host::parse_json(vp::read_text(file, "result"), "result '" + file + "'");
+  return result.at("summary").at("frames").get<std::uint64_t>();
+}
+
+int check(const RtlOptions& options, const std::vector<std::string>& arguments,
+          const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  const fs::path folder = options.run.output;
+  const std::string trace_file = (folder / "lockstep.vcd").string();
+  const std::string page_file = (folder / "lockstep.gtkw").string();
+  const std::string part = "pl." + options.ip;
+  RunOptions run_options = options.run;
+  run_options.configuration.assignments.push_back(
+      "pl.fidelity." + options.ip + "=lockstep:" + object_of(options.rtl, options.ip));
+  run_options.trace = trace_file;
+  run_options.trace_filter = {part + ".*", part + ".rtl.*"};
+  run_options.trace_level = "everything";
+  run_options.trace_trigger = part + ".rtl.differs rises";
+  run_options.no_pictures = run_options.no_report = run_options.quiet = true;
+  run_options.trace_trigger_expected = false;
+  std::ostringstream summary;  // of a run that nobody asked for
+  std::error_code ignored;
+  for (const std::string& earlier : {trace_file, page_file}) fs::remove(earlier, ignored);
+  try {
+    const int code = run(run_options, arguments, make_simulation, summary, err);
+    if (code != done) return code;
+  } catch (const vp::ProtocolError& error) {
+    if (!fs::exists(trace_file, ignored)) throw;
+    write_page(trace_file, options.ip, page_file);
+    err << "markervp: " << error.what() << "\n";
+    out << "look at it: gtkwave " << trace_file << " " << page_file << "\n";
+    return run_failed;
+  }
+  out << "equal: " << options.ip << " of '" << options.rtl << "' and its model, on every clock of "
+      << report::counted(frames_of(folder), "frame") << "\n";
+  return done;
+}
+
+}  // namespace
+
+int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
+            const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  return check(options, arguments, make_simulation, out, err);
+}
+
+}  // namespace platform::cli

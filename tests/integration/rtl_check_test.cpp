@@ -1,0 +1,91 @@
+// `markervp rtl check`: RTL in lock-step with its model in the running system.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+
+#include "executable.h"
+
+using namespace integration;
+
+namespace {
+
+/// The objects of tests/models/pl/rtl are for frames of 64 x 32 pixels.
+struct Check : Workplace {
+  Check() {
+    std::string noise = "P5\n64 32\n255\n";
+    std::uint32_t state = 1;
+    for (int i = 0; i < 64 * 32; ++i) {
+      state = state * 1'103'515'245u + 12'345u;
+      noise += static_cast<char>(state >> 24);
+    }
+    kit::write_file(*this / "noise.pgm", noise);
+  }
+
+  kit::Outcome check(const std::string& ip, const std::string& rtl,
+                     const Arguments& more = {}) const {
+    Arguments all{"rtl",   "check",          ip,      "--rtl",          rtl, "noise.pgm",
+                  "--set", "pl.width=64 px", "--set", "pl.height=32 px"};
+    all.insert(all.end(), more.begin(), more.end());
+    return kit::run_process(MARKERVP_EXECUTABLE, all, path());
+  }
+
+  bool has(const std::string& file) const { return std::filesystem::exists(*this / file); }
+};
+
+std::string object(const std::string& name) {
+  return MARKERVP_LOCKSTEP_OBJECTS "/" + name + ".so";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(rtl_check, Check)
+
+BOOST_AUTO_TEST_CASE(equal_rtl_leaves_a_result_and_no_trace) {
+  const kit::Outcome outcome = check("corner_detection", object("equal"));
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(!contains(outcome.err, "trace"), outcome.err);
+  BOOST_TEST(contains(outcome.out, "equal: corner_detection"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "every clock of 1 frame"), outcome.out);
+  BOOST_TEST(has("out/result.json"));
+  BOOST_TEST(!has("out/lockstep.vcd"));
+}
+
+BOOST_AUTO_TEST_CASE(a_difference_is_told_and_shown) {
+  const kit::Outcome outcome = check("corner_detection", object("late"));
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "pl.corner_detection.rtl: RTL"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "corner_out is 1, and 0 in the RTL"), outcome.err);
+  BOOST_TEST(contains(outcome.out, "gtkwave out/lockstep.vcd out/lockstep.gtkw"), outcome.out);
+  const std::string page = kit::read_file(*this / "out/lockstep.gtkw");
+  for (const char* signal : {"pl.corner_detection.corner_out", "pl.corner_detection.rtl.corner_out",
+                             "pl.corner_detection.rtl.corner_data"})
+    BOOST_TEST(contains(page, signal), signal);
+}
+
+// A trace of an earlier difference does not outlive a check that finds none.
+BOOST_AUTO_TEST_CASE(a_folder_shows_the_last_check) {
+  check("corner_detection", object("late"));
+  BOOST_TEST(check("corner_detection", object("equal")).exit_code == 0);
+  BOOST_TEST(!has("out/lockstep.vcd"));
+  BOOST_TEST(!has("out/lockstep.gtkw"));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused) {
+  const auto refused = [this](const kit::Outcome& outcome, const std::vector<std::string>& parts) {
+    BOOST_TEST(outcome.exit_code == 2);
+    for (const std::string& part : parts) BOOST_TEST(contains(outcome.err, part), outcome.err);
+    BOOST_TEST(!has("out/result.json"));
+  };
+  refused(check("corner_detection", "nothing.so"), {"nothing.so", "cannot be loaded"});
+  refused(check("corner_detection", "."), {"no corner_detection.so", "markervp_add_rtl"});
+  refused(check("blob_detection", object("equal")), {"built as corner_detection"});
+  refused(check("corner_detecton", object("equal")),
+          {"pl.fidelity.corner_detecton", "corner_detection"});
+  refused(check("sensor_input", object("equal")), {"pl.fidelity.sensor_input", "clocked or tlm"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()

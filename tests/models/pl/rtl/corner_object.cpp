@@ -1,0 +1,88 @@
+// A shared object with the interface of Verilated RTL that is none: its registers are those of the
+// model's core, for noise of 64 x 32 pixels. THRESHOLD, and DELAY in clocks, plant bugs.
+#include <pl/common/rtl_interface.h>
+#include <pl/corner_detection/core.h>
+
+#include <array>
+#include <cstring>
+
+namespace {
+
+struct Pins {
+  std::uint8_t clk, ena, rst, pixel, corner_out;
+  std::uint16_t x, y;
+  std::uint32_t corner_data;
+};
+
+class CornerObject {
+ public:
+  Pins pins{};
+
+  void eval() {
+    if (pins.clk && !clk_before_) edge();
+    clk_before_ = pins.clk;
+  }
+
+ private:
+  struct Output {
+    std::uint8_t valid = 0;
+    std::uint32_t word = 0;
+  };
+
+  void edge() {
+    std::memmove(&pipeline_[1], &pipeline_[0], (pipeline_.size() - 1) * sizeof pipeline_[0]);
+    pipeline_[0] = {};
+    pl::Corner corner;
+    if (pins.rst) {
+      core_.reset();
+      pipeline_ = {};
+    } else if (pins.ena && core_.push(pins.pixel, pins.x, pins.y, corner)) {
+      pipeline_[0] = {
+          1, geometry_.words().corner(corner.strength, corner.direction, corner.x, corner.y)};
+    }
+    pins.corner_out = pipeline_.back().valid;
+    pins.corner_data = pipeline_.back().word;  // nothing while corner_out is low: not the model's
+  }
+
+  pl::Geometry geometry_{64, 32};
+  pl::CornerCore core_{geometry_, THRESHOLD};
+  std::array<Output, pl::CornerCore::latency + 1 + DELAY> pipeline_{};
+  std::uint8_t clk_before_ = 0;
+};
+
+CornerObject& of(void* model) {
+  return *static_cast<CornerObject*>(model);
+}
+
+const RtlPort ports[] = {
+    {"clk", 1, 0, "corner.sv:1"},        {"ena", 1, 0, "corner.sv:2"},
+    {"rst", 1, 0, "corner.sv:3"},        {"pixel", 8, 0, "corner.sv:4"},
+    {"x", 10, 0, "corner.sv:5"},         {"y", 9, 0, "corner.sv:6"},
+    {"corner_out", 1, 1, "corner.sv:7"}, {"corner_data", 32, 1, "corner.sv:8"},
+};
+
+void* pin(void* model, std::uint32_t port) {
+  Pins& pins = of(model).pins;
+  void* const places[] = {&pins.clk, &pins.ena, &pins.rst,        &pins.pixel,
+                          &pins.x,   &pins.y,   &pins.corner_out, &pins.corner_data};
+  return places[port];
+}
+
+const RtlDescriptor descriptor = {RTL_INTERFACE,
+                                  "corner_detection",
+                                  "corner",
+                                  "corner.sv:1",
+                                  sizeof ports / sizeof *ports,
+                                  ports,
+                                  0,
+                                  nullptr,
+                                  [](const char*) -> void* { return new CornerObject; },
+                                  [](void* model) { delete &of(model); },
+                                  [](void* model) { of(model).eval(); },
+                                  pin};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const RtlDescriptor* markervp_rtl(void) {
+  return &descriptor;
+}
