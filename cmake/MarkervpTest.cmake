@@ -9,7 +9,7 @@ function(markervp_add_test)
   target_compile_definitions(${TEST_NAME} PRIVATE BOOST_TEST_DYN_LINK
     MARKERVP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   add_test(NAME ${TEST_NAME} COMMAND ${TEST_NAME} --log_level=test_suite --report_level=short)
-  set_tests_properties(${TEST_NAME} PROPERTIES TIMEOUT 600)
+  set_tests_properties(${TEST_NAME} PROPERTIES TIMEOUT 1800)  # against hangs; sanitizers under load take long
   if(TEST_FREEZES)
     set_tests_properties(${TEST_NAME} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
   endif()
