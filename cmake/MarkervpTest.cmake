@@ -8,6 +8,9 @@ function(markervp_add_test)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} Boost::unit_test_framework)
   target_compile_definitions(${TEST_NAME} PRIVATE BOOST_TEST_DYN_LINK
     MARKERVP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  if(MARKERVP_SANITIZE)
+    target_compile_options(${TEST_NAME} PRIVATE -O0 -g1)  # half of the time that -O2 -g takes
+  endif()
   add_test(NAME ${TEST_NAME} COMMAND ${TEST_NAME} --log_level=test_suite --report_level=short)
   set_tests_properties(${TEST_NAME} PROPERTIES TIMEOUT 1800)  # against hangs; sanitizers under load take long
   if(TEST_FREEZES)

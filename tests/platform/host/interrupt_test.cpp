@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(the_simulation_is_interrupted_first) {
 
 BOOST_AUTO_TEST_CASE(what_does_not_end_is_ended) {
   const auto busy = [] {
-    for (volatile int i = 0;;) i = i + 1;
+    for (volatile unsigned i = 0;;) i = i + 1;
   };
   const auto waits = [] {
     while (true) ::pause();
