@@ -93,6 +93,9 @@ void add_platform_options(CLI::App& command, PlatformOptions& target) {
   command.add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
       ->type_name("tlm|clocked");
   command
+      .add_option("--rate", target.rate, "images come at this rate: 60 fps (default: when wanted)")
+      ->type_name("RATE");
+  command
       .add_option("--program", target.program,
                   "PS program: a file, or the name of an installed one")
       ->type_name("FILE");

@@ -3,9 +3,19 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <designs/designs.h>
+#include <vp/decimal.h>
 #include <vp/error.h>
 
 namespace platform::cli {
+
+namespace {
+
+/// A plain number is frames a second.
+std::string with_unit(const std::string& rate) {
+  return vp::Decimal::parse(rate) ? rate + " fps" : rate;
+}
+
+}  // namespace
 
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration) {
   for (const std::string& file : options.files) configuration.load_file(file);
@@ -16,6 +26,7 @@ void load_configuration(const ConfigurationOptions& options, vp::Configuration& 
 void choose_platform(const PlatformOptions& options, const ConfigurationOptions& asked,
                      vp::Configuration& configuration) {
   if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+  if (options.rate) configuration.set("camera.rate", with_unit(*options.rate), "--rate");
   if (!options.system) return;
   if (asked.design) {
     throw vp::InputError("--system names the design already: leave out --design");

@@ -15,8 +15,9 @@ struct ConfigurationOptions {
   std::optional<std::string> design;     ///< wins over both
 };
 
-/// What the platform is, in words of their own: --fidelity, --program, --system.
+/// What the platform is, in words of their own: --fidelity, --program, --system, --rate.
 struct PlatformOptions {
+  std::optional<std::string> rate;  ///< of the camera: "60" or "60 fps"
   std::optional<std::string> fidelity;
   std::optional<std::string> program;
   std::optional<std::string> system;

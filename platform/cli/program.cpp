@@ -46,6 +46,20 @@ int written(int code, std::ostream& out) {
   return code;
 }
 
+/// In the order that the parser wants. `--rate 60 fps` is one value, quoted or not.
+std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words;
+  for (const std::string& word : arguments) {
+    const bool is_unit = word == "fps" && words.size() > 1 && words[words.size() - 2] == "--rate";
+    if (is_unit) {
+      words.back() += " fps";
+    } else {
+      words.push_back(word);
+    }
+  }
+  return {words.rbegin(), words.rend()};
+}
+
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
@@ -53,7 +67,7 @@ int run_program(const std::vector<std::string>& arguments, const SimulationFacto
   CommandLine line;
   const std::unique_ptr<CLI::App> app = make_app(line);
   try {
-    app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    app->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
       return host::fail(err, usage_error(*app, error, arguments), wrong_input);

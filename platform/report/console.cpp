@@ -158,15 +158,25 @@ std::string stage_table(const Summary& summary) {
          stage_lines(summary, "", 0, 0);
 }
 
-std::string fps_text(const Summary& summary) {
+/// The camera whose images the results are of, and how much time there was between them.
+std::string camera_text(const CameraReport& camera) {
+  constexpr double ps_per_ms = 1e9;
+  return fmt::format(
+      "camera   {:.6g} fps: {} of {} dropped   busy {:.1f} %   slack {:.3f} ms, least {:.3f} ms\n",
+      camera.rate_fps, camera.dropped, counted(camera.offered, "frame"),
+      camera.utilisation_percent(), (camera.period_ps() - camera.busy_ps) / ps_per_ms,
+      (camera.period_ps() - camera.most_busy_ps) / ps_per_ms);
+}
+
+std::string fps_text(const Summary& summary, bool has_camera) {
   if (summary.delivered() == 0) return "no result: there is no frame rate and no latency\n";
   const Statistic& fps = summary.fps();
   const Statistic& latency = summary.latency_us();
   return fmt::format(
-      "FPS      mean {:.1f}   min {:.1f}   max {:.1f}   (image upload excluded)\n"
+      "FPS      mean {:.1f}   min {:.1f}   max {:.1f}   ({})\n"
       "latency  mean {:.3f} ms   max {:.3f} ms\n",
-      summary.mean_fps(), fps.min(), fps.max(), latency.mean() / us_per_ms,
-      latency.max() / us_per_ms);
+      summary.mean_fps(), fps.min(), fps.max(), has_camera ? "delivered" : "image upload excluded",
+      latency.mean() / us_per_ms, latency.max() / us_per_ms);
 }
 
 std::string mean_error_text(const Summary& summary) {
@@ -219,8 +229,10 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   if (const std::uint64_t without = summary.frames() - summary.delivered()) {
     text += fmt::format(", {} without a result", without);
   }
+  if (facts.unpublished > 0) text += fmt::format(", {} never published", facts.unpublished);
   text += point;
-  text += fps_text(summary);
+  text += fps_text(summary, facts.camera.has_value());
+  if (facts.camera) text += camera_text(*facts.camera);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
   text += verdict_text(verdict_of(facts, summary));
   if (facts.power && facts.resources && facts.timing) {

@@ -12,6 +12,7 @@
 #include <scene/camera.h>
 #include <scene/pose.h>
 #include <scene/scene.h>
+#include <vp/power_meter.h>
 
 /// What a design costs: power, resources, and whether it meets its clocks.
 
@@ -213,10 +214,12 @@ struct FrameReport {
   std::vector<FoundMarker> markers;
   std::optional<GroundTruth> truth;  ///< of the scene's marker, where known
   std::vector<StageTime> times;      ///< in the order of the flow; "frame" and "upload" among them
-  std::uint64_t start_ps = 0;   ///< simulated time at which work on the frame began, upload done
-  std::uint64_t end_ps = 0;     ///< simulated time of its last result
-  std::uint64_t upload_ps = 0;  ///< time before `start_ps` in which the image was only uploaded
-  std::string gave_up;          ///< why the software gave the frame up; empty: it has a result
+  std::uint64_t start_ps = 0;  ///< simulated time at which work on the frame began, upload done
+  std::uint64_t end_ps = 0;    ///< simulated time of its last result
+  /// From the camera's image to its next one that the program took, where the camera has a rate.
+  std::optional<vp::Interval> camera_period;
+  std::uint64_t upload_ps = 0;      ///< time before `start_ps` in which the image was only uploaded
+  std::string gave_up;              ///< why the software gave the frame up; empty: it has a result
   std::vector<GroupEnergy> energy;  ///< its period's, upload excluded; empty: not known
   std::vector<std::string> warnings;
   Camera camera;      ///< that took the image
@@ -224,6 +227,22 @@ struct FrameReport {
 
   /// Whether a result was delivered: only such frames make rates, latency and energy.
   bool delivered() const { return gave_up.empty(); }
+};
+
+/// A camera of a fixed rate, and how the program kept up with it.
+///
+/// An image comes every 1 / rate. One that comes while the program is busy is dropped as a whole.
+struct CameraReport {
+  double rate_fps = 0;
+  std::uint64_t offered = 0;  ///< images that came until the program was ready for one more
+  std::uint64_t dropped = 0;  ///< of these
+  // Of each image that was taken.
+  double busy_ps = 0;  ///< mean, from the image until the program was ready for the next
+  double most_busy_ps = 0;
+
+  double period_ps() const { return 1e12 / rate_fps; }
+  /// Share of the period in which the program was busy, %; above 100 images are lost.
+  double utilisation_percent() const { return 100 * busy_ps / period_ps(); }
 };
 
 /// How the PS program ended.
@@ -241,6 +260,8 @@ struct RunFacts {
   std::map<std::string, std::string> configuration;      ///< path -> "value unit"
   std::optional<ProgramEnd> end = std::nullopt;          ///< of the program; none: it was stopped
   std::optional<std::string> incomplete = std::nullopt;  ///< why the run ended early, if it did
+  std::uint64_t unpublished = 0;  ///< images of which the program that ended published nothing
+  std::optional<CameraReport> camera = std::nullopt;  ///< none: images came when they were wanted
   // What the design costs; none: not known.
   std::optional<PowerReport> power = std::nullopt;
   std::optional<ResourceReport> resources = std::nullopt;

@@ -30,6 +30,8 @@ void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
           rounded(facts.power->energy_per_frame_mj, energy_places);
     }
   }
+  if (facts.unpublished > 0) json["summary"]["unpublished"] = facts.unpublished;
+  if (facts.camera) json["camera"] = camera_json(*facts.camera, summary);
   json["verdict"] = to_json(verdict_of(facts, summary));
   if (facts.power) json["power"] = to_json(*facts.power);
   if (facts.resources) json["resources"] = to_json(*facts.resources);
@@ -47,6 +49,7 @@ constexpr int degree_places = 6;
 constexpr int us_places = 6;
 constexpr int fps_places = 6;
 constexpr int second_places = 3;
+constexpr int percent_places = 3;
 
 Json corners_json(const std::array<PixelPoint, 4>& corners) {
   Json array = Json::array();
@@ -158,6 +161,21 @@ Json to_json(const Summary& summary) {
   return json;
 }
 
+Json camera_json(const CameraReport& camera, const Summary& summary) {
+  const auto slack_us = [&](double busy_ps) {
+    return rounded((camera.period_ps() - busy_ps) / ps_per_us, us_places);
+  };
+  Json json;
+  json["rate_fps"] = rounded(camera.rate_fps, fps_places);
+  json["offered"] = camera.offered;
+  json["dropped"] = camera.dropped;
+  json["delivered_fps"] = rounded(summary.mean_fps(), fps_places);
+  json["utilisation_percent"] = rounded(camera.utilisation_percent(), percent_places);
+  json["slack_us"]["mean"] = slack_us(camera.busy_ps);
+  json["slack_us"]["min"] = slack_us(camera.most_busy_ps);
+  return json;
+}
+
 Json stages_json(const Summary& summary) {
   Json json = Json::array();
   for (const Summary::Stage& stage : summary.stages()) {
@@ -194,7 +212,6 @@ namespace {
 
 constexpr int celsius_places = 6;
 constexpr int mhz_places = 6;
-constexpr int percent_places = 3;
 constexpr int block_places = 1;
 
 double watts(double value) {

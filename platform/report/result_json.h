@@ -21,6 +21,8 @@ double rounded(double value, int places);
 /// One element of `frames`.
 Json to_json(const FrameReport& frame);
 Json to_json(const Summary& summary);
+/// `camera`: how the program kept up with its rate.
+Json camera_json(const CameraReport& camera, const Summary& summary);
 /// The keys of `time_us` in the order of the flow; `part_of` names the stage that contains one.
 Json stages_json(const Summary& summary);
 Json to_json(const ProgramEnd& end);

@@ -23,6 +23,10 @@ const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found) 
 }
 
 std::vector<vp::Interval> FramePeriods::next(const FrameReport& frame) {
+  if (frame.camera_period) {
+    end_ps_ = frame.camera_period->to_ps;
+    return {*frame.camera_period};
+  }
   std::vector<vp::Interval> period;
   if (end_ps_) {
     const std::uint64_t upload = frame.start_ps - std::min(frame.start_ps, frame.upload_ps);

@@ -28,11 +28,12 @@ const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found);
 ///
 /// A period reaches from the end of the frame before it (its own start, for the first) to its own
 /// end, without the time in which its image was only uploaded (thesis 5.5: images are preloaded).
+/// With a camera of a fixed rate it reaches from image to image, the wait for the next included.
 class FramePeriods {
  public:
   /// The period of the next frame, in order of time.
   std::vector<vp::Interval> next(const FrameReport& frame);
-  /// End of the last frame; 0 before the first.
+  /// End of the last period; 0 before the first.
   std::uint64_t end_ps() const { return end_ps_.value_or(0); }
 
  private:

@@ -37,23 +37,26 @@ Part ran(const RunFacts& facts) {
   return {"ran"};
 }
 
-Part job(const Summary& summary) {
+Part job(const RunFacts& facts, const Summary& summary) {
   Part part{"job"};
-  if (summary.frames() == 0) {
+  const std::uint64_t dropped = facts.camera ? facts.camera->dropped : 0;
+  const std::uint64_t all = summary.frames() + facts.unpublished + dropped;
+  if (all == 0) {
     part.holds = Holds::no;
     part.why = "no frames";
     return part;
   }
-  const auto all = static_cast<double>(summary.frames());
-  part.margin_percent = 100 * (static_cast<double>(summary.fulfilled()) / all - 1);
-  if (summary.fulfilled() == summary.frames()) return part;
+  part.margin_percent =
+      100 * (static_cast<double>(summary.fulfilled()) / static_cast<double>(all) - 1);
+  if (summary.fulfilled() == all) return part;
   part.holds = Holds::no;
   std::vector<std::string> reasons;
   const auto add = [&](std::uint64_t frames, const char* what) {
     if (frames != 0)
-      reasons.push_back(
-          fmt::format("{} of {} {}", frames, counted(summary.frames(), "frame"), what));
+      reasons.push_back(fmt::format("{} of {} {}", frames, counted(all, "frame"), what));
   };
+  add(dropped, "of the camera dropped");
+  add(facts.unpublished, "taken and never published");
   add(summary.frames() - summary.delivered(), "without a result");
   add(summary.lossy(), "with losses");
   add(summary.overlooked(), "without the marker of the scene");
@@ -136,7 +139,7 @@ const TimingReport::Module& critical_module(const TimingReport& timing) {
 }
 
 Verdict verdict_of(const RunFacts& facts, const Summary& summary) {
-  return {{ran(facts), job(summary), fits(facts.resources), clocks(facts.clocks),
+  return {{ran(facts), job(facts, summary), fits(facts.resources), clocks(facts.clocks),
            timing(facts.timing)}};
 }
 

@@ -31,7 +31,8 @@ struct Verdict {
 
   /// "ran": the program ended by itself, with 0.
   /// "job": each frame has a result, nothing was lost in buffers, and the marker was found wherever
-  ///        the scene has one. The margin is the share of such frames, less 100 %.
+  ///        the scene has one; a camera of a fixed rate lost no frame. The margin is the share of
+  ///        such frames, less 100 %.
   /// "fits": LUT, flip-flops, block memories and DSP of the device.
   /// "clocks": CPU, DDR and FCLK are within the speed grade, and PLLs and dividers make them.
   /// "timing": no IP is clocked above its Fmax; unknown where only a lower bound of that is known.

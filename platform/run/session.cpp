@@ -33,11 +33,14 @@ Session::Session(const Options& options) {
       "profile", "thesis", vp::Source::decision,
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
       "or a file .json");
+  camera_ = std::make_unique<CameraTiming>("camera");
   options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
-                                               zynq_->ps.cpu_clk.start_hz());
+                                               zynq_->ps.cpu_clk.start_hz(), *camera_);
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
-  bench_ = std::make_unique<FrameBench>(*zynq_, *options_, reports_);
-  power_ = std::make_unique<ZynqPower>("power", *zynq_, design_->draws_power);
+  bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *options_, reports_);
+  power_ = std::make_unique<ZynqPower>(
+      "power", *zynq_, design_->draws_power,
+      camera_->has_rate() ? PowerMode::activity : PowerMode::vivado_default);
   timing_ = std::make_unique<TimingClosure>("timing", power_->parts(), zynq_->chip.data);
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options.timeline_frames);
   power_->record_timeline(recorder_->records());
@@ -59,7 +62,11 @@ report::RunFacts Session::facts() const {
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;
-  if (cpu.state() == ps::Cpu::State::finished) facts.end = {cpu.exit_code(), cpu.end_ps()};
+  if (cpu.state() == ps::Cpu::State::finished) {
+    facts.end = {cpu.exit_code(), cpu.end_ps()};
+    facts.unpublished = bench_->unpublished();
+  }
+  facts.camera = bench_->camera_report();
   facts.power = power_->power_report(zynq_->scheduler.now_ps());
   facts.resources = power_->resource_report();
   facts.timing = power_->timing_report(*timing_);

@@ -13,6 +13,7 @@
 #include <vp/parameter.h>
 #include <vp/report.h>
 #include <vp/trace.h>
+#include <zynq/camera_timing.h>
 #include <zynq/frame_bench.h>
 #include <zynq/parts.h>
 #include <zynq/software_options.h>
@@ -74,6 +75,7 @@ class Session {
   std::optional<profiles::CostProfile> costs_;
   std::unique_ptr<Zynq> zynq_;
   std::unique_ptr<vp::Parameter<std::string>> profile_name_;
+  std::unique_ptr<CameraTiming> camera_;
   std::unique_ptr<SoftwareOptions> options_;
   std::unique_ptr<FrameBench> bench_;
   std::unique_ptr<ZynqPower> power_;

@@ -5,11 +5,18 @@
 #include <vp/unit.h>
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace platform {
 
-FrameBench::FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports)
-    : zynq_(zynq), cache_contract_(zynq), spin_watch_(zynq), options_(options), reports_(reports) {
+FrameBench::FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
+                       const vp::ReportRouter& reports)
+    : zynq_(zynq),
+      cache_contract_(zynq),
+      spin_watch_(zynq),
+      camera_(camera),
+      options_(options),
+      reports_(reports) {
   const input::ImageSize size = zynq_.design().frame_size();
   const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   const auto address = zynq_.ps.ddr.dma_memory().allocate(pixels, 4096);
@@ -25,20 +32,48 @@ void FrameBench::start(NextFrame next, FrameDone done) {
   done_ = std::move(done);
 }
 
+// The image after the last one that the program took at the earliest; it was busy since then.
+std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
+  if (!camera_.has_rate()) return now_ps;
+  if (!first_ps_) {
+    first_ps_ = period_from_ps_ = now_ps;
+    return now_ps;
+  }
+  const std::uint64_t after = awaited_ + 1;
+  busy_ps_.add(static_cast<double>(now_ps - came_ps(awaited_)));
+  awaited_ = std::max(after, camera_.first_after(now_ps - *first_ps_));
+  missed_ = awaited_ - after;
+  dropped_ += missed_;
+  return came_ps(awaited_);
+}
+
 const hal_frame* FrameBench::next_frame(std::uint64_t) {
-  const input::InputFrame* frame = stop_ ? nullptr : next_();
+  if (camera_.has_rate()) hand_over(came_ps(awaited_));
+  const input::InputFrame* frame = next_image();
+  for (; frame && missed_ > 0; --missed_) frame = next_image();
   if (!frame) return nullptr;
   place(*frame);
+  ++taken_;
   return &frame_;
+}
+
+const input::InputFrame* FrameBench::next_image() {
+  const input::InputFrame* frame = stop_ ? nullptr : next_();
+  if (frame) ++images_;
+  return frame;
+}
+
+std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
+  return *first_ps_ + camera_.offset_ps(number);
 }
 
 // A program that does not upload its images finds them in the image store.
 void FrameBench::place(const input::InputFrame& frame) {
-  if (options_.value("upload", 1) < 0.5) zynq_.design().show_image(frame.image);
+  if (!options_.uploads()) zynq_.design().show_image(frame.image);
   std::memcpy(zynq_.ps.ddr.at(frame_.bus_address, frame.image.pixels.size()),
               frame.image.pixels.data(), frame.image.pixels.size());
   cache_contract_.placed(frame_.bus_address, frame.image.pixels.size());
-  frame_.index = frames_++;
+  frame_.index = images_ - 1;
   frame_.fx = frame.camera.fx;
   frame_.fy = frame.camera.fy;
   frame_.cx = frame.camera.cx;
@@ -59,8 +94,28 @@ bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   spin_watch_.finish();
   take_new_warnings(report.warnings);
   const bool delivered = report.delivered();
-  stop_ = !done_(std::move(report)) || stop_;
+  ++published_;
+  if (waiting_) hand_over(waiting_->end_ps);
+  waiting_ = std::move(report);
+  if (!camera_.has_rate()) hand_over(std::nullopt);
   return delivered;
+}
+
+/// The period of the frame that waits for it ends at `until_ps`; none: with its result.
+void FrameBench::hand_over(std::optional<std::uint64_t> until_ps) {
+  if (!waiting_) return;
+  if (until_ps) {
+    waiting_->camera_period = vp::Interval{period_from_ps_, *until_ps};
+    period_from_ps_ = *until_ps;
+  }
+  report::FrameReport report = *std::exchange(waiting_, std::nullopt);
+  stop_ = !done_(std::move(report)) || stop_;
+}
+
+std::optional<report::CameraReport> FrameBench::camera_report() const {
+  if (busy_ps_.count() == 0) return std::nullopt;
+  return report::CameraReport{camera_.fps(), busy_ps_.count() + dropped_, dropped_, busy_ps_.mean(),
+                              busy_ps_.max()};
 }
 
 double FrameBench::option(std::uint32_t option, const hal_option_info&) {
@@ -77,6 +132,7 @@ void FrameBench::take_new_warnings(std::vector<std::string>& list) {
 }
 
 std::vector<std::string> FrameBench::finish() {
+  if (waiting_) hand_over(waiting_->end_ps);
   zynq_.design().finish();
   spin_watch_.finish();
   std::vector<std::string> list;

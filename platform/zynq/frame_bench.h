@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,16 +11,22 @@
 #include <input/frame_source.h>
 #include <ps/cpu/test_bench.h>
 #include <report/result.h>
+#include <report/summary.h>
 #include <vp/report.h>
 #include <zynq/cache_contract.h>
+#include <zynq/camera_timing.h>
 #include <zynq/software_options.h>
 #include <zynq/spin_watch.h>
 #include <zynq/zynq.h>
 
 namespace platform {
 
-/// The test bench around the PS program: puts images into DDR, and hands over what the program
-/// publishes, as the design makes a frame of it.
+/// The test bench around the PS program: puts images into DDR when the camera takes them, and hands
+/// over what the program publishes, as the design makes a frame of it.
+///
+/// With a camera of a fixed rate the program sleeps until the next image; those that came while it
+/// was busy are lost, whole. A frame is handed over when its period is over: when the program takes
+/// the next image, or there is none.
 class FrameBench : public ps::TestBench {
  public:
   using NextFrame = std::function<const input::InputFrame*()>;
@@ -27,32 +34,54 @@ class FrameBench : public ps::TestBench {
 
   /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA
   /// memory.
-  FrameBench(Zynq& zynq, const SoftwareOptions& options, const vp::ReportRouter& reports);
+  FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
+             const vp::ReportRouter& reports);
 
   /// Where frames come from and reports go to, for one run.
   void start(NextFrame next, FrameDone done);
   /// The run is over, however it ended. Returns the warnings that stand in no frame's report.
   std::vector<std::string> finish();
 
+  /// Images that the program took and of which it published nothing.
+  std::uint64_t unpublished() const { return taken_ - std::min(published_, taken_); }
+  /// None: the camera has no rate, or the program never asked for a second image.
+  std::optional<report::CameraReport> camera_report() const;
+
   // ps::TestBench
+  std::uint64_t next_frame_ps(std::uint64_t now_ps) override;
   const hal_frame* next_frame(std::uint64_t now_ps) override;
   bool publish(std::uint32_t kind, const void* data, std::size_t size,
                std::uint64_t now_ps) override;
   double option(std::uint32_t option, const hal_option_info& info) override;
 
  private:
+  const input::InputFrame* next_image();
+  std::uint64_t came_ps(std::uint64_t number) const;
   void place(const input::InputFrame& frame);
+  void hand_over(std::optional<std::uint64_t> until_ps);
   void take_new_warnings(std::vector<std::string>& list);
 
   Zynq& zynq_;
   CacheContract cache_contract_;
   SpinWatch spin_watch_;
+  const CameraTiming& camera_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
   NextFrame next_;
   FrameDone done_;
   hal_frame frame_{};
-  std::uint32_t frames_ = 0;
+  std::uint32_t images_ = 0;  ///< that there were, lost ones too
+  std::uint64_t taken_ = 0, published_ = 0;
+  std::optional<report::FrameReport> waiting_;  ///< for the end of its period
+
+  // Of a camera with a rate.
+  std::optional<std::uint64_t> first_ps_;  ///< when its first image came
+  std::uint64_t awaited_ = 0;              ///< the image that the program waits for, or took last
+  std::uint64_t period_from_ps_ = 0;       ///< end of the last period
+  std::uint64_t missed_ = 0;               ///< images that came since
+  std::uint64_t dropped_ = 0;
+  report::Statistic busy_ps_;
+
   std::size_t warnings_reported_ = 0;
   bool stop_ = false;
 };

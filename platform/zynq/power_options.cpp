@@ -4,8 +4,8 @@
 
 namespace platform {
 
-PowerOptions::PowerOptions(bool uses_pl)
-    : mode("mode", PowerMode::vivado_default,
+PowerOptions::PowerOptions(bool uses_pl, PowerMode usual)
+    : mode("mode", usual,
            {{"vivado-default", PowerMode::vivado_default}, {"activity", PowerMode::activity}},
            vp::Source::decision,
            "what is estimated: as the vendor's tool does by default (reproduces the thesis' 1.5 W "
@@ -19,6 +19,7 @@ PowerOptions::PowerOptions(bool uses_pl)
           "how much hotter the junction gets, C/W (vendor's estimates: medium board, 250 LFM)"),
       pl_design("pl_design", uses_pl, vp::Source::decision,
                 "whether the PL holds the design; a system without it leaves the PL unconfigured") {
+  mode.follows("camera.rate");
   pl_design.follows("design");
 }
 

@@ -16,8 +16,8 @@ enum class PowerMode {
 
 /// The parameters of the module that they are a member of.
 struct PowerOptions {
-  /// `uses_pl`: the default of pl_design.
-  explicit PowerOptions(bool uses_pl);
+  /// The defaults of pl_design and mode.
+  PowerOptions(bool uses_pl, PowerMode usual);
 
   vp::Parameter<PowerMode> mode;
   vp::Parameter<std::string> table;

@@ -11,6 +11,8 @@ using profiles::Optimisation;
 
 namespace {
 
+constexpr const char* upload_option = "upload";
+
 /// The dimension a unit's name belongs to.
 vp::Unit dimension_of(const std::string& unit, const hal_program& program, const char* option) {
   if (unit.empty()) return vp::Unit::none;
@@ -40,7 +42,8 @@ void check_clock(std::uint64_t hz, const vp::Range<double>& range, const hal_pro
 }  // namespace
 
 SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
-                                 const std::string& profile, std::uint64_t cpu_hz)
+                                 const std::string& profile, std::uint64_t cpu_hz,
+                                 const CameraTiming& camera)
     : sc_module(name),
       opt_("opt", profiles::optimisation_of(profile),
            {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
@@ -57,11 +60,22 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
             : vp::parse_quantity(std::string("1 ") + info.unit, dimension).to_double();
     const vp::Range<double> range{info.minimum * base, info.maximum * base};
     const bool is_clock = info.name == std::string_view("cpu_clock");
-    if (is_clock) check_clock(cpu_hz, range, program);
-    const auto& parameter = parameters_.emplace_back(
-        info.name, is_clock ? static_cast<double>(cpu_hz) : info.default_value * base, dimension,
-        range, vp::Source::decision, info.documentation);
+    const bool is_upload = info.name == std::string_view(upload_option);
+    double usual = info.default_value * base;
+    if (is_clock) {
+      check_clock(cpu_hz, range, program);
+      usual = static_cast<double>(cpu_hz);
+    }
+    if (is_upload && camera.has_rate()) usual = 0;
+    const auto& parameter = parameters_.emplace_back(info.name, usual, dimension, range,
+                                                     vp::Source::decision, info.documentation);
     if (is_clock) parameter.follows("ps.cpu_clk.frequency");
+    if (is_upload) parameter.follows(camera.rate.name());
+    if (is_upload && camera.has_rate() && parameter >= 0.5) {
+      throw vp::InputError(std::string(parameter.name()) + " is " + parameter.text() + ", and " +
+                           camera.rate.name() + " is " + camera.rate.text() +
+                           ": such a camera uploads its images itself; leave one of them out");
+    }
     values_.push_back(parameter.get() / base);
   }
 }
@@ -69,6 +83,10 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
 std::optional<Optimisation> SoftwareOptions::optimisation() const {
   if (!opt_.is_changed()) return std::nullopt;
   return opt_.get();
+}
+
+bool SoftwareOptions::uploads() const {
+  return value(upload_option, 1) >= 0.5;
 }
 
 double SoftwareOptions::value(const std::string& option, double otherwise) const {

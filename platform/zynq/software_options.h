@@ -9,28 +9,31 @@
 #include <hal/hal.h>
 #include <profiles/cost_profile.h>
 #include <vp/parameter.h>
+#include <zynq/camera_timing.h>
 
 namespace platform {
 
 /// How a PS program is compiled, and the options that it declares, as parameters `sw.<name>`.
 class SoftwareOptions : public sc_core::sc_module {
  public:
-  /// What follows from other parameters: `opt` from the cost profile named `profile`, and the
-  /// option `cpu_clock`, for which a program on the chip is built, from the clock that it has here.
-  /// Throws vp::InputError for a value out of its range, and for a unit that the program's option
-  /// may not have.
+  /// What follows from other parameters: `opt` from the cost profile named `profile`; the option
+  /// `cpu_clock`, for which a program on the chip is built, from the clock that it has here; and
+  /// `upload`, which a camera of a fixed rate does itself. Throws vp::InputError for a value out of
+  /// its range or that contradicts these, and for a unit that the program's option may not have.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
-                  const std::string& profile, std::uint64_t cpu_hz);
+                  const std::string& profile, std::uint64_t cpu_hz, const CameraTiming& camera);
 
   /// What the user asked for; none: what the profile is for.
   std::optional<profiles::Optimisation> optimisation() const;
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
-  /// The value by name; `otherwise` if the program has no such option.
-  double value(const std::string& option, double otherwise) const;
+  /// The program brings its images to the PL itself.
+  bool uploads() const;
 
  private:
+  double value(const std::string& option, double otherwise) const;
+
   vp::Parameter<profiles::Optimisation> opt_;
   std::deque<vp::Parameter<double>> parameters_;
   std::vector<double> values_;

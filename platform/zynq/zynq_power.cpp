@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <zynq/clock_report.h>
 #include <power/chip_energy.h>
+#include <zynq/clock_report.h>
 #include <zynq/power_sources.h>
 
 namespace platform {
@@ -37,9 +37,9 @@ constexpr double mj_per_j = 1e3;
 
 }  // namespace
 
-ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
+ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl, PowerMode usual)
     : sc_module(name),
-      options(uses_pl),
+      options(uses_pl, usual),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
       static_scale_(power::static_scale(zynq.chip.data)),
@@ -52,10 +52,10 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl)
   states_.set_observer(this);
   timeline_.groups = groups_;
   double junction_c = 0;
-  static_w_ =
-      power::static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0), 1, junction_c)
-          .total()
-          .nominal;
+  static_w_ = power::static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0),
+                                   1, junction_c)
+                  .total()
+                  .nominal;
   show(0);
 }
 
@@ -77,13 +77,14 @@ void ZynqPower::show(std::uint64_t now_ps) {
 vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
                                         double& junction_c) const {
   ledger.add(power::static_energy(table_, static_scale_, options.thermal_path(),
-                           ledger.total() * (1 / seconds), seconds, junction_c));
+                                  ledger.total() * (1 / seconds), seconds, junction_c));
   return ledger;
 }
 
 void ZynqPower::frame_ends(report::FrameReport& frame) {
   const std::uint64_t from_ps = periods_.end_ps();
   const std::vector<vp::Interval> period = periods_.next(frame);
+  const std::uint64_t end_ps = periods_.end_ps();
   double seconds = 0;
   for (const vp::Interval& interval : period) seconds += interval.seconds();
   const vp::EnergyLedger taken = meter_.measure(period);
@@ -91,9 +92,9 @@ void ZynqPower::frame_ends(report::FrameReport& frame) {
   open_seconds_ += seconds;
   if (frame.delivered() && open_seconds_ > 0) deliver(frame);
   if (seconds <= 0) return;
-  if (records_) record(taken, period, seconds, from_ps, frame.end_ps);
-  states_.forget_before(frame.end_ps);
-  if (follows_) show(frame.end_ps);
+  if (records_) record(taken, period, seconds, from_ps, end_ps);
+  states_.forget_before(end_ps);
+  if (follows_) show(end_ps);
 }
 
 /// All that was taken since the last result is this one's.

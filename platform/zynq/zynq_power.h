@@ -28,9 +28,10 @@ namespace platform {
 /// which the chip would settle if the frame were repeated for ever.
 class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
  public:
-  /// `uses_pl`: whether the PL is configured, unless the user says otherwise. Throws vp::InputError
-  /// for a table that cannot be used, and for thermal runaway.
-  ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl);
+  /// `uses_pl`: whether the PL is configured, and `usual`: what is estimated, unless the user says
+  /// otherwise. Throws vp::InputError for a table that cannot be used, and for thermal runaway.
+  ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl,
+            PowerMode usual = PowerMode::vivado_default);
 
   PowerOptions options;
   // What flows now, W, for traces. Without the energy of events, which is known later (mode

@@ -183,6 +183,20 @@ BOOST_AUTO_TEST_CASE(nothing_differs_when_the_software_gives_up) {
   BOOST_TEST(difference(result("tlm"), result("clocked")) == "");
 }
 
+BOOST_AUTO_TEST_CASE(nothing_differs_at_a_rate_of_the_camera) {
+  for (const char* system : {"hybrid", "ps-only"}) {
+    for (const char* rate : {"60", "150"}) {  // some frames are dropped at the second
+      const Arguments arguments{"demo",     "squares15", "--repeat", "2",
+                                "--system", system,      "--rate",   rate};
+      const Json usual = result_of(arguments);
+      BOOST_TEST(usual.contains("camera"));
+      BOOST_TEST(difference(usual, result_of(with(arguments, "fidelity=clocked"))) == "");
+      BOOST_TEST(difference(usual, result_of(with(arguments, "ps.cpu.quantum=1 us"))) == "");
+      BOOST_TEST(difference(usual, result_of(with(arguments, "ps.poll_elision=false"))) == "");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_differs_when_the_image_is_there_already) {
   const Arguments arguments = with({"demo", "--repeat", "2"}, "sw.upload=0");
   BOOST_TEST(difference(result_of(arguments), result_of(with(arguments, "fidelity=clocked"))) ==

@@ -83,6 +83,20 @@ BOOST_AUTO_TEST_CASE(time_and_energy_of_a_frame_given_up_are_those_of_the_next_r
              boost::test_tools::tolerance(1e-6));
 }
 
+BOOST_AUTO_TEST_CASE(a_frame_of_which_the_program_says_nothing_is_judged) {
+  const Workplace place;
+  const kit::Outcome outcome =
+      place.run({"demo", "--repeat", "5", "--program", MARKERVP_LOSSES, "--no-pictures"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  const Json result = place.result();
+  BOOST_TEST(result["summary"]["frames"] == 4);
+  BOOST_TEST(result["summary"]["unpublished"] == 1);
+  const Json& job = result["verdict"]["job"];
+  BOOST_TEST(job["holds"] == "no");
+  BOOST_TEST(contains(job["why"], "1 of 5 frames taken and never published"), job);
+  BOOST_TEST(contains(outcome.out, "1 never published"), outcome.out);
+}
+
 BOOST_AUTO_TEST_CASE(all_that_software_loses_is_counted_and_told) {
   const Workplace place;
   const kit::Outcome outcome = place.run({"--program", MARKERVP_LOSSES, "--no-pictures"});

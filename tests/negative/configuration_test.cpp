@@ -52,6 +52,20 @@ BOOST_AUTO_TEST_CASE(wrong_units) {
                {"ps.cpu.stack_size", "8 furlongs", ":3"});
 }
 
+BOOST_AUTO_TEST_CASE(rates_that_no_camera_has) {
+  for (const char* rate : {"0", "-1", "0 fps", "1e-3"})
+    run_refuses({std::string("--rate=") + rate},
+                {"camera.rate", "--rate", "the nearest is 0.1 fps"});
+  for (const char* rate : {"1e9", "1e9 fps"})
+    run_refuses({"--rate", rate}, {"camera.rate", "the nearest is 100000 fps"});
+  for (const char* rate : {"nan", "fast", "60 furlongs", ""})
+    run_refuses({"--rate", rate}, {"camera.rate", "write 60 fps, or none"});
+  run_refuses({"--rate"}, {"--rate"});
+  set_refused("camera.rate=60", {"camera.rate", "write 60 fps, or none"});
+  run_refuses({"--rate", "60", "fps", "--set", "sw.upload=1"},
+              {"sw.upload is 1", "camera.rate is 60 fps", "leave one of them out"});
+}
+
 BOOST_AUTO_TEST_CASE(values_out_of_range) {
   set_refused("ps.fclk_clk1.frequency=0 MHz", {"ps.fclk_clk1.frequency", "1 kHz", "1000 GHz"});
   set_refused("ps.fclk_clk1.frequency=-5 MHz", {"ps.fclk_clk1.frequency"});

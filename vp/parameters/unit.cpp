@@ -17,7 +17,8 @@ struct Spelling {
 
 const std::vector<Spelling>& spellings(Unit unit) {
   static const std::vector<Spelling> plain{};
-  static const std::vector<Spelling> frequency{{"Hz"}, {"kHz", 1, 3}, {"MHz", 1, 6}, {"GHz", 1, 9}};
+  static const std::vector<Spelling> frequency{
+      {"Hz"}, {"fps", 1, 0, true}, {"kHz", 1, 3}, {"MHz", 1, 6}, {"GHz", 1, 9}};
   static const std::vector<Spelling> time{
       {"ps"},       {"ns", 1, 3}, {"us", 1, 6}, {"µs", 1, 6, true}, {"μs", 1, 6, true},
       {"ms", 1, 9}, {"s", 1, 12}};

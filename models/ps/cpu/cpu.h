@@ -235,6 +235,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void run_handler();
   void sleep();
+  void sleep_until(std::uint64_t ps);
 
   std::uint32_t access(bool read, std::uint32_t address, std::uint32_t value);
   /// An access that left at `start_ps`. `transfer` brings it to the device and gives the answer.

@@ -65,6 +65,7 @@ void Cpu::write_console(const char* text, std::size_t length) {
 
 const hal_frame* Cpu::next_frame() {
   catch_up();
+  if (bench_) sleep_until(bench_->next_frame_ps(now_ps()));
   const hal_frame* next = bench_ ? bench_->next_frame(now_ps()) : nullptr;
   scheduler_.forget_horizon();
   if (next) {

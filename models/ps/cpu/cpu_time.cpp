@@ -21,7 +21,8 @@ void Cpu::follow_clock() {
   local_time_.set_frequency(hertz_);
   for (Work& work : work_) {
     const LocalTime::Wide denominator = LocalTime::Wide{hertz_} << LocalTime::fraction_bits;
-    work.most_fs = LocalTime::Wide{work.cycles} * LocalTime::fs_per_second / denominator + 1 + work.stall_fs;
+    work.most_fs =
+        LocalTime::Wide{work.cycles} * LocalTime::fs_per_second / denominator + 1 + work.stall_fs;
   }
 }
 
@@ -241,6 +242,20 @@ void Cpu::sleep() {
   activity_.idle(now_ps() - start);
   if (!interrupt_pending()) {
     time_out("it waits for an interrupt, and none came");
+  }
+}
+
+// For what no device of the platform tells. Interrupts run their handlers meanwhile; the time-out
+// does not count.
+void Cpu::sleep_until(std::uint64_t ps) {
+  while (now_ps() < ps) {
+    const std::uint64_t start = now_ps();
+    deadline_ps_ = ps + timeout;
+    asleep = true;
+    scheduler_.pass_from(start, ps, interruptible() ? irq_is_low : nullptr, this);
+    asleep = false;
+    activity_.idle(now_ps() - start);
+    take_interrupts();
   }
 }
 

@@ -13,6 +13,9 @@ class TestBench {
  public:
   virtual ~TestBench() = default;
 
+  /// When the next image comes, or it is known that there is none. The program wants it now, and
+  /// sleeps until then.
+  virtual std::uint64_t next_frame_ps(std::uint64_t now_ps) { return now_ps; }
   /// The next image, or null when the run is over. Valid until the next call.
   virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
   /// What came of a frame; `data` is valid during the call only. False: no result, the program gave

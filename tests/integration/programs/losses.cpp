@@ -1,5 +1,5 @@
 // A PS program that finds nothing and says of its first frame that every list was too short, and of
-// its second that it gave it up.
+// its second that it gave it up. Of its fourth it says nothing.
 #include <drivers/global_timer.h>
 #include <hal/hal.h>
 #include <marker/result.h>
@@ -26,6 +26,7 @@ int run() {
       result.status = marker::Status::binary_timeout;
     }
     marker::work(marker::Work::corner_pixels, 100'000);
+    if (frame->index == 3) continue;
     result.times.frame.end = timer.now();
     hal_publish(marker::frame_result_kind, &result, sizeof result);
   }

@@ -149,4 +149,31 @@ BOOST_AUTO_TEST_CASE(a_bus_observer_sees_the_accesses) {
   BOOST_TEST(b.cpu.m_axi.writes == 1u);
 }
 
+/// Image n comes at n x 2 us. An interrupt comes at 3 us.
+struct Camera : Recorder {
+  std::uint64_t next_frame_ps(std::uint64_t now_ps) override {
+    wanted.push_back(now_ps);
+    return std::max<std::uint64_t>(now_ps, wanted.size() * 2'000'000 - 2'000'000);
+  }
+  std::vector<std::uint64_t> wanted;
+};
+
+// 0.8 us of work on each. The time-out of 1 us does not count while it waits.
+BOOST_AUTO_TEST_CASE(a_program_sleeps_until_the_camera_has_an_image) {
+  Bench b({"cpu.timeout=1 us"});
+  Camera bench;
+  b.cpu.connect(bench);
+  b.run([] {
+    while (hal_frame_next()) hal_work(step, 800);
+    return 0;
+  });
+  BOOST_TEST(bench.wanted == (std::vector<std::uint64_t>{0, 800'000, 2'800'000}),
+             boost::test_tools::per_element());
+  BOOST_TEST(bench.asked == (std::vector<std::uint64_t>{0, 2'000'000, 4'000'000}),
+             boost::test_tools::per_element());
+  BOOST_TEST(b.cpu.activity().busy_ps() == 1'600'000u);
+  BOOST_TEST(b.cpu.activity().idle_ps() == 2'400'000u);
+  BOOST_TEST(!b.cpu.asleep);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

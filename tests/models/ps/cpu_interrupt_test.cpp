@@ -337,4 +337,47 @@ BOOST_AUTO_TEST_CASE(nothing_depends_on_the_quantum) {
   }
 }
 
+/// The one image comes at 1 us.
+struct Camera : ps::TestBench {
+  std::uint64_t next_frame_ps(std::uint64_t) override { return 1'000'000; }
+  const hal_frame* next_frame(std::uint64_t now_ps) override {
+    asked_ps = now_ps;
+    return nullptr;
+  }
+  bool publish(std::uint32_t, const void*, std::size_t, std::uint64_t) override { return true; }
+  double option(std::uint32_t, const hal_option_info& info) override { return info.default_value; }
+  std::uint64_t asked_ps = 0;
+};
+
+// At 400 ns as in work; that at 950 ns ends after the image came.
+BOOST_AUTO_TEST_CASE(handlers_run_while_the_program_waits_for_the_camera) {
+  InterruptBench b({400'000, 950'000});
+  Camera camera;
+  b.cpu.connect(camera);
+  b.run([] {
+    enable();
+    hal_frame_next();
+    return 0;
+  });
+  BOOST_TEST(seen == (Times{400'000, 950'000}), boost::test_tools::per_element());
+  BOOST_TEST(camera.asked_ps > 1'050'000u);
+  BOOST_TEST(b.cpu.interrupts == 2u);
+  BOOST_TEST(b.cpu.activity().idle_ps() < 950'000u);
+}
+
+// Masked, it waits as the program does, until that lets it come.
+BOOST_AUTO_TEST_CASE(a_masked_interrupt_does_not_end_the_wait_for_the_camera) {
+  InterruptBench b({400'000});
+  Camera camera;
+  b.cpu.connect(camera);
+  b.run([] {
+    hal_interrupt_connect(acknowledge, nullptr);
+    hal_frame_next();
+    hal_interrupt_enable(true);
+    return 0;
+  });
+  BOOST_TEST(camera.asked_ps == 1'000'000u);
+  BOOST_TEST(seen == Times{1'000'000}, boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

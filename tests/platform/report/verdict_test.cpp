@@ -121,6 +121,21 @@ BOOST_AUTO_TEST_CASE(a_job_that_is_not_done) {
   BOOST_TEST(*point.part("job").margin_percent == -75);
 }
 
+BOOST_AUTO_TEST_CASE(frames_that_were_dropped_or_never_published_are_no_job_done) {
+  Point point;
+  point.facts.camera = CameraReport{60, 1, 0, 1e10, 1e10};
+  BOOST_TEST((point.part("job").holds == Holds::yes));
+  point.facts.camera->offered = 4;
+  point.facts.camera->dropped = 2;
+  point.facts.unpublished = 1;
+  point.fails("job", Holds::no,
+              "2 of 4 frames of the camera dropped, 1 of 4 frames taken and never published");
+  BOOST_TEST(*point.part("job").margin_percent == -75);
+  point.frames.clear();
+  point.facts.camera.reset();
+  point.fails("job", Holds::no, "1 of 1 frame taken and never published");
+}
+
 BOOST_AUTO_TEST_CASE(each_loss_counts) {
   for (const auto counter :
        {&Counts::feature_overflow, &Counts::label_overflow, &Counts::bridge_overflow,

@@ -110,7 +110,7 @@ typedef struct hal_frame {
   double cx, cy;         /**< principal point in pixels; the centre of pixel (0, 0) is (0.5, 0.5) */
 } hal_frame;
 
-/** The next image, or NULL when the run is over. Takes no time. Valid until the next call. */
+/** The next image, when the camera has it; NULL: the run is over. Valid until the next call. */
 const hal_frame* hal_frame_next(void);
 
 /** Hands a result to the test bench; `kind` names its type (four characters, see HAL_KIND). Copied.
