@@ -4,7 +4,8 @@
   fit.py PATHS.csv                     prints the model, its band and its errors
   fit.py --check PATHS.csv MODEL.json  the same, and ends with 1 where the file says otherwise
   fit.py --markdown PATHS.csv          the errors as a table
-  fit.py --documented PATHS.csv DOC.md ends with 1 where that table is not in the document
+  fit.py --figures FIGURES.json        what `markervp rtl synth` found, as a table
+  fit.py --documented PATHS.csv FIGURES.json DOC.md  ends with 1 where one of the two is not in the document
 
 A path's nets take, in ns:
 
@@ -185,21 +186,42 @@ def markdown(errors):
     return "\n".join(lines)
 
 
+def figures_markdown(path):
+    with open(path, encoding="utf-8") as file:
+        entries = json.load(file)["entries"]
+    lines = ["| IP | LUT | LUT as memory | FF | CARRY4 | RAMB18 | Longest path | Fmax, MHz |",
+             "|---|---:|---:|---:|---:|---:|---|---:|"]
+    for e in entries:
+        parameters = "".join(f" {name}={value}" for name, value in e["parameters"].items())
+        where, fmax = "none from register to register", ""
+        if "longest_path" in e:
+            p, f = e["longest_path"], e["fmax_mhz"]
+            where = f"{p['levels']} cells of {p['cells_ns']:.2f} ns, {p['nets']} nets, fan-out {p['fan_out']}"
+            fmax = f"{f['nominal']:.0f} ({f['low']:.0f} to {f['high']:.0f})"
+        lines.append(f"| `{e['ip']}`{parameters} | {e['lut']} | {e['lut_memory'] or '–'} | {e['ff']} | {e['carry4']} | "
+                     f"{e['ramb18'] or '–'} | {where} | {fmax} |")
+    return "\n".join(lines)
+
+
 def main(arguments):
     option = arguments[0] if arguments[:1] and arguments[0].startswith("--") else ""
     files = arguments[1:] if option else arguments
-    if (option, len(files)) not in (("", 1), ("--check", 2), ("--markdown", 1), ("--documented", 2)):
+    if (option, len(files)) not in (("", 1), ("--check", 2), ("--markdown", 1), ("--figures", 1), ("--documented", 3)):
         sys.exit(__doc__)
+    if option == "--figures":
+        print(figures_markdown(files[0]))
+        return 0
     paths = read_paths(files[0])
     if option in ("--markdown", "--documented"):
         table = markdown(cross_validate(paths))
         if option == "--markdown":
             print(table)
             return 0
-        with open(files[1], encoding="utf-8") as file:
-            if table in file.read():
-                return 0
-        print(f"{files[1]} is old: put what 'fit.py --markdown' prints into it", file=sys.stderr)
+        with open(files[2], encoding="utf-8") as file:
+            text = file.read()
+        if table in text and figures_markdown(files[1]) in text:
+            return 0
+        print(f"{files[2]} is old: put what 'fit.py --markdown' and '--figures' print into it", file=sys.stderr)
         return 1
     model = fitted_model(paths)
     for name, value in model.items():

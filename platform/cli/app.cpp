@@ -197,6 +197,7 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   CLI::App* rtl = app.add_subcommand("rtl", "RTL and the models of its IP");
   rtl->require_subcommand(1);
   CLI::App* check = rtl->add_subcommand("check", "run RTL in lock-step with its model");
+  check->callback([&target] { target.command = "check"; });
   check->add_option("IP", target.ip, "in whose place it stands: corner_detection")
       ->type_name("")
       ->required();
@@ -209,6 +210,18 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   check->add_option("-o,--output", target.run.output, "folder for the results (default: out)")
       ->type_name("DIR");
   check->footer(rtl_check_help);
+  CLI::App* synth = rtl->add_subcommand("synth", "synthesise with Yosys: LUT, FF, BRAM, DSP, Fmax");
+  synth->callback([&target] { target.command = "synth"; });
+  RtlSynthOptions& options = target.synth;
+  synth->add_option("IP", options.ips, "these IP of the pixel pipeline (default: all)")
+      ->type_name("");
+  synth->add_option("--rtl", options.rtl, "your own .v and .sv files")->type_name("DIR");
+  synth->add_option("--top", options.top, "the module in them")->type_name("MODULE");
+  synth->add_option("--parameter", options.parameters, "of the module: LABELS=64")
+      ->type_name("NAME=NUMBER")
+      ->expected(1)
+      ->take_all();
+  synth->add_option("-o,--output", options.output, "the figures as JSON")->type_name("FILE");
 }
 
 void add_scenes(CLI::App& app, ScenesOptions& target) {

@@ -76,10 +76,12 @@ int print_power_table(const PowerTableOptions& options, std::ostream& out);
 /// be.
 int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
 
-/// Runs RTL beside the model of its IP. run_failed: they differ; trace and page then lie in the
-/// folder for results.
+/// `rtl check` runs RTL beside the model of its IP. run_failed: they differ; trace and page then
+/// lie in the folder for results.
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+/// Synthesises RTL with Yosys: primitives, and Fmax as a range.
+int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out);
 
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out);

@@ -46,7 +46,7 @@ std::vector<CommandDescription> describe_commands(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands({})) {
     if (command->get_group().empty()) continue;  // hidden
     CommandDescription description{command->get_name(), command->get_description(), {}, {}};
-    // `trace` has commands of its own: their names come first.
+    // Some have commands of their own: their names come first.
     for (const CLI::App* inner : command->get_subcommands({})) {
       description.positional.kind = ValueKind::Kind::choice;
       description.positional.choices.push_back(inner->get_name());

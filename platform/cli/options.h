@@ -56,11 +56,21 @@ struct RunOptions : PlatformOptions {
   std::atomic<std::uint64_t>* frames_done = nullptr;
 };
 
+/// `markervp rtl synth`.
+struct RtlSynthOptions {
+  std::vector<std::string> ips;  ///< none: all
+  std::vector<std::string> parameters;
+  std::optional<std::string> rtl, top;  ///< a folder of the user's, and the module in it
+  std::optional<std::string> output;
+};
+
 /// `markervp rtl`.
 struct RtlOptions {
+  std::string command;  ///< "check", "synth"
   std::string ip;
   std::string rtl;  ///< check: shared object, or a folder with <ip>.so in it or in its `build`
   RunOptions run;
+  RtlSynthOptions synth;
 };
 
 /// `markervp scenes`.

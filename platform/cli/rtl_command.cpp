@@ -126,6 +126,7 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments,
 
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  if (options.command == "synth") return synthesise_rtl(options.synth, out);
   return check(options, arguments, make_simulation, out, err);
 }
 

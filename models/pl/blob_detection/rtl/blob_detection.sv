@@ -43,33 +43,36 @@ module blob_detection #(
   logic [8:0] tops[0:LABELS-1];      // Sy
   logic [8:0] bottoms[0:LABELS-1];   // Ey
 
-  // The widest one.
+  // The widest one: a tree, each node of which keeps the earlier of equally wide ones. Ex - Sx is one less
+  // than the width; the bit above it says that there is a label.
   logic [NEIGHBOURS*20-1:0] spans;
   for (genvar n = 0; n < NEIGHBOURS; n++) begin : g_span
     assign spans[n*20+:20] = columns[neighbours[n*BITS+:BITS]];
   end
-  logic [BITS-1:0] widest;
-  logic [19:0] span;
-  logic [10:0] width, candidate;
-  always_comb begin
-    widest = '0;
-    span = '0;
-    width = '0;
-    candidate = '0;
-    for (int n = 0; n < NEIGHBOURS; n++) begin
-      candidate = {1'b0, spans[n*20+10+:10] - spans[n*20+:10]} + 11'd1;
-      if (neighbours[n*BITS+:BITS] != '0 && candidate > width) begin
-        widest = neighbours[n*BITS+:BITS];
-        span = spans[n*20+:20];
-        width = candidate;
-      end
-    end
+  localparam int ENTRY = 11 + BITS + 20;
+  function automatic logic [ENTRY-1:0] entry(input logic [BITS-1:0] of, input logic [19:0] columns_of);
+    entry = {of != '0, columns_of[19:10] - columns_of[9:0], of, columns_of};
+  endfunction
+  function automatic logic [ENTRY-1:0] wider(input logic [ENTRY-1:0] a, input logic [ENTRY-1:0] b);
+    wider = b[ENTRY-1-:11] > a[ENTRY-1-:11] ? b : a;
+  endfunction
+  logic [NEIGHBOURS*ENTRY-1:0] entries;
+  for (genvar n = 0; n < NEIGHBOURS; n++) begin : g_entry
+    assign entries[n*ENTRY+:ENTRY] = entry(neighbours[n*BITS+:BITS], spans[n*20+:20]);
   end
+  wire [ENTRY-1:0] left = wider(entries[0*ENTRY+:ENTRY], entries[1*ENTRY+:ENTRY]);
+  wire [ENTRY-1:0] above_left = wider(entries[2*ENTRY+:ENTRY], entries[3*ENTRY+:ENTRY]);
+  wire [ENTRY-1:0] above_right = wider(entries[4*ENTRY+:ENTRY], entries[5*ENTRY+:ENTRY]);
+  wire [ENTRY-1:0] first_four = wider(left, above_left);
+  wire [ENTRY-1:0] last_three = wider(above_right, entries[6*ENTRY+:ENTRY]);
+  wire [BITS+19:0] best = (BITS + 20)'(wider(first_four, last_three));
+  wire [BITS-1:0] widest = best[20+:BITS];
+  wire [19:0] span = best[19:0];
 
   // The pixel's label.
   logic [BITS-1:0] next_label;
   wire dark = ena && pixel;
-  wire is_new = dark && widest == '0;
+  wire is_new = dark && neighbours == '0;
   wire [BITS-1:0] label = !dark ? '0 : is_new ? next_label : widest;
   wire labelled = label != '0;
 

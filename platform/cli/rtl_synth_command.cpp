@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <ostream>
+
+#include <cli/commands.h>
+#include <synthesis/synthesis.h>
+#include <vp/error.h>
+#include <vp/output_file.h>
+
+namespace platform::cli {
+
+namespace {
+
+using synthesis::Design;
+using synthesis::Figures;
+
+/// LABELS=64. Throws vp::InputError.
+synthesis::Parameters parameters_of(const std::vector<std::string>& given) {
+  synthesis::Parameters parameters;
+  for (const std::string& text : given) {
+    const std::size_t equals = text.find('=');
+    std::int64_t value = 0;
+    const char* const begin =
+        text.data() + (equals == std::string::npos ? text.size() : equals + 1);
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (equals == 0 || error != std::errc{} || stop != end) {
+      throw vp::InputError("--parameter '" + text + "': give NAME=NUMBER, as LABELS=64");
+    }
+    parameters[text.substr(0, equals)] = value;
+  }
+  return parameters;
+}
+
+std::vector<Design> designs_of(const RtlSynthOptions& options) {
+  if (options.rtl.has_value() != options.top.has_value()) {
+    throw vp::InputError("--rtl and --top belong together: a folder, and the module in it");
+  }
+  if (!options.rtl) {
+    std::vector<Design> designs = synthesis::own_designs(options.ips);
+    if (options.parameters.empty()) return designs;
+    if (options.ips.size() != 1) throw vp::InputError("--parameter is for one IP: name it");
+    designs.resize(1);
+    designs.front().parameters = parameters_of(options.parameters);
+    return designs;
+  }
+  if (!options.ips.empty()) {
+    throw vp::InputError("give '" + options.ips.front() + "' or --rtl, not both");
+  }
+  return {{*options.top, *options.top, synthesis::sources_in(*options.rtl),
+           parameters_of(options.parameters)}};
+}
+
+std::string name_of(const Figures& figures) {
+  std::string name = figures.ip;
+  for (const auto& [parameter, value] : figures.parameters) {
+    name += fmt::format(" {}={}", parameter, value);
+  }
+  return name;
+}
+
+constexpr const char* row = "{:<34} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
+
+void print_row(const Figures& figures, const synthesis::PathTiming& timing, std::ostream& out) {
+  const synthesis::Cells& c = figures.netlist.cells;
+  std::string fmax = "no path";
+  if (const std::optional<synthesis::Path>& path = figures.netlist.longest) {
+    const synthesis::FmaxRange range = timing.fmax(*path);
+    fmax = fmt::format("{:.0f} to {:.0f} MHz, cells {:.2f} ns, {} nets, fan-out {}, {} to {}",
+                       range.low, range.high, path->cells_ns, path->nets, path->fan_out, path->from,
+                       path->to);
+  }
+  out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_memory, c.ff, c.carry4,
+                     c.ramb18, c.ramb36, c.dsp, fmax)
+      << std::flush;
+}
+
+}  // namespace
+
+int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out) {
+  const std::string tool = synthesis::yosys_version();
+  const synthesis::PathTiming timing = synthesis::PathTiming::installed();
+  const std::vector<Design> designs = designs_of(options);
+  std::optional<vp::OutputFile> file;
+  if (options.output) file.emplace(*options.output);
+  out << tool << ", 7 series, speed grade -1, not routed\n"
+      << fmt::format(fmt::runtime(row), "module", "LUT", "LUTRAM", "FF", "CARRY4", "RAMB18",
+                     "RAMB36", "DSP", "Fmax, longest path");
+  std::vector<Figures> figures;
+  for (const Design& design : designs) {
+    figures.push_back(synthesis::synthesise(design, timing));
+    print_row(figures.back(), timing, out);
+  }
+  if (file) {
+    file->write(synthesis::to_json(figures, tool, timing));
+    file->commit();
+    out << "wrote " << *options.output << '\n';
+  }
+  return done;
+}
+
+}  // namespace platform::cli

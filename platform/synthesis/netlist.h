@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <synthesis/path_timing.h>
+
+/// What Yosys makes of RTL for the 7 series: `synth_xilinx -flatten -abc9`, then `write_json`.
+namespace platform::synthesis {
+
+/// Primitives as Yosys counts them: it packs neither two small LUT into one nor LUT1 away.
+struct Cells {
+  std::uint32_t lut = 0;         ///< without those that are memory
+  std::uint32_t lut_memory = 0;  ///< distributed memory and shift registers
+  std::uint32_t ff = 0;
+  std::uint32_t carry4 = 0;
+  std::uint32_t ramb18 = 0;
+  std::uint32_t ramb36 = 0;
+  std::uint32_t dsp = 0;
+};
+
+struct Netlist {
+  Cells cells;
+  std::optional<Path> longest;  ///< none: there is no path from register to register
+};
+
+/// Reads the module `top`. Throws vp::InputError: no such file or module, a cell
+/// whose delay is not known, a combinational loop (named by a signal on it).
+Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
+                     const PathTiming& timing);
+
+}  // namespace platform::synthesis

@@ -1,0 +1,281 @@
+#include <synthesis/synthesis.h>
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include <host/child.h>
+#include <host/document.h>
+#include <host/machine.h>
+#include <vp/error.h>
+#include <vp/input_file.h>
+#include <vp/output_file.h>
+#include <vp/text.h>
+
+namespace platform::synthesis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for Yosys' files that goes with this object.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "markervp-synth-XXXXXX").string();
+    if (!mkdtemp(name.data())) {
+      throw vp::OutputError("cannot make a folder in '" + fs::temp_directory_path().string() + "'");
+    }
+    folder_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  fs::path operator/(const char* name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_;
+};
+
+/// In a script of Yosys.
+std::string quoted(const fs::path& path) {
+  if (path.string().find_first_of("\"\n") != std::string::npos) {
+    throw vp::InputError("'" + path.string() + "': give a path without quotes and line ends");
+  }
+  return "\"" + path.string() + "\"";
+}
+
+/// What Yosys wrote; "" if it did not come so far.
+std::string log_of(const fs::path& file) {
+  return fs::exists(file) && !fs::is_empty(file) ? vp::read_text(file, "log", host::largest_result)
+                                                 : "";
+}
+
+/// Names go into a script, whose language has commands of the shell.
+void check_name(const std::string& name, const char* what) {
+  static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*");
+  if (std::regex_match(name, identifier)) return;
+  throw vp::InputError("'" + name + "' is no name of a " + what +
+                       ": give one of letters, digits and _");
+}
+
+std::string script_of(const Design& design, const Scratch& scratch) {
+  std::string script = "read_verilog -sv";
+  for (const fs::path& source : design.sources) script += " " + quoted(source);
+  script += "\nhierarchy -check -top " + design.top;
+  for (const auto& [name, value] : design.parameters)
+    script += fmt::format(" -chparam {} {}", name, value);
+  script += "\ntee -q -o " + (scratch / "proc.txt").string() + " proc";
+  script += "\ntee -q -o " + (scratch / "check.txt").string() + " check";
+  script += "\nsynth_xilinx -family xc7 -flatten -abc9 -top " + design.top;
+  script += "\nwrite_json " + (scratch / "netlist.json").string() + "\n";
+  return script;
+}
+
+std::string parameters_of(const Design& design) {
+  std::string text;
+  for (const auto& [name, value] : design.parameters) text += fmt::format(" {}={}", name, value);
+  return text;
+}
+
+[[noreturn]] void refuse(const Design& design, const std::string& why) {
+  throw vp::InputError("'" + design.top + "'" + parameters_of(design) + ": " + why);
+}
+
+/// The modules that the sources declare.
+std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
+  static const std::regex declaration(R"((^|\n)\s*module\s+(\w+))");
+  std::vector<std::string> names;
+  for (const fs::path& source : sources) {
+    const std::string text = vp::read_text(source, "source");
+    for (std::sregex_iterator m(text.begin(), text.end(), declaration), end; m != end; ++m) {
+      names.push_back((*m)[2]);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What Yosys says of an error, in our words where we know better.
+[[noreturn]] void refuse_as_yosys_does(const Design& design, const std::string& out) {
+  std::smatch found;
+  static const std::regex error(R"(([^\n]*)ERROR: ([^\n]*))");
+  if (!std::regex_search(out, found, error)) {
+    const std::size_t end = out.find_last_not_of('\n');
+    const std::size_t begin = end == std::string::npos ? end : out.rfind('\n', end);
+    const std::string last = end == std::string::npos ? "" : out.substr(begin + 1, end - begin);
+    refuse(design, "yosys itself failed" + (last.empty() ? "" : ": " + last) +
+                       "; other parameters may work");
+  }
+  const std::string where = found[1], what = found[2];
+  if (what.find("Module `" + design.top + "' not found") != std::string::npos) {
+    const std::vector<std::string> modules = modules_in(design.sources);
+    throw vp::InputError("no module '" + design.top + "' in the sources" +
+                         (modules.empty() ? "" : ": name " + vp::one_of(modules)));
+  }
+  refuse(design, where + what);
+}
+
+void refuse_latches(const Design& design, const std::string& proc) {
+  static const std::regex latch(
+      R"(Latch inferred for signal `\\[^']*\.\\([^']*)' from process `[^']*\$([^'$]+:\d+)\$)");
+  std::smatch found;
+  if (!std::regex_search(proc, found, latch)) return;
+  refuse(design, found[2].str() + ": a latch holds '" + found[1].str() +
+                     "': assign it on every way through the block, or use always_ff");
+}
+
+void refuse_loops(const Design& design, const std::string& check) {
+  const std::size_t loop = check.find("found logic loop");
+  if (loop == std::string::npos) return;
+  static const std::regex place(R"(([^\s$|]+:\d+))");
+  std::smatch found;
+  const std::string rest = check.substr(loop);
+  const std::string where = std::regex_search(rest, found, place) ? found[1].str() + ": " : "";
+  refuse(design, where + "a combinational loop: put a register into it");
+}
+
+fs::path rtl_folder() {
+  for (const std::string& library : host::library_folders()) {
+    for (const char* up : {"../..", "../../.."}) {
+      const fs::path folder = fs::path(library) / up / "share/markervp/rtl";
+      if (fs::exists(folder)) return fs::canonical(folder);
+    }
+  }
+  throw vp::InputError("no RTL is installed in share/markervp/rtl; install markervp completely");
+}
+
+/// What figures are kept of: the defaults, and the parameters on which size or speed depend.
+std::vector<std::pair<std::string, Parameters>> own_variants() {
+  return {{"axi_threshold_bridge", {}},
+          {"blob_detection", {{"LABELS", 32}}},
+          {"blob_detection", {{"LABELS", 64}}},
+          {"blob_detection", {{"LABELS", 128}}},
+          {"clock_crossing", {}},
+          {"control_block", {}},
+          {"corner_detection", {{"LEAN", 0}}},
+          {"corner_detection", {{"LEAN", 1}}},
+          {"feature_packaging", {{"BUFFER_DEPTH", 100}}},
+          {"frame_status", {}},
+          {"global_threshold", {}},
+          {"sensor_input", {}}};
+}
+
+double rounded(double value, double scale) {
+  return std::round(value * scale) / scale;
+}
+
+}  // namespace
+
+std::string yosys_version() {
+  const host::CommandEnd end = host::run_command({"yosys", "-V"});
+  if (end.exit_code == host::no_such_command) {
+    throw vp::InputError("yosys is not installed: apt-get install yosys, or scripts/setup --rtl");
+  }
+  std::istringstream words(end.out);
+  std::string name, version;
+  words >> name >> version;
+  return name + " " + version;
+}
+
+std::vector<Design> own_designs(const std::vector<std::string>& only) {
+  const std::vector<fs::path> sources = sources_in(rtl_folder());
+  std::vector<std::string> names;
+  std::vector<Design> designs;
+  for (const auto& [ip, parameters] : own_variants()) {
+    if (std::find(names.begin(), names.end(), ip) == names.end()) names.push_back(ip);
+    if (only.empty() || std::find(only.begin(), only.end(), ip) != only.end()) {
+      designs.push_back({ip, ip, sources, parameters});
+    }
+  }
+  for (const std::string& name : only) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      throw vp::InputError("no RTL of an IP '" + name + "': name " + vp::one_of(names) +
+                           ", or give your own with --rtl and --top");
+    }
+  }
+  return designs;
+}
+
+std::vector<fs::path> sources_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    if (path.extension() == ".v" || path.extension() == ".sv") found.push_back(path);
+  }
+  if (error) throw vp::InputError("'" + folder.string() + "': " + error.message());
+  if (found.empty()) {
+    throw vp::InputError("'" + folder.string() +
+                         "' has no .v or .sv file; VHDL becomes one with "
+                         "ghdl --synth --out=verilog");
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Figures synthesise(const Design& design, const PathTiming& timing) {
+  check_name(design.top, "module");
+  for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
+  const Scratch scratch;
+  const fs::path script = scratch / "synthesise.ys";
+  vp::OutputFile file(script.string());
+  file.write(script_of(design, scratch));
+  file.commit();
+  const host::CommandEnd end = host::run_command({"yosys", "-q", "-s", script.string()});
+  refuse_latches(design, log_of(scratch / "proc.txt"));
+  refuse_loops(design, log_of(scratch / "check.txt"));
+  if (end.exit_code == host::no_such_command) yosys_version();
+  if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
+  try {
+    return {design.ip, design.parameters,
+            read_netlist(scratch / "netlist.json", design.top, timing)};
+  } catch (const vp::InputError& error) {
+    refuse(design, error.what());
+  }
+}
+
+std::string to_json(const std::vector<Figures>& figures, const std::string& tool,
+                    const PathTiming& timing) {
+  using Json = nlohmann::ordered_json;
+  Json entries = Json::array();
+  for (const Figures& f : figures) {
+    const Cells& cells = f.netlist.cells;
+    Json entry{{"ip", f.ip},
+               {"parameters", f.parameters},
+               {"lut", cells.lut},
+               {"lut_memory", cells.lut_memory},
+               {"ff", cells.ff},
+               {"carry4", cells.carry4},
+               {"ramb18", cells.ramb18},
+               {"ramb36", cells.ramb36},
+               {"dsp", cells.dsp}};
+    if (const std::optional<Path>& path = f.netlist.longest) {
+      const FmaxRange fmax = timing.fmax(*path);
+      entry["longest_path"] = {{"from", path->from},
+                               {"to", path->to},
+                               {"levels", path->cells.size()},
+                               {"cells_ns", rounded(path->cells_ns, 1e3)},
+                               {"nets", path->nets},
+                               {"fan_out", path->fan_out},
+                               {"setup_ns", rounded(path->setup_ns, 1e3)}};
+      entry["fmax_mhz"] = {{"low", rounded(fmax.low, 10)},
+                           {"nominal", rounded(fmax.nominal, 10)},
+                           {"high", rounded(fmax.high, 10)}};
+    }
+    entries.push_back(entry);
+  }
+  return Json{{"version", 1}, {"tool", tool}, {"entries", entries}}.dump(2) + "\n";
+}
+
+}  // namespace platform::synthesis

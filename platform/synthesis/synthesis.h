@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <synthesis/netlist.h>
+
+/// RTL through Yosys, and what came out of it as a file. Nothing of it is routed: counts are those
+/// of Yosys, Fmax is a range (path_timing.h).
+namespace platform::synthesis {
+
+/// By name in capitals: of a module what Verilog calls its parameters.
+using Parameters = std::map<std::string, std::int64_t>;
+
+/// A module with its parameters. Those that are not named keep their default.
+struct Design {
+  std::string ip;  ///< in reports
+  std::string top;
+  std::vector<std::filesystem::path> sources;  ///< .v and .sv
+  Parameters parameters;
+};
+
+struct Figures {
+  std::string ip;
+  Parameters parameters;
+  Netlist netlist;
+};
+
+/// What Yosys calls itself: "Yosys 0.23". Throws vp::InputError if it is not installed.
+std::string yosys_version();
+
+/// The IP of the pixel pipeline, each with the parameters for which figures are kept. `only` names
+/// some of them; empty: all. Throws vp::InputError for one that there is not, or if no RTL is
+/// installed.
+std::vector<Design> own_designs(const std::vector<std::string>& only);
+
+/// The .v and .sv files of a folder and of those below it. Throws vp::InputError if there is none.
+std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folder);
+
+/// Flat, for the 7 series. Throws vp::InputError with file and line: what cannot be read or
+/// synthesised, a latch, a combinational loop, no module or parameter of that name.
+Figures synthesise(const Design& design, const PathTiming& timing);
+
+/// The figures as a file of data: rtl/synthesis.json.
+std::string to_json(const std::vector<Figures>& figures, const std::string& tool,
+                    const PathTiming& timing);
+
+}  // namespace platform::synthesis

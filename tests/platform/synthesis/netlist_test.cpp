@@ -1,0 +1,185 @@
+// Paths of small netlists, as Yosys writes them: cells and nets to the last digit.
+#include <synthesis/netlist.h>
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <vp/error.h>
+
+#include "temporary_files.h"
+
+using namespace platform::synthesis;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const PathTiming timing = PathTiming::load(std::string(MARKERVP_DATA) + "/rtl/xc7.json");
+
+/// A module `top` that grows cell by cell. Bits are numbers from 2.
+struct Module {
+  Json cells = Json::object(), names = Json::object();
+
+  void add(const std::string& type, const Json& inputs, const Json& outputs) {
+    Json directions = Json::object(), ports = Json::object();
+    for (const auto& [port, bits] : inputs.items()) {
+      directions[port] = "input";
+      ports[port] = bits;
+    }
+    for (const auto& [port, bits] : outputs.items()) {
+      directions[port] = "output";
+      ports[port] = bits;
+    }
+    cells["$" + std::to_string(cells.size())] = {{"type", type},
+                                                 {"parameters", Json::object()},
+                                                 {"port_directions", directions},
+                                                 {"connections", ports}};
+  }
+  void flip_flop(int d, int q) { add("FDRE", {{"C", {1}}, {"D", {d}}}, {{"Q", {q}}}); }
+  void lut(int in, int out) { add("LUT1", {{"I0", {in}}}, {{"O", {out}}}); }
+  void name(int bit, const std::string& as) { names[as] = {{"bits", {bit}}}; }
+
+  Netlist read() const {
+    const kit::TemporaryFolder folder;
+    const Json json{{"modules", {{"top", {{"cells", cells}, {"netnames", names}}}}}};
+    kit::write_file(folder / "netlist.json", json.dump());
+    return read_netlist(folder / "netlist.json", "top", timing);
+  }
+  std::string refusal() const {
+    try {
+      read();
+    } catch (const vp::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(netlist, *boost::unit_test::tolerance(1e-9))
+
+BOOST_AUTO_TEST_CASE(the_net_before_a_lut_leaves_the_slice_the_one_behind_it_does_not) {
+  Module module;
+  module.flip_flop(0, 2);
+  module.lut(2, 3);
+  module.lut(3, 4);
+  module.flip_flop(4, 5);
+  module.name(2, "count");
+  module.name(5, "total");
+  const Netlist netlist = module.read();
+  BOOST_REQUIRE(netlist.longest.has_value());
+  BOOST_TEST(netlist.longest->cells_ns == timing["ff_out"] + 2 * timing["lut"]);
+  BOOST_TEST(netlist.longest->setup_ns == timing["ff_data"]);
+  BOOST_TEST(netlist.longest->nets == 2u);
+  BOOST_TEST(netlist.longest->fan_out == 1u);
+  BOOST_TEST(netlist.longest->from == "count");
+  BOOST_TEST(netlist.longest->to == "total");
+  BOOST_TEST(netlist.cells.lut == 2u);
+  BOOST_TEST(netlist.cells.ff == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_carry_chain_is_entered_through_a_lut_and_ripples_without_nets) {
+  Module module;
+  module.flip_flop(30, 2);
+  module.lut(2, 3);
+  module.add(
+      "CARRY4",
+      {{"CI", {"0"}}, {"CYINIT", {"0"}}, {"DI", {"0", "0", "0", "0"}}, {"S", {3, "0", "0", "0"}}},
+      {{"CO", {10, 11, 12, 13}}});
+  module.add(
+      "CARRY4",
+      {{"CI", {13}}, {"CYINIT", {"0"}}, {"DI", {"0", "0", "0", "0"}}, {"S", {"0", "0", "0", "0"}}},
+      {{"O", {20, 21, 22, 30}}});
+  const Netlist netlist = module.read();
+  BOOST_REQUIRE(netlist.longest.has_value());
+  BOOST_TEST(netlist.longest->cells_ns ==
+             timing["ff_out"] + timing["lut"] + timing["carry_enter"] + timing["carry_leave"]);
+  BOOST_TEST(netlist.longest->nets == 1u);
+  BOOST_TEST(netlist.cells.carry4 == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(sum_bits_depend_on_lower_bits_only) {
+  Module module;
+  module.flip_flop(20, 2);  // its own sum: S and O of bit 0
+  module.add(
+      "CARRY4",
+      {{"CI", {"0"}}, {"CYINIT", {"0"}}, {"DI", {"0", 2, "0", "0"}}, {"S", {2, "0", "0", "0"}}},
+      {{"O", {20, 21, 22, 23}}});
+  BOOST_TEST(module.read().longest->cells_ns == timing["ff_out"] + timing["carry_cross"]);
+  Module above;  // DI of bit 1 does not reach bit 0
+  above.flip_flop(20, 2);
+  above.add(
+      "CARRY4",
+      {{"CI", {"0"}}, {"CYINIT", {"0"}}, {"DI", {"0", 2, "0", "0"}}, {"S", {"0", "0", "0", "0"}}},
+      {{"O", {20, 21, 22, 23}}});
+  BOOST_TEST(!above.read().longest.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(an_enable_is_further_away_than_data) {
+  Module module;
+  module.lut(2, 3);
+  module.add("FDRE", {{"C", {1}}, {"D", {"0"}}, {"CE", {3}}}, {{"Q", {2}}});
+  const Netlist netlist = module.read();
+  BOOST_TEST(netlist.longest->setup_ns == timing["ff_enable"]);
+  BOOST_TEST(netlist.longest->nets == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_short_path_with_a_large_fan_out_can_be_the_longest) {
+  Module module;
+  module.flip_flop(5, 2);
+  for (int bit = 2; bit < 5; ++bit) module.lut(bit, bit + 1);  // three nets of fan-out 1
+  module.flip_flop(1002, 1000);
+  module.lut(1000, 1002);
+  module.lut(1000, 1001);
+  Netlist netlist = module.read();
+  BOOST_TEST(netlist.longest->nets == 3u);
+  for (int bit = 2000; bit < 2400; ++bit) module.lut(1000, bit);
+  netlist = module.read();
+  BOOST_TEST(netlist.longest->nets == 1u);
+  BOOST_TEST(netlist.longest->fan_out == 402u);
+}
+
+BOOST_AUTO_TEST_CASE(distributed_memory_is_read_in_the_clock) {
+  Module module;
+  module.add("RAM32X1D", {{"WCLK", {1}}, {"DPRA0", {2}}, {"D", {"0"}}, {"WE", {"0"}}},
+             {{"DPO", {3}}});
+  module.flip_flop(3, 2);
+  const Netlist netlist = module.read();
+  BOOST_TEST(netlist.longest->cells_ns ==
+             std::max(timing["ff_out"] + timing["lutram_read"], timing["lutram_out"]));
+  BOOST_TEST(netlist.cells.lut_memory == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_product_without_register_goes_through) {
+  Module module;
+  module.flip_flop(3, 2);
+  module.add("DSP48E1", {{"CLK", {1}}, {"A", {2}}}, {{"P", {3}}});
+  BOOST_TEST(module.read().longest->cells_ns == timing["ff_out"] + timing["dsp_through"]);
+  module.cells["$1"]["parameters"]["PREG"] = "00000000000000000000000000000001";
+  BOOST_TEST(module.read().longest->cells_ns == timing["ff_out"]);
+  BOOST_TEST(module.read().longest->setup_ns == timing["dsp_setup"]);
+}
+
+BOOST_AUTO_TEST_CASE(without_a_path_there_is_no_longest_one) {
+  Module module;
+  module.add("IBUF", {{"I", {2}}}, {{"O", {3}}});
+  module.flip_flop(3, 4);
+  BOOST_TEST(!module.read().longest.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(loops_foreign_cells_and_missing_modules_are_refused) {
+  Module loop;
+  loop.lut(2, 3);
+  loop.lut(3, 2);
+  loop.name(3, "again");
+  loop.name(2, "again_too");
+  BOOST_TEST(loop.refusal().find("a combinational loop goes through 'again") != std::string::npos);
+  Module foreign;
+  foreign.add("$mul", {{"A", {2}}}, {{"Y", {3}}});
+  BOOST_TEST(foreign.refusal().find("'$mul' is left after synthesis") != std::string::npos);
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "netlist.json", R"({"modules": {}})");
+  BOOST_CHECK_THROW(read_netlist(folder / "netlist.json", "top", timing), vp::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

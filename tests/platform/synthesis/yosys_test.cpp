@@ -1,0 +1,133 @@
+// Small modules through Yosys: figures, and what is refused with file and line.
+#include <synthesis/synthesis.h>
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <vp/error.h>
+
+#include "temporary_files.h"
+
+using namespace platform::synthesis;
+
+namespace {
+
+const PathTiming timing = PathTiming::load(std::string(MARKERVP_DATA) + "/rtl/xc7.json");
+
+struct Source {
+  Design design(const std::string& text, const std::string& top,
+                const Parameters& parameters = {}) {
+    kit::write_file(folder / "own.sv", text);
+    return {top, top, sources_in(folder.path()), parameters};
+  }
+  std::string refusal(const std::string& text, const std::string& top = "own",
+                      const Parameters& parameters = {}) {
+    try {
+      synthesise(design(text, top, parameters), timing);
+    } catch (const vp::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  kit::TemporaryFolder folder;
+};
+
+const char* const counter = R"(module own #(parameter int BITS = 8) (
+  input logic clk, output logic [BITS-1:0] count);
+  always_ff @(posedge clk) count <= count + 1'b1;
+endmodule
+)";
+
+void check_says(const std::string& refusal, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    BOOST_TEST(refusal.find(part) != std::string::npos, refusal << " without " << part);
+  }
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(yosys, Source)
+
+BOOST_AUTO_TEST_CASE(a_counter_is_flip_flops_and_a_carry_chain_of_its_width) {
+  const Figures narrow = synthesise(design(counter, "own"), timing);
+  BOOST_TEST(narrow.netlist.cells.ff == 8u);
+  BOOST_TEST(narrow.netlist.cells.carry4 == 2u);
+  BOOST_REQUIRE(narrow.netlist.longest.has_value());
+  const Figures wide = synthesise(design(counter, "own", {{"BITS", 32}}), timing);
+  BOOST_TEST(wide.netlist.cells.ff == 32u);
+  BOOST_TEST(wide.netlist.cells.carry4 == 8u);
+  BOOST_TEST(timing.fmax(*wide.netlist.longest).nominal <
+             timing.fmax(*narrow.netlist.longest).nominal);
+}
+
+// What the thesis says of its first form (4.3.4.4), which nothing here was fitted to.
+BOOST_AUTO_TEST_CASE(suppression_in_one_clock_is_as_slow_as_the_thesis_found) {
+  const Design nms{
+      "nms_one_clock", "nms_one_clock", {MARKERVP_TEST_DATA "/rtl/nms_one_clock.sv"}, {}};
+  const Figures figures = synthesise(nms, timing);
+  BOOST_REQUIRE(figures.netlist.longest.has_value());
+  const FmaxRange fmax = timing.fmax(*figures.netlist.longest);
+  BOOST_TEST(fmax.low < 36.63);
+  BOOST_TEST(fmax.high > 36.63);
+}
+
+BOOST_AUTO_TEST_CASE(figures_become_a_file) {
+  const Figures figures = synthesise(design(counter, "own", {{"BITS", 12}}), timing);
+  const auto json = nlohmann::json::parse(to_json({figures}, "Yosys 0.0", timing));
+  BOOST_TEST(json["tool"] == "Yosys 0.0");
+  const auto& entry = json["entries"].at(0);
+  BOOST_TEST(entry["ip"] == "own");
+  BOOST_TEST(entry["parameters"]["BITS"] == 12);
+  BOOST_TEST(entry["ff"] == 12);
+  BOOST_TEST(entry["fmax_mhz"]["low"].get<double>() < entry["fmax_mhz"]["high"].get<double>());
+}
+
+BOOST_AUTO_TEST_CASE(a_latch_is_named_with_its_line) {
+  check_says(refusal("module own(input logic e, d, output logic q);\n"
+                     "  always @* if (e) q = d;\nendmodule\n"),
+             {"own.sv:2", "latch", "'q'"});
+}
+
+BOOST_AUTO_TEST_CASE(a_combinational_loop_is_named_with_its_line) {
+  check_says(refusal("module own(input logic a, output logic y);\n"
+                     "  assign y = ~(y & a);\nendmodule\n"),
+             {"own.sv:2", "loop"});
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_top_gets_the_modules_that_there_are) {
+  check_says(refusal(counter, "other"), {"no module 'other'", "own"});
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_verilog_is_named_with_its_line) {
+  check_says(refusal("module own(input logic a);\n  wire b = = a;\nendmodule\n"), {"own.sv:2"});
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_synthesised_is_refused) {
+  check_says(refusal("module own(input logic a, output logic y);\n"
+                     "  always @* while (a) y = ~y;\nendmodule\n"),
+             {"own.sv", "While loops"});
+  check_says(
+      refusal("module own(input logic a, output logic y);\n  missing m(.a, .y);\nendmodule\n"),
+      {"missing"});
+}
+
+BOOST_AUTO_TEST_CASE(a_parameter_that_there_is_not_is_refused) {
+  check_says(refusal(counter, "own", {{"WIDTH", 3}}), {"WIDTH"});
+}
+
+// A script of Yosys can start programs.
+BOOST_AUTO_TEST_CASE(a_name_that_is_none_never_reaches_yosys) {
+  const std::string trap = folder / "trap";
+  check_says(refusal(counter, "own\n!touch " + trap), {"is no name of a module"});
+  check_says(refusal(counter, "own", {{"BITS 3\n!touch " + trap, 3}}),
+             {"is no name of a parameter"});
+  BOOST_TEST(!std::filesystem::exists(trap));
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_without_verilog_and_an_unknown_ip_are_refused) {
+  BOOST_CHECK_THROW(sources_in(folder.path()), vp::InputError);
+  BOOST_CHECK_THROW(sources_in(folder / "none"), vp::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
