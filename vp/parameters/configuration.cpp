@@ -159,10 +159,8 @@ std::string write_yaml(const std::vector<ParameterDescription>& parameters) {
       const std::string path = join({parts.begin(), group + 1}, ".") + ".";
       text += yaml_line(group - parts.begin(), holds_pinned(path), *group + ":\n");
     }
-    std::string line =
-        yaml_line(parts.size(), is_pinned(parameter),
-                  name + ": " +
-                      (is_plain(parameter.value) ? parameter.value : quoted(parameter.value)));
+    const std::string value = is_plain(parameter.value) ? parameter.value : quoted(parameter.value);
+    std::string line = yaml_line(parts.size(), is_pinned(parameter), name + ": " + value);
     line.resize(std::max(line.size(), comment_column), ' ');
     text += line + "  # " + comment(parameter) + "\n";
     open = std::move(parts);
