@@ -81,6 +81,7 @@ int dry_run(const SweepOptions& options, const sweep::Manifest& manifest,
             const sweep::Platform& platform, std::ostream& out) {
   if (options.engine == "slurm") sweep::largest_array();
   show_points(manifest, out);
+  host::check_written(out);  // before processes begin as copies of this one and of what it holds
   const sweep::Refusals refusals = sweep::try_points(manifest, platform, most_built);
   for (const auto& [reason, count] : refusals.reasons)
     out << report::counted(count, "point") << " will fail: " << reason << "\n";
