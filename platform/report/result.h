@@ -88,18 +88,21 @@ struct TimingReport {
   struct Module {
     std::string name;
     std::string clock;
-    double frequency_mhz = 0;  ///< the highest that the clock had
-    double fmax_mhz = 0;
-    bool lower_bound = false;  ///< it is known to work up to fmax, nobody says that it ends there
-    bool met = true;
-    double margin_percent = 0;  ///< by how much the clock could rise; negative: must fall
+    double frequency_mhz = 0;   ///< the highest that the clock had
+    double fmax_mhz = 0;        ///< up to this clock it works
+    double fmax_high_mhz = 0;   ///< above this it does not; between them nobody knows
+    bool met = true;            ///< its clock is one at which it works
+    double margin_percent = 0;  ///< by how much the clock may rise up to fmax; negative: must fall
+    std::string origin;         ///< of the range: "published", "derived", …, "configuration"
     std::string source;
     double reachable_mhz = 0;  ///< the highest clock up to fmax that the chip makes; 0: not known
 
-    /// Clocked above what it is known to reach: it may work or not.
-    bool unknown() const { return !met && lower_bound; }
     /// Clocked above what it can do.
-    bool missed() const { return !met && !lower_bound; }
+    bool missed() const { return !met && frequency_mhz > fmax_high_mhz; }
+    /// Clocked above what it is known to reach: it may work or not.
+    bool unknown() const { return !met && !missed(); }
+    /// By how much the clock could rise at most.
+    double most_margin_percent() const { return 100 * (fmax_high_mhz / frequency_mhz - 1); }
   };
 
   bool met = true;
@@ -121,6 +124,7 @@ struct ClockReport {
     bool is_made = true;  ///< nearly the wish
     // The nearest that can be had instead; 0: none.
     double below_mhz = 0, above_mhz = 0;
+    double legal_mhz = 0;  ///< of a clock beyond its limit: the nearest that can be had; 0: none
     // Of the frequency that it had.
     double limit_mhz = 0;
     std::string limit_confidence;

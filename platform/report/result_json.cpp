@@ -312,6 +312,7 @@ Json to_json(const ClockReport& report) {
     entry["below_mhz"] = clock.below_mhz > 0 ? Json(mhz(clock.below_mhz)) : Json();
     entry["above_mhz"] = clock.above_mhz > 0 ? Json(mhz(clock.above_mhz)) : Json();
     entry["limit_mhz"] = mhz(clock.limit_mhz);
+    if (clock.legal_mhz > 0) entry["legal_mhz"] = mhz(clock.legal_mhz);
     entry["limit_confidence"] = clock.limit_confidence;
     entry["margin_percent"] = rounded(clock.margin_percent, percent_places);
     entry["within"] = clock.within;
@@ -331,7 +332,8 @@ Json to_json(const TimingReport& timing) {
     entry["clock"] = module.clock;
     entry["frequency_mhz"] = rounded(module.frequency_mhz, mhz_places);
     entry["fmax_mhz"] = rounded(module.fmax_mhz, mhz_places);
-    entry["lower_bound"] = module.lower_bound;
+    entry["fmax_high_mhz"] = rounded(module.fmax_high_mhz, mhz_places);
+    entry["origin"] = module.origin;
     if (module.reachable_mhz > 0)
       entry["reachable_mhz"] = rounded(module.reachable_mhz, mhz_places);
     entry["met"] = module.met;

@@ -35,7 +35,7 @@ struct Verdict {
   ///        such frames, less 100 %.
   /// "fits": LUT, flip-flops, block memories and DSP of the device.
   /// "clocks": CPU, DDR and FCLK are within the speed grade, and PLLs and dividers make them.
-  /// "timing": no IP is clocked above its Fmax; unknown where only a lower bound of that is known.
+  /// "timing": no IP is clocked above its Fmax; unknown inside the range where that lies.
   std::vector<Part> parts;
 
   /// The worst of all parts.
@@ -48,8 +48,9 @@ struct Verdict {
 /// fast enough.
 Verdict verdict_of(const RunFacts& facts, const Summary& summary);
 
-/// The module that says most about the clocks: of those that miss the one that misses by most, a
-/// known limit before an unknown one; if none does, the one with the least margin to a known limit.
+/// The module that says most about the clocks: of those that miss the one that misses by most; else
+/// of those of which nobody knows the one furthest from what is known; if there are none, the one
+/// that is the first to fail as the clocks rise.
 /// `timing` has modules.
 const TimingReport::Module& critical_module(const TimingReport& timing);
 

@@ -115,7 +115,7 @@ const std::vector<MetricKind>& metric_kinds() {
       {"timing.modules.*.reachable_mhz", "MHz", "clock below that limit that the PLLs make"},
       {"timing.modules.*.fmax_mhz", "MHz", "clock up to which it works"},
       {"timing.modules.*.margin_percent", "%", "by how much its clock could rise"},
-      {"timing.modules.*.lower_bound", "", "1 if nobody says that it ends there"},
+      {"timing.modules.*.fmax_high_mhz", "MHz", "clock above which it does not work"},
       {"timing.modules.*.met", "", "1 if the module is fast enough"},
       {"clocks.legal", "", "1 if the device allows and can make every clock"},
       {"clocks.list.*.made.*", "", "how PLL and dividers make a clock"},

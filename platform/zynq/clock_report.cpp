@@ -45,6 +45,10 @@ ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
   clock.limit_confidence = to_string(verdict.confidence);
   clock.margin_percent = verdict.margin_percent;
   clock.within = verdict.within;
+  if (!verdict.within) {
+    const auto legal = ps.clock_planner().neighbours(verdict.limit_hz, use.kind, ps.clock_plan());
+    if (legal.below) clock.legal_mhz = legal.below->hz / device::hz_per_mhz;
+  }
   clock.makeable = verdict.makeable;
   return clock;
 }

@@ -33,12 +33,12 @@ std::vector<Part> parts_of(const sc_core::sc_object& pl);
 report::ResourceReport resource_report(const std::vector<Part>& parts,
                                        const device::Device& device);
 
-/// Whether each IP can be built for its clock: a parameter `fmax` for each, by default what the IP
-/// says for the slowest speed grade, scaled to that of the device. A design that cannot be built
-/// runs all the same.
+/// Whether each IP can be built for its clock: parameters `fmax` and `fmax_high` for each, by
+/// default what the IP says for the slowest speed grade, scaled to that of the device. A design
+/// that cannot be built runs all the same.
 class TimingClosure : public sc_core::sc_module {
  public:
-  /// `parts` and `device` must outlive it.
+  /// `parts` and `device` must outlive it. Throws vp::InputError for limits in the wrong order.
   TimingClosure(sc_core::sc_module_name name, const std::vector<Part>& parts,
                 const device::Device& device);
 
@@ -50,8 +50,10 @@ class TimingClosure : public sc_core::sc_module {
  private:
   struct Limit : sc_core::sc_module {
     Limit(sc_core::sc_module_name name, const Part& ip, const device::Device& device);
+    std::uint64_t usual_high(const device::Device& device) const;
+
     const Part& ip;
-    vp::Parameter<std::uint64_t> fmax;
+    vp::Parameter<std::uint64_t> fmax, fmax_high;
   };
 
   const device::Device& device_;

@@ -6,6 +6,20 @@
 
 namespace vp {
 
+const char* to_string(FmaxOrigin origin) {
+  switch (origin) {
+    case FmaxOrigin::published:
+      return "published";
+    case FmaxOrigin::derived:
+      return "derived";
+    case FmaxOrigin::synthesis:
+      return "synthesis";
+    case FmaxOrigin::estimated:
+      break;
+  }
+  return "estimated";
+}
+
 const sc_core::sc_object& Ip::object() const {
   return dynamic_cast<const sc_core::sc_object&>(*this);
 }

@@ -36,7 +36,7 @@ inline vp::IpEstimate small_ip(const char* kind, std::uint32_t lut, std::uint32_
   e.uncertainty_percent = 50;
   e.source = "derived from the structure that thesis 4.3 and 4.4 describe";
   e.fmax_hz = fmax_hz;
-  e.fmax_source = vp::Source::derived;
+  e.fmax_origin = vp::FmaxOrigin::derived;
   e.fmax_documentation = "works at the thesis' system clock (4.1)";
   return e;
 }

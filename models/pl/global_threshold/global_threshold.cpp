@@ -87,7 +87,7 @@ vp::IpEstimate GlobalThreshold::own_estimate() const {
   e.uncertainty_percent = 40;
   e.source = "derived from the structure of thesis 4.3.5: 256 counters in registers";
   e.fmax_hz = 100 * mhz;
-  e.fmax_source = vp::Source::published;
+  e.fmax_origin = vp::FmaxOrigin::published;
   e.fmax_documentation = "runs comfortably at it (thesis 4.6.1)";
   return e;
 }

@@ -29,7 +29,7 @@ inline vp::IpEstimate axi_estimate(const char* kind, std::uint32_t lut, std::uin
   e.uncertainty_percent = 40;
   e.source = "assumed from public utilisation reports of designs with this IP";
   e.fmax_hz = 100'000'000;
-  e.fmax_source = vp::Source::derived;
+  e.fmax_origin = vp::FmaxOrigin::derived;
   e.fmax_documentation = "works at the thesis' system clock (table 4.2)";
   return e;
 }

@@ -134,8 +134,8 @@ BOOST_AUTO_TEST_CASE(one_sweep_a_folder) {
 BOOST_AUTO_TEST_CASE(metrics_are_named_by_their_path) {
   const Metrics metrics = metrics_of(Json::parse(R"({
     "timing": {"met": false, "modules": [
-        {"name": "blob", "fmax_mhz": 55, "met": false, "lower_bound": false},
-        {"name": "corner", "met": false, "lower_bound": true}, {"name": "bram", "met": true}]},
+        {"name": "blob", "frequency_mhz": 60, "fmax_mhz": 55, "fmax_high_mhz": 55, "met": false},
+        {"name": "corner", "frequency_mhz": 120, "fmax_mhz": 100, "fmax_high_mhz": 236, "met": false}, {"name": "bram", "met": true}]},
     "frames": [{"index": 0, "counts": {"corners": 2}, "markers": []},
                {"index": 1, "counts": {"corners": 4},
                 "markers": [{"id": 1, "error": {"corner_px": 0.5}}]}]})"));

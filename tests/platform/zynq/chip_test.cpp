@@ -4,6 +4,7 @@
 #include <zynq/zynq_power.h>
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <memory>
 
 #include <vp/configuration.h>
@@ -138,6 +139,68 @@ BOOST_AUTO_TEST_CASE(a_smaller_chip_holds_less) {
 
 BOOST_AUTO_TEST_CASE(the_usual_chip_has_the_usual_code) {
   BOOST_TEST(Platform(Settings{}).slcr(slcr::PSS_IDCODE) == 0x0372'7093u);
+}
+
+// 55 MHz are those of 128 labels; a search over others has another depth.
+BOOST_AUTO_TEST_CASE(fmax_of_blob_detection_moves_with_its_labels) {
+  struct Range {
+    const char* labels;
+    double low, high;
+    const char* origin;
+  };
+  for (const Range& range :
+       {Range{"4", 55, 192.5, "estimated"}, Range{"16", 55, 96.25, "estimated"},
+        Range{"64", 55, 64.166666, "estimated"}, Range{"100", 55, 55, "published"},
+        Range{"128", 55, 55, "published"}, Range{"200", 48.125, 55, "estimated"},
+        Range{"400", 42.777777, 55, "estimated"}}) {
+    for (const auto& [device, factor] :
+         {std::pair<const char*, double>{"xc7z020-1", 1}, {"xc7z020-2", 1.18}}) {
+      Platform platform(
+          Settings{{"pl.blob_detection.label_count", range.labels}, {"device", device}});
+      const auto blobs = platform.module("pl.blob_detection");
+      BOOST_TEST(std::abs(blobs.fmax_mhz - range.low * factor) < 2e-6, range.labels);
+      BOOST_TEST(std::abs(blobs.fmax_high_mhz - range.high * factor) < 2e-6, range.labels);
+      const bool scaled = factor != 1 && std::string(range.origin) == "published";
+      BOOST_TEST(blobs.origin == (scaled ? "derived" : range.origin));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(inside_the_range_of_fmax_nobody_knows) {
+  const auto blobs = [](const char* clock) {
+    Platform platform(
+        Settings{{"pl.blob_detection.label_count", "16"}, {"ps.fclk_clk1.frequency", clock}});
+    return platform.module("pl.blob_detection");
+  };
+  BOOST_TEST(blobs("50 MHz").met);
+  BOOST_TEST(blobs("90.909 MHz").unknown());
+  BOOST_TEST(!blobs("90.909 MHz").missed());
+  BOOST_TEST(blobs("100 MHz").missed());
+}
+
+BOOST_AUTO_TEST_CASE(a_limit_of_the_users_own_is_one_or_a_range) {
+  const auto corners = [](const Settings& settings) {
+    return Platform(settings).module("pl.corner_detection");
+  };
+  const auto one = corners({{"timing.corner_detection.fmax", "120 MHz"}});
+  BOOST_TEST(one.fmax_high_mhz == 120.0);
+  BOOST_TEST(one.origin == "configuration");
+  const auto range = corners({{"timing.corner_detection.fmax", "120 MHz"},
+                              {"timing.corner_detection.fmax_high", "150 MHz"}});
+  BOOST_TEST(range.fmax_high_mhz == 150.0);
+  BOOST_CHECK_THROW(corners({{"timing.corner_detection.fmax_high", "90 MHz"}}), vp::InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_beyond_its_limit_has_a_nearest_that_is_legal) {
+  const auto legal = [](const char* device, const char* path, const char* wish, const char* clock) {
+    return Platform(Settings{{"device", device}, {path, wish}}).clock(clock).legal_mhz;
+  };
+  BOOST_TEST(std::abs(legal("xc7z020-1", "ps.cpu_clk.frequency", "2 GHz", "ps.cpu_clk") -
+                      666.666667) < 1e-5);
+  BOOST_TEST(std::abs(legal("xc7z020-3", "ps.cpu_clk.frequency", "2 GHz", "ps.cpu_clk") -
+                      866.666667) < 1e-5);
+  BOOST_TEST(legal("xc7z020-1", "ps.fclk_clk0.frequency", "400 MHz", "ps.fclk_clk0") == 250.0);
+  BOOST_TEST(legal("xc7z020-1", "ps.cpu_clk.frequency", "600 MHz", "ps.cpu_clk") == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(fmax_scales_with_the_speed_grade) {

@@ -12,6 +12,16 @@
 
 namespace vp {
 
+/// Where a range of Fmax comes from.
+enum class FmaxOrigin {
+  published,  ///< somebody built it and said so
+  derived,    ///< follows from what was published: it works there at that clock
+  synthesis,  ///< of its RTL
+  estimated,  ///< from its structure; nobody built it
+};
+
+const char* to_string(FmaxOrigin origin);
+
 /// What an IP is as hardware: how much of the device it takes, how fast it can be clocked, and when
 /// its logic toggles. Follows from the model's own parameters.
 struct IpEstimate {
@@ -23,10 +33,10 @@ struct IpEstimate {
   unsigned uncertainty_percent = 0;
   std::string source;  ///< of the four numbers
 
-  /// Highest clock. With `lower_bound`: the highest at which it is known to work.
-  std::uint64_t fmax_hz = 0;
-  bool lower_bound = true;
-  Source fmax_source = Source::assumed;
+  // Its highest clock in the slowest speed grade, as far as it is known.
+  std::uint64_t fmax_hz = 0;       ///< up to this clock it works
+  std::uint64_t fmax_high_hz = 0;  ///< above this it does not; 0: nobody knows
+  FmaxOrigin fmax_origin = FmaxOrigin::estimated;
   std::string fmax_documentation;
 
   /// IP of one kind share the coefficient `ip.<kind>` of the power table, if it has one. Without

@@ -60,4 +60,4 @@ export const losses = {
 };
 
 /** "met", "missed", or "unknown": clocked above what a module is known to reach, which may work or not. */
-export const timingOf = (module) => (module.met ? "met" : module.lower_bound ? "unknown" : "missed");
+export const timingOf = (module) => (module.met ? "met" : module.frequency_mhz > module.fmax_high_mhz ? "missed" : "unknown");

@@ -12,8 +12,11 @@ function limitingModule(run) {
   const worst = (list) => list.reduce((a, b) => (b.margin_percent < a.margin_percent ? b : a));
   const missed = modules.filter((m) => timingOf(m) === "missed");
   if (missed.length > 0) return worst(missed);
-  const known = modules.filter((m) => !m.lower_bound || !m.met);
-  if (known.length > 0) return worst(known);
+  const unknown = modules.filter((m) => !m.met);
+  if (unknown.length > 0) return worst(unknown);
+  // The first to fail as the clocks rise.
+  const most = (m) => m.fmax_high_mhz / m.frequency_mhz;
+  if (modules.length > 0) return modules.reduce((a, b) => (most(b) < most(a) ? b : a));
   const clock = run.megahertz(pixelClock);
   const fmax = value("fmax.blob");
   if (!run.hybrid || !clock || !fmax) return null;

@@ -33,7 +33,7 @@ function clocks(timing) {
     caption: "Clock and Fmax of each module", name: "timing", exportable: true, rows: timing.modules,
     columns: [{ title: "Module", head: true, value: (m) => m.name, show: words }, { title: "Clock", value: (m) => m.clock },
       { title: "Frequency", unit: "MHz", csv: "Frequency MHz", number: true, value: (m) => m.frequency_mhz, show: (v) => significant(v, 4) },
-      { title: "Fmax", unit: "MHz", csv: "Fmax MHz", number: true, value: (m) => m.fmax_mhz, show: (v, m) => (m.lower_bound ? "≥ " : "") + significant(v, 4) },
+      { title: "Fmax", unit: "MHz", csv: "Fmax MHz", number: true, value: (m) => m.fmax_mhz, show: (v, m) => significant(v, 4) + (m.fmax_high_mhz > v ? ` to ${significant(m.fmax_high_mhz, 4)}` : "") },
       { title: "Margin", number: true, value: (m) => m.margin_percent, show: (v) => `${fixed(v, 1)} %` },
       { title: "Timing", value: timingOf, node: (m) => h("span", { class: "tag " + (m.met ? "good" : "bad") }, timingOf(m)) },
       { title: "Origin", value: (m) => m.source, node: (m) => (m.source ? origin(m.source) : "") }],
