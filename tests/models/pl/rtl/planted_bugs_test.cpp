@@ -147,8 +147,11 @@ const std::vector<harness::Image>& images() {
 
 struct Logic : harness::Pipeline {
   /// The threshold in force survives resets of the logic: only that of the system gives it a value.
-  explicit Logic(const std::string& setting) : Pipeline({}, settings(setting)) {
+  /// As on the chip, it is there before the pixel clock runs.
+  explicit Logic(const std::string& setting) : Pipeline({100'000'000, 0}, settings(setting)) {
     driver.system_reset(true);
+    run_for(100'000);
+    fclk_clk1.set_frequency(50'000'000);
     run_for(100'000);
     driver.system_reset(false);
   }
