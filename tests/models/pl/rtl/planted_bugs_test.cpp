@@ -152,6 +152,7 @@ struct Logic : harness::Pipeline {
     driver.system_reset(true);
     run_for(100'000);
     fclk_clk1.set_frequency(50'000'000);
+    driver.hold_ps = 200'000;  // not as long as a clock that stands makes it
     run_for(100'000);
     driver.system_reset(false);
   }
