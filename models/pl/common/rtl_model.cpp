@@ -65,6 +65,7 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
 
 void RtlPins::clock(const char* name) {
   clk_ = static_cast<std::uint8_t*>(pin(name, 1, false));
+  rtl_.eval(model_.get());  // with the clock low: the first edge would be none otherwise
 }
 
 void RtlPins::parameter(const char* name, const std::string& key, std::uint64_t value) const {
