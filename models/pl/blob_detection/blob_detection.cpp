@@ -78,30 +78,31 @@ constexpr std::uint32_t logic_of_labels(std::uint32_t labels, std::uint32_t box_
   return 600 + (look_up + read_out + grow + expire + choose) * labels;
 }
 
-}  // namespace
-
-// Grows with the labels. Its power was measured for the whole module (thesis 4.6.1).
-// The thesis finds the next label, and the widest of the neighbours' blobs, in one clock: trees
-// over all labels. Its 55 MHz are those of 128 labels, seven levels. For others it is not known how
-// much of the period the trees take: nothing, then Fmax stays, or all, then it goes with their
-// depth.
-void BlobDetection::set_fmax(vp::IpEstimate& e, unsigned levels) {
+/// The thesis finds the next label, and the widest of the neighbours' blobs, in one clock: trees
+/// over all labels. Its 55 MHz are those of 128 labels, seven levels. For others it is not known
+/// how much of the period the trees take: nothing, then Fmax stays, or all, then it goes with their
+/// depth.
+void set_fmax(vp::IpEstimate& e, unsigned levels) {
   constexpr std::uint64_t published_hz = 55 * mhz;
   constexpr unsigned published_levels = 7;
   const std::uint64_t all_tree_hz = published_hz * published_levels / levels;
   e.fmax_hz = std::min(published_hz, all_tree_hz);
   e.fmax_high_hz = std::max(published_hz, all_tree_hz);
-  e.fmax_documentation = "the slowest module of the PL (thesis 4.6.1)";
-  e.fmax_origin = vp::FmaxOrigin::published;
-  if (levels == published_levels) return;
-  e.fmax_origin = vp::FmaxOrigin::estimated;
-  e.fmax_documentation =
-      "55 MHz with 128 labels (thesis 4.6.1); between none and all of that period is a label "
-      "search "
-      "of 7 levels, here " +
-      std::to_string(levels);
+  if (levels == published_levels) {
+    e.fmax_origin = vp::FmaxOrigin::published;
+    e.fmax_documentation = "the slowest module of the PL (thesis 4.6.1)";
+  } else {
+    e.fmax_origin = vp::FmaxOrigin::estimated;
+    e.fmax_documentation =
+        "55 MHz with 128 labels (thesis 4.6.1); between none and all of that period is a label "
+        "search of 7 levels, here " +
+        std::to_string(levels);
+  }
 }
 
+}  // namespace
+
+// Grows with the labels. Its power was measured for the whole module (thesis 4.6.1).
 vp::IpEstimate BlobDetection::own_estimate() const {
   const std::uint32_t labels = label_count;
   const std::uint32_t box_bits = 2 * geometry_.words().number_shift();

@@ -64,7 +64,6 @@ class BlobDetection : public vp::Clocked, public vp::Ip {
 
  private:
   vp::IpEstimate own_estimate() const override;
-  static void set_fmax(vp::IpEstimate& e, unsigned levels);
 };
 
 }  // namespace pl
