@@ -109,6 +109,8 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   try {
     sc_core::sc_start();
     zynq_->ps.cpu.check();
+    // Modules may have a last word: end_of_simulation().
+    if (sc_core::sc_get_status() != sc_core::SC_STOPPED) sc_core::sc_stop();
   } catch (const sc_core::sc_report& report) {  // of a model: vp::error()
     error = std::make_exception_ptr(vp::ProtocolError(report.get_msg()));
   } catch (...) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
 #include <vp/text.h>
@@ -98,31 +99,43 @@ RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins
 
 void RtlShadow::edge() {
   if (difference_.empty()) {
-    difference_ = difference();
-    differs = !difference_.empty();
+    compare();
   } else if (--edges_left_ == 0) {
-    vp::error(*this, "/markervp/rtl/lockstep", difference_);
+    fail();
   }
   pins_.clock_edge();
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.outputs()[i].value();
+  edge_ = this_edge();
+  edge_ps_ = clock().scheduler().now_ps();
 }
 
-std::string RtlShadow::difference() const {
-  if (this_edge() < 2) return "";  // nothing was clocked yet
-  std::string text;
+// Nobody looked behind the last edge yet.
+void RtlShadow::end_of_simulation() {
+  if (difference_.empty()) compare();
+  if (!difference_.empty()) fail();
+}
+
+/// The outputs behind the last edge.
+void RtlShadow::compare() {
+  if (edge_ == 0) return;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const RtlPins::Output& output = pins_.outputs()[i];
     const std::uint64_t model = output.port.bits() & mask(output.bits);
     const std::uint64_t rtl = outputs_[i].get();
     if (model == rtl || (output.valid && !*output.valid)) continue;
-    text += (text.empty() ? "" : ", ") + std::string(output.port.basename()) + " is " +
-            number(model, output.bits) + ", and " + number(rtl, output.bits) + " in the RTL";
+    difference_ += (difference_.empty() ? "" : ", ") + std::string(output.port.basename()) +
+                   " is " + number(model, output.bits) + ", and " + number(rtl, output.bits) +
+                   " in the RTL";
   }
-  if (text.empty()) return "";
-  const std::uint64_t edge = this_edge() - 1;
-  return "RTL '" + pins_.file() + "' differs from the model behind edge " + std::to_string(edge) +
-         " of " + clock().basename() + ", at " + vp::format_time(clock().time_of(edge)) + ": " +
-         text;
+  differs = !difference_.empty();
+  if (difference_.empty()) return;
+  difference_ = "RTL '" + pins_.file() + "' differs from the model behind edge " +
+                std::to_string(edge_) + " of " + clock().basename() + ", at " +
+                vp::format_time(edge_ps_) + ": " + difference_;
+}
+
+void RtlShadow::fail() const {
+  vp::error(*this, "/markervp/rtl/lockstep", difference_);
 }
 
 std::string RtlPins::last_name(const std::string& path) {

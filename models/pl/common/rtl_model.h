@@ -122,8 +122,8 @@ class RtlModel final : public Ip {
 };
 
 /// RTL beside the model of its IP, on the same inputs. The first clock behind which an output
-/// differs ends the simulation, some clocks later: a trace then shows what came of it. `rtl.<port>`
-/// is what the RTL gives.
+/// differs ends the simulation, some clocks later: a trace then shows what came of it. One that
+/// ends before fails in sc_stop(). `rtl.<port>` is what the RTL gives.
 class RtlShadow final : public vp::Clocked {
  public:
   /// All pins are connected.
@@ -145,11 +145,14 @@ class RtlShadow final : public vp::Clocked {
   };
 
   void edge() override;
-  std::string difference() const;
+  void end_of_simulation() override;
+  void compare();
+  [[noreturn]] void fail() const;
 
   RtlPins& pins_;
   std::deque<Tap> taps_;
   std::deque<vp::Signal<std::uint64_t>> outputs_;  ///< as pins_.outputs()
+  std::uint64_t edge_ = 0, edge_ps_ = 0;           ///< behind which they stand; 0: none
   std::uint64_t edges_left_;
   std::string difference_;
 };

@@ -98,4 +98,30 @@ BOOST_AUTO_TEST_CASE(what_the_rtl_gives_can_be_traced) {
   }
 }
 
+// Whether the simulation ends on the clock of the difference or some clocks later.
+BOOST_AUTO_TEST_CASE(a_difference_just_before_the_end_is_told_there) {
+  const harness::Word corner = first_corner();
+  for (const std::uint64_t clocks : {0, 1, 5}) {
+    Frame frame({beside("late")});
+    frame.raise_ena();
+    frame.run_to_clock(corner.clock + clocks);
+    std::string failure;
+    try {
+      sc_core::sc_stop();
+    } catch (const sc_core::sc_report& report) {
+      failure = report.get_msg();
+    }
+    BOOST_TEST(contains(failure, "corner_out is 1, and 0 in the RTL"), clocks << ": " << failure);
+    BOOST_TEST(contains(failure, ", at " + vp::format_time(frame.monitor.time_of(corner.clock))),
+               clocks << ": " << failure);
+  }
+}
+
+// One that came to its end beside equal RTL has nothing to tell.
+BOOST_AUTO_TEST_CASE(equal_rtl_ends_in_silence) {
+  Frame frame({beside("equal")});
+  frame.run_frame();
+  BOOST_CHECK_NO_THROW(sc_core::sc_stop());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
