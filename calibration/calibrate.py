@@ -52,7 +52,7 @@ SOURCES = ["calibration/driver/%s.cpp" % n for n in
      "label_pool", "marker_search", "posit", "rectification", "threshold")] + [
     "sw/apps/hybrid/burst_chain.cpp", "sw/apps/hybrid/pl_link.cpp"] + [
     "sw/drivers/%s.cpp" % n for n in ("axi_dma", "axi_gpio", "gic", "global_timer")]
-INCLUDES = ["sw", "sw/hal/include", "vp/registers/include", "models/xilinx/axi_dma/registers",
+INCLUDES = ["sw", "sw/hal/include", "sw/hal/compat/include", "vp/registers/include", "models/xilinx/axi_dma/registers",
             "models/xilinx/axi_gpio/registers", "models/ps/gic/registers", "models/pl/registers",
             "models/ps/global_timer/registers"]
 # As cmake/MarkervpEigen.cmake.

@@ -343,8 +343,7 @@ const Vocabulary::Interrupt chip_interrupts[] = {{"ps.global_timer.irq", 27, {},
 
 struct Interrupt {
   std::string name;
-  std::uint64_t id;
-  Replay::Slot line;
+  InterruptLine line;
   std::optional<std::uint64_t> raised_ps;
   std::uint64_t raised = 0, served = 0;
   std::uint64_t sum_ps = 0, least_ps = ~std::uint64_t{0}, most_ps = 0, most_at_ps = 0;
@@ -359,21 +358,18 @@ class InterruptStatistic final : public Statistic {
     if (active < 0 && handler < 0) return;
     has_number_ = active >= 0;
     service_ = replay.watch(static_cast<std::uint32_t>(has_number_ ? active : handler));
-    for (const Vocabulary::Interrupt& known : words.interrupts) follow(file, known);
-    for (const Vocabulary::Interrupt& known : chip_interrupts) follow(file, known);
+    for (const auto& known : words.interrupts) follow(file, known, words.irq_f2p);
+    for (const auto& known : chip_interrupts) follow(file, known, "");
   }
   bool found() const override { return !interrupts_.empty(); }
 
   void instant(std::uint64_t ps) override {
     for (Interrupt& interrupt : interrupts_) {
-      const bool high = replay_.known(interrupt.line) && replay_.bits(interrupt.line) != 0;
-      const bool was_high =
-          !replay_.was_known(interrupt.line) || replay_.bits_before(interrupt.line) != 0;
-      if (high && !was_high) {
+      if (interrupt.line.rises()) {
         ++interrupt.raised;
         interrupt.raised_ps = ps;
       }
-      if (interrupt.raised_ps && begins(interrupt.id)) serve(interrupt, ps);
+      if (interrupt.raised_ps && begins(interrupt.line.id())) serve(interrupt, ps);
     }
   }
   void finish(std::uint64_t) override {}
@@ -386,7 +382,7 @@ class InterruptStatistic final : public Statistic {
     for (const Interrupt& i : interrupts_) {
       const double mean =
           i.served == 0 ? 0 : static_cast<double>(i.sum_ps) / static_cast<double>(i.served);
-      table.rows.push_back({i.name, i.id, i.raised, i.served,
+      table.rows.push_back({i.name, i.line.id(), i.raised, i.served,
                             static_cast<double>(i.served == 0 ? 0 : i.least_ps) / ps_per_us,
                             mean / ps_per_us, static_cast<double>(i.most_ps) / ps_per_us,
                             static_cast<double>(i.most_at_ps) / ps_per_us});
@@ -395,14 +391,10 @@ class InterruptStatistic final : public Statistic {
   }
 
  private:
-  void follow(TraceFile& file, const Vocabulary::Interrupt& known) {
+  void follow(TraceFile& file, const Vocabulary::Interrupt& known, const std::string& irq_f2p) {
     const int line = file.find(known.line);
     if (line < 0) return;
-    Interrupt interrupt;
-    interrupt.name = known.line;
-    interrupt.id = known.id;
-    interrupt.line = replay_.watch(static_cast<std::uint32_t>(line));
-    interrupts_.push_back(std::move(interrupt));
+    interrupts_.push_back({known.line, {replay_, file, line, irq_f2p, known.id}, {}});
   }
   /// Service of interrupt `id` begins in this instant.
   bool begins(std::uint64_t id) const {

@@ -1,4 +1,6 @@
 #include <trace/replay.h>
+
+#include <gic_registers.h>
 #include <vp/trace_filter.h>
 
 namespace platform::trace {
@@ -69,6 +71,25 @@ void Replay::change(std::uint32_t net, const vp::WaveValue& value) {
   if (keep_texts_ || value.kind == vp::WaveVariable::Kind::text) {
     state.now.text.assign(value.text);
   }
+}
+
+InterruptLine::InterruptLine(Replay& replay, TraceFile& file, int line, const std::string& irq_f2p,
+                             std::uint64_t usual_id)
+    : replay_(&replay), line_(replay.watch(static_cast<std::uint32_t>(line))), id_(usual_id) {
+  const int vector = irq_f2p.empty() ? -1 : file.find(irq_f2p);
+  if (vector >= 0) irq_f2p_ = replay.watch(static_cast<std::uint32_t>(vector));
+}
+
+bool InterruptLine::rises() {
+  const bool high = replay_->known(line_) && replay_->bits(line_) != 0;
+  if (!high || !replay_->was_known(line_) || replay_->bits_before(line_) != 0) return false;
+  if (irq_f2p_ && replay_->known(*irq_f2p_) && replay_->was_known(*irq_f2p_)) {
+    const std::uint64_t risen = replay_->bits(*irq_f2p_) & ~replay_->bits_before(*irq_f2p_);
+    for (unsigned bit = 0; bit < gic::irq_f2p_bits; ++bit) {
+      if (risen == std::uint64_t{1} << bit) id_ = gic::irq_f2p_id(bit);
+    }
+  }
+  return true;
 }
 
 }  // namespace platform::trace

@@ -81,6 +81,25 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   std::vector<Slot> changed_;
 };
 
+/// An interrupt line in a trace. Which number it has, the bit of IRQ_F2P tells that rises with it
+/// alone; before that it is the usual one.
+class InterruptLine {
+ public:
+  /// Follows `line`, a variable of `file`. `irq_f2p`: path of the vector; "" for a line of the PS.
+  InterruptLine(Replay& replay, TraceFile& file, int line, const std::string& irq_f2p,
+                std::uint64_t usual_id);
+
+  std::uint64_t id() const { return id_; }
+  /// Looks at an instant: true if the line rises in it.
+  bool rises();
+
+ private:
+  Replay* replay_;
+  Replay::Slot line_;
+  std::optional<Replay::Slot> irq_f2p_;
+  std::uint64_t id_;
+};
+
 /// Reads a trace one instant at a time, for those who read two.
 class Stepper final : private vp::WaveHandler {
  public:

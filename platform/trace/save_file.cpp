@@ -48,9 +48,15 @@ Translation::Translation(TraceFile& file, Replay& replay, const Vocabulary& word
     if (variable < 0 || name_of_file != Vocabulary::words) continue;
     packets_.push_back(replay.watch(static_cast<std::uint32_t>(variable)));
   }
+  for (const Vocabulary::Interrupt& known : words.interrupts) {
+    const int line = file.find(known.line);
+    if (line < 0) continue;
+    interrupts_.try_emplace(known.line, InterruptLine(replay, file, line, words.irq_f2p, known.id));
+  }
 }
 
 bool Translation::instant(std::uint64_t) {
+  for (auto& [path, line] : interrupts_) line.rises();
   if (has_functions_ && replay_.known(function_) && replay_.bits(function_) != 0) {
     functions_[replay_.bits(function_)] = replay_.text(function_name_);
   }
@@ -100,7 +106,9 @@ std::string Translation::interrupt_file() const {
   constexpr unsigned width = 10;
   std::string text = "3FF -\n01B ?dark green?global timer\n01D ?dark green?private timer\n";
   for (const Vocabulary::Interrupt& interrupt : vocabulary_.interrupts) {
-    text += hex_of(interrupt.id, width) + " ?" + interrupt.colour + "?" + interrupt.text + "\n";
+    const auto line = interrupts_.find(interrupt.line);
+    const std::uint64_t id = line == interrupts_.end() ? interrupt.id : line->second.id();
+    text += hex_of(id, width) + " ?" + interrupt.colour + "?" + interrupt.text + "\n";
   }
   return text;
 }

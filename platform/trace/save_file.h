@@ -44,6 +44,7 @@ class Translation final : public Replay::Listener {
   std::vector<Replay::Slot> packets_;
   std::set<std::uint64_t> words_;
   std::vector<unsigned> field_widths_;
+  std::map<std::string, InterruptLine> interrupts_;  ///< those of the design that the trace has
 };
 
 /// A save file for GTKWave.

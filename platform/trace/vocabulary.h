@@ -40,13 +40,15 @@ struct Vocabulary {
   };
   std::vector<Loss> losses;
 
-  /// An interrupt line to the PS, its number, and its name and colour for GTKWave.
+  /// An interrupt line to the PS, its usual number, and its name and colour for GTKWave.
   struct Interrupt {
     std::string line;
     std::uint64_t id;
     std::string text, colour;
   };
   std::vector<Interrupt> interrupts;
+  /// The vector that these lines make, IRQ_F2P: it tells their numbers in this trace.
+  std::string irq_f2p;
 
   /// Functions of the software between which its stages lie. Without `evaluation` there are no
   /// stages.

@@ -3,7 +3,9 @@
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/unit.h>
+#include <zynq/hardware_map.h>
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -120,6 +122,16 @@ std::optional<report::CameraReport> FrameBench::camera_report() const {
 
 double FrameBench::option(std::uint32_t option, const hal_option_info&) {
   return options_.value(option);
+}
+
+// The program gets what its header would have, had it been written for this configuration.
+std::optional<std::uint32_t> FrameBench::xparameter(const char* name) {
+  if (xparameters_.empty()) xparameters_ = hardware_map(zynq_).xparameters;
+  const std::string line = "#define XPAR_" + std::string(name) + " ";
+  const std::size_t at = xparameters_.find(line);
+  if (at == std::string::npos) return std::nullopt;
+  return static_cast<std::uint32_t>(
+      std::strtoul(xparameters_.c_str() + at + line.size(), nullptr, 0));
 }
 
 void FrameBench::take_new_warnings(std::vector<std::string>& list) {

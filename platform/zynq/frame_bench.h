@@ -53,6 +53,7 @@ class FrameBench : public ps::TestBench {
   bool publish(std::uint32_t kind, const void* data, std::size_t size,
                std::uint64_t now_ps) override;
   double option(std::uint32_t option, const hal_option_info& info) override;
+  std::optional<std::uint32_t> xparameter(const char* name) override;
 
  private:
   const input::InputFrame* next_image();
@@ -84,6 +85,7 @@ class FrameBench : public ps::TestBench {
 
   std::size_t warnings_reported_ = 0;
   bool stop_ = false;
+  std::string xparameters_;  ///< the header, once a program asked for a value of it
 };
 
 }  // namespace platform

@@ -117,10 +117,6 @@ void add_devices(HardwareMap& map, const vp::Router& router, const std::string& 
   }
 }
 
-std::uint32_t f2p_id(unsigned bit) {
-  return bit < 8 ? gic::irq_f2p_0_id + bit : gic::irq_f2p_8_id + (bit - 8);
-}
-
 void add_interrupts(HardwareMap& map, Zynq& zynq) {
   for (const auto& interrupt : zynq.ps.interrupts()) {
     map.interrupts.push_back({interrupt.id, interrupt.source->name()});
@@ -131,7 +127,7 @@ void add_interrupts(HardwareMap& map, Zynq& zynq) {
     if (&concat->dout != lines) continue;
     for (unsigned bit = 0; bit < concat->dout.width(); ++bit) {
       const vp::SignalBase* source = concat->in(bit).signal();
-      if (source) map.interrupts.push_back({f2p_id(bit), source->name()});
+      if (source) map.interrupts.push_back({gic::irq_f2p_id(bit), source->name()});
     }
   }
   std::sort(map.interrupts.begin(), map.interrupts.end(),

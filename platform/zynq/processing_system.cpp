@@ -15,8 +15,6 @@ namespace platform {
 
 namespace {
 
-// UG585 table 4-1.
-constexpr std::uint64_t m_axi_gp0_base = 0x4000'0000, m_axi_gp0_size = 0x4000'0000;
 // I/O peripherals, static memories and system registers, up to the private bus.
 constexpr std::uint64_t peripheral_base = 0xE000'0000;
 constexpr std::uint64_t peripheral_size = ps::private_bus_base - peripheral_base;
@@ -69,8 +67,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       planner_(planner_of(chip, slcr)) {
   using Addresses = vp::Router::Addresses;
   cpu.m_axi.socket.bind(interconnect.socket);
-  interconnect.map("m_axi_gp0", m_axi_gp0_base, m_axi_gp0_size, Addresses::absolute)
-      .bind(m_axi_gp0.socket);
+  interconnect.map("m_axi_gp0", gp0_base, gp0_size, Addresses::absolute).bind(m_axi_gp0.socket);
   interconnect.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
   map_private_bus();
   map_peripherals();
@@ -79,7 +76,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   connect_interrupts();
   uart0.rst(slcr.uart0_rst);
   uart1.rst(slcr.uart1_rst);
-  slcr.level_shifters.guard(*interconnect.find(m_axi_gp0_base)->link);
+  slcr.level_shifters.guard(*interconnect.find(gp0_base)->link);
   cpu.connect(ddr.dma_memory());
   cpu.set_poll_elision(poll_elision);
   cpu.name_devices([this](std::uint32_t address) { return device_at(address); });

@@ -6,7 +6,6 @@
 #include <xparameters_writer.h>
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,48 +27,39 @@ std::string capitals(std::string text) {
   return text;
 }
 
-/// The device whose registers `bank` are, where software can reach it.
-std::optional<Device> device(const HardwareMap& map, const vp::RegisterBank& bank,
-                             const std::string& driver) {
-  for (const HardwareMap::Device& found : map.devices) {
-    if (found.path != bank.name()) continue;
-    return Device{capitals(found.name),
-                  driver,
-                  static_cast<std::uint32_t>(found.base),
-                  static_cast<std::uint32_t>(found.base + found.size - 1),
-                  {},
-                  {}};
+/// The driver of a device, by its model; "" without one of the vendor's.
+void add_build(Device& device, const sc_core::sc_object& module) {
+  if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
+    device.driver = "AXIDMA";
+    device.options = {{"INCLUDE_MM2S", dma->include_mm2s.get()},
+                      {"INCLUDE_S2MM", dma->include_s2mm.get()},
+                      {"INCLUDE_SG", 0},
+                      {"SG_LENGTH_WIDTH", dma->length_width},
+                      {"M_AXI_MM2S_DATA_WIDTH", 32},
+                      {"M_AXI_S2MM_DATA_WIDTH", 32}};
+  } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
+    device.driver = "GPIO";
+    device.options = {{"IS_DUAL", gpio->is_dual.get()},
+                      {"INTERRUPT_PRESENT", gpio->interrupt_present.get()}};
   }
-  return std::nullopt;
 }
 
-void add_interrupt(Device& device, const HardwareMap& map, const vp::Signal<bool>& source) {
+Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
+                const HardwareMap::Device& place) {
+  const sc_core::sc_object& module = *bank.get_parent_object();
+  Device device{capitals(place.name),
+                {},
+                static_cast<std::uint32_t>(place.base),
+                static_cast<std::uint32_t>(place.base + place.size - 1),
+                {},
+                {}};
+  add_build(device, module);
   for (const auto& interrupt : map.interrupts) {
-    if (interrupt.source == source.name())
-      device.interrupts.emplace_back(capitals(source.basename()), interrupt.id);
+    const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
+    if (line && line->get_parent_object() == &module)
+      device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
   }
-}
-
-void add_dma(std::vector<Device>& devices, const HardwareMap& map, const xilinx::AxiDma& model) {
-  std::optional<Device> found = device(map, model.s_axi_lite, "AXIDMA");
-  if (!found) return;
-  found->options = {{"INCLUDE_MM2S", model.include_mm2s.get()},
-                    {"INCLUDE_S2MM", model.include_s2mm.get()},
-                    {"INCLUDE_SG", 0},
-                    {"SG_LENGTH_WIDTH", model.length_width},
-                    {"M_AXI_MM2S_DATA_WIDTH", 32},
-                    {"M_AXI_S2MM_DATA_WIDTH", 32}};
-  add_interrupt(*found, map, model.mm2s_introut);
-  add_interrupt(*found, map, model.s2mm_introut);
-  devices.push_back(*std::move(found));
-}
-
-void add_gpio(std::vector<Device>& devices, const HardwareMap& map, const xilinx::AxiGpio& model) {
-  std::optional<Device> found = device(map, model.s_axi, "GPIO");
-  if (!found) return;
-  found->options = {{"IS_DUAL", model.is_dual.get()},
-                    {"INTERRUPT_PRESENT", model.interrupt_present.get()}};
-  devices.push_back(*std::move(found));
+  return device;
 }
 
 }  // namespace
@@ -82,10 +72,14 @@ std::string xparameters_header(const Zynq& zynq, const HardwareMap& map) {
   platform.ddr_base = ps::Ddr::base;
   platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
   platform.console_uart = console_uart;
-  for (const auto* dma : vp::all_below<xilinx::AxiDma>(zynq.pl()))
-    add_dma(platform.devices, map, *dma);
-  for (const auto* gpio : vp::all_below<xilinx::AxiGpio>(zynq.pl()))
-    add_gpio(platform.devices, map, *gpio);
+  // Those that software can reach, in the order in which drivers number them.
+  for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
+    for (const HardwareMap::Device& place : map.devices) {
+      if (place.path == bank->name()) platform.devices.push_back(exported(map, *bank, place));
+    }
+  }
+  std::stable_sort(platform.devices.begin(), platform.devices.end(),
+                   [](const Device& a, const Device& b) { return a.driver < b.driver; });
   return xparameters::header(platform);
 }
 

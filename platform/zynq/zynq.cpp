@@ -2,6 +2,7 @@
 
 #include <vp/error.h>
 #include <vp/ip.h>
+#include <vp/text.h>
 
 namespace platform {
 
@@ -17,6 +18,21 @@ void check_that_parts_are_inside() {
   }
 }
 
+void check_that_parts_are_reached(const PlPorts& ports, const sc_core::sc_module& pl) {
+  if (!ports.registers()) return;
+  constexpr std::uint64_t first = ProcessingSystem::gp0_base;
+  constexpr std::uint64_t last = first + ProcessingSystem::gp0_size - 1;
+  for (const vp::Router::Region& region : ports.registers()->regions()) {
+    if (first <= region.base && region.last() <= last) continue;
+    const std::string part = std::string(pl.name()) + "." + region.name;
+    const bool is_set = sc_core::sc_find_object((part + ".base_address").c_str()) != nullptr;
+    throw vp::InputError(part + " is at " + vp::hex(region.base) + " to " + vp::hex(region.last()) +
+                         ", but m_axi_gp0 reaches " + vp::hex(first) + " to " + vp::hex(last) +
+                         ": " + (is_set ? "set " + part + ".base_address" : "map it") +
+                         " to a place there");
+  }
+}
+
 }  // namespace
 
 Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
@@ -27,6 +43,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
                "IP: whole frames, or clock by clock; the results are the same"),
       design_(design.make("pl", ports)) {
   check_that_parts_are_inside();
+  check_that_parts_are_reached(ports, pl());
   ps.start_clocks();
   scheduler.set_batch(true);
   ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });

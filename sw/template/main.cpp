@@ -8,9 +8,8 @@
 
 #include <drivers/axi_gpio.h>
 #include <drivers/gic.h>
-#include <drivers/global_timer.h>
 #include <drivers/platform_addresses.h>
-#include <drivers/private_timer.h>
+#include <drivers/timers.h>
 #include <gic_registers.h>
 
 namespace {
@@ -40,7 +39,7 @@ void on_tick(void*) {
 
 void set_up() {
   stopwatch.initialise();
-  gpio.initialise({drivers::addresses::gpio_control, 0});  // no bit is an input
+  gpio.initialise({drivers::addresses::gpio_control(), 0});  // no bit is an input
   gic.initialise();
   gic.connect(gic::private_timer_id, drivers::Trigger::rising_edge, &on_tick, nullptr);
   timer.initialise({1, true, true});  // every tick, again and again, with interrupt

@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(reports_traces_and_sweeps_take_it) {
 BOOST_AUTO_TEST_CASE(mistakes_are_refused_before_the_simulation) {
   check_refused(mistake("address_twice"), {"pl.axi_interconnect", "second", "axi_gpio_0"});
   check_refused(mistake("interrupt_twice"),
-                {"pl.line", "pl.axi_dma_1.s2mm_introut", "pl.concat.in1", "another number"});
+                {"pl.line_id is 62", "pl.axi_dma_1.s2mm_introut", "give one of them another"});
   check_refused(mistake("no_program"), {"no_program.so", "has no PS program", "programs"});
   check_refused(mistake("nothing_made"), {"nothing_made.so", "is incomplete"});
   check_refused(mistake("other_version"), {"other_version.so", "0.0.9", "rebuild it"});

@@ -67,6 +67,38 @@ BOOST_AUTO_TEST_CASE(what_follows_another_key_follows_it_from_a_printed_configur
   }
 }
 
+// The software takes addresses and interrupts from the platform, so nothing else changes.
+BOOST_AUTO_TEST_CASE(devices_may_be_elsewhere) {
+  const Workplace place;
+  const Json usual = result_of(place, {"demo", "z2.0"});
+  const Arguments moved{"--set", "pl.axi_gpio_0.base_address=0x7FFF0000",
+                        "--set", "pl.axi_gpio_1.base_address=0x40000000",
+                        "--set", "pl.axi_dma_0.base_address=0x41200000",
+                        "--set", "pl.axi_dma_1.base_address=0x43C00000",
+                        "--set", "pl.axi_dma_0.mm2s_introut_id=84",
+                        "--set", "pl.axi_dma_1.s2mm_introut_id=61"};
+  Arguments run{"demo", "z2.0", "--trace", "moved.vcd", "--fidelity", "tlm"};
+  run.insert(run.end(), moved.begin(), moved.end());
+  const Json elsewhere = result_of(place, run);
+  BOOST_TEST(usual["frames"] == elsewhere["frames"]);
+  BOOST_TEST(usual["power"] == elsewhere["power"]);
+  const auto output = [&](Arguments arguments) {
+    const kit::Outcome outcome = kit::run_process(MARKERVP_EXECUTABLE, arguments, place.path());
+    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+    return outcome.out;
+  };
+  // Those who look at a trace find out which number an interrupt has.
+  const std::string stats = output({"trace", "stats", "moved.vcd"});
+  BOOST_TEST(stats.find("pl.axi_dma_0.mm2s_introut   84") != std::string::npos, stats);
+  Arguments map{"map"};
+  map.insert(map.end(), moved.begin(), moved.end());
+  const std::string shown = output(map);
+  for (const char* words : {"0x7FFF0000..0x7FFFFFFF", "84  pl.axi_dma_0.mm2s_introut",
+                            "61  pl.axi_dma_1.s2mm_introut"}) {
+    BOOST_TEST(shown.find(words) != std::string::npos, shown);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_program_is_built_for_the_clock_that_it_has) {
   const Workplace place;
   const auto clock = [&](const Arguments& more) {

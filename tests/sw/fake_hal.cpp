@@ -139,6 +139,10 @@ double hal_option(std::uint32_t option) {
   return state().options[option];
 }
 
+std::uint32_t hal_xpar(const char*, std::uint32_t built_in) {
+  return built_in;
+}
+
 void hal_work(std::uint32_t item, std::uint64_t count) {
   state().work[item] += count;
 }

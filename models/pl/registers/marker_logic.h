@@ -124,19 +124,16 @@ inline constexpr unsigned threshold_shift = 8;       ///< 8 bits
 
 // ---- Where the devices are ---------------------------------------------------------------------
 
-/// Vivado's defaults for these IP; 64 KiB each.
+/// Unless configured otherwise: Vivado's defaults for these IP. Software takes them from
+/// xparameters.h.
 namespace addresses {
 
 inline constexpr std::uint32_t gpio_control = 0x4120'0000;  ///< AXI GPIO 0: control packet, outputs
 inline constexpr std::uint32_t gpio_features = 0x4121'0000;  ///< AXI GPIO 1: feature words, inputs
 inline constexpr std::uint32_t dma_image = 0x4040'0000;      ///< AXI DMA 0: MM2S, images to the PL
 inline constexpr std::uint32_t dma_binary = 0x4041'0000;  ///< AXI DMA 1: S2MM, binary images to DDR
-inline constexpr std::uint32_t segment = 0x1'0000;
-
-/// Bits of IRQ_F2P, and the interrupts that they are.
-inline constexpr unsigned dma_image_line = 0, dma_binary_line = 1;
-inline constexpr std::uint32_t dma_image_interrupt = gic::irq_f2p_0_id + dma_image_line;
-inline constexpr std::uint32_t dma_binary_interrupt = gic::irq_f2p_0_id + dma_binary_line;
+inline constexpr std::uint32_t dma_image_interrupt = gic::irq_f2p_id(0);
+inline constexpr std::uint32_t dma_binary_interrupt = gic::irq_f2p_id(1);
 
 }  // namespace addresses
 

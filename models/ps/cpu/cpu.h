@@ -157,6 +157,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   const hal_frame* next_frame();
   void publish(std::uint32_t kind, const void* data, std::size_t size);
   double option(std::uint32_t option);
+  std::uint32_t xparameter(const char* name, std::uint32_t built_in);
   void do_work(std::uint32_t item, std::uint64_t count);
   void enter_function(std::uint32_t number);
   void leave_function();

@@ -92,6 +92,10 @@ double Cpu::option(std::uint32_t option) {
   return bench_ ? bench_->option(option, info) : info.default_value;
 }
 
+std::uint32_t Cpu::xparameter(const char* name, std::uint32_t built_in) {
+  return bench_ ? bench_->xparameter(name).value_or(built_in) : built_in;
+}
+
 std::string Cpu::name_of_function() const {
   if (function == 0 || !program_) return {};
   return program_->description().functions[function - 1];
@@ -180,6 +184,10 @@ void hal_publish(uint32_t kind, const void* data, size_t size) {
 
 double hal_option(uint32_t option) {
   return on_cpu("hal_option", [&](ps::Cpu& cpu) { return cpu.option(option); });
+}
+
+uint32_t hal_xpar(const char* name, uint32_t built_in) {
+  return on_cpu("hal_xpar", [&](ps::Cpu& cpu) { return cpu.xparameter(name, built_in); });
 }
 
 void hal_work(uint32_t item, uint64_t count) {

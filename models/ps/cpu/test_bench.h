@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace ps {
 
@@ -24,6 +25,8 @@ class TestBench {
                        std::uint64_t now_ps) = 0;
   /// The value of the program's option number `option`.
   virtual double option(std::uint32_t option, const hal_option_info& info) = 0;
+  /// The value that xparameters.h would give `name` ("AXI_GPIO_0_BASEADDR"), if any.
+  virtual std::optional<std::uint32_t> xparameter(const char* /*name*/) { return std::nullopt; }
 };
 
 }  // namespace ps

@@ -32,10 +32,6 @@ vp::RegisterBankOptions options(unsigned address_bits) {
   return options;
 }
 
-std::uint32_t f2p_id(unsigned bit) {
-  return bit < 8 ? gic::irq_f2p_0_id + bit : gic::irq_f2p_8_id + (bit - 8);
-}
-
 constexpr std::uint32_t this_cpu = 1;
 
 }  // namespace
@@ -182,7 +178,7 @@ bool Gic::set_f2p(std::uint32_t levels) {
   const bool risen = (levels & ~f2p_levels_) != 0;
   for (std::uint32_t changed = levels ^ f2p_levels_; changed != 0; changed &= changed - 1) {
     const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
-    logic_.set_wire(f2p_id(bit), (levels >> bit & 1) != 0);
+    logic_.set_wire(gic::irq_f2p_id(bit), (levels >> bit & 1) != 0);
   }
   f2p_levels_ = levels;
   return risen;

@@ -1,6 +1,7 @@
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 
 #include <vp/error.h>
+#include <vp/hierarchy.h>
 #include <vp/text.h>
 #include <xilinx/common/estimate.h>
 
@@ -8,8 +9,8 @@ namespace xilinx {
 
 namespace {
 
-constexpr std::uint64_t smallest_segment =
-    4096;  // bytes: an AXI burst never crosses such a boundary
+// Bytes: an AXI burst never crosses such a boundary.
+constexpr std::uint64_t smallest_segment = 4096;
 
 }  // namespace
 
@@ -39,6 +40,19 @@ tlm_utils::simple_initiator_socket<vp::MmLink>& AxiInterconnect::map(const std::
         ": the size must be a power of two of at least 4 KiB, the base a multiple of it");
   }
   return Router::map(region_name, base, size, addresses);
+}
+
+void AxiInterconnect::connect(vp::RegisterBank& registers, std::uint64_t base, std::uint64_t size) {
+  auto& device = dynamic_cast<sc_core::sc_module&>(*registers.get_parent_object());
+  const vp::HierarchyScope scope(device);
+  const auto& chosen = *base_addresses_.emplace_back(std::make_unique<vp::Parameter<std::uint64_t>>(
+      "base_address", base, vp::Unit::address, vp::Range<std::uint64_t>{0, 0xFFFF'FFFF},
+      vp::Source::decision, "where software finds the registers, " + vp::hex(size) + " bytes"));
+  try {
+    map(device.basename(), chosen, size).bind(registers.socket);
+  } catch (const vp::InputError& error) {
+    throw vp::InputError(std::string(error.what()) + " (" + chosen.name() + " says where it is)");
+  }
 }
 
 }  // namespace xilinx

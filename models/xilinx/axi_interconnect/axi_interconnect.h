@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <vp/ip.h>
+#include <vp/parameter.h>
+#include <vp/register_bank.h>
 #include <vp/router.h>
 
 namespace xilinx {
@@ -22,9 +26,14 @@ class AxiInterconnect : public vp::Router, public vp::Ip {
   tlm_utils::simple_initiator_socket<vp::MmLink>& map(
       const std::string& region_name, std::uint64_t base, std::uint64_t size,
       Addresses addresses = Addresses::relative) override;
+  /// Maps the registers of a device, by its name. Where they are is a property of the device,
+  /// `base_address`, with `base` as its default. Throws vp::InputError as map() does.
+  void connect(vp::RegisterBank& registers, std::uint64_t base, std::uint64_t size = 0x1'0000);
 
  private:
   vp::IpEstimate own_estimate() const override;
+
+  std::vector<std::unique_ptr<vp::Parameter<std::uint64_t>>> base_addresses_;
 
   std::uint32_t memory_masters_;
 };

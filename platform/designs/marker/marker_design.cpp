@@ -5,8 +5,9 @@
 
 namespace platform {
 
-MarkerDesign::MarkerDesign(sc_core::sc_module_name name, PlPorts& ports, const LogicBuild& build)
-    : ProgrammableLogic(name, ports.fclk_clk(0), ports.fclk_clk(1), ports.fidelity, build),
+MarkerDesign::MarkerDesign(sc_core::sc_module_name name, PlPorts& ports,
+                           const pl::Models<pl::PixelFilter>* filter)
+    : ProgrammableLogic(name, ports.fclk_clk(0), ports.fclk_clk(1), ports.fidelity, filter),
       ports_(ports),
       handshake_(*this, ports.ps.cpu, ports.scheduler) {
   ports.m_axi_gp0(axi_interconnect);

@@ -15,7 +15,9 @@ namespace platform {
 /// becomes a frame of the result.
 class MarkerDesign : public ProgrammableLogic, public Design, private vp::SignalListener {
  public:
-  MarkerDesign(sc_core::sc_module_name name, PlPorts& ports, const LogicBuild& build = {});
+  /// `filter`: models of a filter between sensor and detectors; null: there is none.
+  MarkerDesign(sc_core::sc_module_name name, PlPorts& ports,
+               const pl::Models<pl::PixelFilter>* filter = nullptr);
 
   input::ImageSize frame_size() const override;
   void show_image(const GreyImage& image) override;

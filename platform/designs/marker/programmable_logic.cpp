@@ -29,8 +29,8 @@ xilinx::AxiDmaBuild one_channel(bool mm2s) {
 
 ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk,
                                      vp::Clock& pixel_clk, pl::Fidelity otherwise,
-                                     const LogicBuild& build)
-    : FeatureExtraction(name, system_clk, pixel_clk, otherwise, build.filter),
+                                     const pl::Models<pl::PixelFilter>* filter)
+    : FeatureExtraction(name, system_clk, pixel_clk, otherwise, filter),
       proc_sys_reset("proc_sys_reset", system_clk),
       axi_interconnect("axi_interconnect", system_clk),
       axi_mem_interconnect("axi_mem_interconnect", system_clk, memory_masters),
@@ -38,15 +38,11 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
       axi_gpio_1("axi_gpio_1", system_clk, gpio(xilinx::GpioDirection::all_inputs)),
       axi_dma_0("axi_dma_0", system_clk, one_channel(true)),
       axi_dma_1("axi_dma_1", system_clk, one_channel(false)),
-      concat("concat", build.interrupts) {
-  axi_interconnect.map("axi_dma_0", addresses::dma_image, addresses::segment)
-      .bind(axi_dma_0.s_axi_lite.socket);
-  axi_interconnect.map("axi_dma_1", addresses::dma_binary, addresses::segment)
-      .bind(axi_dma_1.s_axi_lite.socket);
-  axi_interconnect.map("axi_gpio_0", addresses::gpio_control, addresses::segment)
-      .bind(axi_gpio_0.s_axi.socket);
-  axi_interconnect.map("axi_gpio_1", addresses::gpio_features, addresses::segment)
-      .bind(axi_gpio_1.s_axi.socket);
+      concat("concat", 2) {
+  axi_interconnect.connect(axi_dma_0.s_axi_lite, addresses::dma_image);
+  axi_interconnect.connect(axi_dma_1.s_axi_lite, addresses::dma_binary);
+  axi_interconnect.connect(axi_gpio_0.s_axi, addresses::gpio_control);
+  axi_interconnect.connect(axi_gpio_1.s_axi, addresses::gpio_features);
 
   axi_gpio_0.s_axi_aresetn(proc_sys_reset.peripheral_aresetn);
   axi_gpio_1.s_axi_aresetn(proc_sys_reset.peripheral_aresetn);
@@ -65,8 +61,8 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
   axi_dma_1.s2mm().m_axi.link.socket.bind(axi_mem_interconnect.socket);
   axi_dma_0.share_memory_path(memory_path_);
   axi_dma_1.share_memory_path(memory_path_);
-  concat.connect(addresses::dma_image_line, axi_dma_0.mm2s_introut);
-  concat.connect(addresses::dma_binary_line, axi_dma_1.s2mm_introut);
+  concat.connect_interrupt(axi_dma_0.mm2s_introut, addresses::dma_image_interrupt);
+  concat.connect_interrupt(axi_dma_1.s2mm_introut, addresses::dma_binary_interrupt);
   name_groups();
   count_work();
 }

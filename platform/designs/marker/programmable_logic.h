@@ -11,19 +11,13 @@
 
 namespace platform {
 
-/// What a design adds to the marker detector's logic.
-struct LogicBuild {
-  unsigned interrupts = 2;  ///< inputs of the concat; 0 and 1 are the DMA engines'
-  /// Of a filter between sensor and detectors; null: there is none.
-  const pl::Models<pl::PixelFilter>* filter = nullptr;
-};
-
 /// The whole programmable logic: the feature extraction and what Xilinx provides around it, wired
 /// as the thesis' figure 4.2 (letters of tables 4.2 and 4.3).
 class ProgrammableLogic : public pl::FeatureExtraction {
  public:
+  /// `filter`: models of a filter between sensor and detectors; null: there is none.
   ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
-                    pl::Fidelity otherwise, const LogicBuild& build = {});
+                    pl::Fidelity otherwise, const pl::Models<pl::PixelFilter>* filter = nullptr);
 
   xilinx::ProcSysReset proc_sys_reset;           ///< G
   xilinx::AxiInterconnect axi_interconnect;      ///< H: GP0 to the registers

@@ -78,6 +78,7 @@ trace::Vocabulary make() {
                    "DMA 0: image", "dark blue"},
                   {"pl.axi_dma_1.s2mm_introut", marker_logic::addresses::dma_binary_interrupt,
                    "DMA 1: binary image", "dark red"}};
+  v.irq_f2p = "pl.concat.dout";
   v.functions = {"upload",
                  "capture",
                  "receive",

@@ -9,21 +9,13 @@
 
 namespace {
 
-platform::LogicBuild build() {
-  platform::LogicBuild build;
-  build.filter = &median_models();
-  build.interrupts = 3;
-  return build;
-}
-
 class Smooth : public platform::MarkerDesign {
  public:
   Smooth(sc_core::sc_module_name name, platform::PlPorts& ports)
-      : MarkerDesign(name, ports, build()), counter_("frame_counter", ports.fclk_clk(0)) {
-    axi_interconnect.map("frame_counter", frame_counter::base, 0x1'0000)
-        .bind(counter_.s_axi.socket);
+      : MarkerDesign(name, ports, &median_models()), counter_("frame_counter", ports.fclk_clk(0)) {
+    axi_interconnect.connect(counter_.s_axi, frame_counter::base);
+    concat.connect_interrupt(counter_.irq, frame_counter::interrupt);
     counter_.frame_ena(sensor_input.frame_ena);
-    concat.connect(2, counter_.irq);
   }
 
  private:

@@ -7,7 +7,7 @@
 /// A counter of frames: the registers as model and software see them.
 namespace frame_counter {
 
-/// Where this design puts it, and its interrupt (IRQ_F2P bit 2).
+/// Where this design puts it, and its interrupt, unless configured otherwise.
 constexpr std::uint32_t base = 0x4122'0000, interrupt = 63;
 
 constexpr std::uint32_t CONTROL = 0x0, COUNT = 0x4, STATUS = 0x8;

@@ -10,12 +10,10 @@ namespace {
 hybrid::Application application;
 
 int run() {
-  hal_write32(frame_counter::base + frame_counter::CONTROL, frame_counter::enable);
+  const std::uint32_t base = hal_xpar("FRAME_COUNTER_BASEADDR", frame_counter::base);
+  hal_write32(base + frame_counter::CONTROL, frame_counter::enable);
   const int result = application.run();
-  apps::Message()
-      .text("frames counted: ")
-      .number(hal_read32(frame_counter::base + frame_counter::COUNT))
-      .write();
+  apps::Message().text("frames counted: ").number(hal_read32(base + frame_counter::COUNT)).write();
   return result;
 }
 

@@ -20,13 +20,13 @@ bool PlLink::initialise() {
   hal_interrupt_enable(false);
   gic_.initialise();
   timer_.initialise();
-  control_gpio_.initialise({drivers::addresses::gpio_control, 0});
-  feature_gpio_.initialise({drivers::addresses::gpio_features, 0xFFFF'FFFFu});
+  control_gpio_.initialise({drivers::addresses::gpio_control(), 0});
+  feature_gpio_.initialise({drivers::addresses::gpio_features(), 0xFFFF'FFFFu});
   control(0);
   const bool ready = initialise_dma();
-  gic_.connect(drivers::addresses::dma_image_interrupt, drivers::Trigger::level_high,
+  gic_.connect(drivers::addresses::dma_image_interrupt(), drivers::Trigger::level_high,
                &BurstChain::on_interrupt, &image_);
-  gic_.connect(drivers::addresses::dma_binary_interrupt, drivers::Trigger::level_high,
+  gic_.connect(drivers::addresses::dma_binary_interrupt(), drivers::Trigger::level_high,
                &BurstChain::on_interrupt, &binary_);
   gic_.connect(gic::global_timer_id, drivers::Trigger::rising_edge, &PlLink::on_alarm, this);
   hal_interrupt_enable(true);
@@ -40,9 +40,10 @@ void PlLink::shut_down() {
 
 bool PlLink::initialise_dma() {
   using Channel = drivers::AxiDmaConfig::Channel;
-  const bool image = image_.initialise({drivers::addresses::dma_image, Channel::memory_to_stream});
+  const bool image =
+      image_.initialise({drivers::addresses::dma_image(), Channel::memory_to_stream});
   const bool binary =
-      binary_.initialise({drivers::addresses::dma_binary, Channel::stream_to_memory});
+      binary_.initialise({drivers::addresses::dma_binary(), Channel::stream_to_memory});
   return image && binary;
 }
 

@@ -5,16 +5,6 @@
 
 namespace {
 
-XAxiDma_Config configs[] = {
-    {XPAR_AXI_DMA_0_DEVICE_ID, XPAR_AXI_DMA_0_BASEADDR, XPAR_AXI_DMA_0_INCLUDE_MM2S,
-     XPAR_AXI_DMA_0_INCLUDE_S2MM, XPAR_AXI_DMA_0_SG_LENGTH_WIDTH,
-     XPAR_AXI_DMA_0_M_AXI_MM2S_DATA_WIDTH},
-    {XPAR_AXI_DMA_1_DEVICE_ID, XPAR_AXI_DMA_1_BASEADDR, XPAR_AXI_DMA_1_INCLUDE_MM2S,
-     XPAR_AXI_DMA_1_INCLUDE_S2MM, XPAR_AXI_DMA_1_SG_LENGTH_WIDTH,
-     XPAR_AXI_DMA_1_M_AXI_MM2S_DATA_WIDTH},
-};
-static_assert(sizeof configs / sizeof configs[0] == XPAR_XAXIDMA_NUM_INSTANCES, "one entry each");
-
 /// The register of one channel: S2MM's are MM2S's, further up.
 std::uint32_t at(const XAxiDma* instance, std::uint32_t mm2s_offset, int direction) {
   const std::uint32_t channel =
@@ -41,6 +31,17 @@ constexpr unsigned reset_polls = 500;
 extern "C" {
 
 XAxiDma_Config* XAxiDma_LookupConfig(u32 DeviceId) {
+  static XAxiDma_Config configs[] = {
+      {XPAR_AXI_DMA_0_DEVICE_ID, HAL_XPAR(AXI_DMA_0_BASEADDR),
+       static_cast<int>(HAL_XPAR(AXI_DMA_0_INCLUDE_MM2S)),
+       static_cast<int>(HAL_XPAR(AXI_DMA_0_INCLUDE_S2MM)), HAL_XPAR(AXI_DMA_0_SG_LENGTH_WIDTH),
+       HAL_XPAR(AXI_DMA_0_M_AXI_MM2S_DATA_WIDTH)},
+      {XPAR_AXI_DMA_1_DEVICE_ID, HAL_XPAR(AXI_DMA_1_BASEADDR),
+       static_cast<int>(HAL_XPAR(AXI_DMA_1_INCLUDE_MM2S)),
+       static_cast<int>(HAL_XPAR(AXI_DMA_1_INCLUDE_S2MM)), HAL_XPAR(AXI_DMA_1_SG_LENGTH_WIDTH),
+       HAL_XPAR(AXI_DMA_1_M_AXI_MM2S_DATA_WIDTH)},
+  };
+  static_assert(sizeof configs / sizeof configs[0] == XPAR_XAXIDMA_NUM_INSTANCES, "one entry each");
   for (XAxiDma_Config& config : configs) {
     if (config.DeviceId == DeviceId) return &config;
   }

@@ -5,14 +5,6 @@
 
 namespace {
 
-XGpio_Config configs[] = {
-    {XPAR_AXI_GPIO_0_DEVICE_ID, XPAR_AXI_GPIO_0_BASEADDR, XPAR_AXI_GPIO_0_INTERRUPT_PRESENT,
-     XPAR_AXI_GPIO_0_IS_DUAL},
-    {XPAR_AXI_GPIO_1_DEVICE_ID, XPAR_AXI_GPIO_1_BASEADDR, XPAR_AXI_GPIO_1_INTERRUPT_PRESENT,
-     XPAR_AXI_GPIO_1_IS_DUAL},
-};
-static_assert(sizeof configs / sizeof configs[0] == XPAR_XGPIO_NUM_INSTANCES, "one entry each");
-
 std::uint32_t data_of(const XGpio* instance, unsigned channel) {
   return static_cast<std::uint32_t>(instance->BaseAddress) +
          (channel == 2 ? axi_gpio::GPIO2_DATA : axi_gpio::GPIO_DATA);
@@ -28,6 +20,15 @@ std::uint32_t direction_of(const XGpio* instance, unsigned channel) {
 extern "C" {
 
 XGpio_Config* XGpio_LookupConfig(u16 DeviceId) {
+  static XGpio_Config configs[] = {
+      {XPAR_AXI_GPIO_0_DEVICE_ID, HAL_XPAR(AXI_GPIO_0_BASEADDR),
+       static_cast<int>(HAL_XPAR(AXI_GPIO_0_INTERRUPT_PRESENT)),
+       static_cast<int>(HAL_XPAR(AXI_GPIO_0_IS_DUAL))},
+      {XPAR_AXI_GPIO_1_DEVICE_ID, HAL_XPAR(AXI_GPIO_1_BASEADDR),
+       static_cast<int>(HAL_XPAR(AXI_GPIO_1_INTERRUPT_PRESENT)),
+       static_cast<int>(HAL_XPAR(AXI_GPIO_1_IS_DUAL))},
+  };
+  static_assert(sizeof configs / sizeof configs[0] == XPAR_XGPIO_NUM_INSTANCES, "one entry each");
   for (XGpio_Config& config : configs) {
     if (config.DeviceId == DeviceId) return &config;
   }

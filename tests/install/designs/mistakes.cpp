@@ -40,7 +40,7 @@ class Mistaken : public platform::MarkerDesign {
  public:
   Mistaken(sc_core::sc_module_name name, platform::PlPorts& ports) : MarkerDesign(name, ports) {
     if (MISTAKE == ADDRESS_TWICE) axi_interconnect.map("second", 0x4120'0000, 0x1'0000);
-    if (MISTAKE == INTERRUPT_TWICE) concat.connect(1, line_);
+    if (MISTAKE == INTERRUPT_TWICE) concat.connect_interrupt(line_, 62);
     if (MISTAKE == UNBOUND_PORT) part_ = std::make_unique<Part>("part", ports.fclk_clk(0));
   }
 

@@ -18,7 +18,7 @@ void print(const char* text) {
 int run() {
   drivers::AxiDma dma;
   const bool ready = dma.initialise(
-      {drivers::addresses::dma_image, drivers::AxiDmaConfig::Channel::memory_to_stream});
+      {drivers::addresses::dma_image(), drivers::AxiDmaConfig::Channel::memory_to_stream});
   if (!ready || !dma.start(outside, 64)) return 1;
   std::uint32_t status = dma.status();
   while (!drivers::AxiDma::is_error(status) && !drivers::AxiDma::is_complete(status)) {

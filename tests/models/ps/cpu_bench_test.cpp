@@ -1,6 +1,7 @@
 // Console, images, results, options and DMA memory.
 #include <boost/test/unit_test.hpp>
 #include <cstring>
+#include <optional>
 
 #include <ps/memory/memory.h>
 
@@ -22,6 +23,10 @@ struct Recorder : ps::TestBench {
   }
   double option(std::uint32_t option, const hal_option_info& info) override {
     return info.maximum + option;
+  }
+  std::optional<std::uint32_t> xparameter(const char* name) override {
+    if (std::strcmp(name, "TIMER_BASEADDR") == 0) return 0x4567'0000;
+    return std::nullopt;
   }
 
   struct Result {
@@ -77,6 +82,25 @@ BOOST_AUTO_TEST_CASE(options_come_from_the_bench) {
     BOOST_TEST(hal_option(0) == 20.0);
     return 0;
   });
+}
+
+#define XPAR_TIMER_BASEADDR 0x4000'0000u
+
+BOOST_AUTO_TEST_CASE(addresses_come_from_the_bench) {
+  Recorder bench;
+  Bench b;
+  b.run([] {
+    BOOST_TEST(HAL_XPAR(TIMER_BASEADDR) == 0x4000'0000u);
+    return 0;
+  });
+  Bench c;
+  c.cpu.connect(bench);
+  c.run([] {
+    BOOST_TEST(HAL_XPAR(TIMER_BASEADDR) == 0x4567'0000u);
+    BOOST_TEST(hal_xpar("COUNTER_BASEADDR", 7) == 7u);
+    return 0;
+  });
+  BOOST_TEST(c.cpu.end_ps() == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(without_bench_there_are_no_images) {

@@ -95,6 +95,34 @@ BOOST_FIXTURE_TEST_CASE(an_input_is_connected_once, Bench) {
   refuses(2, "b cannot be connected to concat.in2: there are inputs 0 to 1");
 }
 
+/// A part with an interrupt.
+struct Part : sc_core::sc_module {
+  explicit Part(sc_core::sc_module_name name) : sc_module(name) {}
+  vp::Signal<bool> irq{"irq"};
+};
+
+BOOST_FIXTURE_TEST_CASE(an_interrupt_is_a_property_of_its_part, Bench) {
+  vp::Configuration configuration;
+  configuration.set("b.irq_id", "84");
+  const vp::Configuration::Scope scope(configuration);
+  Part a("a"), b("b"), c("c");
+  xilinx::Concat concat("concat", 2);
+  concat.connect_interrupt(a.irq, 61);
+  BOOST_TEST(concat.dout.width() == 2u);
+  concat.connect_interrupt(b.irq, 62);
+  BOOST_TEST(concat.dout.width() == 9u);
+  BOOST_TEST(concat.in(8).signal() == &b.irq);
+  const auto refuses = [&](Part& part, std::uint32_t id, const char* words) {
+    BOOST_CHECK_EXCEPTION(concat.connect_interrupt(part.irq, id), vp::InputError,
+                          [&](const auto& error) {
+                            return std::string(error.what()).find(words) != std::string::npos;
+                          });
+  };
+  Part d("d");
+  refuses(c, 69, "c.irq_id is 69: interrupts of the PL are 61 to 68 or 84 to 91");
+  refuses(d, 84, "d.irq_id is 84, which is the interrupt of b.irq: give one of them another");
+}
+
 BOOST_FIXTURE_TEST_CASE(too_many_inputs, Bench) {
   BOOST_CHECK_THROW(xilinx::Concat("none", 0), std::logic_error);
   BOOST_CHECK_THROW(xilinx::Concat("many", 33), std::logic_error);
@@ -186,6 +214,29 @@ BOOST_FIXTURE_TEST_CASE(segments_follow_the_crossbar_s_rules, Bench) {
   BOOST_CHECK_THROW(interconnect.map("overlapping", 0x41200000, 0x20000), vp::InputError);
   BOOST_TEST(interconnect.find(0x4121FFFC)->name == "axi_gpio_1");
   BOOST_TEST(interconnect.find(0x41220000) == nullptr);
+}
+
+BOOST_FIXTURE_TEST_CASE(an_address_is_a_property_of_its_part, Bench) {
+  vp::Configuration configuration;
+  configuration.set("b.base_address", "0x60000000");
+  configuration.set("c.base_address", "0x60008000");
+  configuration.set("d.base_address", "0x4120F000");
+  const vp::Configuration::Scope scope(configuration);
+  xilinx::AxiInterconnect interconnect("interconnect", clock);
+  xilinx::AxiGpio a("a", clock), b("b", clock), c("c", clock), d("d", clock);
+  interconnect.connect(a.s_axi, 0x4120'0000);
+  interconnect.connect(b.s_axi, 0x4121'0000);
+  BOOST_TEST(interconnect.find(0x4120'0000)->name == "a");
+  BOOST_TEST(interconnect.find(0x6000'FFFF)->name == "b");
+  BOOST_TEST(interconnect.find(0x4121'0000) == nullptr);
+  const auto refuses = [&](xilinx::AxiGpio& part, std::uint64_t size, const char* words) {
+    BOOST_CHECK_EXCEPTION(interconnect.connect(part.s_axi, 0x4122'0000, size), vp::InputError,
+                          [&](const auto& error) {
+                            return std::string(error.what()).find(words) != std::string::npos;
+                          });
+  };
+  refuses(c, 0x1'0000, "the base a multiple of it (c.base_address says where it is)");
+  refuses(d, 0x1000, "overlaps a (0x41200000 to 0x4120FFFF)");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

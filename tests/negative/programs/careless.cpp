@@ -11,8 +11,6 @@ namespace {
 
 namespace addresses = drivers::addresses;
 
-constexpr std::uint32_t control = addresses::gpio_control + axi_gpio::GPIO_DATA;
-constexpr std::uint32_t features = addresses::gpio_features + axi_gpio::GPIO_DATA;
 constexpr std::uint32_t ena = 1, rst = 2, ready = 4;
 constexpr std::uint32_t end_word = 0xFFFF'FFFF;
 constexpr std::uint32_t packet_bytes = 128, pattern = 0xA5A5'A5A5;
@@ -41,13 +39,19 @@ volatile bool came;
 volatile std::uint32_t sink;
 std::uint32_t packet;
 
+std::uint32_t control() {
+  return addresses::gpio_control() + axi_gpio::GPIO_DATA;
+}
+std::uint32_t features() {
+  return addresses::gpio_features() + axi_gpio::GPIO_DATA;
+}
 std::uint32_t dma(std::uint32_t offset) {
-  return addresses::dma_binary + offset;
+  return addresses::dma_binary() + offset;
 }
 
 void send(std::uint32_t word) {
   packet = word;
-  hal_write32(control, packet);
+  hal_write32(control(), packet);
 }
 
 const volatile std::uint32_t* words() {
@@ -100,7 +104,7 @@ __attribute__((noinline)) void take_packet() {
 void take_words() {
   std::uint32_t last = 0;
   while (last != end_word) {
-    last = hal_poll_until_changed(features, last, 8, 1'000'000).value;
+    last = hal_poll_until_changed(features(), last, 8, 1'000'000).value;
     if (last == end_word) return;
     send(packet ^ ready);
     if (mistake == Mistake::ready_twice) send(packet ^ ready);
@@ -116,9 +120,9 @@ void process() {
   if (mistake == Mistake::ready_too_early) send(packet ^ ready);
   take_packet();
   take_words();
-  if (mistake == Mistake::polls_after_end) hal_poll_until_changed(features, end_word, 8, 1'000);
+  if (mistake == Mistake::polls_after_end) hal_poll_until_changed(features(), end_word, 8, 1'000);
   if (mistake == Mistake::reads_after_end) {
-    for (int i = 0; i < 3; ++i) hal_read32(features);
+    for (int i = 0; i < 3; ++i) hal_read32(features());
   }
 }
 
@@ -127,7 +131,7 @@ int run() {
   mistake = static_cast<Mistake>(static_cast<int>(hal_option(0)));
   buffer = hal_dma_allocate(packet_bytes, 32);
   gic.initialise();
-  gic.connect(addresses::dma_binary_interrupt, drivers::Trigger::level_high, &on_packet, nullptr);
+  gic.connect(addresses::dma_binary_interrupt(), drivers::Trigger::level_high, &on_packet, nullptr);
   hal_interrupt_enable(true);
   while (const hal_frame* frame = hal_frame_next()) {
     came = false;

@@ -1,7 +1,9 @@
 // Which design runs: by its name, by its program, or the usual one.
 #include <designs/designs.h>
 #include <run/session.h>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -69,6 +71,32 @@ BOOST_AUTO_TEST_CASE(a_name_that_no_design_has) {
       return std::string(error.what()).find(words) != std::string::npos;
     });
   }
+}
+
+// Before anything runs, with the names of what is in the way and of the key.
+BOOST_AUTO_TEST_CASE(places_where_no_device_can_be) {
+  const auto refuses = [](const char* setting, std::initializer_list<const char*> words) {
+    const kit::Simulation context;
+    vp::Configuration configuration;
+    configuration.set(setting);
+    const vp::Configuration::Scope scope(configuration);
+    BOOST_CHECK_EXCEPTION(Zynq(*builtin_designs().front()), vp::InputError, [&](const auto& error) {
+      const std::string text = error.what();
+      return std::all_of(words.begin(), words.end(),
+                         [&](const char* word) { return text.find(word) != std::string::npos; });
+    });
+  };
+  refuses("pl.axi_gpio_1.base_address=0x40410000",
+          {"axi_gpio_1", "overlaps axi_dma_1", "pl.axi_gpio_1.base_address"});
+  refuses("pl.axi_gpio_1.base_address=0x41218000", {"pl.axi_gpio_1.base_address", "multiple"});
+  for (const char* outside : {"0x3FFF0000", "0x80000000", "0xE0000000"}) {
+    refuses((std::string("pl.axi_dma_0.base_address=") + outside).c_str(),
+            {"pl.axi_dma_0 is at", "m_axi_gp0 reaches 0x40000000 to 0x7FFFFFFF",
+             "set pl.axi_dma_0.base_address"});
+  }
+  refuses("pl.axi_dma_1.s2mm_introut_id=61",
+          {"pl.axi_dma_1.s2mm_introut_id is 61", "pl.axi_dma_0.mm2s_introut", "another"});
+  refuses("pl.axi_dma_1.s2mm_introut_id=70", {"pl.axi_dma_1.s2mm_introut_id", "61 to 68"});
 }
 
 /// The usual design, with a third clock.

@@ -300,4 +300,20 @@ BOOST_AUTO_TEST_CASE(tables_in_three_forms) {
   BOOST_TEST(tables_as_json(tables).find("\"n\": 7") != std::string::npos);
 }
 
+// As the trace shows them: the second bit of IRQ_F2P is the first DMA's, 62; both lines at once say
+// nothing new.
+BOOST_AUTO_TEST_CASE(numbers_of_interrupts_follow_the_vector) {
+  const Waves waves(
+      "pl.axi_dma_0.mm2s_introut 1, pl.axi_dma_1.s2mm_introut 1, pl.concat.dout 9, ps.gic.active "
+      "10",
+      "#0 0! 0\" b0 # b1111111111 $\n#10 1! b10 #\n#25 b111110 $\n#30 0! b0 # b1111111111 $\n"
+      "#40 1\" b100000000 #\n#45 b1010100 $\n#50 0\" b0 # b1111111111 $\n"
+      "#60 1! 1\" b100000010 #\n#70 b111110 $\n#90\n");
+  const Numbers n(waves);
+  BOOST_TEST(n.whole("interrupts", 0, "id") == 62u);
+  BOOST_TEST(n.whole("interrupts", 0, "served") == 2u);
+  BOOST_TEST(n.whole("interrupts", 1, "id") == 84u);
+  BOOST_TEST(n.whole("interrupts", 1, "served") == 1u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <designs/designs.h>
-#include <drivers/global_timer.h>
+#include <drivers/timers.h>
 #include <run/session.h>
 #include <vp/configuration.h>
 #include <xparameters_writer.h>
@@ -34,13 +34,17 @@ BOOST_AUTO_TEST_CASE(follows_the_configuration) {
   configuration.set("clocks=exact");
   configuration.set("ps.ddr.size=383 MiB");
   configuration.set("pl.axi_dma_0.length_width=20");
+  configuration.set("pl.axi_gpio_1.base_address=0x7FFF0000");
+  configuration.set("pl.axi_dma_1.s2mm_introut_id=91");
   const vp::Configuration::Scope scope(configuration);
   platform::Zynq zynq{*platform::builtin_designs().front()};
   const std::string text = platform::hardware_map(zynq).xparameters;
   for (const char* line :
        {"XPAR_CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ 866000000",
         "XPAR_PS7_DDR_0_S_AXI_HIGHADDR 0x17FFFFFFU", "XPAR_AXI_DMA_0_SG_LENGTH_WIDTH 20",
-        "XPAR_AXI_DMA_1_SG_LENGTH_WIDTH 14"}) {
+        "XPAR_AXI_DMA_1_SG_LENGTH_WIDTH 14", "XPAR_GPIO_1_BASEADDR 0x7FFF0000U",
+        "XPAR_AXI_GPIO_1_HIGHADDR 0x7FFFFFFFU", "XPAR_FABRIC_AXI_DMA_0_MM2S_INTROUT_INTR 61",
+        "XPAR_FABRIC_AXI_DMA_1_S2MM_INTROUT_INTR 91"}) {
     BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
                         line << " in " << text);
   }
@@ -51,12 +55,16 @@ BOOST_AUTO_TEST_CASE(numbers_follow_the_order) {
   xparameters::Platform platform{1, 1, 0, 0, 0, {}};
   platform.devices = {{"LEDS", "GPIO", 0x4000'0000, 0x4000'FFFF, {}, {}},
                       {"COPY", "AXIDMA", 0x4001'0000, 0x4001'FFFF, {}, {{"MM2S_INTROUT", 63}}},
-                      {"KEYS", "GPIO", 0x4002'0000, 0x4002'FFFF, {{"IS_DUAL", 1}}, {}}};
+                      {"KEYS", "GPIO", 0x4002'0000, 0x4002'FFFF, {{"IS_DUAL", 1}}, {}},
+                      {"OWN", "", 0x4003'0000, 0x4003'FFFF, {}, {{"IRQ", 64}}}};
   const std::string text = xparameters::header(platform);
-  for (const char* line : {"XPAR_LEDS_DEVICE_ID 0", "XPAR_KEYS_DEVICE_ID 1",
-                           "XPAR_COPY_DEVICE_ID 0", "XPAR_GPIO_1_BASEADDR 0x40020000U",
-                           "XPAR_GPIO_1_IS_DUAL 1", "XPAR_FABRIC_COPY_MM2S_INTROUT_INTR 63",
-                           "XPAR_XGPIO_NUM_INSTANCES 2", "XPAR_XAXIDMA_NUM_INSTANCES 1"}) {
+  BOOST_CHECK(text.find("XPAR_OWN_DEVICE_ID") == std::string::npos);
+  BOOST_CHECK(text.find("XPAR_X_NUM") == std::string::npos);
+  for (const char* line :
+       {"XPAR_OWN_BASEADDR 0x40030000U", "XPAR_FABRIC_OWN_IRQ_INTR 64", "XPAR_LEDS_DEVICE_ID 0",
+        "XPAR_KEYS_DEVICE_ID 1", "XPAR_COPY_DEVICE_ID 0", "XPAR_GPIO_1_BASEADDR 0x40020000U",
+        "XPAR_GPIO_1_IS_DUAL 1", "XPAR_FABRIC_COPY_MM2S_INTROUT_INTR 63",
+        "XPAR_XGPIO_NUM_INSTANCES 2", "XPAR_XAXIDMA_NUM_INSTANCES 1"}) {
     BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
                         line);
   }

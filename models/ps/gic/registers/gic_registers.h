@@ -24,8 +24,18 @@ constexpr unsigned first_spi = 32;  ///< 16 … 31 belong to one CPU, 32 … are
 constexpr std::uint32_t global_timer_id = 27;
 constexpr std::uint32_t private_timer_id = 29;
 constexpr std::uint32_t watchdog_id = 30;
-constexpr std::uint32_t irq_f2p_0_id = 61;   ///< IRQ_F2P[0] … [7] are 61 … 68
-constexpr std::uint32_t irq_f2p_8_id = 84;   ///< IRQ_F2P[8] … [15] are 84 … 91
+constexpr std::uint32_t irq_f2p_0_id = 61;  ///< IRQ_F2P[0] … [7] are 61 … 68
+constexpr std::uint32_t irq_f2p_8_id = 84;  ///< IRQ_F2P[8] … [15] are 84 … 91
+constexpr unsigned irq_f2p_bits = 16;
+constexpr std::uint32_t irq_f2p_id(unsigned bit) {
+  return bit < 8 ? irq_f2p_0_id + bit : irq_f2p_8_id + (bit - 8);
+}
+/// The bit of IRQ_F2P that is interrupt `id`; irq_f2p_bits if none is.
+constexpr unsigned irq_f2p_bit(std::uint32_t id) {
+  unsigned bit = 0;
+  while (bit < irq_f2p_bits && irq_f2p_id(bit) != id) ++bit;
+  return bit;
+}
 constexpr std::uint32_t spurious_id = 1023;  ///< ICCIAR: nothing to acknowledge
 constexpr std::uint32_t non_secure_id =
     1022;  ///< ICCIAR: only a non-secure interrupt, and AckCtl is 0

@@ -26,10 +26,12 @@ class Definitions {
 
 /// Both under the instance's name and under that of the driver: code uses either.
 void define_device(Definitions& out, const Device& device, unsigned number) {
-  const std::string canonical = device.driver + "_" + std::to_string(number);
   out.text += "\n/* " + device.name + " */\n";
-  for (const std::string& name : {device.name, canonical}) {
-    out.number(name + "_DEVICE_ID", number);
+  const bool has_driver = !device.driver.empty();
+  std::vector<std::string> names{device.name};
+  if (has_driver) names.push_back(device.driver + "_" + std::to_string(number));
+  for (const std::string& name : names) {
+    if (has_driver) out.number(name + "_DEVICE_ID", number);
     out.address(name + "_BASEADDR", device.base);
     out.address(name + "_HIGHADDR", device.last);
     for (const auto& [option, value] : device.options) out.number(name + "_" + option, value);
@@ -82,7 +84,7 @@ std::string header(const Platform& platform) {
   }
   out.text += "\n/* How many a driver has */\n";
   for (const auto& [driver, count] : numbers) {
-    out.number("X" + driver + "_NUM_INSTANCES", count);
+    if (!driver.empty()) out.number("X" + driver + "_NUM_INSTANCES", count);
   }
   out.text += "\n/* Console */\n#define STDOUT_BASEADDRESS ";
   char digits[16];

@@ -11,7 +11,7 @@ namespace xparameters {
 /// One device as its driver sees it.
 struct Device {
   std::string name;    ///< of the instance in capitals: "AXI_GPIO_0"
-  std::string driver;  ///< of the vendor's driver in capitals: "GPIO"; numbered by order
+  std::string driver;  ///< of the vendor's driver in capitals: "GPIO"; empty: it has none
   std::uint32_t base;
   std::uint32_t last;  ///< last address of its segment
   /// Build options: "IS_DUAL", 0.

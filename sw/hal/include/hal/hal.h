@@ -124,6 +124,24 @@ void hal_publish(uint32_t kind, const void* data, size_t size);
  * chip: its default. */
 double hal_option(uint32_t option);
 
+/* ---- Where devices are
+ * -------------------------------------------------------------------------------------------------
+ */
+
+/**
+ * A value of xparameters.h, which the program includes: HAL_XPAR(AXI_GPIO_0_BASEADDR) is
+ * XPAR_AXI_GPIO_0_BASEADDR on the chip. On the platform it is what the design has as it is
+ * configured, and the constant where the design has nothing of that name. Takes no time.
+ */
+#define HAL_XPAR(name) hal_xpar(#name, XPAR_##name)
+
+/** The same with a constant from elsewhere: hal_xpar("FRAME_COUNTER_BASEADDR", 0x41220000). */
+#ifdef HAL_BARE_METAL
+#define hal_xpar(name, built_in) ((uint32_t)(built_in))
+#else
+uint32_t hal_xpar(const char* name, uint32_t built_in);
+#endif
+
 /* ---- Annotations: vanish on the chip
  * ------------------------------------------------------------------------------ */
 
