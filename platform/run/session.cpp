@@ -3,6 +3,7 @@
 #include <designs/designs.h>
 #include <run/program_file.h>
 #include <vp/error.h>
+#include <vp/systemc_pins.h>
 #include <zynq/bus_trace.h>
 #include <exception>
 #include <numeric>
@@ -107,6 +108,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   if (trace_) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace_);
   std::exception_ptr error;
   try {
+    vp::settle_foreign_modules();
     sc_core::sc_start();
     zynq_->ps.cpu.check();
     // Modules may have a last word: end_of_simulation().

@@ -115,6 +115,8 @@ BOOST_AUTO_TEST_CASE(reports_traces_and_sweeps_take_it) {
 
 BOOST_AUTO_TEST_CASE(mistakes_are_refused_before_the_simulation) {
   check_refused(mistake("address_twice"), {"pl.axi_interconnect", "second", "axi_gpio_0"});
+  check_refused(mistake("combinational_ring"),
+                {"pl.inverter.in", "pl.inverter.out", "combinational ring", "put a register"});
   check_refused(mistake("interrupt_twice"),
                 {"pl.line_id is 62", "pl.axi_dma_1.s2mm_introut", "give one of them another"});
   check_refused(mistake("no_program"), {"no_program.so", "has no PS program", "programs"});

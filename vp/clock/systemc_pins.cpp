@@ -1,13 +1,65 @@
 #include <vp/systemc_pins.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <vp/error.h>
+#include <vp/hierarchy.h>
 #include <vp/report.h>
 
 namespace vp {
 
 namespace {
 
-/// So often may a signal change in one instant before it is taken for a combinational ring.
+/// So often may a signal change in one instant before it is taken for a combinational ring; and so
+/// many delta cycles may modules need to come to rest at first.
 constexpr unsigned most_changes = 1000;
+
+/// The pins of foreign modules. Our own ports are no sc_port.
+std::vector<sc_core::sc_port_base*> foreign_pins() {
+  std::vector<sc_core::sc_port_base*> pins;
+  for (const sc_core::sc_object* top : sc_core::sc_get_top_level_objects()) {
+    for (sc_core::sc_port_base* port : all_below<sc_core::sc_port_base>(*top)) {
+      const std::string kind = port->kind();
+      if (kind == "sc_in" || kind == "sc_out" || kind == "sc_inout") pins.push_back(port);
+    }
+  }
+  return pins;
+}
+
+/// True if something happens in the present instant yet.
+bool is_in_motion() {
+  return sc_core::sc_pending_activity_at_current_time();
+}
+
+/// Pins that change in the next delta cycles, of modules that have an input and an output among
+/// them: what lies behind a ring changes, too, but leads nowhere.
+std::string pins_on_a_ring(const std::vector<sc_core::sc_port_base*>& pins) {
+  constexpr unsigned looks = 32;
+  std::set<const sc_core::sc_port_base*> moving;
+  // A signal of ours makes its event when it is asked for the first time.
+  for (sc_core::sc_port_base* pin : pins) pin->get_interface()->default_event();
+  for (unsigned i = 0; i < looks && is_in_motion(); ++i) {
+    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+    for (sc_core::sc_port_base* pin : pins) {
+      if (pin->get_interface()->default_event().triggered()) moving.insert(pin);
+    }
+  }
+  const auto moves = [&](const sc_core::sc_object* module, bool input) {
+    return std::any_of(moving.begin(), moving.end(), [&](const sc_core::sc_port_base* pin) {
+      return pin->get_parent_object() == module && (std::string(pin->kind()) == "sc_in") == input;
+    });
+  };
+  std::string names;
+  for (const sc_core::sc_port_base* pin : pins) {
+    const sc_core::sc_object* module = pin->get_parent_object();
+    if (moving.count(pin) == 0 || !moves(module, true) || !moves(module, false)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(pin->name());
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -61,6 +113,19 @@ void ClockPin::after_change(Clock& clock) {
   } else {
     plan_fall(now);
   }
+}
+
+void settle_foreign_modules() {
+  const std::vector<sc_core::sc_port_base*> pins = foreign_pins();
+  if (pins.empty()) return;
+  unsigned deltas = 0;
+  do {
+    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  } while (is_in_motion() && ++deltas < most_changes);
+  if (deltas < most_changes) return;
+  throw InputError("a combinational ring goes through " + pins_on_a_ring(pins) +
+                   ": it does not come to rest before the simulation begins; put a register "
+                   "into the ring");
 }
 
 void FollowerBase::begin_change(ClockScheduler* scheduler) {

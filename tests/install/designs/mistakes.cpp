@@ -3,11 +3,13 @@
 #include <zynq/design_plugin.h>
 
 #include <vp/clock.h>
+#include <vp/systemc_pins.h>
 
 namespace {
 
 enum Mistake {
   ADDRESS_TWICE,
+  COMBINATIONAL_RING,
   INTERRUPT_TWICE,
   NO_PROGRAM,
   NOTHING_MADE,
@@ -26,6 +28,29 @@ class Part : public vp::Clocked {
   void edge() override { sleep(); }
 };
 
+/// Knows only SystemC: out = !in, at once.
+struct Inverter : sc_core::sc_module {
+  SC_HAS_PROCESS(Inverter);
+  explicit Inverter(sc_core::sc_module_name name) : sc_module(name) {
+    SC_METHOD(drive);
+    sensitive << in;
+  }
+  void drive() { out.write(!in.read()); }
+  sc_core::sc_in<bool> in{"in"};
+  sc_core::sc_out<bool> out{"out"};
+};
+
+/// The inverter's output comes back to it as one of our signals.
+struct Ring {
+  Ring() {
+    inverter.out(wire);
+    inverter.in(back.signal);
+  }
+  sc_core::sc_signal<bool> wire{"wire"};
+  vp::Follower<bool, bool> back{"back", wire};
+  Inverter inverter{"inverter"};
+};
+
 /// Is a part, and made where `pl` is complete already.
 class Outside : public platform::MarkerDesign {
  public:
@@ -41,12 +66,14 @@ class Mistaken : public platform::MarkerDesign {
   Mistaken(sc_core::sc_module_name name, platform::PlPorts& ports) : MarkerDesign(name, ports) {
     if (MISTAKE == ADDRESS_TWICE) axi_interconnect.map("second", 0x4120'0000, 0x1'0000);
     if (MISTAKE == INTERRUPT_TWICE) concat.connect_interrupt(line_, 62);
+    if (MISTAKE == COMBINATIONAL_RING) ring_ = std::make_unique<Ring>();
     if (MISTAKE == UNBOUND_PORT) part_ = std::make_unique<Part>("part", ports.fclk_clk(0));
   }
 
  private:
   vp::Signal<bool> line_{"line"};
   std::unique_ptr<Part> part_;
+  std::unique_ptr<Ring> ring_;
 };
 
 const platform::DesignInfo& info() {

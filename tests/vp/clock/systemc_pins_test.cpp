@@ -1,11 +1,14 @@
 #include <vp/systemc_pins.h>
 
+#include <algorithm>
 #include <array>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <random>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <simulation.h>
 #include <boost/test/unit_test.hpp>
@@ -419,6 +422,53 @@ BOOST_FIXTURE_TEST_CASE(a_combinational_ring_through_a_foreign_module_is_refused
   BOOST_CHECK_EXCEPTION(run_to(1000), sc_core::sc_report, [](const sc_core::sc_report& report) {
     return std::string(report.get_msg()).find("back: changed 1000 times in one instant") == 0;
   });
+}
+
+/// `settle_foreign_modules` throws an error with all of `words` and none of `others`.
+void check_ring(const std::vector<std::string>& words, const std::vector<std::string>& others) {
+  BOOST_CHECK_EXCEPTION(
+      vp::settle_foreign_modules(), vp::InputError, [&](const vp::InputError& error) {
+        const std::string text = error.what();
+        const auto has = [&](const std::string& word) { return text.find(word) != text.npos; };
+        BOOST_TEST_INFO(text);
+        return std::all_of(words.begin(), words.end(), has) &&
+               std::none_of(others.begin(), others.end(), has);
+      });
+  BOOST_TEST(sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_ring_is_named_before_time_passes, Fixture) {
+  Inverter inverter{"inverter"}, behind{"behind"}, apart{"apart"};
+  vp::Follower<bool, bool> back{"back", inverter.wire};
+  vp::Signal<bool> still{"still"};
+  inverter.in(back.signal);
+  behind.in(inverter.wire);
+  apart.in(still);
+  check_ring({"inverter.in", "inverter.out", "put a register"}, {"apart"});
+}
+
+// The kernel alone would go round it for ever.
+BOOST_FIXTURE_TEST_CASE(a_ring_of_foreign_modules_only_is_named, Fixture) {
+  Inverter a{"a"}, b{"b"}, c{"c"};
+  a.in(c.wire);
+  b.in(a.wire);
+  c.in(b.wire);
+  check_ring({"a.in", "a.out", "b.in", "b.out", "c.in", "c.out"}, {});
+}
+
+BOOST_FIXTURE_TEST_CASE(a_long_chain_comes_to_rest, Fixture) {
+  std::deque<Inverter> chain;
+  for (unsigned i = 0; i < 200; ++i) {
+    chain.emplace_back(("inverter_" + std::to_string(i)).c_str());
+    if (i > 0) chain[i].in(chain[i - 1].wire);
+  }
+  vp::Follower<bool, bool> back{"back", chain.back().wire};
+  vp::Signal<bool> still{"still"};
+  chain.front().in(still);
+  BOOST_CHECK_NO_THROW(vp::settle_foreign_modules());
+  BOOST_TEST(chain[199].wire.read() == false);
+  BOOST_TEST(chain[198].wire.read() == true);
+  run_to(1000);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

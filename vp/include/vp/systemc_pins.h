@@ -44,6 +44,12 @@ class ClockPin : public sc_core::sc_module, private ClockListener {
   bool high_ = false;
 };
 
+/// Starts the simulation and lets foreign modules come to rest before time passes; nothing if there
+/// are none. Throws InputError with the ports on a combinational ring that goes on changing: a
+/// foreign module does not say which inputs its outputs follow at once, so this is how it shows. A
+/// ring that rests at time zero is found when it changes (Follower).
+void settle_foreign_modules();
+
 /// A value of a SystemC signal as one of ours; sc_logic, sc_uint, sc_bv and their like included.
 /// False if it does not fit.
 template <class T, class U>
