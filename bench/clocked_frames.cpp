@@ -10,7 +10,6 @@
 
 #include "folder_in_memory.h"
 #include "frame_benchmark.h"
-#include "images.h"
 #include "pipeline.h"
 
 namespace {

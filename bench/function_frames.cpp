@@ -3,12 +3,11 @@
 //   --mode=scalar the same in plain C++: without SIMD
 //   --mode=naive  pixel by pixel
 #include <pl/common/simd_target.h>
-#include <scene/camera.h>
+#include <scene/pose.h>
 
 #include <stdexcept>
 
 #include "frame_benchmark.h"
-#include "images.h"
 #include "plain_function.h"
 
 namespace {

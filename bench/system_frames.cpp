@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "frame_benchmark.h"
-#include "images.h"
 
 namespace {
 

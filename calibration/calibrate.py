@@ -27,7 +27,7 @@ DDR_NS = 150.0
 # Code around the kernels in the application, in instructions a frame (assumed).
 GLUE = {"O0": 900, "O2": 300}
 
-# Units by kernel, as platform/profiles/kernels.cpp; the unit that streams through memory comes
+# Units by kernel, as platform/profiles/cost_profile.cpp; the unit that streams through memory comes
 # first, those that matter least last. "call" is what does not depend on the input.
 KERNELS = {
     "receive": ["words_received", "call"],
@@ -46,7 +46,7 @@ KERNELS = {
 }
 
 SOURCES = ["calibration/driver/%s.cpp" % n for n in
-           ("devices", "kernels", "main", "measure", "scene")] + [
+           ("devices", "kernels", "main", "scene")] + [
     "sw/marker/%s.cpp" % n for n in
     ("blob_grouping", "dictionary", "fast", "feature_evaluation", "feature_set", "identification",
      "label_pool", "marker_search", "posit", "rectification", "threshold")] + [
@@ -72,7 +72,7 @@ class Tools:
         os.makedirs(folder, exist_ok=True)
         self.plugin = os.path.join(folder, "libcount.so")
         run(["gcc", "-O2", "-Wall", "-Wextra", "-shared", "-fPIC", "-fvisibility=hidden", "-o",
-             self.plugin, "calibration/plugin/count.c", "calibration/plugin/cache_model.c"])
+             self.plugin, "calibration/plugin/count.c"])
         self.driver = {"native": self.compile("native", ["g++", "-O2"])}
         for level in ("O0", "O2"):
             self.driver[level] = self.compile(

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "process.h"
 #include "samples.h"
 
 namespace bench {
@@ -39,5 +38,25 @@ Program memory_run(const ProgramOptions& options, const std::string& name, int f
 
 /// Groups of samples that must have computed the same.
 std::vector<std::vector<std::string>> equal_groups(const std::vector<std::string>& images);
+
+/// A command and its arguments.
+using Command = std::vector<std::string>;
+
+/// What a process took.
+struct Usage {
+  double cpu_ms = 0;     ///< of the processor, in user and kernel mode; waiting costs none
+  double memory_mb = 0;  ///< most memory in use
+};
+
+/// How a process ended.
+struct ProcessResult {
+  bool succeeded = false;
+  std::string message;  ///< the last line it said if it did not succeed
+  Usage usage;
+};
+
+/// Runs a command to its end in `folder`, where it leaves its output ("stdout", "stderr"). Throws
+/// std::runtime_error if it cannot be started.
+ProcessResult run_process(const Command& command, const std::string& folder);
 
 }  // namespace bench

@@ -1,9 +1,10 @@
 #include "samples.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+
+#include <nlohmann/json.hpp>
 
 namespace bench {
 
@@ -74,6 +75,127 @@ std::vector<std::string> disagreeing(const std::vector<Round>& rounds,
     if (here) measured.push_back(name);
   }
   return labels.size() > 1 ? measured : std::vector<std::string>{};
+}
+
+namespace {
+
+using Value = std::function<std::optional<double>(const Round&, const std::string&)>;
+
+std::optional<Sample> find(const Round& round, const std::string& name) {
+  const auto sample = round.find(name);
+  if (sample == round.end()) return std::nullopt;
+  return sample->second;
+}
+
+/// How many times faster `ours` is than `theirs`.
+Value faster(const std::string& ours, const std::string& theirs) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto fast = find(round, ours + "/" + image), slow = find(round, theirs + "/" + image);
+    if (!fast || !slow) return std::nullopt;
+    return slow->cpu_ms / fast->cpu_ms;
+  };
+}
+
+/// How many times faster than the modelled hardware.
+Value faster_than_hardware(const std::string& name) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto sample = find(round, name + "/" + image);
+    if (!sample) return std::nullopt;
+    return sample->counters.at("simulated_ms") / sample->cpu_ms;
+  };
+}
+
+Value read_per_second(const std::string& name) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto sample = find(round, name + "/" + image);
+    if (!sample) return std::nullopt;
+    constexpr double ms_per_s = 1000;
+    return sample->counters.at("read_mb") / sample->cpu_ms * ms_per_s;
+  };
+}
+
+Value processor_time(const std::string& name) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto sample = find(round, name + "/" + image);
+    if (!sample) return std::nullopt;
+    return sample->cpu_ms;
+  };
+}
+
+Value memory(const std::string& name) {
+  return [=](const Round& round, const std::string& image) -> std::optional<double> {
+    const auto sample = find(round, name + "/" + image);
+    if (!sample) return std::nullopt;
+    return sample->counters.at("memory_mb");
+  };
+}
+
+/// Of the memory, from a short run to a long one.
+std::optional<double> growth(const Round& round, const std::string& image) {
+  const auto before = memory("memory_short")(round, image);
+  const auto after = memory("memory_long")(round, image);
+  if (!before || !after) return std::nullopt;
+  return std::max(0.0, *after - *before);
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const std::string& fidelity) {
+  const auto higher = Figure::Better::higher, lower = Figure::Better::lower;
+  constexpr auto none = std::nullopt;
+  const std::string system = fidelity + ", whole system";
+  return {
+      {"clocked, ports observable, against Verilator, thesis structure", 5, 8, "×", higher,
+       faster("clocked", "thesis")},
+      {"clocked, ports observable, against Verilator, lean structure", 2.5, 4, "×", higher,
+       faster("clocked", "lean")},
+      {"clocked, all registers that the detectors show live, against Verilator, thesis structure",
+       3, 5, "×", higher, faster("registers", "thesis")},
+      {"clocked, VCD of 18 ports, against untraced Verilator, thesis structure", 2, 3.5, "×",
+       higher, faster("vcd", "thesis")},
+      {"the same against untraced Verilator, lean structure", none, none, "×", higher,
+       faster("vcd", "lean")},
+      {"own VCD writer against sc_trace, 130 signals (few change; half change)", 4, 7, "×", higher,
+       faster("own", "sc_trace")},
+      {"VCD read by `markervp trace`, 130 signals (few change; half change)", 100, none, "MB/s",
+       higher, read_per_second("reading")},
+      {system + ", image preloaded, against the plain function in plain C++", 0.5, 0.8, "×", higher,
+       faster("preloaded", "scalar")},
+      {system + ", image preloaded, against the plain function with our SIMD", 0.5, 0.8, "×",
+       higher, faster("preloaded", "function")},
+      {system + ", image preloaded, against the same pixel by pixel", none, none, "×", higher,
+       faster("preloaded", "naive")},
+      {system + ", image uploaded, against the plain function in plain C++", none, none, "×",
+       higher, faster("uploaded", "scalar")},
+      {system + ", image uploaded, against the plain function with our SIMD", none, none, "×",
+       higher, faster("uploaded", "function")},
+      {system + ", image uploaded, against the hardware's real time", 8, 15, "×", higher,
+       faster_than_hardware("uploaded")},
+      {system + ", image preloaded, against the hardware's real time", none, none, "×", higher,
+       faster_than_hardware("preloaded")},
+      {fidelity + " against clocked, whole system", none, none, "×", higher,
+       faster("uploaded", "uploaded_clocked")},
+      {"plain function with our SIMD against the same in plain C++", none, none, "×", higher,
+       faster("function", "scalar")},
+      {"plain function with our SIMD against the same pixel by pixel", none, none, "×", higher,
+       faster("function", "naive")},
+      {"corners of a frame against OpenCV's FAST", none, none, "×", higher,
+       faster("corner_frame", "opencv_fast")},
+      {"`markervp run` of one frame, start to exit", 300, 100, "ms", lower, processor_time("run")},
+      {"rendering a scene", 30, none, "ms", lower, processor_time("render_scene")},
+      {"memory of a long `markervp run`, without the page", 150, none, "MB", lower,
+       memory("memory_long")},
+      {"what it grew since frame 100", 1, none, "MB", lower, growth},
+  };
+}
+
+std::optional<double> reached(const Figure& figure, const std::vector<Round>& rounds,
+                              const std::string& image) {
+  std::vector<double> values;
+  for (const Round& round : rounds) {
+    if (const auto value = figure.value(round, image)) values.push_back(*value);
+  }
+  return median(std::move(values));
 }
 
 }  // namespace bench

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "figures.h"
+#include "samples.h"
 
 namespace bench {
 

@@ -1,4 +1,4 @@
-#include "devices.h"
+#include "driver.h"
 
 #include <axi_dma_registers.h>
 #include <gic_registers.h>

@@ -1,4 +1,4 @@
-#include "kernels.h"
+#include "driver.h"
 
 #include <apps/hybrid/pl_link.h>
 #include <marker/blob_grouping.h>
@@ -8,10 +8,6 @@
 #include <marker/threshold.h>
 
 #include <vector>
-
-#include "devices.h"
-#include "measure.h"
-#include "scene.h"
 
 namespace calibration {
 namespace {

@@ -1,7 +1,6 @@
-#include "scene.h"
+#include "driver.h"
 
-#include <marker/dictionary.h>
-#include <marker/rectification.h>
+#include <marker/identification.h>
 
 #include <cmath>
 

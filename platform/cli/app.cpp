@@ -4,7 +4,7 @@
 
 #include <cli/app.h>
 #include <cli/provenance.h>
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {

@@ -7,7 +7,7 @@
 #include <cli/commands.h>
 #include <cli/completion.h>
 #include <cli/program.h>
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {

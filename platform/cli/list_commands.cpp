@@ -11,7 +11,7 @@
 #include <power/design_estimate.h>
 #include <power/power_table.h>
 #include <report/console.h>
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 #include <vp/decimal.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -166,10 +166,10 @@ int list_devices(const DevicesOptions& options, std::ostream& out) {
 
 namespace {
 
-using device::hz_per_mhz;
 using device::ClockKind;
 using device::ClockPlan;
 using device::ClockPlanner;
+using device::hz_per_mhz;
 using device::MadeClock;
 using Json = nlohmann::ordered_json;
 

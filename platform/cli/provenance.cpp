@@ -1,5 +1,5 @@
 #include <cli/provenance.h>
-#include <host/machine.h>
+#include <host/process.h>
 
 namespace platform::cli {
 

@@ -13,7 +13,7 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/sweep_platform.h>
-#include <designs/plugin.h>
+#include <designs/designs.h>
 #include <host/process.h>
 #include <report/console.h>
 #include <run/program_file.h>

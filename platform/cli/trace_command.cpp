@@ -5,12 +5,8 @@
 #include <cli/trace_window.h>
 #include <designs/designs.h>
 #include <host/output_folder.h>
-#include <trace/checks.h>
-#include <trace/cut.h>
-#include <trace/difference.h>
-#include <trace/plot.h>
-#include <trace/save_file.h>
 #include <trace/statistics.h>
+#include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>

@@ -16,7 +16,7 @@
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
 #include <validation/plots.h>
-#include <validation/result_files.h>
+#include <validation/validation.h>
 #include <validation/words.h>
 #include <vp/output_file.h>
 #include <vp/progress.h>

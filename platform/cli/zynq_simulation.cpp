@@ -8,7 +8,6 @@
 #include <zynq/bus_log.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
-#include <zynq/register_coverage.h>
 
 namespace platform::cli {
 

@@ -1,11 +1,81 @@
 #include <designs/designs.h>
 
-#include <designs/plugin.h>
-#include <vp/error.h>
-#include <vp/text.h>
 #include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <dlfcn.h>
+#include <vp/error.h>
+#include <vp/shared_object.h>
+#include <vp/text.h>
+#include <zynq/design_plugin.h>
 
 namespace platform {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* symbol = "markervp_design";
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw vp::InputError("design '" + file + "' " + why);
+}
+
+/// Objects of C++ go to and fro: both sides must have seen the same headers and the same compiler.
+void check(const std::string& file, const DesignDescriptor& descriptor) {
+  const auto built = [](std::uint32_t abi, const char* version, const char* compiler) {
+    return std::string("markervp ") + version + " (designs " + std::to_string(abi) +
+           ") with compiler " + compiler;
+  };
+  const bool same_abi = descriptor.abi == design_abi;
+  const std::string theirs = built(descriptor.abi, descriptor.version ? descriptor.version : "?",
+                                   descriptor.compiler ? descriptor.compiler : "?");
+  const std::string ours = built(design_abi, MARKERVP_VERSION, __VERSION__);
+  if (!same_abi || theirs != ours)
+    refuse(file, "was built for " + theirs + ", this is " + ours + ": rebuild it");
+}
+
+DesignInfo open(const std::string& file) {
+  const std::string path = fs::absolute(file).string();
+  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) refuse(file, "cannot be loaded: " + vp::load_problem(path, ::dlerror()));
+  const auto* descriptor = static_cast<const DesignDescriptor*>(::dlsym(handle, symbol));
+  if (!descriptor)
+    refuse(file, std::string("is none: it has no '") + symbol + "'; write MARKERVP_DESIGN(…)");
+  check(file, *descriptor);
+  DesignInfo info = descriptor->info();
+  if (info.name.empty() || !info.make || !info.words)
+    refuse(file, "is incomplete: its DesignInfo needs a name, words and a function that makes it");
+  if (info.programs.empty())
+    refuse(file, "has no PS program: name at least one in the `programs` of its DesignInfo");
+  return info;
+}
+
+/// By the absolute path of the file.
+std::map<std::string, DesignInfo>& loaded() {
+  static std::map<std::string, DesignInfo> designs;
+  return designs;
+}
+
+}  // namespace
+
+bool is_design_file(const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == ".so";
+}
+
+std::string folder_of(const DesignInfo& design) {
+  for (const auto& [path, known] : loaded()) {
+    if (&known == &design) return fs::path(path).parent_path().string();
+  }
+  return {};
+}
+
+const DesignInfo& load_design(const std::string& file) {
+  const std::string path = fs::absolute(file).lexically_normal().string();
+  const auto found = loaded().find(path);
+  return found != loaded().end() ? found->second : loaded().emplace(path, open(path)).first->second;
+}
 
 const DesignInfo& thesis_design();
 const DesignInfo& ps_only_design();

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include <host/machine.h>
 #include <host/output_folder.h>
+#include <host/process.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
 

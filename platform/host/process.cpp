@@ -1,10 +1,9 @@
-#include <fcntl.h>
-#include <sys/syscall.h>
-#include <unistd.h>
+#include <host/process.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
@@ -13,7 +12,9 @@
 #include <string_view>
 #include <utility>
 
-#include <host/process.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 
@@ -164,6 +165,31 @@ void check_standard_output() {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   const int copy = written ? ::dup(STDOUT_FILENO) : -1;
   if (!written || (copy >= 0 && ::close(copy) != 0)) throw vp::OutputError(standard_output, errno);
+}
+
+std::string host_name() {
+  char name[256] = "";
+  if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
+  return name;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::vector<std::string> library_folders() {
+  std::error_code error;
+  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path root = executable.parent_path().parent_path();
+  std::vector<std::string> folders{(root / "lib" / "markervp").string()};
+  const std::string system = (root / MARKERVP_LIBDIR / "markervp").string();
+  if (system != folders.front()) folders.push_back(system);
+  return folders;
 }
 
 }  // namespace platform::host

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <input/image_file.h>
-#include <scene/camera.h>
+#include <scene/pose.h>
 
 namespace platform::input {
 

@@ -4,8 +4,8 @@
 #include <input/frame_source.h>
 #include <input/input_list.h>
 #include <input/media.h>
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 #include <vp/error.h>
 
 namespace platform::input {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <input/input_list.h>
-#include <scene/camera.h>
 #include <scene/grey_image.h>
+#include <scene/pose.h>
 #include <scene/scene.h>
 
 namespace platform::input {

@@ -9,8 +9,8 @@
 #include <input/image_file.h>
 #include <input/input_list.h>
 #include <input/media.h>
-#include <scene/camera.h>
-#include <scene/catalogue.h>
+#include <scene/pose.h>
+#include <scene/scene.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

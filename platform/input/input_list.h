@@ -7,8 +7,8 @@
 
 #include <input/camera_file.h>
 #include <input/image_file.h>
-#include <scene/camera.h>
 #include <scene/grey_image.h>
+#include <scene/pose.h>
 
 namespace platform::input {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <host/machine.h>
+#include <host/process.h>
 #include <input/image_file.h>
 #include <input/media.h>
 #include <vp/error.h>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <scene/camera.h>
+#include <scene/pose.h>
 
 /// Colours that people with any colour vision can tell apart (Okabe and Ito 2008), as red, green,
 /// blue.

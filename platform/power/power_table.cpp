@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include <host/document.h>
-#include <host/machine.h>
+#include <host/process.h>
 #include <power/known_coefficients.h>
 #include <vp/error.h>
 #include <vp/text.h>

@@ -1,14 +1,152 @@
 #include <profiles/cost_profile.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
-#include <host/machine.h>
-#include <profiles/kernels.h>
-#include <profiles/profile_file.h>
+#include <host/document.h>
+#include <host/process.h>
 #include <vp/error.h>
 #include <vp/text.h>
+#include <nlohmann/json.hpp>
 
 namespace platform::profiles {
+
+const std::vector<Kernel>& kernels() {
+  static const std::vector<Kernel> all = {
+      {"application", {"frames"}},
+      {"interrupt", {"interrupts"}},
+      {"receive", {"words_received"}},
+      {"decode", {"packets_decoded", "boxes_decoded"}},
+      {"evaluation",
+       {"corner_tests", "box_tests", "corners_inside", "quadrant_tests", "score_evaluations",
+        "quads_checked", "corners_freed", "blobs_evaluated", "candidates"}},
+      {"identification",
+       {"homographies", "grid_samples", "grid_samples_dma", "cells", "rotations",
+        "dictionary_compares"}},
+      {"pose", {"poses", "posit_iterations"}},
+      {"corner_detection",
+       {"corner_frames", "corner_rows", "corner_pixels", "corner_survivors", "corner_bright",
+        "corner_points", "corners_found"}},
+      {"threshold", {"threshold_frames", "threshold_pixels"}},
+      {"blob_detection",
+       {"blob_frames", "blob_rows", "blob_pixels", "blob_dark", "blob_runs", "blob_rivals",
+        "blob_labels", "blob_label_checks", "blobs_ended"}},
+  };
+  return all;
+}
+
+std::string kernel_of(const std::string& unit) {
+  for (const Kernel& kernel : kernels()) {
+    for (const std::string& name : kernel.units) {
+      if (name == unit) return kernel.name;
+    }
+  }
+  return "";
+}
+
+/// A JSON file whose errors name the file and the entry.
+class ProfileFile {
+ public:
+  using Json = nlohmann::json;
+
+  /// Throws vp::InputError if it cannot be read or is not a JSON object of this version.
+  explicit ProfileFile(const std::filesystem::path& path);
+
+  const Json& root() const { return root_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Throws vp::InputError: "profile FILE: problem".
+  [[noreturn]] void refuse(const std::string& problem) const;
+
+  /// A member of an object; `where` is the object in words, for the message.
+  const Json& member(const Json& object, const std::string& key, const std::string& where) const;
+  const Json& object(const Json& object, const std::string& key, const std::string& where) const;
+  std::string text(const Json& object, const std::string& key, const std::string& where) const;
+  /// From `min` to `max`.
+  double number(const Json& object, const std::string& key, const std::string& where, double min,
+                double max) const;
+  /// Throws if `object` has a key that is none of `known`, with the nearest of them.
+  void only(const Json& object, const std::set<std::string>& known, const std::string& where) const;
+
+ private:
+  std::filesystem::path path_;
+  Json root_;
+};
+
+namespace {
+
+constexpr int version = 1;
+
+/// As short as it reads back.
+std::string written(double value) {
+  return nlohmann::json(value).dump();
+}
+
+}  // namespace
+
+ProfileFile::ProfileFile(const std::filesystem::path& path) : path_(path) {
+  root_ = host::read_json(path, "profile");
+  if (!root_.is_object()) refuse("it is not a JSON object");
+  const Json& found = member(root_, "version", "the profile");
+  if (found != version) {
+    refuse("its version is " + found.dump() + ", this program reads version " +
+           std::to_string(version) + ": make it anew with scripts/calibrate");
+  }
+}
+
+void ProfileFile::refuse(const std::string& problem) const {
+  throw vp::InputError("profile '" + path_.string() + "': " + problem);
+}
+
+const ProfileFile::Json& ProfileFile::member(const Json& object, const std::string& key,
+                                             const std::string& where) const {
+  const auto found = object.find(key);
+  if (found == object.end()) refuse("'" + key + "' of " + where + " is missing");
+  return *found;
+}
+
+const ProfileFile::Json& ProfileFile::object(const Json& object, const std::string& key,
+                                             const std::string& where) const {
+  const Json& found = member(object, key, where);
+  if (!found.is_object()) refuse("'" + key + "' of " + where + " is not an object");
+  return found;
+}
+
+std::string ProfileFile::text(const Json& object, const std::string& key,
+                              const std::string& where) const {
+  const Json& found = member(object, key, where);
+  if (!found.is_string() || found.get<std::string>().empty()) {
+    refuse("'" + key + "' of " + where + " is not a text");
+  }
+  return found.get<std::string>();
+}
+
+double ProfileFile::number(const Json& object, const std::string& key, const std::string& where,
+                           double min, double max) const {
+  const Json& found = member(object, key, where);
+  if (!found.is_number()) refuse("'" + key + "' of " + where + " is not a number");
+  const double value = found.get<double>();
+  if (!std::isfinite(value) || value < min || value > max) {
+    refuse("'" + key + "' of " + where + " is " + written(value) + ": give a number from " +
+           written(min) + " to " + written(max));
+  }
+  return value;
+}
+
+void ProfileFile::only(const Json& object, const std::set<std::string>& known,
+                       const std::string& where) const {
+  for (const auto& [key, value] : object.items()) {
+    if (known.count(key) != 0) continue;
+    const std::string nearest =
+        vp::nearest_match(key, std::vector<std::string>(known.begin(), known.end()));
+    refuse("'" + key + "' of " + where + " is unknown" +
+           (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
+  }
+}
 
 namespace {
 

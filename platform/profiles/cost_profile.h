@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <ps/cpu/cost_table.h>
+#include <ps/cpu/cpu_time.h>
 
 /// How long the PS software takes: tables of data files, checked when they are read.
 ///
@@ -42,5 +42,20 @@ Optimisation optimisation_of(const std::string& name);
 /// Throws vp::InputError that names file and entry: no such profile, another version, a kernel or
 /// unit that is missing, unknown, negative or absurd, or an optimisation that it is not for.
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
+
+}  // namespace platform::profiles
+namespace platform::profiles {
+
+/// A function of the PS software and the units of work that make up its time.
+struct Kernel {
+  std::string name;
+  std::vector<std::string> units;  ///< names of marker::Work
+};
+
+/// All kernels: each unit of marker::Work belongs to one.
+const std::vector<Kernel>& kernels();
+
+/// The kernel of a unit; empty if there is no such unit.
+std::string kernel_of(const std::string& unit);
 
 }  // namespace platform::profiles

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <marker/packet.h>
-#include <scene/camera.h>
+#include <marker/feature_set.h>
 #include <scene/pose.h>
 #include <scene/scene.h>
 #include <vp/power_meter.h>

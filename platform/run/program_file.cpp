@@ -1,11 +1,11 @@
 #include <run/program_file.h>
 
-#include <designs/plugin.h>
+#include <designs/designs.h>
 
 #include <filesystem>
 #include <vector>
 
-#include <host/machine.h>
+#include <host/process.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -4,7 +4,7 @@
 #include <run/program_file.h>
 #include <vp/error.h>
 #include <vp/systemc_pins.h>
-#include <zynq/bus_trace.h>
+#include <zynq/bus_log.h>
 #include <exception>
 #include <numeric>
 #include <utility>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include <scene/grey_image.h>
 #include <scene/scene.h>
-
-#include <vector>
 
 namespace platform {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <host/document.h>
-#include <host/machine.h>
+#include <host/process.h>
 #include <input/camera_file.h>
 #include <input/input_list.h>
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 #include <sweep/identity.h>
 #include <vp/error.h>
 #include <vp/input_file.h>

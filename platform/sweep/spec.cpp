@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <host/machine.h>
+#include <host/process.h>
 #include <sweep/spec.h>
 #include <vp/error.h>
 #include <vp/input_file.h>

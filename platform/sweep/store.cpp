@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <host/document.h>
-#include <host/machine.h>
+#include <host/process.h>
 #include <sweep/identity.h>
 #include <sweep/store.h>
 #include <sweep/tables.h>

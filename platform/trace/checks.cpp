@@ -5,8 +5,8 @@
 #include <memory>
 #include <sstream>
 
-#include <trace/checks.h>
 #include <trace/replay.h>
+#include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/input_file.h>
 #include <vp/text.h>
@@ -168,7 +168,7 @@ std::string shown(const vp::ExpressionValue& value) {
 /// A check at work. Conditions are looked at when a signal of theirs was written.
 class Judge {
  public:
-  Judge(const Check& check, Replay& replay, TraceFile& trace)
+  Judge(const Check& check, Replay& replay)
       : check_(check), replay_(replay), first_(check.first), second_(check.second) {
     result.check = &check;
     const auto number_of = [&](const std::string& name) {
@@ -185,7 +185,7 @@ class Judge {
       restart_.bind(number_of);
     }
     if (check.kind == Check::Kind::bursts) {
-      clock_ = std::make_unique<SampleClock>(replay, trace, "ps.fclk_clk0.clk", check.clock_hz);
+      clock_ = std::make_unique<SampleClock>(replay, "ps.fclk_clk0.clk", check.clock_hz);
     }
   }
 
@@ -366,7 +366,7 @@ std::vector<CheckResult> run_checks(TraceFile& trace, const std::vector<Check>& 
   std::vector<CheckResult> skipped;
   for (const Check& check : checks) {
     try {
-      court.judges.emplace_back(check, replay, trace);
+      court.judges.emplace_back(check, replay);
     } catch (const vp::InputError& error) {
       if (!skip_missing) {
         throw vp::InputError(std::string(error.what()) + " (in '" + trace.name() + "')");

@@ -1,4 +1,4 @@
-#include <trace/cut.h>
+#include <trace/tools.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include <trace/difference.h>
+#include <trace/tools.h>
 
 #include <algorithm>
 #include <charconv>

@@ -30,17 +30,12 @@ double between(const Time& from, const Time& to) {
 
 class StageStatistic final : public Statistic {
  public:
-  StageStatistic(Replay& replay, TraceFile& file, const Vocabulary& words)
+  StageStatistic(Replay& replay, const Vocabulary& words)
       : replay_(replay), functions_(words.functions) {
-    const auto follow = [&](const std::string& path) -> std::optional<Replay::Slot> {
-      const int variable = file.find(path);
-      if (variable < 0) return std::nullopt;
-      return replay.watch(static_cast<std::uint32_t>(variable));
-    };
-    frame_ = follow("ps.cpu.frame");
-    results_ = follow("ps.cpu.results");
-    start_ = follow(words.start);
-    name_ = follow("ps.cpu.function_name");
+    frame_ = replay.follow("ps.cpu.frame");
+    results_ = replay.follow("ps.cpu.results");
+    start_ = replay.follow(words.start);
+    name_ = replay.follow("ps.cpu.function_name");
     table_.name = "stages";
     table_.title = "Stages of each frame";
     table_.columns = {"frame",      "upload_us",     "feature_extraction_us",
@@ -126,9 +121,8 @@ void StageStatistic::finish_frame(std::uint64_t ps) {
 
 }  // namespace
 
-std::unique_ptr<Statistic> stage_statistic(Replay& replay, TraceFile& file,
-                                           const Vocabulary& words) {
-  return std::make_unique<StageStatistic>(replay, file, words);
+std::unique_ptr<Statistic> stage_statistic(Replay& replay, const Vocabulary& words) {
+  return std::make_unique<StageStatistic>(replay, words);
 }
 
 namespace {
@@ -151,20 +145,14 @@ struct Frame {
 
 class FrameStatistic final : public Statistic {
  public:
-  FrameStatistic(Replay& replay, TraceFile& file, const Vocabulary& words)
-      : replay_(replay), words_(words) {
-    const auto follow = [&](const std::string& path) -> std::optional<Replay::Slot> {
-      const int variable = file.find(path);
-      if (variable < 0) return std::nullopt;
-      return replay.watch(static_cast<std::uint32_t>(variable));
-    };
-    frame_ = follow("ps.cpu.frame");
-    results_ = follow("ps.cpu.results");
-    start_ = follow(words.start);
-    feature_ = follow(words.word);
-    function_ = follow("ps.cpu.function");
-    name_ = follow("ps.cpu.function_name");
-    for (const auto& loss : words.losses) counters_.push_back(follow(loss.path));
+  FrameStatistic(Replay& replay, const Vocabulary& words) : replay_(replay), words_(words) {
+    frame_ = replay.follow("ps.cpu.frame");
+    results_ = replay.follow("ps.cpu.results");
+    start_ = replay.follow(words.start);
+    feature_ = replay.follow(words.word);
+    function_ = replay.follow("ps.cpu.function");
+    name_ = replay.follow("ps.cpu.function_name");
+    for (const auto& loss : words.losses) counters_.push_back(replay.follow(loss.path));
   }
   bool found() const override { return frame_ || results_ || function_; }
 
@@ -311,9 +299,8 @@ void FrameStatistic::report(std::vector<Table>& tables) const {
 
 }  // namespace
 
-std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file,
-                                           const Vocabulary& words) {
-  return std::make_unique<FrameStatistic>(replay, file, words);
+std::unique_ptr<Statistic> frame_statistic(Replay& replay, const Vocabulary& words) {
+  return std::make_unique<FrameStatistic>(replay, words);
 }
 
 }  // namespace platform::trace

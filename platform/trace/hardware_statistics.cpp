@@ -33,7 +33,7 @@ struct Link {
 class LinkStatistic final : public Statistic {
  public:
   LinkStatistic(Replay& replay, TraceFile& file, const StatisticsOptions& options)
-      : replay_(replay), file_(file), clock_(replay, file, "ps.fclk_clk0.clk", options.system_hz) {
+      : replay_(replay), file_(file), clock_(replay, "ps.fclk_clk0.clk", options.system_hz) {
     for (std::size_t i = 0; i < file.paths().size(); ++i) add_link(static_cast<std::uint32_t>(i));
   }
   bool found() const override { return !links_.empty(); }
@@ -216,21 +216,16 @@ struct Counter {
 
 class BufferStatistic final : public Statistic {
  public:
-  BufferStatistic(Replay& replay, TraceFile& file, const Vocabulary& words) : replay_(replay) {
-    const auto watch = [&](int variable) {
-      return replay.watch(static_cast<std::uint32_t>(variable));
-    };
+  BufferStatistic(Replay& replay, const Vocabulary& words) : replay_(replay) {
     for (const Vocabulary::Buffer& known : words.buffers) {
-      const int count = file.find(known.count);
-      if (count < 0) continue;
-      Buffer buffer{known.count, watch(count), std::nullopt, known.usual_depth, {}, {}, 0, 0};
-      const int depth = file.find(known.depth);
-      if (depth >= 0) buffer.depth_signal = watch(depth);
-      buffers_.push_back(std::move(buffer));
+      if (const auto count = replay.follow(known.count)) {
+        buffers_.push_back(
+            {known.count, *count, replay.follow(known.depth), known.usual_depth, {}, {}, 0, 0});
+      }
     }
     for (const Vocabulary::Loss& loss : words.losses) {
-      const int variable = file.find(loss.path);
-      if (variable >= 0) counters_.push_back({loss.path, watch(variable), 0, {}});
+      if (const auto slot = replay.follow(loss.path))
+        counters_.push_back({loss.path, *slot, 0, {}});
     }
   }
   bool found() const override { return !buffers_.empty() || !counters_.empty(); }
@@ -330,9 +325,8 @@ void BufferStatistic::report(std::vector<Table>& tables) const {
 
 }  // namespace
 
-std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file,
-                                            const Vocabulary& words) {
-  return std::make_unique<BufferStatistic>(replay, file, words);
+std::unique_ptr<Statistic> buffer_statistic(Replay& replay, const Vocabulary& words) {
+  return std::make_unique<BufferStatistic>(replay, words);
 }
 
 namespace {
@@ -351,15 +345,16 @@ struct Interrupt {
 
 class InterruptStatistic final : public Statistic {
  public:
-  InterruptStatistic(Replay& replay, TraceFile& file, const Vocabulary& words) : replay_(replay) {
+  InterruptStatistic(Replay& replay, const Vocabulary& words) : replay_(replay) {
     // Without the interrupt controller's word, the handler's beginning must do.
-    const int active = file.find("ps.gic.active");
-    const int handler = file.find("ps.cpu.in_handler");
-    if (active < 0 && handler < 0) return;
-    has_number_ = active >= 0;
-    service_ = replay.watch(static_cast<std::uint32_t>(has_number_ ? active : handler));
-    for (const auto& known : words.interrupts) follow(file, known, words.irq_f2p);
-    for (const auto& known : chip_interrupts) follow(file, known, "");
+    const auto active = replay.follow("ps.gic.active");
+    const auto service = active ? active : replay.follow("ps.cpu.in_handler");
+    if (!service) return;
+    has_number_ = active.has_value();
+    service_ = *service;
+    const auto irq_f2p = replay.follow(words.irq_f2p);
+    for (const auto& known : words.interrupts) follow(known, irq_f2p);
+    for (const auto& known : chip_interrupts) follow(known, std::nullopt);
   }
   bool found() const override { return !interrupts_.empty(); }
 
@@ -391,10 +386,9 @@ class InterruptStatistic final : public Statistic {
   }
 
  private:
-  void follow(TraceFile& file, const Vocabulary::Interrupt& known, const std::string& irq_f2p) {
-    const int line = file.find(known.line);
-    if (line < 0) return;
-    interrupts_.push_back({known.line, {replay_, file, line, irq_f2p, known.id}, {}});
+  void follow(const Vocabulary::Interrupt& known, std::optional<Replay::Slot> irq_f2p) {
+    const auto line = replay_.follow(known.line);
+    if (line) interrupts_.push_back({known.line, {replay_, *line, irq_f2p, known.id}, {}});
   }
   /// Service of interrupt `id` begins in this instant.
   bool begins(std::uint64_t id) const {
@@ -425,9 +419,8 @@ class InterruptStatistic final : public Statistic {
 
 }  // namespace
 
-std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file,
-                                               const Vocabulary& words) {
-  return std::make_unique<InterruptStatistic>(replay, file, words);
+std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, const Vocabulary& words) {
+  return std::make_unique<InterruptStatistic>(replay, words);
 }
 
 }  // namespace platform::trace

@@ -1,4 +1,4 @@
-#include <trace/plot.h>
+#include <trace/tools.h>
 
 #include <algorithm>
 #include <cmath>

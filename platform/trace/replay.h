@@ -5,10 +5,45 @@
 #include <string>
 #include <vector>
 
-#include <trace/trace_file.h>
 #include <vp/expression.h>
+#include <vp/wave_reader.h>
 
 namespace platform::trace {
+
+/// Other names for signals: a line each, `ours = theirs`, both whole paths; `#` begins a comment.
+/// For traces of real hardware, whose tools name everything anew.
+struct NameMap {
+  struct Entry {
+    std::string ours, theirs;
+    std::uint64_t line;
+  };
+  std::string file;  ///< empty: no map
+  std::vector<Entry> entries;
+};
+
+/// Throws vp::InputError with the line.
+NameMap read_name_map(const std::string& file);
+
+/// A trace under our names.
+class TraceFile {
+ public:
+  /// Throws vp::InputError for a trace that cannot be read, and for entries of the map that name no
+  /// signal in it, with what is near.
+  explicit TraceFile(const std::string& file, const NameMap& map = {});
+
+  vp::WaveReader& reader() { return reader_; }
+  /// By variable: our name where the map has one.
+  const std::vector<std::string>& paths() const { return paths_; }
+  const vp::WaveVariable& variable(std::uint32_t i) const { return reader_.variables()[i]; }
+  /// The variable called `path`; -1 if there is none.
+  int find(const std::string& path) const;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+  vp::WaveReader reader_;
+  std::vector<std::string> paths_;
+};
 
 /// Plays a trace back instant by instant: the values that stand, and those before the instant. A
 /// clock edge samples the latter.
@@ -28,6 +63,8 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
 
   /// Follows the variable; the same net gives the same slot.
   Slot watch(std::uint32_t variable);
+  /// Follows the variable called `path`, if the trace has it.
+  std::optional<Slot> follow(const std::string& path);
   /// Follows the signal a user wrote: see vp::find_path().
   Slot watch(const std::string& name);
 
@@ -85,9 +122,10 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
 /// alone; before that it is the usual one.
 class InterruptLine {
  public:
-  /// Follows `line`, a variable of `file`. `irq_f2p`: path of the vector; "" for a line of the PS.
-  InterruptLine(Replay& replay, TraceFile& file, int line, const std::string& irq_f2p,
-                std::uint64_t usual_id);
+  /// `line` has a slot already; `irq_f2p`: the vector, if the trace has it.
+  InterruptLine(Replay& replay, Replay::Slot line, std::optional<Replay::Slot> irq_f2p,
+                std::uint64_t usual_id)
+      : replay_(&replay), line_(line), irq_f2p_(irq_f2p), id_(usual_id) {}
 
   std::uint64_t id() const { return id_; }
   /// Looks at an instant: true if the line rises in it.
@@ -159,11 +197,8 @@ std::string readable(const std::string& text, vp::WaveVariable::Kind kind, unsig
 class SampleClock {
  public:
   /// `hertz` counts only if the trace has no wire called `path`.
-  SampleClock(Replay& replay, TraceFile& file, const std::string& path, std::uint64_t hertz)
-      : replay_(replay), hertz_(hertz) {
-    const int variable = file.find(path);
-    if (variable >= 0) wire_ = replay.watch(static_cast<std::uint32_t>(variable));
-  }
+  SampleClock(Replay& replay, const std::string& path, std::uint64_t hertz)
+      : replay_(replay), wire_(replay.follow(path)), hertz_(hertz) {}
 
   bool has_wire() const { return wire_.has_value(); }
   std::uint64_t hertz() const { return hertz_; }

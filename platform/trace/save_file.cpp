@@ -5,7 +5,7 @@
 #include <map>
 
 #include <trace/replay.h>
-#include <trace/save_file.h>
+#include <trace/tools.h>
 #include <vp/output_file.h>
 
 namespace platform::trace {
@@ -44,14 +44,13 @@ Translation::Translation(TraceFile& file, Replay& replay, const Vocabulary& word
                                        : file.variable(static_cast<std::uint32_t>(signal)).width);
   }
   for (const auto& [path, name_of_file] : translated_) {
-    const int variable = file.find(path);
-    if (variable < 0 || name_of_file != Vocabulary::words) continue;
-    packets_.push_back(replay.watch(static_cast<std::uint32_t>(variable)));
+    if (name_of_file != Vocabulary::words) continue;
+    if (const auto packet = replay.follow(path)) packets_.push_back(*packet);
   }
+  const auto irq_f2p = replay.follow(words.irq_f2p);
   for (const Vocabulary::Interrupt& known : words.interrupts) {
-    const int line = file.find(known.line);
-    if (line < 0) continue;
-    interrupts_.try_emplace(known.line, InterruptLine(replay, file, line, words.irq_f2p, known.id));
+    const auto line = replay.follow(known.line);
+    if (line) interrupts_.try_emplace(known.line, replay, *line, irq_f2p, known.id);
   }
 }
 

@@ -141,11 +141,11 @@ std::vector<Table> statistics(TraceFile& file, const Vocabulary& words,
                               const StatisticsOptions& options) {
   Replay replay(file);
   Collector collector;
-  collector.all.push_back(frame_statistic(replay, file, words));
-  collector.all.push_back(stage_statistic(replay, file, words));
+  collector.all.push_back(frame_statistic(replay, words));
+  collector.all.push_back(stage_statistic(replay, words));
   collector.all.push_back(link_statistic(replay, file, options));
-  collector.all.push_back(buffer_statistic(replay, file, words));
-  collector.all.push_back(interrupt_statistic(replay, file, words));
+  collector.all.push_back(buffer_statistic(replay, words));
+  collector.all.push_back(interrupt_statistic(replay, words));
   auto& all = collector.all;
   all.erase(std::remove_if(all.begin(), all.end(), [](const auto& s) { return !s->found(); }),
             all.end());

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <trace/replay.h>
-#include <trace/trace_file.h>
 #include <trace/vocabulary.h>
 
 namespace platform::trace {
@@ -56,17 +55,13 @@ class Statistic {
 std::unique_ptr<Statistic> link_statistic(Replay& replay, TraceFile& file,
                                           const StatisticsOptions& options);
 /// Buffers: time-weighted occupancy, high-water mark, time full and empty; overflow counters.
-std::unique_ptr<Statistic> buffer_statistic(Replay& replay, TraceFile& file,
-                                            const Vocabulary& words);
+std::unique_ptr<Statistic> buffer_statistic(Replay& replay, const Vocabulary& words);
 /// Interrupts: from the line's rise to the acknowledgement.
-std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, TraceFile& file,
-                                               const Vocabulary& words);
+std::unique_ptr<Statistic> interrupt_statistic(Replay& replay, const Vocabulary& words);
 /// The stages of our programs in each frame, as in result.json.
-std::unique_ptr<Statistic> stage_statistic(Replay& replay, TraceFile& file,
-                                           const Vocabulary& words);
+std::unique_ptr<Statistic> stage_statistic(Replay& replay, const Vocabulary& words);
 /// Frames: latency, FPS, feature words and overflows; and the functions' time in each.
-std::unique_ptr<Statistic> frame_statistic(Replay& replay, TraceFile& file,
-                                           const Vocabulary& words);
+std::unique_ptr<Statistic> frame_statistic(Replay& replay, const Vocabulary& words);
 
 /// All of them, of the design whose words are given. Throws vp::InputError for a trace that has
 /// nothing of ours, or whose links do not run on the clock.

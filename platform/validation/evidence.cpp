@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include <scene/catalogue.h>
 #include <scene/portable_math.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 #include <validation/evidence.h>
 #include <validation/measured.h>
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 #include <validation/measured.h>
 #include <validation/plots.h>
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <host/document.h>
-#include <scene/catalogue.h>
 #include <scene/pose.h>
+#include <scene/scene.h>
 #include <validation/measured.h>
 #include <vp/error.h>
 

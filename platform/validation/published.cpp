@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include <host/machine.h>
+#include <host/process.h>
 #include <validation/published.h>
 #include <vp/error.h>
 #include <vp/input_file.h>

@@ -1,4 +1,4 @@
-#include <validation/row_rules.h>
+#include <validation/validation.h>
 
 #include <validation/evidence.h>
 #include <validation/measured.h>

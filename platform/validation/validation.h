@@ -10,9 +10,36 @@
 #include <validation/evidence.h>
 #include <validation/measured.h>
 #include <validation/published.h>
-#include <validation/row_rules.h>
 
 namespace platform::validation {
+
+enum class Kind {
+  timing,    ///< must be within the band
+  geometry,  ///< likewise: follows from camera and scene
+  accuracy,  ///< shown side by side, never tuned
+  estimate,  ///< power and highest clocks, where the run has them
+  given,     ///< an input of the validation, not a result
+};
+
+/// How a published value is found in the frames of a run.
+struct RowRule {
+  std::string id;  ///< of data/published.csv
+  Kind kind;
+  std::string how;  ///< one phrase for the report
+  /// None: the run does not have it.
+  std::optional<Measurement> (*measure)(const Measured&);
+  /// Published values of which this one is the plain difference, ratio or sum: where those are used
+  /// for calibration, this one is no prediction of its own.
+  std::vector<std::string> follows_from = {};
+  bool lower_bound = false;  ///< the thesis says "at least"
+  bool taken = false;        ///< what the run has is the thesis' figure, put in as data
+};
+
+/// One for each published value, in their order.
+const std::vector<RowRule>& row_rules();
+
+/// The rule of that value; null if there is none.
+const RowRule* find_rule(const std::string& id);
 
 /// Timing rows must be this near the published value, %.
 inline constexpr double band_percent = 5;
@@ -83,5 +110,15 @@ struct Validation {
 /// belong together.
 Validation validate_runs(const Measured& measured, const profiles::CostProfile& profile,
                          const std::vector<Published>& published, std::uint32_t repetitions);
+
+/// validation.json: profile, fitted constants, rows, gates, verdict. Nothing in it depends on the
+/// host.
+std::string json_text(const Validation& validation);
+
+/// validation.csv: a line for each row.
+std::string rows_csv(const Validation& validation);
+
+/// frames.csv: a line for each frame and system: counts, times in us, errors.
+std::string frames_csv(const Validation& validation);
 
 }  // namespace platform::validation

@@ -5,12 +5,33 @@
 #include <string>
 #include <vector>
 
+#include <report/hardware_map.h>
+#include <vp/hierarchy.h>
 #include <vp/mm_link.h>
 #include <vp/output_file.h>
-#include <zynq/device_names.h>
+#include <vp/signal.h>
+#include <vp/text_signal.h>
 #include <zynq/zynq.h>
 
 namespace platform {
+
+/// Names of addresses, as `markervp map` prints them.
+class DeviceNames {
+ public:
+  explicit DeviceNames(const report::HardwareMap& map) : devices_(map.devices) {}
+
+  /// Null where no device is.
+  const report::HardwareMap::Device* find(std::uint64_t address) const;
+  /// Null if no device is called so.
+  const report::HardwareMap::Device* find(const std::string& name) const;
+  /// "axi_gpio_0.GPIO_DATA", "ddr+0x1000"; "" where nothing is.
+  std::string text(std::uint64_t address) const;
+  /// Of all devices, for messages.
+  std::vector<std::string> names() const;
+
+ private:
+  std::vector<report::HardwareMap::Device> devices_;
+};
 
 /// What a bus log is to contain.
 struct BusLogOptions {
@@ -73,6 +94,30 @@ class BusLog {
   std::vector<Range> ranges_;
   vp::OutputFile file_;
   std::vector<std::unique_ptr<Observer>> observers_;
+};
+
+/// Makes what passes the buses readable in a trace, below the link it passes:
+///
+///   ps.cpu.m_axi.access                     "write axi_dma_1.S2MM_LENGTH 0x00000080", then ""
+///   pl.axi_dma_1.….burst                    "write 0x00100080 128 bytes", until the next
+///   pl.axi_dma_1.….burst_address, burst_bytes, bursts
+///
+/// An access stands from when it leaves the processor to when its answer is there. Polls make every
+/// read, no time changes by that.
+class BusTrace {
+ public:
+  /// Before the simulation starts.
+  explicit BusTrace(Zynq& zynq);
+  ~BusTrace();
+  BusTrace(const BusTrace&) = delete;
+  BusTrace& operator=(const BusTrace&) = delete;
+
+ private:
+  class Accesses;
+  class Bursts;
+
+  DeviceNames names_;
+  std::vector<std::unique_ptr<vp::MmObserver>> observers_;
 };
 
 }  // namespace platform

@@ -1,10 +1,32 @@
 #include <zynq/design.h>
 
-#include <vp/ip.h>
-#include <zynq/parts.h>
 #include <algorithm>
 
+#include <vp/ip.h>
+#include <zynq/parts.h>
+
 namespace platform {
+
+namespace {
+
+// What the PL's memory masters see: the range of the HP0 port.
+constexpr std::uint64_t hp0_base = 0, hp0_size = 0x4000'0000;
+
+}  // namespace
+
+void PlPorts::m_axi_gp0(vp::Router& registers) {
+  ps.m_axi_gp0.link.socket.bind(registers.socket);
+  registers_ = &registers;
+}
+
+void PlPorts::s_axi_hp0(vp::Router& memory) {
+  memory.map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
+      .bind(ps.s_axi_hp0.socket);
+}
+
+void PlPorts::irq_f2p(vp::Signal<std::uint32_t>& lines) {
+  ps.gic.irq_f2p(lines);
+}
 
 const trace::Vocabulary& no_words() {
   static const trace::Vocabulary none;

@@ -1,20 +1,102 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include <input/image_file.h>
+#include <pl/common/fidelity.h>
 #include <report/result.h>
 #include <scene/grey_image.h>
 #include <trace/vocabulary.h>
+#include <vp/router.h>
 #include <vp/signal.h>
-#include <zynq/pl_ports.h>
-#include <zynq/timeline_engines.h>
+#include <xilinx/axi_dma/dma_channel.h>
+#include <zynq/processing_system.h>
 
 namespace platform {
+
+/// What the processing system offers to the programmable logic: clocks, reset, buses, interrupts. A
+/// design is wired to these in its constructor.
+class PlPorts {
+ public:
+  /// `otherwise`: how a design is modelled where it does not choose.
+  PlPorts(ProcessingSystem& chip, vp::ClockScheduler& clocks, pl::Fidelity otherwise)
+      : ps(chip), scheduler(clocks), fidelity(otherwise) {}
+  PlPorts(const PlPorts&) = delete;
+  PlPorts& operator=(const PlPorts&) = delete;
+
+  /// The rest of the chip, for those who watch the software.
+  ProcessingSystem& ps;
+  vp::ClockScheduler& scheduler;
+  const pl::Fidelity fidelity;
+
+  /// FCLK_CLK`number`, 0 to 3. At coincident edges the one with the lower number samples first.
+  vp::Clock& fclk_clk(unsigned number) { return ps.fclk_clk(number).clk; }
+  /// FCLK_RESET0_N: low while software holds the PL in reset.
+  vp::Signal<bool>& fclk_reset0_n() { return ps.fclk_reset0_n; }
+  /// M_AXI_GP0, 0x4000'0000 to 0x7FFF'FFFF: what software reaches is behind `registers`.
+  void m_axi_gp0(vp::Router& registers);
+  /// S_AXI_HP0: masters behind `memory` reach the DDR.
+  void s_axi_hp0(vp::Router& memory);
+  /// IRQ_F2P: bits 0 to 7 are interrupts 61 to 68, bits 8 to 15 are 84 to 91.
+  void irq_f2p(vp::Signal<std::uint32_t>& lines);
+
+  /// What is behind M_AXI_GP0; null if nothing is.
+  const vp::Router* registers() const { return registers_; }
+
+ private:
+  const vp::Router* registers_ = nullptr;
+};
+
+/// What a design shows on the timeline of its first frames, between software and frame: signals
+/// that exist at both fidelities.
+struct TimelineEngines {
+  /// Works while the signal is high.
+  struct Engine {
+    std::string name;
+    vp::SignalBase* busy;
+    bool active_low = false;
+    /// Software waits for it in the stage `waiting`.
+    bool critical = false;
+  };
+  /// A channel of a DMA engine, and the line of its interrupt.
+  struct Channel {
+    std::string name;
+    xilinx::DmaChannel* channel;
+    std::string interrupt;
+    vp::SignalBase* line;
+  };
+  /// How full a buffer is.
+  struct Level {
+    std::string name, unit;
+    double capacity;
+    vp::SignalBase* level;
+  };
+  /// The most that was in a buffer while a transfer ran: asked when the next one begins.
+  struct Peak {
+    std::string name, unit;
+    double capacity;
+    std::size_t channel;
+    std::function<double()> most;
+  };
+  /// Words that are handed over one by one: `enable` rises, each is shown and acknowledged.
+  struct Handshake {
+    std::string name;
+    vp::SignalBase *enable, *word, *acknowledge;
+  };
+
+  std::vector<Engine> engines;
+  std::vector<Channel> channels;
+  std::vector<Level> levels;
+  std::vector<Peak> peaks;
+  std::optional<Handshake> handshake;
+  std::string waiting;  ///< the stage in which software waits for the logic
+};
 
 /// What the program published, and when.
 struct Publication {

@@ -126,7 +126,7 @@ double FrameBench::option(std::uint32_t option, const hal_option_info&) {
 
 // The program gets what its header would have, had it been written for this configuration.
 std::optional<std::uint32_t> FrameBench::xparameter(const char* name) {
-  if (xparameters_.empty()) xparameters_ = hardware_map(zynq_).xparameters;
+  if (xparameters_.empty()) xparameters_ = xparameters_header(zynq_);
   const std::string line = "#define XPAR_" + std::string(name) + " ";
   const std::size_t at = xparameters_.find(line);
   if (at == std::string::npos) return std::nullopt;

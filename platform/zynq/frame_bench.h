@@ -13,10 +13,9 @@
 #include <report/result.h>
 #include <report/summary.h>
 #include <vp/report.h>
-#include <zynq/cache_contract.h>
 #include <zynq/camera_timing.h>
 #include <zynq/software_options.h>
-#include <zynq/spin_watch.h>
+#include <zynq/software_watch.h>
 #include <zynq/zynq.h>
 
 namespace platform {

@@ -1,19 +1,168 @@
 #include <zynq/hardware_map.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <systemc>
+#include <vector>
+
 #include <gic_registers.h>
 #include <slcr_registers.h>
 #include <vp/hierarchy.h>
 #include <vp/register_bank.h>
+#include <vp/text.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/concat/concat.h>
-#include <zynq/xparameters.h>
-#include <algorithm>
-#include <string>
+
+namespace xparameters {
+
+namespace {
+
+/// The lines "#define NAME value", all beginning with XPAR_.
+class Definitions {
+ public:
+  void number(const std::string& name, std::uint64_t value) { line(name, std::to_string(value)); }
+
+  void address(const std::string& name, std::uint32_t value) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%08XU", static_cast<unsigned>(value));
+    line(name, digits);
+  }
+
+  void line(const std::string& name, const std::string& value) {
+    text += "#define XPAR_" + name + " " + value + "\n";
+  }
+
+  std::string text;
+};
+
+/// Both under the instance's name and under that of the driver: code uses either.
+void define_device(Definitions& out, const Device& device, unsigned number) {
+  out.text += "\n/* " + device.name + " */\n";
+  const bool has_driver = !device.driver.empty();
+  std::vector<std::string> names{device.name};
+  if (has_driver) names.push_back(device.driver + "_" + std::to_string(number));
+  for (const std::string& name : names) {
+    if (has_driver) out.number(name + "_DEVICE_ID", number);
+    out.address(name + "_BASEADDR", device.base);
+    out.address(name + "_HIGHADDR", device.last);
+    for (const auto& [option, value] : device.options) out.number(name + "_" + option, value);
+  }
+  for (const auto& [line, id] : device.interrupts) {
+    out.number("FABRIC_" + device.name + "_" + line + "_INTR", id);
+  }
+}
+
+constexpr const char* beginning =
+    "#ifndef XPARAMETERS_H\n"
+    "#define XPARAMETERS_H\n"
+    "\n"
+    "/*\n"
+    " * Written from the memory map of the platform: what Vivado would export for it. A test "
+    "holds\n"
+    " * the two together.\n"
+    " */\n";
+
+/// The private devices of the Cortex-A9 MPCore are where they are (UG585 table 4-7).
+constexpr const char* processor_devices =
+    "\n/* Cortex-A9 MPCore */\n"
+    "#define XPAR_PS7_SCUGIC_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUGIC_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUGIC_SINGLE_DEVICE_ID 0\n"
+    "#define XPAR_SCUGIC_0_CPU_BASEADDR 0xF8F00100U\n"
+    "#define XPAR_SCUGIC_0_DIST_BASEADDR 0xF8F01000U\n"
+    "#define XPAR_GLOBAL_TMR_BASEADDR 0xF8F00200U\n"
+    "#define XPAR_GLOBAL_TMR_INTR 27\n"
+    "#define XPAR_SCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_SCUTIMER_INTR 29\n"
+    "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n";
+
+}  // namespace
+
+std::string header(const Platform& platform) {
+  Definitions out;
+  out.text = beginning;
+  out.text += "\n/* Clocks, Hz */\n";
+  out.number("CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ", platform.cpu_hz);
+  out.number("CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ", platform.cpu_hz);
+  out.number("PS7_CRYSTAL_FREQ_HZ", platform.ps_clock_hz);
+  out.text += "\n/* Memory */\n";
+  out.address("PS7_DDR_0_S_AXI_BASEADDR", platform.ddr_base);
+  out.address("PS7_DDR_0_S_AXI_HIGHADDR", platform.ddr_last);
+  out.text += processor_devices;
+  std::map<std::string, unsigned> numbers;
+  for (const Device& device : platform.devices) {
+    define_device(out, device, numbers[device.driver]++);
+  }
+  out.text += "\n/* How many a driver has */\n";
+  for (const auto& [driver, count] : numbers) {
+    if (!driver.empty()) out.number("X" + driver + "_NUM_INSTANCES", count);
+  }
+  out.text += "\n/* Console */\n#define STDOUT_BASEADDRESS ";
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "0x%08XU\n", static_cast<unsigned>(platform.console_uart));
+  out.text += digits;
+  out.text += "\n#endif\n";
+  return out.text;
+}
+
+}  // namespace xparameters
 
 namespace platform {
 
 namespace {
 
 using report::HardwareMap;
+using xparameters::Device;
+
+/// What Vivado states for the 666,666,667 Hz of a ZedBoard: it multiplies 33.333333 MHz.
+constexpr std::uint64_t usual_cpu_hz = 666'666'667, vivado_cpu_hz = 666'666'687;
+/// The boards' console.
+constexpr std::uint32_t console_uart = 0xE000'1000;
+
+std::string capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// The driver of a device, by its model; "" without one of the vendor's.
+void add_build(Device& device, const sc_core::sc_object& module) {
+  if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
+    device.driver = "AXIDMA";
+    device.options = {{"INCLUDE_MM2S", dma->include_mm2s.get()},
+                      {"INCLUDE_S2MM", dma->include_s2mm.get()},
+                      {"INCLUDE_SG", 0},
+                      {"SG_LENGTH_WIDTH", dma->length_width},
+                      {"M_AXI_MM2S_DATA_WIDTH", 32},
+                      {"M_AXI_S2MM_DATA_WIDTH", 32}};
+  } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
+    device.driver = "GPIO";
+    device.options = {{"IS_DUAL", gpio->is_dual.get()},
+                      {"INTERRUPT_PRESENT", gpio->interrupt_present.get()}};
+  }
+}
+
+Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
+                const HardwareMap::Device& place) {
+  const sc_core::sc_object& module = *bank.get_parent_object();
+  Device device{capitals(place.name),
+                {},
+                static_cast<std::uint32_t>(place.base),
+                static_cast<std::uint32_t>(place.base + place.size - 1),
+                {},
+                {}};
+  add_build(device, module);
+  for (const auto& interrupt : map.interrupts) {
+    const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
+    if (line && line->get_parent_object() == &module)
+      device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
+  }
+  return device;
+}
 
 /// What a module is, for people.
 std::string title(const sc_core::sc_object& object) {
@@ -117,6 +266,11 @@ void add_devices(HardwareMap& map, const vp::Router& router, const std::string& 
   }
 }
 
+void add_gp0_devices(HardwareMap& map, Zynq& zynq) {
+  const vp::Router* bus = zynq.ports.registers();
+  if (bus) add_devices(map, *bus, zynq.pl().name(), "m_axi_gp0");
+}
+
 void add_interrupts(HardwareMap& map, Zynq& zynq) {
   for (const auto& interrupt : zynq.ps.interrupts()) {
     map.interrupts.push_back({interrupt.id, interrupt.source->name()});
@@ -150,12 +304,33 @@ void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
 
 }  // namespace
 
+std::string xparameters_header(Zynq& zynq) {
+  HardwareMap map;
+  add_gp0_devices(map, zynq);
+  add_interrupts(map, zynq);
+  xparameters::Platform platform;
+  const std::uint64_t cpu_hz = zynq.ps.cpu_clk.clk.frequency_hz();
+  platform.cpu_hz = cpu_hz == usual_cpu_hz ? vivado_cpu_hz : cpu_hz;
+  platform.ps_clock_hz = static_cast<std::uint64_t>(zynq.ps.slcr.ps_clk.get());
+  platform.ddr_base = ps::Ddr::base;
+  platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
+  platform.console_uart = console_uart;
+  // Those that software can reach, in the order in which drivers number them.
+  for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
+    for (const HardwareMap::Device& place : map.devices) {
+      if (place.path == bank->name()) platform.devices.push_back(exported(map, *bank, place));
+    }
+  }
+  std::stable_sort(platform.devices.begin(), platform.devices.end(),
+                   [](const Device& a, const Device& b) { return a.driver < b.driver; });
+  return xparameters::header(platform);
+}
+
 report::HardwareMap hardware_map(Zynq& zynq) {
   HardwareMap map;
   ProcessingSystem& ps = zynq.ps;
   add_devices(map, ps.s_axi_hp0, ps.name(), "its own port; s_axi_hp0 of the PL");
-  if (zynq.ports.registers())
-    add_devices(map, *zynq.ports.registers(), zynq.pl().name(), "m_axi_gp0");
+  add_gp0_devices(map, zynq);
   add_devices(map, ps.interconnect, ps.name(), "interconnect",
               {"m_axi_gp0", "private_bus", "peripheral_bus"});
   add_devices(map, ps.private_bus.devices, ps.name(), "private_bus");
@@ -164,8 +339,64 @@ report::HardwareMap hardware_map(Zynq& zynq) {
             [](const auto& a, const auto& b) { return a.base < b.base; });
   add_interrupts(map, zynq);
   add_clocks(map, ps);
-  map.xparameters = xparameters_header(zynq, map);
+  map.xparameters = xparameters_header(zynq);
   return map;
+}
+
+namespace {
+
+/// "-" if the register was not used so.
+std::string bits(std::uint64_t accesses, std::uint32_t mask) {
+  return accesses == 0 ? "-" : vp::hex(mask);
+}
+
+std::string row(const vp::Register& r) {
+  const vp::Register::Use& use = r.use();
+  std::string text = "| " + std::string(r.info().name);
+  text += " | " + std::to_string(use.reads) + " | " + std::to_string(use.writes);
+  text += " | " + bits(use.reads, use.read_ones) + " | " + bits(use.reads, use.read_zeros);
+  text += " | " + bits(use.writes, use.written_ones) + " | " + bits(use.writes, use.written_zeros);
+  return text + " |\n";
+}
+
+std::string section(const std::string& device, const vp::RegisterBank& bank) {
+  std::string rows, untouched;
+  std::size_t used = 0, built = 0;
+  for (const vp::Register& r : bank.registers()) {
+    const bool touched = r.use().reads + r.use().writes != 0;
+    if (r.removed() && !touched) continue;
+    ++built;
+    used += touched ? 1 : 0;
+    if (touched) {
+      rows += row(r);
+    } else {
+      untouched += (untouched.empty() ? "" : ", ") + std::string(r.info().name);
+    }
+  }
+  std::string text = "\n## " + device + ": " + std::to_string(used) + " of " +
+                     std::to_string(built) + " registers\n\n";
+  if (!rows.empty()) {
+    text +=
+        "| Register | Reads | Writes | Read as 1 | Read as 0 | Written 1 | Written 0 |\n"
+        "|---|---|---|---|---|---|---|\n" +
+        rows + "\n";
+  }
+  if (!untouched.empty()) text += "Never touched: " + untouched + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string register_coverage(Zynq& zynq) {
+  std::string text =
+      "# Registers that the program used\n\nMasks show the bits that were seen or written with "
+      "that value at least once.\n";
+  for (const auto& device : hardware_map(zynq).devices) {
+    const auto* bank =
+        dynamic_cast<const vp::RegisterBank*>(sc_core::sc_find_object(device.path.c_str()));
+    if (bank) text += section(device.name, *bank);
+  }
+  return text;
 }
 
 }  // namespace platform

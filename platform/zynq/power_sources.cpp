@@ -1,14 +1,109 @@
 #include <zynq/power_sources.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
 #include <power/chip_energy.h>
 #include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <xilinx/axi_dma/memory_port.h>
-#include <zynq/clock_report.h>
-#include <algorithm>
-#include <utility>
+#include <zynq/design.h>
+#include <zynq/parts.h>
 
 namespace platform {
+
+namespace {
+
+double hz(const vp::Clock& clock) {
+  return static_cast<double>(clock.frequency_hz());
+}
+
+}  // namespace
+
+PowerStates::PowerStates(Zynq& zynq)
+    : cpu_hz(hz(zynq.ps.cpu_clk.clk)),
+      cpu_awake_hz(hz(zynq.ps.cpu_clk.clk)),
+      zynq_(zynq),
+      busy_(zynq.design().busy()),
+      fastest_cpu_hz_(zynq.ps.cpu_clk.clk.frequency_hz()) {
+  zynq.ps.cpu_clk.clk.add_listener(*this);
+  for (const auto& [number, source] : zynq.ps.fclks()) {
+    const vp::Clock& clock = source->clk;
+    source->clk.add_listener(*this);
+    pl_clocks_.push_back({&clock, vp::PiecewiseConstant(hz(clock)),
+                          vp::PiecewiseConstant(frame_runs() ? hz(clock) : 0),
+                          clock.frequency_hz()});
+  }
+  zynq.ps.cpu.asleep.attach(*this);
+  if (busy_) busy_->attach(*this);
+}
+
+PowerStates::~PowerStates() {
+  zynq_.ps.cpu.asleep.detach(*this);
+  if (busy_) busy_->detach(*this);
+}
+
+std::uint64_t PowerStates::fastest_hz(const vp::Clock& clock) const {
+  return &clock == &zynq_.ps.cpu_clk.clk ? fastest_cpu_hz_ : pl_clock(clock).fastest_hz;
+}
+
+const PowerStates::PlClock& PowerStates::pl_clock(const vp::Clock& clock) const {
+  for (const PlClock& known : pl_clocks_) {
+    if (known.clock == &clock) return known;
+  }
+  throw std::logic_error(std::string(clock.name()) + " is no clock that the PS makes for the PL");
+}
+
+// The processor falls asleep and wakes with every burst of an upload: nothing else is looked at.
+void PowerStates::on_change(vp::SignalBase& signal, std::uint32_t) {
+  if (&signal != &zynq_.ps.cpu.asleep) return update();
+  const std::uint64_t now = zynq_.scheduler.now_ps();
+  cpu_awake_hz.set(now, awake() ? hz(zynq_.ps.cpu_clk.clk) : 0);
+  if (observer_) observer_->states_changed(now);
+}
+
+void PowerStates::update() {
+  const std::uint64_t now = zynq_.scheduler.now_ps();
+  const double cpu = hz(zynq_.ps.cpu_clk.clk);
+  fastest_cpu_hz_ = std::max(fastest_cpu_hz_, zynq_.ps.cpu_clk.clk.frequency_hz());
+  cpu_hz.set(now, cpu);
+  cpu_awake_hz.set(now, awake() ? cpu : 0);
+  for (PlClock& pl : pl_clocks_) {
+    pl.hz.set(now, hz(*pl.clock));
+    pl.frame_hz.set(now, frame_runs() ? hz(*pl.clock) : 0);
+    pl.fastest_hz = std::max(pl.fastest_hz, pl.clock->frequency_hz());
+  }
+  if (observer_) observer_->states_changed(now);
+}
+
+template <class Visit>
+void PowerStates::for_each_history(Visit visit) {
+  visit(cpu_hz);
+  visit(cpu_awake_hz);
+  for (PlClock& pl : pl_clocks_) {
+    visit(pl.hz);
+    visit(pl.frame_hz);
+  }
+}
+
+std::vector<std::uint64_t> PowerStates::changes(std::uint64_t from_ps, std::uint64_t to_ps) {
+  std::vector<std::uint64_t> times;
+  for_each_history([&](const vp::PiecewiseConstant& history) {
+    for (const auto& step : history.steps()) {
+      if (step.ps > from_ps && step.ps < to_ps) times.push_back(step.ps);
+    }
+  });
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+void PowerStates::forget_before(std::uint64_t ps) {
+  for_each_history([ps](vp::PiecewiseConstant& history) { history.forget_before(ps); });
+}
 
 namespace {
 
@@ -232,6 +327,85 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
   builder.add_processing_system();
   if (options.pl_design) builder.add_design(parts);
   return builder.take();
+}
+
+namespace {
+
+using device::ClockKind;
+using report::ClockReport;
+
+device::MadeClock made_ddr(const Zynq& zynq, const PowerOptions& options) {
+  const auto wish_hz = static_cast<double>(options.ddr.frequency);
+  return zynq.ps.clock_planner().own_pll(wish_hz, ClockKind::ddr);
+}
+
+/// A clock that was asked for, what is made of that, and the highest frequency that it had.
+struct Use {
+  std::string name;
+  ClockKind kind;
+  std::uint64_t wish_hz;
+  device::MadeClock made;
+  std::uint64_t fastest_hz;
+};
+
+ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
+  const device::MadeClock& made = use.made;
+  const auto wish_hz = static_cast<double>(use.wish_hz), hz = static_cast<double>(use.fastest_hz);
+  ClockReport::Clock clock;
+  clock.name = use.name;
+  clock.wish_mhz = wish_hz / device::hz_per_mhz;
+  clock.frequency_mhz = hz / device::hz_per_mhz;
+  clock.made_mhz = made.hz / device::hz_per_mhz;
+  clock.pll = to_string(made.pll);
+  clock.vco_mhz = made.vco_hz / device::hz_per_mhz;
+  clock.feedback = made.feedback;
+  clock.divisor0 = made.divisor0;
+  clock.divisor1 = made.divisor1;
+  clock.is_made = device::same_frequency(made.hz, wish_hz);
+  const auto near = ps.clock_planner().neighbours(wish_hz, use.kind, ps.clock_plan());
+  if (near.below) clock.below_mhz = near.below->hz / device::hz_per_mhz;
+  if (near.above) clock.above_mhz = near.above->hz / device::hz_per_mhz;
+  const device::ClockVerdict verdict = judge(ps.clock_planner(), use.kind, hz);
+  clock.limit_mhz = verdict.limit_hz / device::hz_per_mhz;
+  clock.limit_confidence = to_string(verdict.confidence);
+  clock.margin_percent = verdict.margin_percent;
+  clock.within = verdict.within;
+  if (!verdict.within) {
+    const auto legal = ps.clock_planner().neighbours(verdict.limit_hz, use.kind, ps.clock_plan());
+    if (legal.below) clock.legal_mhz = legal.below->hz / device::hz_per_mhz;
+  }
+  clock.makeable = verdict.makeable;
+  return clock;
+}
+
+}  // namespace
+
+std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options) {
+  if (!zynq.ps.clocks_are_made()) return options.ddr.frequency;
+  return static_cast<std::uint64_t>(std::llround(made_ddr(zynq, options).hz));
+}
+
+report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options,
+                                 const PowerStates& states) {
+  ProcessingSystem& ps = zynq.ps;
+  ClockReport report;
+  report.device = zynq.chip.data.name();
+  report.mode = zynq.chip.clocks.text();
+  const auto add = [&](const Use& use) {
+    report.clocks.push_back(judged(ps, use));
+    report.legal = report.legal && report.clocks.back().within && report.clocks.back().makeable;
+  };
+  const auto add_source = [&](const ClockSource& source, ClockKind kind,
+                              const device::MadeClock& made) {
+    add({source.name(), kind, source.frequency, made, states.fastest_hz(source.clk)});
+  };
+  add_source(ps.cpu_clk, ps.slcr.ratio_621() ? ClockKind::cpu_621 : ClockKind::cpu_421,
+             ps.clock_plan().cpu);
+  auto made = ps.clock_plan().fclk.begin();
+  for (const auto& [number, source] : ps.fclks()) add_source(*source, ClockKind::fclk, *made++);
+  add({"power.ddr", ClockKind::ddr, options.ddr.frequency, made_ddr(zynq, options),
+       ddr_hz(zynq, options)});
+  return report;
 }
 
 }  // namespace platform

@@ -1,16 +1,76 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 #include <power/power_table.h>
+#include <report/result.h>
+#include <vp/clock.h>
 #include <vp/power_meter.h>
+#include <vp/signal.h>
 #include <vp/thermal.h>
 #include <zynq/parts.h>
 #include <zynq/power_options.h>
-#include <zynq/power_states.h>
 #include <zynq/zynq.h>
 
 namespace platform {
+
+/// The states on which power depends, with their history: frequencies of the clocks, whether the
+/// processor is awake, and whether the PL plays a frame. All of them are the same at every
+/// fidelity.
+class PowerStates : private vp::ClockListener, private vp::SignalListener {
+ public:
+  /// Told after each change.
+  class Observer {
+   public:
+    virtual ~Observer() = default;
+    virtual void states_changed(std::uint64_t ps) = 0;
+  };
+  /// A clock of the PL.
+  struct PlClock {
+    const vp::Clock* clock;
+    vp::PiecewiseConstant hz;
+    vp::PiecewiseConstant frame_hz;  ///< 0 while no frame is played
+    std::uint64_t fastest_hz;        ///< that it had
+  };
+
+  explicit PowerStates(Zynq& zynq);
+  ~PowerStates() override;
+  PowerStates(const PowerStates&) = delete;
+  PowerStates& operator=(const PowerStates&) = delete;
+
+  vp::PiecewiseConstant always{1};
+  vp::PiecewiseConstant cpu_hz;
+  vp::PiecewiseConstant cpu_awake_hz;  ///< 0 while core 0 waits for an interrupt
+
+  /// The highest frequency that the clock of the cores, or one of the PL, had.
+  std::uint64_t fastest_hz(const vp::Clock& clock) const;
+  /// Throws std::logic_error for one that the PS does not make.
+  const PlClock& pl_clock(const vp::Clock& clock) const;
+  bool awake() const { return !zynq_.ps.cpu.asleep; }
+  bool frame_runs() const { return !busy_ || *busy_; }
+  /// At most one.
+  void set_observer(Observer* observer) { observer_ = observer; }
+
+  /// Times after `from_ps`, before `to_ps`, at which something changed; in order.
+  std::vector<std::uint64_t> changes(std::uint64_t from_ps, std::uint64_t to_ps);
+  void forget_before(std::uint64_t ps);
+
+ private:
+  void before_change(vp::Clock&) override {}
+  void after_change(vp::Clock&) override { update(); }
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void update();
+  template <class Visit>
+  void for_each_history(Visit visit);
+
+  Zynq& zynq_;
+  vp::Signal<bool>* busy_;  ///< null: the logic always works
+  std::uint64_t fastest_cpu_hz_;
+  std::deque<PlClock> pl_clocks_;
+  Observer* observer_ = nullptr;
+};
 
 /// What takes power on the Zynq-7020, for the meter: from the coefficients, the design, and the
 /// mode. What is passed must outlive the sources.
@@ -18,5 +78,12 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
                                            const power::PowerTable& table,
                                            const std::vector<Part>& parts,
                                            const PowerStates& states);
+
+/// What the memory clock is: as configured, or what the chip makes of that. Hz.
+std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options);
+
+/// All clocks that have a limit, with the highest frequency that they had.
+report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options,
+                                 const PowerStates& states);
 
 }  // namespace platform

@@ -7,6 +7,8 @@
 #include <systemc>
 #include <vector>
 
+#include <device/clock_plan.h>
+#include <device/device.h>
 #include <ps/cpu/cpu.h>
 #include <ps/gic/gic.h>
 #include <ps/global_timer/global_timer.h>
@@ -15,12 +17,44 @@
 #include <ps/private_timer/private_timer.h>
 #include <ps/slcr/slcr.h>
 #include <ps/uart/uart.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
 #include <vp/router.h>
 
-#include <device/clock_plan.h>
-#include <zynq/chip.h>
-
 namespace platform {
+
+enum class ClockMode {
+  made,   ///< clocks have the frequencies that PLLs and dividers give
+  exact,  ///< clocks have the frequencies that were asked for
+};
+
+/// The chip that a platform is built for: parameters of the platform as a whole.
+struct Chip {
+  /// Throws vp::InputError for a device that nobody knows.
+  Chip();
+
+  vp::Parameter<std::string> name;
+  vp::Parameter<ClockMode> clocks;
+  const device::Device& data;  ///< what is known of it
+};
+
+/// A clock that the PS makes. It starts with the frequency that was asked for, or with what the
+/// chip makes of it.
+class ClockSource : public sc_core::sc_module {
+ public:
+  ClockSource(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, std::uint64_t default_hz,
+              vp::Source source, const std::string& documentation);
+
+  /// Starts with `hz` instead of what was asked for. Before the simulation.
+  void make(double hz);
+  std::uint64_t start_hz() const { return start_hz_; }
+
+  vp::Parameter<std::uint64_t> frequency;  ///< asked for
+  vp::Clock clk;
+
+ private:
+  std::uint64_t start_hz_;
+};
 
 /// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): one
 /// Cortex-A9 with its private devices, DDR and on-chip memory, UARTs, the GP0 and HP0 ports, and

@@ -7,9 +7,7 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/parameter.h>
-#include <zynq/chip.h>
 #include <zynq/design.h>
-#include <zynq/pl_ports.h>
 #include <zynq/processing_system.h>
 
 namespace platform {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <power/chip_energy.h>
-#include <zynq/clock_report.h>
+#include <zynq/parts.h>
 #include <zynq/power_sources.h>
 
 namespace platform {

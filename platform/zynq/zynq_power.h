@@ -13,7 +13,7 @@
 #include <vp/signal.h>
 #include <zynq/parts.h>
 #include <zynq/power_options.h>
-#include <zynq/power_states.h>
+#include <zynq/power_sources.h>
 #include <zynq/power_timeline.h>
 #include <zynq/zynq.h>
 

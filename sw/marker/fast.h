@@ -1,7 +1,7 @@
 #pragma once
 
 #include <marker/feature_set.h>
-#include <marker/grey_image.h>
+#include <marker/images.h>
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <marker/binary_image.h>
 #include <marker/feature_evaluation.h>
 #include <marker/identification.h>
+#include <marker/images.h>
 
 #include <cstdint>
 

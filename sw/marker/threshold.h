@@ -1,6 +1,6 @@
 #pragma once
 
-#include <marker/grey_image.h>
+#include <marker/images.h>
 
 #include <array>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 namespace integration {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <report/summary.h>
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 
 #include "platform_run.h"
 

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 
 #include "platform_run.h"
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include <designs/marker/words.h>
+#include <designs/marker/marker_design.h>
 #include <input/frame_source.h>
 #include <run/session.h>
 #include <trace/statistics.h>

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
-#include "process.h"
+#include "programs.h"
 #include "temporary_files.h"
 
 BOOST_AUTO_TEST_SUITE(process)

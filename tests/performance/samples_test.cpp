@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
-#include "figures.h"
 #include "samples.h"
 
 namespace {

@@ -6,7 +6,6 @@
 
 #include <pl/blob_detection/core.h>
 #include <pl/common/geometry.h>
-#include <pl/common/stamped_word.h>
 
 namespace pl {
 

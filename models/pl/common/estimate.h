@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include <vp/ip.h>
-#include <xilinx/bram/block_ram.h>
+#include <xilinx/bram/bram.h>
 
 /// What the estimates of the thesis' own IP share. The thesis' utilisation is in figures 4.26,
 /// 4.29 and 4.31, whose numbers are not in its text: all counts are derived from the structure that

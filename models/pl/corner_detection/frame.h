@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <pl/common/geometry.h>
-#include <pl/common/stamped_word.h>
 
 namespace pl {
 

@@ -9,8 +9,8 @@
 #include <pl/blob_detection/blob_detection.h>
 #include <pl/clock_crossing/clock_crossing.h>
 #include <pl/common/fidelity.h>
+#include <pl/common/frame_channel.h>
 #include <pl/common/geometry.h>
-#include <pl/common/pixel_filter.h>
 #include <pl/control_block/control_block.h>
 #include <pl/corner_detection/corner_detection.h>
 #include <pl/feature_packaging/clocked.h>

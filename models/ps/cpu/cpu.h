@@ -2,13 +2,9 @@
 
 #include <hal/hal.h>
 
-#include <ps/cpu/activity.h>
-#include <ps/cpu/code_location.h>
 #include <ps/cpu/console.h>
-#include <ps/cpu/cost_table.h>
+#include <ps/cpu/cpu_time.h>
 #include <ps/cpu/fault_trap.h>
-#include <ps/cpu/local_time.h>
-#include <ps/cpu/memory_watch.h>
 #include <ps/cpu/poll.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>

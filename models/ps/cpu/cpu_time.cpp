@@ -1,10 +1,116 @@
 // The processor's time: what it did ahead of the simulation passes, and interrupts come in between.
+#include <ps/cpu/cpu_time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
+#include <vp/text.h>
 #include <vp/unit.h>
-#include <algorithm>
 
 namespace ps {
+
+void LocalTime::set_frequency(std::uint64_t hertz) {
+  if (hertz == hertz_) return;
+  hertz_ = hertz;
+  denominator_ = hertz << denominator_bits;
+  cycle_fs_ = fs_per_second / hertz;
+  cycle_rest_ = fs_per_second % hertz << denominator_bits;
+  cycle_remainder_ = 0;  // less than a femtosecond
+  // whole · cycle_rest_ and whole · cycle_fs_ below 2^62; the fraction adds less than 2^55.
+  const std::uint64_t whole = little_limit / std::max(cycle_rest_, cycle_fs_);
+  little_cycles_ = std::min(whole, little_limit / one_cycle) * one_cycle;
+}
+
+// take_little() in 128 bits.
+std::uint64_t LocalTime::take_much() {
+  const Wide numerator = cycles_.value() * numerator_factor + cycle_remainder_;
+  const Wide cycles_fs = numerator / denominator_;
+  cycle_remainder_ = static_cast<std::uint64_t>(numerator - cycles_fs * denominator_);
+  const Wide fs = cycles_fs + stall_fs_.value() + fs_remainder_;
+  fs_remainder_ = static_cast<std::uint64_t>(fs % fs_per_ps);
+  cycles_.little = stall_fs_.little = 0;
+  constexpr Wide most_ps = Wide{1} << 62;
+  return static_cast<std::uint64_t>(std::min(fs / fs_per_ps, most_ps));
+}
+
+void Activity::start(const hal_program& program) {
+  *this = Activity();
+  for (std::uint32_t i = 0; i < program.function_count; ++i) {
+    functions_.push_back({program.functions[i], 0, 0, 0});
+  }
+}
+
+void Activity::assign() const {
+  busy_ps_ += unassigned_ps_;
+  if (in_handler_) handler_ps_ += unassigned_ps_;
+  if (stack_.size() > handler_base_) functions_[stack_.back().function].self_ps += unassigned_ps_;
+  unassigned_ps_ = 0;
+}
+
+const std::vector<FunctionTime>& Activity::functions() const {
+  assign();
+  return functions_;
+}
+
+void Activity::enter_handler() {
+  assign();
+  handler_base_ = stack_.size();
+  in_handler_ = true;
+}
+
+void Activity::leave_handler() {
+  assign();
+  handler_base_ = 0;
+  in_handler_ = false;
+}
+
+void Activity::enter(std::uint32_t function, std::uint64_t now_ps) {
+  assign();
+  stack_.push_back({function, now_ps});
+  ++functions_[function].calls;
+}
+
+void Activity::leave(std::uint64_t now_ps) {
+  assign();
+  const Frame frame = stack_.back();
+  stack_.pop_back();
+  const bool nested = std::any_of(stack_.begin(), stack_.end(),
+                                  [&](const Frame& f) { return f.function == frame.function; });
+  if (!nested) functions_[frame.function].total_ps += now_ps - frame.entered_ps;
+}
+
+namespace {
+
+constexpr double most_per_unit = 1e9;
+
+void check(const std::string& profile, const std::string& work, const char* what, double value) {
+  if (std::isfinite(value) && value >= 0 && value <= most_per_unit) return;
+  throw vp::InputError("cost table '" + profile + "': the " + what + " of '" + work + "' are " +
+                       std::to_string(value) + ": give a number from 0 to 1e9");
+}
+
+}  // namespace
+
+void CostTable::set(const std::string& work, const WorkCost& cost) {
+  check(profile_, work, "cycles", cost.cycles);
+  check(profile_, work, "stalls (ns)", cost.stall_ns);
+  entries_[work] = cost;
+}
+
+const WorkCost& CostTable::at(const std::string& work, const std::string& program) const {
+  const auto entry = entries_.find(work);
+  if (entry != entries_.end()) return entry->second;
+  std::vector<std::string> names;
+  for (const auto& [name, cost] : entries_) names.push_back(name);
+  const std::string nearest = vp::nearest_match(work, names);
+  throw vp::InputError("cost table '" + profile_ + "' has no entry for '" + work +
+                       "', a unit of work of program '" + program +
+                       "': add it to other_units of a profile of your own" +
+                       (nearest.empty() ? "" : " (nearest entry: '" + nearest + "')"));
+}
 
 namespace {
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <ps/cpu/fault_trap.h>
-#include <ps/cpu/memory_watch.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/text.h>
 #include <cstdlib>

@@ -1,7 +1,12 @@
 #pragma once
 
-#include <vp/host_ticks.h>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vp/host_ticks.h>
 
 namespace ps {
 
@@ -101,5 +106,60 @@ class HostWatch : private vp::HostTicks::Listener {
   std::uint64_t progress_ = 0;
   bool told_ = false;  ///< the program was to stop at the last tick
 };
+
+/// Notices that a loop without HAL call accesses some memory, by taking the access rights of its
+/// pages away until then. Costs nothing while it watches nothing.
+///
+/// The fault goes through FaultTrap, so it works while a program runs. One in a process at a time.
+class MemoryWatch {
+ public:
+  MemoryWatch() = default;
+  ~MemoryWatch() { lift(); }
+  MemoryWatch(const MemoryWatch&) = delete;
+  MemoryWatch& operator=(const MemoryWatch&) = delete;
+
+  /// Addresses [first, end), of memory that may be read and written.
+  using Range = std::pair<std::uintptr_t, std::uintptr_t>;
+  /// Watches these and nothing else, until one of their pages is accessed. Forgets touched().
+  void watch(std::vector<Range> ranges);
+  /// Watches nothing any more.
+  void lift();
+  /// The address that the loop accessed since watch().
+  std::optional<std::uintptr_t> touched() const { return touched_; }
+
+  /// A segmentation fault at `address`: true if it was for the watch only, and the access will
+  /// succeed now. For the signal handler.
+  static bool on_fault(std::uintptr_t address, bool by_loop);
+
+ private:
+  void protect(int access) const;
+
+  std::vector<Range> pages_;
+  bool watching_ = false;
+  std::optional<std::uintptr_t> touched_;
+
+  static MemoryWatch* active_;
+};
+
+/// The program that contains an address of code: a shared object, as it is mapped.
+class CodeLocator {
+ public:
+  /// `inside`: any address in the shared object, for instance of its description.
+  explicit CodeLocator(const void* inside);
+
+  bool contains(std::uintptr_t address) const;
+  /// "0x1a2b make(Mistake)+0x1c": the place in the file, as addr2line takes it, and the function
+  /// around it. Only the place if the file was stripped.
+  std::string text(std::uintptr_t address) const;
+  /// The first of `addresses` that lies in the program; 0 if none does.
+  std::uintptr_t first_inside(const std::vector<std::uintptr_t>& addresses) const;
+
+ private:
+  std::string file_;
+  std::uintptr_t base_ = 0;
+};
+
+/// Of the calls that are under way, the innermost first: addresses inside the calling instructions.
+std::vector<std::uintptr_t> return_addresses();
 
 }  // namespace ps

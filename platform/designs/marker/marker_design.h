@@ -7,6 +7,7 @@
 
 #include <designs/marker/handshake_watch.h>
 #include <designs/marker/programmable_logic.h>
+#include <trace/vocabulary.h>
 #include <zynq/design.h>
 
 namespace platform {
@@ -41,5 +42,8 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
 
 /// For DesignInfo::make.
 std::unique_ptr<Design> make_marker_design(const char* name, PlPorts& ports);
+
+/// The words of the marker designs.
+const trace::Vocabulary& marker_words();
 
 }  // namespace platform

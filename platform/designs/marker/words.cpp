@@ -1,4 +1,4 @@
-#include <designs/marker/words.h>
+#include <designs/marker/marker_design.h>
 
 #include <marker_logic.h>
 

@@ -1,6 +1,5 @@
 #include <designs/designs.h>
 #include <designs/marker/marker_design.h>
-#include <designs/marker/words.h>
 
 namespace platform {
 

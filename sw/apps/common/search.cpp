@@ -1,9 +1,36 @@
 #include <apps/common/search.h>
-#include <drivers/global_timer.h>
+
+#include <drivers/timers.h>
+#include <hal/hal.h>
+#include <marker/identification.h>
 #include <marker/marker_search.h>
 #include <marker/work.h>
 
 namespace apps {
+
+namespace {
+
+enum class Option : std::uint32_t {
+#define SEARCH_ENUMERATOR(name, ...) name,
+  SEARCH_OPTIONS(SEARCH_ENUMERATOR)
+#undef SEARCH_ENUMERATOR
+};
+
+double value(Option option) {
+  return hal_option(static_cast<std::uint32_t>(option));
+}
+
+}  // namespace
+
+SearchOptions read_search_options() {
+  SearchOptions options{};
+  options.margin = value(Option::margin);
+  options.canonical_width = marker::canonical_width(value(Option::canonical_width));
+  options.marker_side = value(Option::marker_side);
+  options.reprojection_stop = value(Option::reprojection_stop);
+  options.iteration_limit = static_cast<std::uint32_t>(value(Option::iteration_limit));
+  return options;
+}
 
 void begin(const hal_frame& frame, marker::FrameResult& result) {
   marker::work(marker::Work::frames, 1);

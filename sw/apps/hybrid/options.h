@@ -1,6 +1,6 @@
 #pragma once
 
-#include <apps/common/search_options.h>
+#include <apps/common/search.h>
 #include <hal/hal.h>
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <apps/hybrid/burst_chain.h>
 #include <drivers/axi_gpio.h>
 #include <drivers/gic.h>
-#include <drivers/global_timer.h>
+#include <drivers/timers.h>
 #include <marker/feature_set.h>
 #include <marker/result.h>
 

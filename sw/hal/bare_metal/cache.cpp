@@ -1,8 +1,7 @@
-// Cache maintenance by address, in both levels.
+// Registers, barriers, and cache maintenance by address in both levels.
 #include <hal/hal.h>
 
-#include "device_register.h"
-#include "pl310.h"
+#include "chip.h"
 
 namespace {
 
@@ -70,6 +69,34 @@ void hal_cache_invalidate(void* data, size_t size) {
     invalidate_l1(line);
   }
   barrier();
+}
+
+uint32_t hal_read32(uint32_t address) {
+  const uint32_t value = chip::device_register(address);
+  chip::barrier();
+  return value;
+}
+
+void hal_write32(uint32_t address, uint32_t value) {
+  chip::barrier();
+  chip::device_register(address) = value;
+  chip::barrier();
+}
+
+hal_poll_result hal_poll_until_changed(uint32_t address, uint32_t previous, uint32_t,
+                                       uint32_t limit) {
+  hal_poll_result result{previous, 0, false};
+  while (result.polls < limit && !result.changed) {
+    result.value = chip::device_register(address);
+    ++result.polls;
+    result.changed = result.value != previous;
+  }
+  chip::barrier();
+  return result;
+}
+
+void hal_barrier(void) {
+  chip::barrier();
 }
 
 }  // extern "C"

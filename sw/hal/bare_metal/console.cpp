@@ -1,10 +1,11 @@
 // The console: one of the two UARTs, 115200 baud, 8 data bits, no parity; it sends only.
+#include <cstring>
+
 #include <hal/hal.h>
 #include <slcr_registers.h>
 #include <uart_registers.h>
 
-#include "device_register.h"
-#include "text.h"
+#include "chip.h"
 
 namespace {
 
@@ -74,3 +75,27 @@ extern "C" void hal_console_write(const char* text, size_t length) {
     send(text[i]);
   }
 }
+namespace chip {
+
+void print(const char* text) {
+  hal_console_write(text, std::strlen(text));
+}
+
+void print_number(std::uint32_t value) {
+  char digits[10];
+  unsigned first = sizeof digits;
+  do {
+    digits[--first] = static_cast<char>('0' + value % 10);
+    value /= 10;
+  } while (value != 0);
+  hal_console_write(digits + first, sizeof digits - first);
+}
+
+void print_hexadecimal(std::uint32_t value) {
+  char digits[10] = {'0', 'x'};
+  for (unsigned i = 0; i < 8; ++i)
+    digits[2 + i] = "0123456789abcdef"[(value >> (28 - 4 * i)) & 0xF];
+  hal_console_write(digits, sizeof digits);
+}
+
+}  // namespace chip

@@ -1,11 +1,37 @@
-// The program's images: one binary PGM file in the ELF, handed out as often as the build says.
-#include <hal/hal.h>
-
+// What the test bench gives and takes on the platform: DMA memory, images, results.
 #include <cstring>
 
-#include "chip_program.h"
-#include "text.h"
+#include <hal/hal.h>
 
+#include "chip.h"
+#include "memory_map.h"
+
+namespace {
+
+// DMA memory, handed out front to back as on the virtual platform: the same addresses there.
+std::uint64_t next = CHIP_DMA_FIRST;
+
+constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t power_of_two) {
+  return (value + power_of_two - 1) & ~(power_of_two - 1);
+}
+
+}  // namespace
+
+extern "C" hal_dma_buffer hal_dma_allocate(size_t size, size_t alignment) {
+  hal_dma_buffer buffer{nullptr, 0, size};
+  if (alignment == 0 || (alignment & (alignment - 1)) != 0) return buffer;
+  const std::uint64_t line = chip::cache_line;
+  const std::uint64_t start = round_up(next, alignment > line ? alignment : line);
+  // An empty buffer has an address of its own, too.
+  const std::uint64_t end = start + round_up(size > 0 ? size : 1, line);
+  if (end > CHIP_DDR_END) return buffer;
+  next = end;
+  buffer.bus_address = static_cast<std::uint32_t>(start);
+  buffer.data = reinterpret_cast<void*>(buffer.bus_address);
+  return buffer;
+}
+
+// One binary PGM file in the ELF, handed out as often as the build says.
 extern "C" {
 extern const unsigned char chip_image_begin[];
 extern const unsigned char chip_image_end[];
@@ -116,3 +142,26 @@ extern "C" const hal_frame* hal_frame_next(void) {
   frame.index = frames_given++;
   return &frame;
 }
+
+extern "C" {
+
+/// Results go to the console. Who knows what they mean defines this (sw/chip).
+__attribute__((weak)) bool chip_print_result(uint32_t, const void*, size_t) {
+  return false;
+}
+
+void hal_publish(uint32_t kind, const void* data, size_t size) {
+  if (chip_print_result(kind, data, size)) return;
+  char name[5] = {};
+  for (unsigned i = 0; i < 4; ++i) {
+    const char character = static_cast<char>(kind >> (8 * i));
+    name[i] = character >= ' ' && character <= '~' ? character : '.';
+  }
+  chip::print("chip: result ");
+  chip::print(name);
+  chip::print(", ");
+  chip::print_number(size);
+  chip::print(" bytes\n");
+}
+
+}  // extern "C"

@@ -1,12 +1,9 @@
 // Options: the program's defaults, but for those that the build sets.
-#include "options.h"
+#include "chip.h"
 
 #include <hal/hal.h>
 
 #include <cstring>
-
-#include "chip_program.h"
-#include "text.h"
 
 namespace chip {
 namespace {

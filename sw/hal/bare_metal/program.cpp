@@ -1,11 +1,8 @@
 // From the start-up code into the program and out of it.
-#include "chip_program.h"
+#include "chip.h"
 
 #include <global_timer_registers.h>
 #include <hal/hal.h>
-
-#include "device_register.h"
-#include "text.h"
 
 using Constructor = void (*)();
 extern "C" {

@@ -2,7 +2,7 @@
 // memory, interrupts. Prints only what must be the same on the virtual platform and on the chip.
 #include <apps/common/message.h>
 #include <drivers/gic.h>
-#include <drivers/global_timer.h>
+#include <drivers/timers.h>
 #include <gic_registers.h>
 #include <hal/hal.h>
 

@@ -1,6 +1,6 @@
 // A PS program that finds nothing and says of its first frame that every list was too short, and of
 // its second that it gave it up. Of its fourth it says nothing.
-#include <drivers/global_timer.h>
+#include <drivers/timers.h>
 #include <hal/hal.h>
 #include <marker/result.h>
 #include <marker/work.h>

@@ -2,8 +2,8 @@
 // with the private timer how long that takes. The feature extraction of each frame is timed as
 // `hybrid` does it.
 #include <apps/hybrid/pl_link.h>
-#include <drivers/private_timer.h>
 #include <drivers/slcr.h>
+#include <drivers/timers.h>
 #include <drivers/uart.h>
 #include <hal/hal.h>
 #include <marker/result.h>

@@ -1,6 +1,6 @@
 // Which model of an IP is built, and what is refused.
-#include <pl/common/pixel_filter.h>
-#include <pl/corner_detection/models.h>
+#include <pl/common/frame_channel.h>
+#include <pl/corner_detection/corner_detection.h>
 #include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>

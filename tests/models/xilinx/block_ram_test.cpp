@@ -1,5 +1,5 @@
 // Counts of block memories, against the aspect ratios of UG473.
-#include <xilinx/bram/block_ram.h>
+#include <xilinx/bram/bram.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -3,8 +3,8 @@
 #include <input/input_list.h>
 #include <opencv2/videoio.hpp>
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 #include "image_kit.h"
 #include "temporary_files.h"

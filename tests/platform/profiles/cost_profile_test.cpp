@@ -1,7 +1,6 @@
 // Cost profiles: what is installed, and what is refused.
 #include <marker/work.h>
 #include <profiles/cost_profile.h>
-#include <profiles/kernels.h>
 #include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 
 #include <report/result.h>
 

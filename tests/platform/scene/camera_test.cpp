@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-#include <scene/camera.h>
+#include <scene/pose.h>
 
 #include "scene_kit.h"
 

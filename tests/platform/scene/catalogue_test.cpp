@@ -4,7 +4,6 @@
 #include <set>
 #include <stdexcept>
 
-#include <scene/catalogue.h>
 #include <scene/scene.h>
 
 #include "scene_kit.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
 #include <scene/scene.h>
 

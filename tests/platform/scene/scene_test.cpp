@@ -3,7 +3,6 @@
 #include <set>
 #include <vector>
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
 #include <scene/scene.h>
 

@@ -1,6 +1,6 @@
 // The same text means the same in a trigger, a check, a constraint and a metric.
 #include <sweep/pareto.h>
-#include <trace/checks.h>
+#include <trace/tools.h>
 #include <vp/frame_gate.h>
 
 #include <map>

@@ -1,7 +1,7 @@
 // Every kind of check passes where it should and fails where it should.
 #include <boost/test/unit_test.hpp>
 
-#include <trace/checks.h>
+#include <trace/tools.h>
 
 #include "waves.h"
 

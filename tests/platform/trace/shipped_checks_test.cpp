@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include <trace/checks.h>
+#include <trace/tools.h>
 #include <vp/wave_writer.h>
 
 #include "temporary_files.h"

@@ -1,11 +1,8 @@
 // diff, cut, plot, names and save files.
 #include <boost/test/unit_test.hpp>
 
-#include <designs/marker/words.h>
-#include <trace/cut.h>
-#include <trace/difference.h>
-#include <trace/plot.h>
-#include <trace/save_file.h>
+#include <designs/marker/marker_design.h>
+#include <trace/tools.h>
 #include <vp/wave_writer.h>
 
 #include "waves.h"

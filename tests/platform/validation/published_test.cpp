@@ -1,6 +1,6 @@
 // The table of published values: what is in it, and what is refused.
 #include <validation/published.h>
-#include <validation/row_rules.h>
+#include <validation/validation.h>
 #include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>

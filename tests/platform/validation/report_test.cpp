@@ -1,10 +1,9 @@
 // Jitter, evidence, files and plots.
 #include <profiles/cost_profile.h>
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 #include <validation/evidence.h>
 #include <validation/plots.h>
-#include <validation/result_files.h>
 #include <validation/validation.h>
 #include <validation/words.h>
 #include <vp/error.h>

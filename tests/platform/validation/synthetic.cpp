@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include <scene/catalogue.h>
+#include <scene/scene.h>
 #include <validation/plots.h>
 
 namespace synthetic {

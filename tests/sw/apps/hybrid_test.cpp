@@ -1,5 +1,5 @@
 #include <apps/hybrid/application.h>
-#include <marker/packet.h>
+#include <marker/feature_set.h>
 #include <marker/work.h>
 
 #include <algorithm>

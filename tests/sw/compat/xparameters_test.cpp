@@ -1,11 +1,10 @@
-// xparameters.h is what the generator writes for the platform as it is built.
+// xparameters.h is what the platform writes for the platform as it is built.
 #include <boost/test/unit_test.hpp>
 
 #include <designs/designs.h>
 #include <drivers/timers.h>
 #include <run/session.h>
 #include <vp/configuration.h>
-#include <xparameters_writer.h>
 #include <zynq/hardware_map.h>
 
 #include "simulation.h"

@@ -1,4 +1,4 @@
-#include <drivers/global_timer.h>
+#include <drivers/timers.h>
 
 #include <boost/test/unit_test.hpp>
 

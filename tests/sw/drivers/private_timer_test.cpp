@@ -1,4 +1,4 @@
-#include <drivers/private_timer.h>
+#include <drivers/timers.h>
 #include <private_timer_registers.h>
 
 #include <boost/test/unit_test.hpp>

@@ -1,4 +1,4 @@
-#include <marker/dictionary.h>
+#include <marker/identification.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

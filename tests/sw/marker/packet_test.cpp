@@ -1,4 +1,4 @@
-#include <marker/packet.h>
+#include <marker/feature_set.h>
 
 #include <boost/test/unit_test.hpp>
 

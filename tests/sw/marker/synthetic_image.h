@@ -1,8 +1,8 @@
 #pragma once
 
-#include <marker/binary_image.h>
-#include <marker/dictionary.h>
 #include <marker/geometry.h>
+#include <marker/identification.h>
+#include <marker/images.h>
 
 #include <Eigen/Dense>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // C.8 to C.12: the blob detection on small pictures, with the registers inside it.
 #include "blob_examples.h"
 
-#include <pl/blob_detection/models.h>
+#include <pl/blob_detection/blob_detection.h>
 
 #include "bench.h"
 

@@ -2,7 +2,7 @@
 // corners that enters the suppression, computed with the core's own functions from the 9x9 window.
 #include "suppression_example.h"
 
-#include <pl/corner_detection/models.h>
+#include <pl/corner_detection/corner_detection.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // C.6 and C.7: the global threshold module with its histogram.
 #include "threshold_examples.h"
 
-#include <pl/global_threshold/models.h>
+#include <pl/global_threshold/global_threshold.h>
 
 #include "bench.h"
 

@@ -1,7 +1,7 @@
 #include "pictures.h"
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 using harness::Image;
 using harness::Random;

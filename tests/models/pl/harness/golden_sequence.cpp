@@ -1,7 +1,7 @@
 #include "golden_sequence.h"
 
-#include <scene/catalogue.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 namespace harness {
 
