@@ -25,12 +25,7 @@ struct Designs {
         {"run", "--design", installed.beside("designs/" + name + ".so"), "--output", "never"});
   }
   Json run(const std::string& name, const Words& more) const {
-    Words arguments{"run", "--output", name, "--no-pictures", "--no-report"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const kit::Outcome outcome = installed.markervp(arguments);
-    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
-    BOOST_TEST(outcome.err == "");
-    return Json::parse(kit::read_file(installed.beside(name + "/result.json")));
+    return installed.result(name, more);
   }
   std::string output(const Words& arguments) const {
     const kit::Outcome outcome = installed.markervp(arguments);
@@ -81,6 +76,37 @@ BOOST_AUTO_TEST_CASE(its_device_and_its_program) {
   BOOST_TEST(contains(map, "63  pl.frame_counter.irq"), map);
   const std::string registers = output({"map", "frame_counter", "--design", smooth()});
   BOOST_TEST(contains(registers, "frames that began while they were counted"), registers);
+}
+
+// Its address and interrupt are properties like those of the parts that come with the platform.
+BOOST_AUTO_TEST_CASE(its_device_may_be_elsewhere) {
+  const Words moved{"--design", smooth(),
+                    "--set",    "pl.frame_counter.base_address=0x43C00000",
+                    "--set",    "pl.frame_counter.irq_id=90"};
+  Words arguments{"run", "demo", "z2.0", "--output", "moved", "--no-pictures"};
+  arguments.insert(arguments.end(), moved.begin(), moved.end());
+  BOOST_TEST(contains(output(arguments), "frames counted: 2\n"));
+  arguments = {"map", "--xparameters"};
+  arguments.insert(arguments.end(), moved.begin(), moved.end());
+  const std::string header = output(arguments);
+  BOOST_TEST(contains(header, "XPAR_FRAME_COUNTER_BASEADDR 0x43C00000U\n"), header);
+  BOOST_TEST(contains(header, "XPAR_FABRIC_FRAME_COUNTER_IRQ_INTR 90\n"), header);
+}
+
+// A newcomer's task: docs/designs.md says what it takes.
+BOOST_AUTO_TEST_CASE(another_dma_engine) {
+  installed.build(project("copier"), "copier");
+  const Words design{"--design", installed.beside("copier/copier.so")};
+  Words arguments{"run", "demo", "--output", "copied", "--no-pictures"};
+  arguments.insert(arguments.end(), design.begin(), design.end());
+  const std::string out = output(arguments);
+  BOOST_TEST(contains(out, "bytes copied: 4096\n"), out);
+  BOOST_TEST(contains(out, "1 frame, 1 with a marker"), out);
+  const std::string map = output({"map", "--design", design[1]});
+  BOOST_TEST(contains(map, "0x40420000..0x4042FFFF"), map);
+  BOOST_TEST(contains(map, "63  pl.axi_dma_2.s2mm_introut"), map);
+  const Json result = Json::parse(kit::read_file(installed.beside("copied/result.json")));
+  BOOST_TEST(contains(result["resources"].dump(), "pl.axi_dma_2"));
 }
 
 BOOST_AUTO_TEST_CASE(its_parts_cost_what_they_say) {

@@ -35,6 +35,15 @@ kit::Outcome Installation::run(const std::string& program, const Words& argument
   return kit::run_process(program, arguments, folder_.path());
 }
 
+nlohmann::ordered_json Installation::result(const std::string& name, const Words& more) const {
+  Words arguments{"run", "--output", name, "--no-pictures", "--no-report"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const kit::Outcome outcome = markervp(arguments);
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(outcome.err == "");
+  return nlohmann::ordered_json::parse(kit::read_file(beside(name + "/result.json")));
+}
+
 kit::Outcome Installation::configure(const std::string& source, const std::string& name,
                                      const Words& more) const {
   Words arguments{"-S",

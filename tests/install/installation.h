@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class Installation {
   /// Runs the installed executable in the folder that holds the prefix.
   kit::Outcome markervp(const Words& arguments) const;
   kit::Outcome run(const std::string& program, const Words& arguments) const;
+  /// The result of `markervp run` with `more`, in the folder beside(`name`). It works, in silence.
+  nlohmann::ordered_json result(const std::string& name, const Words& more) const;
 
   /// Configures the project in `source`, in beside(`name`). Does not care how that ends.
   kit::Outcome configure(const std::string& source, const std::string& name,

@@ -20,12 +20,7 @@ struct Rtl {
   std::string setting(const std::string& ip) const { return "pl.fidelity." + ip + "=" + file(ip); }
 
   Json run(const std::string& name, const Words& more) const {
-    Words arguments{"run", "--output", name, "--no-pictures", "--no-report"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const kit::Outcome outcome = installed.markervp(arguments);
-    BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
-    BOOST_TEST(outcome.err == "");
-    return Json::parse(kit::read_file(installed.beside(name + "/result.json")));
+    return installed.result(name, more);
   }
 
   /// A module in place of the corner detection, of which `ports` and `body` are given, built with

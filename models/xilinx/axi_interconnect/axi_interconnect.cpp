@@ -3,6 +3,7 @@
 #include <vp/error.h>
 #include <vp/hierarchy.h>
 #include <vp/text.h>
+#include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/common/estimate.h>
 
 namespace xilinx {
@@ -14,9 +15,18 @@ constexpr std::uint64_t smallest_segment = 4096;
 
 }  // namespace
 
-AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk,
-                                 std::uint32_t memory_masters)
-    : Router(name, &aclk), Ip(&aclk), memory_masters_(memory_masters) {}
+AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk)
+    : Router(name, &aclk), Ip(&aclk) {}
+
+void AxiInterconnect::connect(AxiDma& dma) {
+  dma.share_memory_path(memory_path_);
+  const auto add = [this](MemoryPort& port) {
+    port.link.socket.bind(socket);
+    ++memory_masters_;
+  };
+  if (dma.include_mm2s) add(dma.mm2s().m_axi);
+  if (dma.include_s2mm) add(dma.s2mm().m_axi);
+}
 
 // With the protocol converter of the registers, or the width converter of the memory port.
 vp::IpEstimate AxiInterconnect::own_estimate() const {

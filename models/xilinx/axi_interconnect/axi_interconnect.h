@@ -9,17 +9,17 @@
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/router.h>
+#include <xilinx/axi_dma/memory_port.h>
 
 namespace xilinx {
+
+class AxiDma;
 
 /// AXI Interconnect v2.1 (PG059): the router with the address rules of its crossbar. A segment is a
 /// power of two of at least 4 KiB and starts at a multiple of its size.
 class AxiInterconnect : public vp::Router, public vp::Ip {
  public:
-  /// `memory_masters`: so many AXI4 masters of 32 bit share a port of 64 bit (HP0). 0: one AXI3
-  /// master (GP0) reaches AXI4-Lite slaves. Only the estimate depends on it.
-  AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk,
-                  std::uint32_t memory_masters = 0);
+  AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk);
   const char* kind() const override { return "xilinx::AxiInterconnect"; }
 
   /// Throws vp::InputError if the segment breaks the rules above or overlaps another.
@@ -29,13 +29,18 @@ class AxiInterconnect : public vp::Router, public vp::Ip {
   /// Maps the registers of a device, by its name. Where they are is a property of the device,
   /// `base_address`, with `base` as its default. Throws vp::InputError as map() does.
   void connect(vp::RegisterBank& registers, std::uint64_t base, std::uint64_t size = 0x1'0000);
+  /// Lets the channels of a DMA engine reach the memory behind it, which they share with other
+  /// engines. The estimate is that of 32-bit masters at a port of 64 bit (HP0) then; otherwise that
+  /// of one AXI3 master (GP0) before AXI4-Lite slaves.
+  void connect(AxiDma& dma);
 
  private:
   vp::IpEstimate own_estimate() const override;
 
   std::vector<std::unique_ptr<vp::Parameter<std::uint64_t>>> base_addresses_;
 
-  std::uint32_t memory_masters_;
+  std::uint32_t memory_masters_ = 0;
+  MemoryPath memory_path_;
 };
 
 }  // namespace xilinx

@@ -10,8 +10,6 @@ namespace {
 
 namespace addresses = marker_logic::addresses;
 
-constexpr std::uint32_t memory_masters = 2;
-
 xilinx::AxiGpioBuild gpio(xilinx::GpioDirection direction) {
   xilinx::AxiGpioBuild build;
   build.gpio.direction = direction;
@@ -33,7 +31,7 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
     : FeatureExtraction(name, system_clk, pixel_clk, otherwise, filter),
       proc_sys_reset("proc_sys_reset", system_clk),
       axi_interconnect("axi_interconnect", system_clk),
-      axi_mem_interconnect("axi_mem_interconnect", system_clk, memory_masters),
+      axi_mem_interconnect("axi_mem_interconnect", system_clk),
       axi_gpio_0("axi_gpio_0", system_clk, gpio(xilinx::GpioDirection::all_outputs)),
       axi_gpio_1("axi_gpio_1", system_clk, gpio(xilinx::GpioDirection::all_inputs)),
       axi_dma_0("axi_dma_0", system_clk, one_channel(true)),
@@ -57,10 +55,8 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
   binary_stream()(binary_stream_link);
   axi_dma_1.s2mm().s_axis(binary_stream_link);
 
-  axi_dma_0.mm2s().m_axi.link.socket.bind(axi_mem_interconnect.socket);
-  axi_dma_1.s2mm().m_axi.link.socket.bind(axi_mem_interconnect.socket);
-  axi_dma_0.share_memory_path(memory_path_);
-  axi_dma_1.share_memory_path(memory_path_);
+  axi_mem_interconnect.connect(axi_dma_0);
+  axi_mem_interconnect.connect(axi_dma_1);
   concat.connect_interrupt(axi_dma_0.mm2s_introut, addresses::dma_image_interrupt);
   concat.connect_interrupt(axi_dma_1.s2mm_introut, addresses::dma_binary_interrupt);
   name_groups();

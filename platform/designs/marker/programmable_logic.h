@@ -33,8 +33,6 @@ class ProgrammableLogic : public pl::FeatureExtraction {
  private:
   void name_groups();
   void count_work();
-
-  xilinx::MemoryPath memory_path_;
 };
 
 }  // namespace platform

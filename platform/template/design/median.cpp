@@ -1,3 +1,4 @@
+// The median filter of the design, at both fidelities.
 #include "median.h"
 
 #include <algorithm>
@@ -6,6 +7,19 @@
 #include <vector>
 
 namespace {
+
+/// The median of a pixel and its eight neighbours; pixels at the border pass as they are. Its
+/// last neighbour is one line and one pixel behind it.
+class Median : public pl::PixelFilter {
+ protected:
+  using PixelFilter::PixelFilter;
+
+  /// Clocks from the one that takes a pixel to the one in which it leaves, filtered.
+  std::uint32_t latency() const { return geometry_.width + 1; }
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+};
 
 std::uint8_t median_of(std::array<std::uint8_t, 9> values) {
   std::nth_element(values.begin(), values.begin() + 4, values.end());
@@ -145,8 +159,6 @@ class MedianTlm final : public Median, private pl::FrameListener {
   bool begins_ = false;  ///< a frame that was not filtered yet
 };
 
-}  // namespace
-
 // Two line buffers of block memory, nine registers, and 19 compare-and-exchange steps.
 vp::IpEstimate Median::own_estimate() const {
   vp::IpEstimate e;
@@ -159,6 +171,8 @@ vp::IpEstimate Median::own_estimate() const {
   e.fmax_documentation = "assumed: a register behind every second step";
   return e;
 }
+
+}  // namespace
 
 const pl::Models<pl::PixelFilter>& median_models() {
   static const pl::Models<pl::PixelFilter> models{

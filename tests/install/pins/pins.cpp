@@ -5,7 +5,6 @@
 #include "Vcorner.h"
 
 #include <designs/marker/marker_design.h>
-#include <designs/marker/words.h>
 #include <pl/corner_detection/corner_detection.h>
 #include <vp/systemc_pins.h>
 #include <zynq/design_plugin.h>

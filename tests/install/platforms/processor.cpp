@@ -1,8 +1,8 @@
 // A processor with DDR, nothing else, and a program that is part of the executable.
 #include <hal/hal.h>
 #include <pl/common/simd_target.h>
-#include <ps/cpu/cost_table.h>
 #include <ps/cpu/cpu.h>
+#include <ps/cpu/cpu_time.h>
 #include <ps/cpu/program.h>
 #include <ps/memory/memory.h>
 #include <vp/clock.h>
