@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -19,6 +17,7 @@
 #include <input/media.h>
 #include <scene/grey_image.h>
 #include <vp/error.h>
+#include <vp/input_file.h>
 
 namespace platform::input {
 
@@ -55,16 +54,15 @@ void require_regular_file(const std::string& path) {
 
 std::vector<std::uint8_t> read_bytes(const std::string& path, std::uintmax_t limit) {
   require_regular_file(path);
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file) throw vp::InputError("'" + path + "' cannot be read: " + std::strerror(errno));
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  std::vector<std::uint8_t> bytes(error ? 0 : static_cast<std::size_t>(std::min(size, limit)));
-  const std::size_t read = std::fread(bytes.data(), 1, bytes.size(), file.get());
-  if (error || read != bytes.size()) {
-    const std::string why = error ? error.message() : std::string("it ends early");
-    throw vp::InputError("'" + path + "' cannot be read: " + why);
+  vp::InputFile file(path, "image");
+  std::vector<std::uint8_t> bytes(
+      static_cast<std::size_t>(std::min<std::uintmax_t>(file.size(), limit)));
+  const auto deadline = vp::InputFile::HostClock::now() + vp::InputFile::patience;
+  for (std::size_t at = 0; at < bytes.size();) {
+    char* const to = reinterpret_cast<char*>(bytes.data()) + at;
+    const std::size_t read = file.read(to, bytes.size() - at, deadline);
+    if (read == 0) throw vp::InputError("'" + path + "' cannot be read: it ends early");
+    at += read;
   }
   if (bytes.empty()) throw vp::InputError("'" + path + "' is empty");
   return bytes;
