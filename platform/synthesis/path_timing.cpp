@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include <host/document.h>
-#include <host/machine.h>
+#include <host/process.h>
 #include <vp/error.h>
 
 namespace platform::synthesis {

@@ -11,7 +11,7 @@
 
 #include <host/child.h>
 #include <host/document.h>
-#include <host/machine.h>
+#include <host/process.h>
 #include <vp/error.h>
 #include <vp/input_file.h>
 #include <vp/output_file.h>
