@@ -7,6 +7,7 @@ llvm-mca's pipeline model and a cache model the time of an instruction. See docs
 """
 import argparse
 import datetime
+import glob
 import json
 import os
 import subprocess
@@ -47,14 +48,12 @@ KERNELS = {
 
 SOURCES = ["calibration/driver/%s.cpp" % n for n in
            ("devices", "kernels", "main", "scene")] + [
-    "sw/marker/%s.cpp" % n for n in
-    ("blob_grouping", "dictionary", "fast", "feature_evaluation", "feature_set", "identification",
-     "label_pool", "marker_search", "posit", "rectification", "threshold")] + [
+    os.path.relpath(path, ROOT) for path in sorted(glob.glob(os.path.join(ROOT, "sw/marker/*.cpp")))] + [
     "sw/apps/hybrid/burst_chain.cpp", "sw/apps/hybrid/pl_link.cpp"] + [
-    "sw/drivers/%s.cpp" % n for n in ("axi_dma", "axi_gpio", "gic", "global_timer")]
+    "sw/drivers/%s.cpp" % n for n in ("axi_dma", "axi_gpio", "gic", "timers")]
 INCLUDES = ["sw", "sw/hal/include", "sw/hal/compat/include", "vp/registers/include", "models/xilinx/axi_dma/registers",
             "models/xilinx/axi_gpio/registers", "models/ps/gic/registers", "models/pl/registers",
-            "models/ps/global_timer/registers"]
+            "models/ps/global_timer/registers", "models/ps/private_timer/registers"]
 # As cmake/MarkervpEigen.cmake.
 EIGEN = ["-isystem", "/usr/include/eigen3", "-DEIGEN_DONT_VECTORIZE", "-DEIGEN_NO_DEBUG",
          "-DEIGEN_MPL2_ONLY"]
@@ -150,7 +149,7 @@ def calibrate(tools, level, scenes):
     kernels, good, calls = {}, True, GLUE[level]
     print("-%s                leave one out: instructions     cycles     cycles per   misses a unit"
           % level)
-    print("kernel                    mean %%    max %%    mean %%    max %%  instruction  level 1  level 2")
+    print("kernel                    mean %    max %    mean %    max %  instruction  level 1  level 2")
     for kernel, units in KERNELS.items():
         executed = [(counts, numbers[0]) for counts, numbers, _ in samples[kernel]]
         taken = [(counts, sum(cycles[b] * n for b, n in runs.items()))
