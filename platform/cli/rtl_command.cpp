@@ -3,8 +3,7 @@
 #include <host/document.h>
 #include <report/console.h>
 #include <trace/replay.h>
-#include <trace/save_file.h>
-#include <trace/trace_file.h>
+#include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
