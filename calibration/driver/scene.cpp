@@ -1,6 +1,7 @@
 #include "driver.h"
 
-#include <marker/identification.h>
+#include <marker/dictionary.h>
+#include <marker/rectification.h>
 
 #include <cmath>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <marker/identification.h>
+#include <marker/dictionary.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

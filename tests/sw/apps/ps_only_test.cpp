@@ -1,5 +1,5 @@
 #include <apps/ps_only/application.h>
-#include <marker/identification.h>
+#include <marker/dictionary.h>
 #include <marker/work.h>
 
 #include <boost/test/unit_test.hpp>

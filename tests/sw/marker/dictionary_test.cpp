@@ -1,4 +1,4 @@
-#include <marker/identification.h>
+#include <marker/dictionary.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -1,4 +1,4 @@
-#include <marker/identification.h>
+#include <marker/rectification.h>
 #include <marker/work.h>
 
 #include <boost/test/unit_test.hpp>

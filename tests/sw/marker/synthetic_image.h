@@ -1,7 +1,7 @@
 #pragma once
 
+#include <marker/dictionary.h>
 #include <marker/geometry.h>
-#include <marker/identification.h>
 #include <marker/images.h>
 
 #include <Eigen/Dense>
