@@ -10,6 +10,7 @@
 
 #include "folder_in_memory.h"
 #include "frame_benchmark.h"
+#include "images.h"
 #include "pipeline.h"
 
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <benchmark/benchmark.h>
 
 #include "frames.h"
 
@@ -29,12 +29,5 @@ int run_frames(int argc, char** argv, const char* name,
 /// The hash of a frame's words as text, for the label: equal if two programs found the same words
 /// at the same clocks.
 std::string hash_text(std::uint64_t hash);
-
-/// Pictures of 640x480 that benchmarks run on: "demo", the demo scene; "noise", any grey level in
-/// each pixel, the most corners there can be; "photograph", textured like one, with the demo scene
-/// in it. Throws std::invalid_argument for another name.
-harness::Image make_image(const std::string& name);
-
-const std::vector<std::string>& image_names();
 
 }  // namespace bench

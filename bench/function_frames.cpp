@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "frame_benchmark.h"
+#include "images.h"
 #include "plain_function.h"
 
 namespace {

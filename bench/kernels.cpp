@@ -4,15 +4,15 @@
 #include <pl/common/simd_target.h>
 #include <pl/corner_detection/frame.h>
 #include <pl/global_threshold/frame.h>
-#include <scene/renderer.h>
 #include <scene/scene.h>
+#include <scene/renderer.h>
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 #include <string>
 #include <vector>
 
-#include "frame_benchmark.h"
+#include "images.h"
 
 extern "C" int sc_main(int, char**) {
   return 1;

@@ -1,5 +1,6 @@
 // Verilated RTL: one frame after the other, as fast as it takes them. BENCH_RTL says which.
 #include "frame_benchmark.h"
+#include "images.h"
 #include "rtl_pipeline.h"
 
 int main(int argc, char** argv) {

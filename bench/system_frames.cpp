@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "frame_benchmark.h"
+#include "images.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../folder_in_memory.h"
-#include "../frame_benchmark.h"
+#include "../images.h"
 #include "programs.h"
 #include "table.h"
 

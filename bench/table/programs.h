@@ -11,6 +11,9 @@ namespace bench {
 /// theirs alone.
 inline constexpr const char* json_file = "result.json";
 
+/// A command and its arguments.
+using Command = std::vector<std::string>;
+
 /// A process to measure, once a round.
 struct Program {
   enum class Kind {
@@ -38,9 +41,6 @@ Program memory_run(const ProgramOptions& options, const std::string& name, int f
 
 /// Groups of samples that must have computed the same.
 std::vector<std::vector<std::string>> equal_groups(const std::vector<std::string>& images);
-
-/// A command and its arguments.
-using Command = std::vector<std::string>;
 
 /// What a process took.
 struct Usage {

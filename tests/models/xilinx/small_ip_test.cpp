@@ -9,6 +9,7 @@
 #include <vp/configuration.h>
 #include <vp/error.h>
 #include <vp/report.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 #include <xilinx/bram/bram.h>
 #include <xilinx/concat/concat.h>

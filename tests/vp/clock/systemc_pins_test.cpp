@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <simulation.h>
+#include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 
 #include "recorder.h"
