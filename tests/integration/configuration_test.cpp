@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(devices_may_be_elsewhere) {
   };
   // Those who look at a trace find out which number an interrupt has.
   const std::string stats = output({"trace", "stats", "moved.vcd"});
-  BOOST_TEST(stats.find("pl.axi_dma_0.mm2s_introut   84") != std::string::npos, stats);
+  BOOST_TEST(stats.find("pl.axi_dma_0.mm2s_introut  84") != std::string::npos, stats);
   Arguments map{"map"};
   map.insert(map.end(), moved.begin(), moved.end());
   const std::string shown = output(map);
