@@ -35,6 +35,13 @@ constexpr const char* rtl_check_help =
 Both get the same inputs in the running system. The first output that differs ends it: port, clock
 and both values are told, and lockstep.vcd and lockstep.gtkw show the clocks around it.)";
 
+constexpr const char* rtl_compare_help =
+    R"(  markervp run demo --trace ours.vcd --trace-clocks
+  markervp rtl compare questa.vcd ours.vcd --map ports.yaml
+The inputs tell how many clocks one lies behind the other. The first clock in which a port differs
+is told in both, with both values; compare.vcd and compare.gtkw show the clocks around it.
+docs/rtl.md has a map.)";
+
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
 any the demo scene runs. Results: result.json and an annotated picture per frame.)";
@@ -210,6 +217,22 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   check->add_option("-o,--output", target.run.output, "folder for the results (default: out)")
       ->type_name("DIR");
   check->footer(rtl_check_help);
+  CLI::App* compare =
+      rtl->add_subcommand("compare", "compare a simulation made elsewhere with a trace of ours");
+  compare->callback([&target] { target.command = "compare"; });
+  compare->add_option("THEIRS", target.compare.theirs, "of Questa, Vivado, Icarus …: VCD or FST")
+      ->type_name("FILE")
+      ->required();
+  compare->add_option("OURS", target.compare.ours, "of run --trace --trace-clocks")
+      ->type_name("FILE")
+      ->required();
+  compare->add_option("--map", target.compare.map, "clock and ports of both, YAML")
+      ->type_name("FILE")
+      ->required();
+  compare
+      ->add_option("-o,--output", target.compare.output, "folder for a difference (default: out)")
+      ->type_name("DIR");
+  compare->footer(rtl_compare_help);
   CLI::App* synth = rtl->add_subcommand("synth", "synthesise with Yosys: LUT, FF, BRAM, DSP, Fmax");
   synth->callback([&target] { target.command = "synth"; });
   RtlSynthOptions& options = target.synth;

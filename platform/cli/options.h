@@ -64,12 +64,20 @@ struct RtlSynthOptions {
   std::optional<std::string> output;
 };
 
+/// `markervp rtl compare`.
+struct RtlCompareOptions {
+  std::string theirs, ours;  ///< traces
+  std::string map;           ///< which signals are the same port, a YAML file
+  std::string output = "out";
+};
+
 /// `markervp rtl`.
 struct RtlOptions {
-  std::string command;  ///< "check", "synth"
+  std::string command;  ///< "check", "compare", "synth"
   std::string ip;
   std::string rtl;  ///< check: shared object, or a folder with <ip>.so in it or in its `build`
   RunOptions run;
+  RtlCompareOptions compare;
   RtlSynthOptions synth;
 };
 

@@ -1,12 +1,14 @@
 // `markervp rtl`: RTL and its models.
 #include <cli/commands.h>
 #include <host/document.h>
+#include <host/output_folder.h>
 #include <report/console.h>
 #include <trace/replay.h>
 #include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 
 #include <filesystem>
 #include <ostream>
@@ -121,11 +123,54 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments,
   return done;
 }
 
+std::string place_text(const trace::PortComparison::Place& place, const std::string& whose) {
+  return "clock " + std::to_string(place.clock) + " of " + whose + " (" +
+         vp::format_time(place.ps) + ")";
+}
+
+int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ostream& err) {
+  trace::PortMap map = trace::read_port_map(options.map);
+  const trace::PortComparison found = trace::compare_ports(options.theirs, options.ours, map);
+  const std::string page = (fs::path(options.output) / "compare").string();
+  std::error_code ignored;
+  for (const char* ending : {".vcd", ".gtkw"}) fs::remove(page + ending, ignored);
+  out << "aligned: behind " << place_text(found.theirs_begin, "theirs")
+      << " stands what stands behind " << place_text(found.ours_begin, "ours") << "\n";
+  if (!found.values.empty()) {
+    err << "markervp: " << (found.values.front().input ? "the stimulus differs" : "they differ")
+        << " behind " << place_text(found.theirs, "theirs") << ", "
+        << place_text(found.ours, "ours") << ":";
+    const char* separator = " ";
+    for (const auto& value : found.values) {
+      err << separator << value.port << " is " << value.theirs << " in theirs, " << value.ours
+          << " in ours";
+      separator = "; ";
+    }
+    err << "\n";
+    host::prepare_output_folder(options.output);
+    trace::write_comparison(found, map, page);
+    out << "look at it: gtkwave " << page << ".vcd " << page << ".gtkw\n";
+    return run_failed;
+  }
+  if (!found.never_compared.empty()) {
+    err << "markervp: not compared, as nothing was valid on "
+        << report::counted(found.clocks, "clock") << ": " << vp::join(found.never_compared, ", ")
+        << "\n";
+    return run_failed;
+  }
+  out << "equal: " << report::counted(map.ports.size(), "port") << " on "
+      << report::counted(found.clocks, "clock") << "\n";
+  if (!found.never_changed.empty())
+    out << "never changed: " << vp::join(found.never_changed, ", ") << "\n";
+  return done;
+}
+
 }  // namespace
 
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
   if (options.command == "synth") return synthesise_rtl(options.synth, out);
+  if (options.command == "compare") return compare_traces(options.compare, out, err);
   return check(options, arguments, make_simulation, out, err);
 }
 

@@ -131,6 +131,58 @@ std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& wor
 std::vector<SaveFile::Line> save_lines(const TraceFile& file,
                                        const std::vector<std::string>& paths);
 
+/// Which signals of two traces are the same port: a YAML file (docs/rtl.md).
+struct PortMap {
+  struct Port {
+    std::string ours, theirs;  ///< as users write signals
+    std::string valid;   ///< of ours: the port means something while it is high; empty: always
+    bool input = false;  ///< both traces are aligned by these
+    std::string place;   ///< file and line, for messages
+    unsigned width = 0;  ///< known once a trace is there
+  };
+  Port clock;
+  std::vector<Port> ports;
+};
+
+/// Throws vp::InputError with the line.
+PortMap read_port_map(const std::string& file);
+
+/// How a simulation made elsewhere compares with a trace of ours.
+struct PortComparison {
+  /// An edge of a clock, counted from 1, and its time.
+  struct Place {
+    std::uint64_t clock = 0, ps = 0;
+  };
+  struct Value {
+    std::string port, theirs, ours;
+    bool input;
+  };
+  /// What stood between two edges.
+  struct Clock {
+    Place theirs, ours;               ///< the first of both
+    std::uint64_t until_ps;           ///< the second, of ours
+    std::vector<std::string> values;  ///< theirs and ours of each port, as digits
+    bool differs;
+  };
+  Place theirs_begin, ours_begin;  ///< the edges behind which the comparison begins
+  std::uint64_t clocks = 0;        ///< that were compared
+  std::vector<Value> values;       ///< what differs first; empty: nothing does
+  Place theirs, ours;              ///< the edges behind which it does
+  std::vector<Clock> around;       ///< from some clocks before that to some behind it
+  std::vector<std::string> never_compared, never_changed;  ///< ports; outputs
+};
+
+/// Compares all ports on every clock, from the first change of the inputs that both traces have to
+/// the end of the shorter one or some clocks behind the first difference. How many clocks one lies
+/// behind the other, the inputs tell: a constant delay of an output is a difference. Fills in the
+/// widths of `map`. Throws vp::InputError for signals that there are not or that have other widths,
+/// and where no change of the inputs is in both.
+PortComparison compare_ports(const std::string& theirs, const std::string& ours, PortMap& map);
+
+/// Writes the clocks around the difference as `page`.vcd, in our time, and `page`.gtkw.
+void write_comparison(const PortComparison& comparison, const PortMap& map,
+                      const std::string& page);
+
 /// One assertion of a checks file (docs/traces.md has the grammar).
 struct Check {
   enum class Kind : std::uint8_t {

@@ -1,4 +1,5 @@
-// `markervp rtl check`: RTL in lock-step with its model in the running system.
+// `markervp rtl check`: RTL in lock-step with its model in the running system. `markervp rtl
+// compare`: a trace against a trace.
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
@@ -86,6 +87,82 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused) {
   refused(check("corner_detecton", object("equal")),
           {"pl.fidelity.corner_detecton", "corner_detection"});
   refused(check("sensor_input", object("equal")), {"pl.fidelity.sensor_input", "clocked or tlm"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+namespace {
+
+/// Traces of an inverter behind a register, and the map of its ports.
+struct Compare : Workplace {
+  Compare() {
+    trace("ours.vcd", 7, 20, 99);
+    trace("same.vcd", 2, 10, 99);
+    trace("other.vcd", 2, 10, 12);
+    kit::write_file(*this / "ports.yaml",
+                    "clock: {ours: clk, theirs: clk}\ninputs: {in: in}\noutputs: {out: out}\n");
+  }
+
+  /// A stimulus that begins behind `lead` clocks; the output of clock `wrong` of it is.
+  void trace(const std::string& name, unsigned lead, unsigned period, unsigned wrong) const {
+    std::string text =
+        "$timescale 1ns $end\n$var wire 1 ! clk $end\n$var wire 1 i in $end\n"
+        "$var wire 1 o out $end\n$enddefinitions $end\n#0 0! 0i 1o\n";
+    unsigned in = 0;
+    for (unsigned clock = 1; clock < lead + 40; ++clock) {
+      const unsigned out = 1 - in;
+      in = clock < lead ? 0 : 0x39AF2u >> (clock - lead) % 20 & 1;
+      text += "#" + std::to_string(clock * period) + " 1! " + std::to_string(in) + "i " +
+              std::to_string(clock == lead + wrong ? 1 - out : out) + "o\n#" +
+              std::to_string(clock * period + period / 2) + " 0!\n";
+    }
+    kit::write_file(*this / name, text);
+  }
+
+  kit::Outcome compare(const std::string& theirs) const {
+    return kit::run_process(MARKERVP_EXECUTABLE,
+                            {"rtl", "compare", theirs, "ours.vcd", "--map", "ports.yaml"}, path());
+  }
+  bool has(const std::string& file) const { return std::filesystem::exists(*this / file); }
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(rtl_compare, Compare)
+
+BOOST_AUTO_TEST_CASE(equal_traces_leave_nothing) {
+  const kit::Outcome outcome = compare("same.vcd");
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "clock 2 of theirs (20 ns)"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "clock 7 of ours (140 ns)"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "equal: 2 ports on 39 clocks"), outcome.out);
+  BOOST_TEST(!has("out"));
+}
+
+BOOST_AUTO_TEST_CASE(a_difference_is_told_and_shown) {
+  const kit::Outcome outcome = compare("other.vcd");
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err,
+                      "behind clock 14 of theirs (140 ns), clock 19 of ours (380 ns): out is"),
+             outcome.err);
+  BOOST_TEST(contains(outcome.out, "gtkwave out/compare.vcd out/compare.gtkw"), outcome.out);
+  BOOST_TEST(has("out/compare.vcd"));
+  BOOST_TEST(contains(kit::read_file(*this / "out/compare.gtkw"), "theirs.out"));
+  BOOST_TEST(compare("same.vcd").exit_code == 0);
+  BOOST_TEST(!has("out/compare.vcd"));  // a page of an earlier difference
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
+  kit::Outcome outcome = compare("none.vcd");
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(contains(outcome.err, "cannot read trace 'none.vcd'"), outcome.err);
+  kit::write_file(*this / "ports.yaml",
+                  "clock: {ours: clk, theirs: clk}\ninputs: {in: in}\noutputs: {out: otu}\n");
+  outcome = compare("same.vcd");
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(contains(outcome.err,
+                      "ports.yaml:3: in 'same.vcd' there is no signal 'otu'; did you mean 'out'?"),
+             outcome.err);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -47,9 +47,9 @@ bool is_key(const std::string& text) {
 }
 
 /// Reads the leaves of nested maps or dotted keys.
-class YamlReader {
+class ConfigurationReader {
  public:
-  explicit YamlReader(const std::string& origin) : origin_(origin) {}
+  explicit ConfigurationReader(const std::string& origin) : origin_(origin) {}
 
   std::map<std::string, Setting> read(const std::string& text) {
     const YAML::Node document = load_yaml(text, origin_);
@@ -191,7 +191,7 @@ void Configuration::load_file(const std::string& path) {
 }
 
 void Configuration::load_text(const std::string& yaml, const std::string& origin) {
-  for (auto& [key, setting] : YamlReader(origin).read(yaml)) from_files_[key] = setting;
+  for (auto& [key, setting] : ConfigurationReader(origin).read(yaml)) from_files_[key] = setting;
 }
 
 void Configuration::set(std::string_view assignment) {
