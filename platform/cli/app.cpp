@@ -35,6 +35,11 @@ constexpr const char* rtl_check_help =
 Both get the same inputs in the running system. The first output that differs ends it: port, clock
 and both values are told, and lockstep.vcd and lockstep.gtkw show the clocks around it.)";
 
+constexpr const char* rtl_vectors_help =
+    R"(  markervp rtl vectors corner_detection demo noise.png -o vectors
+runs the platform and writes what its model sees and does on every clock: stimulus.hex and
+response.hex, for $fscanf, $readmemh and textio. bench.sv and bench.vhd play them to RTL.)";
+
 constexpr const char* rtl_compare_help =
     R"(  markervp run demo --trace ours.vcd --trace-clocks
   markervp rtl compare questa.vcd ours.vcd --map ports.yaml
@@ -217,6 +222,16 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   check->add_option("-o,--output", target.run.output, "folder for the results (default: out)")
       ->type_name("DIR");
   check->footer(rtl_check_help);
+  CLI::App* vectors =
+      rtl->add_subcommand("vectors", "write stimulus and response of an IP, and benches for them");
+  vectors->callback([&target] { target.command = "vectors"; });
+  vectors->add_option("IP", target.ip, "whose ports: corner_detection")->type_name("")->required();
+  add_input_options(*vectors, target.run);
+  add_design_option(*vectors, target.run.configuration);
+  add_configuration_options(*vectors, target.run.configuration);
+  vectors->add_option("-o,--output", target.run.output, "folder for the files (default: out)")
+      ->type_name("DIR");
+  vectors->footer(rtl_vectors_help);
   CLI::App* compare =
       rtl->add_subcommand("compare", "compare a simulation made elsewhere with a trace of ours");
   compare->callback([&target] { target.command = "compare"; });

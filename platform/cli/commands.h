@@ -76,9 +76,10 @@ int print_power_table(const PowerTableOptions& options, std::ostream& out);
 /// be.
 int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
 
-/// `rtl check` runs RTL beside the model of its IP; `rtl compare` compares a trace of a simulation
-/// made elsewhere with one of ours. run_failed: they differ, and trace and page lie in the folder
-/// for results; or there was nothing to compare.
+/// `rtl check` runs RTL beside the model of its IP; `rtl vectors` writes what stands at the ports
+/// of one, for benches of RTL; `rtl compare` compares a trace of a simulation made elsewhere with
+/// one of ours. run_failed: they differ, and trace and page lie in the folder for results; or there
+/// was nothing to compare.
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
 /// Synthesises RTL with Yosys: primitives, and Fmax as a range.

@@ -73,7 +73,7 @@ struct RtlCompareOptions {
 
 /// `markervp rtl`.
 struct RtlOptions {
-  std::string command;  ///< "check", "compare", "synth"
+  std::string command;  ///< "check", "vectors", "compare", "synth"
   std::string ip;
   std::string rtl;  ///< check: shared object, or a folder with <ip>.so in it or in its `build`
   RunOptions run;

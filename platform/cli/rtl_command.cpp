@@ -123,6 +123,24 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments,
   return done;
 }
 
+int write_vectors(const RtlOptions& options, const std::vector<std::string>& arguments,
+                  const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+  host::prepare_output_folder(options.run.output);
+  const fs::path folder = fs::absolute(options.run.output);
+  RunOptions run_options = options.run;
+  run_options.fidelity = "clocked";
+  run_options.configuration.assignments.push_back("pl.fidelity." + options.ip +
+                                                  "=vectors:" + folder.string());
+  run_options.no_pictures = run_options.no_report = run_options.quiet = true;
+  std::ostringstream summary;  // of a run that nobody asked for
+  const int code = run(run_options, arguments, make_simulation, summary, err);
+  if (code != done) return code;
+  out << "wrote stimulus.hex, response.hex, bench.sv and bench.vhd of "
+      << report::counted(frames_of(folder), "frame") << " into " << options.run.output
+      << "\nplay them: the first lines of a bench say how\n";
+  return done;
+}
+
 std::string place_text(const trace::PortComparison::Place& place, const std::string& whose) {
   return "clock " + std::to_string(place.clock) + " of " + whose + " (" +
          vp::format_time(place.ps) + ")";
@@ -170,6 +188,8 @@ int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ost
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
   if (options.command == "synth") return synthesise_rtl(options.synth, out);
+  if (options.command == "vectors")
+    return write_vectors(options, arguments, make_simulation, out, err);
   if (options.command == "compare") return compare_traces(options.compare, out, err);
   return check(options, arguments, make_simulation, out, err);
 }

@@ -166,3 +166,41 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
 }
 
 BOOST_AUTO_TEST_SUITE_END()
+
+#ifdef IVERILOG
+
+// The whole way: vectors of the platform, a simulation of theirs, and its trace against ours.
+BOOST_FIXTURE_TEST_CASE(a_trace_of_icarus_is_that_of_the_platform, Check) {
+  const auto markervp = [this](Arguments arguments) {
+    arguments.insert(arguments.end(), {"--set", "pl.width=64 px", "--set", "pl.height=32 px"});
+    return kit::run_process(MARKERVP_EXECUTABLE, arguments, path());
+  };
+  kit::Outcome outcome =
+      markervp({"rtl", "vectors", "corner_detection", "noise.pgm", "-o", "vectors"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "of 1 frame into vectors"), outcome.out);
+  Arguments sources{"-g2012", "-s", "bench", "-o", "bench.vvp", "bench.sv"};
+  for (const char* folder : {"corner_detection", "common"}) {
+    const std::string rtl = std::string(MARKERVP_SOURCE "/models/pl/") + folder + "/rtl";
+    for (const auto& file : std::filesystem::directory_iterator(rtl))
+      sources.push_back(file.path());
+  }
+  outcome = kit::run_process(IVERILOG, sources, *this / "vectors");
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  outcome = kit::run_process(VVP, {"-n", "bench.vvp", "+trace"}, *this / "vectors");
+  BOOST_TEST(outcome.exit_code == 0, outcome.out);
+  outcome = markervp({"run", "noise.pgm", "--trace", "ours.vcd", "--trace-clocks"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  kit::write_file(*this / "ports.yaml",
+                  "clock: {ours: ps.fclk_clk1.clk, theirs: bench.clk}\ninputs:\n"
+                  "  sensor_input.frame_ena: bench.dut.ena\n  sensor_input.pixel: bench.dut.pixel\n"
+                  "outputs:\n  corner_out: bench.dut.corner_out\n"
+                  "  corner_data: {theirs: bench.dut.corner_data, valid: corner_out}\n");
+  outcome = kit::run_process(
+      MARKERVP_EXECUTABLE,
+      {"rtl", "compare", "vectors/bench.vcd", "ours.vcd", "--map", "ports.yaml"}, path());
+  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+  BOOST_TEST(contains(outcome.out, "equal: 4 ports on "), outcome.out);
+}
+
+#endif

@@ -16,20 +16,20 @@ Models<BlobDetection>& BlobDetection::models() {
   return models;
 }
 
-void BlobDetection::connect(RtlPins& pins) {
-  pins.input(ena);
-  pins.input(rst);
-  pins.input(pixel);
-  pins.input(x, 10);
-  pins.input(y, 9);
-  pins.output(blob_out);
-  pins.output(blob_start, &blob_out);
-  pins.output(blob_end, &blob_out);
-  pins.output(idle);
-  pins.report(label_overflow);
-  pins.parameter("WIDTH", "pl.width", geometry_.width);
-  pins.parameter("LABELS", label_count.name(), label_count);
-  pins.parameter("MINIMUM_SIDE", minimum_side.name(), minimum_side);
+void BlobDetection::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(pixel);
+  ports.input(x, 10);
+  ports.input(y, 9);
+  ports.output(blob_out);
+  ports.output(blob_start, &blob_out);
+  ports.output(blob_end, &blob_out);
+  ports.output(idle);
+  ports.report(label_overflow);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("LABELS", label_count.name(), label_count);
+  ports.parameter("MINIMUM_SIDE", minimum_side.name(), minimum_side);
 }
 
 void BlobDetectionClocked::edge() {

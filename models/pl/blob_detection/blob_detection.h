@@ -14,7 +14,7 @@
 
 namespace pl {
 
-class RtlPins;
+class IpPorts;
 
 /// Blob Detection (thesis 4.3.6, ports of table B.3, and `idle`, decision).
 class BlobDetection : public vp::Clocked, public vp::Ip {
@@ -63,8 +63,8 @@ class BlobDetection : public vp::Clocked, public vp::Ip {
 
   const Geometry geometry_;
 
-  /// All ports but the clock, to RTL that stands in its place.
-  void connect(RtlPins& pins);
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -26,14 +26,18 @@ std::string words(Passage image) {
 }  // namespace
 
 std::optional<RtlFile> RtlFile::parse(const std::string& text) {
-  const std::string beside = "lockstep:";
-  const bool lockstep = text.compare(0, beside.size(), beside) == 0;
-  const std::string path = lockstep ? text.substr(beside.size()) : text;
-  const std::string ending = ".so";
+  const auto behind = [&text](const std::string& prefix) {
+    return text.compare(0, prefix.size(), prefix) == 0
+               ? std::optional<std::string>(text.substr(prefix.size()))
+               : std::nullopt;
+  };
+  if (const auto folder = behind("vectors:")) return RtlFile{*folder, Use::vectors};
+  const auto beside = behind("lockstep:");
+  const std::string path = beside.value_or(text), ending = ".so";
   const bool ends_so = path.size() > ending.size() &&
                        path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
   if (!ends_so && path.find('/') == std::string::npos) return std::nullopt;
-  return RtlFile{path, lockstep};
+  return RtlFile{path, beside ? Use::lockstep : Use::in_place};
 }
 
 ModelName::ModelName(const std::string& ip, std::string otherwise,
@@ -48,7 +52,8 @@ ModelName::ModelName(const std::string& ip, std::string otherwise,
     value_ = names[choice(*given, names)];
   }
   publish(value_, std::move(otherwise),
-          vp::one_of(names) + (takes_rtl ? ", or RTL: file .so, or lockstep:file .so" : ""));
+          vp::one_of(names) +
+              (takes_rtl ? ", or RTL: file .so, lockstep:file .so, or vectors:folder" : ""));
   follows("fidelity");
 }
 

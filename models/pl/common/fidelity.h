@@ -59,13 +59,15 @@ Model<Ip> model(std::string name, Passage takes, Passage gives) {
           }};
 }
 
-/// A shared object with RTL, as `fidelity.<ip>` names it: "corner.so" in place of the IP,
-/// "lockstep:corner.so" beside its clocked model, which it must equal.
+/// What `fidelity.<ip>` names besides models: "corner.so", RTL in place of the IP;
+/// "lockstep:corner.so", RTL beside its clocked model, which it must equal; "vectors:folder", where
+/// its clocked model leaves stimulus and response for the benches of RTL.
 struct RtlFile {
+  enum class Use { in_place, lockstep, vectors };
   std::string path;
-  bool lockstep = false;
+  Use use = Use::in_place;
 
-  /// None if `text` names no file: it has no folder in it, and does not end in .so.
+  /// None if `text` names no such thing: it has no folder in it, and does not end in .so.
   static std::optional<RtlFile> parse(const std::string& text);
 };
 

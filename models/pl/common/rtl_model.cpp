@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <vp/clock_scheduler.h>
@@ -54,32 +55,24 @@ std::string declaration(const std::string& name, unsigned bits, bool output) {
 
 }  // namespace
 
-RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::string& instance)
+RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::string& instance,
+                 IpPorts ports)
     : file_(file),
       ip_(ip),
+      ports_(std::move(ports)),
       rtl_(open(file)),
       model_(rtl_.create(instance.c_str()), rtl_.destroy),
       connected_(rtl_.port_count) {
   if (rtl_.ip != ip)
     refuse(rtl_.place, std::string("it was built as ") + rtl_.ip + "; set pl.fidelity." + rtl_.ip);
-}
-
-void RtlPins::clock(const char* name) {
-  clk_ = static_cast<std::uint8_t*>(pin(name, 1, false));
+  leave_out_what_it_lacks();
+  clk_ = static_cast<std::uint8_t*>(pin("clk", 1, false));
   rtl_.eval(model_.get());  // with the clock low: the first edge would be none otherwise
-}
-
-void RtlPins::parameter(const char* name, const std::string& key, std::uint64_t value) const {
-  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i) {
-    const RtlParameter& parameter = rtl_.parameters[i];
-    if (parameter.name != std::string(name) || parameter.value == value) continue;
-    refuse(rtl_.place, std::string(name) + " is " + std::to_string(parameter.value) + ", and " +
-                           key + " " + std::to_string(value) + ": build it with PARAMETERS " +
-                           name + "=" + std::to_string(value));
-  }
-}
-
-void RtlPins::complete() const {
+  for (const IpPorts::Input& input : ports_.inputs)
+    before_.push_back(pin(input.name, input.bits, false));
+  for (const IpPorts::Output& output : ports_.outputs)
+    after_.push_back(pin(output.name, output.bits, true));
+  for (const IpPorts::Parameter& parameter : ports_.parameters) check(parameter);
   for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
     if (!connected_[i]) {
       refuse(rtl_.ports[i].place, std::string("the IP has no port '") + rtl_.ports[i].name +
@@ -88,13 +81,39 @@ void RtlPins::complete() const {
   }
 }
 
-RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins)
-    : Clocked(name, clk), pins_(pins), edges_left_(clocks_shown) {
-  for (const vp::InBase* input : pins_.inputs()) taps_.emplace_back(nullptr, input, *this);
-  for (const RtlPins::Output& output : pins_.outputs()) {
-    taps_.emplace_back(&output.port, nullptr, *this);
-    outputs_.emplace_back(output.port.basename(), output.bits);
+void RtlPins::leave_out_what_it_lacks() {
+  auto& outputs = ports_.outputs;
+  outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
+                               [this](const IpPorts::Output& output) {
+                                 return output.optional && !find(output.name);
+                               }),
+                outputs.end());
+  for (IpPorts::Output& output : outputs) {
+    if (output.optional) output.bits = std::min(output.bits, find(output.name)->bits);
   }
+}
+
+void RtlPins::check(const IpPorts::Parameter& parameter) const {
+  const std::string value = std::to_string(parameter.value);
+  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i) {
+    const RtlParameter& built = rtl_.parameters[i];
+    if (built.name != parameter.name || built.value == parameter.value) continue;
+    refuse(rtl_.place, parameter.name + " is " + std::to_string(built.value) + ", and " +
+                           parameter.key + " " + value + ": build it with PARAMETERS " +
+                           parameter.name + "=" + value);
+  }
+}
+
+PortTaps::PortTaps(const IpPorts& ports, vp::Clocked& owner) {
+  for (const IpPorts::Input& input : ports.inputs) taps_.emplace_back(nullptr, input.port, owner);
+  for (const IpPorts::Output& output : ports.outputs)
+    taps_.emplace_back(output.port, nullptr, owner);
+}
+
+RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins)
+    : Clocked(name, clk), pins_(pins), taps_(pins.ports(), *this), edges_left_(clocks_shown) {
+  for (const IpPorts::Output& output : pins_.ports().outputs)
+    outputs_.emplace_back(output.name.c_str(), output.bits);
 }
 
 void RtlShadow::edge() {
@@ -104,7 +123,7 @@ void RtlShadow::edge() {
     fail();
   }
   pins_.clock_edge();
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.outputs()[i].value();
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.value(i);
   edge_ = this_edge();
   edge_ps_ = clock().scheduler().now_ps();
 }
@@ -119,13 +138,12 @@ void RtlShadow::end_of_simulation() {
 void RtlShadow::compare() {
   if (edge_ == 0) return;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    const RtlPins::Output& output = pins_.outputs()[i];
-    const std::uint64_t model = output.port.bits() & mask(output.bits);
+    const IpPorts::Output& output = pins_.ports().outputs[i];
+    const std::uint64_t model = output.port->bits() & mask(output.bits);
     const std::uint64_t rtl = outputs_[i].get();
     if (model == rtl || (output.valid && !*output.valid)) continue;
-    difference_ += (difference_.empty() ? "" : ", ") + std::string(output.port.basename()) +
-                   " is " + number(model, output.bits) + ", and " + number(rtl, output.bits) +
-                   " in the RTL";
+    difference_ += (difference_.empty() ? "" : ", ") + output.name + " is " +
+                   number(model, output.bits) + ", and " + number(rtl, output.bits) + " in the RTL";
   }
   differs = !difference_.empty();
   if (difference_.empty()) return;
@@ -136,10 +154,6 @@ void RtlShadow::compare() {
 
 void RtlShadow::fail() const {
   vp::error(*this, "/markervp/rtl/lockstep", difference_);
-}
-
-std::string RtlPins::last_name(const std::string& path) {
-  return path.substr(path.rfind('.') + 1);
 }
 
 const RtlPort* RtlPins::find(const std::string& name) const {

@@ -16,16 +16,16 @@ Models<CornerDetection>& CornerDetection::models() {
   return models;
 }
 
-void CornerDetection::connect(RtlPins& pins) {
-  pins.input(ena);
-  pins.input(rst);
-  pins.input(pixel);
-  pins.input(x, 10);
-  pins.input(y, 9);
-  pins.output(corner_out);
-  pins.output(corner_data, &corner_out);
-  pins.parameter("WIDTH", "pl.width", geometry_.width);
-  pins.parameter("THRESHOLD", threshold.name(), threshold);
+void CornerDetection::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(pixel);
+  ports.input(x, 10);
+  ports.input(y, 9);
+  ports.output(corner_out);
+  ports.output(corner_data, &corner_out);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("THRESHOLD", threshold.name(), threshold);
 }
 
 CornerDetectionClocked::CornerDetectionClocked(sc_core::sc_module_name name, const Site& site)

@@ -15,7 +15,7 @@
 
 namespace pl {
 
-class RtlPins;
+class IpPorts;
 
 /// Corner Detection (thesis 4.3.4, ports of table B.1). One pixel per pixel clock.
 class CornerDetection : public vp::Clocked, public vp::Ip {
@@ -49,8 +49,8 @@ class CornerDetection : public vp::Clocked, public vp::Ip {
 
   const Geometry geometry_;
 
-  /// All ports but the clock, to RTL that stands in its place.
-  void connect(RtlPins& pins);
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
  private:
   vp::IpEstimate own_estimate() const override;

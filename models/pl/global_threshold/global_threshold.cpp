@@ -14,24 +14,24 @@ Models<GlobalThreshold>& GlobalThreshold::models() {
   return models;
 }
 
-void GlobalThreshold::connect(RtlPins& pins) {
-  pins.input(por);
-  pins.input(rst);
-  pins.input(frame_ena);
-  pins.input(wr_thresh);
-  pins.input(threshold);
-  pins.input(pixel);
-  pins.input(x, 10);
-  pins.input(y, 9);
-  pins.output(binary_ena);
-  pins.output(binary_out, &binary_ena);
-  pins.output(binary_x, &binary_ena);
-  pins.output(binary_y, &binary_ena);
-  pins.output(thresh_out);
-  pins.output(thresh_data, &thresh_out);
-  pins.report(active_threshold);
-  pins.parameter("WIDTH", "pl.width", geometry_.width);
-  pins.parameter("HEIGHT", "pl.height", geometry_.height);
+void GlobalThreshold::connect(IpPorts& ports) {
+  ports.input(por);
+  ports.input(rst);
+  ports.input(frame_ena);
+  ports.input(wr_thresh);
+  ports.input(threshold);
+  ports.input(pixel);
+  ports.input(x, 10);
+  ports.input(y, 9);
+  ports.output(binary_ena);
+  ports.output(binary_out, &binary_ena);
+  ports.output(binary_x, &binary_ena);
+  ports.output(binary_y, &binary_ena);
+  ports.output(thresh_out);
+  ports.output(thresh_data, &thresh_out);
+  ports.report(active_threshold);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("HEIGHT", "pl.height", geometry_.height);
 }
 
 void GlobalThresholdClocked::edge() {

@@ -12,7 +12,7 @@
 
 namespace pl {
 
-class RtlPins;
+class IpPorts;
 
 /// Global Threshold (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives
 /// it).
@@ -58,8 +58,8 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
 
   const Geometry geometry_;
 
-  /// All ports but the clock, to RTL that stands in its place.
-  void connect(RtlPins& pins);
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
  private:
   vp::IpEstimate own_estimate() const override;

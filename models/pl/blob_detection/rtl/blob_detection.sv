@@ -42,6 +42,9 @@ module blob_detection #(
   logic [19:0] columns[0:LABELS-1];  // Ex, Sx
   logic [8:0] tops[0:LABELS-1];      // Sy
   logic [8:0] bottoms[0:LABELS-1];   // Ey
+`ifndef SYNTHESIS
+  initial columns[0] = '0;  // label 0 has no blob: a simulator would compare what nobody ever writes
+`endif
 
   // The widest one: a tree, each node of which keeps the earlier of equally wide ones. Ex - Sx is one less
   // than the width; the bit above it says that there is a label.
