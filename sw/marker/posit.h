@@ -1,17 +1,12 @@
 #pragma once
 
+#include <marker/camera.h>
 #include <marker/geometry.h>
 
 #include <array>
 #include <cstdint>
 
 namespace marker {
-
-/// A pinhole camera: x right, y down, z forward.
-struct Camera {
-  double fx, fy;  ///< focal lengths, px
-  double cx, cy;  ///< principal point, px; the centre of pixel (0, 0) is (0.5, 0.5)
-};
 
 struct PositOptions {
   double side = 0.30;         ///< the marker's side, m (thesis chapter 5)

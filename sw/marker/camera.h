@@ -1,0 +1,29 @@
+#pragma once
+
+#include <marker/geometry.h>
+
+namespace marker {
+
+/// A pinhole camera: x right, y down, z forward.
+struct Camera {
+  double fx, fy;  ///< focal lengths, px
+  double cx, cy;  ///< principal point, px; the centre of pixel (0, 0) is (0.5, 0.5)
+};
+
+/// A camera whose lens bends straight lines, by OpenCV's model of five coefficients. What the
+/// pinhole camera inside would see is in *ideal* px here, what the picture shows in image px.
+struct Lens {
+  Camera camera;
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< radial, tangential, radial
+
+  bool is_pinhole() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
+};
+
+/// Where the picture shows an ideal point. Image px.
+Point distort(const Lens& lens, Point ideal);
+
+/// Where a pinhole camera would see a point of the picture. False if the model has no such point
+/// (beyond the radius where it folds back).
+bool undistort(const Lens& lens, Point image, Point& ideal);
+
+}  // namespace marker

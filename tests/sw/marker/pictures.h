@@ -1,0 +1,44 @@
+#pragma once
+
+#include <marker/images.h>
+#include <marker/quad_fit.h>
+#include <scene/grey_image.h>
+#include <scene/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+/// Pictures of the scene renderer, and what stands before the code under test: blobs.
+namespace pictures {
+
+marker::GreyImage view(const platform::GreyImage& picture);
+marker::Lens lens_of(const platform::Camera& camera);
+
+/// The picture of a scene through a lens: `lens.camera` is that of the scene. No noise.
+platform::GreyImage render_through(const platform::Scene& scene, const marker::Lens& lens);
+
+/// Extremes of the dark blobs of a picture whose box is at least `minimum_side` px wide and high.
+/// Pixels are dark up to `threshold`; blobs join over corners, and merge wherever they meet.
+std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture,
+                                         std::uint8_t threshold = 127,
+                                         std::uint32_t minimum_side = 20);
+
+/// A candidate that was fitted, with the corner of it that is the marker's own top left.
+struct Found {
+  bool found = false;
+  marker::QuadFit fit{};
+  double corner_error = 0;  ///< mean distance from the true corners, px
+};
+
+/// The marker of a scene in its picture: the fitted blob whose corners are within 2 px of the true
+/// ones, turned so that corner 0 is the marker's own top left.
+Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture,
+                  const marker::Lens& lens);
+
+/// Corner `turns` of the fit becomes corner 0.
+marker::QuadFit turned(const marker::QuadFit& fit, unsigned turns);
+
+/// The 41 poses of thesis 5.2.2 and 5.2.3.
+std::vector<platform::Scene> poses_of_the_thesis();
+
+}  // namespace pictures
