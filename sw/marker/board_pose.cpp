@@ -1,0 +1,310 @@
+#include <marker/board_pose.h>
+#include <marker/identification.h>
+#include <marker/work.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace marker {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector8d = Eigen::Matrix<double, 8, 1>;
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+using Jacobian = Eigen::Matrix<double, 8, 6>;
+template <int size>
+using RowMajor = Eigen::Matrix<double, size, size, Eigen::RowMajor>;
+
+Places square_at(double u, double v, double side) {
+  return {{{u, v, 0}, {u + side, v, 0}, {u + side, v + side, 0}, {u, v + side, 0}}};
+}
+
+Vector3d vector(const Place& place) {
+  return {place[0], place[1], place[2]};
+}
+
+struct Solution {
+  Matrix3d rotation;
+  Vector3d translation;
+};
+
+// ---- The two poses of one square ----------------------------------------------------------------
+
+/// The frame of a marker on its board: origin in the marker's middle.
+struct Frame {
+  Matrix3d axes;
+  Vector3d middle;
+  double side;
+};
+
+Frame frame_of(const Places& places) {
+  const Vector3d a = vector(places[0]), b = vector(places[1]), d = vector(places[3]);
+  Frame frame;
+  frame.side = (b - a).norm();
+  frame.middle = (b + d) / 2;
+  frame.axes.col(0) = (b - a).normalized();
+  frame.axes.col(1) = (d - a).normalized();
+  frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
+  return frame;
+}
+
+/// Where the middle of a square is seen at focal length 1, and how the image moves with it.
+struct Tangent {
+  Vector2d at;
+  Matrix2d jacobian;
+};
+
+bool tangent_of(const Quad& seen, double side, Tangent& tangent) {
+  const Homography h = make_homography({seen[0], seen[1], seen[3], seen[2]}, side);
+  Point middle{};
+  if (!h.valid || !transform(h, {side / 2, side / 2}, middle)) return false;
+  const double depth = (h.h7 + h.h8) * side / 2 + 1;
+  tangent.at = {middle.x, middle.y};
+  tangent.jacobian << h.h1 - middle.x * h.h7, h.h2 - middle.x * h.h8,  //
+      h.h4 - middle.y * h.h7, h.h5 - middle.y * h.h8;
+  tangent.jacobian /= depth;
+  return true;
+}
+
+/// The shortest rotation that leads the z axis to the ray through `at`.
+Matrix3d towards(const Vector2d& at) {
+  const Vector3d ray = Vector3d(at.x(), at.y(), 1).normalized();
+  return Eigen::Quaterniond(1 + ray.z(), -ray.y(), ray.x(), 0).normalized().toRotationMatrix();
+}
+
+/// Collins and Bartoli, section 4: R is that of the ray, times a rotation whose upper left part is
+/// the tangent's, scaled to a largest singular value of 1; what is missing has two signs.
+bool rotations_of(const Tangent& tangent, Matrix3d& first, Matrix3d& second) {
+  const Matrix3d ray = towards(tangent.at);
+  const Matrix2d b = ray.topLeftCorner<2, 2>() - tangent.at * ray.bottomLeftCorner<1, 2>();
+  const Matrix2d a = b.inverse() * tangent.jacobian;
+  const Matrix2d square = a * a.transpose();
+  const double difference = square(0, 0) - square(1, 1);
+  const double root = std::sqrt(difference * difference + 4 * square(0, 1) * square(0, 1));
+  const double scale = std::sqrt((square.trace() + root) / 2);
+  if (!(scale > 0)) return false;
+  const Matrix2d upper = a / scale;
+  const Matrix2d missing = Matrix2d::Identity() - upper.transpose() * upper;
+  const double u = std::sqrt(missing(0, 0) > 0 ? missing(0, 0) : 0);
+  double v = std::sqrt(missing(1, 1) > 0 ? missing(1, 1) : 0);
+  if (missing(0, 1) < 0) v = -v;
+  for (const double sign : {1.0, -1.0}) {
+    Matrix3d r;
+    r.topLeftCorner<2, 2>() = upper;
+    r.bottomLeftCorner<1, 2>() << sign * u, sign * v;
+    r.col(2) = r.col(0).cross(r.col(1));
+    (sign > 0 ? first : second) = ray * r;
+  }
+  return true;
+}
+
+// ---- All corners --------------------------------------------------------------------------------
+
+class Corners {
+ public:
+  Corners(const SeenMarker* markers, std::uint32_t count, const Camera& camera)
+      : markers_(markers), count_(count), camera_(camera) {}
+
+  /// Both poses of the largest marker.
+  bool start(Solution& first, Solution& second) const {
+    const SeenMarker& marker = largest();
+    const Frame frame = frame_of(marker.places);
+    Quad seen{};
+    for (unsigned i = 0; i < 4; ++i) {
+      seen[i] = {(marker.corners[i].x - camera_.cx) / camera_.fx,
+                 (marker.corners[i].y - camera_.cy) / camera_.fy};
+    }
+    Tangent tangent;
+    if (!(frame.side > 0) || !tangent_of(seen, frame.side, tangent) ||
+        !rotations_of(tangent, first.rotation, second.rotation)) {
+      return false;
+    }
+    for (Solution* const s : {&first, &second}) {
+      s->rotation = s->rotation * frame.axes.transpose();
+      s->translation = translation(marker.places, seen, s->rotation);
+    }
+    return true;
+  }
+
+  /// Gauss–Newton; a step that makes it worse is halved. False if it leads behind the camera.
+  bool refine(Solution& solution, BoardPose& pose) const {
+    Matrix6d information;
+    Vector6d gradient;
+    double error = 0;
+    if (!weigh(solution, information, gradient, error)) return false;
+    for (unsigned step = 0; step < most_steps; ++step) {
+      Vector6d move = -information.ldlt().solve(gradient);
+      Solution next;
+      Matrix6d next_information;
+      Vector6d next_gradient;
+      double next_error = 0;
+      unsigned halvings = 0;
+      for (;; ++halvings) {
+        next = moved(solution, move);
+        if (weigh(next, next_information, next_gradient, next_error) && next_error <= error) break;
+        if (halvings == most_halvings) break;
+        move /= 2;
+      }
+      if (halvings == most_halvings) break;
+      const double gain = error - next_error;
+      solution = next;
+      information = next_information;
+      gradient = next_gradient;
+      error = next_error;
+      if (gain < least_gain * error || gain < least_gain) break;
+    }
+    RowMajor<3>::Map(pose.rotation.data()) = solution.rotation;
+    Vector3d::Map(pose.translation.data()) = solution.translation;
+    const Eigen::LDLT<Matrix6d> factor(information);
+    for (unsigned column = 0; column < 6; ++column) {
+      RowMajor<6>::Map(pose.covariance.data()).col(column) =
+          factor.solve(Vector6d(Vector6d::Unit(column)));
+    }
+    pose.chi_squared = error;
+    return std::isfinite(error);
+  }
+
+ private:
+  static constexpr unsigned most_steps = 30;
+  static constexpr unsigned most_halvings = 8;
+  static constexpr double least_gain = 1e-10;
+
+  const SeenMarker& largest() const {
+    const SeenMarker* largest = markers_;
+    double most = 0;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const Quad& q = markers_[i].corners;
+      const double area = cross(q[0], q[1], q[2]) + cross(q[0], q[2], q[3]);
+      if (area > most) {
+        most = area;
+        largest = &markers_[i];
+      }
+    }
+    return *largest;
+  }
+
+  /// Least squares over the rays on which the corners lie.
+  static Vector3d translation(const Places& places, const Quad& seen, const Matrix3d& rotation) {
+    Matrix3d a = Matrix3d::Zero();
+    Vector3d b = Vector3d::Zero();
+    for (unsigned i = 0; i < 4; ++i) {
+      const Vector3d turned = rotation * vector(places[i]);
+      Eigen::Matrix<double, 2, 3> ray;
+      ray << 1, 0, -seen[i].x, 0, 1, -seen[i].y;
+      a += ray.transpose() * ray;
+      b -= ray.transpose() * (ray * turned);
+    }
+    return a.ldlt().solve(b);
+  }
+
+  static Solution moved(const Solution& s, const Vector6d& move) {
+    const Eigen::Quaterniond turn(1, move[0] / 2, move[1] / 2, move[2] / 2);
+    return {turn.normalized().toRotationMatrix() * s.rotation, s.translation + move.tail<3>()};
+  }
+
+  /// JᵀΩJ, JᵀΩr and rᵀΩr over all markers. False if a corner is not in front of the camera.
+  bool weigh(const Solution& s, Matrix6d& information, Vector6d& gradient, double& error) const {
+    information.setZero();
+    gradient.setZero();
+    error = 0;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      Jacobian j;
+      Vector8d r;
+      if (!look(s, markers_[i], j, r)) return false;
+      const Eigen::LLT<Matrix8d> factor(RowMajor<8>::Map(markers_[i].covariance.data()));
+      // Column by column and lazily: Eigen takes memory from the heap for larger products.
+      for (unsigned column = 0; column < 6; ++column) {
+        auto of_j = j.col(column);
+        factor.matrixL().solveInPlace(of_j);
+      }
+      factor.matrixL().solveInPlace(r);
+      information += j.transpose().lazyProduct(j);
+      gradient += j.transpose().lazyProduct(r);
+      error += r.squaredNorm();
+    }
+    return true;
+  }
+
+  bool look(const Solution& s, const SeenMarker& marker, Jacobian& j, Vector8d& r) const {
+    for (unsigned i = 0; i < 4; ++i) {
+      const Vector3d turned = s.rotation * vector(marker.places[i]);
+      const Vector3d p = turned + s.translation;
+      if (!(p.z() > 0)) return false;
+      const double x = p.x() / p.z(), y = p.y() / p.z();
+      r[2 * i] = camera_.fx * x + camera_.cx - marker.corners[i].x;
+      r[2 * i + 1] = camera_.fy * y + camera_.cy - marker.corners[i].y;
+      const Vector3d dx = camera_.fx / p.z() * Vector3d(1, 0, -x);
+      const Vector3d dy = camera_.fy / p.z() * Vector3d(0, 1, -y);
+      // A turn ω moves the point by ω × turned.
+      j.row(2 * i) << turned.cross(dx).transpose(), dx.transpose();
+      j.row(2 * i + 1) << turned.cross(dy).transpose(), dy.transpose();
+    }
+    return true;
+  }
+
+  const SeenMarker* markers_;
+  std::uint32_t count_;
+  const Camera& camera_;
+};
+
+}  // namespace
+
+Places single_marker(double side) {
+  return square_at(0, 0, side);
+}
+
+bool GridBoard::find(std::uint32_t id, Places& places) const {
+  if (id < first_id || id - first_id >= columns * rows) return false;
+  const std::uint32_t index = id - first_id;
+  places = square_at(index % columns * (side + gap), index / columns * (side + gap), side);
+  return true;
+}
+
+bool CharucoBoard::find(std::uint32_t id, Places& places) const {
+  // Two rows together have a white square in each column.
+  if (columns == 0) return false;
+  const std::uint32_t pair = id / columns, within = id % columns;
+  const std::uint32_t in_first = (columns + (white_first ? 1 : 0)) / 2;
+  const std::uint32_t row = 2 * pair + (within < in_first ? 0 : 1);
+  if (row >= rows) return false;
+  const std::uint32_t place = within < in_first ? within : within - in_first;
+  const bool starts_white = (row % 2 == 0) == white_first;
+  const double margin = (square - side) / 2;
+  places = square_at((2 * place + (starts_white ? 0 : 1)) * square + margin, row * square + margin,
+                     side);
+  return true;
+}
+
+std::array<double, 64> independent_corners(double sigma) {
+  std::array<double, 64> covariance{};
+  for (unsigned i = 0; i < 8; ++i) covariance[9 * i] = sigma * sigma;
+  return covariance;
+}
+
+BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
+                               const Camera& camera) {
+  const FunctionScope scope(Function::pose_estimation);
+  BoardPoses poses{};
+  if (count == 0 || !(camera.fx > 0 && camera.fy > 0)) return poses;
+  const Corners corners(markers, count, camera);
+  Solution first, second;
+  if (!corners.start(first, second)) return poses;
+  BoardPose a{}, b{};
+  const bool has_first = corners.refine(first, a), has_second = corners.refine(second, b);
+  if (!has_first && !has_second) return poses;
+  if (!has_first) a = b;
+  if (!has_second) b = a;
+  const bool swap = b.chi_squared < a.chi_squared;
+  poses.valid = true;
+  poses.best = swap ? b : a;
+  poses.other = swap ? a : b;
+  return poses;
+}
+
+}  // namespace marker
