@@ -29,8 +29,8 @@ constexpr double first_reach = 3.2;
 constexpr double reach_in_deviations = 3;
 /// What is left of the guess after the first pass, px.
 constexpr double slack = 0.15;
-/// A marker whose border is thinner than twice this is too small.
-constexpr double least_reach = 1;
+/// A marker with smaller cells is too small, px.
+constexpr double least_cell = 1.5;
 /// Beyond the transition, px across the edge: so deep a grey level is read.
 constexpr double level_depth = 3;
 /// The corners are fitted so often, each time around where they were found before.
@@ -50,6 +50,7 @@ struct Source {
 struct Side {
   Point from, to, along, outward;
   double length;
+  double height;     ///< of the quadrilateral over this side, at its lower end
   bool by_rows;      ///< rows cross it
   double steepness;  ///< px across the edge for one px along a strip
 };
@@ -99,6 +100,9 @@ std::array<Side, 4> sides_of(const Source& source, const Quad& quad) {
     side.length = std::sqrt(dot(span, span));
     side.along = (1 / side.length) * span;
     side.outward = {side.along.y, -side.along.x};
+    const double one = dot(side.from - quad[(i + 2) % 4], side.outward);
+    const double other = dot(side.from - quad[(i + 3) % 4], side.outward);
+    side.height = one < other ? one : other;
     side.by_rows = source.image.pixels != nullptr ? magnitude(span.y) >= magnitude(span.x)
                                                   : (*source.sides)[i].rows;
     side.steepness = magnitude(side.by_rows ? side.outward.x : side.outward.y);
@@ -181,8 +185,8 @@ Levels read_levels(const Crossing* crossings, std::uint32_t count, double depth)
   Levels near;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Crossing& c = crossings[i];
-    (c.dark_first ? near.dark : near.bright).add(grey(c.strip, c.begin - 1));
-    (c.dark_first ? near.bright : near.dark).add(grey(c.strip, c.end));
+    (c.dark_first ? near.dark : near.bright).add(grey(c.strip, c.begin));
+    (c.dark_first ? near.bright : near.dark).add(grey(c.strip, c.end - 1));
   }
   const double eighth = near.contrast() / 8;
   Levels deep;
@@ -310,7 +314,7 @@ class SideFit {
     line.offset_variance += lever * lever * (levels.dark.variance() + levels.bright.variance());
     line.dark = levels.dark.mean();
     line.bright = levels.bright.mean();
-    return line.scatter > options_.maximum_raggedness ? Refusal::ragged : Refusal::none;
+    return Refusal::none;
   }
 
  private:
@@ -411,25 +415,19 @@ void fill_covariance(const std::array<Side, 4>& sides, const std::array<Line, 4>
   }
 }
 
-double shortest(const std::array<Side, 4>& sides) {
-  double length = sides[0].length;
-  for (const Side& side : sides) length = side.length < length ? side.length : length;
-  return length;
-}
-
 /// One pass: the sides around `fit.ideal`, and the corners anew.
 Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& options,
                 double& widest, QuadFit& fit) {
   if (!is_convex_clockwise(fit.ideal)) return Refusal::shape;
   const std::array<Side, 4> sides = sides_of(source, fit.ideal);
-  // Half a cell: behind it the code may begin.
-  const double half_cell = shortest(sides) / options.cells / 2;
-  const double reach = half_cell < widest ? half_cell : widest;
-  if (!(half_cell >= least_reach)) return Refusal::shape;
   double transition = 0;
   std::array<Line, 4> lines{};
   fit.dark = fit.bright = fit.raggedness = 0;
   for (unsigned i = 0; i < 4; ++i) {
+    // Behind the border's cell the code may begin.
+    const double cell = sides[i].height / options.cells;
+    if (!(cell >= least_cell)) return Refusal::shape;
+    const double reach = cell / 2 < widest ? cell / 2 : widest;
     const Refusal refusal = SideFit(source, lens, sides, i, reach, options).fit(lines[i]);
     if (refusal != Refusal::none) return refusal;
     fit.dark += lines[i].dark / 4;
@@ -459,18 +457,32 @@ QuadFit fit_quad(const Source& source, const Lens& lens, const Quad& guess,
   for (unsigned pass = 0; pass < passes && fit.refusal == Refusal::none; ++pass) {
     fit.refusal = improve(source, lens, options, reach, fit);
   }
+  if (fit.refusal == Refusal::none && fit.raggedness > options.maximum_raggedness) {
+    fit.refusal = Refusal::ragged;
+  }
   return fit;
 }
 
 }  // namespace
 
 bool largest_quad(const Extremes& extremes, Quad& quad) {
+  // A blob ends where its outermost pixels end.
+  constexpr std::array<Point, 8> half_pixel = {{{0, -0.5},
+                                                {0.5, -0.5},
+                                                {0.5, 0},
+                                                {0.5, 0.5},
+                                                {0, 0.5},
+                                                {-0.5, 0.5},
+                                                {-0.5, 0},
+                                                {-0.5, -0.5}}};
+  Extremes ends{};
+  for (unsigned i = 0; i < 8; ++i) ends[i] = extremes[i] + half_pixel[i];
   double largest = 0;
   for (unsigned a = 0; a < 5; ++a) {
     for (unsigned b = a + 1; b < 6; ++b) {
       for (unsigned c = b + 1; c < 7; ++c) {
         for (unsigned d = c + 1; d < 8; ++d) {
-          const Quad q = {extremes[a], extremes[b], extremes[c], extremes[d]};
+          const Quad q = {ends[a], ends[b], ends[c], ends[d]};
           const double area = cross(q[0], q[1], q[2]) + cross(q[0], q[2], q[3]);
           if (area > largest && is_convex_clockwise(q)) {
             largest = area;
@@ -491,6 +503,20 @@ QuadFit fit_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
 QuadFit fit_quad(const std::array<SideSupport, 4>& sides, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options) {
   return fit_quad(Source{{}, &sides}, lens, guess, options);
+}
+
+QuadFit counted_from(const QuadFit& fit, unsigned first) {
+  QuadFit counted = fit;
+  for (unsigned i = 0; i < 4; ++i) {
+    counted.ideal[i] = fit.ideal[(i + first) % 4];
+    counted.image[i] = fit.image[(i + first) % 4];
+  }
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned j = 0; j < 8; ++j) {
+      counted.covariance[i * 8 + j] = fit.covariance[(i + 2 * first) % 8 * 8 + (j + 2 * first) % 8];
+    }
+  }
+  return counted;
 }
 
 }  // namespace marker

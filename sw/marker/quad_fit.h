@@ -49,7 +49,29 @@ enum class Refusal : std::uint32_t {
   hidden,    ///< too little of a side is seen: cut by the border of the picture, or no edge there
   contrast,  ///< not dark inside and bright outside
   ragged,    ///< a side is not straight
+  border,    ///< white cells in the black border
+  unknown,   ///< its cells are no word of the dictionary
 };
+
+constexpr const char* refusal_name(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::none:
+      return "none";
+    case Refusal::shape:
+      return "shape";
+    case Refusal::hidden:
+      return "hidden";
+    case Refusal::contrast:
+      return "contrast";
+    case Refusal::ragged:
+      return "ragged";
+    case Refusal::border:
+      return "border";
+    case Refusal::unknown:
+      return "unknown";
+  }
+  return "?";
+}
 
 /// Corners, if the candidate was not refused.
 struct QuadFit {
@@ -77,5 +99,8 @@ QuadFit fit_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
 /// The same from gathered strips; side i leads from corner i of the guess to the next.
 QuadFit fit_quad(const std::array<SideSupport, 4>& sides, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options);
+
+/// The same corners counted from corner `first` on.
+QuadFit counted_from(const QuadFit& fit, unsigned first);
 
 }  // namespace marker

@@ -128,20 +128,6 @@ std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture, std::
   return found;
 }
 
-marker::QuadFit turned(const marker::QuadFit& fit, unsigned turns) {
-  marker::QuadFit result = fit;
-  for (unsigned i = 0; i < 4; ++i) {
-    result.ideal[i] = fit.ideal[(i + turns) % 4];
-    result.image[i] = fit.image[(i + turns) % 4];
-  }
-  for (unsigned i = 0; i < 8; ++i) {
-    for (unsigned j = 0; j < 8; ++j) {
-      result.covariance[i * 8 + j] = fit.covariance[(i + 2 * turns) % 8 * 8 + (j + 2 * turns) % 8];
-    }
-  }
-  return result;
-}
-
 Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture,
                   const marker::Lens& lens) {
   const auto truth = platform::project_marker(scene.camera, scene.pose);
@@ -151,7 +137,7 @@ Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture
     const marker::QuadFit fit = marker::fit_quad(picture, lens, guess, {});
     if (fit.refusal != marker::Refusal::none) continue;
     for (unsigned turns = 0; turns < 4; ++turns) {
-      const Found found{true, turned(fit, turns), 0};
+      const Found found{true, marker::counted_from(fit, turns), 0};
       double sum = 0, worst = 0;
       for (unsigned i = 0; i < 4; ++i) {
         const double off =

@@ -6,7 +6,15 @@
 #include <scene/scene.h>
 
 #include <cstdint>
+#include <ostream>
 #include <vector>
+
+namespace marker {
+/// For the messages of tests.
+inline std::ostream& operator<<(std::ostream& stream, Refusal refusal) {
+  return stream << refusal_name(refusal);
+}
+}  // namespace marker
 
 /// Pictures of the scene renderer, and what stands before the code under test: blobs.
 namespace pictures {
@@ -34,9 +42,6 @@ struct Found {
 /// ones, turned so that corner 0 is the marker's own top left.
 Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture,
                   const marker::Lens& lens);
-
-/// Corner `turns` of the fit becomes corner 0.
-marker::QuadFit turned(const marker::QuadFit& fit, unsigned turns);
 
 /// The 41 poses of thesis 5.2.2 and 5.2.3.
 std::vector<platform::Scene> poses_of_the_thesis();
