@@ -1,5 +1,5 @@
 #include <marker/board_pose.h>
-#include <marker/identification.h>
+#include <marker/rectification.h>
 #include <marker/work.h>
 
 #include <Eigen/Cholesky>

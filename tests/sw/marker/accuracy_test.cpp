@@ -1,6 +1,7 @@
 // How well corners and poses are known: on the thesis' poses, over all rolls, and against the
 // noise.
 #include <marker/board_pose.h>
+#include <marker/marker_reader.h>
 #include <marker/quad_fit.h>
 #include <scene/portable_math.h>
 #include <scene/renderer.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "fake_hal.h"
@@ -76,7 +78,7 @@ BOOST_AUTO_TEST_CASE(poses_of_the_thesis_at_any_blur) {
   };
   for (const Measured& measured :
        {Measured{0, {0.0045, 0.20, 0.046}}, Measured{0.35, {0.0052, 0.15, 0.049}},
-        Measured{0.7, {0.0080, 0.31, 0.066}}}) {
+        Measured{0.7, {0.0085, 0.26, 0.068}}}) {
     const Errors errors = over_the_poses(measured.blur);
     BOOST_TEST(errors.corner_px < measured.errors.corner_px);
     BOOST_TEST(errors.translation_mm < measured.errors.translation_mm);
@@ -108,6 +110,44 @@ BOOST_AUTO_TEST_CASE(no_roll_is_lost) {
   BOOST_TEST_MESSAGE("720 views: mean " << sum / views << " px, worst " << worst << " px");
   BOOST_TEST(sum / views < 0.006);
   BOOST_TEST(worst < 0.02);
+}
+
+// From the front, tilted and rolled, and small: 750 of 750, none of them as another.
+BOOST_AUTO_TEST_CASE(every_id_in_three_views) {
+  const auto book = std::make_unique<marker::CodeBook>();
+  book->open(*marker::find_dictionary("4x4_250"));
+  const std::vector<Pose> views = {
+      platform::pose_from_centre(platform::rotation_z(0), {0, 0, 1}),
+      platform::pose_from_centre(
+          platform::rotation_y(50) * platform::rotation_x(-20) * platform::rotation_z(47),
+          {0.05, 0.03, 1.5}),
+      platform::pose_from_centre(platform::rotation_y(25) * platform::rotation_z(200), {0, 0, 4})};
+  unsigned found = 0;
+  for (int id = 0; id < platform::dictionary_size; ++id) {
+    for (const Pose& view : views) {
+      Scene scene;
+      scene.camera = {160, 160, 381.36, 381.36, 80, 80};
+      scene.pose = view;
+      scene.marker_id = id;
+      scene.blur_sigma_px = 0.5;
+      scene.seed = static_cast<std::uint64_t>(id);
+      const GreyImage picture = platform::render(scene);
+      const marker::GreyImage image = pictures::view(picture);
+      const auto truth = platform::project_marker(scene.camera, scene.pose);
+      for (const marker::Extremes& blob : pictures::find_blobs(image)) {
+        marker::DetectedMarker marker{};
+        if (marker::detect_marker(image, pictures::lens_of(scene.camera), blob, *book, {},
+                                  marker) != marker::Refusal::none) {
+          continue;
+        }
+        BOOST_TEST(marker.id == id);
+        BOOST_TEST(std::hypot(marker.fit.ideal[0].x - truth[0].x,
+                              marker.fit.ideal[0].y - truth[0].y) < 0.3);
+        ++found;
+      }
+    }
+  }
+  BOOST_TEST(found == 750u);
 }
 
 /// A picture of 128 × 128 px: the marker, and a camera that looks past it.
