@@ -235,7 +235,8 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   CLI::App* gtkw = add(*trace, target, "gtkw", "write save and translate files for GTKWave");
   add_file(*gtkw, target);
   add_design(*gtkw, target);
-  gtkw->add_option("-o,--output", target.output, "folder, made if it is missing (default: here)")
+  gtkw->add_option("-o,--output", target.output,
+                   "folder, made if it is missing (default: TRACE.gtkwave)")
       ->type_name("DIR");
 }
 

@@ -230,7 +230,7 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
 
 int gtkw(const TraceCommandOptions& options, std::ostream& out) {
   TraceFile file(options.file, name_map(options));
-  const std::string folder = options.output.value_or(".");
+  const std::string folder = options.output.value_or(options.file + ".gtkwave");
   host::prepare_output_folder(folder);
   for (const std::string& name : trace::write_save_files(file, words_of(options), folder)) {
     out << "wrote " << name << "\n";
