@@ -194,7 +194,7 @@ void measure_hardware(Random& random) {
   for (std::uint32_t i = 0; i < count; ++i)
     list.push_back(marker::packet::encode(random_corner(random)));
   list.push_back(marker_logic::WordFormat::end_of_frame);
-  link.initialise();
+  link.initialise(marker_logic::usual_burst_words * marker_logic::bytes_per_word);
   Devices::show(list);
   measure(
       "receive", [&] { link.receive_features(words, 1000); },

@@ -35,8 +35,9 @@ Session::Session(const Options& options) {
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
       "or a file .json");
   camera_ = std::make_unique<CameraTiming>("camera");
-  options_ = std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
-                                               zynq_->ps.cpu_clk.start_hz(), *camera_);
+  options_ =
+      std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
+                                        zynq_->ps.cpu_clk.start_hz(), *camera_, zynq_->design());
   costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
   bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *options_, reports_);
   power_ = std::make_unique<ZynqPower>(

@@ -123,6 +123,9 @@ class Design {
   /// Brings memories and counters up to now, for whoever looks at them from outside.
   virtual void settle() {}
 
+  /// The value of a program's option that the logic decides, and no user; in the option's unit.
+  virtual std::optional<double> program_option(const std::string& /*name*/) const { return {}; }
+
   /// Fills in a frame: times, counts, markers, features, and warnings of what was lost. False: no
   /// program of this design publishes such a thing.
   virtual bool report(const Publication& publication, report::FrameReport& frame) = 0;

@@ -11,8 +11,6 @@ using profiles::Optimisation;
 
 namespace {
 
-constexpr const char* upload_option = "upload";
-
 /// The dimension a unit's name belongs to.
 vp::Unit dimension_of(const std::string& unit, const hal_program& program, const char* option) {
   if (unit.empty()) return vp::Unit::none;
@@ -43,7 +41,7 @@ void check_clock(std::uint64_t hz, const vp::Range<double>& range, const hal_pro
 
 SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
                                  const std::string& profile, std::uint64_t cpu_hz,
-                                 const CameraTiming& camera)
+                                 const CameraTiming& camera, const Design& design)
     : sc_module(name),
       opt_("opt", profiles::optimisation_of(profile),
            {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
@@ -52,6 +50,10 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
   opt_.follows("profile");
   for (std::uint32_t i = 0; i < program.option_count; ++i) {
     const hal_option_info& info = program.options[i];
+    if (const auto decided = design.program_option(info.name)) {
+      values_.push_back(*decided);
+      continue;
+    }
     const vp::Unit dimension = dimension_of(info.unit, program, info.name);
     // Parameters are kept in the base unit of their dimension; the program thinks in its own.
     const double base =
@@ -60,7 +62,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
             : vp::parse_quantity(std::string("1 ") + info.unit, dimension).to_double();
     const vp::Range<double> range{info.minimum * base, info.maximum * base};
     const bool is_clock = info.name == std::string_view("cpu_clock");
-    const bool is_upload = info.name == std::string_view(upload_option);
+    const bool is_upload = info.name == std::string_view("upload");
     double usual = info.default_value * base;
     if (is_clock) {
       check_clock(cpu_hz, range, program);
@@ -77,23 +79,13 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
                            ": such a camera uploads its images itself; leave one of them out");
     }
     values_.push_back(parameter.get() / base);
+    if (is_upload) uploads_ = parameter >= 0.5;
   }
 }
 
 std::optional<Optimisation> SoftwareOptions::optimisation() const {
   if (!opt_.is_changed()) return std::nullopt;
   return opt_.get();
-}
-
-bool SoftwareOptions::uploads() const {
-  return value(upload_option, 1) >= 0.5;
-}
-
-double SoftwareOptions::value(const std::string& option, double otherwise) const {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    if (parameters_[i].basename() == option) return values_[i];
-  }
-  return otherwise;
 }
 
 }  // namespace platform

@@ -10,6 +10,7 @@
 #include <profiles/cost_profile.h>
 #include <vp/parameter.h>
 #include <zynq/camera_timing.h>
+#include <zynq/design.h>
 
 namespace platform {
 
@@ -20,8 +21,10 @@ class SoftwareOptions : public sc_core::sc_module {
   /// `cpu_clock`, for which a program on the chip is built, from the clock that it has here; and
   /// `upload`, which a camera of a fixed rate does itself. Throws vp::InputError for a value out of
   /// its range or that contradicts these, and for a unit that the program's option may not have.
+  /// What the logic of `design` decides is no parameter.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
-                  const std::string& profile, std::uint64_t cpu_hz, const CameraTiming& camera);
+                  const std::string& profile, std::uint64_t cpu_hz, const CameraTiming& camera,
+                  const Design& design);
 
   /// What the user asked for; none: what the profile is for.
   std::optional<profiles::Optimisation> optimisation() const;
@@ -29,14 +32,13 @@ class SoftwareOptions : public sc_core::sc_module {
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
   /// The program brings its images to the PL itself.
-  bool uploads() const;
+  bool uploads() const { return uploads_; }
 
  private:
-  double value(const std::string& option, double otherwise) const;
-
   vp::Parameter<profiles::Optimisation> opt_;
   std::deque<vp::Parameter<double>> parameters_;
   std::vector<double> values_;
+  bool uploads_ = true;
 };
 
 }  // namespace platform

@@ -183,6 +183,20 @@ BOOST_AUTO_TEST_CASE(nothing_differs_when_the_software_gives_up) {
   BOOST_TEST(difference(result("tlm"), result("clocked")) == "");
 }
 
+// One key for bridge, engines and program.
+BOOST_AUTO_TEST_CASE(each_length_of_a_burst_works_and_nothing_differs) {
+  for (const char* words : {"4", "8", "16", "64", "128"}) {
+    BOOST_TEST_CONTEXT(words << " words") {
+      const Arguments arguments =
+          with({"demo", "squares15", "--repeat", "2"}, std::string("pl.burst_words=") + words);
+      const Json usual = result_of(arguments);
+      BOOST_TEST(usual["summary"]["detected"] == 4);
+      BOOST_TEST(usual["verdict"]["job"]["holds"] == "yes", usual["verdict"]["job"]);
+      BOOST_TEST(difference(usual, result_of(with(arguments, "fidelity=clocked"))) == "");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_differs_at_a_rate_of_the_camera) {
   for (const char* system : {"hybrid", "ps-only"}) {
     for (const char* rate : {"60", "150"}) {  // some frames are dropped at the second

@@ -182,6 +182,22 @@ BOOST_AUTO_TEST_CASE(labels_and_fifo) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(burst_length) {
+  const Study study("burst-length", 4);
+  const auto upload_ms = [&](const std::string& words) {
+    return study.at({{"pl.burst_words", words}}, "frames.time_us.upload.mean") / 1000;
+  };
+  study.says("takes {} ms with 4 words", upload_ms("4"), 1);
+  study.says("{} ms with the thesis' 32", upload_ms("32"), 1);
+  study.says("{} ms with 128", upload_ms("128"), 1);
+  for (const Row& row : study.rows) {
+    if (row.at("pl.burst_words") != "2")
+      study.says("The rate stays at {} frames/s", number(row.at(fps)), 1);
+  }
+  BOOST_TEST(contains(study.said, "ended with exit code 1: the software gave up: binary image"));
+  study.feasible([](const Row& row) { return row.at("pl.burst_words") != "2"; });
+}
+
 BOOST_AUTO_TEST_CASE(pixel_and_system_clock) {
   const Study study("pixel-and-system-clock", 4);
   const std::map<int, int> follows{{10, 50}, {15, 77}, {20, 100}, {25, 143}, {50, 200}, {100, 200}};

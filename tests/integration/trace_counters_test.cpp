@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(a_slow_bus_with_overflows) {
   const Counted counted = run({{"fidelity", "clocked"},
                                {"pl.feature_packaging.buffer_depth", "2"},
                                {"pl.axi_dma_1.memory_write_latency", "90 cycles"},
-                               {"ps.m_axi_gp0.read_time", "3 us"}});
+                               {"ps.m_axi_gp0.read_time", "5 us"}});
   compare(counted);
   BOOST_TEST(counted.traced("links", "pl.binary_stream", "stalls") > 1000u);
   BOOST_TEST(counted.traced("overflows", "pl.feature_packaging.feature_overflow", "lost") > 0u);

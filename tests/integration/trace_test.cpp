@@ -37,7 +37,7 @@ struct Traced : integration::Workplace {
                                            "--set",
                                            "pl.feature_packaging.buffer_depth=2",
                                            "--set",
-                                           "ps.m_axi_gp0.read_time=3 us"};
+                                           "ps.m_axi_gp0.read_time=5 us"};
   const std::string checks = MARKERVP_SOURCE "/traces/checks/system.checks";
 };
 
@@ -275,7 +275,7 @@ BOOST_AUTO_TEST_CASE(gtkwave_opens_where_there_is_something_to_see,
     return times;
   };
   BOOST_TEST_REQUIRE(ask({"gtkw", "t.vcd"}).exit_code == 0);
-  const auto whole = opens_on("t.vcd", "system.gtkw");
+  const auto whole = opens_on("t.vcd", "t.vcd.gtkwave/system.gtkw");
   BOOST_TEST(whole[0] == 7995e6);
   BOOST_TEST(whole[1] > 8004e6, "the whole trace");
 

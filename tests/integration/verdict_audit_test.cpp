@@ -23,16 +23,17 @@ parameters:
   clocks: [made, exact]
   ps.ethernet: [true, false]
   ps.slcr.ps_clk: [33.333333333333332 MHz, 50 MHz]
-  ps.cpu_clk.frequency: {start: 100 MHz, stop: 1000 MHz}
-  ps.fclk_clk0.frequency: {start: 5 MHz, stop: 300 MHz}
+  ps.cpu_clk.frequency: {start: 100 MHz, stop: 900 MHz}
+  ps.fclk_clk0.frequency: {start: 5 MHz, stop: 260 MHz}
   ps.fclk_clk1.frequency: {start: 5 MHz, stop: 120 MHz}
   ps.m_axi_gp0.read_clocks: [4 cycles, 8 cycles, 16 cycles]
   pl.corner_detection.threshold: {start: 5, stop: 80}
-  pl.blob_detection.label_count: {start: 4, stop: 400}
+  pl.blob_detection.label_count: {start: 4, stop: 200}
   pl.blob_detection.minimum_side: {start: 4 px, stop: 60 px}
   pl.feature_packaging.buffer_depth: {start: 2, stop: 300}
   pl.axi_threshold_bridge.fifo_depth: {start: 1, stop: 128}
   pl.axi_dma_1.burst_beats: [2, 8, 16, 32]
+  pl.burst_words: [16, 32]
   profile: [thesis, a9-O0, a9-O2]
   sw.margin: {start: 0 px, stop: 12 px}
   sw.canonical_width: [24 px, 60 px, 120 px]

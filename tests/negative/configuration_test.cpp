@@ -66,6 +66,16 @@ BOOST_AUTO_TEST_CASE(rates_that_no_camera_has) {
               {"sw.upload is 1", "camera.rate is 60 fps", "leave one of them out"});
 }
 
+BOOST_AUTO_TEST_CASE(bursts_that_no_dma_makes) {
+  set_refused("pl.burst_words=48", {"pl.burst_words is 48", "the nearest is 32"});
+  set_refused("pl.burst_words=1", {"pl.burst_words", "2 to 256"});
+  set_refused("pl.burst_words=512", {"pl.burst_words", "2 to 256"});
+  set_refused("pl.burst_words=256", {"multiple of 8192", "pl.burst_words=128 fits"});
+  set_refused("sw.burst_words=16", {"unknown key 'sw.burst_words'"});
+  run_refuses({"--set", "pl.burst_words=128", "--set", "pl.axi_dma_1.length_width=8"},
+              {"pl.axi_dma_1.length_width is 8", "512 bytes and needs 10"});
+}
+
 BOOST_AUTO_TEST_CASE(values_out_of_range) {
   set_refused("ps.fclk_clk1.frequency=0 MHz", {"ps.fclk_clk1.frequency", "1 kHz", "1000 GHz"});
   set_refused("ps.fclk_clk1.frequency=-5 MHz", {"ps.fclk_clk1.frequency"});

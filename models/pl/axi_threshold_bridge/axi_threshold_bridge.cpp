@@ -55,7 +55,7 @@ void AxiThresholdBridgeTlm::end_of_elaboration() {
   AxiThresholdBridge::end_of_elaboration();
   BinaryFrames* binary = crossing.open() ? nullptr : crossing->frames();
   if (!binary || !m.slave_takes_source()) return;
-  bridge_.emplace(*binary, clock(), fifo_depth, burst_words);
+  bridge_.emplace(*binary, clock(), fifo_depth, burst_words_);
   binary->take_whole();
   binary->add_listener(*this);
   clock().add_listener(*this);
@@ -141,7 +141,10 @@ Models<AxiThresholdBridge>& AxiThresholdBridge::models() {
 }
 
 AxiThresholdBridge::AxiThresholdBridge(sc_core::sc_module_name name, const Site& site)
-    : Clocked(name, site.clk), Ip(&site.clk), fifo_(fifo_depth) {
+    : Clocked(name, site.clk),
+      Ip(&site.clk),
+      burst_words_(site.geometry.burst_words),
+      fifo_(fifo_depth) {
   wake_on(ena);
   wake_on(rst);
   wake_on(thresh_in);
@@ -163,7 +166,7 @@ void AxiThresholdBridge::pass_words() {
     const bool passes = m.tvalid.written();
     if (passes && in_packet_ == 0) packet_peak_ = std::exchange(peak_, 0);
     if (waiting != 0) {
-      const bool last = ++in_packet_ == burst_words;
+      const bool last = ++in_packet_ == burst_words_;
       if (last) in_packet_ = 0;
       m.offer(fifo_.pop(), last);
     } else {

@@ -14,8 +14,8 @@
 namespace pl {
 
 /// AXI Threshold Bridge (thesis 4.4.2, ports of table B.5): sends the binary image to the
-/// PS, 32 words a packet. System clock. A full FIFO (the DMA was not armed again in time) drops the
-/// newest word and counts it.
+/// PS, a burst a packet: TLAST comes with its last word. System clock. A full FIFO (the DMA was not
+/// armed again in time) drops the newest word and counts it.
 class AxiThresholdBridge : public vp::Clocked, public vp::Ip {
  public:
   static Models<AxiThresholdBridge>& models();
@@ -38,10 +38,6 @@ class AxiThresholdBridge : public vp::Clocked, public vp::Ip {
       vp::Unit::none,       {1, 65536},
       vp::Source::decision, "words that wait for the DMA, besides the output register"};
   vp::Signal<std::uint32_t> depth{"depth", 17, fifo_depth};  ///< for traces: what is full
-  vp::Parameter<std::uint32_t> burst_words{
-      "burst_words",         32,
-      vp::Unit::none,        {1, 256},
-      vp::Source::published, "words a packet: TLAST comes with the last (thesis 4.4.2)"};
 
   /// Brings the counters up to now.
   virtual void settle() {}
@@ -54,6 +50,8 @@ class AxiThresholdBridge : public vp::Clocked, public vp::Ip {
   AxiThresholdBridge(sc_core::sc_module_name name, const Site& site);
   /// One clock edge, word by word.
   void pass_words();
+
+  const std::uint32_t burst_words_;  ///< of a packet
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -6,18 +6,20 @@
 
 namespace pl {
 
-/// Size of the frames that the programmable logic is built for, in pixels.
+/// What the programmable logic is built for: the size of frames in pixels, and the words of a
+/// burst.
 struct Geometry {
   std::uint32_t width = 640;
   std::uint32_t height = 480;
+  std::uint32_t burst_words = marker_logic::usual_burst_words;
 
   std::uint32_t pixels() const { return width * height; }
   /// How features are packed.
   marker_logic::WordFormat words() const { return {width, height}; }
 };
 
-/// Refuses a size that feature words and DMA bursts cannot carry (vp::InputError): see
-/// marker_logic::is_legal_size().
+/// Refuses a size that feature words and DMA bursts cannot carry, and a burst that the DMA does not
+/// make (vp::InputError): see marker_logic::is_legal_size() and is_legal_burst().
 void check(const Geometry& geometry);
 
 /// A word with the pixel clock at which it leaves its module: clock 0 is the edge that takes the

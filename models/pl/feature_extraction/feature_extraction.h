@@ -60,7 +60,15 @@ class FeatureExtraction : public sc_core::sc_module {
                                      "width of a frame (thesis 4.3.1)"};
   vp::Parameter<std::uint32_t> height{"height", 480, vp::Unit::pixels, vp::Source::published,
                                       "height of a frame (thesis 4.3.1)"};
-  Geometry geometry() const { return {width, height}; }
+  vp::Parameter<std::uint32_t> burst_words{
+      "burst_words",
+      marker_logic::usual_burst_words,
+      vp::Unit::none,
+      {marker_logic::min_burst_words, marker_logic::max_burst_words},
+      vp::Source::published,
+      "words of a burst: of a packet of the bridge, a transfer of either DMA in the software, and "
+      "an access of these to the memory; 2, 4, 8, … 256 (thesis 4.4.2)"};
+  Geometry geometry() const { return {width, height, burst_words}; }
 
   /// Wires that the surroundings drive.
   vp::In<std::uint32_t>& gpio_in() { return control_block.gpio_in; }

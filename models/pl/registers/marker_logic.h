@@ -12,17 +12,24 @@ namespace marker_logic {
 
 /// Pixels in a word of the binary image; bit i of word w is pixel 32w + i, 1 is dark (decision).
 inline constexpr std::uint32_t pixels_per_word = 32;
-/// Words of a DMA burst, images in and binary images out (thesis 4.4.2 and 4.5.1.1).
-inline constexpr std::uint32_t burst_words = 32, burst_bytes = 4 * burst_words;
-inline constexpr std::uint32_t pixels_per_burst = pixels_per_word * burst_words;
+/// Words of a DMA burst, images in and binary images out (thesis 4.4.2 and 4.5.1.1). The logic is
+/// built for a power of two between these, which is what the AXI DMA takes.
+inline constexpr std::uint32_t usual_burst_words = 32;
+inline constexpr std::uint32_t min_burst_words = 2, max_burst_words = 256;
+inline constexpr std::uint32_t bytes_per_word = 4;
+
+constexpr bool is_legal_burst(std::uint32_t words) {
+  return min_burst_words <= words && words <= max_burst_words && (words & (words - 1)) == 0;
+}
 
 /// Sizes of frames in pixels. Up to 1024 × 512 the words of features are the thesis'.
 inline constexpr std::uint32_t min_width = 32, max_width = 2048;
 inline constexpr std::uint32_t min_height = 16, max_height = 2048;
 
-constexpr bool is_legal_size(std::uint32_t width, std::uint32_t height) {
+/// A binary image is whole words a line, and whole bursts of so many words.
+constexpr bool is_legal_size(std::uint32_t width, std::uint32_t height, std::uint32_t burst_words) {
   return min_width <= width && width <= max_width && min_height <= height && height <= max_height &&
-         width % pixels_per_word == 0 && width * height % pixels_per_burst == 0;
+         width % pixels_per_word == 0 && width * height % (pixels_per_word * burst_words) == 0;
 }
 
 /// Bits that tell `count` things apart, at least `least`.

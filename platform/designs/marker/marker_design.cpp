@@ -145,6 +145,11 @@ void MarkerDesign::show_image(const GreyImage& image) {
   bram.load(image.pixels);
 }
 
+std::optional<double> MarkerDesign::program_option(const std::string& name) const {
+  if (name != "burst_words") return std::nullopt;
+  return burst_words.get();
+}
+
 // The threshold of a frame is the one in use when it starts; it changes at the frame's end.
 void MarkerDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
   if (signal.bits() != 0) threshold_ = global_threshold.active_threshold;

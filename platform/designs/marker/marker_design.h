@@ -23,6 +23,7 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   input::ImageSize frame_size() const override;
   void show_image(const GreyImage& image) override;
   void settle() override { ProgrammableLogic::settle(); }
+  std::optional<double> program_option(const std::string& name) const override;
   bool report(const Publication& publication, report::FrameReport& frame) override;
   void finish() override { handshake_.finish_frame(); }
 

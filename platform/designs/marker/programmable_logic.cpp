@@ -1,6 +1,7 @@
 #include <designs/marker/programmable_logic.h>
 
 #include <marker_logic.h>
+#include <vp/error.h>
 #include <xilinx/common/estimate.h>
 #include <initializer_list>
 
@@ -16,11 +17,23 @@ xilinx::AxiGpioBuild gpio(xilinx::GpioDirection direction) {
   return build;
 }
 
-xilinx::AxiDmaBuild one_channel(bool mm2s) {
+xilinx::AxiDmaBuild one_channel(bool mm2s, std::uint32_t burst_words) {
   xilinx::AxiDmaBuild build;
   build.include_mm2s = mm2s;
   build.include_s2mm = !mm2s;
+  build.burst_beats = burst_words;
   return build;
+}
+
+/// LENGTH must hold a burst.
+void check_length(const xilinx::AxiDma& dma, std::uint32_t burst_words) {
+  const std::uint64_t bytes = std::uint64_t{burst_words} * marker_logic::bytes_per_word;
+  if (bytes < std::uint64_t{1} << dma.length_width) return;
+  throw vp::InputError(std::string(dma.length_width.name()) + " is " +
+                       std::to_string(dma.length_width) + ": a burst of " +
+                       std::to_string(burst_words) + " words (pl.burst_words) has " +
+                       std::to_string(bytes) + " bytes and needs " +
+                       std::to_string(marker_logic::bits_for(bytes + 1, 8)));
 }
 
 }  // namespace
@@ -34,9 +47,10 @@ ProgrammableLogic::ProgrammableLogic(sc_core::sc_module_name name, vp::Clock& sy
       axi_mem_interconnect("axi_mem_interconnect", system_clk),
       axi_gpio_0("axi_gpio_0", system_clk, gpio(xilinx::GpioDirection::all_outputs)),
       axi_gpio_1("axi_gpio_1", system_clk, gpio(xilinx::GpioDirection::all_inputs)),
-      axi_dma_0("axi_dma_0", system_clk, one_channel(true)),
-      axi_dma_1("axi_dma_1", system_clk, one_channel(false)),
+      axi_dma_0("axi_dma_0", system_clk, one_channel(true, burst_words)),
+      axi_dma_1("axi_dma_1", system_clk, one_channel(false, burst_words)),
       concat("concat", 2) {
+  for (const xilinx::AxiDma* dma : {&axi_dma_0, &axi_dma_1}) check_length(*dma, burst_words);
   axi_interconnect.connect(axi_dma_0.s_axi_lite, addresses::dma_image);
   axi_interconnect.connect(axi_dma_1.s_axi_lite, addresses::dma_binary);
   axi_interconnect.connect(axi_gpio_0.s_axi, addresses::gpio_control);

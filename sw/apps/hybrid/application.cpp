@@ -12,6 +12,9 @@ using marker::Status;
 /// Of the memory for binary images that is taken before the first frame: what the thesis' feature
 /// words can address.
 constexpr std::uint32_t usual_pixels = 1024 * 512;
+/// No burst crosses a boundary of its own size.
+constexpr std::uint32_t most_burst_bytes =
+    marker_logic::max_burst_words * marker_logic::bytes_per_word;
 
 constexpr std::uint32_t binary_bytes(const hal_frame& frame) {
   return frame.width * frame.height / 8;
@@ -39,7 +42,7 @@ bool Application::initialise() {
   recovery_due_ = false;
   binary_ = {};
   reserve(usual_pixels / 8);
-  if (link_.initialise()) return true;
+  if (link_.initialise(options_.burst_words * marker_logic::bytes_per_word)) return true;
   apps::Message().text("hybrid: a DMA engine does not leave reset").write();
   return false;
 }
@@ -52,12 +55,14 @@ std::uint64_t Application::counts(double milliseconds) const {
 /// Makes room for a binary image; what is too small is given up.
 void Application::reserve(std::uint32_t bytes) {
   if (binary_.size >= bytes) return;
-  binary_ = hal_dma_allocate(bytes, BurstChain::burst_bytes);
+  binary_ = hal_dma_allocate(bytes, most_burst_bytes);
   if (binary_.data != nullptr) hal_cache_flush(binary_.data, binary_.size);
 }
 
 Status Application::admit(const hal_frame& frame) {
-  if (!marker_logic::is_legal_size(frame.width, frame.height)) return Status::unsupported_size;
+  if (!marker_logic::is_legal_size(frame.width, frame.height, options_.burst_words)) {
+    return Status::unsupported_size;
+  }
   reserve(binary_bytes(frame));
   if (binary_.data == nullptr) return Status::no_memory;
   return Status::ok;

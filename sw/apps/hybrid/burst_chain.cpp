@@ -3,14 +3,14 @@
 
 namespace hybrid {
 
-void BurstChain::start(std::uint32_t address, std::uint32_t bursts, LastInterrupt last) {
+void BurstChain::start(std::uint32_t address, std::uint32_t bytes, LastInterrupt last) {
   last_ = last;
   next_address_ = address;
-  bursts_ = bursts;
+  bursts_ = bytes / burst_bytes_;
   done_ = 0;
   failed_ = false;
   hold_back_last();
-  started(dma_.start(next_address_, burst_bytes));
+  started(dma_.start(next_address_, burst_bytes_));
 }
 
 void BurstChain::hold_back_last() {
@@ -19,7 +19,7 @@ void BurstChain::hold_back_last() {
 
 void BurstChain::started(bool accepted) {
   if (!accepted) return fail(dma_.status());
-  next_address_ += burst_bytes;
+  next_address_ += burst_bytes_;
 }
 
 void BurstChain::release_last() {
@@ -43,7 +43,7 @@ void BurstChain::on_interrupt(void* self) {
     chain.done_ = chain.done_ + 1;
     if (chain.done_ == chain.bursts_) return;
     chain.hold_back_last();
-    chain.started(chain.dma_.start_again(chain.next_address_, burst_bytes));
+    chain.started(chain.dma_.start_again(chain.next_address_, chain.burst_bytes_));
   }
 }
 

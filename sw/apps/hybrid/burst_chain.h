@@ -1,7 +1,6 @@
 #pragma once
 
 #include <drivers/axi_dma.h>
-#include <marker_logic.h>
 
 #include <cstdint>
 
@@ -11,9 +10,11 @@ namespace hybrid {
 /// (thesis 4.5.1).
 class BurstChain {
  public:
-  static constexpr std::uint32_t burst_bytes = marker_logic::burst_bytes;
-
-  bool initialise(const drivers::AxiDmaConfig& config) { return dma_.initialise(config); }
+  /// False if the DMA does not leave reset.
+  bool initialise(const drivers::AxiDmaConfig& config, std::uint32_t burst_bytes) {
+    burst_bytes_ = burst_bytes;
+    return dma_.initialise(config);
+  }
 
   /// What the interrupt of the last burst does, which has no next one to start.
   enum class LastInterrupt {
@@ -21,9 +22,8 @@ class BurstChain {
     waits,  ///< for release_last(), so that it takes no time while something else is urgent
   };
 
-  /// Starts `bursts` bursts from or to `address`.
-  void start(std::uint32_t address, std::uint32_t bursts,
-             LastInterrupt last = LastInterrupt::comes);
+  /// Starts to move `bytes`, whole bursts, from or to `address`.
+  void start(std::uint32_t address, std::uint32_t bytes, LastInterrupt last = LastInterrupt::comes);
 
   /// Lets the last interrupt come, whether the last burst runs already or not.
   void release_last();
@@ -47,6 +47,7 @@ class BurstChain {
   void fail(std::uint32_t status);
 
   drivers::AxiDma dma_;
+  std::uint32_t burst_bytes_;
   std::uint32_t next_address_;
   std::uint32_t bursts_;
   volatile LastInterrupt last_;

@@ -29,6 +29,7 @@ Options read_options() {
   Options options{};
   static_cast<apps::SearchOptions&>(options) = apps::read_search_options();
   options.upload = value(Option::upload) >= 0.5;
+  options.burst_words = static_cast<std::uint32_t>(value(Option::burst_words));
   options.timeout = value(Option::timeout);
   options.binary_timeout = value(Option::binary_timeout);
   return options;

@@ -16,7 +16,8 @@ constexpr std::uint32_t polls_per_look = 65'536;
 
 }  // namespace
 
-bool PlLink::initialise() {
+bool PlLink::initialise(std::uint32_t burst_bytes) {
+  burst_bytes_ = burst_bytes;
   hal_interrupt_enable(false);
   gic_.initialise();
   timer_.initialise();
@@ -41,9 +42,9 @@ void PlLink::shut_down() {
 bool PlLink::initialise_dma() {
   using Channel = drivers::AxiDmaConfig::Channel;
   const bool image =
-      image_.initialise({drivers::addresses::dma_image(), Channel::memory_to_stream});
-  const bool binary =
-      binary_.initialise({drivers::addresses::dma_binary(), Channel::stream_to_memory});
+      image_.initialise({drivers::addresses::dma_image(), Channel::memory_to_stream}, burst_bytes_);
+  const bool binary = binary_.initialise(
+      {drivers::addresses::dma_binary(), Channel::stream_to_memory}, burst_bytes_);
   return image && binary;
 }
 
@@ -85,7 +86,7 @@ bool PlLink::wait_for(const BurstChain& chain, std::uint64_t timeout) {
 Status PlLink::upload(std::uint32_t bus_address, std::uint32_t bytes, std::uint64_t timeout) {
   const marker::FunctionScope scope(marker::Function::upload);
   control(control::wr_en);
-  image_.start(bus_address, bytes / BurstChain::burst_bytes);
+  image_.start(bus_address, bytes);
   const bool over = wait_for(image_, timeout);
   control(0);
   if (image_.failed()) return Status::upload_error;
@@ -99,7 +100,7 @@ void PlLink::prepare_frame(std::uint32_t bus_address, std::uint32_t bytes) {
   control(control::rst);
   control(0);
   // The last packet completes just before the end word: its interrupt would only delay that.
-  binary_.start(bus_address, bytes / BurstChain::burst_bytes, BurstChain::LastInterrupt::waits);
+  binary_.start(bus_address, bytes, BurstChain::LastInterrupt::waits);
 }
 
 void PlLink::start_frame() {

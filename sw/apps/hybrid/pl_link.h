@@ -15,8 +15,9 @@ namespace hybrid {
 /// interrupts.
 class PlLink {
  public:
-  /// Brings up all devices and unmasks interrupts. False if a DMA does not leave reset.
-  bool initialise();
+  /// Brings up all devices and unmasks interrupts. Images travel in bursts of `burst_bytes`. False
+  /// if a DMA does not leave reset.
+  bool initialise(std::uint32_t burst_bytes);
 
   /// Masks interrupts again.
   void shut_down();
@@ -61,6 +62,7 @@ class PlLink {
   drivers::AxiGpio feature_gpio_;
   BurstChain image_;
   BurstChain binary_;
+  std::uint32_t burst_bytes_;
   std::uint32_t packet_;  ///< the control packet as last written
   volatile bool alarm_;
 };

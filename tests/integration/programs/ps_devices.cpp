@@ -8,6 +8,7 @@
 #include <hal/hal.h>
 #include <marker/result.h>
 #include <marker/work.h>
+#include <marker_logic.h>
 #include <uart_registers.h>
 
 namespace {
@@ -66,7 +67,8 @@ void process(const hal_frame& frame, const hal_dma_buffer& binary) {
 int run() {
   clocks.initialise({});
   stopwatch.initialise({1, false, false});
-  if (!console.initialise({uart::uart1_base}) || !link.initialise()) return 1;
+  if (!console.initialise({uart::uart1_base})) return 1;
+  if (!link.initialise(marker_logic::usual_burst_words * marker_logic::bytes_per_word)) return 1;
   const hal_dma_buffer binary = hal_dma_allocate(640 * 480 / 8, 4096);
   while (const hal_frame* frame = hal_frame_next()) {
     process(*frame, binary);

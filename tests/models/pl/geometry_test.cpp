@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(sizes_that_cannot_be_built_are_refused_with_the_reason) {
              "(whole binary words)");
   BOOST_TEST(refusal(96, 50) ==
              "frames of 96x50 px cannot be built: pl.width x pl.height must be a multiple of 1024 "
-             "(whole bursts of 32 words)");
+             "(whole bursts of 32 words; pl.burst_words=2 fits)");
   BOOST_TEST(refusal(0, 0).find("frames of 0x0 px cannot be built: ") == 0u);
 }
 
@@ -134,6 +134,37 @@ BOOST_AUTO_TEST_CASE(wrong_keys_units_and_values_are_refused) {
   BOOST_TEST(refusal({"pl.feature_packaging.buffer_depth=1"}) != "accepted");
   for (const char* wrong : {"pl.corner_detection.threshold=256", "pl.width=640 MHz"}) {
     BOOST_TEST(refusal({wrong}).find('\n') == std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bursts_that_cannot_be_built) {
+  const auto refusal = [](const pl::Geometry& geometry) -> std::string {
+    try {
+      pl::check(geometry);
+    } catch (const vp::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (std::uint32_t words : {2u, 4u, 8u, 16u, 32u, 64u, 128u})
+    BOOST_TEST(refusal({640, 480, words}) == "");
+  BOOST_TEST(refusal({1024, 512, 256}) == "");
+  BOOST_TEST(
+      refusal({640, 480, 256}) ==
+      "frames of 640x480 px cannot be built: pl.width x pl.height must be a multiple of 8192 "
+      "(whole bursts of 256 words; pl.burst_words=128 fits)");
+  BOOST_TEST(refusal({32, 31, 2}) ==
+             "frames of 32x31 px cannot be built: pl.width x pl.height must be a multiple of 64 "
+             "(whole bursts of 2 words)");
+  for (const auto& [words, nearest] : {std::pair<std::uint32_t, const char*>{3, "2"},
+                                       {5, "4"},
+                                       {24, "16"},
+                                       {100, "128"},
+                                       {192, "128"},
+                                       {255, "256"}}) {
+    const std::string text = refusal({640, 480, words});
+    BOOST_TEST(text.find("pl.burst_words is " + std::to_string(words)) == 0u, text);
+    BOOST_TEST(text.find("the nearest is " + std::string(nearest)) != std::string::npos, text);
   }
 }
 

@@ -8,7 +8,11 @@ namespace {
 
 /// The module alone, with a slave behind it. Every method works through whole system clocks.
 struct Bridge : kit::Simulation {
-  explicit Bridge(const std::vector<std::string>& assignments = {}) : settings(assignments) {
+  explicit Bridge(const std::vector<std::string>& assignments = {},
+                  const pl::Geometry& geometry = {})
+      : settings(assignments),
+        made(pl::AxiThresholdBridge::models().list().front().make("axi_threshold_bridge",
+                                                                  {clk, geometry})) {
     ip.ena(ena);
     ip.rst(rst);
     ip.thresh_in(thresh_in);
@@ -39,8 +43,7 @@ struct Bridge : kit::Simulation {
   vp::Signal<bool> ena{"ena", 1, true}, rst{"rst"}, thresh_in{"thresh_in"};
   vp::Signal<std::uint32_t> thresh_data{"thresh_data"};
   vp::AxiStream link{"link"};
-  std::unique_ptr<pl::AxiThresholdBridge> made =
-      pl::AxiThresholdBridge::models().list().front().make("axi_threshold_bridge", {clk, {}});
+  std::unique_ptr<pl::AxiThresholdBridge> made;
   pl::AxiThresholdBridge& ip = *made;
   harness::StreamSink sink{"sink", clk};
 };
@@ -153,7 +156,7 @@ BOOST_AUTO_TEST_CASE(rst_empties_it_and_starts_a_new_packet) {
 }
 
 BOOST_AUTO_TEST_CASE(depth_and_packet_length_are_parameters) {
-  Bridge b({"axi_threshold_bridge.fifo_depth=4", "axi_threshold_bridge.burst_words=8"});
+  Bridge b({"axi_threshold_bridge.fifo_depth=4"}, {640, 480, 8});
   b.sink.accept(false);
   for (std::uint32_t i = 0; i < 10; ++i) b.word(i);
   BOOST_TEST(b.overflow() == 5u);

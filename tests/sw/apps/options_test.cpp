@@ -29,8 +29,9 @@ BOOST_AUTO_TEST_CASE(values_are_read_by_their_place_in_the_table) {
   BOOST_TEST(options.reprojection_stop == 27);
   BOOST_TEST(options.iteration_limit == 28u);
   BOOST_TEST(options.upload);
-  BOOST_TEST(options.timeout == 30);
-  BOOST_TEST(options.binary_timeout == 31);
+  BOOST_TEST(options.burst_words == 30u);
+  BOOST_TEST(options.timeout == 31);
+  BOOST_TEST(options.binary_timeout == 32);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
