@@ -31,12 +31,12 @@ Quad own_order(const Quad& q, unsigned rotation) {
 BOOST_FIXTURE_TEST_SUITE(marker_search, Fixture)
 
 BOOST_AUTO_TEST_CASE(all_ids_in_all_rotations_from_a_drawn_image) {
-  for (const std::uint32_t width : {60u, 24u}) {
-    for (unsigned id = 0; id < marker::dictionary_size; ++id) {
-      for (unsigned rotation = 0; rotation < 4; ++rotation) {
-        const Quad& quad = id % 2 == 0 ? front : tilted;
-        synthetic::Image image(256, 224);
-        image.draw_marker(marker::dictionary[id], own_order(quad, rotation));
+  for (unsigned id = 0; id < marker::dictionary_size; ++id) {
+    for (unsigned rotation = 0; rotation < 4; ++rotation) {
+      const Quad& quad = id % 2 == 0 ? front : tilted;
+      synthetic::Image image(256, 224);
+      image.draw_marker(marker::dictionary[id], own_order(quad, rotation));
+      for (const std::uint32_t width : {60u, 24u}) {
         const Identification found =
             marker::identify_candidate(image.view(), marker::swap_bottom(quad), width);
         BOOST_REQUIRE_MESSAGE(found.found, "id " << id << " rotation " << rotation);
