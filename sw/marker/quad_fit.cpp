@@ -1,5 +1,6 @@
 #include <marker/quad_fit.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,21 +19,21 @@ constexpr Point operator*(double s, Point a) {
 constexpr double dot(Point a, Point b) {
   return a.x * b.x + a.y * b.y;
 }
-double magnitude(double value) {
-  return value < 0 ? -value : value;
-}
 
 /// Around a side that is a guess, so far the edge is looked for, px across it.
 constexpr double first_reach = 3.2;
-/// An edge is measured this many standard deviations of its transition to both sides: a pixel's own
-/// half diagonal where the lens does not blur, the three sigma of a wide blur.
-constexpr double reach_in_deviations = 3;
-/// What is left of the guess after the first pass, px.
-constexpr double slack = 0.15;
+/// Then an edge is measured so many standard deviations of its transition to both sides, but not
+/// less than the half pixel that every edge takes. Wider costs accuracy (each pixel adds its
+/// noise), narrower makes the blur show.
+constexpr double reach_in_deviations = 2.5;
+/// For what the place of the edge is off in the pass before, px.
+constexpr double slack = 0.05;
 /// A marker with smaller cells is too small, px.
 constexpr double least_cell = 1.5;
-/// Beyond the transition, px across the edge: so deep a grey level is read.
-constexpr double level_depth = 3;
+/// So deep beyond the transition a grey level is read, px across the edge: as far as the border's
+/// cell goes, but not less than the first, which tells whether the code's cell is black, too.
+constexpr double least_depth = 3;
+constexpr double most_depth = 10;
 /// The corners are fitted so often, each time around where they were found before.
 constexpr unsigned passes = 4;
 /// A side with fewer crossings is not measured.
@@ -103,9 +104,9 @@ std::array<Side, 4> sides_of(const Source& source, const Quad& quad) {
     const double one = dot(side.from - quad[(i + 2) % 4], side.outward);
     const double other = dot(side.from - quad[(i + 3) % 4], side.outward);
     side.height = one < other ? one : other;
-    side.by_rows = source.image.pixels != nullptr ? magnitude(span.y) >= magnitude(span.x)
+    side.by_rows = source.image.pixels != nullptr ? std::abs(span.y) >= std::abs(span.x)
                                                   : (*source.sides)[i].rows;
-    side.steepness = magnitude(side.by_rows ? side.outward.x : side.outward.y);
+    side.steepness = std::abs(side.by_rows ? side.outward.x : side.outward.y);
   }
   return sides;
 }
@@ -227,7 +228,7 @@ double transition_variance(const Crossing* crossings, std::uint32_t count, const
       const double off = p + 0.5 - c.position;
       const bool is_dark = (off < 0) == c.dark_first;
       const double level = grey(c.strip, p);
-      moment += (is_dark ? level - dark : bright - level) * magnitude(off);
+      moment += (is_dark ? level - dark : bright - level) * std::abs(off);
     }
   }
   const double variance = 2 * moment / (count * (bright - dark)) * side.steepness * side.steepness;
@@ -267,7 +268,7 @@ std::uint32_t keep_near(Crossing* crossings, std::uint32_t count, const Line& li
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Crossing& c = crossings[i];
-    if (magnitude(c.outward - line.offset - line.slope * c.along) <= limit) crossings[kept++] = c;
+    if (std::abs(c.outward - line.offset - line.slope * c.along) <= limit) crossings[kept++] = c;
   }
   return kept;
 }
@@ -275,12 +276,13 @@ std::uint32_t keep_near(Crossing* crossings, std::uint32_t count, const Line& li
 class SideFit {
  public:
   SideFit(const Source& source, const Lens& lens, const std::array<Side, 4>& sides, unsigned which,
-          double reach, const QuadFitOptions& options)
+          double reach, double depth, const QuadFitOptions& options)
       : source_(source),
         lens_(lens),
         sides_(sides),
         which_(which),
         reach_(reach),
+        depth_(depth),
         options_(options) {}
 
   Refusal fit(Line& line) {
@@ -292,7 +294,7 @@ class SideFit {
       for (std::uint32_t i = 0; i < support.count; ++i) collect(support.strips[i]);
     }
     if (!is_covered(count_)) return Refusal::hidden;
-    const Levels levels = read_levels(crossings_.data(), count_, level_depth / side.steepness);
+    const Levels levels = read_levels(crossings_.data(), count_, depth_ / side.steepness);
     if (!(levels.contrast() >= options_.minimum_contrast)) return Refusal::contrast;
     std::uint32_t located = 0;
     for (std::uint32_t i = 0; i < count_; ++i) {
@@ -357,7 +359,7 @@ class SideFit {
   const Lens& lens_;
   const std::array<Side, 4>& sides_;
   unsigned which_;
-  double reach_;
+  double reach_, depth_;
   const QuadFitOptions& options_;
   std::array<Crossing, most_crossings> crossings_;
   std::uint32_t count_ = 0;
@@ -378,7 +380,7 @@ bool meet(const Side& first, const Line& one, const Side& second, const Line& ot
   const double d = one.offset + 0.5 * dot(n, first.from + first.to);
   const double e = other.offset + 0.5 * dot(m, second.from + second.to);
   const double determinant = n.x * m.y - n.y * m.x;
-  if (!(magnitude(determinant) > 1e-3)) return false;
+  if (!(std::abs(determinant) > 1e-3)) return false;
   meeting.by_first = {m.y / determinant, -m.x / determinant};
   meeting.by_second = {-n.y / determinant, n.x / determinant};
   meeting.corner = d * meeting.by_first + e * meeting.by_second;
@@ -417,7 +419,7 @@ void fill_covariance(const std::array<Side, 4>& sides, const std::array<Line, 4>
 
 /// One pass: the sides around `fit.ideal`, and the corners anew.
 Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& options,
-                double& widest, QuadFit& fit) {
+                double& transition_reach, QuadFit& fit) {
   if (!is_convex_clockwise(fit.ideal)) return Refusal::shape;
   const std::array<Side, 4> sides = sides_of(source, fit.ideal);
   double transition = 0;
@@ -427,8 +429,10 @@ Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& op
     // Behind the border's cell the code may begin.
     const double cell = sides[i].height / options.cells;
     if (!(cell >= least_cell)) return Refusal::shape;
-    const double reach = cell / 2 < widest ? cell / 2 : widest;
-    const Refusal refusal = SideFit(source, lens, sides, i, reach, options).fit(lines[i]);
+    const double pixel = (std::abs(sides[i].outward.x) + std::abs(sides[i].outward.y)) / 2;
+    const double reach = std::min(cell / 2, std::max(transition_reach, pixel) + slack);
+    const double depth = std::min(std::max(cell - 2 * reach, least_depth), most_depth);
+    const Refusal refusal = SideFit(source, lens, sides, i, reach, depth, options).fit(lines[i]);
     if (refusal != Refusal::none) return refusal;
     fit.dark += lines[i].dark / 4;
     fit.bright += lines[i].bright / 4;
@@ -443,7 +447,7 @@ Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& op
     fit.image[i] = distort(lens, corners[i].corner);
   }
   fill_covariance(sides, lines, corners, fit.covariance);
-  widest = reach_in_deviations * std::sqrt(transition) + slack;
+  transition_reach = reach_in_deviations * std::sqrt(transition);
   return is_convex_clockwise(fit.ideal) ? Refusal::none : Refusal::shape;
 }
 

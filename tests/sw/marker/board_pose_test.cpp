@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fake_hal.h"
+#include "views.h"
 
 using marker::BoardPose;
 using marker::BoardPoses;
@@ -15,20 +16,13 @@ using marker::CharucoBoard;
 using marker::GridBoard;
 using marker::Places;
 using marker::SeenMarker;
+using views::angle_between;
+using views::rotation_of;
+using views::turn;
 
 namespace {
 
 const Camera camera{381.36, 380, 320, 240};
-constexpr double pi = 3.14159265358979323846;
-
-Eigen::Matrix3d turn(double pitch, double yaw, double roll) {
-  using Eigen::AngleAxisd;
-  using Eigen::Vector3d;
-  return (AngleAxisd(pitch * pi / 180, Vector3d::UnitX()) *
-          AngleAxisd(yaw * pi / 180, Vector3d::UnitY()) *
-          AngleAxisd(roll * pi / 180, Vector3d::UnitZ()))
-      .toRotationMatrix();
-}
 
 SeenMarker seen(const Places& places, const Eigen::Matrix3d& rotation,
                 const Eigen::Vector3d& translation, double sigma = 0.02) {
@@ -41,16 +35,8 @@ SeenMarker seen(const Places& places, const Eigen::Matrix3d& rotation,
   return marker;
 }
 
-Eigen::Matrix3d rotation_of(const BoardPose& pose) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.rotation.data());
-}
-
-double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::AngleAxisd(a.transpose() * b).angle() * 180 / pi;
-}
-
 double distance(const BoardPose& pose, const Eigen::Vector3d& translation) {
-  return (Eigen::Vector3d(pose.translation.data()) - translation).norm();
+  return (views::translation_of(pose) - translation).norm();
 }
 
 struct Fixture {

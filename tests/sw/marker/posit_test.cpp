@@ -7,16 +7,20 @@
 #include <limits>
 
 #include "fake_hal.h"
+#include "views.h"
 
 using marker::Camera;
 using marker::Pose;
 using marker::PositOptions;
 using marker::Quad;
+using views::angle_between;
+using views::rotation_of;
+using views::translation_of;
+using views::turn;
 
 namespace {
 
 const Camera camera{381.36, 381.36, 320, 240};
-constexpr double pi = 3.14159265358979323846;
 
 /// Corners that a pinhole camera sees, clockwise from the marker's top left.
 Quad project(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
@@ -34,27 +38,6 @@ Quad project(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation
 Quad rounded(Quad quad) {
   for (auto& p : quad) p = {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5};
   return quad;
-}
-
-Eigen::Matrix3d turn(double pitch, double yaw, double roll) {
-  using Eigen::AngleAxisd;
-  using Eigen::Vector3d;
-  return (AngleAxisd(pitch * pi / 180, Vector3d::UnitX()) *
-          AngleAxisd(yaw * pi / 180, Vector3d::UnitY()) *
-          AngleAxisd(roll * pi / 180, Vector3d::UnitZ()))
-      .toRotationMatrix();
-}
-
-Eigen::Matrix3d rotation_of(const Pose& pose) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.rotation.data());
-}
-
-Eigen::Vector3d translation_of(const Pose& pose) {
-  return Eigen::Map<const Eigen::Vector3d>(pose.translation.data());
-}
-
-double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::AngleAxisd(a.transpose() * b).angle() * 180 / pi;
 }
 
 struct Fixture {
