@@ -174,6 +174,16 @@ BOOST_AUTO_TEST_CASE(a_rendered_marker) {
     BOOST_TEST(sx < 0.02);
     BOOST_TEST(sy < 0.02);
   }
+  const auto covariance = [&](unsigned i, unsigned j) { return found.fit.covariance[8 * i + j]; };
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned j = 0; j < i; ++j) {
+      BOOST_TEST(covariance(i, j) == covariance(j, i), boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(covariance(i, j) * covariance(i, j) < covariance(i, i) * covariance(j, j));
+    }
+  }
+  // Corners that do not share a side know nothing of each other.
+  BOOST_TEST(covariance(0, 4) == 0);
+  BOOST_TEST(covariance(3, 7) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(gathered_strips_are_as_good_as_the_frame) {
