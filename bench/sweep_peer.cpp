@@ -9,7 +9,6 @@
 
 #include <cli/commands.h>
 #include <cli/sweep_platform.h>
-#include <cli/zynq_simulation.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
 #include <vp/hierarchy.h>
@@ -44,12 +43,10 @@ void measure(const std::string& folder, const std::string& output) {
   std::vector<std::size_t> all(manifest.points.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   cli::warm_up(manifest, all);
-  const cli::SimulationFactory make = cli::make_zynq_simulation;
-  const sweep::RunPoint in_memory = cli::point_runner(make);
   std::ostringstream said;
   const double bare = seconds_a_point(manifest, [&](const sweep::PointRun& run) {
     sweep::PointResult result;
-    return in_memory(run, result, said);
+    return cli::run_point(run, result, said);
   });
   const double written = seconds_a_point(manifest, [&](const sweep::PointRun& run) {
     cli::RunOptions options = cli::options_of(run);
@@ -57,7 +54,7 @@ void measure(const std::string& folder, const std::string& output) {
     options.no_pictures = options.no_report = options.quiet = true;
     std::ostringstream out;
     vp::begin_fresh_context();
-    return cli::run(options, {}, make, out, said);
+    return cli::run(options, {}, out, said);
   });
   std::cout << 1e3 * bare << ' ' << 1e3 * written << std::endl;
 }

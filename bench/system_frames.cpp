@@ -5,7 +5,7 @@
 // Options such as --set=fidelity=clocked choose the platform.
 #include <sys/resource.h>
 
-#include <run/session.h>
+#include <run/simulation.h>
 #include <vp/configuration.h>
 #include <stdexcept>
 
@@ -14,7 +14,7 @@
 
 namespace {
 
-using platform::Session;
+using platform::Simulation;
 using platform::input::InputFrame;
 using platform::report::FrameReport;
 
@@ -29,7 +29,7 @@ vp::Configuration configuration_of(const bench::Arguments& arguments) {
   return configuration;
 }
 
-/// Frames for the session, and the timer: it runs from the first frame after the warm-up to the
+/// Frames for the simulation, and the timer: it runs from the first frame after the warm-up to the
 /// one that is no longer given.
 class Frames {
  public:
@@ -75,14 +75,14 @@ double peak_memory_mb() {
 void measure(benchmark::State& state, const bench::Arguments& arguments) {
   vp::Configuration configuration = configuration_of(arguments);
   const vp::Configuration::Scope scope(configuration);
-  Session session({BENCH_PROGRAM, std::nullopt});
+  Simulation simulation({BENCH_PROGRAM});
   configuration.check_unused();
-  Frames frames(state, arguments.image, session.image_size());
-  session.run([&] { return frames.next(); },
-              [&](FrameReport&& report) { return frames.take(std::move(report)); });
+  Frames frames(state, arguments.image, simulation.image_size());
+  simulation.run([&] { return frames.next(); },
+                 [&](FrameReport&& report) { return frames.take(std::move(report)); });
   frames.describe_last();
   state.counters["memory_mb"] = peak_memory_mb();
-  state.SetLabel(session.facts().fidelity);
+  state.SetLabel(simulation.facts().fidelity);
 }
 
 }  // namespace

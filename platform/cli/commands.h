@@ -2,17 +2,22 @@
 
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <cli/options.h>
-#include <cli/simulation.h>
 #include <host/process.h>
 #include <report/result_json.h>
+#include <vp/configuration.h>
 
 namespace CLI {
 class App;
 }
+namespace platform {
+class Simulation;
+struct SimulationOptions;
+}  // namespace platform
 
 /// The commands of the program. Each returns the exit code and throws vp::InputError for what the
 /// user got wrong.
@@ -29,8 +34,8 @@ using host::wrong_input;
 /// Runs the platform on the inputs. Everything is checked before the first frame and before
 /// anything is written; results up to an error in the middle are kept, and the result file says
 /// `incomplete`.
-int run(const RunOptions& options, const std::vector<std::string>& arguments,
-        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+int run(const RunOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
+        std::ostream& err);
 
 /// What a run found that writes nothing.
 struct MemoryRun {
@@ -40,20 +45,17 @@ struct MemoryRun {
 
 /// run() without files and console: no pictures, page, trace. `result` is filled when run() would
 /// have written result.json, also if this throws.
-int run_in_memory(const RunOptions& options, const SimulationFactory& make_simulation,
-                  MemoryRun& result, std::ostream& err);
+int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& err);
 
 int list_scenes(const ScenesOptions& options, std::ostream& out);
 
 /// Lists what may stand in the programmable logic.
 int list_designs(const DesignsOptions& options, std::ostream& out);
 
-int print_configuration(const ConfigOptions& options, const SimulationFactory& make_simulation,
-                        std::ostream& out);
+int print_configuration(const ConfigOptions& options, std::ostream& out);
 
 /// Prints memory map, registers and interrupts of the platform as it is configured.
-int print_map(const MapOptions& options, const SimulationFactory& make_simulation,
-              std::ostream& out);
+int print_map(const MapOptions& options, std::ostream& out);
 
 /// Makes the page of a folder again, or one that compares two runs.
 int make_report(const ReportOptions& options, std::ostream& out);
@@ -61,7 +63,7 @@ int make_report(const ReportOptions& options, std::ostream& out);
 /// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
 /// them with what the thesis prints. run_failed: a gate failed.
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
-             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+             std::ostream& out, std::ostream& err);
 
 /// Lists the chips that a design can be built for, or all figures of one.
 int list_devices(const DevicesOptions& options, std::ostream& out);
@@ -80,8 +82,8 @@ int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
 /// of one, for benches of RTL; `rtl compare` compares a trace of a simulation made elsewhere with
 /// one of ours. run_failed: they differ, and trace and page lie in the folder for results; or there
 /// was nothing to compare.
-int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
-            const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err);
+int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
+            std::ostream& err);
 /// Synthesises RTL with Yosys: primitives, and Fmax as a range.
 int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out);
 
@@ -91,11 +93,10 @@ int ask_trace(const TraceCommandOptions& options, std::ostream& out);
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 
 /// Computes the points of a sweep, and merges their results.
-int sweep_points(const SweepOptions& options, const SimulationFactory& make_simulation,
-                 std::ostream& out, std::ostream& err);
+int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& err);
 
 /// Computes the points of one task of a sweep on a cluster.
-int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation);
+int sweep_worker(const SweepWorkerOptions& options);
 
 /// Lists what sweeps can be judged by.
 int list_metrics(const MetricsOptions& options, std::ostream& out);
@@ -116,7 +117,6 @@ std::optional<std::string> program_of(const PlatformOptions& options);
 
 /// Builds the platform and checks that every key the user set was one. Throws vp::InputError.
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,
-                                  const SimulationOptions& options,
-                                  const SimulationFactory& make_simulation);
+                                  const SimulationOptions& options);
 
 }  // namespace platform::cli

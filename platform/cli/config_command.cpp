@@ -3,6 +3,7 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <designs/designs.h>
+#include <run/simulation.h>
 #include <vp/decimal.h>
 #include <vp/error.h>
 
@@ -42,22 +43,20 @@ std::optional<std::string> program_of(const PlatformOptions& options) {
 }
 
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,
-                                  const SimulationOptions& options,
-                                  const SimulationFactory& make_simulation) {
+                                  const SimulationOptions& options) {
   const vp::Configuration::Scope scope(configuration);
-  std::unique_ptr<Simulation> simulation = make_simulation(options);
+  auto simulation = std::make_unique<Simulation>(options);
   configuration.check_unused();
   return simulation;
 }
 
-int print_configuration(const ConfigOptions& options, const SimulationFactory& make_simulation,
-                        std::ostream& out) {
+int print_configuration(const ConfigOptions& options, std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
   choose_platform(options, options.configuration, configuration);
   SimulationOptions asked;
   asked.program = program_of(options);
-  build(configuration, asked, make_simulation);
+  build(configuration, asked);
   out << configuration.to_yaml();
   return done;
 }

@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include <cli/simulation.h>
 #include <host/output_folder.h>
 #include <input/frame_source.h>
 #include <page/run_extras.h>
 #include <report/result_writer.h>
+#include <run/simulation.h>
 #include <vp/progress.h>
 
 namespace platform::cli {

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include <cli/program.h>
-#include <cli/zynq_simulation.h>
 #include <host/process.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
-int sc_main(int, char**) {
+extern "C" int sc_main(int, char**) {
   return 1;
 }
 
@@ -17,8 +16,7 @@ int main(int argc, char* argv[]) {
   platform::host::prepare_signals();
   ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const int code = platform::cli::run_program(arguments, platform::cli::make_zynq_simulation,
-                                              std::cout, std::cerr);
+  const int code = platform::cli::run_program(arguments, std::cout, std::cerr);
   if (code != platform::host::done) return code;
   return platform::host::exit_code_of(
       [] {

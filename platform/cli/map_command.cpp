@@ -4,10 +4,11 @@
 
 #include <cli/commands.h>
 #include <cli/map.h>
-#include <cli/program.h>
+#include <run/simulation.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
+#include <zynq/hardware_map.h>
 
 namespace platform::cli {
 
@@ -111,11 +112,10 @@ void print_overview(const HardwareMap& map, bool registers, std::ostream& out) {
 
 }  // namespace
 
-int print_map(const MapOptions& options, const SimulationFactory& make_simulation,
-              std::ostream& out) {
+int print_map(const MapOptions& options, std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  const HardwareMap map = build(configuration, {}, make_simulation)->map();
+  const HardwareMap map = hardware_map(build(configuration, {})->zynq());
   if (options.markdown) {
     out << map_as_markdown(map);
   } else if (options.xparameters) {

@@ -12,27 +12,26 @@ namespace platform::cli {
 namespace {
 
 int run_command(const CLI::App& app, const CommandLine& line,
-                const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
-                std::ostream& out, std::ostream& err) {
+                const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   const std::string command = app.get_subcommands().front()->get_name();
-  if (command == "run") return run(line.run, arguments, make_simulation, out, err);
+  if (command == "run") return run(line.run, arguments, out, err);
   if (command == "scenes") return list_scenes(line.scenes, out);
   if (command == "designs") return list_designs(line.designs, out);
-  if (command == "config") return print_configuration(line.config, make_simulation, out);
-  if (command == "map") return print_map(line.map, make_simulation, out);
+  if (command == "config") return print_configuration(line.config, out);
+  if (command == "map") return print_map(line.map, out);
   if (command == "report") return make_report(line.report, out);
   if (command == "validate") {
-    return validate(line.validate, arguments, make_simulation, out, err);
+    return validate(line.validate, arguments, out, err);
   }
   if (command == "devices") return list_devices(line.devices, out);
   if (command == "clocks") return list_clocks(line.clocks, out);
   if (command == "power")
     return line.power.design.empty() ? print_power_table(line.power, out)
                                      : print_power_estimate(line.power, out);
-  if (command == "rtl") return ask_rtl(line.rtl, arguments, make_simulation, out, err);
+  if (command == "rtl") return ask_rtl(line.rtl, arguments, out, err);
   if (command == "trace") return ask_trace(line.trace, out);
-  if (command == "sweep") return sweep_points(line.sweep, make_simulation, out, err);
-  if (command == "sweep-worker") return sweep_worker(line.sweep_worker, make_simulation);
+  if (command == "sweep") return sweep_points(line.sweep, out, err);
+  if (command == "sweep-worker") return sweep_worker(line.sweep_worker);
   if (command == "metrics") return list_metrics(line.metrics, out);
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
@@ -62,8 +61,7 @@ std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
-                std::ostream& out, std::ostream& err) {
+int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CommandLine line;
   const std::unique_ptr<CLI::App> app = make_app(line);
   try {
@@ -76,8 +74,7 @@ int run_program(const std::vector<std::string>& arguments, const SimulationFacto
     return host::exit_code_of([&] { return written(done, out); }, err);
   }
   return host::exit_code_of(
-      [&] { return written(run_command(*app, line, arguments, make_simulation, out, err), out); },
-      err);
+      [&] { return written(run_command(*app, line, arguments, out, err), out); }, err);
 }
 
 }  // namespace platform::cli

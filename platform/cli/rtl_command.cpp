@@ -90,8 +90,8 @@ std::uint64_t frames_of(const fs::path& folder) {
   return result.at("summary").at("frames").get<std::uint64_t>();
 }
 
-int check(const RtlOptions& options, const std::vector<std::string>& arguments,
-          const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+int check(const RtlOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
+          std::ostream& err) {
   const fs::path folder = options.run.output;
   const std::string trace_file = (folder / "lockstep.vcd").string();
   const std::string page_file = (folder / "lockstep.gtkw").string();
@@ -109,7 +109,7 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments,
   std::error_code ignored;
   for (const std::string& earlier : {trace_file, page_file}) fs::remove(earlier, ignored);
   try {
-    const int code = run(run_options, arguments, make_simulation, summary, err);
+    const int code = run(run_options, arguments, summary, err);
     if (code != done) return code;
   } catch (const vp::ProtocolError& error) {
     if (!fs::exists(trace_file, ignored)) throw;
@@ -124,7 +124,7 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments,
 }
 
 int write_vectors(const RtlOptions& options, const std::vector<std::string>& arguments,
-                  const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+                  std::ostream& out, std::ostream& err) {
   host::prepare_output_folder(options.run.output);
   const fs::path folder = fs::absolute(options.run.output);
   RunOptions run_options = options.run;
@@ -133,7 +133,7 @@ int write_vectors(const RtlOptions& options, const std::vector<std::string>& arg
                                                   "=vectors:" + folder.string());
   run_options.no_pictures = run_options.no_report = run_options.quiet = true;
   std::ostringstream summary;  // of a run that nobody asked for
-  const int code = run(run_options, arguments, make_simulation, summary, err);
+  const int code = run(run_options, arguments, summary, err);
   if (code != done) return code;
   out << "wrote stimulus.hex, response.hex, bench.sv and bench.vhd of "
       << report::counted(frames_of(folder), "frame") << " into " << options.run.output
@@ -185,13 +185,12 @@ int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ost
 
 }  // namespace
 
-int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments,
-            const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
+            std::ostream& err) {
   if (options.command == "synth") return synthesise_rtl(options.synth, out);
-  if (options.command == "vectors")
-    return write_vectors(options, arguments, make_simulation, out, err);
+  if (options.command == "vectors") return write_vectors(options, arguments, out, err);
   if (options.command == "compare") return compare_traces(options.compare, out, err);
-  return check(options, arguments, make_simulation, out, err);
+  return check(options, arguments, out, err);
 }
 
 }  // namespace platform::cli

@@ -14,7 +14,6 @@
 #include <cli/commands.h>
 #include <cli/frame_runner.h>
 #include <cli/point_options.h>
-#include <cli/program.h>
 #include <cli/provenance.h>
 #include <cli/trace_window.h>
 #include <host/output_folder.h>
@@ -83,8 +82,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
     throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
   }
   result.timeline_frames = options.timeline_frames;
-  result.bus_log = options.log_bus;
-  result.bus_log_filter = options.log_bus_filter;
+  if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
   result.register_coverage = options.register_coverage;
   return result;
 }
@@ -288,8 +286,7 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
 
 /// The result goes to `memory`, and nothing is written; null: to files, as the options say.
 int run_into(MemoryRun* memory, const RunOptions& asked_for,
-             const std::vector<std::string>& arguments, const SimulationFactory& make_simulation,
-             std::ostream& out, std::ostream& err) {
+             const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   const HostClock::time_point start = HostClock::now();
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
@@ -298,7 +295,8 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   SimulationOptions asked = simulation_options(options);
   const bool page = !options.no_report && !page::page_template().empty();
   if (!page && !options.timeline) asked.timeline_frames = 0;
-  const std::unique_ptr<Simulation> simulation = build(configuration, asked, make_simulation);
+  if (!memory) asked.console = &out;
+  const std::unique_ptr<Simulation> simulation = build(configuration, asked);
   const auto source =
       input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
   FrameRunner runner(*source);
@@ -316,7 +314,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   std::unique_ptr<report::ResultWriter> file;
   if (folder) file = std::make_unique<report::ResultWriter>(*folder);
   report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
-  const host::InterruptGuard guard([&] { simulation->interrupt(); });
+  const host::InterruptGuard guard([] { Simulation::interrupt(); });
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
   runner.run(*simulation, {folder && !options.no_pictures ? &*folder : nullptr, !options.quiet, bar,
@@ -357,17 +355,16 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
 
 }  // namespace
 
-int run(const RunOptions& options, const std::vector<std::string>& arguments,
-        const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
-  return run_into(nullptr, options, arguments, make_simulation, out, err);
+int run(const RunOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
+        std::ostream& err) {
+  return run_into(nullptr, options, arguments, out, err);
 }
 
-int run_in_memory(const RunOptions& options, const SimulationFactory& make_simulation,
-                  MemoryRun& result, std::ostream& err) {
+int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& err) {
   RunOptions silent = options;
   silent.no_pictures = silent.no_report = silent.quiet = true;
   std::ostringstream unread;
-  return run_into(&result, silent, {}, make_simulation, unread, err);
+  return run_into(&result, silent, {}, unread, err);
 }
 
 }  // namespace platform::cli

@@ -178,9 +178,8 @@ std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
 
 sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
                      const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     const SimulationFactory& make_simulation, std::ostream& err) {
+                     std::ostream& err) {
   if (pending.empty()) return {};
-  const sweep::RunPoint run = point_runner(make_simulation);
   const host::InterruptGuard guard;
   vp::Progress bar(manifest.name, pending.size());
   const auto progress = [&](std::uint64_t points) { bar.update(points); };
@@ -188,12 +187,12 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
     warm_up(manifest, {pending.front()});
     const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name,
                                     points_a_process(manifest, options.isolate)};
-    return run_slurm(store, manifest, pending, slurm, run, progress, err);
+    return run_slurm(store, manifest, pending, slurm, run_point, progress, err);
   }
   warm_up(manifest, pending);
   const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
                                   points_a_process(manifest, options.isolate)};
-  return run_local(store, manifest, pending, local, run, progress);
+  return run_local(store, manifest, pending, local, run_point, progress);
 }
 
 /// What was done, and what stands in the folder for it.
@@ -240,13 +239,12 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
 
 }  // namespace
 
-int sweep_points(const SweepOptions& options, const SimulationFactory& make_simulation,
-                 std::ostream& out, std::ostream& err) {
+int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& err) {
   if (options.list) return list_studies(out);
   if (options.file.empty())
     throw vp::InputError("sweep: name a YAML file, or a study that 'markervp sweep --list' shows");
   const sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
-  const sweep::Platform platform = sweep_platform(make_simulation);
+  const sweep::Platform platform = sweep_platform();
   const sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
   if (options.dry_run) return dry_run(options, manifest, platform, out);
   try {
@@ -255,7 +253,7 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
     Before before = look_for_results(store, manifest, options.retry_failed, err);
     mention_others(store, manifest, err);
     store.write_manifest(manifest);
-    sweep::Tally tally = compute(options, store, manifest, before.pending, make_simulation, err);
+    sweep::Tally tally = compute(options, store, manifest, before.pending, err);
     return conclude(options, store, manifest, std::move(before), std::move(tally), out, err);
   } catch (const vp::OutputError& error) {
     throw vp::OutputError(std::string(error.what()) +
@@ -263,11 +261,11 @@ int sweep_points(const SweepOptions& options, const SimulationFactory& make_simu
   }
 }
 
-int sweep_worker(const SweepWorkerOptions& options, const SimulationFactory& make_simulation) {
+int sweep_worker(const SweepWorkerOptions& options) {
   const sweep::Store store(options.folder);
   const host::InterruptGuard guard;
-  return sweep::run_slurm_task(store, options.submission, options.task, warm_up,
-                               point_runner(make_simulation), options.points_a_process);
+  return sweep::run_slurm_task(store, options.submission, options.task, warm_up, run_point,
+                               options.points_a_process);
 }
 
 }  // namespace platform::cli

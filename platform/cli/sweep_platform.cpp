@@ -6,12 +6,12 @@
 #include <tuple>
 
 #include <cli/commands.h>
-#include <cli/program.h>
 #include <cli/provenance.h>
 #include <designs/designs.h>
 #include <host/child.h>
 #include <input/frame_source.h>
 #include <run/program_file.h>
+#include <run/simulation.h>
 #include <sweep/axes.h>
 #include <vp/error.h>
 #include <vp/hierarchy.h>
@@ -58,14 +58,13 @@ sweep::Elaborated elaborated_from(const Json& json) {
   return result;
 }
 
-sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin,
-                            const SimulationFactory& make_simulation) {
+sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin) {
   host::Child child([&](std::ostream& out, std::ostream&) {
     vp::Configuration configuration;
     for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
     SimulationOptions options;
     options.program = if_named(build.program);
-    const auto simulation = cli::build(configuration, options, make_simulation);
+    const auto simulation = cli::build(configuration, options);
     out << "\n" << to_json(configuration.parameters(), simulation->image_size()).dump();
     return done;
   });
@@ -82,11 +81,9 @@ sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin
 
 }  // namespace
 
-sweep::Platform sweep_platform(const SimulationFactory& make_simulation) {
+sweep::Platform sweep_platform() {
   sweep::Platform platform;
-  platform.elaborate = [&make_simulation](const sweep::Build& build, const std::string& origin) {
-    return elaborate(build, origin, make_simulation);
-  };
+  platform.elaborate = elaborate;
   platform.program_file = [](const std::string& program, const std::string& design) {
     return program.empty() ? usual_program(design_named(design)) : program_file(program);
   };
@@ -108,24 +105,21 @@ RunOptions options_of(const sweep::PointRun& point) {
   return options;
 }
 
-sweep::RunPoint point_runner(const SimulationFactory& make_simulation) {
-  return [&make_simulation](const sweep::PointRun& point, sweep::PointResult& result,
-                            std::ostream& err) {
-    vp::begin_fresh_context();
-    MemoryRun found;
-    const auto hand_over = [&] {
-      result.result = found.result.take();
-      result.configuration = std::move(found.configuration);
-    };
-    try {
-      const int code = run_in_memory(options_of(point), make_simulation, found, err);
-      hand_over();
-      return code;
-    } catch (...) {
-      hand_over();
-      throw;
-    }
+int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err) {
+  vp::begin_fresh_context();
+  MemoryRun found;
+  const auto hand_over = [&] {
+    result.result = found.result.take();
+    result.configuration = std::move(found.configuration);
   };
+  try {
+    const int code = run_in_memory(options_of(point), found, err);
+    hand_over();
+    return code;
+  } catch (...) {
+    hand_over();
+    throw;
+  }
 }
 
 void warm_up(const sweep::Manifest& manifest, const std::vector<std::size_t>& positions) {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include <cli/commands.h>
-#include <cli/program.h>
 #include <host/child.h>
 #include <host/output_folder.h>
 #include <input/frame_source.h>
@@ -72,7 +71,7 @@ host::ChildEnd watch(host::Child& run, vp::Progress& bar, const std::atomic<std:
 
 /// Both systems on all images, side by side if there are jobs enough.
 int run_systems(const ValidateOptions& options, const std::vector<std::string>& arguments,
-                const SimulationFactory& make_simulation, std::ostream& err) {
+                std::ostream& err) {
   std::vector<host::Child> children;
   std::vector<host::ChildEnd> ends;
   const auto memory =
@@ -84,7 +83,7 @@ int run_systems(const ValidateOptions& options, const std::vector<std::string>& 
     RunOptions run_it = run_options(options, system);
     run_it.frames_done = &frames_done;
     children.emplace_back([&, run_it](std::ostream& child_out, std::ostream& child_err) {
-      return run(run_it, arguments, make_simulation, child_out, child_err);
+      return run(run_it, arguments, child_out, child_err);
     });
     if (options.jobs == 1) ends.push_back(watch(children.back(), bar, frames_done));
   }
@@ -138,11 +137,11 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
 }  // namespace
 
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
-             const SimulationFactory& make_simulation, std::ostream& out, std::ostream& err) {
+             std::ostream& out, std::ostream& err) {
   const auto published = validation::read_published(validation::published_file());
   if (options.markdown) check_page(*options.markdown);
   host::prepare_output_folder(options.output);
-  if (const int code = run_systems(options, arguments, make_simulation, err); code != done) {
+  if (const int code = run_systems(options, arguments, err); code != done) {
     return code;
   }
   const validation::Measured measured = read_runs(options);

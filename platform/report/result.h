@@ -15,7 +15,7 @@
 
 /// What a design costs: power, resources, and whether it meets its clocks.
 
-/// What a run found, as plain values: filled by the session that runs the platform, read by
+/// What a run found, as plain values: filled by the simulation, read by
 /// result.json, the console and the pictures. No simulation inside.
 
 namespace platform::report {

@@ -7,7 +7,7 @@
 namespace platform::report {
 
 /// What happened when, on the first frames of a run: intervals by engine, and levels that change.
-/// Plain values; recorded by the session.
+/// Plain values; recorded by the simulation.
 struct Timeline {
   struct Span {
     std::uint64_t start_ps = 0;

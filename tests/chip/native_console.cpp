@@ -1,6 +1,6 @@
 #include "native_console.h"
 
-#include <run/session.h>
+#include <run/simulation.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -12,11 +12,11 @@ std::vector<std::string> native_console(
   vp::Configuration configuration;
   for (const auto& [path, value] : settings) configuration.set(path, value);
   const vp::Configuration::Scope scope(configuration);
-  platform::Session session({program_file, std::nullopt});
+  platform::Simulation simulation({program_file});
   configuration.check_unused();
   std::vector<std::string> lines;
-  session.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
-  session.run([]() -> const platform::input::InputFrame* { return nullptr; },
-              [](platform::report::FrameReport&&) { return true; });
+  simulation.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
+  simulation.run([]() -> const platform::input::InputFrame* { return nullptr; },
+                 [](platform::report::FrameReport&&) { return true; });
   return lines;
 }

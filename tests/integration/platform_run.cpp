@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include <input/frame_source.h>
-#include <run/session.h>
+#include <run/simulation.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -15,7 +15,7 @@ namespace integration {
 
 namespace {
 
-using platform::Session;
+using platform::Simulation;
 using platform::input::ImageSize;
 using platform::input::InputFrame;
 using platform::report::FrameReport;
@@ -28,13 +28,13 @@ PlatformRun run(const Settings& settings, System system,
   vp::Configuration configuration;
   for (const auto& [path, value] : settings) configuration.set(path, value);
   const vp::Configuration::Scope scope(configuration);
-  Session session({system == System::hybrid ? MARKERVP_HYBRID : MARKERVP_PS_ONLY, std::nullopt});
+  Simulation simulation({system == System::hybrid ? MARKERVP_HYBRID : MARKERVP_PS_ONLY});
   configuration.check_unused();
 
   PlatformRun result;
-  const Next next = open(session.image_size());
+  const Next next = open(simulation.image_size());
   std::optional<InputFrame> current;
-  session.run(
+  simulation.run(
       [&]() -> const InputFrame* {
         current = next();
         return current ? &*current : nullptr;
@@ -46,7 +46,7 @@ PlatformRun run(const Settings& settings, System system,
         result.frames.push_back(std::move(report));
         return true;
       });
-  result.facts = session.facts();
+  result.facts = simulation.facts();
   return result;
 }
 

@@ -1,6 +1,6 @@
 // SLCR, UART and private timer in the whole platform, through their drivers.
 #include <input/frame_source.h>
-#include <run/session.h>
+#include <run/simulation.h>
 #include <vp/configuration.h>
 #include <boost/test/unit_test.hpp>
 #include <optional>
@@ -10,7 +10,7 @@
 #include "platform_run.h"
 #include "simulation.h"
 
-using platform::Session;
+using platform::Simulation;
 using platform::input::InputFrame;
 using platform::report::FrameReport;
 
@@ -24,15 +24,15 @@ struct DeviceRun {
     const kit::Simulation context;
     vp::Configuration configuration;
     const vp::Configuration::Scope scope(configuration);
-    Session session({MARKERVP_PS_DEVICES, std::nullopt});
-    platform::Zynq& zynq = session.zynq();
+    Simulation simulation({MARKERVP_PS_DEVICES});
+    platform::Zynq& zynq = simulation.zynq();
     zynq.ps.uart1.console.connect([this](const std::string& line) { lines.push_back(line); });
 
     platform::input::InputOptions options;
-    options.size = session.image_size();
+    options.size = simulation.image_size();
     auto source = platform::input::open_inputs(scenes, options);
     std::optional<InputFrame> current;
-    session.run(
+    simulation.run(
         [&]() -> const InputFrame* {
           current = source->next();
           return current ? &*current : nullptr;
@@ -42,7 +42,7 @@ struct DeviceRun {
           pixel_clocks.push_back(zynq.ps.fclk_clk1.clk.frequency_hz());
           return true;
         });
-    warnings = session.reports().count(sc_core::SC_WARNING);
+    warnings = simulation.reports().count(sc_core::SC_WARNING);
   }
   std::vector<FrameReport> frames;
   std::vector<std::uint64_t> pixel_clocks;  ///< when each frame's report came

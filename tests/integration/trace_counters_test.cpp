@@ -5,7 +5,7 @@
 
 #include <designs/marker/marker_design.h>
 #include <input/frame_source.h>
-#include <run/session.h>
+#include <run/simulation.h>
 #include <trace/statistics.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>
@@ -45,12 +45,12 @@ Counted run(const std::vector<std::pair<std::string, std::string>>& settings) {
   const vp::Configuration::Scope scope(configuration);
   vp::TraceOptions trace;
   trace.file = folder / "t.vcd";
-  platform::Session session({MARKERVP_HYBRID, trace});
+  platform::Simulation simulation({MARKERVP_HYBRID, trace});
   platform::input::InputOptions options;
-  options.size = session.image_size();
+  options.size = simulation.image_size();
   const auto source = platform::input::open_inputs({"demo", "z0.5", "z1.0"}, options);
   std::optional<platform::input::InputFrame> current;
-  session.run(
+  simulation.run(
       [&]() -> const platform::input::InputFrame* {
         current = source->next();
         return current ? &*current : nullptr;

@@ -99,6 +99,18 @@ BOOST_AUTO_TEST_CASE(a_file_grows_too_large) {
   BOOST_TEST(frames < 1000u);
 }
 
+BOOST_AUTO_TEST_CASE(an_input_goes_bad_in_the_middle) {
+  write_image("grey.pgm");
+  // The pipe has no room for the reports of all frames before the image is damaged.
+  const kit::Outcome outcome = shell(
+      "\"$markervp\" run $(yes z1.0 | head -200) grey.pgm --no-pictures --no-report | "
+      "{ read -r first; printf 'P5 640 480 255\\n...' > grey.pgm; cat > rest; }; "
+      "exit ${PIPESTATUS[0]}");
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(contains(outcome.err, "'grey.pgm' is truncated"), outcome.err);
+  BOOST_TEST(check_kept(*this / "out", "stopped by an error", false) == 200u);
+}
+
 BOOST_AUTO_TEST_CASE(the_disk_becomes_full) {
   const SmallDisk disk(*this / "disk");
   if (!disk.mounted()) return;

@@ -1,46 +1,23 @@
 #pragma once
 
-#include <cli/program.h>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "../../kit/simulation.h"
-#include "fake_simulation.h"
-#include "temporary_files.h"
+#include "child_process.h"
 
 namespace cli_test {
 
-/// Runs the program as a user does, with a fake platform, in a folder of its own.
-class Terminal : kit::Simulation {
- public:
-  int run(std::vector<std::string> arguments) {
-    out.str("");
-    err.str("");
-    return platform::cli::run_program(
-        arguments,
-        [this](const platform::cli::SimulationOptions& options) {
-          asked = options;
-          return std::make_unique<FakeSimulation>(behaviour);
-        },
-        out, err);
+/// Runs the program as a user does, in a folder of its own.
+struct Terminal {
+  int run(const std::vector<std::string>& arguments) {
+    const kit::Outcome outcome = kit::run_process(MARKERVP_EXECUTABLE, arguments, folder.path());
+    out = outcome.out;
+    err = outcome.err;
+    return outcome.exit_code;
   }
-
-  /// The same with `run`, and the results in `results`.
-  int run_inputs(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--output", folder / "results"});
-    return run(arguments);
-  }
-
-  bool has_results() const { return std::filesystem::exists(folder / "results"); }
-  std::string result() const { return kit::read_file(folder / "results/result.json"); }
 
   kit::TemporaryFolder folder;
-  FakeSimulation::Behaviour behaviour;
-  platform::cli::SimulationOptions asked;
-  std::ostringstream out;
-  std::ostringstream err;
+  std::string out, err;  ///< what it printed last
 };
 
 inline bool contains(const std::string& text, const std::string& part) {

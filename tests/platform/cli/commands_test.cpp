@@ -1,4 +1,5 @@
 #include <cli/trace_window.h>
+#include <vp/error.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -12,20 +13,19 @@ BOOST_FIXTURE_TEST_SUITE(commands, Terminal)
 
 BOOST_AUTO_TEST_CASE(help_has_examples_and_exit_codes) {
   BOOST_TEST(run({"--help"}) == 0);
-  BOOST_TEST(contains(out.str(), "markervp run z1.0"));
-  BOOST_TEST(contains(out.str(), "Exit codes"));
+  BOOST_TEST(contains(out, "markervp run z1.0"));
+  BOOST_TEST(contains(out, "Exit codes"));
   BOOST_TEST(run({"run", "--help"}) == 0);
-  BOOST_TEST(contains(out.str(), "--trace-window"));
-  BOOST_TEST(contains(out.str(), "--fit crop|scale"), out.str());
-  out.str("");
+  BOOST_TEST(contains(out, "--trace-window"));
+  BOOST_TEST(contains(out, "--fit crop|scale"), out);
   BOOST_TEST(run({"scenes", "--help"}) == 0);
-  BOOST_TEST(!contains(out.str(), "markervp run"), "the help of a command is about that command");
-  BOOST_TEST(err.str() == "");
+  BOOST_TEST(!contains(out, "markervp run"), "the help of a command is about that command");
+  BOOST_TEST(err == "");
 }
 
 BOOST_AUTO_TEST_CASE(version) {
   BOOST_TEST(run({"--version"}) == 0);
-  BOOST_TEST(out.str().rfind("markervp 0.", 0) == 0u, out.str());
+  BOOST_TEST(out.rfind("markervp 0.", 0) == 0u, out);
 }
 
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
@@ -43,34 +43,33 @@ BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
       {{"completion", "tcsh"}, "tcsh"},
       {{"completion"}, "SHELL"},
       {{"run", "--output"}, "--output"},
-      {{"config", "--set", "dpeth=1"}, "depth"},
   };
   for (const auto& [arguments, problem] : cases) {
     BOOST_TEST(run(arguments) == 2);
-    BOOST_TEST(is_one_line_with(err.str(), problem), err.str() << " lacks " << problem);
-    BOOST_TEST(out.str() == "");
+    BOOST_TEST(is_one_line_with(err, problem), err << " lacks " << problem);
+    BOOST_TEST(out == "");
   }
 }
 
 BOOST_AUTO_TEST_CASE(devices_are_listed_and_shown_with_their_sources) {
   BOOST_TEST(run({"devices"}) == 0);
-  BOOST_TEST(contains(out.str(), "xc7z020-1    53200  106400     140  220"), out.str());
-  BOOST_TEST(contains(out.str(), "xc7z007s-2"));
-  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+  BOOST_TEST(contains(out, "xc7z020-1    53200  106400     140  220"), out);
+  BOOST_TEST(contains(out, "xc7z007s-2"));
+  for (const std::string& line : vp::split(out, '\n')) BOOST_TEST(line.size() <= 100u, line);
 
   BOOST_TEST(run({"devices", "XC7Z020-2"}) == 0);
-  BOOST_TEST(contains(out.str(), "cpu_621_mhz"), out.str());
-  BOOST_TEST(contains(out.str(), "766.667 MHz"), out.str());
-  BOOST_TEST(contains(out.str(), "DS190"), out.str());
-  BOOST_TEST(contains(out.str(), "assumed"), out.str());
+  BOOST_TEST(contains(out, "cpu_621_mhz"), out);
+  BOOST_TEST(contains(out, "766.667 MHz"), out);
+  BOOST_TEST(contains(out, "DS190"), out);
+  BOOST_TEST(contains(out, "assumed"), out);
 
   BOOST_TEST(run({"devices", "xc7z021-1"}) == 2);
-  BOOST_TEST(is_one_line_with(err.str(), "did you mean 'xc7z020-1'?"), err.str());
+  BOOST_TEST(is_one_line_with(err, "did you mean 'xc7z020-1'?"), err);
 }
 
 BOOST_AUTO_TEST_CASE(devices_as_json_have_value_confidence_and_source) {
   BOOST_TEST(run({"devices", "--json"}) == 0);
-  const auto all = nlohmann::json::parse(out.str());
+  const auto all = nlohmann::json::parse(out);
   BOOST_TEST(all.size() == 8u);
   for (const auto& device : all) {
     BOOST_TEST(device["lut"]["value"].get<double>() > 10'000, device["name"]);
@@ -78,7 +77,7 @@ BOOST_AUTO_TEST_CASE(devices_as_json_have_value_confidence_and_source) {
     BOOST_TEST(device["fmax_factor"]["source"].get<std::string>() != "", device["name"]);
   }
   BOOST_TEST(run({"devices", "xc7z010", "--json"}) == 0);
-  const auto one = nlohmann::json::parse(out.str());
+  const auto one = nlohmann::json::parse(out);
   BOOST_TEST(one.size() == 1u);
   BOOST_TEST(one[0]["name"] == "xc7z010-1");
   BOOST_TEST(one[0]["dsp"]["value"] == 80);
@@ -86,25 +85,25 @@ BOOST_AUTO_TEST_CASE(devices_as_json_have_value_confidence_and_source) {
 
 BOOST_AUTO_TEST_CASE(clocks_near_a_wish_are_listed) {
   BOOST_TEST(run({"clocks", "55MHz"}) == 0);
-  BOOST_TEST(contains(out.str(), "Ethernet: I/O PLL 1000.000000 MHz (x30)"), out.str());
-  BOOST_TEST(contains(out.str(), "the vendor's tool makes 55.555556 MHz (+1.010 %)"), out.str());
-  BOOST_TEST(contains(out.str(), "below 52.631579 MHz (-4.306 %), above 55.555556 MHz (+1.010 %)"));
-  BOOST_TEST(contains(out.str(), "I/O PLL 1100.000 MHz x33"), "the best over all plans");
-  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 110u, line);
+  BOOST_TEST(contains(out, "Ethernet: I/O PLL 1000.000000 MHz (x30)"), out);
+  BOOST_TEST(contains(out, "the vendor's tool makes 55.555556 MHz (+1.010 %)"), out);
+  BOOST_TEST(contains(out, "below 52.631579 MHz (-4.306 %), above 55.555556 MHz (+1.010 %)"));
+  BOOST_TEST(contains(out, "I/O PLL 1100.000 MHz x33"), "the best over all plans");
+  for (const std::string& line : vp::split(out, '\n')) BOOST_TEST(line.size() <= 110u, line);
 
   BOOST_TEST(run({"clocks", "55 MHz", "--no-ethernet"}) == 0);
-  BOOST_TEST(contains(out.str(), "the vendor's tool makes 55.172414 MHz"), out.str());
+  BOOST_TEST(contains(out, "the vendor's tool makes 55.172414 MHz"), out);
   BOOST_TEST(run({"clocks", "1 GHz", "--for", "cpu"}) == 0);
-  BOOST_TEST(contains(out.str(), "makes 800.000000 MHz (-20.000 %)"), out.str());
-  BOOST_TEST(contains(out.str(), "ABOVE the 667 MHz of the speed grade (published)"), out.str());
+  BOOST_TEST(contains(out, "makes 800.000000 MHz (-20.000 %)"), out);
+  BOOST_TEST(contains(out, "ABOVE the 667 MHz of the speed grade (published)"), out);
   BOOST_TEST(run({"clocks", "666.666 MHz", "--for", "cpu", "--device", "xc7z020-2", "--crystal",
                   "50MHz"}) == 0);
-  BOOST_TEST(contains(out.str(), "makes 675.000000 MHz"), out.str());
+  BOOST_TEST(contains(out, "makes 675.000000 MHz"), out);
 }
 
 BOOST_AUTO_TEST_CASE(clocks_of_one_chip_share_the_pll) {
   BOOST_TEST(run({"clocks", "160 MHz", "100 MHz", "--json", "--count", "3"}) == 0);
-  const auto json = nlohmann::json::parse(out.str());
+  const auto json = nlohmann::json::parse(out);
   BOOST_TEST(json["io_feedback"] == 30);
   BOOST_TEST(json["clocks"].size() == 2u);
   const auto& first = json["clocks"][0];
@@ -131,31 +130,30 @@ BOOST_AUTO_TEST_CASE(clocks_that_nobody_can_ask_for_are_refused) {
   };
   for (const auto& [arguments, problem] : cases) {
     BOOST_TEST(run(arguments) == 2);
-    BOOST_TEST(is_one_line_with(err.str(), problem), err.str() << " lacks " << problem);
-    BOOST_TEST(out.str() == "");
+    BOOST_TEST(is_one_line_with(err, problem), err << " lacks " << problem);
+    BOOST_TEST(out == "");
   }
 }
 
 BOOST_AUTO_TEST_CASE(scenes_are_listed_by_group) {
   BOOST_TEST(run({"scenes"}) == 0);
-  BOOST_TEST(contains(out.str(), "5.2.2.1"), out.str());
-  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+  BOOST_TEST(contains(out, "5.2.2.1"), out);
+  for (const std::string& line : vp::split(out, '\n')) BOOST_TEST(line.size() <= 100u, line);
   BOOST_TEST(run({"scenes", "yaw"}) == 0);
-  BOOST_TEST(contains(out.str(), "yaw45"));
-  BOOST_TEST(contains(out.str(), "pitch 0.0 yaw 45.0 roll 0.0 deg"));
+  BOOST_TEST(contains(out, "yaw45"));
+  BOOST_TEST(contains(out, "pitch 0.0 yaw 45.0 roll 0.0 deg"));
   BOOST_TEST(run({"scenes", "--names"}) == 0);
-  BOOST_TEST(contains(out.str(), "\nroll330\n"));
-  BOOST_TEST(contains(out.str(), "\ndemo\n"));
+  BOOST_TEST(contains(out, "\nroll330\n"));
+  BOOST_TEST(contains(out, "\ndemo\n"));
 }
 
 BOOST_AUTO_TEST_CASE(designs_are_listed) {
   BOOST_TEST(run({"designs"}) == 0);
-  BOOST_TEST(contains(out.str(), "thesis       hybrid"), out.str());
-  BOOST_TEST(contains(out.str(), "ps-only      ps-only"), out.str());
-  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 120u, line);
-  out.str("");
+  BOOST_TEST(contains(out, "thesis       hybrid"), out);
+  BOOST_TEST(contains(out, "ps-only      ps-only"), out);
+  for (const std::string& line : vp::split(out, '\n')) BOOST_TEST(line.size() <= 120u, line);
   BOOST_TEST(run({"designs", "--json"}) == 0);
-  const auto list = nlohmann::json::parse(out.str());
+  const auto list = nlohmann::json::parse(out);
   BOOST_TEST(list.size() == 2u);
   BOOST_TEST(list[0]["name"] == "thesis");
   BOOST_TEST(list[1]["programs"][0] == "ps-only");
@@ -163,36 +161,34 @@ BOOST_AUTO_TEST_CASE(designs_are_listed) {
 
 BOOST_AUTO_TEST_CASE(power_prints_the_coefficients_and_checks_others) {
   BOOST_TEST(run({"power"}) == 0);
-  BOOST_TEST(contains(out.str(), "ps.core_cycle"), out.str());
-  for (const std::string& line : vp::split(out.str(), '\n')) BOOST_TEST(line.size() <= 100u, line);
+  BOOST_TEST(contains(out, "ps.core_cycle"), out);
+  for (const std::string& line : vp::split(out, '\n')) BOOST_TEST(line.size() <= 100u, line);
   BOOST_TEST(run({"power", "--markdown"}) == 0);
-  BOOST_TEST(contains(out.str(), "| `ps.core_cycle` |"));
+  BOOST_TEST(contains(out, "| `ps.core_cycle` |"));
   BOOST_TEST(run({"power", "none.json"}) == 2);
-  BOOST_TEST(is_one_line_with(err.str(), "none.json"), err.str());
+  BOOST_TEST(is_one_line_with(err, "none.json"), err);
 }
 
 BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {
-  BOOST_TEST(run({"config", "--set", "depth=42"}) == 0);
-  BOOST_TEST(contains(out.str(), "depth: 42"), out.str());
-  BOOST_TEST(contains(out.str(), "words of the FIFO"));
-  kit::write_file(folder / "p.yaml", out.str());
-  Terminal other;
-  BOOST_TEST(other.run({"config", "--config", folder / "p.yaml"}) == 0);
-  BOOST_TEST(other.out.str() == out.str());
+  BOOST_TEST(run({"config", "--set", "ps.cpu.timeout=42 s"}) == 0);
+  BOOST_TEST(contains(out, "timeout: 42 s "), out);
+  BOOST_TEST(contains(out, "the run ends if the program neither ends nor asks for an image"));
+  kit::write_file(folder / "p.yaml", out);
+  const std::string printed = out;
+  BOOST_TEST(run({"config", "--config", "p.yaml"}) == 0);
+  BOOST_TEST(out == printed);
 }
 
 BOOST_AUTO_TEST_CASE(config_knows_the_system_as_run_does) {
-  BOOST_TEST(run({"config"}) == 0);
-  BOOST_TEST(!asked.program.has_value());
-  BOOST_TEST(run({"config", "--system", "ps-only"}) == 0);
-  BOOST_TEST(asked.program.value_or("") == "ps-only");
-  BOOST_TEST(run({"config", "--program", "mine.so", "--fidelity", "clocked"}) == 0);
-  BOOST_TEST(asked.program.value_or("") == "mine.so");
-  BOOST_TEST(run({"config", "--fidelity", "tlm"}) == 2);
-  BOOST_TEST(is_one_line_with(err.str(), "fidelity"), err.str());
+  BOOST_TEST(run({"config", "--system", "ps-only", "--fidelity", "clocked"}) == 0);
+  BOOST_TEST(contains(out, "design: ps-only "), out);
+  BOOST_TEST(contains(out, "fidelity: clocked "));
+  const std::string tree = out;
+  BOOST_TEST(run({"config", "--program", "ps-only", "--fidelity", "clocked"}) == 0);
+  BOOST_TEST(out == tree);
   for (const char* command : {"config", "run"}) {
     BOOST_TEST(run({command, "--system", "hybrid", "--program", "mine.so"}) == 2);
-    BOOST_TEST(is_one_line_with(err.str(), "leave out --program"), err.str());
+    BOOST_TEST(is_one_line_with(err, "leave out --program"), err);
   }
 }
 

@@ -27,7 +27,7 @@ struct Completion : Terminal {
   /// The script, and a stand-in for the program that lists two scenes.
   std::string script(const std::string& shell) {
     BOOST_TEST(run({"completion", shell}) == 0);
-    kit::write_file(folder / shell, out.str());
+    kit::write_file(folder / shell, out);
     kit::write_file(folder / "markervp", "#!/bin/sh\nprintf 'demo\\nz1.0\\n'\n");
     std::filesystem::permissions(folder / "markervp", std::filesystem::perms::owner_all);
     return folder / shell;

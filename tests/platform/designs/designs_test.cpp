@@ -1,6 +1,6 @@
 // Which design runs: by its name, by its program, or the usual one.
 #include <designs/designs.h>
-#include <run/session.h>
+#include <run/simulation.h>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <initializer_list>
@@ -22,11 +22,11 @@ report::RunFacts built(const std::string& design, const std::optional<std::strin
   vp::Configuration configuration;
   if (!design.empty()) configuration.set("design", design);
   const vp::Configuration::Scope scope(configuration);
-  Session::Options options;
+  SimulationOptions options;
   options.program = program;
-  const Session session(options);
+  const Simulation simulation(options);
   configuration.check_unused();
-  return session.facts();
+  return simulation.facts();
 }
 
 bool draws_power(const report::RunFacts& facts) {

@@ -3,7 +3,7 @@
 
 #include <designs/designs.h>
 #include <drivers/timers.h>
-#include <run/session.h>
+#include <run/simulation.h>
 #include <vp/configuration.h>
 #include <zynq/hardware_map.h>
 
@@ -16,13 +16,13 @@ BOOST_AUTO_TEST_CASE(is_that_of_the_platform) {
   const kit::Simulation context;
   vp::Configuration configuration;
   const vp::Configuration::Scope scope(configuration);
-  platform::Session session({MARKERVP_HYBRID, std::nullopt});
-  const std::string text = platform::hardware_map(session.zynq()).xparameters;
+  platform::Simulation simulation({MARKERVP_HYBRID});
+  const std::string text = platform::hardware_map(simulation.zynq()).xparameters;
   BOOST_CHECK_EQUAL(kit::read_file(MARKERVP_XPARAMETERS), text);
   // The driver's constant is half of it.
   const auto counts = std::to_string(2 * drivers::GlobalTimer::counts_per_second + 1);
   BOOST_CHECK(text.find("CPU_CLK_FREQ_HZ " + counts + "\n") != std::string::npos);
-  BOOST_CHECK_EQUAL(session.zynq().ports.registers()->regions().size(), 4);
+  BOOST_CHECK_EQUAL(simulation.zynq().ports.registers()->regions().size(), 4);
 }
 
 // `markervp map --xparameters`: the configuration in use, not the default one.

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <functional>
+#include <exception>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include <vp/parameter.h>
 #include <vp/report.h>
 #include <vp/trace.h>
+#include <zynq/bus_log.h>
 #include <zynq/camera_timing.h>
 #include <zynq/frame_bench.h>
 #include <zynq/parts.h>
@@ -24,21 +26,24 @@
 
 namespace platform {
 
-/// A run of the whole platform: hardware, PS program, and the test bench around them. One in a
-/// process at a time, since SystemC elaborates once.
-class Session {
- public:
-  struct Options {
-    /// File or name of the PS program; none: that of the design.
-    std::optional<std::string> program;
-    std::optional<vp::TraceOptions> trace;  ///< waveforms to record
-    std::uint32_t timeline_frames = 0;      ///< of so many frames
-  };
+/// What is asked of a simulation beside its configuration.
+struct SimulationOptions {
+  std::optional<std::string> program = {};     ///< file or name; none: that of the design
+  std::optional<vp::TraceOptions> trace = {};  ///< waveforms to record
+  std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
+  std::optional<BusLogOptions> bus_log = {};
+  std::optional<std::string> register_coverage = {};  ///< file: which registers the program used
+  std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
+};
 
+/// The whole platform: hardware, PS program, and the test bench around them, elaborated and ready
+/// to run once. There is one in a process at a time, since SystemC elaborates once.
+class Simulation {
+ public:
   /// Builds the platform with the current configuration (vp::Configuration::Scope). Throws
   /// vp::InputError for a wrong value, a design or program that cannot be loaded, or costs that do
   /// not cover it.
-  explicit Session(const Options& options);
+  explicit Simulation(const SimulationOptions& options);
 
   /// The resolution that the platform is built for.
   input::ImageSize image_size() const;
@@ -48,10 +53,17 @@ class Session {
   /// How long the software takes, and what that was fitted to.
   const profiles::CostProfile& costs() const { return *costs_; }
 
-  /// Runs the program until `next` gives no more images; `done` takes each frame's report and says
-  /// whether to go on. Throws vp::ProtocolError if hardware or software broke a rule,
-  /// vp::InputError if the trace cannot be written; the reports until then were handed over.
+  /// Runs the program until `next` gives no more images; `done` takes each frame's report, in
+  /// order, and says whether to go on. Neither throws. `index` in a report counts the images given;
+  /// it lacks `input`, `truth` and `camera`, which the caller knows. Files are made here, not
+  /// earlier, and are whole when this returns or throws. Throws vp::ProtocolError if hardware or
+  /// software broke a rule, vp::OutputError if a file cannot be written, vp::InputError if a filter
+  /// selects nothing; the reports until then were handed over.
   void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
+
+  /// Lets run() return soon, in the middle of a frame. May be called in a signal handler, at any
+  /// time.
+  static void interrupt() { ps::Cpu::interrupt_program(); }
 
   /// Of the first frames, as many as asked for.
   report::Timeline timeline() const;
@@ -65,7 +77,11 @@ class Session {
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:
-  void choose(const Options& options);
+  void choose_design();
+  /// The error that ended it; null for none.
+  std::exception_ptr simulate(FrameBench::NextFrame next, FrameBench::FrameDone done);
+
+  SimulationOptions options_;
 
   WorkingFolder folder_;  ///< before the program is loaded, and after it is gone
   vp::ReportRouter reports_;
@@ -76,12 +92,11 @@ class Session {
   std::unique_ptr<Zynq> zynq_;
   std::unique_ptr<vp::Parameter<std::string>> profile_name_;
   std::unique_ptr<CameraTiming> camera_;
-  std::unique_ptr<SoftwareOptions> options_;
+  std::unique_ptr<SoftwareOptions> software_options_;
   std::unique_ptr<FrameBench> bench_;
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;
-  std::optional<vp::TraceOptions> trace_;
   bool wrote_trace_ = false;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };

@@ -1,19 +1,41 @@
-#include <run/session.h>
+#include <run/simulation.h>
 
 #include <designs/designs.h>
 #include <run/program_file.h>
 #include <vp/error.h>
+#include <vp/output_file.h>
 #include <vp/systemc_pins.h>
-#include <zynq/bus_log.h>
-#include <exception>
+#include <zynq/debugger.h>
+#include <zynq/hardware_map.h>
 #include <numeric>
+#include <ostream>
 #include <utility>
 
 namespace platform {
 
+namespace {
+
+/// Prints what stands in the UARTs without line end, however the run ends.
+struct ConsoleFlush {
+  ProcessingSystem& ps;
+  ~ConsoleFlush() {
+    ps.uart0.console.flush();
+    ps.uart1.console.flush();
+  }
+};
+
+void connect_consoles(ProcessingSystem& ps, std::ostream& out) {
+  const auto print = [&out](const std::string& line) { out << line << std::endl; };
+  ps.cpu.console.connect(print);
+  ps.uart0.console.connect(print, "uart0: ");
+  ps.uart1.console.connect(print, "uart1: ");
+}
+
+}  // namespace
+
 // The design names the program, or the program its design.
-void Session::choose(const Options& options) {
-  if (options.program) program_ = ps::Program::load(program_file(*options.program));
+void Simulation::choose_design() {
+  if (options_.program) program_ = ps::Program::load(program_file(*options_.program));
   const DesignInfo& usual =
       program_ ? design_of_program(program_->name()) : *builtin_designs().front();
   design_name_ = std::make_unique<vp::Parameter<std::string>>(
@@ -23,40 +45,40 @@ void Session::choose(const Options& options) {
   if (!program_) program_ = ps::Program::load(usual_program(*design_));
 }
 
-Session::Session(const Options& options) {
-  choose(options);
+Simulation::Simulation(const SimulationOptions& options) : options_(options) {
+  choose_design();
   folder_.restore();
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
   zynq_ =
-      std::make_unique<Zynq>(*design_, options.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
+      std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(
       "profile", "thesis", vp::Source::decision,
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
       "or a file .json");
   camera_ = std::make_unique<CameraTiming>("camera");
-  options_ =
+  software_options_ =
       std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
                                         zynq_->ps.cpu_clk.start_hz(), *camera_, zynq_->design());
-  costs_ = profiles::load_cost_profile(*profile_name_, options_->optimisation());
-  bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *options_, reports_);
+  costs_ = profiles::load_cost_profile(*profile_name_, software_options_->optimisation());
+  bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *software_options_, reports_);
   power_ = std::make_unique<ZynqPower>(
       "power", *zynq_, design_->draws_power,
       camera_->has_rate() ? PowerMode::activity : PowerMode::vivado_default);
   timing_ = std::make_unique<TimingClosure>("timing", power_->parts(), zynq_->chip.data);
-  recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options.timeline_frames);
+  recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options_.timeline_frames);
   power_->record_timeline(recorder_->records());
-  trace_ = options.trace;
-  if (trace_) power_->follow();
+  if (options_.trace) power_->follow();
   zynq_->ps.cpu.load(*program_, costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
+  if (options_.console) connect_consoles(zynq_->ps, *options_.console);
 }
 
-input::ImageSize Session::image_size() const {
+input::ImageSize Simulation::image_size() const {
   return zynq_->design().frame_size();
 }
 
-report::RunFacts Session::facts() const {
+report::RunFacts Simulation::facts() const {
   report::RunFacts facts;
   facts.fidelity = zynq_->fidelity.text();
   facts.system = program_->name();
@@ -76,7 +98,7 @@ report::RunFacts Session::facts() const {
   return facts;
 }
 
-report::Timeline Session::timeline() const {
+report::Timeline Simulation::timeline() const {
   report::Timeline timeline = recorder_->timeline();
   report::Timeline::Counter power{"Power", "W", 0, {}};
   for (const PowerTimeline::Point& point : power_->timeline().points) {
@@ -87,7 +109,26 @@ report::Timeline Session::timeline() const {
   return timeline;
 }
 
-void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
+void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
+  const ConsoleFlush flush{zynq_->ps};
+  const Debugged debugged(*zynq_);
+  std::optional<vp::OutputFile> coverage;
+  if (options_.register_coverage) coverage.emplace(*options_.register_coverage);
+  std::optional<BusLog> log;
+  if (options_.bus_log) log.emplace(*options_.bus_log, *zynq_);
+  std::exception_ptr error = simulate(std::move(next), std::move(done));
+  // However the run ended.
+  try {
+    if (log) log->close();
+    if (coverage) coverage->write(register_coverage(*zynq_));
+    if (coverage) coverage->commit();
+  } catch (const vp::OutputError&) {
+    if (!error) error = std::current_exception();
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
       [this, next = std::move(next)] {
         folder_.restore();
@@ -105,8 +146,9 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   // Not earlier: it opens its file, and the user may have got something else wrong.
   std::unique_ptr<vp::Tracer> tracer;
   std::optional<BusTrace> bus_trace;
-  if (trace_ && trace_->level == vp::TraceLevel::everything) bus_trace.emplace(*zynq_);
-  if (trace_) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace_);
+  const auto& trace = options_.trace;
+  if (trace && trace->level == vp::TraceLevel::everything) bus_trace.emplace(*zynq_);
+  if (trace) tracer = std::make_unique<vp::Tracer>("tracer", zynq_->scheduler, *trace);
   std::exception_ptr error;
   try {
     vp::settle_foreign_modules();
@@ -123,7 +165,7 @@ void Session::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   if (tracer) wrote_trace_ = tracer->close();
   tracer.reset();
   late_warnings_ = bench_->finish();
-  if (error) std::rethrow_exception(error);
+  return error;
 }
 
 }  // namespace platform
