@@ -104,7 +104,7 @@ std::string Cpu::name_of_function() const {
 // Without the place in the file, which changes with every build.
 std::string Cpu::name_of_handler() const {
   if (!in_handler || !code_) return in_handler ? "handler" : "";
-  const std::string place = code_->text(reinterpret_cast<std::uintptr_t>(handler_));
+  const std::string& place = code_->text(reinterpret_cast<std::uintptr_t>(handler_));
   const auto from = place.find(' '), to = place.rfind('+');
   if (from == std::string::npos || to == std::string::npos || to < from) return "handler";
   return place.substr(from + 1, to - from - 1);

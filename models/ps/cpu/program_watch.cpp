@@ -199,7 +199,13 @@ bool CodeLocator::contains(std::uintptr_t address) const {
   return base_ != 0 && base_of(reinterpret_cast<const void*>(address)) == base_;
 }
 
-std::string CodeLocator::text(std::uintptr_t address) const {
+const std::string& CodeLocator::text(std::uintptr_t address) const {
+  const auto [known, is_new] = texts_.try_emplace(address);
+  if (is_new) known->second = look_up(address);
+  return known->second;
+}
+
+std::string CodeLocator::look_up(std::uintptr_t address) const {
   std::ifstream stream(file_, std::ios::binary);
   const std::vector<char> file((std::istreambuf_iterator<char>(stream)),
                                std::istreambuf_iterator<char>());

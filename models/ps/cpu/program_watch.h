@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -149,14 +150,18 @@ class CodeLocator {
 
   bool contains(std::uintptr_t address) const;
   /// "0x1a2b make(Mistake)+0x1c": the place in the file, as addr2line takes it, and the function
-  /// around it. Only the place if the file was stripped.
-  std::string text(std::uintptr_t address) const;
+  /// around it. Only the place if the file was stripped. Looked up in the file once: a trace asks
+  /// at each interrupt.
+  const std::string& text(std::uintptr_t address) const;
   /// The first of `addresses` that lies in the program; 0 if none does.
   std::uintptr_t first_inside(const std::vector<std::uintptr_t>& addresses) const;
 
  private:
+  std::string look_up(std::uintptr_t address) const;
+
   std::string file_;
   std::uintptr_t base_ = 0;
+  mutable std::map<std::uintptr_t, std::string> texts_;
 };
 
 /// Of the calls that are under way, the innermost first: addresses inside the calling instructions.
