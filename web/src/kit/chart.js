@@ -113,22 +113,24 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     return complete;
   };
   const size = () => ({ width: target.clientWidth || 900, height: target.clientHeight || height });
-  const saveSvg = () => {
+  const svg = () => {
     const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
     copy.setOption(whole());
     belowLegend(copy, option());
-    download(name + ".svg", copy.renderToSVGString(), "image/svg+xml");
+    const text = copy.renderToSVGString();
     copy.dispose();
+    return text;
   };
-  const savePng = () => {
-    const area = size();
-    const holder = document.createElement("div");
-    Object.assign(holder.style, { width: area.width + "px", height: area.height + "px" });
-    const copy = echarts.init(holder, null, { renderer: "canvas", devicePixelRatio: 2, ...area });
-    copy.setOption(whole());
-    belowLegend(copy, option());
-    download(name + ".png", copy.getDataURL({ type: "png", pixelRatio: 2, backgroundColor: palette().page }), "image/png");
-    copy.dispose();
+  const saveSvg = () => download(name + ".svg", svg(), "image/svg+xml");
+  // Of the SVG: a canvas of ECharts' own paints on after it was read and given up, if the machine is busy.
+  const savePng = async () => {
+    const picture = new Image();
+    picture.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svg());
+    await picture.decode();
+    const { width, height } = size();
+    const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height });
+    canvas.getContext("2d").drawImage(picture, 0, 0, canvas.width, canvas.height);
+    download(name + ".png", canvas.toDataURL("image/png"), "image/png");
   };
 
   const tableId = newId("table");
