@@ -8,6 +8,7 @@ namespace platform::cli {
 namespace {
 
 constexpr std::uint64_t most_points = 10'000'000;
+constexpr std::uint64_t most_seed = 1'000'000'000'000;
 constexpr std::uint32_t most_jobs = 1024;
 constexpr std::uint32_t most_tasks = 1'000'000;
 
@@ -17,6 +18,12 @@ constexpr const char* sweep_help =
   markervp sweep mine.yaml --dry-run           check it and show its points
   markervp sweep mine.yaml --engine slurm      on a cluster
 A sweep may be stopped at any time: the same command goes on. No point is computed twice.)";
+
+constexpr const char* explore_help =
+    R"(FILE is that of a sweep, or a study; its objectives say what is better, its constraints what must hold:
+  markervp explore least-energy                results in out/least-energy
+It computes the points that are worth it, generation by generation, and ends when that gains nothing more.
+Ctrl-C leaves the best points so far; the same command goes on. docs/exploration.md says more.)";
 
 constexpr const char* pareto_help =
     R"(  markervp pareto out/pixel-clock --objective 'max summary.fps.mean' \
@@ -53,21 +60,41 @@ void add_run_options(CLI::App& command, SweepOptions& target) {
       ->take_all();
 }
 
+void add_result_options(CLI::App& command, SweepOptions& target) {
+  command.add_option("-o,--output", target.output, "folder for the results (default: out/NAME)")
+      ->type_name("DIR");
+  command.add_flag("--dry-run", target.dry_run, "check everything, say what there is, run nothing");
+  command.add_flag("--no-report", target.no_report, "no page report.html");
+  command.add_flag("--require-all", target.require_all, "exit code 1 if a point failed to run");
+  add_run_options(command, target);
+}
+
 void add_sweep(CLI::App& app, SweepOptions& target) {
   CLI::App* command = app.add_subcommand("sweep", "compute many design points");
   command->add_option("FILE", target.file, "what to sweep")->type_name("");
   command->add_flag("--list", target.list, "the studies that come with the program");
-  command->add_option("-o,--output", target.output, "folder for the results (default: out/NAME)")
-      ->type_name("DIR");
   command->add_option("--limit", target.limit, "only the first points")
       ->type_name("N")
       ->check(number_range(std::uint64_t{1}, most_points));
   command->add_flag("--yes", target.yes, "run even a very large sweep");
-  command->add_flag("--dry-run", target.dry_run, "check everything, show the points, run nothing");
-  command->add_flag("--no-report", target.no_report, "no page report.html");
-  command->add_flag("--require-all", target.require_all, "exit code 1 if a point failed to run");
-  add_run_options(*command, target);
+  add_result_options(*command, target);
   command->footer(sweep_help);
+}
+
+void add_explore(CLI::App& app, ExploreOptions& target) {
+  CLI::App* command = app.add_subcommand("explore", "search a design space for its best points");
+  command->add_option("FILE", target.file, "the space and what is better: as for a sweep")
+      ->type_name("")
+      ->required();
+  command->add_option("--points", target.points, "compute so many at most (default: 2000)")
+      ->type_name("N")
+      ->check(number_range(std::uint64_t{2}, most_points));
+  command->add_option("--time", target.time, "end after so long: 90s")->type_name("TIME");
+  command->add_option("--seed", target.seed, "of the choices by chance (default: 1)")
+      ->type_name("N")
+      ->check(number_range(std::uint64_t{0}, most_seed));
+  add_result_options(*command, target);
+  command->footer(explore_help);
 }
 
 /// What Slurm calls. Not for people: without a group it is in no help.
@@ -123,6 +150,7 @@ void add_compare(CLI::App& app, CompareOptions& target) {
 
 void add_exploration(CLI::App& app, CommandLine& target) {
   add_sweep(app, target.sweep);
+  add_explore(app, target.explore);
   add_sweep_worker(app, target.sweep_worker);
   add_metrics(app, target.metrics);
   add_pareto(app, target.pareto);

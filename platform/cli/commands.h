@@ -95,6 +95,9 @@ int print_completion(const CompletionOptions& options, const CLI::App& app, std:
 /// Computes the points of a sweep, and merges their results.
 int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& err);
 
+/// Searches a space for the best points, and for why there is none.
+int explore_points(const ExploreOptions& options, std::ostream& out, std::ostream& err);
+
 /// Computes the points of one task of a sweep on a cluster.
 int sweep_worker(const SweepWorkerOptions& options);
 

@@ -190,6 +190,14 @@ struct SweepOptions {
   std::vector<std::string> sbatch;
 };
 
+/// `markervp explore`.
+struct ExploreOptions : SweepOptions {
+  // In place of what the file says.
+  std::optional<std::uint64_t> points;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::string> time;
+};
+
 /// `markervp sweep-worker`: what a cluster calls.
 struct SweepWorkerOptions {
   std::string folder;
@@ -234,6 +242,7 @@ struct CommandLine {
   TraceCommandOptions trace;
   CompletionOptions completion;
   SweepOptions sweep;
+  ExploreOptions explore;
   SweepWorkerOptions sweep_worker;
   MetricsOptions metrics;
   ParetoOptions pareto;

@@ -30,6 +30,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
                                      : print_power_estimate(line.power, out);
   if (command == "rtl") return ask_rtl(line.rtl, arguments, out, err);
   if (command == "trace") return ask_trace(line.trace, out);
+  if (command == "explore") return explore_points(line.explore, out, err);
   if (command == "sweep") return sweep_points(line.sweep, out, err);
   if (command == "sweep-worker") return sweep_worker(line.sweep_worker);
   if (command == "metrics") return list_metrics(line.metrics, out);

@@ -12,6 +12,7 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <cli/sweep_command.h>
 #include <cli/sweep_platform.h>
 #include <designs/designs.h>
 #include <host/process.h>
@@ -125,12 +126,6 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
         << version << ") stay as they are and count for nothing here" << std::endl;
 }
 
-/// What of a sweep was computed before.
-struct Before {
-  std::map<std::size_t, sweep::Outcome> outcomes;  ///< by position
-  std::vector<std::size_t> pending;                ///< positions of the others
-};
-
 /// The point's result if it has one that counts. One that does not goes.
 std::optional<sweep::Outcome> outcome_before(const sweep::Store& store, const std::string& key,
                                              bool retry_failed, std::ostream& err) {
@@ -147,12 +142,13 @@ std::optional<sweep::Outcome> outcome_before(const sweep::Store& store, const st
   return std::nullopt;
 }
 
-/// Throws vp::InputError for a result that somebody changed.
+}  // namespace
+
 Before look_for_results(const sweep::Store& store, const sweep::Manifest& manifest,
-                        bool retry_failed, std::ostream& err) {
+                        std::size_t first, bool retry_failed, std::ostream& err) {
   Before before;
   sweep::Metrics names;
-  for (std::size_t i = 0; i < manifest.points.size(); ++i) {
+  for (std::size_t i = first; i < manifest.points.size(); ++i) {
     auto outcome = outcome_before(store, manifest.points[i].key, retry_failed, err);
     if (!outcome) {
       before.pending.push_back(i);
@@ -165,6 +161,8 @@ Before look_for_results(const sweep::Store& store, const sweep::Manifest& manife
   return before;
 }
 
+namespace {
+
 /// A PS program or a design of the user's own may leave anything behind in its process.
 std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
   const bool own = std::any_of(
@@ -176,13 +174,12 @@ std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
   return own || isolate ? 1 : sweep::usual_points_a_process;
 }
 
+}  // namespace
+
 sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
                      const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     std::ostream& err) {
+                     const sweep::OnProgress& progress, std::ostream& err) {
   if (pending.empty()) return {};
-  const host::InterruptGuard guard;
-  vp::Progress bar(manifest.name, pending.size());
-  const auto progress = [&](std::uint64_t points) { bar.update(points); };
   if (options.engine == "slurm") {
     warm_up(manifest, {pending.front()});
     const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name,
@@ -195,38 +192,23 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 
-/// What was done, and what stands in the folder for it.
 void write_results(const SweepOptions& options, const sweep::Store& store,
-                   const sweep::Results& results, const sweep::Tally& tally, std::size_t pending,
+                   const sweep::Results& results, std::uint64_t computed, std::uint64_t before,
                    std::ostream& out) {
   vp::write_file_durably(store.path("sweep.csv"), sweep::results_csv(results));
   sweep::write_database(store.path("sweep.sqlite"), results,
                         sweep::complete_runs(store, results.manifest));
   const bool page = !options.no_report && sweep::write_page(results, store.folder());
   out << sweep::sweep_text(results) << "\n"
-      << report::counted(results.rows.size(), "point") << ": " << tally.computed
-      << " computed now, " << results.manifest.points.size() - pending << " there before, "
-      << results.failed() << " failed\n"
+      << report::counted(results.rows.size(), "point") << ": " << computed << " computed now, "
+      << before << " there before, " << results.failed() << " failed\n"
       << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and points/ beside it";
   if (page) out << ", report.html to look at";
   out << std::endl;
 }
 
-int conclude(const SweepOptions& options, const sweep::Store& store,
-             const sweep::Manifest& manifest, Before&& before, sweep::Tally&& tally,
-             std::ostream& out, std::ostream& err) {
-  std::map<std::size_t, sweep::Outcome> known = std::move(before.outcomes);
-  known.merge(tally.outcomes);
-  const sweep::Results results = sweep::read_results(store, manifest, known);
-  write_results(options, store, results, tally, before.pending.size(), out);
-  if (results.failed() != results.rows.size())
-    warn(sweep::missing_figures(manifest, results.metric_names()), err);
-  if (tally.interrupted) {
-    err << "markervp: interrupted: " << results.missing << " of "
-        << report::counted(manifest.points.size(), "point")
-        << " are missing; the same command goes on" << std::endl;
-    return interrupted;
-  }
+int code_of_failures(const SweepOptions& options, const sweep::Results& results,
+                     std::ostream& err) {
   if (results.failed() == 0) return done;
   const bool all = results.failed() == results.rows.size();
   err << "markervp: "
@@ -235,6 +217,37 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
                     std::to_string(results.rows.size()))
       << " failed" << std::endl;
   return points_failed_code(options, !all);
+}
+
+namespace {
+
+int conclude(const SweepOptions& options, const sweep::Store& store,
+             const sweep::Manifest& manifest, Before&& before, sweep::Tally&& tally,
+             std::ostream& out, std::ostream& err) {
+  std::map<std::size_t, sweep::Outcome> known = std::move(before.outcomes);
+  known.merge(tally.outcomes);
+  const sweep::Results results = sweep::read_results(store, manifest, known);
+  write_results(options, store, results, tally.computed,
+                manifest.points.size() - before.pending.size(), out);
+  if (results.failed() != results.rows.size())
+    warn(sweep::missing_figures(manifest, results.metric_names()), err);
+  if (tally.interrupted) {
+    err << "markervp: interrupted: " << results.missing << " of "
+        << report::counted(manifest.points.size(), "point")
+        << " are missing; the same command goes on" << std::endl;
+    return interrupted;
+  }
+  return code_of_failures(options, results, err);
+}
+
+/// All points of a sweep, with a bar.
+sweep::Tally compute_all(const SweepOptions& options, const sweep::Store& store,
+                         const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
+                         std::ostream& err) {
+  const host::InterruptGuard guard;
+  vp::Progress bar(manifest.name, pending.size());
+  return compute(
+      options, store, manifest, pending, [&](std::uint64_t points) { bar.update(points); }, err);
 }
 
 }  // namespace
@@ -250,10 +263,10 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
   try {
     sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();
-    Before before = look_for_results(store, manifest, options.retry_failed, err);
+    Before before = look_for_results(store, manifest, 0, options.retry_failed, err);
     mention_others(store, manifest, err);
     store.write_manifest(manifest);
-    sweep::Tally tally = compute(options, store, manifest, before.pending, err);
+    sweep::Tally tally = compute_all(options, store, manifest, before.pending, err);
     return conclude(options, store, manifest, std::move(before), std::move(tally), out, err);
   } catch (const vp::OutputError& error) {
     throw vp::OutputError(std::string(error.what()) +

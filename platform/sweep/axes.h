@@ -81,6 +81,8 @@ class AxisValues {
   const std::vector<std::string>& values() const { return values_; }
   /// True for a range without step and count: only a sample can take values of it.
   bool continuous() const { return continuous_; }
+  /// Whether its values lie on a line: those of a quantity.
+  bool ordered() const { return kind_.kind == ParameterKind::Kind::quantity; }
 
   /// The value for a sample u in 0 … 1, 1 excluded.
   std::string sampled(double u) const;

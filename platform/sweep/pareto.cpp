@@ -179,7 +179,7 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
 
 std::vector<Objective> objectives_of(const Results& results) {
   std::vector<std::string> texts = results.manifest.objectives;
-  if (texts.empty()) texts = {"max summary.fps.mean", "min power.total_w.nominal"};
+  if (texts.empty()) texts.assign(usual_objectives.begin(), usual_objectives.end());
   std::vector<Objective> objectives;
   for (const std::string& text : texts) {
     Objective objective(text, results.manifest.name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -48,8 +49,11 @@ struct Pareto {
 /// feasible are on no front.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives);
 
-/// The study's objectives, or frame rate and power if it names none; without those that no point
-/// has a value of.
+/// Of a study that names none: frame rate and power.
+inline constexpr std::array<const char*, 2> usual_objectives{"max summary.fps.mean",
+                                                             "min power.total_w.nominal"};
+
+/// The study's objectives, or the usual ones; without those that no point has a value of.
 std::vector<Objective> objectives_of(const Results& results);
 
 /// Positions in `points`: front by front, in each the best by the first objective first; then those

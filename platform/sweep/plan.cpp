@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -20,13 +21,13 @@
 
 namespace platform::sweep {
 
-namespace {
-
 /// What all points of a PS program and a design start from, and the parameters of that platform.
 struct Base {
   Build build;
   ParameterTable table;
 };
+
+namespace {
 
 /// Builds the platform with values of the axis, so that a wrong one shows before the first point:
 /// throws vp::InputError. Returns whether other parameters, or the picture's size, follow from it.
@@ -87,12 +88,6 @@ bool check_values(const AxisValues& axis, const std::vector<Base>& bases,
   return influences;
 }
 
-}  // namespace
-
-namespace {
-
-using Kind = ParameterKind::Kind;
-
 bool is_program(const std::string& path) {
   return path == "system" || path == "program";
 }
@@ -109,12 +104,28 @@ const std::string* find(const Assignment& point, const std::string& path) {
   return nullptr;
 }
 
+}  // namespace
+
 class Planner {
  public:
   Planner(const Spec& spec, const PlanOptions& options, const Platform& platform)
       : spec_(spec), options_(options), platform_(platform) {}
 
   Manifest plan() {
+    const double count = prepare();
+    const Expansion expansion = expand(
+        spec_, groups_, [this](const Assignment& point) { return allowed(point); },
+        options_.limit.value_or(static_cast<std::uint64_t>(most_points)));
+    describe(static_cast<double>(expansion.points.size()) < count);
+    add_points(expansion);
+    return std::move(manifest_);
+  }
+
+ private:
+  friend class Space;
+
+  /// Everything but the points; returns how many there may be.
+  double prepare() {
     if (spec_.dimensions.empty())
       throw vp::InputError(spec_.origin +
                            ": the sweep varies nothing: say what under 'parameters' (also 'inputs' "
@@ -128,15 +139,9 @@ class Planner {
       for (const AxisValues& axis : group) check(axis);
     }
     sort_constraints();
-    const Expansion expansion = expand(
-        spec_, groups_, [this](const Assignment& point) { return allowed(point); },
-        options_.limit.value_or(static_cast<std::uint64_t>(most_points)));
-    describe(static_cast<double>(expansion.points.size()) < count);
-    add_points(expansion);
-    return std::move(manifest_);
+    return count;
   }
 
- private:
   void check_metrics() const {
     if (spec_.job) check_names(vp::Expression(spec_.job->text, spec_.job->where));
     for (const std::string& metric : spec_.metrics) {
@@ -387,8 +392,6 @@ class Planner {
   Manifest manifest_;
 };
 
-}  // namespace
-
 std::uint64_t Refusals::points() const {
   return std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0},
                          [](std::uint64_t sum, const auto& reason) { return sum + reason.second; });
@@ -410,6 +413,61 @@ Refusals try_points(const Manifest& manifest, const Platform& platform, std::siz
     ++(problem.empty() ? refusals.built : refusals.reasons[problem]);
   }
   return refusals;
+}
+
+struct Space::Impl {
+  Impl(const Spec& asked, const Platform& platform)
+      : spec(asked), planner(spec, options, platform) {}
+
+  Spec spec;
+  PlanOptions options{1, true};
+  Planner planner;
+};
+
+Space::Space(const Spec& spec, const Platform& platform) : impl_(new Impl(spec, platform)) {
+  if (spec.sampling.method != Sampling::Method::grid)
+    throw vp::InputError(spec.sampling.where +
+                         ": a search chooses the points itself: leave out 'sample'");
+  // As of a sample, ranges need no step.
+  impl_->spec.sampling.method = Sampling::Method::random;
+  impl_->spec.text.clear();  // it speaks of all points
+  impl_->planner.prepare();
+  impl_->planner.describe(true);
+  manifest().sampling = "search";
+}
+
+Space::~Space() = default;
+
+const Spec& Space::spec() const {
+  return impl_->spec;
+}
+
+const std::vector<AxisGroup>& Space::groups() const {
+  return impl_->planner.groups_;
+}
+
+double Space::size() const {
+  double size = 1;
+  for (const AxisGroup& group : groups())
+    size *= group.front().continuous() ? std::numeric_limits<double>::infinity()
+                                       : static_cast<double>(group.front().values().size());
+  return size;
+}
+
+const std::vector<vp::Expression>& Space::conditions() const {
+  return impl_->planner.constraints_;
+}
+
+vp::ExpressionValue Space::value(const Assignment& point, const std::string& name) const {
+  return impl_->planner.value_of(point, name);
+}
+
+PlannedPoint Space::point(const Assignment& assignment) {
+  return impl_->planner.planned(assignment);
+}
+
+Manifest& Space::manifest() {
+  return impl_->planner.manifest_;
 }
 
 Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform) {

@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <sweep/axes.h>
 #include <sweep/manifest.h>
 #include <sweep/spec.h>
+#include <vp/expression.h>
 
 namespace platform::sweep {
 
@@ -42,6 +45,32 @@ struct Refusals {
 
 /// Builds the platform of each point, of `most` points at most.
 Refusals try_points(const Manifest& manifest, const Platform& platform, std::size_t most);
+
+/// The points of a sweep's file one by one, as a search asks for them.
+class Space {
+ public:
+  /// Checks what plan() checks, and that `spec` draws no sample. Throws vp::InputError.
+  Space(const Spec& spec, const Platform& platform);
+  ~Space();
+
+  const Spec& spec() const;
+  const std::vector<AxisGroup>& groups() const;
+  /// How many points there are, whatever the constraints; infinite with a range without step.
+  double size() const;
+  /// The constraints on parameters alone.
+  const std::vector<vp::Expression>& conditions() const;
+  /// What a name in one of them means for a point.
+  vp::ExpressionValue value(const Assignment& point, const std::string& name) const;
+
+  /// Its key and all that a run of it needs; manifest() then has its family and inputs.
+  PlannedPoint point(const Assignment& assignment);
+  /// Without points, but for those that the caller adds.
+  Manifest& manifest();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Checks all keys, units, ranges, names and inputs, and finds every point. Throws vp::InputError.
 Manifest plan(const Spec& spec, const PlanOptions& options, const Platform& platform);

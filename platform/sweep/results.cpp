@@ -15,46 +15,16 @@ namespace platform::sweep {
 
 namespace {
 
-using Bases = std::vector<std::shared_ptr<const std::map<std::string, std::string>>>;
-
-Bases bases_of(const Manifest& manifest) {
-  Bases bases;
-  for (const Family& family : manifest.families)
-    bases.push_back(
-        std::make_shared<const std::map<std::string, std::string>>(family.configuration));
-  return bases;
-}
-
-ResultRow row_of(const Manifest& manifest, const Bases& bases, const PlannedPoint& point,
-                 Outcome outcome) {
-  ResultRow row;
-  static_cast<Outcome&>(row) = std::move(outcome);
-  row.key = point.key;
-  row.swept = point.swept;
-  row.base = bases[point.family];
-  row.changes = point.changes;
-  row.program = manifest.families[point.family].contents.value("program", "");
-  row.inputs = vp::join(manifest.input_sets[point.input_set].inputs, "+");
-  return row;
-}
-
 /// `outcome(position)` says what there is of a point, or nothing.
 template <class OutcomeAt>
 Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
-  Results results;
-  if (!manifest.job.empty()) results.job.emplace(manifest.job, manifest.name);
-  for (const std::string& text : manifest.constraints)
-    results.constraints.emplace_back(text, manifest.name);
-  const Bases bases = bases_of(manifest);
+  Results results(manifest);
   results.rows.reserve(manifest.points.size());
   for (std::size_t i = 0; i < manifest.points.size(); ++i) {
-    std::optional<Outcome> found = outcome(i);
-    if (!found) {
+    if (std::optional<Outcome> found = outcome(i))
+      results.add(manifest, manifest.points[i], *std::move(found));
+    else
       ++results.missing;
-      continue;
-    }
-    if (!results.rows.empty()) found->metrics.share_names(results.rows.back().metrics);
-    results.rows.push_back(row_of(manifest, bases, manifest.points[i], *std::move(found)));
   }
   results.manifest = std::move(manifest);
   return results;
@@ -80,6 +50,27 @@ std::string ResultRow::value(const std::string& path) const {
   }
   if (const std::string* text = parameter(path)) return *text;
   return path == "inputs" ? inputs : path == "system" || path == "program" ? program : "";
+}
+
+Results::Results(const Manifest& asked) {
+  if (!asked.job.empty()) job.emplace(asked.job, asked.name);
+  for (const std::string& text : asked.constraints) constraints.emplace_back(text, asked.name);
+}
+
+void Results::add(const Manifest& from, const PlannedPoint& point, Outcome outcome) {
+  while (bases_.size() < from.families.size())
+    bases_.push_back(std::make_shared<const std::map<std::string, std::string>>(
+        from.families[bases_.size()].configuration));
+  ResultRow row;
+  static_cast<Outcome&>(row) = std::move(outcome);
+  if (!rows.empty()) row.metrics.share_names(rows.back().metrics);
+  row.key = point.key;
+  row.swept = point.swept;
+  row.base = bases_[point.family];
+  row.changes = point.changes;
+  row.program = from.families[point.family].contents.value("program", "");
+  row.inputs = vp::join(from.input_sets[point.input_set].inputs, "+");
+  rows.push_back(std::move(row));
 }
 
 std::uint64_t Results::failed() const {

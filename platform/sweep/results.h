@@ -39,6 +39,12 @@ struct Results {
   std::optional<vp::Expression> job;  ///< what the study asks of a point instead of the usual job
   std::vector<vp::Expression> constraints;  ///< what else is asked of a result
 
+  Results() = default;
+  /// What a sweep asks of its points, without any.
+  explicit Results(const Manifest& asked);
+  /// A point of `points`, which the same manifest has.
+  void add(const Manifest& manifest, const PlannedPoint& point, Outcome outcome);
+
   std::uint64_t failed() const;
   /// Whether a part (report::verdict_parts) of the verdict on the point holds.
   report::Holds holds(const ResultRow& row, const std::string& part) const;
@@ -52,6 +58,10 @@ struct Results {
   std::vector<std::string> metric_names() const;
   /// Those that the sweep asks for; all if it does not.
   std::vector<std::string> chosen_metrics() const;
+
+ private:
+  /// The configurations of the families, which their points share.
+  std::vector<std::shared_ptr<const std::map<std::string, std::string>>> bases_;
 };
 
 /// Reads the points of the folder's last sweep. Throws vp::InputError for a damaged one.

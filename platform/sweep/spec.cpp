@@ -45,6 +45,7 @@ class Reader : private vp::YamlReader {
         {"parameters", [&](const YAML::Node& n) { read_parameters(n); }},
         {"zip", [&](const YAML::Node& n) { read_zip(n); }},
         {"sample", [&](const YAML::Node& n) { read_sampling(n); }},
+        {"search", [&](const YAML::Node& n) { read_search(n); }},
         {"constraints", [&](const YAML::Node& n) { read_constraints(n); }},
         {"job",
          [&](const YAML::Node& n) {
@@ -60,6 +61,7 @@ class Reader : private vp::YamlReader {
   static constexpr std::uint64_t most_frames = 1'000'000;
   static constexpr std::uint64_t most_points = 10'000'000;
   static constexpr double most_rate = 1e6;
+  static constexpr std::uint64_t most_seed = 1'000'000'000'000;
 
   void read_program(const YAML::Node& node, const std::string& key) {
     if (!spec_.program.empty()) fail(node, "'system' and 'program' both name the PS program");
@@ -186,8 +188,7 @@ class Reader : private vp::YamlReader {
            sampling.points = whole(n, "points", 1, most_points);
            has_points = true;
          }},
-        {"seed",
-         [&](const YAML::Node& n) { sampling.seed = whole(n, "seed", 0, 1'000'000'000'000); }},
+        {"seed", [&](const YAML::Node& n) { sampling.seed = whole(n, "seed", 0, most_seed); }},
         {"trajectories",
          [&](const YAML::Node& n) {
            sampling.trajectories = static_cast<std::uint32_t>(whole(n, "trajectories", 2, 10'000));
@@ -201,6 +202,23 @@ class Reader : private vp::YamlReader {
     const bool counted = sampling.method == Method::random || sampling.method == Method::sobol;
     if (counted != has_points)
       fail(node, counted ? "'sample' needs 'points'" : "this method takes no 'points'");
+  }
+
+  void read_search(const YAML::Node& node) {
+    SearchChoice& search = spec_.search;
+    search.where = where(node);
+    const auto number = [&](const YAML::Node& n, const char* name, std::uint64_t most) {
+      return static_cast<std::uint32_t>(whole(n, name, 2, most));
+    };
+    const Keys keys{
+        {"points",
+         [&](const YAML::Node& n) { search.points = whole(n, "points", 2, most_points); }},
+        {"generation",
+         [&](const YAML::Node& n) { search.generation = number(n, "generation", 10'000); }},
+        {"patience", [&](const YAML::Node& n) { search.patience = number(n, "patience", 10'000); }},
+        {"seed", [&](const YAML::Node& n) { search.seed = whole(n, "seed", 0, most_seed); }},
+        {"time", [&](const YAML::Node& n) { search.time = scalar(n, "time"); }}};
+    for_each(node, keys, "'search'");
   }
 
   void read_constraints(const YAML::Node& node) {

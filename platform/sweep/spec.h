@@ -42,6 +42,16 @@ struct Sampling {
   std::uint32_t levels = 4;         ///< of Morris, even
 };
 
+/// How `markervp explore` chooses points.
+struct SearchChoice {
+  std::string where;              ///< empty: the file does not say
+  std::uint64_t points = 2000;    ///< at most
+  std::uint32_t generation = 40;  ///< points that are chosen together
+  std::uint32_t patience = 10;    ///< generations without gain, before it ends
+  std::uint64_t seed = 1;
+  std::optional<std::string> time;  ///< at most, "10 min"
+};
+
 struct Condition {
   std::string text;
   std::string where;
@@ -67,6 +77,7 @@ struct Spec {
 
   std::vector<Dimension> dimensions;
   Sampling sampling;
+  SearchChoice search;
   std::vector<Condition> constraints;   ///< on parameters, and on metrics; a rate is one of these
   std::optional<Condition> job;         ///< what a point must have done; none: the usual
   std::vector<std::string> metrics;     ///< columns; empty: all

@@ -14,10 +14,6 @@ using namespace sweep_test;
 
 namespace {
 
-void wait_until(const std::function<bool()>& happened) {
-  while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-}
-
 /// Whether the process has computed for some hundredths of a second: it is at a point.
 bool is_at_work(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");

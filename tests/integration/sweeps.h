@@ -3,10 +3,13 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "executable.h"
@@ -24,6 +27,10 @@ objectives: [max summary.fps.mean, min summary.latency_us.mean]
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+inline void wait_until(const std::function<bool()>& happened) {
+  while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 /// A folder in which sweeps run.

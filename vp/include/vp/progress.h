@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace vp {
 
@@ -24,6 +25,8 @@ class Progress {
 
   /// `done` steps of the total are done. Cheap: draws a few times a second.
   void update(std::uint64_t done);
+  /// Another label from here on.
+  void label(std::string label) { label_ = std::move(label); }
   /// One more step is done.
   void step() { update(done_ + 1); }
 

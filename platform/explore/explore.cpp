@@ -1,0 +1,406 @@
+#include <explore/explore.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <utility>
+
+#include <report/console.h>
+#include <report/verdict.h>
+#include <sweep/metric_catalogue.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform::explore {
+
+namespace {
+
+/// Of a point that did not run: farther than any that did.
+constexpr double did_not_run = 100;
+/// Of what should be above a number, and is that number.
+constexpr double least_shortfall = 1e-9;
+/// Nobody reads a front in more dimensions.
+constexpr std::size_t most_objectives = 4;
+/// A hypervolume that grew by less did not gain.
+constexpr double least_gain = 0.001;
+
+/// Where few points are allowed, so many are looked at until one is.
+constexpr std::size_t allowed_generation = 50;
+constexpr int allowed_generations = 200;
+
+const char* const part_prefix = "verdict.";
+
+double shortfall_of(const vp::Expression& asked, const vp::Expression::Lookup& lookup) {
+  return asked.holds(lookup) ? 0 : std::max(least_shortfall, asked.shortfall(lookup));
+}
+
+}  // namespace
+
+Requirement Requirement::part(const std::string& name) {
+  Requirement requirement;
+  requirement.text_ = part_prefix + name;
+  return requirement;
+}
+
+Requirement Requirement::constraint(const vp::Expression& expression) {
+  Requirement requirement;
+  requirement.text_ = expression.text();
+  requirement.expression_ = expression;
+  return requirement;
+}
+
+double Requirement::shortfall(const sweep::Results& results, const sweep::ResultRow& row) const {
+  const auto lookup = [&](const std::string& name) { return sweep::value_in(row, name); };
+  const auto of = [&](const vp::Expression& asked) {
+    return missing_in(row, asked) ? 1 : shortfall_of(asked, lookup);
+  };
+  if (expression_) return of(*expression_);
+  const std::string part = text_.substr(std::string(part_prefix).size());
+  if (results.holds(row, part) == report::Holds::yes) return 0;
+  if (part == "job" && results.job) return of(*results.job);
+  const double* margin = row.metrics.find(text_ + ".margin_percent");
+  return margin != nullptr && *margin < 0 ? -*margin / 100 : 1;
+}
+
+std::string to_string(End end) {
+  switch (end) {
+    case End::points:
+      return "as many points as it may have";
+    case End::time:
+      return "its time is over";
+    case End::no_gain:
+      return "no gain any more";
+    case End::exhausted:
+      return "no other point was found";
+    case End::failed:
+      return "no point ran";
+    case End::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+namespace {
+
+Coordinate coordinate_of(const sweep::AxisGroup& group) {
+  const sweep::AxisValues& axis = group.front();
+  return {axis.ordered() ? 0 : static_cast<std::uint32_t>(axis.values().size())};
+}
+
+std::optional<double> seconds_of(const sweep::SearchChoice& choice) {
+  if (!choice.time) return std::nullopt;
+  constexpr double ps_in_a_second = 1e12;
+  try {
+    const double seconds =
+        vp::parse_quantity(*choice.time, vp::Unit::time).to_double() / ps_in_a_second;
+    if (seconds > 0) return seconds;
+  } catch (const vp::InputError&) {  // told below
+  }
+  const std::string where = choice.where.empty() ? "" : choice.where + ": ";
+  throw vp::InputError(where + "'" + *choice.time +
+                       "' is no time for a search: write '90 s' or '3600 s'");
+}
+
+/// "summary.fps.mean >= 200", in parts.
+struct Bound {
+  std::string name, comparison;
+  double number;
+};
+
+std::optional<Bound> bound_of(const std::string& text) {
+  static const std::regex form(R"(\s*`?([\w.]+)`?\s*(<=|>=|<|>|==)\s*([-+.\deE]+)\s*)");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  return Bound{parts[1], parts[2], std::strtod(parts[3].str().c_str(), nullptr)};
+}
+
+/// Whether no number is within both.
+bool contradict(const Bound& a, const Bound& b) {
+  if (a.comparison[0] == '>' && b.comparison[0] != '>') return contradict(b, a);
+  if (a.comparison == "==" && b.comparison == "==") return a.number != b.number;
+  const bool both = a.comparison.size() == 2 && b.comparison.size() == 2;  // ends included
+  const auto is_above = [&](double most, double least) {
+    return both ? least > most : least >= most;
+  };
+  if (a.comparison[0] == '<' && b.comparison[0] != '<') return is_above(a.number, b.number);
+  if (a.comparison == "==")
+    return b.comparison[0] == '<' ? is_above(b.number, a.number) : is_above(a.number, b.number);
+  return b.comparison == "==" && is_above(a.number, b.number);
+}
+
+void check_bounds(const std::vector<vp::Expression>& constraints) {
+  std::map<std::string, std::vector<std::pair<Bound, std::string>>> bounds;
+  for (const vp::Expression& constraint : constraints) {
+    const std::optional<Bound> bound = bound_of(constraint.text());
+    if (!bound) continue;
+    for (const auto& [other, text] : bounds[bound->name]) {
+      if (contradict(*bound, other))
+        throw vp::InputError("'" + text + "' and '" + constraint.text() +
+                             "' contradict each other: no point can do both; leave out one");
+    }
+    bounds[bound->name].emplace_back(*bound, constraint.text());
+  }
+}
+
+}  // namespace
+
+Explorer::Explorer(sweep::Space& space, Compute compute, OnGeneration on_generation)
+    : space_(space),
+      choice_(space.spec().search),
+      compute_(std::move(compute)),
+      on_generation_(std::move(on_generation)),
+      seconds_(seconds_of(choice_)) {
+  sweep::Manifest& manifest = space.manifest();
+  if (manifest.objectives.empty())
+    manifest.objectives = {sweep::usual_objectives.begin(), sweep::usual_objectives.end()};
+  for (const std::string& text : manifest.objectives)
+    goal_.objectives.emplace_back(text, space.spec().origin + ": objectives");
+  results_ = sweep::Results(manifest);
+  for (const char* part : report::verdict_parts)
+    goal_.requirements.push_back(Requirement::part(part));
+  for (const vp::Expression& constraint : results_.constraints)
+    goal_.requirements.push_back(Requirement::constraint(constraint));
+  for (const sweep::AxisGroup& group : space.groups()) coordinates_.push_back(coordinate_of(group));
+  check();
+}
+
+void Explorer::check() const {
+  const std::string start = space_.spec().origin + ": ";
+  if (goal_.objectives.size() > most_objectives)
+    throw vp::InputError(start + "a search has at most " + std::to_string(most_objectives) +
+                         " objectives: make a constraint of those that need only be good enough");
+  if (space_.size() == 1)
+    throw vp::InputError(start +
+                         "the space has one point, so there is nothing to search: "
+                         "'markervp sweep' computes it; give parameters more values");
+  for (const sweep::Objective& objective : goal_.objectives) check_objective(objective);
+  check_bounds(results_.constraints);
+  check_bounds(space_.conditions());
+}
+
+void Explorer::check_objective(const sweep::Objective& objective) const {
+  const vp::Expression& figure = objective.figure();
+  const vp::ExpressionValue value =
+      figure.value([&](const std::string& name) -> vp::ExpressionValue {
+        if (sweep::kind_of_metric(name) != nullptr) return 1.0L;
+        return space_.value({}, name);
+      });
+  if (value.is_text)
+    figure.refuse(figure.names().front(),
+                  "this is a text: an objective is a number; 'markervp metrics' lists those");
+}
+
+void Explorer::check_first_generation() const {
+  for (const sweep::Objective& objective : goal_.objectives) {
+    const auto has_it = [&](const sweep::ResultRow& row) {
+      return sweep::figure_in(row, objective.figure()).has_value();
+    };
+    if (std::any_of(results_.rows.begin(), results_.rows.end(), has_it)) continue;
+    throw vp::InputError(space_.spec().origin + ": none of the first " +
+                         report::counted(results_.rows.size(), "point") + " has a value of '" +
+                         objective.figure().text() +
+                         "': take another objective ('markervp metrics'), or inputs that give it");
+  }
+}
+
+sweep::Assignment Explorer::assignment(const Genome& genome) const {
+  sweep::Assignment point;
+  for (std::size_t i = 0; i < genome.size(); ++i) {
+    for (const sweep::AxisValues& axis : space_.groups()[i]) {
+      point.emplace_back(axis.path(), coordinates_[i].choices == 0
+                                          ? axis.sampled(genome[i])
+                                          : axis.values()[static_cast<std::size_t>(genome[i])]);
+    }
+  }
+  return point;
+}
+
+/// By how much a point breaks the constraints on parameters; 0: the search may have it.
+double Explorer::broken_conditions(const sweep::Assignment& point, const Goal& goal) const {
+  const auto lookup = [&](const std::string& name) { return space_.value(point, name); };
+  double sum = 0;
+  for (const vp::Expression& condition : space_.conditions()) {
+    const bool given_up = goal.given_up && goal.given_up->text() == condition.text();
+    if (!given_up) sum += shortfall_of(condition, lookup);
+  }
+  return sum;
+}
+
+bool Explorer::take(const Genome& genome, const Goal& goal) {
+  const sweep::Assignment found = assignment(genome);
+  if (broken_conditions(found, goal) > 0) return false;
+  std::string name;
+  for (const auto& [path, value] : found) name += value + '\n';
+  if (!offered_.insert(name).second) return false;
+  sweep::PlannedPoint point = space_.point(found);
+  // Different values may be the same point: clocks are those that a chip has.
+  if (!keys_.insert(point.key).second) return false;
+  space_.manifest().points.push_back(std::move(point));
+  genomes_.push_back(genome);
+  return true;
+}
+
+/// Points that constraints on parameters allow are few: a search for them, which computes nothing.
+std::size_t Explorer::take_any(const Goal& goal) {
+  Search search(coordinates_, allowed_generation, choice_.seed);
+  std::size_t taken = 0;
+  for (int i = 0; i < allowed_generations && taken == 0; ++i) {
+    std::vector<Genome> generation;
+    search.breed(allowed_generation, [&](const Genome& genome) {
+      generation.push_back(genome);
+      return true;
+    });
+    for (const Genome& genome : generation) {
+      const double broken = broken_conditions(assignment(genome), goal);
+      if (broken == 0 && take(genome, goal)) ++taken;
+      search.judge(genome, {{0}, broken});
+    }
+    search.select();
+  }
+  return taken;
+}
+
+/// False: interrupted. Then the points that are not there are forgotten.
+bool Explorer::compute_taken() {
+  std::vector<sweep::PlannedPoint>& points = space_.manifest().points;
+  const std::size_t first = results_.rows.size();
+  std::vector<std::size_t> positions;
+  for (std::size_t i = first; i < points.size(); ++i) positions.push_back(i);
+  const std::map<std::size_t, sweep::Outcome> outcomes = compute_(positions);
+  std::size_t kept = first;
+  for (const std::size_t position : positions) {
+    const auto found = outcomes.find(position);
+    if (found == outcomes.end()) continue;
+    if (kept != position) {
+      points[kept] = std::move(points[position]);
+      genomes_[kept] = std::move(genomes_[position]);
+    }
+    results_.add(space_.manifest(), points[kept++], found->second);
+  }
+  const bool whole = kept == points.size();
+  points.resize(kept);
+  genomes_.resize(kept);
+  return whole;
+}
+
+double Explorer::violation(const Goal& goal, const sweep::ResultRow& row) const {
+  if (row.failed) return did_not_run;
+  double sum = 0;
+  for (const Requirement& requirement : goal.requirements) {
+    if (goal.given_up && goal.given_up->text() == requirement.text()) continue;
+    sum += requirement.shortfall(results_, row);
+  }
+  return sum;
+}
+
+Judgement Explorer::judgement(const Goal& goal, const sweep::ResultRow& row) const {
+  Judgement judgement;
+  judgement.violation = violation(goal, row);
+  if (judgement.violation > 0) return judgement;
+  if (goal.given_up) {
+    judgement.costs = {goal.given_up->shortfall(results_, row)};
+    return judgement;
+  }
+  for (const sweep::Objective& objective : goal.objectives) {
+    const std::optional<double> figure = sweep::figure_in(row, objective.figure());
+    // What cannot be compared is as good as a point that did not run.
+    if (!figure) return {{}, did_not_run};
+    judgement.costs.push_back(objective.maximise() ? -*figure : *figure);
+  }
+  return judgement;
+}
+
+const sweep::ResultRow* Explorer::least_violating() const {
+  const sweep::ResultRow* least = nullptr;
+  double violated = did_not_run;
+  for (const sweep::ResultRow& row : results_.rows) {
+    const double here = violation(goal_, row);
+    if (here >= violated) continue;
+    least = &row;
+    violated = here;
+  }
+  return least;
+}
+
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+/// Whether the front is still getting better.
+class Gain {
+ public:
+  explicit Gain(std::uint32_t patience) : patience_(patience) {}
+
+  /// After each generation. True: none for as many generations as anybody waits.
+  bool is_over(const Front& front) {
+    const bool feasible = front.size() != 0;
+    const double now = front.hypervolume();
+    const bool gained = feasible ? now - front.hypervolume_of(costs_) > least_gain * now
+                                 : front.violation() < violation_ * (1 - least_gain);
+    if (gained) {
+      costs_ = front.costs();
+      violation_ = front.violation();
+      without_ = 0;
+    } else {
+      ++without_;
+    }
+    return without_ >= patience_;
+  }
+
+ private:
+  std::uint32_t patience_;
+  std::uint32_t without_ = 0;
+  std::vector<std::vector<double>> costs_;
+  double violation_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+End Explorer::explore() {
+  return search(goal_, choice_.points);
+}
+
+End Explorer::search(const Goal& goal, std::uint64_t more_points) {
+  Search search(coordinates_, choice_.generation, choice_.seed);
+  Gain gain(choice_.patience);
+  front_ = Front();
+  const auto judge = [&](std::size_t from) {
+    for (std::size_t i = from; i < results_.rows.size(); ++i) {
+      const Judgement found = judgement(goal, results_.rows[i]);
+      front_.add(found);
+      search.judge(genomes_[i], found);
+    }
+    if (from != results_.rows.size()) search.select();
+  };
+  judge(0);
+  const HostClock::time_point start = HostClock::now();
+  const std::size_t last = results_.rows.size() + more_points;
+  for (;;) {
+    const std::size_t first = results_.rows.size();
+    if (first >= last) return End::points;
+    const std::chrono::duration<double> spent = HostClock::now() - start;
+    if (seconds_ && spent.count() > *seconds_) return End::time;
+    std::size_t taken = search.breed(std::min<std::size_t>(choice_.generation, last - first),
+                                     [&](const Genome& genome) { return take(genome, goal); });
+    if (taken == 0 && first == 0) taken = take_any(goal);
+    if (taken == 0 && first == 0)
+      throw vp::InputError(space_.spec().origin +
+                           ": no point is left: the constraints contradict each other or the "
+                           "values");
+    if (taken == 0) return End::exhausted;
+    if (!compute_taken()) {
+      judge(first);
+      return End::interrupted;
+    }
+    if (first == 0 && results_.failed() == results_.rows.size()) return End::failed;
+    if (first == 0) check_first_generation();
+    judge(first);
+    if (on_generation_) on_generation_(results_.rows.size(), front_);
+    if (gain.is_over(front_)) return End::no_gain;
+  }
+}
+
+}  // namespace platform::explore

@@ -1,0 +1,101 @@
+#include <csignal>
+
+#include "sweeps.h"
+
+using namespace sweep_test;
+
+namespace {
+
+/// 1024 points, of which a search looks at 60.
+constexpr const char* space = R"(
+parameters:
+  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 66.5 MHz, step: 1.5 MHz}
+  ps.cpu_clk.frequency: {start: 100 MHz, stop: 720 MHz, step: 20 MHz}
+constraints: [summary.fps.mean >= 50]
+objectives: [max summary.fps.mean, min summary.energy_per_frame_mj]
+search: {points: 60, generation: 12}
+)";
+
+void same_results(const Sweeps& sweeps, const std::string& one, const std::string& other) {
+  BOOST_TEST((sweeps.points(one) == sweeps.points(other)));
+  for (const char* file : {"/manifest.json", "/points.csv", "/sweep.csv"}) {
+    BOOST_TEST((kit::read_file(sweeps / (one + file)) == kit::read_file(sweeps / (other + file))),
+               file);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(explorations)
+
+BOOST_FIXTURE_TEST_CASE(a_search_does_not_depend_on_the_number_of_processes, Sweeps) {
+  write("s.yaml", space);
+  const kit::Outcome one = run({"explore", "s.yaml", "--jobs", "1", "--output", "one"});
+  BOOST_TEST(one.exit_code == 0, one.err);
+  BOOST_TEST(contains(one.out, "The search looked at 60 points of"), one.out);
+  BOOST_TEST(contains(one.out, " front\n"), one.out);
+  run({"explore", "s.yaml", "--jobs", "3", "--output", "three"});
+  run({"explore", "s.yaml", "--isolate", "--no-report", "--output", "isolated"});
+  BOOST_TEST(points("one").size() == 60u);
+  same_results(*this, "one", "three");
+  same_results(*this, "one", "isolated");
+  // A sweep's tools know it.
+  BOOST_TEST(run({"pareto", "one"}).exit_code == 0);
+  BOOST_TEST(
+      contains(run({"explore", "s.yaml", "--output", "one"}).out, "0 computed now, 60 there"));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_search_that_was_stopped_leaves_a_front_and_goes_on, Sweeps) {
+  write("s.yaml", space);
+  const std::vector<std::string> long_search{"explore", "s.yaml", "--points", "400",
+                                             "--jobs",  "1",      "--output", "stopped"};
+  kit::ChildProcess search(MARKERVP_EXECUTABLE, long_search, path());
+  wait_until([&] { return count_points("stopped") >= 20 || search.ended(); });
+  search.send(SIGINT);
+  const kit::Outcome stopped = search.wait();
+  BOOST_TEST(stopped.exit_code == 130);
+  BOOST_TEST(contains(stopped.err, "the same command goes on"), stopped.err);
+  BOOST_TEST(contains(stopped.out, "ended: interrupted"), stopped.out);
+  BOOST_TEST(run({"pareto", "stopped"}).exit_code == 0);
+  const std::size_t before = count_points("stopped");
+  {
+    kit::ChildProcess killed(MARKERVP_EXECUTABLE, long_search, path());
+    wait_until([&] { return count_points("stopped") >= before + 5 || killed.ended(); });
+    killed.send(SIGKILL);
+    killed.wait();
+  }
+  run(long_search);
+  std::vector<std::string> at_once = long_search;
+  at_once.back() = "at-once";
+  run(at_once);
+  same_results(*this, "stopped", "at-once");
+  for (const auto& [key, count] : computations("stopped")) BOOST_TEST(count == 1, key);
+}
+
+BOOST_FIXTURE_TEST_CASE(mistakes_in_a_search_cost_no_time, Sweeps) {
+  const auto problem = [&](const std::string& yaml) {
+    write("wrong.yaml", yaml);
+    const kit::Outcome outcome = run({"explore", "wrong.yaml"});
+    BOOST_TEST(outcome.exit_code == 2);
+    BOOST_TEST(!std::filesystem::exists(*this / "out/wrong/points.csv"));
+    return outcome.err;
+  };
+  BOOST_TEST(contains(problem("parameters: {sw.margin: [4 px]}"), "nothing to search"));
+  const std::string start = "parameters: {sw.margin: [4 px, 5 px]}\n";
+  BOOST_TEST(contains(problem(start + "objectives: [max device]"), "this is a text"));
+  BOOST_TEST(contains(problem(start + "search: {pionts: 5}"), "did you mean 'points'"));
+  BOOST_TEST(contains(problem(start + "constraints: [summary.fps.mean > 9, summary.fps.mean < 8]"),
+                      "contradict each other"));
+  BOOST_TEST(contains(run({"explore", "nosuch"}).err, "no sweep 'nosuch'"));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_dry_run_says_how_large_the_space_is, Sweeps) {
+  write("s.yaml", space);
+  const kit::Outcome outcome = run({"explore", "s.yaml", "--dry-run", "--points", "7"});
+  BOOST_TEST(outcome.exit_code == 0);
+  BOOST_TEST(contains(outcome.out, "1024 points, 7 of them at most; objectives: max summary.fps"),
+             outcome.out);
+  BOOST_TEST(!std::filesystem::exists(*this / "out"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,228 @@
+#include <explore/explore.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include <sweep/metric_catalogue.h>
+#include <vp/error.h>
+
+using namespace platform;
+using namespace platform::explore;
+
+namespace {
+
+/// Parameters a and b, numbers from 0 to 1000, and a word.
+sweep::Platform numbers() {
+  sweep::Platform platform;
+  platform.elaborate = [](const sweep::Build& build, const std::string&) {
+    sweep::Elaborated built;
+    for (const char* path : {"a", "b", "word"}) {
+      const std::string usual = path == std::string("word") ? "plain" : "0";
+      const auto set = build.settings.find(path);
+      built.parameters.push_back(
+          {path, set == build.settings.end() ? usual : set->second, usual, "", {}, ""});
+    }
+    built.size = {640, 480};
+    return built;
+  };
+  platform.program_file = [](const std::string&, const std::string&) { return ""; };
+  platform.version = "1";
+  platform.revision = "r";
+  return platform;
+}
+
+double number(const sweep::PlannedPoint& point, const std::string& path) {
+  for (const auto& [name, value] : point.swept) {
+    if (name == path) return std::stod(value);
+  }
+  return 0;
+}
+
+/// Fast is what costs: frames a second grow with a, power with a², and both get worse off b = 500.
+sweep::Outcome outcome_of(const sweep::PlannedPoint& point) {
+  const double a = number(point, "a") / 1000, b = number(point, "b") / 1000 - 0.5;
+  std::vector<std::pair<std::string, double>> figures{{"summary.fps.mean", 100 * a - 50 * b * b},
+                                                      {"power.total_w.nominal", a * a + b * b}};
+  for (const char* part : report::verdict_parts)
+    figures.emplace_back("verdict." + std::string(part) + ".holds", 1);
+  sweep::Outcome outcome;
+  outcome.metrics = sweep::Metrics(std::move(figures));
+  return outcome;
+}
+
+constexpr const char* square = R"(
+parameters:
+  a: {start: 0, stop: 1000, step: 1}
+  b: {start: 0, stop: 1000, step: 1}
+search: {points: 400, generation: 20}
+)";
+
+/// A search over `yaml` whose points cost nothing.
+struct Study {
+  using Outcome = sweep::Outcome (*)(const sweep::PlannedPoint&);
+
+  explicit Study(const std::string& yaml, Outcome outcome = outcome_of, std::size_t most = 1e9)
+      : space(sweep::parse_spec(yaml, "study.yaml"), platform),
+        explorer(space, [=](const auto& positions) {
+          std::map<std::size_t, sweep::Outcome> found;
+          for (const std::size_t position : positions) {
+            if (position < most) found[position] = outcome(space.manifest().points[position]);
+          }
+          return found;
+        }) {}
+
+  std::vector<std::string> keys() {
+    std::vector<std::string> keys;
+    for (const sweep::PlannedPoint& point : space.manifest().points) keys.push_back(point.key);
+    return keys;
+  }
+
+  sweep::Platform platform = numbers();
+  sweep::Space space;
+  Explorer explorer;
+};
+
+std::string complaint(const std::string& yaml, Study::Outcome outcome = outcome_of) {
+  try {
+    Study study(yaml, outcome);
+    study.explorer.explore();
+  } catch (const vp::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(explorer)
+
+BOOST_AUTO_TEST_CASE(a_million_points_need_a_few_hundred) {
+  Study study(square);
+  const End end = study.explorer.explore();
+  BOOST_TEST((end == End::points || end == End::no_gain));
+  const auto& rows = study.explorer.results().rows;
+  BOOST_TEST(rows.size() <= 400u);
+  BOOST_TEST(rows.size() == study.space.manifest().points.size());
+  // The best points have b = 500 and any a: half of the box and more is below the curve.
+  BOOST_TEST(study.explorer.front().size() > 20u);
+  BOOST_TEST(study.explorer.front().hypervolume() > 0.65);
+}
+
+BOOST_AUTO_TEST_CASE(a_search_that_was_interrupted_goes_on_as_if_it_was_not) {
+  Study whole(square), part(square, outcome_of, 95);
+  whole.explorer.explore();
+  BOOST_TEST((part.explorer.explore() == End::interrupted));
+  const std::vector<std::string> all = whole.keys(), some = part.keys();
+  BOOST_TEST(some.size() == 95u);
+  BOOST_TEST(part.explorer.results().rows.size() == 95u);
+  BOOST_TEST(std::equal(some.begin(), some.end(), all.begin()));
+  BOOST_TEST(part.explorer.front().size() > 5u);
+}
+
+BOOST_AUTO_TEST_CASE(the_seed_decides_which_points_are_computed) {
+  Study first(square), again(square), other(std::string(square) + "frames: 1\n");
+  first.explorer.explore();
+  again.explorer.explore();
+  BOOST_TEST((first.keys() == again.keys()));
+  const std::string text =
+      std::string(square).replace(std::string(square).find("generation"), 0, "seed: 2, ");
+  Study seeded(text);
+  seeded.explorer.explore();
+  BOOST_TEST((seeded.keys() != first.keys()));
+}
+
+BOOST_AUTO_TEST_CASE(constraints_choose_points_and_judge_results) {
+  Study study(std::string(square) +
+              "constraints: [a + b <= 900, summary.fps.mean >= 20]\n"
+              "objectives: [min power.total_w.nominal]\n");
+  study.explorer.explore();
+  for (const sweep::PlannedPoint& point : study.space.manifest().points)
+    BOOST_TEST(number(point, "a") + number(point, "b") <= 900);
+  // The slowest that is fast enough, on its best b.
+  BOOST_REQUIRE(study.explorer.front().size() == 1u);
+  BOOST_TEST(study.explorer.front().costs().front().front() == 0.04,
+             boost::test_tools::tolerance(0.05));
+}
+
+BOOST_AUTO_TEST_CASE(a_small_space_is_looked_at_as_a_whole_and_once) {
+  Study study("parameters: {a: [1, 2, 3, 3.0], word: [plain, odd]}\nconstraints: [a != 2]\n");
+  BOOST_TEST((study.explorer.explore() == End::exhausted));
+  const std::vector<std::string> keys = study.keys();
+  BOOST_TEST(keys.size() == 4u);
+  BOOST_TEST(std::set<std::string>(keys.begin(), keys.end()).size() == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(a_range_without_steps_is_searched) {
+  Study study(
+      "parameters: {a: {start: 0.0, stop: 1000.0}, b: {start: 0.0, stop: 1000.0}}\n"
+      "objectives: [min power.total_w.nominal]\nsearch: {points: 300}\n");
+  study.explorer.explore();
+  BOOST_TEST(std::isinf(study.space.size()));
+  BOOST_TEST(study.explorer.front().costs().front().front() < 0.001);
+}
+
+BOOST_AUTO_TEST_CASE(more_points_than_anybody_computes_are_no_obstacle) {
+  std::string text = "parameters:\n  a: {start: 0, stop: 1000000, step: 1}\n";
+  text += "  b: {start: 0.0, stop: 1000.0, step: 0.001}\n";
+  Study study(text + "  word: [plain, odd]\nsearch: {points: 50}\n");
+  BOOST_TEST(study.space.size() > 1e12);
+  BOOST_TEST((study.explorer.explore() == End::points));
+  BOOST_TEST(study.keys().size() == 50u);
+}
+
+BOOST_AUTO_TEST_CASE(without_gain_it_ends) {
+  Study study(std::string(square) + "objectives: [min 0 * a + 7]\n");
+  BOOST_TEST((study.explorer.explore() == End::no_gain));
+  BOOST_TEST(study.keys().size() < 400u);
+}
+
+BOOST_AUTO_TEST_CASE(time_ends_it) {
+  Study study("parameters: {a: {start: 0, stop: 1000, step: 1}}\nsearch: {time: 1 ns}\n");
+  BOOST_TEST((study.explorer.explore() == End::time));
+  BOOST_TEST(study.keys().empty());
+  BOOST_TEST(contains(complaint("parameters: {a: [1, 2]}\nsearch: {time: soon}\n"),
+                      "study.yaml:2: 'soon' is no time for a search: write '90 s'"));
+}
+
+BOOST_AUTO_TEST_CASE(where_no_point_runs_it_ends_at_once) {
+  Study study(square, [](const sweep::PlannedPoint&) {
+    sweep::Outcome outcome;
+    outcome.failed = true;
+    outcome.failure = {1, 0, "no such word"};
+    return outcome;
+  });
+  BOOST_TEST((study.explorer.explore() == End::failed));
+  BOOST_TEST(study.keys().size() == 20u);
+  BOOST_TEST(study.explorer.least_violating() == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_searched_is_told_before_the_first_point) {
+  const std::string start(square);
+  BOOST_TEST(contains(complaint("parameters: {a: [7]}\n"),
+                      "the space has one point, so there is nothing to search"));
+  BOOST_TEST(
+      contains(complaint(start + "sample: {method: sobol, points: 9}\n"), "leave out 'sample'"));
+  BOOST_TEST(contains(complaint(start + "objectives: [max word]\n"), "this is a text"));
+  BOOST_TEST(contains(complaint(start + "objectives: [max summary.fps.men]\n"),
+                      "did you mean 'summary.fps.mean'"));
+  BOOST_TEST(contains(complaint(start + "objectives: [max a, max b, min a, min b, max a + b]\n"),
+                      "at most 4 objectives"));
+  BOOST_TEST(contains(
+      complaint(start + "constraints: [summary.fps.mean >= 200, summary.fps.mean < 100]\n"),
+      "'summary.fps.mean >= 200' and 'summary.fps.mean < 100' contradict each other"));
+  BOOST_TEST(contains(complaint(start + "constraints: [a > 5, a < 5]\n"), "contradict"));
+  BOOST_TEST(contains(complaint(start + "constraints: [a == 5, a == 6]\n"), "contradict"));
+  BOOST_TEST(complaint(start + "constraints: [a >= 5, a <= 5, b == 7]\n") == "");
+  BOOST_TEST(contains(complaint(start + "constraints: [a + b > 2000]\n"), "contradict"));
+}
+
+BOOST_AUTO_TEST_CASE(an_objective_that_no_point_has_ends_it) {
+  BOOST_TEST(contains(complaint(std::string(square) + "objectives: [min summary.latency_us.mean]"),
+                      "none of the first 20 points has a value of 'summary.latency_us.mean'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
