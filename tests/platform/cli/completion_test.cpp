@@ -51,7 +51,7 @@ BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(offered({"markervp", "\"\""}) ==
              "run scenes designs config map report validate devices clocks power rtl trace "
-             "sweep metrics pareto sensitivity compare completion --help --version ");
+             "sweep explore metrics pareto sensitivity compare completion --help --version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config compare completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
              "--trace-window --trace-filter --trace-level --trace-clocks --trace-trigger "
