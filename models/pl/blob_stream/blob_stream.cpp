@@ -1,0 +1,122 @@
+#include <pl/blob_stream/blob_stream.h>
+
+#include <pl/common/estimate.h>
+
+#include <cstddef>
+
+namespace pl {
+
+namespace packet = ::blob_stream;
+
+BlobStream::BlobStream(sc_core::sc_module_name name, vp::Clock& clk)
+    : Clocked(name, clk),
+      Ip(&clk),
+      extreme{{vp::In<std::uint32_t>{"extreme_0", this}, vp::In<std::uint32_t>{"extreme_1", this},
+               vp::In<std::uint32_t>{"extreme_2", this}, vp::In<std::uint32_t>{"extreme_3", this},
+               vp::In<std::uint32_t>{"extreme_4", this}, vp::In<std::uint32_t>{"extreme_5", this},
+               vp::In<std::uint32_t>{"extreme_6", this},
+               vp::In<std::uint32_t>{"extreme_7", this}}} {
+  wake_on(rst);
+  wake_on(frame_ena);
+  wake_on(idle);
+  wake_on(blob_out);
+  wake_on(m.tready);
+}
+
+void BlobStream::edge() {
+  const bool frame = frame_ena, begins = frame && !frame_before_;
+  frame_before_ = frame;
+  if (rst) return reset();
+  // What stood before this clock decides.
+  const bool room = fifo_.size() < fifo_depth;
+  const bool free = m.tready && !m.tvalid.get() && fifo_.empty();
+  offer();
+  fill_fifo(room);
+  if (begins) begin_frame(free);
+  if (blob_out) take_blob();
+  if (busy.written() && !frame && idle && !blob_out && sender_.empty()) end_frame();
+  fifo_count = static_cast<std::uint16_t>(fifo_.size());
+  if (may_sleep()) sleep();
+}
+
+void BlobStream::offer() {
+  if (!m.free()) return;
+  if (fifo_.empty()) return m.withdraw();
+  m.offer(fifo_.front().data, fifo_.front().last);
+  fifo_.pop_front();
+}
+
+void BlobStream::fill_fifo(bool room) {
+  if (sender_.empty() || !room) return;
+  fifo_.push_back(sender_.front());
+  sender_.pop_front();
+  if (fifo_.back().last) busy = false;
+}
+
+void BlobStream::begin_frame(bool free) {
+  if (busy.written() || !free) dropped_frames = dropped_frames.written() + 1;
+  if (busy.written()) {
+    mixed_ = true;
+    return;
+  }
+  busy = true;
+  mixed_ = false;
+  dropping_ = !free;
+  number_ = frame_number;
+  threshold_ = threshold;
+  overflow_before_ = label_overflow;
+  sent_ = lost_ = 0;
+}
+
+// The words follow each other into the FIFO without a gap: it has room for all of them, or for
+// none.
+void BlobStream::take_blob() {
+  if (dropping_ || !busy.written()) return;
+  const bool room = fifo_.size() + packet::words_per_blob <= fifo_depth;
+  if (mixed_ || !sender_.empty() || !room || sent_ == packet::max_blobs) {
+    ++lost_;
+    dropped_blobs = dropped_blobs.written() + 1;
+    return;
+  }
+  ++sent_;
+  for (const auto& point : extreme) sender_.push_back({point, false});
+}
+
+void BlobStream::end_frame() {
+  if (dropping_) {
+    busy = false;
+    return;
+  }
+  lost_ += label_overflow - overflow_before_;
+  sender_ = {{number_, false}, {sent_, false}, {lost_, false}, {threshold_, true}};
+}
+
+bool BlobStream::may_sleep() const {
+  const bool stuck = m.tvalid.written() && !m.tready;
+  const bool moves = m.tvalid.written() || !fifo_.empty();
+  return sender_.empty() && (stuck || !moves);
+}
+
+void BlobStream::reset() {
+  fifo_.clear();
+  sender_.clear();
+  m.withdraw();
+  busy = false;
+  fifo_count = 0;
+  dropped_frames = 0;
+  dropped_blobs = 0;
+  sleep();
+}
+
+// The registers of a blob and of the trailer, and a FIFO that keeps TLAST beside each word.
+vp::IpEstimate BlobStream::own_estimate() const {
+  constexpr std::uint32_t blob_bits = 32 * packet::words_per_blob, counters = 5 * 32;
+  vp::IpEstimate e =
+      small_ip("blob_stream", 60 + blob_bits / 2 + counters, blob_bits + counters, 100 * mhz);
+  e.source = "derived from the model's registers";
+  e.fmax_documentation = "counters, a shift register and a FIFO, as the threshold bridge";
+  add_fifo(e, fifo_depth, 33);
+  return e;
+}
+
+}  // namespace pl

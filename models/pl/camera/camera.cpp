@@ -1,0 +1,156 @@
+#include <pl/camera/camera.h>
+
+#include <pl/common/estimate.h>
+#include <vp/error.h>
+#include <vp/probe.h>
+
+#include <string>
+
+namespace pl {
+
+namespace {
+
+class CameraClocked final : public Camera {
+ public:
+  CameraClocked(sc_core::sc_module_name name, const Site& site) : Camera(name, site) {}
+
+ private:
+  void edge() override;
+  void send_pixel();
+
+  std::uint32_t blanking_ = 0;  ///< clocks until the first pixel leaves
+  std::uint16_t column_ = 0, row_ = 0;
+  bool running_ = false;
+  vp::Probe<std::uint32_t> blanking_probe_{"blanking", blanking_, 20};
+};
+
+void CameraClocked::edge() {
+  const bool starts = triggered(blanking_ != 0 || running_);
+  if (rst) {
+    running_ = false;
+    blanking_ = 0;
+    frame_ena = false;
+    return sleep();
+  }
+  frame_ena = running_;
+  if (running_) send_pixel();
+  if (blanking_ != 0 && --blanking_ == 0) {
+    begin_frame(clock().cycle());
+    running_ = true;
+    column_ = row_ = 0;
+  }
+  if (starts) blanking_ = frame_blanking;
+  if (blanking_ == 0 && !running_ && !frame_ena.written()) sleep();
+}
+
+void CameraClocked::send_pixel() {
+  pixel = frame()[row_ * geometry_.width + column_];
+  pixel_x = column_;
+  pixel_y = row_;
+  if (++column_ == geometry_.width) {
+    column_ = 0;
+    running_ = ++row_ != geometry_.height;
+  }
+}
+
+/// frame_ena rises and falls at its clocks; what passes between is in `frames`.
+class CameraTlm final : public Camera {
+ public:
+  CameraTlm(sc_core::sc_module_name name, const Site& site) : Camera(name, site) {}
+
+ private:
+  void edge() override;
+
+  std::uint64_t begin_ = vp::Clock::never;  ///< edge behind which the first pixel leaves
+};
+
+void CameraTlm::edge() {
+  sleep();
+  const std::uint64_t cycle = clock().cycle();
+  const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + geometry_.pixels();
+  const bool starts = triggered(under_way);
+  if (rst) {
+    begin_ = vp::Clock::never;
+    frame_ena = false;
+    return wake_at(vp::Clock::never);
+  }
+  if (cycle == begin_) begin_frame(cycle);
+  frame_ena = under_way && cycle > begin_;
+  if (starts) begin_ = cycle + frame_blanking;
+  if (begin_ == vp::Clock::never) return;
+  for (const std::uint64_t next : {begin_, begin_ + 1, begin_ + geometry_.pixels() + 1}) {
+    if (next > cycle) return wake_at(next);
+  }
+}
+
+}  // namespace
+
+Models<Camera>& Camera::models() {
+  static Models<Camera> models{"camera",
+                               {model<Camera, CameraClocked>("clocked", no_image, both_ways),
+                                model<Camera, CameraTlm>("tlm", no_image, by_frame)}};
+  return models;
+}
+
+Camera::Camera(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk),
+      Ip(&site.clk),
+      pixel_x("pixel_x", site.geometry.words().x_bits()),
+      pixel_y("pixel_y", site.geometry.words().y_bits()),
+      geometry_(site.geometry),
+      scene_(std::make_shared<std::vector<std::uint8_t>>(site.geometry.pixels())) {
+  wake_on(ena);
+  wake_on(rst);
+  wake_on(por);
+}
+
+void Camera::show(const std::vector<std::uint8_t>& pixels) {
+  if (pixels.size() != geometry_.pixels()) {
+    throw vp::InputError(std::string(name()) + " sees an image of " +
+                         std::to_string(pixels.size()) + " pixels: its frames have " +
+                         std::to_string(geometry_.pixels()));
+  }
+  scene_ = std::make_shared<std::vector<std::uint8_t>>(pixels);
+}
+
+bool Camera::triggered(bool under_way) {
+  if (por) {
+    triggers_ = 0;
+    dropped_triggers = 0;
+  }
+  if (rst) {
+    frames.cut();
+    ena_before_ = false;
+    return false;
+  }
+  const bool rises = ena && !ena_before_;
+  ena_before_ = ena;
+  if (!rises) return false;
+  const std::uint32_t number = triggers_++;
+  if (under_way || hold) {
+    dropped_triggers = dropped_triggers.written() + 1;
+    return false;
+  }
+  frame_number = number;
+  exposed_ = scene_;
+  return true;
+}
+
+void Camera::begin_frame(std::uint64_t cycle) {
+  frames.announce();
+  before_ = frame_;
+  frame_ = exposed_;
+  frames.begin(frame_->data(), geometry_.pixels(), cycle + 1);
+}
+
+// The trigger's edge detection, two counters of 32 bits, and a register for each pin of the port.
+vp::IpEstimate Camera::own_estimate() const {
+  vp::IpEstimate e = small_ip("sensor_input", 80, 110, 100 * mhz);
+  e.source = "derived from the model's registers";
+  e.fmax_high_hz = 0;
+  e.fmax_origin = vp::FmaxOrigin::estimated;
+  e.fmax_documentation = "registers and counters";
+  return e;
+}
+
+}  // namespace pl

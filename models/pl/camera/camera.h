@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <pl/common/fidelity.h>
+#include <pl/common/frame_channel.h>
+#include <vp/clock.h>
+#include <vp/ip.h>
+#include <vp/parameter.h>
+
+namespace pl {
+
+/// A triggered sensor with a global shutter, behind a parallel port: a rise of `ena` exposes what
+/// it sees, `frame_blanking` clocks later its pixels come, one a clock, line by line.
+///
+/// The sensor stands outside of the chip: its image needs no memory there, and the test bench says
+/// what it sees. In the chip is the port, which drops triggers that come too early, and counts
+/// them.
+class Camera : public vp::Clocked, public vp::Ip {
+ public:
+  static Models<Camera>& models();
+
+  vp::In<bool> ena{"ena", this};  ///< a rise triggers
+  vp::In<bool> rst{"rst", this};  ///< cuts the frame
+  vp::In<bool> por{"por", this};  ///< system reset: frames are counted from 0 again
+  /// High while what the frame before became is not sent: a trigger is dropped, as it is while a
+  /// frame is under way.
+  vp::In<bool> hold{"hold", this};
+  vp::Signal<bool> frame_ena{"frame_ena"};
+  /// Of the frame exposed last: counts triggers since the system reset, dropped ones too.
+  vp::Signal<std::uint32_t> frame_number{"frame_number"};
+  vp::Signal<std::uint32_t> dropped_triggers{"dropped_triggers"};  ///< since the system reset
+  // Pixel by pixel.
+  vp::Signal<std::uint8_t> pixel{"pixel"};
+  vp::Signal<std::uint16_t> pixel_x;
+  vp::Signal<std::uint16_t> pixel_y;
+  // Whole frames.
+  GreyFrames frames{"frames", clock()};
+
+  vp::Parameter<std::uint32_t> frame_blanking{
+      "frame_blanking",
+      64,
+      vp::Unit::cycles,
+      {GreyFrames::drain_clocks, 1'000'000},
+      vp::Source::decision,
+      "from the trigger to the frame's first pixel: exposure and the sensor's blanking"};
+
+  /// What the sensor sees from now on: a frame's pixels, row by row.
+  void show(const std::vector<std::uint8_t>& pixels);
+
+ protected:
+  using Image = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+  Camera(sc_core::sc_module_name name, const Site& site);
+
+  /// Looks at trigger and resets. True: a frame is exposed.
+  bool triggered(bool under_way);
+  /// The first pixel leaves on the edge after `cycle`.
+  void begin_frame(std::uint64_t cycle);
+  const std::vector<std::uint8_t>& frame() const { return *frame_; }
+
+  const Geometry geometry_;
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+
+  Image scene_, exposed_;  ///< what the sensor sees, and what it saw at the trigger
+  Image frame_, before_;   ///< in the channel, and the frame that left it last
+  bool ena_before_ = false;
+  std::uint32_t triggers_ = 0;
+};
+
+}  // namespace pl
