@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused) {
   refused(check("blob_detection", object("equal")), {"built as corner_detection"});
   refused(check("corner_detecton", object("equal")),
           {"pl.fidelity.corner_detecton", "corner_detection"});
-  refused(check("sensor_input", object("equal")), {"pl.fidelity.sensor_input", "clocked or tlm"});
+  refused(check("control_block", object("equal")), {"pl.fidelity.control_block"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

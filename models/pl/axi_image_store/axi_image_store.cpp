@@ -1,12 +1,13 @@
 #include <pl/axi_image_store/axi_image_store.h>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
 namespace {
 
-class AxiImageStoreClocked final : public AxiImageStore {
+class AxiImageStoreClocked : public AxiImageStore {
  public:
   AxiImageStoreClocked(sc_core::sc_module_name name, const Site& site)
       : AxiImageStore(name, site) {}
@@ -50,8 +51,37 @@ Models<AxiImageStore>& AxiImageStore::models() {
   static Models<AxiImageStore> models{
       "axi_image_store",
       {model<AxiImageStore, AxiImageStoreClocked>("clocked", no_image, no_image),
-       model<AxiImageStore, AxiImageStoreTlm>("tlm", no_image, no_image)}};
+       model<AxiImageStore, AxiImageStoreTlm>("tlm", no_image, no_image)},
+      rtl_model<AxiImageStore, AxiImageStoreClocked>()};
   return models;
+}
+
+void AxiImageStore::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(m.tdata);
+  ports.input(m.tvalid);
+  ports.output<bool>(
+      "m_tready", 1, [this]() -> auto& { return m.link().tready; });
+  ports.output("bram_addr", address);
+  const auto passes = [this] { return m.tvalid.read() && m.tready.get(); };
+  std::function<void(std::uint64_t)> take_word, take_enable;
+  if (!ports.watched) {
+    ports.before_edge = [this] { m.sample(); };
+    take_word = [this](std::uint64_t word) { rtl_word_ = static_cast<std::uint32_t>(word); };
+    take_enable = [this](std::uint64_t enable) {
+      if (enable != 0) bram->write_a(address, rtl_word_);
+    };
+  }
+  ports.memory_outputs = {{"bram_din", 32, take_word,
+                           [this, passes]() -> std::optional<std::uint64_t> {
+                             if (!passes()) return std::nullopt;
+                             return m.tdata.read();
+                           }},
+                          {"bram_we", 1, take_enable, [passes]() -> std::optional<std::uint64_t> {
+                             return passes() ? 1 : 0;
+                           }}};
+  ports.parameter("ADDRESS_BITS", "pl.width", address.width());
 }
 
 AxiImageStore::AxiImageStore(sc_core::sc_module_name name, const Site& site)

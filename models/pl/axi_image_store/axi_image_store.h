@@ -11,6 +11,8 @@
 
 namespace pl {
 
+class IpPorts;
+
 /// AXI Image Store (thesis 4.3.3, ports of table B.8): writes the image that arrives on its stream
 /// into port A of the BRAM, from address 0 on after each rise of `ena`. System clock.
 class AxiImageStore : public vp::Clocked, public vp::Ip {
@@ -32,11 +34,14 @@ class AxiImageStore : public vp::Clocked, public vp::Ip {
   AxiImageStore(sc_core::sc_module_name name, const Site& site);
   /// One clock edge, with the beat that passes on it.
   void store_beat();
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
  private:
   vp::IpEstimate own_estimate() const override;
 
   bool ena_before_ = false;
+  std::uint32_t rtl_word_ = 0;  ///< that RTL shows the memory
 };
 
 }  // namespace pl

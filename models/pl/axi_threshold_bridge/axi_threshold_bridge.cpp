@@ -6,12 +6,13 @@
 
 #include <pl/axi_threshold_bridge/lazy_bridge.h>
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
 namespace {
 
-class AxiThresholdBridgeClocked final : public AxiThresholdBridge {
+class AxiThresholdBridgeClocked : public AxiThresholdBridge {
  public:
   AxiThresholdBridgeClocked(sc_core::sc_module_name name, const Site& site)
       : AxiThresholdBridge(name, site) {}
@@ -136,8 +137,39 @@ Models<AxiThresholdBridge>& AxiThresholdBridge::models() {
   static Models<AxiThresholdBridge> models{
       "axi_threshold_bridge",
       {model<AxiThresholdBridge, AxiThresholdBridgeClocked>("clocked", by_pixel, no_image),
-       model<AxiThresholdBridge, AxiThresholdBridgeTlm>("tlm", both_ways, no_image)}};
+       model<AxiThresholdBridge, AxiThresholdBridgeTlm>("tlm", both_ways, no_image)},
+      rtl_model<AxiThresholdBridge, AxiThresholdBridgeClocked>()};
   return models;
+}
+
+void AxiThresholdBridge::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(thresh_in);
+  ports.input(thresh_data);
+  ports.input(m.tready);
+  const auto valid = [this] { return m.tvalid.get(); };
+  using Word = std::uint32_t;
+  using Lanes = std::uint8_t;
+  ports.output<Word>(
+      "m_tdata", 32, [this]() -> auto& { return m.link().tdata; }, valid);
+  ports.output<Lanes>(
+      "m_tkeep", 4, [this]() -> auto& { return m.link().tkeep; }, valid);
+  ports.output<bool>(
+      "m_tvalid", 1, [this]() -> auto& { return m.link().tvalid; });
+  ports.output<bool>(
+      "m_tlast", 1, [this]() -> auto& { return m.link().tlast; });
+  ports.output(thresh_seen);
+  ports.report(fifo_count);
+  ports.report(bridge_overflow);
+  ports.parameter("FIFO_DEPTH", fifo_depth.name(), fifo_depth);
+  ports.parameter("BURST_WORDS", "pl.burst_words", burst_words_);
+  // The most that waited while a packet was under way.
+  ports.before_edge = [this] {
+    if (rst) peak_ = packet_peak_ = 0;
+    if (m.accepted() && m.tlast.get()) packet_peak_ = std::exchange(peak_, 0);
+  };
+  ports.behind_edge = [this] { peak_ = std::max<std::uint32_t>(peak_, fifo_count.written()); };
 }
 
 AxiThresholdBridge::AxiThresholdBridge(sc_core::sc_module_name name, const Site& site)

@@ -13,6 +13,8 @@
 
 namespace pl {
 
+class IpPorts;
+
 /// AXI Threshold Bridge (thesis 4.4.2, ports of table B.5): sends the binary image to the
 /// PS, a burst a packet: TLAST comes with its last word. System clock. A full FIFO (the DMA was not
 /// armed again in time) drops the newest word and counts it.
@@ -50,6 +52,8 @@ class AxiThresholdBridge : public vp::Clocked, public vp::Ip {
   AxiThresholdBridge(sc_core::sc_module_name name, const Site& site);
   /// One clock edge, word by word.
   void pass_words();
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
   const std::uint32_t burst_words_;  ///< of a packet
 

@@ -1,14 +1,48 @@
 #include <pl/clock_crossing/clock_crossing.h>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <vp/clock_scheduler.h>
 
 namespace pl {
 
-ClockCrossing::ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk,
-                             const vp::Clock& system_clk)
-    : Clocked(name, pixel_clk), Ip(&pixel_clk) {
-  pixel_clk.scheduler().run_before(system_clk, pixel_clk);
+Models<ClockCrossing>& ClockCrossing::models() {
+  static Models<ClockCrossing> models{
+      "clock_crossing",
+      {model<ClockCrossing, ClockCrossingClocked>("clocked", no_image, no_image)},
+      rtl_model<ClockCrossing, ClockCrossingClocked>()};
+  return models;
+}
+
+void ClockCrossing::connect(IpPorts& ports) {
+  word_by_word_ = true;
+  ports.input(rst);
+  ports.input(corner_out);
+  ports.input(corner_data);
+  ports.input(blob_out);
+  ports.input(blob_start);
+  ports.input(blob_end);
+  ports.input(thresh_out);
+  ports.input(thresh_data);
+  ports.input("corner_seen", 1, [this] { return corner.seen(); });
+  ports.input("blob_seen", 1, [this] { return blob.seen(); });
+  ports.input("binary_seen", 1, [this] { return binary.seen(); });
+  ports.output("corner_toggle", corner.toggle);
+  ports.output("corner_word", corner.word);
+  ports.output("blob_toggle", blob.toggle);
+  ports.output("blob_word", blob.word);
+  ports.output("blob_second_word", blob.second_word);
+  ports.output("binary_toggle", binary.toggle);
+  ports.output("binary_word", binary.word);
+  ports.report(crossing_overflow);
+}
+
+void ClockCrossing::cross_to(const vp::Clock& system_clk) {
+  clock().scheduler().run_before(system_clk, clock());
+}
+
+ClockCrossing::ClockCrossing(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk), Ip(&site.clk) {
   for (CrossingRegister* crossing : {&corner, &blob, &binary}) {
     crossing->toggle.set_writer(*this);
     crossing->word.set_writer(*this);
@@ -25,7 +59,7 @@ vp::IpEstimate ClockCrossing::own_estimate() const {
   return small_ip("clock_crossing", 40, 280, 100 * mhz);
 }
 
-void ClockCrossing::edge() {
+void ClockCrossingClocked::edge() {
   if (rst) {
     reset();
     return;
@@ -36,7 +70,7 @@ void ClockCrossing::edge() {
   if (!corner_out && !blob_out && !thresh_out) sleep();
 }
 
-void ClockCrossing::reset() {
+void ClockCrossingClocked::reset() {
   corner.reset();
   blob.reset();
   binary.reset();

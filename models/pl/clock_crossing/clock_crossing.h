@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <systemc>
 
+#include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/signal.h>
 
 namespace pl {
+
+class IpPorts;
 
 /// A word on its way from the pixel clock to the system clock: held in a register of the pixel
 /// domain beside a toggle that the system side samples on each of its edges. No handshake: a word
@@ -24,14 +27,16 @@ class CrossingRegister : public sc_core::sc_module {
 
   /// The toggle as the system side sampled it last.
   void set_seen(const vp::Signal<bool>& seen) { seen_ = &seen; }
+  /// Where edges of both clocks coincide, the system side has sampled already.
+  bool seen() const { return seen_->written(); }
 
   /// Puts a word in, on a pixel-clock edge. False: it replaced one that was not seen.
   bool send(std::uint32_t first, std::uint32_t second = 0) {
-    const bool seen = seen_->written() == toggle.written();
+    const bool was_seen = seen() == toggle.written();
     word = first;
     second_word = second;
-    if (seen) toggle = !toggle.get();
-    return seen;
+    if (was_seen) toggle = !toggle.get();
+    return was_seen;
   }
   void reset() { toggle = false; }
 
@@ -57,7 +62,9 @@ class FrameCrossing : public virtual sc_core::sc_interface {
 /// same edge was seen.
 class ClockCrossing : public vp::Clocked, public vp::Ip, public FrameCrossing {
  public:
-  ClockCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, const vp::Clock& system_clk);
+  static Models<ClockCrossing>& models();
+  /// At coincident edges `system_clk` runs first.
+  void cross_to(const vp::Clock& system_clk);
 
   vp::In<bool> rst{"rst", this};
   vp::In<bool> corner_out{"corner_out", this};
@@ -75,15 +82,33 @@ class ClockCrossing : public vp::Clocked, public vp::Ip, public FrameCrossing {
   /// Words overwritten before the system side saw them, since the last reset.
   vp::Signal<std::uint32_t> crossing_overflow{"crossing_overflow"};
 
-  BinaryFrames* frames() override { return thresh_frames.open() ? nullptr : thresh_frames[0]; }
+  BinaryFrames* frames() override {
+    return word_by_word_ || thresh_frames.open() ? nullptr : thresh_frames[0];
+  }
   void add_lost(std::uint32_t words) override {
     if (words != 0) crossing_overflow = crossing_overflow.written() + words;
   }
   void forget_lost() override { crossing_overflow = 0; }
 
+ protected:
+  ClockCrossing(sc_core::sc_module_name name, const Site& site);
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+
+  bool word_by_word_ = false;  ///< RTL counts what is lost
+};
+
+/// The clock crossing clock by clock.
+class ClockCrossingClocked : public ClockCrossing {
+ public:
+  ClockCrossingClocked(sc_core::sc_module_name name, const Site& site)
+      : ClockCrossing(name, site) {}
+
  private:
   void edge() override;
-  vp::IpEstimate own_estimate() const override;
   void reset();
   void count(bool delivered) {
     if (!delivered) crossing_overflow = crossing_overflow.written() + 1;

@@ -62,9 +62,13 @@ ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, b
     : traits_(std::move(traits)),
       parameter_(ip, usual(otherwise, feeds), names_of(traits_), takes_rtl) {
   while (chosen_ < traits_.size() && traits_[chosen_].name != parameter_.get()) ++chosen_;
-  // RTL has the ports of the clocked model.
-  if (chosen_ == traits_.size())
-    traits_.push_back({parameter_.get(), traits_.front().takes, traits_.front().gives});
+  // RTL has the pins of the clocked model.
+  if (chosen_ == traits_.size()) {
+    ModelTraits rtl{parameter_.get(), traits_.front().takes, traits_.front().gives};
+    const auto named = RtlFile::parse(rtl.name);
+    if (named && named->use == RtlFile::Use::in_place) rtl.takes.frames = rtl.gives.frames = false;
+    traits_.push_back(rtl);
+  }
   for (const ChoiceBase* other : feeds) check(*other);
 }
 

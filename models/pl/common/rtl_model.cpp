@@ -72,6 +72,10 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
     before_.push_back(pin(input.name, input.bits, false));
   for (const IpPorts::Output& output : ports_.outputs)
     after_.push_back(pin(output.name, output.bits, true));
+  for (const IpPorts::MemoryOutput& output : ports_.memory_outputs)
+    memory_outputs_.push_back(pin(output.name, output.bits, true));
+  for (const IpPorts::Input& input : ports_.memory_inputs)
+    memory_inputs_.push_back(pin(input.name, input.bits, false));
   for (const IpPorts::Parameter& parameter : ports_.parameters) check(parameter);
   for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
     if (!connected_[i]) {
@@ -104,10 +108,18 @@ void RtlPins::check(const IpPorts::Parameter& parameter) const {
   }
 }
 
+void RtlPins::ask_memory() {
+  rtl_.eval(model_.get());  // address and enable may depend on inputs
+  for (std::size_t i = 0; i < memory_outputs_.size(); ++i) {
+    if (ports_.memory_outputs[i].take) ports_.memory_outputs[i].take(memory_value(i));
+  }
+}
+
 PortTaps::PortTaps(const IpPorts& ports, vp::Clocked& owner) {
-  for (const IpPorts::Input& input : ports.inputs) taps_.emplace_back(nullptr, input.port, owner);
-  for (const IpPorts::Output& output : ports.outputs)
-    taps_.emplace_back(output.port, nullptr, owner);
+  for (const IpPorts::Input& input : ports.inputs) {
+    if (input.port) taps_.emplace_back([port = input.port] { return port->signal(); }, owner);
+  }
+  for (const IpPorts::Output& output : ports.outputs) taps_.emplace_back(output.port, owner);
 }
 
 RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins)
@@ -123,7 +135,7 @@ void RtlShadow::edge() {
     fail();
   }
   pins_.clock_edge();
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.value(i);
+  note_outputs();
   edge_ = this_edge();
   edge_ps_ = clock().scheduler().now_ps();
 }
@@ -134,22 +146,38 @@ void RtlShadow::end_of_simulation() {
   if (!difference_.empty()) fail();
 }
 
-/// The outputs behind the last edge.
+void RtlShadow::note_outputs() {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.value(i);
+}
+
+/// What stands behind the last edge.
 void RtlShadow::compare() {
   if (edge_ == 0) return;
+  const IpPorts& ports = pins_.ports();
+  if (ports.combinational || !ports.memory_outputs.empty()) pins_.settle();
+  if (ports.combinational) note_outputs();
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    const IpPorts::Output& output = pins_.ports().outputs[i];
-    const std::uint64_t model = output.port->bits() & mask(output.bits);
-    const std::uint64_t rtl = outputs_[i].get();
-    if (model == rtl || (output.valid && !*output.valid)) continue;
-    difference_ += (difference_.empty() ? "" : ", ") + output.name + " is " +
-                   number(model, output.bits) + ", and " + number(rtl, output.bits) + " in the RTL";
+    const IpPorts::Output& output = ports.outputs[i];
+    if (output.valid && !output.valid()) continue;
+    compare(output.name, output.bits, output.port()->bits() & mask(output.bits), outputs_[i].get());
+  }
+  for (std::size_t i = 0; i < ports.memory_outputs.size(); ++i) {
+    const IpPorts::MemoryOutput& output = ports.memory_outputs[i];
+    const auto model = output.expected ? output.expected() : std::nullopt;
+    if (model) compare(output.name, output.bits, *model, pins_.memory_value(i));
   }
   differs = !difference_.empty();
   if (difference_.empty()) return;
   difference_ = "RTL '" + pins_.file() + "' differs from the model behind edge " +
                 std::to_string(edge_) + " of " + clock().basename() + ", at " +
                 vp::format_time(edge_ps_) + ": " + difference_;
+}
+
+void RtlShadow::compare(const std::string& port, unsigned bits, std::uint64_t model,
+                        std::uint64_t rtl) {
+  if (model == rtl) return;
+  difference_ += (difference_.empty() ? "" : ", ") + port + " is " + number(model, bits) +
+                 ", and " + number(rtl, bits) + " in the RTL";
 }
 
 void RtlShadow::fail() const {

@@ -16,23 +16,30 @@
 
 namespace pl {
 
-/// The ports of an IP as RTL in its place has them. Its function `connect(IpPorts&)` lists all but
+/// The pins of an IP as RTL in its place has them. Its function `connect(IpPorts&)` lists all but
 /// the clock, which is `clk`.
 class IpPorts {
  public:
   struct Input {
-    const vp::InBase* port;
+    const vp::InBase* port;  ///< null: a pin that is no port of the model
     std::string name;
     unsigned bits;
     std::function<std::uint64_t()> read;
   };
   struct Output {
-    vp::SignalBase* port;
+    std::function<vp::SignalBase*()> port;  ///< known when all is bound
     std::string name;
     unsigned bits;
-    const vp::Signal<bool>* valid;  ///< the port means something while this is high; null: always
-    bool optional;                  ///< only reports and traces look at it: RTL may lack it
+    std::function<bool()> valid;  ///< whether the port means something now; null: it always does
+    bool optional;                ///< only reports and traces look at it: RTL may lack it
     std::function<void(std::uint64_t)> write;
+  };
+  /// An output that a memory samples on each edge, as it stands before the edge.
+  struct MemoryOutput {
+    std::string name;
+    unsigned bits;
+    std::function<void(std::uint64_t)> take;
+    std::function<std::optional<std::uint64_t>()> expected;  ///< of the model; none: anything
   };
   struct Parameter {
     std::string name;
@@ -40,19 +47,40 @@ class IpPorts {
     std::uint64_t value;
   };
 
+  /// `beside_model`: the RTL watches what the model sees and changes nothing.
+  explicit IpPorts(bool beside_model) : watched(beside_model) {}
+  const bool watched;
+
   template <class T>
   void input(const vp::In<T>& port, unsigned bits = vp::default_width<T>()) {
     inputs.push_back({&port, last_name(port.name()), bits, [&port] { return port.read(); }});
   }
+  /// A pin that the model has no port for.
+  void input(const char* name, unsigned bits, std::function<std::uint64_t()> read) {
+    inputs.push_back({nullptr, name, bits, std::move(read)});
+  }
   /// `valid`: the signal beside which the port means something; null: it always does.
   template <class T>
   void output(vp::Signal<T>& port, const vp::Signal<bool>* valid = nullptr) {
-    add(port, valid, false);
+    add(last_name(port.name()).c_str(), port, valid, false);
+  }
+  /// Under another name than the port's.
+  template <class T>
+  void output(const char* name, vp::Signal<T>& port) {
+    add(name, port, nullptr, false);
+  }
+  /// Of a link, which is known when all is bound.
+  template <class T>
+  void output(const char* name, unsigned bits, std::function<vp::Signal<T>&()> port,
+              std::function<bool()> valid = nullptr) {
+    outputs.push_back({[port]() -> vp::SignalBase* { return &port(); }, name, bits,
+                       std::move(valid), false,
+                       [port](std::uint64_t value) { port() = static_cast<T>(value); }});
   }
   /// An output that only reports and traces look at: RTL may lack it, or have fewer bits.
   template <class T>
   void report(vp::Signal<T>& port) {
-    add(port, nullptr, true);
+    add(last_name(port.name()).c_str(), port, nullptr, true);
   }
   /// What the IP is configured for; RTL that has no such parameter is trusted to fit.
   void parameter(const char* name, const std::string& key, std::uint64_t value) {
@@ -62,12 +90,20 @@ class IpPorts {
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   std::vector<Parameter> parameters;
+  std::vector<MemoryOutput> memory_outputs;
+  std::vector<Input> memory_inputs;  ///< what the memory shows behind the edge
+  bool combinational = false;        ///< outputs follow inputs within the clock
+  /// What the IP does besides on each edge while RTL stands in its place; null: nothing.
+  std::function<void()> before_edge, behind_edge;
 
  private:
   static std::string last_name(const std::string& path) { return path.substr(path.rfind('.') + 1); }
   template <class T>
-  void add(vp::Signal<T>& port, const vp::Signal<bool>* valid, bool optional) {
-    outputs.push_back({&port, last_name(port.name()), port.width(), valid, optional,
+  void add(const char* name, vp::Signal<T>& port, const vp::Signal<bool>* valid, bool optional) {
+    std::function<bool()> is_valid;
+    if (valid) is_valid = [valid] { return valid->get(); };
+    outputs.push_back({[&port]() -> vp::SignalBase* { return &port; }, name, port.width(),
+                       std::move(is_valid), optional,
                        [&port](std::uint64_t bits) { port = static_cast<T>(bits); }});
   }
 };
@@ -84,11 +120,18 @@ class RtlPins {
 
   /// What stands on the inputs is sampled, and the registers of the RTL change.
   void clock_edge() {
-    for (std::size_t i = 0; i < before_.size(); ++i)
-      store(before_[i], ports_.inputs[i].bits, ports_.inputs[i].read());
+    take_inputs();
+    if (!memory_outputs_.empty()) ask_memory();
     *clk_ = 1;
     rtl_.eval(model_.get());
+    for (std::size_t i = 0; i < memory_inputs_.size(); ++i)
+      store(memory_inputs_[i], ports_.memory_inputs[i].bits, ports_.memory_inputs[i].read());
     *clk_ = 0;
+    rtl_.eval(model_.get());
+  }
+  /// What is logic follows the inputs, between two edges.
+  void settle() {
+    take_inputs();
     rtl_.eval(model_.get());
   }
   /// The ports follow the outputs of the RTL.
@@ -100,11 +143,20 @@ class RtlPins {
   const IpPorts& ports() const { return ports_; }
   /// What the RTL gives at output `i`.
   std::uint64_t value(std::size_t i) const { return load(after_[i], ports_.outputs[i].bits); }
+  /// At output `i` to a memory.
+  std::uint64_t memory_value(std::size_t i) const {
+    return load(memory_outputs_[i], ports_.memory_outputs[i].bits);
+  }
   const std::string& file() const { return file_; }
 
  private:
   static void store(void* place, unsigned bits, std::uint64_t value);
   static std::uint64_t load(const void* place, unsigned bits);
+  void take_inputs() {
+    for (std::size_t i = 0; i < before_.size(); ++i)
+      store(before_[i], ports_.inputs[i].bits, ports_.inputs[i].read());
+  }
+  void ask_memory();
   const RtlPort* find(const std::string& name) const;
   void* pin(const std::string& name, unsigned bits, bool output);
   void leave_out_what_it_lacks();
@@ -118,7 +170,7 @@ class RtlPins {
   const std::unique_ptr<void, void (*)(void*)> model_;
   std::uint8_t* clk_ = nullptr;
   std::vector<bool> connected_;  ///< by the number of the port
-  std::vector<void*> before_, after_;
+  std::vector<void*> before_, after_, memory_outputs_, memory_inputs_;
 };
 
 /// An IP as RTL.
@@ -130,13 +182,21 @@ class RtlModel final : public Ip {
 
  private:
   IpPorts ports() {
-    IpPorts ports;
+    IpPorts ports(false);
     this->connect(ports);
     return ports;
   }
   // Nobody knows what its registers wait for: it never sleeps.
   void edge() override {
+    if (pins_.ports().before_edge) pins_.ports().before_edge();
     pins_.clock_edge();
+    pins_.drive();
+    if (pins_.ports().behind_edge) pins_.ports().behind_edge();
+  }
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override {
+    Ip::on_change(signal, id);
+    if (!pins_.ports().combinational) return;
+    pins_.settle();
     pins_.drive();
   }
 
@@ -151,13 +211,12 @@ class PortTaps {
  private:
   class Tap : public vp::InBase {
    public:
-    Tap(vp::SignalBase* output, const vp::InBase* input, vp::Clocked& owner)
-        : InBase("tap", &owner), output_(output), input_(input) {}
-    vp::SignalBase* signal() const override { return input_ ? input_->signal() : output_; }
+    Tap(std::function<vp::SignalBase*()> port, vp::Clocked& owner)
+        : InBase("tap", &owner), port_(std::move(port)) {}
+    vp::SignalBase* signal() const override { return port_(); }
 
    private:
-    vp::SignalBase* output_;
-    const vp::InBase* input_;
+    std::function<vp::SignalBase*()> port_;
   };
   std::deque<Tap> taps_;
 };
@@ -175,7 +234,9 @@ class RtlShadow final : public vp::Clocked {
  private:
   void edge() override;
   void end_of_simulation() override;
+  void note_outputs();
   void compare();
+  void compare(const std::string& port, unsigned bits, std::uint64_t model, std::uint64_t rtl);
   [[noreturn]] void fail() const;
 
   RtlPins& pins_;
@@ -193,7 +254,8 @@ class RtlShadow final : public vp::Clocked {
 /// What an output need not be is X there: before the first reset, and while nothing is valid.
 class RtlVectors final : public vp::Clocked {
  public:
-  /// `folder` exists.
+  /// `folder` exists. Throws vp::InputError for an IP with pins that are no ports of its model, or
+  /// whose outputs follow its inputs within the clock.
   RtlVectors(sc_core::sc_module_name name, vp::Clock& clk, const std::string& ip, IpPorts ports,
              const std::string& folder);
 
@@ -218,7 +280,7 @@ class WatchedModel final : public Clocked {
  public:
   WatchedModel(sc_core::sc_module_name name, const Site& site, const RtlFile& rtl)
       : Clocked(name, site) {
-    IpPorts ports;
+    IpPorts ports(true);
     this->connect(ports);
     const std::string ip = Clocked::models().ip();
     if (rtl.use == RtlFile::Use::vectors) {

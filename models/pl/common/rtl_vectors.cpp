@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <vp/error.h>
+
 namespace pl {
 
 namespace {
@@ -237,7 +239,17 @@ RtlVectors::RtlVectors(sc_core::sc_module_name name, vp::Clock& clk, const std::
       ports_(std::move(ports)),
       taps_(ports_, *this),
       stimulus_(folder + "/stimulus.hex"),
-      response_(folder + "/response.hex") {}
+      response_(folder + "/response.hex") {
+  const bool foreign_pins =
+      !ports_.memory_outputs.empty() ||
+      std::any_of(ports_.inputs.begin(), ports_.inputs.end(),
+                  [](const IpPorts::Input& input) { return input.port == nullptr; });
+  if (!foreign_pins && !ports_.combinational) return;
+  throw vp::InputError("there are no vectors of " + ip + ": it has " +
+                       (foreign_pins ? "pins that are no ports of its model"
+                                     : "outputs that follow its inputs within the clock") +
+                       "; use lock-step");
+}
 
 // The edge samples the inputs; what the one before it made of its own stands at the outputs.
 void RtlVectors::edge() {
@@ -265,8 +277,8 @@ void RtlVectors::write_response() {
   line_.clear();
   for (const IpPorts::Output& output : ports_.outputs) {
     if (output.optional) continue;
-    if (was_reset_ && (!output.valid || *output.valid)) {
-      append_hex(line_, output.port->bits(), output.bits);
+    if (was_reset_ && (!output.valid || output.valid())) {
+      append_hex(line_, output.port()->bits(), output.bits);
     } else {
       line_.append((output.bits + 3) / 4, 'X') += ' ';
     }

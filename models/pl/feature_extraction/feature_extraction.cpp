@@ -45,7 +45,10 @@ FidelityChoice::FidelityChoice(sc_core::sc_module_name name, Fidelity otherwise,
                            : nullptr),
       sensor_input(SensorInput::models(), otherwise,
                    filter ? ChoiceBase::Feeds{filter.get()}
-                          : ChoiceBase::Feeds{&corner_detection, &global_threshold}) {}
+                          : ChoiceBase::Feeds{&corner_detection, &global_threshold}),
+      frame_status(FrameStatus::models(), otherwise),
+      clock_crossing(ClockCrossing::models(), otherwise),
+      feature_packaging(FeaturePackaging::models(), otherwise) {}
 
 FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk,
                                      vp::Clock& pixel_clk, Fidelity otherwise,
@@ -53,9 +56,9 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
     : sc_module(name),
       fidelity("fidelity", otherwise, filter_models),
       bram("bram", geometry().pixels() / pixels_per_word),
-      frame_status("frame_status", pixel_clk),
-      clock_crossing("clock_crossing", pixel_clk, system_clk),
-      feature_packaging("feature_packaging", system_clk),
+      frame_status_(fidelity.frame_status.make({pixel_clk, geometry()})),
+      clock_crossing_(fidelity.clock_crossing.make({pixel_clk, geometry()})),
+      feature_packaging_(fidelity.feature_packaging.make({system_clk, geometry()})),
       sensor_input_(fidelity.sensor_input.make({pixel_clk, geometry()})),
       axi_image_store_(fidelity.axi_image_store.make({system_clk, geometry()})),
       filter(fidelity.filter ? fidelity.filter->make({pixel_clk, geometry()}) : nullptr),
@@ -63,6 +66,7 @@ FeatureExtraction::FeatureExtraction(sc_core::sc_module_name name, vp::Clock& sy
       global_threshold_(fidelity.global_threshold.make({pixel_clk, geometry()})),
       blob_detection_(fidelity.blob_detection.make({pixel_clk, geometry()})),
       axi_threshold_bridge_(fidelity.axi_threshold_bridge.make({system_clk, geometry()})) {
+  clock_crossing.cross_to(system_clk);
   control_block.set_logic_clock(system_clk);
   bram.set_logic_clock(pixel_clk);
   choose_simd(simd);

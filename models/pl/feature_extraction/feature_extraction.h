@@ -39,6 +39,9 @@ struct FidelityChoice : sc_core::sc_module {
   Choice<CornerDetection> corner_detection;
   std::unique_ptr<Choice<PixelFilter>> filter;  ///< null: there is none
   Choice<SensorInput> sensor_input;
+  Choice<FrameStatus> frame_status;
+  Choice<ClockCrossing> clock_crossing;
+  Choice<FeaturePackaging> feature_packaging;
 };
 
 /// The feature extraction with its data bridge, wired as the thesis' figure E.1: pixels from a BRAM
@@ -103,11 +106,14 @@ class FeatureExtraction : public sc_core::sc_module {
  public:
   ControlBlock control_block{"control_block"};
   xilinx::Bram bram;
-  FrameStatus frame_status;
-  ClockCrossing clock_crossing;
-  FeaturePackagingClocked feature_packaging;
 
   // Modelled as `fidelity` says.
+  const std::unique_ptr<FrameStatus> frame_status_;
+  FrameStatus& frame_status = *frame_status_;
+  const std::unique_ptr<ClockCrossing> clock_crossing_;
+  ClockCrossing& clock_crossing = *clock_crossing_;
+  const std::unique_ptr<FeaturePackaging> feature_packaging_;
+  FeaturePackaging& feature_packaging = *feature_packaging_;
   const std::unique_ptr<SensorInput> sensor_input_;
   SensorInput& sensor_input = *sensor_input_;
   const std::unique_ptr<AxiImageStore> axi_image_store_;

@@ -2,11 +2,42 @@
 
 #include <marker_logic.h>
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
-FeaturePackagingClocked::FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk)
-    : Clocked(name, clk), Ip(&clk), corners_(buffer_depth), blobs_(buffer_depth) {
+Models<FeaturePackaging>& FeaturePackaging::models() {
+  static Models<FeaturePackaging> models{
+      "feature_packaging",
+      {model<FeaturePackaging, FeaturePackagingClocked>("clocked", no_image, no_image)},
+      rtl_model<FeaturePackaging, FeaturePackagingClocked>()};
+  return models;
+}
+
+void FeaturePackaging::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(ready, 2);
+  ports.input(corner_in);
+  ports.input(corner_data);
+  ports.input(blob_in);
+  ports.input(blob_start);
+  ports.input(blob_end);
+  ports.input(done);
+  ports.output(feature);
+  ports.output(corner_seen);
+  ports.output(blob_seen);
+  ports.report(corner_count);
+  ports.report(blob_count);
+  ports.report(feature_overflow);
+  ports.parameter("BUFFER_DEPTH", buffer_depth.name(), buffer_depth);
+}
+
+FeaturePackagingClocked::FeaturePackagingClocked(sc_core::sc_module_name name, const Site& site)
+    : FeaturePackaging(name, site), corners_(buffer_depth), blobs_(buffer_depth) {}
+
+FeaturePackaging::FeaturePackaging(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk), Ip(&site.clk) {
   wake_on(ena);
   wake_on(rst);
   wake_on(ready);
@@ -16,7 +47,7 @@ FeaturePackagingClocked::FeaturePackagingClocked(sc_core::sc_module_name name, v
 }
 
 // Two buffers, and what builds and chooses words.
-vp::IpEstimate FeaturePackagingClocked::own_estimate() const {
+vp::IpEstimate FeaturePackaging::own_estimate() const {
   vp::IpEstimate e = small_ip("feature_packaging", 150, 110, 100 * mhz);
   add_fifo(e, buffer_depth, 32);
   add_fifo(e, buffer_depth, 32);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <pl/common/fidelity.h>
 #include <pl/feature_packaging/core.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -10,15 +11,17 @@
 
 namespace pl {
 
-/// Feature Packaging, clocked (thesis 4.4.3, ports of table B.6, and `done`, decision). System
+class IpPorts;
+
+/// Feature Packaging (thesis 4.4.3, ports of table B.6, and `done`, decision). System
 /// clock.
 ///
 /// Corners and blobs wait in a buffer each; corners go first. Every change of `ready` lets the next
 /// word onto `feature` two clocks later, if one waits; the first word comes by itself. A full
 /// buffer drops the feature and counts it.
-class FeaturePackagingClocked : public vp::Clocked, public vp::Ip {
+class FeaturePackaging : public vp::Clocked, public vp::Ip {
  public:
-  FeaturePackagingClocked(sc_core::sc_module_name name, vp::Clock& clk);
+  static Models<FeaturePackaging>& models();
 
   vp::In<bool> ena{"ena", this};
   vp::In<bool> rst{"rst", this};
@@ -44,9 +47,22 @@ class FeaturePackagingClocked : public vp::Clocked, public vp::Ip {
       vp::Source::published, "words in each of the two feature buffers (thesis 4.4.3)"};
   vp::Signal<std::uint32_t> depth{"depth", 17, buffer_depth};  ///< for traces: what is full
 
+ protected:
+  FeaturePackaging(sc_core::sc_module_name name, const Site& site);
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+};
+
+/// Feature Packaging clock by clock.
+class FeaturePackagingClocked : public FeaturePackaging {
+ public:
+  FeaturePackagingClocked(sc_core::sc_module_name name, const Site& site);
+
  private:
   void edge() override;
-  vp::IpEstimate own_estimate() const override;
   void reset();
   void store(bool corner_arrived, bool blob_arrived);
   void show_next(std::uint32_t corners, std::uint32_t blobs, bool quiet);

@@ -2,10 +2,13 @@
 
 #include <cstdint>
 
+#include <pl/common/fidelity.h>
 #include <vp/clock.h>
 #include <vp/probe.h>
 
 namespace pl {
+
+class IpPorts;
 
 /// Tells when a frame is completely processed (decision: the thesis sends the end packet then, and
 /// does not say how).
@@ -15,10 +18,7 @@ namespace pl {
 /// very clock, so that the end packet never overtakes a feature.
 class FrameStatus : public vp::Clocked {
  public:
-  /// Clocks after the last pixel that cover the pipeline of every module.
-  static constexpr std::uint32_t drain_clocks = 15;
-
-  FrameStatus(sc_core::sc_module_name name, vp::Clock& clk);
+  static Models<FrameStatus>& models();
 
   vp::In<bool> rst{"rst", this};
   vp::In<bool> frame_ena{"frame_ena", this};
@@ -27,6 +27,20 @@ class FrameStatus : public vp::Clocked {
   vp::In<bool> blob_out{"blob_out", this};
   vp::Signal<bool> busy{"busy"};
   vp::Signal<bool> done{"done"};
+
+ protected:
+  FrameStatus(sc_core::sc_module_name name, const Site& site);
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+};
+
+/// The frame status clock by clock.
+class FrameStatusClocked : public FrameStatus {
+ public:
+  /// Clocks after the last pixel that cover the pipeline of every module.
+  static constexpr std::uint32_t drain_clocks = 15;
+
+  FrameStatusClocked(sc_core::sc_module_name name, const Site& site) : FrameStatus(name, site) {}
 
  private:
   void edge() override;

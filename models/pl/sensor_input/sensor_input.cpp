@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <vp/clock_scheduler.h>
 #include <vp/probe.h>
 
@@ -10,7 +11,7 @@ namespace pl {
 
 namespace {
 
-class SensorInputClocked final : public SensorInput {
+class SensorInputClocked : public SensorInput {
  public:
   SensorInputClocked(sc_core::sc_module_name name, const Site& site) : SensorInput(name, site) {}
 
@@ -128,8 +129,41 @@ Models<SensorInput>& SensorInput::models() {
   static Models<SensorInput> models{
       "sensor_input",
       {model<SensorInput, SensorInputClocked>("clocked", no_image, both_ways),
-       model<SensorInput, SensorInputTlm>("tlm", no_image, by_frame)}};
+       model<SensorInput, SensorInputTlm>("tlm", no_image, by_frame)},
+      rtl_model<SensorInput, SensorInputClocked>()};
   return models;
+}
+
+void SensorInput::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.output(frame_ena);
+  ports.output(pixel, &frame_ena);
+  ports.output(pixel_x, &frame_ena);
+  ports.output(pixel_y, &frame_ena);
+  const bool watched = ports.watched;
+  ports.memory_outputs = {
+      {"bram_addr", marker_logic::bits_for(geometry_.pixels(), 1),
+       [this](std::uint64_t address) { rtl_.address = static_cast<std::uint32_t>(address); },
+       nullptr},
+      {"bram_en", 1,
+       [this, watched](std::uint64_t enabled) { read_for_rtl(enabled != 0, watched); }, nullptr}};
+  ports.memory_inputs = {{nullptr, "bram_dout", 8, [this] { return rtl_.pixel; }}};
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("HEIGHT", "pl.height", geometry_.height);
+}
+
+// Beside a model it must not count, and the model says when frames begin.
+void SensorInput::read_for_rtl(bool enabled, bool watched) {
+  if (!watched && rst) frames.end();
+  if (!watched && enabled && !rtl_.enabled) frames.begin(clock().cycle());
+  rtl_.enabled = enabled;
+  if (!enabled) return;
+  if (!watched) {
+    rtl_.pixel = bram->read_b(rtl_.address);
+  } else {
+    rtl_.pixel = rtl_.address < bram->size_b() ? bram->contents()[rtl_.address] : 0;
+  }
 }
 
 SensorInput::SensorInput(sc_core::sc_module_name name, const Site& site)

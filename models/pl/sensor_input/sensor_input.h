@@ -11,6 +11,8 @@
 
 namespace pl {
 
+class IpPorts;
+
 /// The frames that the sensor plays from a memory: pixels that left it as they were then, the
 /// others as the memory has them now.
 class SensorFrames : public GreyFrames, private xilinx::Bram::Reader {
@@ -65,11 +67,23 @@ class SensorInput : public vp::Clocked, public vp::Ip {
   SensorInput(sc_core::sc_module_name name, const Site& site);
   void end_of_elaboration() override;
 
+  /// All pins but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
   const Geometry geometry_;
   bool ena_before_ = false;
 
  private:
+  /// What RTL asks of the memory at its port B.
+  struct RtlRead {
+    std::uint32_t address = 0;
+    bool enabled = false;
+    std::uint8_t pixel = 0;
+  };
   vp::IpEstimate own_estimate() const override;
+  void read_for_rtl(bool enabled, bool watched);
+
+  RtlRead rtl_;
 };
 
 }  // namespace pl

@@ -73,7 +73,7 @@ struct Packaging : kit::Simulation {
   vp::Signal<bool> corner_in{"corner_in"}, blob_in{"blob_in"}, done{"done"};
   vp::Signal<std::uint32_t> corner_data{"corner_data"};
   vp::Signal<std::uint32_t> blob_start{"blob_start"}, blob_end{"blob_end"};
-  pl::FeaturePackagingClocked ip{"feature_packaging", clk};
+  pl::FeaturePackagingClocked ip{"feature_packaging", {clk, {}}};
 };
 
 }  // namespace

@@ -234,7 +234,8 @@ BOOST_AUTO_TEST_CASE(the_system_clock_runs_first_though_it_was_made_later) {
   kit::Simulation simulation;
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock pixel{"pixel", scheduler, 50 * MHz}, system{"system", scheduler, 100 * MHz};
-  pl::ClockCrossing crossing{"crossing", pixel, system};
+  pl::ClockCrossingClocked crossing{"crossing", {pixel, {}}};
+  crossing.cross_to(system);
   vp::Signal<bool> low{"low"};
   vp::Signal<std::uint32_t> word{"word"};
   for (auto* in : {&crossing.rst, &crossing.corner_out, &crossing.blob_out, &crossing.thresh_out}) {

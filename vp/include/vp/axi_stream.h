@@ -88,6 +88,7 @@ class AxiStreamMaster {
   void bind(AxiStream& link);
   void operator()(AxiStream& link) { bind(link); }
   bool bound() const { return link_ != nullptr; }
+  AxiStream& link() const { return *link_; }
 
   /// In edge(): the beat that was offered passes on this edge.
   bool accepted() const { return tvalid.get() && tready.read(); }
@@ -146,6 +147,7 @@ class AxiStreamSlave {
   void bind(AxiStream& link);
   void operator()(AxiStream& link) { bind(link); }
   bool bound() const { return link_ != nullptr; }
+  AxiStream& link() const { return *link_; }
 
   /// Once in every edge() of the slave: counts, and tells whether a beat passes on this edge. A
   /// slave that sleeps wakes on tvalid; the edges it slept through count as stalls where the master

@@ -84,6 +84,9 @@ module global_threshold #(
       end
     end
 
+`ifndef SYNTHESIS
+  initial active_threshold = DEFAULT_THRESHOLD;  // a simulation may begin behind the system reset
+`endif
   wire [7:0] middle = 8'(({1'b0, dark_peak} + {1'b0, bright_peak}) >> 1);
   always_ff @(posedge clk)
     if (por) active_threshold <= DEFAULT_THRESHOLD;
