@@ -194,11 +194,12 @@ struct Logic : harness::Pipeline {
     return all;
   }
 
-  /// As the DMA brings it.
+  /// As the DMA brings it, before anybody takes it.
   void upload(const harness::Image& image) {
     std::vector<std::uint32_t> words(image.size() / 4);
     std::memcpy(words.data(), image.data(), image.size());
     source.send(words, 32);
+    run_for(50'000);
     driver.control(pl::control_packet::wr_en);
     run_for(image.size() / 4 * 10'000 + 50'000);
     driver.control(0);
