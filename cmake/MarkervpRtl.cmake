@@ -49,8 +49,27 @@ function(markervp_add_rtl NAME)
   verilate(${NAME} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
     VERILATOR_ARGS -O3 --x-assign fast --x-initial fast --noassert ${parameters})
   target_compile_options(${NAME} PRIVATE $<IF:$<CONFIG:Debug>,-O0,-O3> -w)
-  set_target_properties(${NAME} PROPERTIES
+  set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
     PREFIX "" SUFFIX .so CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  markervp_rtl_share_runtime(${NAME})
+endfunction()
+
+# Verilator's runtime takes longer to compile than an IP: once is enough for all objects. Each still has its own.
+function(markervp_rtl_share_runtime NAME)
+  get_target_property(sources ${NAME} SOURCES)
+  set(runtime ${sources})
+  list(FILTER runtime INCLUDE REGEX "/include/verilated[a-z_]*\\.cpp$")
+  list(REMOVE_ITEM sources ${runtime})
+  set_target_properties(${NAME} PROPERTIES SOURCES "${sources}")
+  if(NOT TARGET markervp_verilated)
+    add_library(markervp_verilated STATIC ${runtime})
+    foreach(property INCLUDE_DIRECTORIES COMPILE_DEFINITIONS COMPILE_OPTIONS CXX_STANDARD CXX_VISIBILITY_PRESET VISIBILITY_INLINES_HIDDEN)
+      get_target_property(value ${NAME} ${property})
+      set_target_properties(markervp_verilated PROPERTIES ${property} "${value}")
+    endforeach()
+    set_target_properties(markervp_verilated PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  target_link_libraries(${NAME} PRIVATE markervp_verilated)
 endfunction()
 
 # Where <pl/common/rtl_interface.h> lies: in this tree, or beside an installed markervp.

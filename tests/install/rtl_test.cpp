@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "../integration/pictures.h"
 #include "installation.h"
 
 using namespace install_test;
@@ -57,6 +58,12 @@ const std::string inputs =
     "input logic clk,\ninput logic ena,\ninput logic rst,\ninput logic [7:0] pixel,\n"
     "input logic [9:0] x,\ninput logic [8:0] y,\n";
 const std::string outputs = "output logic corner_out,\noutput logic [31:0] corner_data";
+/// The thesis' own.
+const char* const camera =
+    "image_width: 640\nimage_height: 480\ncamera_name: thesis\n"
+    "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [381.36, 0, 319.5, 0, 381.36, 239.5, 0, 0, 1]\n"
+    "distortion_model: plumb_bob\n"
+    "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n";
 const std::string nothing =
     "assign corner_out = &{1'b0, clk, ena, rst, pixel, x, y};\n"
     "assign corner_data = 0;";
@@ -68,14 +75,20 @@ BOOST_FIXTURE_TEST_SUITE(rtl, Rtl)
 // Each among models of whole frames as far as it goes with them, the detectors together, and the
 // whole pipeline; Verilog and VHDL.
 BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
-  std::string noise = "P5\n640 480\n255\n";
-  std::uint32_t state = 1;
-  for (int i = 0; i < 640 * 480; ++i) {
-    state = state * 1'103'515'245u + 12'345u;
-    noise += static_cast<char>(state >> 24);
-  }
-  kit::write_file(installed.beside("noise.pgm"), noise);
-  const Words inputs{"demo", "z2.0", installed.beside("noise.pgm")};
+  cv::Mat noise(480, 640, CV_8UC1);
+  cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  integration::write_picture(installed.beside("noise.png"), noise);
+  for (const std::string scene : {"demo", "z1.0"})
+    integration::write_picture(installed.beside("photograph_" + scene + ".png"),
+                               integration::photograph(scene));
+  kit::write_file(installed.beside("camera.yaml"), camera);
+  const Words inputs{"demo",
+                     "z2.0",
+                     installed.beside("noise.png"),
+                     installed.beside("photograph_demo.png"),
+                     installed.beside("photograph_z1.0.png"),
+                     "--camera",
+                     installed.beside("camera.yaml")};
   const Json models = run("models", inputs);
   const Words detectors{"corner_detection", "global_threshold", "blob_detection"};
   for (const std::string& ip : detectors) {

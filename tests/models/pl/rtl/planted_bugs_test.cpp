@@ -120,7 +120,8 @@ class Objects {
     for (const std::string& ip : ips) project += object(ip, ip, nullptr);
     for (const Bug& bug : bugs) project += object(bug.name, bug.ip, &bug);
     kit::write_file(folder_ / "CMakeLists.txt", project);
-    cmake({"-S", ".", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug"});
+    cmake({"-S", ".", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
+           "-DCMAKE_CXX_FLAGS_DEBUG="});
     cmake({"--build", "build"});
   }
 
@@ -142,7 +143,7 @@ class Objects {
 
   static std::string parameters(const std::string& ip) {
     if (ip == "corner_detection") return " PARAMETERS WIDTH=64 LEAN=1";
-    if (ip == "blob_detection") return " PARAMETERS WIDTH=64 LABELS=16 MINIMUM_SIDE=2";
+    if (ip == "blob_detection") return " PARAMETERS WIDTH=64 LABELS=16 MINIMUM_SIDE=1";
     return ip == "global_threshold" || ip == "sensor_input" ? " PARAMETERS WIDTH=64 HEIGHT=32" : "";
   }
 
@@ -167,10 +168,17 @@ harness::Image posterised(std::uint64_t seed) {
   return image;
 }
 
+/// As many blobs as there are labels, all of which are told behind the frame.
+harness::Image bars() {
+  harness::Image image(64 * 32, 200);
+  for (int x = 0; x < 64; x += 4) harness::draw(image, 64, x, 20, x + 1, 31, 20);
+  return image;
+}
+
 const std::vector<harness::Image>& images() {
   static const std::vector<harness::Image> images{
       harness::noise(64, 32, 7), posterised(3), harness::rectangles(64, 32, 20, 5),
-      harness::stripes(64, 32), harness::noise(64, 32, 8)};
+      harness::stripes(64, 32),  bars(),        harness::noise(64, 32, 8)};
   return images;
 }
 
@@ -189,19 +197,25 @@ struct Logic : harness::Pipeline {
   static Strings settings(const Strings& more) {
     Strings all = harness::frame_size(64, 32);
     all.insert(all.end(),
-               {"pl.blob_detection.label_count=16", "pl.blob_detection.minimum_side=2 px"});
+               {"pl.blob_detection.label_count=16", "pl.blob_detection.minimum_side=1 px"});
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
 
-  /// As the DMA brings it, before anybody takes it.
+  /// As the DMA brings it, once more from its beginning behind an upload that broke off.
   void upload(const harness::Image& image) {
     std::vector<std::uint32_t> words(image.size() / 4);
     std::memcpy(words.data(), image.data(), image.size());
-    source.send(words, 32);
+    store({words.begin(), words.begin() + 16});
+    store(words);
+  }
+
+  /// The words wait before anybody takes them.
+  void store(const std::vector<std::uint32_t>& words) {
+    source.send(words, 16);
     run_for(50'000);
     driver.control(pl::control_packet::wr_en);
-    run_for(image.size() / 4 * 10'000 + 50'000);
+    run_for(words.size() * 10'000 + 50'000);
     driver.control(0);
     run_for(100'000);
   }
