@@ -8,6 +8,7 @@
 #include <cli/sweep_command.h>
 #include <cli/sweep_platform.h>
 #include <explore/explore.h>
+#include <explore/relaxation.h>
 #include <host/process.h>
 #include <report/console.h>
 #include <sweep/engine_slurm.h>
@@ -141,14 +142,19 @@ int explore_points(const ExploreOptions& options, std::ostream& out, std::ostrea
       [&](const std::vector<std::size_t>& positions) { return generations->compute(positions); },
       [&](std::uint64_t points, const explore::Front& front) { generations->tell(points, front); });
   const explore::End end = explorer.explore();
-  space.manifest().text = search_text(explorer, end);
+  std::string text = search_text(explorer, end);
+  const bool over = end == explore::End::interrupted || end == explore::End::failed;
+  if (explorer.front().size() == 0 && !over)
+    text += text_of(explorer,
+                    explore::relaxations(explorer, [] { return !host::InterruptGuard::noted(); }));
+  space.manifest().text = text;
   store.write_manifest(space.manifest());
   const std::uint64_t computed = generations->computed(), before = generations->before();
   generations.reset();  // and its bar
   sweep::Results results = explorer.results();
   results.manifest = space.manifest();
   write_results(options, store, results, computed, before, out);
-  if (end == explore::End::interrupted) {
+  if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted: the same command goes on" << std::endl;
     return interrupted;
   }

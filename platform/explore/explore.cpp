@@ -156,6 +156,9 @@ Explorer::Explorer(sweep::Space& space, Compute compute, OnGeneration on_generat
   sweep::Manifest& manifest = space.manifest();
   if (manifest.objectives.empty())
     manifest.objectives = {sweep::usual_objectives.begin(), sweep::usual_objectives.end()};
+  // A point that one of them gave way for is not feasible.
+  for (const vp::Expression& condition : space.conditions())
+    manifest.constraints.push_back(condition.text());
   for (const std::string& text : manifest.objectives)
     goal_.objectives.emplace_back(text, space.spec().origin + ": objectives");
   results_ = sweep::Results(manifest);
@@ -178,7 +181,6 @@ void Explorer::check() const {
                          "'markervp sweep' computes it; give parameters more values");
   for (const sweep::Objective& objective : goal_.objectives) check_objective(objective);
   check_bounds(results_.constraints);
-  check_bounds(space_.conditions());
 }
 
 void Explorer::check_objective(const sweep::Objective& objective) const {

@@ -73,7 +73,7 @@ class Explorer {
   /// The points, in the order in which they were asked for, without the manifest.
   const sweep::Results& results() const { return results_; }
   sweep::Space& space() const { return space_; }
-  /// What explore() asks for; constraints on parameters are conditions() of the space.
+  /// What explore() asks for.
   const Goal& goal() const { return goal_; }
   /// Of the last search.
   const Front& front() const { return front_; }

@@ -72,6 +72,19 @@ BOOST_FIXTURE_TEST_CASE(a_search_that_was_stopped_leaves_a_front_and_goes_on, Sw
   for (const auto& [key, count] : computations("stopped")) BOOST_TEST(count == 1, key);
 }
 
+// 150 frames a second of 640x480 are more than this software does within timing.
+BOOST_FIXTURE_TEST_CASE(where_nothing_is_feasible_it_says_what_would_have_to_give_way, Sweeps) {
+  std::string text(space);
+  text.replace(text.find(">= 50"), 5, ">= 150");
+  write("s.yaml", text + "set: {pl.height: 480 px}\n");
+  const kit::Outcome outcome = run({"explore", "s.yaml", "--jobs", "2"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "no point is feasible"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "'summary.fps.mean >= 150' gives way to summary.fps.mean = "),
+             outcome.out);
+  BOOST_TEST(contains(kit::read_file(*this / "out/s/manifest.json"), "gives way to"));
+}
+
 BOOST_FIXTURE_TEST_CASE(mistakes_in_a_search_cost_no_time, Sweeps) {
   const auto problem = [&](const std::string& yaml) {
     write("wrong.yaml", yaml);

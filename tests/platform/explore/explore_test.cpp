@@ -1,4 +1,5 @@
 #include <explore/explore.h>
+#include <explore/relaxation.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -218,6 +219,77 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_searched_is_told_before_the_first_point) {
   BOOST_TEST(contains(complaint(start + "constraints: [a == 5, a == 6]\n"), "contradict"));
   BOOST_TEST(complaint(start + "constraints: [a >= 5, a <= 5, b == 7]\n") == "");
   BOOST_TEST(contains(complaint(start + "constraints: [a + b > 2000]\n"), "contradict"));
+}
+
+BOOST_AUTO_TEST_CASE(of_two_constraints_either_may_give_way) {
+  Study study(std::string(square) +
+              "constraints: [summary.fps.mean >= 80, power.total_w.nominal <= 0.25]\n");
+  study.explorer.explore();
+  BOOST_TEST(study.explorer.front().size() == 0u);
+  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  BOOST_REQUIRE(found.size() == 2u);
+  // 0.25 W is a = 500, which gives 50 frames a second; 80 are a = 800, which take 0.64 W.
+  BOOST_TEST(found[0].given_up.text() == "summary.fps.mean >= 80");
+  BOOST_TEST(*found[0].row.metrics.find("summary.fps.mean") == 50,
+             boost::test_tools::tolerance(0.05));
+  BOOST_TEST(*found[0].row.metrics.find("power.total_w.nominal") <= 0.25);
+  BOOST_TEST(*found[1].row.metrics.find("power.total_w.nominal") == 0.64,
+             boost::test_tools::tolerance(0.05));
+  BOOST_TEST(*found[1].row.metrics.find("summary.fps.mean") >= 80);
+  const std::string text = text_of(study.explorer, found);
+  BOOST_TEST(contains(text, "'summary.fps.mean >= 80' gives way to summary.fps.mean = "), text);
+}
+
+BOOST_AUTO_TEST_CASE(constraints_on_parameters_may_give_way_too) {
+  Study study(std::string(square) + "constraints: [a <= 500, summary.fps.mean >= 80, b != 500]\n");
+  study.explorer.explore();
+  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  BOOST_REQUIRE(found.size() == 2u);
+  BOOST_TEST(found[0].given_up.text() == "summary.fps.mean >= 80");
+  BOOST_TEST(std::stod(found[0].row.value("a")) == 500, boost::test_tools::tolerance(0.05));
+  BOOST_TEST(found[1].given_up.text() == "a <= 500");
+  BOOST_TEST(std::stod(found[1].row.value("a")) == 800, boost::test_tools::tolerance(0.05));
+  // What gave way for a point makes it one that is not feasible.
+  for (const sweep::ResultRow& row : study.explorer.results().rows)
+    BOOST_TEST((study.explorer.results().feasible(row) == report::Holds::no));
+  for (const Relaxation& relaxation : found) BOOST_TEST(relaxation.row.value("b") != "500");
+}
+
+BOOST_AUTO_TEST_CASE(a_part_of_the_verdict_may_give_way) {
+  // Nothing above a = 600 meets timing.
+  const auto slow = [](const sweep::PlannedPoint& point) {
+    sweep::Outcome outcome = outcome_of(point);
+    const double margin = 100 * (600 / std::max(1.0, number(point, "a")) - 1);
+    std::vector<std::pair<std::string, double>> figures;
+    for (std::size_t i = 0; i < outcome.metrics.names().size(); ++i) {
+      const std::string& name = outcome.metrics.names()[i];
+      const bool met = name != "verdict.timing.holds" || margin >= 0;
+      figures.emplace_back(name, met ? outcome.metrics.values()[i] : 0);
+    }
+    figures.emplace_back("verdict.timing.margin_percent", margin);
+    outcome.metrics = sweep::Metrics(std::move(figures));
+    return outcome;
+  };
+  Study study(std::string(square) + "target_rate: 75 fps\n", slow);
+  study.explorer.explore();
+  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  BOOST_REQUIRE(found.size() == 2u);
+  const bool first = found[0].given_up.text() == "verdict.timing";
+  const Relaxation &timing = found[first ? 0 : 1], &rate = found[first ? 1 : 0];
+  BOOST_TEST(std::stod(timing.row.value("a")) == 750, boost::test_tools::tolerance(0.05));
+  BOOST_TEST(std::stod(rate.row.value("a")) == 600, boost::test_tools::tolerance(0.05));
+}
+
+BOOST_AUTO_TEST_CASE(where_one_alone_does_not_help_it_is_said) {
+  Study study(std::string(square) +
+              "constraints: [summary.fps.mean >= 180, power.total_w.nominal >= 5]\n");
+  study.explorer.explore();
+  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  BOOST_TEST(found.empty());
+  BOOST_TEST(contains(text_of(study.explorer, found), "at least two would have to give way"));
+  std::size_t asked = 0;
+  relaxations(study.explorer, [&] { return ++asked == 0; });
+  BOOST_TEST(asked == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(an_objective_that_no_point_has_ends_it) {
