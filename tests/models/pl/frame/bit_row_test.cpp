@@ -1,4 +1,4 @@
-#include <pl/blob_detection/frame.h>
+#include <pl/common/bit_row.h>
 
 #include <boost/test/unit_test.hpp>
 

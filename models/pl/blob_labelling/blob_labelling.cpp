@@ -1,0 +1,211 @@
+#include <pl/blob_labelling/blob_labelling.h>
+
+#include <algorithm>
+#include <string>
+
+#include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
+#include <vp/report.h>
+
+namespace pl {
+
+Models<BlobLabelling>& BlobLabelling::models() {
+  static Models<BlobLabelling> models{
+      "blob_labelling",
+      {model<BlobLabelling, BlobLabellingClocked>("clocked", by_pixel, no_image),
+       model<BlobLabelling, BlobLabellingTlm>("tlm", by_frame, no_image)},
+      rtl_model<BlobLabelling, BlobLabellingClocked>()};
+  return models;
+}
+
+BlobLabelling::BlobLabelling(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
+  wake_on(ena);
+  wake_on(rst);
+}
+
+void BlobLabelling::connect(IpPorts& ports) {
+  ports.input(ena);
+  ports.input(rst);
+  ports.input(pixel);
+  ports.input(x, geometry_.words().x_bits());
+  ports.input(y, geometry_.words().y_bits());
+  ports.output(blob_out);
+  for (vp::Signal<std::uint32_t>& point : extreme) ports.output(point, &blob_out);
+  ports.output(idle);
+  ports.report(label_overflow);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("HEIGHT", "pl.height", geometry_.height);
+  ports.parameter("LABELS", label_count.name(), label_count);
+  ports.parameter("MINIMUM_SIDE", minimum_side.name(), minimum_side);
+}
+
+void BlobLabelling::show(const Extremes& extremes) {
+  for (std::size_t i = 0; i < blob_stream::words_per_blob; ++i) extreme[i] = extremes.point(i);
+}
+
+void BlobLabelling::refuse(const std::string& why) const {
+  vp::error(*this, "/markervp/blob_labelling/frame", why);
+}
+
+void BlobLabellingClocked::edge() {
+  if (rst) return reset();
+  const bool frame = ena;
+  if (frame) check_place();
+  core_.clock(frame, pixel, x, y);
+  blob_out = core_.shows();
+  if (core_.shows()) show(core_.shown());
+  idle = core_.idle();
+  if (core_.overflow() != label_overflow) label_overflow = core_.overflow();
+  if (!frame && core_.quiescent()) sleep();
+}
+
+void BlobLabellingClocked::check_place() {
+  if (next_pixel_ == 0 && !core_.ready()) {
+    refuse("a frame begins too early: " + std::to_string(geometry_.width + 1) +
+           " clocks must lie behind the last pixel of the one before");
+  }
+  const std::uint32_t place = y * geometry_.width + x;
+  if (x >= geometry_.width || place != next_pixel_) {
+    refuse("pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") came, but (" +
+           std::to_string(next_pixel_ % geometry_.width) + ", " +
+           std::to_string(next_pixel_ / geometry_.width) +
+           ") is the next one: frames are whole, unless rst cuts them");
+  }
+  if (++next_pixel_ == geometry_.pixels()) next_pixel_ = 0;
+}
+
+void BlobLabellingClocked::reset() {
+  core_.reset();
+  next_pixel_ = 0;
+  blob_out = false;
+  idle = true;
+  label_overflow = 0;
+  sleep();
+}
+
+vp::IpEstimate BlobLabelling::own_estimate() const {
+  const std::uint32_t labels = label_count;
+  const std::uint32_t x_bits = geometry_.words().x_bits(), y_bits = geometry_.words().y_bits();
+  const std::uint32_t label_bits = marker_logic::bits_for(labels, 2);
+  // Of the eight extremes, four are sums or differences, a bit wider.
+  const std::uint32_t record_bits = 8 * (x_bits + y_bits) + 4;
+
+  vp::IpEstimate e;
+  e.kind = "blob_labelling";
+  e.includes_memory = true;
+  // Eight comparisons and choices, operands; labels, stack and queues in distributed memory.
+  e.lut = 4 * record_bits + 300 + labels / 64 * 4 * (4 * label_bits + 6) / 3;
+  e.ff = 4 * record_bits + 300;
+  e.bram36 = 2 * xilinx::block_ram_36(labels, record_bits) +
+             xilinx::block_ram_36(geometry_.width / 2, label_bits);
+  e.uncertainty_percent = 50;
+  e.source = "derived from its structure: eight comparisons, two copies of the extremes in memory";
+  e.fmax_hz = 100 * mhz;
+  e.fmax_documentation = "one comparison of 21 bits and one choice a clock";
+  return e;
+}
+
+BlobLabellingTlm::BlobLabellingTlm(sc_core::sc_module_name name, const Site& site)
+    : BlobLabelling(name, site),
+      frame_(geometry_, minimum_side),
+      queue_(label_count),
+      queue_before_(queue_) {}
+
+void BlobLabellingTlm::end_of_elaboration() {
+  BlobLabelling::end_of_elaboration();
+  frames.channel().add_listener(*this);
+}
+
+void BlobLabellingTlm::edge() {
+  sleep();
+  if (rst) return reset();
+  const std::uint64_t cycle = clock().cycle();
+  if (ena && !ena_before_) begin(cycle);
+  ena_before_ = ena;
+  if (cycle >= changed_cycle_) find_again(cycle);
+  emit(cycle);
+  idle = cycle >= idle_cycle_;
+  label_overflow = lost_until(cycle);
+  wake_at(next_change(cycle));
+}
+
+void BlobLabellingTlm::settle() {
+  if (begun_) label_overflow = lost_until(clock().cycle());
+}
+
+void BlobLabellingTlm::emit(std::uint64_t cycle) {
+  const bool leaves = next_ < blobs_.size() && blobs_[next_].clock == cycle;
+  if (leaves) show(blobs_[next_++].extremes);
+  blob_out = leaves;
+}
+
+std::uint64_t BlobLabellingTlm::next_change(std::uint64_t cycle) const {
+  if (blob_out.written()) return cycle + 1;
+  const std::uint64_t blob = next_ < blobs_.size() ? blobs_[next_].clock : vp::Clock::never;
+  const std::uint64_t idle_from = cycle < idle_cycle_ ? idle_cycle_ : vp::Clock::never;
+  return std::min({blob, idle_from, changed_cycle_});
+}
+
+std::uint32_t BlobLabellingTlm::lost_until(std::uint64_t cycle) const {
+  const auto later = std::upper_bound(
+      losses_.begin(), losses_.end(), cycle,
+      [](std::uint64_t clock, const StampedLoss& loss) { return clock < loss.clock; });
+  return lost_before_ + (later == losses_.begin() ? 0 : std::prev(later)->lost);
+}
+
+// Blobs of the frame before may still wait to be shown.
+void BlobLabellingTlm::begin(std::uint64_t cycle) {
+  if (begun_ && cycle < over()) {
+    refuse("a frame begins too early: " + std::to_string(geometry_.width + 1) +
+           " clocks must lie behind the last pixel of the one before");
+  }
+  blobs_.erase(blobs_.begin(), blobs_.begin() + static_cast<std::ptrdiff_t>(next_));
+  next_ = 0;
+  first_ = blobs_.size();
+  lost_before_ = lost_until(cycle);
+  queue_before_ = queue_;
+  begun_ = true;
+  begin_ = cycle;
+  changed_cycle_ = vp::Clock::never;
+  find();
+}
+
+void BlobLabellingTlm::find() {
+  losses_.clear();
+  frame_.find(frames->data(), begin_, queue_, blobs_, losses_);
+  idle_cycle_ = std::max(over(), queue_.empty_from());
+}
+
+void BlobLabellingTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
+  // A pixel of a frame that begins here only in the next clock is not known yet.
+  if (!begun_ || begin_ + first <= clock().cycle()) return;
+  changed_cycle_ = std::min(changed_cycle_, begin_ + first);
+  wake_at(next_change(clock().cycle()));
+}
+
+// What was shown until now follows from pixels that did not change: it is found as before.
+void BlobLabellingTlm::find_again(std::uint64_t cycle) {
+  changed_cycle_ = vp::Clock::never;
+  blobs_.resize(first_);
+  queue_ = queue_before_;
+  find();
+  while (next_ < blobs_.size() && blobs_[next_].clock < cycle) ++next_;
+}
+
+void BlobLabellingTlm::reset() {
+  queue_ = LabelQueue(label_count);
+  blobs_.clear();
+  losses_.clear();
+  next_ = first_ = 0;
+  lost_before_ = 0;
+  ena_before_ = begun_ = false;
+  idle_cycle_ = 0;
+  changed_cycle_ = vp::Clock::never;
+  blob_out = false;
+  idle = true;
+  label_overflow = 0;
+  wake_at(vp::Clock::never);
+}
+
+}  // namespace pl
