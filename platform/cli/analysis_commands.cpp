@@ -88,6 +88,11 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
 }
 
 int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
+  if (options.folder.empty() != options.at.has_value())
+    throw vp::InputError(
+        "sensitivity: name the folder of a sweep, or one of its points with --at "
+        "out/NAME/points/KEY.json");
+  if (options.at) return find_step_effects(options, out, err);
   const sweep::Results results = results_of(options.folder, err);
   std::vector<vp::Expression> figures;
   for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");

@@ -130,7 +130,11 @@ void add_pareto(CLI::App& app, ParetoOptions& target) {
 
 void add_sensitivity(CLI::App& app, SensitivityOptions& target) {
   CLI::App* command = app.add_subcommand("sensitivity", "which parameters of a sweep matter");
-  command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR")->required();
+  command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR");
+  command
+      ->add_option("--at", target.at,
+                   "what one step of each parameter changes at a point (points/KEY.json)")
+      ->type_name("FILE");
   command->add_option("--figure", target.figures, "of what (default: the sweep's objectives)")
       ->type_name("FIGURE")
       ->expected(1)

@@ -108,6 +108,9 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
 
 int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err);
 
+/// What one step of each parameter is worth at a point: options.at.
+int find_step_effects(const SensitivityOptions& options, std::ostream& out, std::ostream& err);
+
 int compare_runs(const CompareOptions& options, std::ostream& out);
 
 /// Reads --config, --set and --design into `configuration`.

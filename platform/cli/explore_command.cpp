@@ -107,7 +107,7 @@ class Generations {
 std::string search_text(const explore::Explorer& explorer, explore::End end) {
   const explore::Front& front = explorer.front();
   std::string text = "The search looked at " +
-                     report::counted(explorer.results().rows.size(), "point") + " of " +
+                     std::to_string(explorer.results().rows.size()) + " of " +
                      size_text(explorer.space()) + " and ended: " + to_string(end) + ".";
   if (front.size() != 0) {
     text += " Its front has " + report::counted(front.size(), "point") +

@@ -215,7 +215,8 @@ struct ParetoOptions {
 
 /// `markervp sensitivity`.
 struct SensitivityOptions {
-  std::string folder;
+  std::string folder;             ///< empty: that of the point
+  std::optional<std::string> at;  ///< a point's file: what one step of each parameter changes
   std::vector<std::string> figures;
   bool all = false;  ///< not only feasible points
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 
 #include <sweep/axes.h>
@@ -229,6 +230,36 @@ std::string AxisValues::at_level(double level) const {
   if (continuous_) return written(between(level));
   return values_[static_cast<std::size_t>(
       std::lround(level * static_cast<double>(values_.size() - 1)))];
+}
+
+std::vector<std::string> AxisValues::neighbours(const std::string& value) const {
+  std::vector<std::string> found;
+  if (!ordered()) {
+    std::copy_if(values_.begin(), values_.end(), std::back_inserter(found),
+                 [&](const std::string& other) { return other != value; });
+    return found;
+  }
+  const double here = number_of(kind_, value);
+  if (continuous_) {
+    const double level = logarithmic_ ? std::log(here / start_) / std::log(stop_ / start_)
+                                      : (here - start_) / (stop_ - start_);
+    for (const double step : {-0.05, 0.05}) {
+      const std::string other = written(between(std::clamp(level + step, 0.0, 1.0)));
+      if (other != value) found.push_back(other);
+    }
+    return found;
+  }
+  const std::string* below = nullptr;
+  const std::string* above = nullptr;
+  for (const std::string& other : values_) {
+    const double number = number_of(kind_, other);
+    if (number < here && (below == nullptr || number > number_of(kind_, *below))) below = &other;
+    if (number > here && (above == nullptr || number < number_of(kind_, *above))) above = &other;
+  }
+  for (const std::string* other : {below, above}) {
+    if (other != nullptr) found.push_back(*other);
+  }
+  return found;
 }
 
 double AxisValues::level_of(double level) const {

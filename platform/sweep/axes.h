@@ -84,6 +84,10 @@ class AxisValues {
   /// Whether its values lie on a line: those of a quantity.
   bool ordered() const { return kind_.kind == ParameterKind::Kind::quantity; }
 
+  /// Those one step down and up from a value: the next of a list; of a range without step a
+  /// twentieth of it away; of words all others.
+  std::vector<std::string> neighbours(const std::string& value) const;
+
   /// The value for a sample u in 0 … 1, 1 excluded.
   std::string sampled(double u) const;
   /// The value at a level from 0 (first) to 1 (last).

@@ -234,7 +234,7 @@ std::map<const ResultRow*, std::size_t> fronts_of(const Results& results,
 
 }  // namespace
 
-std::string page_block(const Results& results, const std::string& folder) {
+std::string page_block(const Results& results, const std::string& folder, const Json& steps) {
   const Manifest& manifest = results.manifest;
   const std::vector<Objective> objectives = objectives_of(results);
   Columns asked = asked_of(results);
@@ -254,6 +254,7 @@ std::string page_block(const Results& results, const std::string& folder) {
     json["constraints"].push_back(constraint.text());
   for (const Column& column : columns)
     json["metrics"].push_back({{"path", column.text}, {"unit", unit_of_metric(column.text)}});
+  if (!steps.is_null()) json["steps"] = steps;
   const std::map<const ResultRow*, std::size_t> fronts = fronts_of(results, objectives);
   std::string points;
   for (const ResultRow& row : results.rows) {
@@ -267,9 +268,9 @@ std::string page_block(const Results& results, const std::string& folder) {
   return text + "\"points\":[" + points + "]}";
 }
 
-bool write_page(const Results& results, const std::string& folder) {
+bool write_page(const Results& results, const std::string& folder, const Json& steps) {
   return page::write_page((std::filesystem::path(folder) / page::report_name).string(),
-                          {{"sweep", page_block(results, folder)}});
+                          {{"sweep", page_block(results, folder, steps)}});
 }
 
 }  // namespace platform::sweep

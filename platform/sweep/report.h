@@ -19,10 +19,12 @@ std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 ///    "points": [{"key", "swept": [value…], "metrics": [number or null…], "failed",
 ///                "reasons": [text…], "front": 0 for none}]}
 ///
-/// "metrics" of a point that failed are those until then.
-std::string page_block(const Results& results, const std::string& folder);
+/// "metrics" of a point that failed are those until then. `steps` is what one step of each
+/// parameter is worth at a point (explore::effects_json), or null.
+std::string page_block(const Results& results, const std::string& folder,
+                       const Json& steps = nullptr);
 
 /// Writes report.html of a sweep into its folder. False if the program was built without the page.
-bool write_page(const Results& results, const std::string& folder);
+bool write_page(const Results& results, const std::string& folder, const Json& steps = nullptr);
 
 }  // namespace platform::sweep

@@ -32,7 +32,7 @@ BOOST_FIXTURE_TEST_CASE(a_search_does_not_depend_on_the_number_of_processes, Swe
   write("s.yaml", space);
   const kit::Outcome one = run({"explore", "s.yaml", "--jobs", "1", "--output", "one"});
   BOOST_TEST(one.exit_code == 0, one.err);
-  BOOST_TEST(contains(one.out, "The search looked at 60 points of"), one.out);
+  BOOST_TEST(contains(one.out, "The search looked at 60 of 1024 points"), one.out);
   BOOST_TEST(contains(one.out, " front\n"), one.out);
   run({"explore", "s.yaml", "--jobs", "3", "--output", "three"});
   run({"explore", "s.yaml", "--isolate", "--no-report", "--output", "isolated"});
@@ -83,6 +83,38 @@ BOOST_FIXTURE_TEST_CASE(where_nothing_is_feasible_it_says_what_would_have_to_giv
   BOOST_TEST(contains(outcome.out, "'summary.fps.mean >= 150' gives way to summary.fps.mean = "),
              outcome.out);
   BOOST_TEST(contains(kit::read_file(*this / "out/s/manifest.json"), "gives way to"));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_point_tells_what_each_step_is_worth, Sweeps) {
+  write("s.yaml",
+        "parameters:\n"
+        "  ps.fclk_clk1.frequency: [25 MHz, 40 MHz, 50 MHz]\n"
+        "  pl.blob_detection.label_count: [16, 32]\n");
+  run({"sweep", "s.yaml"});
+  const std::string csv = kit::read_file(*this / "out/s/points.csv");
+  const std::string row = csv.substr(0, csv.find(",40 MHz,16"));
+  const std::string file = "out/s/points/" + row.substr(row.rfind('\n') + 1) + ".json";
+  const kit::Outcome outcome = run({"sensitivity", "--at", file});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  const std::string steps = kit::read_file(*this / "out/s/steps.csv");
+  // Twice the labels cost logic, and no time.
+  BOOST_TEST(contains(steps, ",pl.blob_detection.label_count,16,32,0,"), steps);
+  BOOST_TEST(contains(steps, ",ps.fclk_clk1.frequency,40 MHz,50 MHz,"), steps);
+  BOOST_TEST(contains(steps, ",ps.fclk_clk1.frequency,40 MHz,25 MHz,-"), steps);
+  BOOST_TEST(count_points("out/s") == 6u);  // the steps were there
+  if (contains(outcome.out, "report.html"))
+    BOOST_TEST(contains(kit::read_file(*this / "out/s/report.html"), "\"steps\":{"));
+  BOOST_TEST(contains(run({"sensitivity", "--at", file, "--figure", "timing.mett"}).err,
+                      "did you mean 'timing.met'"));
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"sensitivity"}, {"sensitivity", "out/s", "--at", file}}) {
+    const kit::Outcome refused = run(wrong);
+    BOOST_TEST(refused.exit_code == 2);
+    BOOST_TEST(contains(refused.err, "name the folder of a sweep, or one of its points"));
+  }
+  std::filesystem::copy_file(*this / file, *this / "out/s/points/other.json");
+  BOOST_TEST(contains(run({"sensitivity", "--at", "out/s/points/other.json"}).err,
+                      "no point of the last sweep or search"));
 }
 
 BOOST_FIXTURE_TEST_CASE(mistakes_in_a_search_cost_no_time, Sweeps) {

@@ -30,9 +30,15 @@ function parameterAxis(sweep, index) {
   };
 }
 
-function metricAxis(sweep, index) {
-  const { path, unit: given } = sweep.metrics[index];
+/** {name, unit, better, scale} of a metric. */
+export function metricName({ path, unit: given }) {
   const [name, unit, better, scale = 1] = names[path] ?? [path, given, 0];
+  return { name, unit, better, scale };
+}
+
+function metricAxis(sweep, index) {
+  const { path } = sweep.metrics[index];
+  const { name, unit, better, scale } = metricName(sweep.metrics[index]);
   return {
     id: path, name, unit, better, numeric: true,
     of: (point) => (point.metrics[index] === null || point.metrics[index] === undefined ? NaN : point.metrics[index] * scale),

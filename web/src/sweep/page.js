@@ -4,7 +4,7 @@ import { counted, fixed, significant } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { shellWord } from "../run/tables.js";
 import { columnsOf, heatMap, parallel, tornado, tradeOff } from "./charts.js";
-import { makeSweep } from "./facts.js";
+import { makeSweep, metricName } from "./facts.js";
 
 function pointPanel(sweep) {
   const panel = h("section", { id: "point", class: "panel", "aria-label": "Point", tabindex: "-1", hidden: true });
@@ -48,6 +48,21 @@ function verdict(sweep) {
     h("dl", { class: "tiles" }, sweep.objectives.map(tile)));
 }
 
+/** What one step of each parameter changes at a point. */
+function stepTable({ key, figures, rows }) {
+  const named = figures.map((figure) => ({ ...figure, ...metricName(figure) }));
+  const change = ({ name, unit, scale }, index) => ({
+    title: name, unit, number: true,
+    value: (row) => (row.changes[index] === null ? null : row.changes[index] * scale),
+    show: (value) => (value > 0 ? "+" : "") + significant(value, 4),
+  });
+  const columns = [{ title: "Parameter", value: (row) => row.path }, { title: "From", value: (row) => row.from }, { title: "To", value: (row) => row.to },
+    ...named.map(change), { title: "Not feasible", value: (row) => row.trouble }];
+  const base = named.filter((figure) => figure.base !== null).map((figure) => `${figure.name} ${significant(figure.base * figure.scale, 5)} ${figure.unit}`.trim());
+  return h("div", {}, h("p", { class: "note" }, `Point ${key.slice(0, 12)}: ${base.join(", ")}. One step down or up of each parameter changes this by:`),
+    dataTable({ columns, rows, caption: "Steps, the strongest first", name: "steps", exportable: true, limit: 40 }));
+}
+
 function points(sweep, wanted, caption, name, open) {
   const rows = sweep.points.filter(wanted);
   const key = { title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) };
@@ -65,6 +80,7 @@ export function sweepPage(data) {
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, open)), panel,
       section("space", "Design space", parallel(sweep, open)), section("maps", "Map", heatMap(sweep, open)), section("influence", "Influence", tornado(sweep)),
+      section("steps", "What a step is worth", sweep.steps && stepTable(sweep.steps)),
       section("points", "Points", points(sweep, (p) => p.reasons.length === 0, "Feasible points, the best first", "points", open),
         points(sweep, (p) => p.reasons.length > 0 && !p.failed, "Not feasible or not proven", "not-feasible", open), points(sweep, (p) => p.failed, "Failed", "failed", open))],
   };

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <report/verdict.h>
+#include <sweep/plan.h>
+#include <sweep/results.h>
+
+namespace explore_test {
+
+namespace report = platform::report;
+namespace sweep = platform::sweep;
+
+/// Parameters a and b, numbers from 0 to 1000, and a word.
+inline sweep::Platform numbers() {
+  sweep::Platform platform;
+  platform.elaborate = [](const sweep::Build& build, const std::string&) {
+    sweep::Elaborated built;
+    for (const char* path : {"a", "b", "word"}) {
+      const std::string usual = path == std::string("word") ? "plain" : "0";
+      const auto set = build.settings.find(path);
+      built.parameters.push_back(
+          {path, set == build.settings.end() ? usual : set->second, usual, "", {}, ""});
+    }
+    built.size = {640, 480};
+    return built;
+  };
+  platform.program_file = [](const std::string&, const std::string&) { return ""; };
+  platform.version = "1";
+  platform.revision = "r";
+  return platform;
+}
+
+inline double number(const sweep::PlannedPoint& point, const std::string& path) {
+  for (const auto& [name, value] : point.swept) {
+    if (name == path) return std::stod(value);
+  }
+  return 0;
+}
+
+/// Fast is what costs: frames a second grow with a, power with a², and both get worse off b = 500.
+inline sweep::Outcome outcome_of(const sweep::PlannedPoint& point) {
+  const double a = number(point, "a") / 1000, b = number(point, "b") / 1000 - 0.5;
+  std::vector<std::pair<std::string, double>> figures{{"summary.fps.mean", 100 * a - 50 * b * b},
+                                                      {"power.total_w.nominal", a * a + b * b}};
+  for (const char* part : report::verdict_parts)
+    figures.emplace_back("verdict." + std::string(part) + ".holds", 1);
+  sweep::Outcome outcome;
+  outcome.metrics = sweep::Metrics(std::move(figures));
+  return outcome;
+}
+
+}  // namespace explore_test
