@@ -1,15 +1,10 @@
 #include <pl/global_threshold/frame.h>
 
 #include <algorithm>
-#include <array>
 
 namespace pl {
 
-namespace {
-
-using Histogram = std::array<std::uint32_t, 256>;
-
-/// Neighbouring pixels are often equal: eight tables, so that no increment waits for the last one.
+// Neighbouring pixels are often equal: eight tables, so that no increment waits for the last one.
 Histogram count_levels(const std::uint8_t* pixels, std::size_t count) {
   std::array<Histogram, 8> tables{};
   std::size_t i = 0;
@@ -22,6 +17,8 @@ Histogram count_levels(const std::uint8_t* pixels, std::size_t count) {
   }
   return tables[0];
 }
+
+namespace {
 
 /// The level among `first` to `first` + 127 that reached the greatest count first, `fallback` if
 /// there is no pixel. A level reached its final count with its last pixel, so among equals it is

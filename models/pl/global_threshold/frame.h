@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,6 +9,10 @@
 #include <pl/global_threshold/core.h>
 
 namespace pl {
+
+/// Pixels of each grey level.
+using Histogram = std::array<std::uint32_t, 256>;
+Histogram count_levels(const std::uint8_t* pixels, std::size_t count);
 
 /// The two peaks of a histogram as ThresholdCore has them after the last pixel.
 struct Peaks {
@@ -41,6 +46,9 @@ class ThresholdFrame {
   void refresh(std::uint32_t first, std::uint32_t count);
   /// The frame is over: takes over the threshold that its pixels so far give, and returns it.
   std::uint8_t end();
+
+  /// The frame is over: of its pixels so far.
+  Histogram histogram() const { return count_levels(image_, position_); }
 
   /// The frame's words, row by row; bit i of word w is pixel 32w + i. Bits of pixels that were not
   /// binarised are 0.

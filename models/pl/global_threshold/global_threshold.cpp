@@ -44,10 +44,14 @@ void GlobalThresholdClocked::edge() {
   thresh_out = false;
   const bool frame_ended = !frame && frame_before_;
   if (frame) take_pixel();
-  if (frame_ended) core_.end_frame();
+  if (frame_ended) end_frame(clock().cycle());
+  const std::uint64_t next = frame ? vp::Clock::never : pass_time(clock().cycle());
   if (wr_thresh) core_.set_threshold(threshold);  // wins over the frame's own
-  if (frame_ended || wr_thresh) active_threshold = core_.threshold();
-  if (!frame && !frame_before_ && !wr_thresh) sleep();
+  if (!frame || wr_thresh) active_threshold = core_.threshold();
+  if (!frame && !frame_before_ && !wr_thresh) {
+    sleep();
+    wake_at(next);
+  }
   frame_before_ = frame;
 }
 
@@ -67,6 +71,7 @@ void GlobalThresholdClocked::take_pixel() {
 void GlobalThresholdClocked::reset() {
   if (por) core_.set_threshold(ThresholdCore::default_threshold);
   core_.clear_histogram();
+  stop();
   active_threshold = core_.threshold();
   binary_ena = false;
   thresh_out = false;
@@ -110,15 +115,18 @@ void GlobalThresholdTlm::edge() {
   const bool frame = frame_ena;
   binary_ena = frame;
   if (frame && !running_) begin(cycle);
-  if (!frame && running_) end();
+  if (!frame && running_) end(cycle);
+  std::uint64_t next = running_ ? vp::Clock::never : pass_time(cycle);
   if (wr_thresh) load(cycle);
   active_threshold = frame_.threshold();
-  if (binary_frames.taken_whole()) return;
-  if (emit(cycle)) {
-    wake_at(cycle + 1);
-  } else if (running_ && next_word_ < binary_frames.size()) {
-    wake_at(next_word_leaves());
+  if (!binary_frames.taken_whole()) {
+    if (emit(cycle)) {
+      next = cycle + 1;
+    } else if (running_ && next_word_ < binary_frames.size()) {
+      next = next_word_leaves();
+    }
   }
+  wake_at(next);
 }
 
 void GlobalThresholdTlm::begin(std::uint64_t cycle) {
@@ -132,8 +140,8 @@ void GlobalThresholdTlm::begin(std::uint64_t cycle) {
   binary_frames.begin(words.data(), static_cast<std::uint32_t>(words.size()), cycle);
 }
 
-void GlobalThresholdTlm::end() {
-  frame_.end();
+void GlobalThresholdTlm::end(std::uint64_t cycle) {
+  end_frame(cycle);
   running_ = false;
 }
 
@@ -171,6 +179,7 @@ bool GlobalThresholdTlm::emit(std::uint64_t cycle) {
 
 void GlobalThresholdTlm::reset() {
   if (por) frame_.set_threshold(ThresholdCore::default_threshold);
+  stop();
   active_threshold = frame_.threshold();
   binary_ena = false;
   thresh_out = false;

@@ -73,12 +73,21 @@ class GlobalThresholdClocked : public GlobalThreshold {
 
   const ThresholdCore& core() const { return core_; }
 
+ protected:
+  /// On the edge behind the frame's last pixel.
+  virtual void end_frame(std::uint64_t /*cycle*/) { core_.end_frame(); }
+  /// On edges without a frame, this one included. Returns the next edge on which something happens.
+  virtual std::uint64_t pass_time(std::uint64_t /*cycle*/) { return vp::Clock::never; }
+  /// `por` or `rst`.
+  virtual void stop() {}
+
+  ThresholdCore core_;
+
  private:
   void edge() override;
   void reset();
   void take_pixel();
 
-  ThresholdCore core_;
   bool frame_before_ = false;
   std::uint32_t word_ = 0;
   vp::Probe<std::uint32_t> word_probe_{"word", word_};
@@ -90,9 +99,18 @@ class GlobalThresholdClocked : public GlobalThreshold {
 /// when it ends.
 ///
 /// Words leave one by one on `thresh_out`, too, unless whoever takes them has `binary_frames`.
-class GlobalThresholdTlm final : public GlobalThreshold, private FrameListener {
+class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
  public:
   GlobalThresholdTlm(sc_core::sc_module_name name, const Site& site);
+
+ protected:
+  // As those of GlobalThresholdClocked.
+  virtual void end_frame(std::uint64_t /*cycle*/) { frame_.end(); }
+  virtual std::uint64_t pass_time(std::uint64_t /*cycle*/) { return vp::Clock::never; }
+  virtual void stop() {}
+
+  ThresholdFrame frame_;
+  bool running_ = false;  ///< pixels are taken
 
  private:
   void end_of_elaboration() override;
@@ -100,13 +118,11 @@ class GlobalThresholdTlm final : public GlobalThreshold, private FrameListener {
   void pixels_changed(std::uint32_t first, std::uint32_t count) override;
   void reset();
   void begin(std::uint64_t cycle);
-  void end();
+  void end(std::uint64_t cycle);
   void load(std::uint64_t cycle);
   std::uint64_t next_word_leaves() const;
   bool emit(std::uint64_t cycle);
 
-  ThresholdFrame frame_;
-  bool running_ = false;           ///< pixels are taken
   std::uint64_t first_cycle_ = 0;  ///< edge that takes the frame's first pixel
   std::uint32_t next_word_ = 0;    ///< that leaves on thresh_out
 };

@@ -1,0 +1,67 @@
+#include <pl/otsu_threshold/otsu_threshold.h>
+
+#include <pl/common/estimate.h>
+
+namespace pl {
+
+Models<GlobalThreshold>& OtsuThreshold::models() {
+  static Models<GlobalThreshold> models{
+      "otsu_threshold",
+      {model<GlobalThreshold, OtsuThresholdClocked>("clocked", by_pixel, by_pixel),
+       model<GlobalThreshold, OtsuThresholdTlm>("tlm", by_frame, by_frame)}};
+  return models;
+}
+
+void OtsuThresholdClocked::end_frame(std::uint64_t cycle) {
+  pass_time(cycle);  // what became due while the frame ran
+  Histogram histogram;
+  for (std::size_t level = 0; level < histogram.size(); ++level)
+    histogram[level] = core_.histogram(static_cast<std::uint8_t>(level));
+  search_.start(cycle, histogram);
+  core_.clear_histogram();
+}
+
+std::uint64_t OtsuThresholdClocked::pass_time(std::uint64_t cycle) {
+  if (const auto found = search_.take(cycle)) core_.set_threshold(*found);
+  return search_.due();
+}
+
+void OtsuThresholdTlm::end_frame(std::uint64_t cycle) {
+  pass_time(cycle);  // what became due while the frame ran
+  search_.start(cycle, frame_.histogram());
+}
+
+std::uint64_t OtsuThresholdTlm::pass_time(std::uint64_t cycle) {
+  if (const auto found = search_.take(cycle)) frame_.set_threshold(*found);
+  return search_.due();
+}
+
+namespace {
+
+/// Two histograms in turn, in a block memory as the logarithms are; three products of 18 to 30 bits
+/// by as many, sums, shifts to the first set bit.
+vp::IpEstimate estimate_otsu() {
+  vp::IpEstimate e;
+  e.kind = "otsu_threshold";
+  e.lut = 900;
+  e.ff = 900;
+  e.bram36 = 1.5;
+  e.dsp = 8;
+  e.uncertainty_percent = 50;
+  e.source = "derived from its structure: a histogram in block memory, logarithms from a table";
+  e.fmax_hz = 100 * mhz;
+  e.fmax_documentation = "products, shifts and comparisons have a clock of their own each";
+  return e;
+}
+
+}  // namespace
+
+vp::IpEstimate OtsuThresholdClocked::own_estimate() const {
+  return estimate_otsu();
+}
+
+vp::IpEstimate OtsuThresholdTlm::own_estimate() const {
+  return estimate_otsu();
+}
+
+}  // namespace pl

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <pl/global_threshold/global_threshold.h>
+#include <pl/otsu_threshold/core.h>
+
+namespace pl {
+
+/// Otsu Threshold: in the place of Global Threshold, with its ports. A frame is made binary with
+/// the threshold that Otsu's method gives for the one before, the first with 127.
+///
+/// The threshold is loaded OtsuSearch::clocks behind the frame, or on the edge behind the next one
+/// if that began sooner. One that ends sooner starts a new search, and the old one has no result.
+struct OtsuThreshold {
+  static Models<GlobalThreshold>& models();
+};
+
+/// Otsu Threshold clock by clock.
+class OtsuThresholdClocked final : public GlobalThresholdClocked {
+ public:
+  OtsuThresholdClocked(sc_core::sc_module_name name, const Site& site)
+      : GlobalThresholdClocked(name, site) {}
+
+ private:
+  void end_frame(std::uint64_t cycle) override;
+  std::uint64_t pass_time(std::uint64_t cycle) override;
+  void stop() override { search_.stop(); }
+  vp::IpEstimate own_estimate() const override;
+
+  OtsuSearch search_;
+};
+
+/// Otsu Threshold at transaction level.
+class OtsuThresholdTlm final : public GlobalThresholdTlm {
+ public:
+  OtsuThresholdTlm(sc_core::sc_module_name name, const Site& site)
+      : GlobalThresholdTlm(name, site) {}
+
+ private:
+  void end_frame(std::uint64_t cycle) override;
+  std::uint64_t pass_time(std::uint64_t cycle) override;
+  void stop() override { search_.stop(); }
+  vp::IpEstimate own_estimate() const override;
+
+  OtsuSearch search_;
+};
+
+}  // namespace pl
