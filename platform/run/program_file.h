@@ -11,11 +11,8 @@ namespace platform {
 /// vp::InputError if there is no program of that name.
 std::string program_file(const std::string& name);
 
-/// That of a program that comes with markervp or a design: `<name>.so` in `folder`, unless that is
-/// empty, or installed. Throws vp::InputError if there is none.
-std::string installed_program(const std::string& name, const std::string& folder = {});
-
-/// That of the first program that belongs to the design.
+/// That of the first program that belongs to the design: `<name>.so` in the folder of a design from
+/// outside, or installed. Throws vp::InputError if there is none.
 std::string usual_program(const DesignInfo& design);
 
 /// Whether program_file() takes the name for a file.

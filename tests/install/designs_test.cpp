@@ -129,6 +129,11 @@ BOOST_AUTO_TEST_CASE(reports_traces_and_sweeps_take_it) {
   run("smooth_again", {"demo", "--design", smooth()});
   run("thesis_again", {"demo"});
   BOOST_TEST(contains(output({"compare", "thesis_again", "smooth_again"}), "fps"));
+  output({"report", "thesis_again", "smooth_again", "--output", "filter.html"});
+  BOOST_TEST(contains(kit::read_file(installed.beside("filter.html")), "pl.median"));
+  output({"trace", "gtkw", "smooth.vcd", "--design", smooth()});
+  BOOST_TEST(
+      contains(kit::read_file(installed.beside("smooth.vcd.gtkwave/system.gtkw")), "-Features"));
   kit::write_file(installed.beside("sweep.yaml"),
                   "inputs: demo\nset:\n  design: " + smooth() +
                       "\nparameters:\n  ps.fclk_clk1.frequency: [40 MHz, 50 MHz]\n");
@@ -139,12 +144,60 @@ BOOST_AUTO_TEST_CASE(reports_traces_and_sweeps_take_it) {
   BOOST_TEST(!contains(csv, ",failed,"));
 }
 
+// Not a marker detector: what it says of its frames is what result, console, page, comparison,
+// sweep and trace show.
+BOOST_AUTO_TEST_CASE(a_design_of_another_kind) {
+  const Words design{"--design", installed.beside("designs/brightness.so")};
+  const auto with = [&](Words arguments) {
+    arguments.insert(arguments.end(), design.begin(), design.end());
+    return output(arguments);
+  };
+  constexpr int width = 64, height = 48, most = 1000;
+  kit::write_file(installed.beside("white.pgm"),
+                  "P5 64 48 255\n" + std::string(width * height, '\xff'));
+  const std::string out = with({"run", "white.pgm", "--output", "bright"});
+  BOOST_TEST(contains(out, "counts     1000 bright pixels   threshold 0"), out);
+  BOOST_TEST(contains(out, "measure"), out);
+  BOOST_TEST(contains(out, "design brightness"), out);
+  const Json result = Json::parse(kit::read_file(installed.beside("bright/result.json")));
+  BOOST_TEST(result["stages"][0].dump() ==
+             R"({"name":"measure","part_of":"frame","why":"a row after the other"})");
+  BOOST_TEST(result["frames"][0]["counts"]["bright_pixels"] == most);
+  BOOST_TEST(result["frames"][0]["counts"]["uncounted"] == width * height - most);
+  BOOST_TEST(result["verdict"]["job"]["why"] == "1 of 1 frame with losses");
+  with({"run", "white.pgm", "--output", "bright_clocked", "--trace", "bright.vcd"});
+  BOOST_TEST(contains(output({"compare", "bright", "bright_clocked"}), "fidelity"));
+  for (const Words& report : {Words{"report", "bright"},
+                              {"report", "bright", "bright_clocked", "--output", "both.html"}}) {
+    output(report);
+  }
+  BOOST_TEST(contains(kit::read_file(installed.beside("bright/report.html")), "bright_pixels"));
+  BOOST_TEST(contains(kit::read_file(installed.beside("both.html")), "bright_pixels"));
+  BOOST_TEST(result["frames"][0]["time_us"]["frame"] == 5.616);
+  const std::string statistics = with({"trace", "stats", "bright.vcd"});
+  BOOST_TEST(contains(statistics, "0     0.000     0.000   5.616       5.616"), statistics);
+  with({"trace", "gtkw", "bright.vcd"});
+  BOOST_TEST(
+      contains(kit::read_file(installed.beside("bright.vcd.gtkwave/system.gtkw")), "-Images"));
+  kit::write_file(installed.beside("bright.yaml"),
+                  "inputs: white.pgm\nset:\n  design: " + design[1] +
+                      "\nparameters:\n  ps.cpu_clk.frequency: [500 MHz, 600 MHz]\n"
+                      "metrics: [frames.counts.bright_pixels.mean, frames.time_us.measure.mean]\n");
+  output({"sweep", "bright.yaml", "--output", "bright_swept"});
+  const std::string csv = kit::read_file(installed.beside("bright_swept/sweep.csv"));
+  BOOST_TEST(contains(csv, "frames.counts.bright_pixels.mean"), csv);
+  BOOST_TEST(!contains(csv, ",failed,"), csv);
+  BOOST_TEST(std::filesystem::exists(installed.beside("bright_swept/report.html")));
+}
+
 BOOST_AUTO_TEST_CASE(mistakes_are_refused_before_the_simulation) {
   check_refused(mistake("address_twice"), {"pl.axi_interconnect", "second", "axi_gpio_0"});
   check_refused(mistake("combinational_ring"),
                 {"pl.inverter.in", "pl.inverter.out", "combinational ring", "put a register"});
   check_refused(mistake("interrupt_twice"),
                 {"pl.line_id is 62", "pl.axi_dma_1.s2mm_introut", "give one of them another"});
+  check_refused(mistake("missing_program"), {"design 'mistaken' lacks its PS program 'absent'",
+                                             "build absent.so in", "--program"});
   check_refused(mistake("no_program"), {"no_program.so", "has no PS program", "programs"});
   check_refused(mistake("nothing_made"), {"nothing_made.so", "is incomplete"});
   check_refused(mistake("other_version"), {"other_version.so", "0.0.9", "rebuild it"});

@@ -11,6 +11,7 @@ enum Mistake {
   ADDRESS_TWICE,
   COMBINATIONAL_RING,
   INTERRUPT_TWICE,
+  MISSING_PROGRAM,
   NO_PROGRAM,
   NOTHING_MADE,
   OTHER_VERSION,
@@ -87,6 +88,7 @@ const platform::DesignInfo& info() {
         if (MISTAKE == PART_OUTSIDE) return std::make_unique<Outside>(name, ports);
         return std::make_unique<Mistaken>(name, ports);
       }};
+  if (MISTAKE == MISSING_PROGRAM) info.programs = {"absent"};
   if (MISTAKE == NO_PROGRAM) info.programs.clear();
   if (MISTAKE == NOTHING_MADE) info.make = nullptr;
   return info;
