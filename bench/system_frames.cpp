@@ -54,7 +54,7 @@ class Frames {
   void describe_last() const {
     const auto timed = static_cast<double>(taken_ - bench::warm_up_frames);
     state_.counters["simulated_ms"] = static_cast<double>(last_.end_ps - warm_ps_) / 1e9 / timed;
-    state_.counters["feature_words"] = static_cast<double>(last_.counts.feature_words);
+    state_.counters["feature_words"] = static_cast<double>(last_.counts["feature_words"]);
     state_.counters["marker"] = last_.markers.empty() ? -1.0 : last_.markers.front().id;
   }
 

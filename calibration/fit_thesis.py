@@ -19,7 +19,7 @@ def published(path):
 
 def frames(markervp, program, profile, folder):
     """The frames of the increased-feature test as result.json has them."""
-    subprocess.run([markervp, "run", "squares", "--system", program, "--quiet", "--no-pictures",
+    subprocess.run([markervp, "run", "squares", "--program", program, "--quiet", "--no-pictures",
                     "--output", folder, "--set", "profile=" + profile],
                    check=True, stdout=subprocess.DEVNULL)
     with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:

@@ -39,7 +39,8 @@ function(markervp_page_rule)
     VERBATIM)
   add_custom_command(OUTPUT "${MARKERVP_PAGE_TEMPLATE}"
     COMMAND "${MARKERVP_NODE}" "${web}/build.js" "${MARKERVP_PAGE_TEMPLATE}" "${MARKERVP_PAGE_MODULES}"
-    DEPENDS "${installed}" "${web}/build.js" "${PROJECT_SOURCE_DIR}/data/published.csv" ${PAGE_SOURCES}
+    DEPENDS "${installed}" "${web}/build.js" "${PROJECT_SOURCE_DIR}/data/published.csv"
+      "${PROJECT_SOURCE_DIR}/data/thesis_systems.csv" ${PAGE_SOURCES}
     COMMENT "Bundling report.html"
     VERBATIM)
 endfunction()

@@ -52,7 +52,7 @@ constexpr const char* run_examples =
 any the demo scene runs. Results: result.json and an annotated picture per frame.)";
 
 constexpr const char* config_examples =
-    R"(What it prints is a file for --config: with the same --system or --program it makes the same run.)";
+    R"(What it prints is a file for --config: with the same --program it makes the same run.)";
 
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
@@ -111,11 +111,6 @@ void add_platform_options(CLI::App& command, PlatformOptions& target) {
       .add_option("--program", target.program,
                   "PS program: a file, or the name of an installed one")
       ->type_name("FILE");
-  command
-      .add_option("--system", target.system,
-                  "features from the PL (default), or everything on the PS")
-      ->type_name("hybrid|ps-only")
-      ->check(CLI::IsMember({"hybrid", "ps-only"}).description(""));
 }
 
 void add_point_option(CLI::App& command, RunOptions& target) {

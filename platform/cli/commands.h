@@ -115,11 +115,8 @@ int compare_runs(const CompareOptions& options, std::ostream& out);
 
 /// Reads --config, --set and --design into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
-/// --fidelity and --system win over files and --set. Throws vp::InputError if `asked` contradicts.
-void choose_platform(const PlatformOptions& options, const ConfigurationOptions& asked,
-                     vp::Configuration& configuration);
-/// The PS program that --program or --system names; none: the usual.
-std::optional<std::string> program_of(const PlatformOptions& options);
+/// --fidelity and --rate win over files and --set.
+void choose_platform(const PlatformOptions& options, vp::Configuration& configuration);
 
 /// Builds the platform and checks that every key the user set was one. Throws vp::InputError.
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,

@@ -2,7 +2,6 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <designs/designs.h>
 #include <run/simulation.h>
 #include <vp/decimal.h>
 #include <vp/error.h>
@@ -24,22 +23,9 @@ void load_configuration(const ConfigurationOptions& options, vp::Configuration& 
   if (options.design) configuration.set("design", *options.design, "--design");
 }
 
-void choose_platform(const PlatformOptions& options, const ConfigurationOptions& asked,
-                     vp::Configuration& configuration) {
+void choose_platform(const PlatformOptions& options, vp::Configuration& configuration) {
   if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
   if (options.rate) configuration.set("camera.rate", with_unit(*options.rate), "--rate");
-  if (!options.system) return;
-  if (asked.design) {
-    throw vp::InputError("--system names the design already: leave out --design");
-  }
-  configuration.set("design", design_of_program(*options.system).name, "--system");
-}
-
-std::optional<std::string> program_of(const PlatformOptions& options) {
-  if (options.system && options.program) {
-    throw vp::InputError("--system names the program already: leave out --program");
-  }
-  return options.system ? options.system : options.program;
 }
 
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,
@@ -53,9 +39,9 @@ std::unique_ptr<Simulation> build(vp::Configuration& configuration,
 int print_configuration(const ConfigOptions& options, std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  choose_platform(options, options.configuration, configuration);
+  choose_platform(options, configuration);
   SimulationOptions asked;
-  asked.program = program_of(options);
+  asked.program = options.program;
   build(configuration, asked);
   out << configuration.to_yaml();
   return done;

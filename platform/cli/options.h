@@ -15,12 +15,11 @@ struct ConfigurationOptions {
   std::optional<std::string> design;     ///< wins over both
 };
 
-/// What the platform is, in words of their own: --fidelity, --program, --system, --rate.
+/// What the platform is, in words of their own: --fidelity, --program, --rate.
 struct PlatformOptions {
   std::optional<std::string> rate;  ///< of the camera: "60" or "60 fps"
   std::optional<std::string> fidelity;
   std::optional<std::string> program;
-  std::optional<std::string> system;
 };
 
 /// `markervp run`.

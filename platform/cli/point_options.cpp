@@ -21,7 +21,6 @@ void refuse_doubles(const RunOptions& options) {
   };
   if (!options.inputs.empty()) refuse("inputs already: leave out INPUT");
   if (options.program) refuse("PS program already: leave out --program");
-  if (options.system) refuse("PS program already: leave out --system");
   if (options.camera) refuse("camera already: leave out --camera");
 }
 

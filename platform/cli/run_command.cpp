@@ -76,7 +76,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
     throw vp::InputError("options of the trace without one: name its file with --trace");
   }
   SimulationOptions result;
-  result.program = program_of(options);
+  result.program = options.program;
   if (options.trace) result.trace = trace_options(options);
   if (!options.log_bus_filter.empty() && !options.log_bus) {
     throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
@@ -291,7 +291,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  choose_platform(options, options.configuration, configuration);
+  choose_platform(options, configuration);
   SimulationOptions asked = simulation_options(options);
   const bool page = !options.no_report && !page::page_template().empty();
   if (!page && !options.timeline) asked.timeline_frames = 0;

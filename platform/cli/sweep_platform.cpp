@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include <cli/commands.h>
 #include <cli/provenance.h>
@@ -123,23 +122,18 @@ int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ost
 }
 
 void warm_up(const sweep::Manifest& manifest, const std::vector<std::size_t>& positions) {
-  std::set<std::tuple<std::size_t, std::string, std::string>> seen;
+  std::set<std::size_t> seen;
   for (const std::size_t position : positions) {
-    const sweep::PlannedPoint& point = manifest.points[position];
-    const auto& configuration = manifest.families[point.family].configuration;
-    const auto width = configuration.find("pl.width");
-    const auto height = configuration.find("pl.height");
-    if (width == configuration.end() || height == configuration.end()) return;
-    if (!seen.emplace(point.input_set, width->second, height->second).second) continue;
+    const std::size_t index = manifest.points[position].input_set;
+    if (!seen.insert(index).second) continue;
+    const sweep::InputSet& set = manifest.input_sets[index];
     input::InputOptions options;
-    options.size = {
-        static_cast<int>(vp::parse_quantity(width->second, vp::Unit::pixels).to_double()),
-        static_cast<int>(vp::parse_quantity(height->second, vp::Unit::pixels).to_double())};
+    options.size = set.size;
     if (manifest.input.camera) options.camera = input::read_camera_file(*manifest.input.camera);
     if (manifest.input.fit)
       options.fit = *manifest.input.fit == "crop" ? input::Fit::crop : input::Fit::scale;
     try {
-      input::keep_scenes(manifest.input_sets[point.input_set].inputs, options, most_scene_bytes);
+      input::keep_scenes(set.inputs, options, most_scene_bytes);
     } catch (const vp::InputError&) {
       // The points fail then, and say why.
     }

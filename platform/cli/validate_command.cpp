@@ -27,18 +27,17 @@ namespace {
 namespace fs = std::filesystem;
 using validation::Plot;
 
-constexpr const char* systems[] = {"hybrid", "ps-only"};
 /// Folder of the pictures beside a page of the documentation.
 constexpr const char* page_pictures = "images/validation";
 
-RunOptions run_options(const ValidateOptions& options, const std::string& system) {
+RunOptions run_options(const ValidateOptions& options, const validation::System& system) {
   RunOptions run;
   run.inputs = validation::all_tests;
   run.configuration = options.configuration;
   if (options.profile) run.configuration.assignments.push_back("profile=" + *options.profile);
   run.fidelity = options.fidelity;
-  run.system = system;
-  run.output = (fs::path(options.output) / system).string();
+  run.configuration.design = system.design;
+  run.output = (fs::path(options.output) / system.name).string();
   run.no_pictures = true;
   run.no_report = true;
   run.quiet = true;
@@ -78,8 +77,8 @@ int run_systems(const ValidateOptions& options, const std::vector<std::string>& 
       boost::interprocess::anonymous_shared_memory(sizeof(std::atomic<std::uint64_t>));
   auto& frames_done = *new (memory.get_address()) std::atomic<std::uint64_t>(0);
   const std::uint64_t frames = input::open_inputs(validation::all_tests, {})->size().value_or(0);
-  vp::Progress bar("frames", std::size(systems) * frames);
-  for (const char* system : systems) {
+  vp::Progress bar("frames", std::size(validation::systems) * frames);
+  for (const validation::System& system : validation::systems) {
     RunOptions run_it = run_options(options, system);
     run_it.frames_done = &frames_done;
     children.emplace_back([&, run_it](std::ostream& child_out, std::ostream& child_err) {
@@ -94,9 +93,10 @@ int run_systems(const ValidateOptions& options, const std::vector<std::string>& 
 }
 
 validation::Measured read_runs(const ValidateOptions& options) {
-  const fs::path folder = options.output;
-  return {validation::read_run(folder / systems[0] / "result.json"),
-          validation::read_run(folder / systems[1] / "result.json")};
+  const auto read = [&](const validation::System& system) {
+    return validation::read_run(fs::path(options.output) / system.name / "result.json");
+  };
+  return {read(validation::hybrid), read(validation::ps_only)};
 }
 
 /// Throws if the page could not be written after the systems have run; makes its folder.

@@ -74,10 +74,10 @@ std::string error_line(const report::FrameReport& frame, const report::FoundMark
 }
 
 std::string counts_line(const report::FrameReport& frame) {
-  const report::Counts& counts = frame.counts;
-  return fmt::format("{}   {}   {}   threshold {}", report::counted(counts.corners, "corner"),
-                     report::counted(counts.blobs, "blob"),
-                     report::counted(counts.candidates, "candidate"), frame.threshold);
+  const report::Features& shown = frame.features;
+  return fmt::format("{}   {}   {}   threshold {}", report::counted(shown.corners.size(), "corner"),
+                     report::counted(shown.blobs.size(), "blob"),
+                     report::counted(shown.candidates.size(), "candidate"), frame.threshold);
 }
 
 struct Entry {

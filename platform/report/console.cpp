@@ -85,11 +85,16 @@ std::string marker_text(const FrameReport& frame, const FoundMarker& found) {
   return text;
 }
 
+/// "31 corners   36 feature words". What was lost has a warning.
 std::string counts_text(const FrameReport& frame) {
-  const Counts& counts = frame.counts;
-  return fmt::format("{}   {}   {}   {}   threshold {}", counted(counts.corners, "corner"),
-                     counted(counts.blobs, "blob"), counted(counts.candidates, "candidate"),
-                     counted(counts.feature_words, "word"), frame.threshold);
+  std::string text;
+  for (const Counts::Count& count : frame.counts.list()) {
+    if (count.lost) continue;
+    std::string noun = count.name.substr(0, count.name.find_last_not_of('s') + 1);
+    std::replace(noun.begin(), noun.end(), '_', ' ');
+    text += counted(count.value, noun) + "   ";
+  }
+  return text + "threshold " + std::to_string(frame.threshold);
 }
 
 /// Stage names over their times; as many lines as the width demands.

@@ -13,8 +13,6 @@
 #include <scene/scene.h>
 #include <vp/power_meter.h>
 
-/// What a design costs: power, resources, and whether it meets its clocks.
-
 /// What a run found, as plain values: filled by the simulation, read by
 /// result.json, the console and the pictures. No simulation inside.
 
@@ -22,7 +20,7 @@ namespace platform::report {
 
 /// Energy of the modules of a group.
 struct GroupEnergy {
-  std::string group;  ///< "ps", "feature_extraction", "data_bridge", "image_memory", "static"
+  std::string group;  ///< "ps", "static", or a group of the design's
   double mj = 0;
 };
 
@@ -154,26 +152,31 @@ std::vector<std::string> power_warnings(const PowerReport& power);
 std::string design_text(const PowerReport& power, const ResourceReport& resources,
                         const TimingReport& timing);
 
-/// Counted per frame; the overflow counters are those of SPEC "Overflow counters", read at the
-/// frame's end.
-struct Counts {
-  std::uint64_t corners = 0;        ///< corner words received
-  std::uint64_t blobs = 0;          ///< blobs received
-  std::uint64_t feature_words = 0;  ///< words received, the end word included
-  std::uint64_t candidates = 0;     ///< blobs with a corner in each quadrant
-  std::uint64_t feature_overflow = 0;
-  std::uint64_t label_overflow = 0;
-  std::uint64_t bridge_overflow = 0;
-  std::uint64_t crossing_overflow = 0;
-  /// Words, corners, blobs and candidates for which the software had no room.
-  std::uint64_t software_overflow = 0;
-  std::uint64_t malformed = 0;  ///< blob words without partner, boxes that end before they start
+/// What a design counts of a frame, in the order of reports. Names are keys in `counts` of
+/// result.json: "corners", "feature_words".
+class Counts {
+ public:
+  struct Count {
+    std::string name;
+    std::uint64_t value = 0;
+    bool lost = false;  ///< found no room, or was damaged by that
+  };
 
-  /// What found no room, or was damaged by that.
-  std::uint64_t lost() const {
-    return feature_overflow + label_overflow + bridge_overflow + crossing_overflow +
-           software_overflow + malformed;
-  }
+  /// Sets what came of the frame.
+  void set(const std::string& name, std::uint64_t value) { entry(name, false) = value; }
+  /// Sets what was lost of it.
+  void lose(const std::string& name, std::uint64_t value) { entry(name, true) = value; }
+
+  const std::vector<Count>& list() const { return list_; }
+  /// 0 for what the design does not count.
+  std::uint64_t operator[](const std::string& name) const;
+  /// All that was lost.
+  std::uint64_t lost() const;
+
+ private:
+  std::uint64_t& entry(const std::string& name, bool lost);
+
+  std::vector<Count> list_;
 };
 
 /// A marker that the software identified.
@@ -195,13 +198,14 @@ struct Features {
   std::vector<std::array<PixelPoint, 4>> candidates;
 };
 
-/// Simulated time that one stage took, ps. The name is the key in `time_us`: "upload",
-/// "feature_extraction", …
+/// Simulated time that one stage took, ps. The name is the key in `time_us`.
 struct StageTime {
   std::string name;
   std::uint64_t ps = 0;
   std::uint64_t start_ps = 0;  ///< when it began; not part of result.json
   std::string part_of = {};    ///< the stage whose time contains this one's; empty: none
+  std::string clock = {};      ///< "ps.fclk_clk1": it lasts so many cycles of it; empty: none alone
+  std::string why = {};        ///< why it takes its time, for who asks what limits a frame
 };
 
 /// True if other stages of the list are parts of `stage`: what is shown as parts of a whole leaves
@@ -257,8 +261,8 @@ struct ProgramEnd {
 /// The design point that ran.
 struct RunFacts {
   std::string fidelity;                                  ///< "tlm" or "clocked"
-  std::string system;                                    ///< "hybrid" or "ps-only"
-  std::string design;                                    ///< which IP variants: "thesis"
+  std::string system;                                    ///< the PS program
+  std::string design;                                    ///< what stands in the PL
   std::string profile;                                   ///< cost table of the software
   std::map<std::string, std::string> configuration;      ///< path -> "value unit"
   std::optional<ProgramEnd> end = std::nullopt;          ///< of the program; none: it was stopped

@@ -103,17 +103,8 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
 }
 
 Json counts_json(const Counts& counts) {
-  Json json;
-  json["corners"] = counts.corners;
-  json["blobs"] = counts.blobs;
-  json["feature_words"] = counts.feature_words;
-  json["candidates"] = counts.candidates;
-  json["feature_overflow"] = counts.feature_overflow;
-  json["label_overflow"] = counts.label_overflow;
-  json["bridge_overflow"] = counts.bridge_overflow;
-  json["crossing_overflow"] = counts.crossing_overflow;
-  json["software_overflow"] = counts.software_overflow;
-  json["malformed"] = counts.malformed;
+  Json json = Json::object();
+  for (const Counts::Count& count : counts.list()) json[count.name] = count.value;
   return json;
 }
 
@@ -182,6 +173,8 @@ Json stages_json(const Summary& summary) {
     Json entry;
     entry["name"] = stage.name;
     if (!stage.part_of.empty()) entry["part_of"] = stage.part_of;
+    if (!stage.clock.empty()) entry["clock"] = stage.clock;
+    if (!stage.why.empty()) entry["why"] = stage.why;
     json.push_back(entry);
   }
   return json;

@@ -1,9 +1,29 @@
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 
 #include <report/summary.h>
 
 namespace platform::report {
+
+std::uint64_t& Counts::entry(const std::string& name, bool lost) {
+  const auto known = std::find_if(list_.begin(), list_.end(),
+                                  [&](const Count& count) { return count.name == name; });
+  if (known != list_.end()) return known->value;
+  return list_.emplace_back(Count{name, 0, lost}).value;
+}
+
+std::uint64_t Counts::operator[](const std::string& name) const {
+  const auto known = std::find_if(list_.begin(), list_.end(),
+                                  [&](const Count& count) { return count.name == name; });
+  return known == list_.end() ? 0 : known->value;
+}
+
+std::uint64_t Counts::lost() const {
+  return std::accumulate(
+      list_.begin(), list_.end(), std::uint64_t{0},
+      [](std::uint64_t sum, const Count& count) { return sum + (count.lost ? count.value : 0); });
+}
 
 MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth) {
   MarkerError error;
@@ -75,7 +95,8 @@ void Summary::add_stages(const FrameReport& frame) {
     auto stage = std::find_if(stages_.begin(), stages_.end(),
                               [&](const Stage& known) { return known.name == time.name; });
     if (stage == stages_.end())
-      stage = stages_.insert(stages_.end(), Stage{time.name, time.part_of, {}});
+      stage =
+          stages_.insert(stages_.end(), Stage{time.name, time.part_of, time.clock, time.why, {}});
     stage->us.add(static_cast<double>(time.ps) / ps_per_us);
   }
 }

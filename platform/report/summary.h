@@ -69,7 +69,7 @@ class Summary {
  public:
   struct Stage {
     std::string name;
-    std::string part_of;  ///< as StageTime::part_of
+    std::string part_of, clock, why;  ///< as in StageTime
     Statistic us;
   };
 

@@ -122,11 +122,16 @@ std::string page_json(const Timeline& timeline) {
                                 brief_us(f.start_ps), brief_us(f.end_ps));
            }),
       list(timeline.handshakes, [&](const Timeline::Handshake& h) {
-        return fmt::format(R"({{"name":{},"signals":{}}})", quoted(h.name),
-                           list(h.signals, [&](const Timeline::Handshake::Line& l) {
-                             return fmt::format(R"({{"name":{},"bits":{},"points":{}}})",
-                                                quoted(l.name), l.bits, list(l.points, point));
-                           }));
+        std::string meanings;
+        for (const auto& [word, text] : h.meanings)
+          meanings += fmt::format(R"({}"{}":{})", meanings.empty() ? "" : ",", word, quoted(text));
+        return fmt::format(R"({{"name":{},"signals":{},"meanings":{{{}}}}})", quoted(h.name),
+                           list(h.signals,
+                                [&](const Timeline::Handshake::Line& l) {
+                                  return fmt::format(R"({{"name":{},"bits":{},"points":{}}})",
+                                                     quoted(l.name), l.bits, list(l.points, point));
+                                }),
+                           meanings);
       }));
 }
 

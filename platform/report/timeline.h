@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct Timeline {
     };
     std::string name;
     std::vector<Line> signals;
+    std::map<std::uint64_t, std::string> meanings;  ///< what the words say
   };
   struct Frame {
     std::uint32_t index = 0;
@@ -64,7 +66,7 @@ std::string trace_event_json(const Timeline& timeline);
 /// The same for the page: {"names": […], "tracks": [{"group", "name", "spans": [[start us, length
 /// us, name, critical]…]}], "counters": [{"name", "unit", "limit", "points": [[us, value]…]}],
 /// "frames": [{"index", "start", "end"}], "handshakes": [{"name", "signals": [{"name", "bits",
-/// "points": [[us, value]…]}]}]}, with 3 decimal places (1 ns).
+/// "points": [[us, value]…]}], "meanings": {"word": "corner 5,3"}}]}, with 3 decimal places (1 ns).
 std::string page_json(const Timeline& timeline);
 
 }  // namespace platform::report

@@ -165,7 +165,9 @@ Json to_json(const Manifest& manifest) {
   }
   json["input_sets"] = Json::array();
   for (const InputSet& set : manifest.input_sets)
-    json["input_sets"].push_back({{"inputs", set.inputs}, {"contents", set.contents}});
+    json["input_sets"].push_back({{"inputs", set.inputs},
+                                  {"contents", set.contents},
+                                  {"size", {set.size.width, set.size.height}}});
   json["points"] = Json::array();
   for (const PlannedPoint& point : manifest.points) json["points"].push_back(point_json(point));
   json["effects"] = Json::array();
@@ -202,8 +204,10 @@ Manifest manifest_from(const Json& json, const std::string& origin) {
            family.at("defaults").get<std::map<std::string, std::string>>(), family.at("contents")});
     }
     for (const Json& set : json.at("input_sets")) {
-      manifest.input_sets.push_back(
-          {set.at("inputs").get<std::vector<std::string>>(), set.at("contents")});
+      const Json size = set.value("size", Json{0, 0});  // not in files of earlier versions
+      manifest.input_sets.push_back({set.at("inputs").get<std::vector<std::string>>(),
+                                     set.at("contents"),
+                                     {size.at(0).get<int>(), size.at(1).get<int>()}});
     }
     for (const Json& point : json.at("points")) manifest.points.push_back(point_from(point));
     for (const Json& effect : json.at("effects")) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <input/image_file.h>
 #include <sweep/expansion.h>
 #include <sweep/spec.h>
 
@@ -35,7 +36,8 @@ struct Family {
 /// Inputs as they are named and as they are.
 struct InputSet {
   std::vector<std::string> inputs;
-  Json contents;  ///< name and hash of each
+  Json contents;            ///< name and hash of each
+  input::ImageSize size{};  ///< that the platform takes
 };
 
 /// One point.

@@ -375,7 +375,7 @@ class Planner {
     if (known != input_sets_.end()) return known->second;
     const std::vector<std::string>& inputs =
         label.empty() ? spec_.inputs : spec_.input_sets.at(label);
-    manifest_.input_sets.push_back({inputs, input_contents(inputs, manifest_.input, size)});
+    manifest_.input_sets.push_back({inputs, input_contents(inputs, manifest_.input, size), size});
     return input_sets_[id] = manifest_.input_sets.size() - 1;
   }
 

@@ -65,6 +65,13 @@ struct Measured {
   Run hybrid, ps_only;
 };
 
+/// What the thesis compares, and the design that models it.
+struct System {
+  const char *name, *design;
+};
+inline constexpr System hybrid{"hybrid", "thesis"}, ps_only{"ps-only", "ps-only"};
+inline constexpr System systems[] = {hybrid, ps_only};
+
 /// Throws vp::InputError if the two did not see the same images.
 void check_same_inputs(const Measured& measured);
 

@@ -88,6 +88,7 @@ struct TimelineEngines {
   struct Handshake {
     std::string name;
     vp::SignalBase *enable, *word, *acknowledge;
+    std::function<std::string(std::uint64_t)> meaning;  ///< what a word says
   };
 
   std::vector<Engine> engines;

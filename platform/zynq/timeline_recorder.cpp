@@ -8,7 +8,9 @@ namespace platform {
 
 HandshakeRecorder::HandshakeRecorder(const vp::ClockScheduler& scheduler,
                                      const TimelineEngines::Handshake& words)
-    : scheduler_(scheduler), watched_{words.enable, words.word, words.acknowledge} {
+    : scheduler_(scheduler),
+      watched_{words.enable, words.word, words.acknowledge},
+      meaning_(words.meaning) {
   handshake_.name = words.name;
   for (std::uint32_t id = 0; id < lines; ++id) {
     handshake_.signals.push_back({watched_[id]->basename(), watched_[id]->width(), {}});
@@ -24,6 +26,7 @@ void HandshakeRecorder::stop() {
 
 void HandshakeRecorder::add(Line line, std::uint64_t value) {
   handshake_.signals[line].points.push_back({scheduler_.now_ps(), static_cast<double>(value)});
+  if (line == word && value != 0 && meaning_) handshake_.meanings[value] = meaning_(value);
 }
 
 void HandshakeRecorder::on_change(vp::SignalBase& signal, std::uint32_t id) {

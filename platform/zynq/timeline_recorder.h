@@ -7,6 +7,8 @@
 
 #include <report/result.h>
 #include <report/timeline.h>
+#include <functional>
+
 #include <vp/clock_scheduler.h>
 #include <vp/signal.h>
 #include <zynq/design.h>
@@ -37,6 +39,7 @@ class HandshakeRecorder : private vp::SignalListener {
 
   const vp::ClockScheduler& scheduler_;
   vp::SignalBase* watched_[lines];
+  std::function<std::string(std::uint64_t)> meaning_;
   bool listens_ = true;
   std::uint32_t words_ = 0;
   report::Timeline::Handshake handshake_;

@@ -44,8 +44,8 @@ BOOST_AUTO_TEST_SUITE(configuration)
 
 BOOST_AUTO_TEST_CASE(a_printed_configuration_makes_the_same_run) {
   check_round_trip({});
-  check_round_trip({"--system", "ps-only"});
-  check_round_trip({"--system", "ps-only", "--set", "ps.cpu_clk.frequency=333 MHz"});
+  check_round_trip({"--program", "ps-only"});
+  check_round_trip({"--program", "ps-only", "--set", "ps.cpu_clk.frequency=333 MHz"});
   check_round_trip({"--set", "profile=a9-O2", "--set", "ps.fclk_clk1.frequency=51.3 MHz"});
   check_round_trip({"--program", MARKERVP_LOSSES});
 }
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(what_follows_another_key_follows_it_from_a_printed_configur
   for (const std::string change :
        {"fidelity=clocked", "profile=a9-O2", "ps.cpu_clk.frequency=500 MHz"}) {
     const auto config = [&](const Arguments& arguments) {
-      Arguments all{"config", "--system", change == "fidelity=clocked" ? "hybrid" : "ps-only"};
+      Arguments all{"config", "--program", change == "fidelity=clocked" ? "hybrid" : "ps-only"};
       all.insert(all.end(), arguments.begin(), arguments.end());
       const kit::Outcome printed = kit::run_process(MARKERVP_EXECUTABLE, all, place.path());
       BOOST_TEST(printed.exit_code == 0, printed.err);
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(devices_may_be_elsewhere) {
 BOOST_AUTO_TEST_CASE(a_program_is_built_for_the_clock_that_it_has) {
   const Workplace place;
   const auto clock = [&](const Arguments& more) {
-    Arguments all{"--system", "ps-only"};
+    Arguments all{"--program", "ps-only"};
     all.insert(all.end(), more.begin(), more.end());
     const Json result = result_of(place, all);
     BOOST_TEST(result["frames"][0]["time_us"]["capture"].get<double>() == 6144.0,
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(a_program_is_built_for_the_clock_that_it_has) {
   BOOST_TEST(clock({}) == "666.666667 MHz");
   BOOST_TEST(clock({"--set", "ps.cpu_clk.frequency=333 MHz"}) == "333.333333 MHz");
   const kit::Outcome wrong = place.run(
-      {"--system", "ps-only", "--set", "clocks=exact", "--set", "ps.cpu_clk.frequency=500 kHz"});
+      {"--program", "ps-only", "--set", "clocks=exact", "--set", "ps.cpu_clk.frequency=500 kHz"});
   BOOST_TEST(wrong.exit_code == 2);
   BOOST_TEST(
       wrong.err.find("program 'ps-only' can be built for 1 MHz to 10 GHz") != std::string::npos,

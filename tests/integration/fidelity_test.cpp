@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(nothing_differs_at_other_clocks) {
 BOOST_AUTO_TEST_CASE(energy_by_activity_does_not_differ) {
   for (const char* program : {"hybrid", "ps-only"}) {
     const Arguments arguments =
-        with({"demo", "squares15", "roll30", "--system", program}, "power.mode=activity");
+        with({"demo", "squares15", "roll30", "--program", program}, "power.mode=activity");
     const Json usual = result_of(arguments);
     BOOST_TEST(difference(usual, result_of(with(arguments, "fidelity=clocked"))) == "");
     BOOST_TEST(difference(usual, result_of(with(arguments, "ps.cpu.quantum=1 us"))) == "");
@@ -200,8 +200,8 @@ BOOST_AUTO_TEST_CASE(each_length_of_a_burst_works_and_nothing_differs) {
 BOOST_AUTO_TEST_CASE(nothing_differs_at_a_rate_of_the_camera) {
   for (const char* system : {"hybrid", "ps-only"}) {
     for (const char* rate : {"60", "150"}) {  // some frames are dropped at the second
-      const Arguments arguments{"demo",     "squares15", "--repeat", "2",
-                                "--system", system,      "--rate",   rate};
+      const Arguments arguments{"demo",      "squares15", "--repeat", "2",
+                                "--program", system,      "--rate",   rate};
       const Json usual = result_of(arguments);
       BOOST_TEST(usual.contains("camera"));
       BOOST_TEST(difference(usual, result_of(with(arguments, "fidelity=clocked"))) == "");

@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(all_that_software_loses_is_counted_and_told) {
 BOOST_AUTO_TEST_CASE(more_corners_than_the_software_has_room_for_are_warned_of) {
   const PlatformRun run = run_images({dots()}, {}, System::ps_only);
   const platform::report::FrameReport& frame = run.frames.at(0);
-  BOOST_TEST(frame.counts.corners > 8192u);
-  BOOST_TEST(frame.counts.software_overflow == frame.counts.corners - 8192);
+  BOOST_TEST(frame.counts["corners"] > 8192u);
+  BOOST_TEST(frame.counts["software_overflow"] == frame.counts["corners"] - 8192);
   BOOST_TEST(
       std::any_of(frame.warnings.begin(), frame.warnings.end(), [](const std::string& warning) {
         return contains(warning, "corners without room in the software");
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(more_corners_than_the_software_has_room_for_are_warned_of) 
 BOOST_AUTO_TEST_CASE(stages_say_which_contains_which) {
   for (const char* system : {"hybrid", "ps-only"}) {
     const Workplace place;
-    const kit::Outcome outcome = place.run({"--no-pictures", "--system", system});
+    const kit::Outcome outcome = place.run({"--no-pictures", "--program", system});
     const Json result = place.result();
     // What is part of something and has no parts itself fills the frame.
     double sum = 0;

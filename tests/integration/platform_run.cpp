@@ -84,8 +84,8 @@ double stage_us(const FrameReport& frame, const std::string& stage) {
 
 std::uint64_t overflows(const FrameReport& frame) {
   const auto& counts = frame.counts;
-  return counts.feature_overflow + counts.label_overflow + counts.bridge_overflow +
-         counts.crossing_overflow;
+  return counts["feature_overflow"] + counts["label_overflow"] + counts["bridge_overflow"] +
+         counts["crossing_overflow"];
 }
 
 std::vector<std::string> features(const FrameReport& frame) {

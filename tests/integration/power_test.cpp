@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(what_stands_in_the_file_adds_up) {
 
 // 2.27 W and 1.67 W; the thesis' mean frame rates make 16.9 mJ and 150 mJ of them.
 BOOST_AUTO_TEST_CASE(the_hybrid_takes_more_power_and_far_less_energy) {
-  const Json hybrid = run({"z1.0"}).result, ps_only = run({"z1.0", "--system", "ps-only"}).result;
+  const Json hybrid = run({"z1.0"}).result, ps_only = run({"z1.0", "--program", "ps-only"}).result;
   BOOST_TEST(total(hybrid) == 2.27, boost::test_tools::tolerance(0.01));
   BOOST_TEST(total(ps_only) == 1.667, boost::test_tools::tolerance(0.01));
   BOOST_TEST(ps_only["summary"]["power_w"]["pl"] == 0.0);

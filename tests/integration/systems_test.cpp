@@ -40,7 +40,7 @@ void check_same_results(const PlatformRun& a, const PlatformRun& b) {
     BOOST_TEST_CONTEXT(a.frames[i].input) {
       BOOST_TEST(a.frames[i].threshold == b.frames[i].threshold);
       BOOST_TEST(features(a.frames[i]) == features(b.frames[i]), boost::test_tools::per_element());
-      BOOST_TEST(a.frames[i].counts.candidates == b.frames[i].counts.candidates);
+      BOOST_TEST(a.frames[i].counts["candidates"] == b.frames[i].counts["candidates"]);
       check_same_marker(a.frames[i], b.frames[i]);
     }
   }

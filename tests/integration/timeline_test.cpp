@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(the_page_has_the_same_handshake_at_both_fidelities) {
 
 BOOST_AUTO_TEST_CASE(nothing_overlaps_on_a_track) {
   for (const char* system : {"hybrid", "ps-only"}) {
-    const Json json = timeline({"demo", "roll30", "--system", system});
+    const Json json = timeline({"demo", "roll30", "--program", system});
     for (const auto& [track, spans] : tracks(json)) {
       BOOST_TEST(nests(spans), system << ", track " << track);
     }

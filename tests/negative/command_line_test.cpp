@@ -46,7 +46,6 @@ BOOST_AUTO_TEST_CASE(values) {
     run_refuses({"demo", "--repeat", number}, {"--repeat"});
   }
   run_refuses({"--design", "thesys"}, {"thesys", "did you mean 'thesis'?"});
-  run_refuses({"--system", "ps-only", "--design", "thesis"}, {"--system", "leave out --design"});
   run_refuses({"--fidelity", "tlm2"}, {"fidelity", "tlm2", "clocked"});
   run_refuses({"--trace", "a.vcd", "--trace-level", "all"},
               {"--trace-level", "all", "ports", "registers"});

@@ -1,7 +1,8 @@
 // What the thesis states, by the id of data/published.csv.
 import text from "../../data/published.csv";
 
-function parse(csv) {
+/** The rows of a CSV file as objects. */
+export function parse(csv) {
   const rows = [];
   for (const line of csv.trim().split("\n")) {
     const cells = [];

@@ -15,7 +15,7 @@ const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
   run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), validation: samples.validation(), comparison: samples.comparison(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
-  psOnly: samples.psOnly(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
+  psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
   hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
 };
@@ -148,6 +148,26 @@ test("a stage and its parts are not stacked", async () => {
     const rows = await rowsOf(page, "Stages of a frame");
     const parts = rows.filter((row) => row[0] !== "feature extraction").reduce((all, row) => all + number(row[2]), 0);
     assert.ok(Math.abs(parts / frame - 1) < 0.1, `${parts} of ${frame}`);
+  });
+});
+
+test("a design says itself what its stages, counts and losses are", async () => {
+  await open("run", async (page) => {
+    const guidance = await page.locator("#guidance").textContent();
+    assert.match(guidance, /Feature extraction takes \d+ % of a frame: one pixel a clock, at 50 MHz\./);
+    assert.match(guidance, /12 features dropped: a buffer of pl.feature_packaging was full \(1 frame, first roll3\)/);
+    assert.match(guidance, /Blob detection's Fmax of 55 MHz limits its clock, now 50 MHz\. At 55 MHz a frame would take about/);
+    assert.match(await page.locator("#verdict").textContent(), /thesis 134/);
+  });
+  await open("foreign", async (page) => {
+    const guidance = await page.locator("#guidance").textContent();
+    assert.match(guidance, /Count takes 80 % of a frame: a bin a clock, at 80 MHz\./);
+    assert.match(guidance, /7 bins overflowed: widen them \(1 frame, first roll2\)/);
+    assert.doesNotMatch(await page.locator("#verdict").textContent(), /thesis \d/);
+    assert.deepEqual([...new Set((await rowsOf(page, "Stages of a frame")).map((row) => row.slice(0, 2).join(" ")))], ["This run count"]);
+    const heads = await page.locator("#frames thead th").evaluateAll((cells) => cells.map((cell) => cell.textContent));
+    for (const name of ["bins", "drops"]) assert.ok(heads.some((head) => head.startsWith(name)), name);
+    assert.ok(!heads.some((head) => /^(idle|corners)/i.test(head)), "counts of this design that are not 0");
   });
 });
 

@@ -29,6 +29,7 @@ function frameOf(index, random, input) {
     counts: { corners: 40, blobs: 6, feature_words: 53, candidates: 3, feature_overflow: index === 3 ? 12 : 0, label_overflow: 0, bridge_overflow: 0, crossing_overflow: 0, software_overflow: 0, malformed: 0 },
     markers: index === 5 ? [] : [marker(random)],
     time_us: { upload: 4801.2, feature_extraction: 6146.1, receive: 41.2, evaluation, identification, pose: 41.2, frame: 6146.1 + 41.2 + evaluation + identification + 41.2 },
+    ...(index === 3 ? { warnings: ["12 features dropped: a buffer of pl.feature_packaging was full"] } : {}),
     energy_mj: { total: 16.5, ps: 11.7, feature_extraction: 3, data_bridge: 0.2, image_memory: 0.1, static: 1.5 },
   };
 }
@@ -45,7 +46,8 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
     fidelity: "tlm", system: "hybrid", design: "thesis", profile: "thesis",
     configuration: { fidelity: "tlm", "pl.width": "640 px", "ps.fclk_clk1.frequency": clock, "ps.cpu_clk.frequency": "666.666667 MHz" },
     frames: list,
-    stages: [{ name: "upload" }, ...["feature_extraction", "receive", "evaluation", "identification", "pose"].map((stage) => ({ name: stage, part_of: "frame" })), { name: "frame" }],
+    stages: [{ name: "upload" }, { name: "feature_extraction", part_of: "frame", clock: "ps.fclk_clk1", why: "one pixel a clock" },
+      ...["receive", "evaluation", "identification", "pose"].map((stage) => ({ name: stage, part_of: "frame" })), { name: "frame" }],
     summary: { frames, delivered: frames, detected: frames - (frames > 5 ? 1 : 0), fps: { mean: 1e6 / mean, min: 1e6 / Math.max(...latency), max: 1e6 / Math.min(...latency) }, latency_us: { mean, max: Math.max(...latency) },
       power_w: { total: 2.27, ps: 1.53, pl: 0.59, static: 0.15 }, energy_per_frame_mj: 16.4 },
     verdict: { feasible: fits ? "yes" : "no", ran: { holds: "yes" }, job: { holds: "yes", margin_percent: 0 },
@@ -84,7 +86,7 @@ function timeline(times) {
     counters: [{ name: "Corner buffer", unit: "words", limit: 100, points: Array.from({ length: 200 }, (_, i) => [start + i * 30, i % 7]) }, { name: "Power", unit: "W", limit: 0, points: [[0, 2.1], [start, 2.4], [start + 6144, 1.9]] }],
     frames: [{ index: 0, start, end: start + times.frame }],
     handshakes: [{ name: "Feature words", signals: [{ name: "ena", bits: 1, points: [[start, 1]] },
-      { name: "feature", bits: 32, points: [[start, 0], [start + 12.5, 0x80000c05], [start + 14, 0x40080401]] }, { name: "ready", bits: 2, points: [[start, 0], [start + 13.25, 1]] }] }],
+      { name: "feature", bits: 32, points: [[start, 0], [start + 12.5, 0x80000c05], [start + 14, 0x40080401]] }, { name: "ready", bits: 2, points: [[start, 0], [start + 13.25, 1]] }], meanings: { [0x80000c05]: "corner 5, 3", [0x40080401]: "blob 2 from 1, 1" } }],
   };
 }
 
@@ -99,7 +101,22 @@ function psOnly() {
     const { feature_extraction: before, upload, ...times } = frame.time_us;
     frame.time_us = { upload: 0, ...parts, feature_extraction: all, ...times, receive: 0, frame: times.frame - before - times.receive + all };
   }
-  result.stages = [{ name: "upload" }, ...Object.keys(parts).map((stage) => ({ name: stage, part_of: "feature_extraction" })), ...result.stages.slice(1)];
+  result.stages = [{ name: "upload" }, ...Object.keys(parts).map((stage) => ({ name: stage, part_of: "feature_extraction" })), { name: "feature_extraction", part_of: "frame" }, ...result.stages.slice(2)];
+  return blocks;
+}
+
+/** A design that the page knows nothing of: its own stages, counts and words. */
+function foreign() {
+  const blocks = run({ frames: 6 });
+  const { result } = blocks;
+  Object.assign(result, { system: "histogram", design: "mine" });
+  result.stages = [{ name: "count", part_of: "frame", clock: "ps.fclk_clk2", why: "a bin a clock" }, { name: "frame" }];
+  result.configuration["ps.fclk_clk2.frequency"] = "80 MHz";
+  for (const frame of result.frames) {
+    frame.counts = { bins: 256, drops: frame.index === 2 ? 7 : 0, idle: 0 };
+    frame.time_us = { count: 4000, frame: 5000 };
+    frame.warnings = frame.index === 2 ? ["7 bins overflowed: widen them"] : [];
+  }
   return blocks;
 }
 
@@ -172,4 +189,4 @@ function page(template, blocks) {
   return template.replace("<!--DATA-->", () => scripts.join(""));
 }
 
-module.exports = { run, psOnly, gaveUp, sweep, validation, comparison, page };
+module.exports = { run, psOnly, foreign, gaveUp, sweep, validation, comparison, page };

@@ -48,14 +48,6 @@ void fill_in(report::FrameReport& report, const marker::FrameResult& result, std
   report.index = result.frame;
   if (result.status != marker::Status::ok) report.gave_up = marker::status_name(result.status);
   if (result.has_threshold) report.threshold = result.threshold;
-  report.counts.corners = result.features.corner_count + result.features.lost_corners;
-  report.counts.blobs = result.features.blob_count + result.features.lost_blobs;
-  report.counts.feature_words = result.feature_words;
-  report.counts.candidates = result.candidates.count + result.candidates.lost;
-  report.counts.software_overflow = std::uint64_t{result.lost_words} +
-                                    result.features.lost_corners + result.features.lost_blobs +
-                                    result.candidates.lost;
-  report.counts.malformed = result.features.malformed;
   for (std::uint32_t i = 0; i < result.marker_count; ++i)
     report.markers.push_back(found_marker(result.markers[i]));
   // Stamps count pairs of CPU cycles.
@@ -64,14 +56,18 @@ void fill_in(report::FrameReport& report, const marker::FrameResult& result, std
   };
   const marker::StageTimes& t = result.times;
   const std::uint64_t start_ps = now_ps - duration(t.frame);
-  const auto stage = [&](const char* name, const marker::StageTime& time,
-                         const char* part_of) -> report::StageTime {
+  const auto stage = [&](const char* name, const marker::StageTime& time, const char* part_of,
+                         const char* why = "") -> report::StageTime {
     // The upload begins before the frame.
     const bool before = time.start < t.frame.start;
     const std::uint64_t away =
         before ? duration({time.start, t.frame.start}) : duration({t.frame.start, time.start});
-    return {name, duration(time), before ? start_ps - std::min(start_ps, away) : start_ps + away,
-            part_of};
+    return {name,
+            duration(time),
+            before ? start_ps - std::min(start_ps, away) : start_ps + away,
+            part_of,
+            "",
+            why};
   };
   constexpr const char* whole = "frame";
   constexpr const char* extraction = "feature_extraction";
@@ -79,7 +75,8 @@ void fill_in(report::FrameReport& report, const marker::FrameResult& result, std
                   stage(extraction, t.feature_extraction, whole),
                   stage("receive", t.receive, whole),
                   stage("evaluation", t.evaluation, whole),
-                  stage("identification", t.identification, whole),
+                  stage("identification", t.identification, whole,
+                        "candidates are tried one after the other until one is a marker"),
                   stage("pose", t.pose, whole),
                   stage(whole, t.frame, "")};
   if (t.capture.end != 0) {
@@ -89,11 +86,32 @@ void fill_in(report::FrameReport& report, const marker::FrameResult& result, std
         stage("threshold", t.threshold, extraction),
         stage("blob_detection", t.blob_detection, extraction)};
     report.times.insert(report.times.begin() + 1, parts.begin(), parts.end());
+  } else {
+    report.times[1].clock = "ps.fclk_clk1";
+    report.times[1].why = "one pixel a clock, so it lasts as long as the image does";
   }
   report.end_ps = now_ps;
   report.start_ps = start_ps;
   report.upload_ps = duration(t.upload);
   report.features = features_of(result);
+}
+
+/// What was found, and what was lost: in the logic, between the clocks, in the software.
+report::Counts counts_of(const marker::FrameResult& result, const ProgrammableLogic& pl) {
+  report::Counts counts;
+  counts.set("corners", result.features.corner_count + result.features.lost_corners);
+  counts.set("blobs", result.features.blob_count + result.features.lost_blobs);
+  counts.set("feature_words", result.feature_words);
+  counts.set("candidates", result.candidates.count + result.candidates.lost);
+  counts.lose("feature_overflow", pl.feature_packaging.feature_overflow);
+  counts.lose("label_overflow",
+              result.has_threshold ? result.label_overflow : pl.blob_detection.label_overflow);
+  counts.lose("bridge_overflow", pl.axi_threshold_bridge.bridge_overflow);
+  counts.lose("crossing_overflow", pl.clock_crossing.crossing_overflow);
+  counts.lose("software_overflow", std::uint64_t{result.lost_words} + result.features.lost_corners +
+                                       result.features.lost_blobs + result.candidates.lost);
+  counts.lose("malformed", result.features.malformed);
+  return counts;
 }
 
 /// Adds the warnings that follow from the frame's counts and the software's own.
@@ -102,13 +120,16 @@ void add_losses(report::FrameReport& report, const marker::FrameResult& result) 
   const auto lost = [&](std::uint64_t count, const char* what) {
     if (count != 0) report.warnings.push_back(std::to_string(count) + " " + what);
   };
-  lost(report.counts.feature_overflow,
-       "features dropped: a buffer of pl.feature_packaging was full");
-  lost(report.counts.label_overflow,
-       result.has_threshold ? "dark pixels without label: sw.label_count is too small"
-                            : "dark pixels without label: pl.blob_detection has too few");
-  lost(report.counts.bridge_overflow, "binary words dropped: DMA 1 was not armed again in time");
-  lost(report.counts.crossing_overflow,
+  lost(report.counts["feature_overflow"],
+       "features dropped: a buffer of pl.feature_packaging was full; raise its buffer_depth");
+  lost(report.counts["label_overflow"],
+       result.has_threshold
+           ? "dark pixels without label: sw.label_count is too small"
+           : "dark pixels without label: pl.blob_detection.label_count is too small");
+  lost(report.counts["bridge_overflow"],
+       "binary words dropped: DMA 1 was not armed again in time for "
+       "pl.axi_threshold_bridge.fifo_depth");
+  lost(report.counts["crossing_overflow"],
        "words lost between the clocks: the system clock is too slow");
   lost(result.lost_words, "feature words without room in the software");
   lost(result.features.lost_corners,
@@ -165,8 +186,7 @@ bool MarkerDesign::report(const Publication& publication, report::FrameReport& f
   std::memcpy(&result, publication.data, publication.size);
   frame.threshold = threshold_;
   fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk);
-  add_counts(frame);
-  if (result.has_threshold) frame.counts.label_overflow = result.label_overflow;
+  frame.counts = counts_of(result, *this);
   add_losses(frame, result);
   const std::uint64_t stray = handshake_.finish_frame();
   if (stray > 1) {
@@ -174,13 +194,6 @@ bool MarkerDesign::report(const Publication& publication, report::FrameReport& f
                              " toggles of `ready` with nothing to acknowledge");
   }
   return true;
-}
-
-void MarkerDesign::add_counts(report::FrameReport& frame) {
-  frame.counts.feature_overflow = feature_packaging.feature_overflow;
-  frame.counts.label_overflow = blob_detection.label_overflow;
-  frame.counts.bridge_overflow = axi_threshold_bridge.bridge_overflow;
-  frame.counts.crossing_overflow = clock_crossing.crossing_overflow;
 }
 
 std::vector<std::string> MarkerDesign::groups() const {
@@ -210,7 +223,11 @@ TimelineEngines MarkerDesign::timeline() {
                     return static_cast<double>(axi_threshold_bridge.packet_peak());
                   }}};
   shown.handshake = {"Feature words", &control_block.ena, &feature_packaging.feature,
-                     &control_block.ready};
+                     &control_block.ready, [this](std::uint64_t word) {
+                       const std::string text = marker_words().meaning(
+                           word, {sensor_input.pixel_x.width(), sensor_input.pixel_y.width()});
+                       return text.substr(text.rfind('?') + 1);  // behind GTKWave's colour
+                     }};
   shown.waiting = "feature_extraction";
   return shown;
 }

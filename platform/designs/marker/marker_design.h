@@ -34,7 +34,6 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
 
  private:
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
-  void add_counts(report::FrameReport& frame);
 
   PlPorts& ports_;
   HandshakeWatch handshake_;

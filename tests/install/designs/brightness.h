@@ -2,6 +2,8 @@
 
 #include <hal/hal.h>
 
+#include <cstdint>
+
 /// What the design of brightness_design.cpp and its program agree on.
 namespace brightness {
 

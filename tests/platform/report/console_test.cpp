@@ -35,7 +35,9 @@ BOOST_AUTO_TEST_CASE(a_frame_in_a_few_lines) {
           "t (0.000, 0.000, 1.012) m   pitch 0.0 yaw 0.0 roll 0.0 deg   3 iterations to 0.25 px"),
       text);
   BOOST_TEST(contains(text, "corner 0.50 px   translation 12.0 mm   rotation 0.00 deg"), text);
-  BOOST_TEST(contains(text, "31 corners   2 blobs   1 candidate   36 words   threshold 128"), text);
+  BOOST_TEST(
+      contains(text, "31 corners   2 blobs   36 feature words   1 candidate   threshold 128"),
+      text);
   BOOST_TEST(contains(text, "6144.5"), text);
 }
 

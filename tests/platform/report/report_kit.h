@@ -7,17 +7,18 @@
 namespace report_test {
 
 /// The frame of a scene in which the marker was found, with known small errors.
-inline platform::report::FrameReport found_frame(const std::string& scene,
-                                                 std::uint32_t index = 0) {
+inline platform::report::FrameReport found_frame(const std::string& scene, std::uint32_t index = 0,
+                                                 std::uint64_t losses = 0) {
   using namespace platform;
   report::FrameReport frame;
   frame.input = scene;
   frame.index = index;
   frame.threshold = 128;
-  frame.counts.corners = 31;
-  frame.counts.blobs = 2;
-  frame.counts.feature_words = 36;
-  frame.counts.candidates = 1;
+  frame.counts.set("corners", 31);
+  frame.counts.set("blobs", 2);
+  frame.counts.set("feature_words", 36);
+  frame.counts.set("candidates", 1);
+  frame.counts.lose("feature_overflow", losses);
   frame.truth = ground_truth(make_scene(scene));
   report::FoundMarker marker;
   marker.id = frame.truth->marker_id;
@@ -31,10 +32,11 @@ inline platform::report::FrameReport found_frame(const std::string& scene,
   frame.upload_ps = 3'000'000'000;
   frame.start_ps = index * 11'000'000'000ull + frame.upload_ps;
   frame.end_ps = frame.start_ps + 8'000'000'000;
-  frame.times = {{"upload", frame.upload_ps},
-                 {"feature_extraction", 6'144'500'000, 0, "frame"},
-                 {"pose", 123'456, 0, "frame"},
-                 {"frame", 8'000'000'000}};
+  frame.times = {
+      {"upload", frame.upload_ps},
+      {"feature_extraction", 6'144'500'000, 0, "frame", "ps.fclk_clk1", "one pixel a clock"},
+      {"pose", 123'456, 0, "frame"},
+      {"frame", 8'000'000'000}};
   return frame;
 }
 

@@ -136,14 +136,16 @@ BOOST_AUTO_TEST_CASE(frames_that_were_dropped_or_never_published_are_no_job_done
   point.fails("job", Holds::no, "1 of 1 frame taken and never published");
 }
 
-BOOST_AUTO_TEST_CASE(each_loss_counts) {
-  for (const auto counter :
-       {&Counts::feature_overflow, &Counts::label_overflow, &Counts::bridge_overflow,
-        &Counts::crossing_overflow, &Counts::software_overflow, &Counts::malformed}) {
-    Point point;
-    point.frames[0].counts.*counter = 1;
-    point.fails("job", Holds::no, "1 of 1 frame with losses");
-  }
+BOOST_AUTO_TEST_CASE(whatever_a_design_counts_as_lost_counts) {
+  Point point;
+  point.frames[0].counts.lose("feature_overflow", 0);
+  point.frames[0].counts.set("overflow", 1);
+  BOOST_TEST(point.frames[0].counts.lost() == 0u);
+  BOOST_TEST((point.part("job").holds == Holds::yes));
+  point.frames[0].counts.lose("drops", 1);
+  BOOST_TEST(point.frames[0].counts["drops"] == 1u);
+  BOOST_TEST(point.frames[0].counts["nothing"] == 0u);
+  point.fails("job", Holds::no, "1 of 1 frame with losses");
 }
 
 BOOST_AUTO_TEST_CASE(an_image_of_which_nobody_knows_needs_no_marker) {

@@ -4,7 +4,7 @@ import { h } from "../kit/dom.js";
 import { fixed, significant, signed, tidy, time, words } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour, stageColour } from "../kit/theme.js";
-import { makeRun, partsOf } from "../run/facts.js";
+import { countsOf, makeRun, partsOf } from "../run/facts.js";
 import { gantt } from "../run/gantt.js";
 
 function figures(a, b) {
@@ -17,7 +17,7 @@ function figures(a, b) {
     pick("Frames with result", "", (r) => r.summary.delivered, 1), pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1), pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1),
     ...stages.map((name) => pick(`Stage: ${words(name)}`, "µs", (r) => r.stageMean(name), -1)),
     ...["lut", "ff", "bram36", "dsp"].map((kind) => pick(kind.toUpperCase(), "", (r) => r.result.resources?.total?.[kind], -1)),
-    pick("Corners a frame", "", counts("corners"), 0), pick("Candidates a frame", "", counts("candidates"), 0),
+    ...countsOf([...a.frames, ...b.frames]).map((name) => pick(`${words(name)} a frame`, "", counts(name), 0)),
   ].filter((row) => Number.isFinite(row.a) || Number.isFinite(row.b));
 }
 
@@ -38,7 +38,7 @@ function stageBars(runs, names) {
       legend: { top: 0, left: 0, icon: "roundRect", itemWidth: 10, itemHeight: 10, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true },
       xAxis: axis({ type: "value" }), yAxis: axis({ type: "category", data: names.slice().reverse(), splitLine: { show: false }, axisLabel: { width: 180, overflow: "truncate" } }),
       tooltip: { show: true, formatter: (p) => `${p.seriesName}\n${time(p.value * 1e3)}` },
-      series: stages.map((name, i) => ({ name: words(name), type: "bar", stack: "all", barMaxWidth: 22, itemStyle: { color: stageColour(name, i) }, data: runs.slice().reverse().map((run) => (run.stageMean(name) || 0) / 1e3) })),
+      series: stages.map((name) => ({ name: words(name), type: "bar", stack: "all", barMaxWidth: 22, itemStyle: { color: stageColour(name) }, data: runs.slice().reverse().map((run) => (run.stageMean(name) || 0) / 1e3) })),
     }),
     table: () => ({ caption: "Stages", rows: stages, columns: [{ title: "Stage", value: (s) => s, show: words }, ...runs.map((run, i) => ({ title: names[i], unit: "µs", number: true, value: (s) => run.stageMean(s), show: (v) => fixed(v, 1) }))] }),
   });

@@ -39,6 +39,9 @@ export const counted = (count, what) => `${fixed(count, 0)} ${what}${count === 1
 /** "feature_extraction" → "feature extraction". */
 export const words = (name) => String(name).replaceAll("_", " ");
 
+/** The same at the head of a row. */
+export const heading = (name) => words(name).replace(/^./, (first) => first.toUpperCase());
+
 export function mean(values) {
   return values.length === 0 ? NaN : values.reduce((sum, value) => sum + value, 0) / values.length;
 }

@@ -34,14 +34,13 @@ export function toggleTheme() {
 media.addEventListener("change", () => chosen || apply());
 apply();
 
-const stageColours = {
-  upload: "grey", capture: "grey", feature_extraction: "blue", receive: "sky", evaluation: "orange",
-  identification: "green", pose: "purple", corner_detection: "vermillion", threshold: "yellow", blob_detection: "soft",
-};
+const shades = ["blue", "sky", "orange", "green", "purple", "vermillion", "yellow", "grey", "soft"];
 const spare = ["blue", "orange", "green", "purple", "sky", "vermillion", "yellow", "grey"];
+const stages = [];
 
-/** Always the same colour for the same stage. */
-export function stageColour(name, index = 0) {
-  return palette()[stageColours[name] ?? spare[index % spare.length]];
+/** Always the same colour for the same stage on a page. */
+export function stageColour(name) {
+  if (!stages.includes(name)) stages.push(name);
+  return palette()[shades[stages.indexOf(name) % shades.length]];
 }
 export const seriesColour = (index) => palette()[spare[index % spare.length]];

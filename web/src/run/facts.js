@@ -1,5 +1,5 @@
 // A run as the sections of its page need it: result.json, and what stands only in the page.
-import { mean, quantile } from "../kit/format.js";
+import { fixed, mean, quantile } from "../kit/format.js";
 
 export function makeRun(result, extras = {}) {
   const frames = result.frames ?? [];
@@ -20,7 +20,6 @@ export function makeRun(result, extras = {}) {
   return {
     result, extras, frames, delivered, stages, errors, configured, megahertz,
     summary: result.summary ?? {},
-    hybrid: result.system !== "ps-only",
     latency: latencies.length ? {
       low: latencies[0], median: quantile(latencies, 0.5), p95: quantile(latencies, 0.95), high: latencies.at(-1),
       mean: mean(latencies),
@@ -31,6 +30,8 @@ export function makeRun(result, extras = {}) {
       rotation: mean(errors.map((e) => e.rotation_deg).filter(Number.isFinite)),
       count: errors.length,
     } : null,
+    /** What is known of a stage beside its times: {name, part_of, clock, why}. */
+    stage: (name) => (result.stages ?? []).find((stage) => stage.name === name) ?? { name },
     stageMean: (name) => mean(delivered.map((frame) => frame.time_us?.[name]).filter(Number.isFinite)),
   };
 }
@@ -49,15 +50,25 @@ export function partsOf(run) {
   return stages.filter((stage) => stage.part_of && !wholes.has(stage.name)).map((stage) => stage.name);
 }
 
-/** What is lost when a buffer is full: keys of a frame's counts. */
-export const losses = {
-  feature_overflow: "features were dropped: raise pl.feature_packaging.buffer_depth, or let the software read them faster",
-  label_overflow: "dark pixels found no label: raise pl.blob_detection.label_count",
-  bridge_overflow: "binary words were dropped: DMA 1 was not armed again in time; raise pl.axi_threshold_bridge.fifo_depth",
-  crossing_overflow: "words were lost between the clocks: the system clock is too slow for the pixel clock",
-  software_overflow: "words, corners, blobs or candidates found no room in the software",
-  malformed: "blobs were malformed: a start or end word was lost",
-};
+/** Warnings of all frames, those that differ in their number only as one: [{text, frames}]. */
+export function warningsOf(run) {
+  const found = new Map();
+  for (const frame of run.frames) {
+    for (const warning of frame.warnings ?? []) {
+      if (frame.gave_up && warning.endsWith(frame.gave_up)) continue; // told as what it is
+      const [, number, rest] = warning.match(/^(\d+ )?(.*)$/s);
+      const known = found.get(rest) ?? { rest, sum: 0, numbered: number !== undefined, frames: [] };
+      found.set(rest, { ...known, sum: known.sum + Number(number ?? 0), frames: [...known.frames, frame] });
+    }
+  }
+  return [...found.values()].map(({ rest, sum, numbered, frames }) => ({ text: numbered ? `${fixed(sum, 0)} ${rest}` : rest, frames }));
+}
+
+/** Counts that are not 0 in every frame, by name. */
+export function countsOf(frames) {
+  const names = new Set(frames.flatMap((frame) => Object.keys(frame.counts ?? {})));
+  return [...names].filter((name) => frames.some((frame) => frame.counts?.[name] > 0));
+}
 
 /** "met", "missed", or "unknown": clocked above what a module is known to reach, which may work or not. */
 export const timingOf = (module) => (module.met ? "met" : module.frequency_mhz > module.fmax_high_mhz ? "missed" : "unknown");

@@ -1,8 +1,8 @@
 // The image with what was found in it, each kind a layer to switch.
 import { download, h, s } from "../kit/dom.js";
-import { counted, fixed, significant, time, words } from "../kit/format.js";
+import { counted, fixed, heading, significant, time, words } from "../kit/format.js";
 import { stageColour } from "../kit/theme.js";
-import { partsOf } from "./facts.js";
+import { countsOf, partsOf } from "./facts.js";
 
 const side = 0.3; // m, of a marker (thesis 5.1)
 const directions = ["north", "south", "east", "west"]; // as the corner words number them
@@ -77,7 +77,7 @@ function facts(frame) {
     }
   }
   if (frame.markers.length === 0) add("Marker", "none found");
-  add("Features", `${counted(frame.counts.corners, "corner")}, ${counted(frame.counts.blobs, "blob")}, ${counted(frame.counts.candidates, "candidate")}`);
+  for (const name of countsOf([frame])) add(heading(name), fixed(frame.counts[name], 0));
   add("Threshold", String(frame.threshold));
   if (Number.isFinite(frame.energy_mj?.total ?? frame.energy_mj)) add("Energy", significant(frame.energy_mj.total ?? frame.energy_mj, 3) + " mJ");
   return h("dl", { class: "facts" }, list);
@@ -89,11 +89,11 @@ export function stageBar(run, frame) {
   const whole = frame.time_us.frame;
   const parts = partsOf(run).filter((name) => frame.time_us[name] > 0);
   return h("div", { class: "stages" },
-    h("div", { class: "stage-bar", "aria-hidden": "true" }, parts.map((name, i) => h("span", {
+    h("div", { class: "stage-bar", "aria-hidden": "true" }, parts.map((name) => h("span", {
       title: `${words(name)} ${time(frame.time_us[name])}`,
-      style: { flexGrow: String(frame.time_us[name]), background: stageColour(name, i) },
+      style: { flexGrow: String(frame.time_us[name]), background: stageColour(name) },
     }))),
-    h("ul", { class: "keys" }, parts.map((name, i) => h("li", {}, h("i", { style: { background: stageColour(name, i) } }), words(name),
+    h("ul", { class: "keys" }, parts.map((name) => h("li", {}, h("i", { style: { background: stageColour(name) } }), words(name),
       h("span", { class: "number" }, time(frame.time_us[name])), h("span", { class: "number faint" }, `${fixed(100 * frame.time_us[name] / whole, 1)} %`)))));
 }
 
@@ -127,7 +127,7 @@ export function frameView(run) {
     for (const layer of layers) groups.get(layer.id).style.display = on(layer) ? "" : "none";
     const image = s("svg", {
       viewBox: close && frame.markers.length ? around(frame, view) : whole(view), role: "img", class: close ? "close" : null,
-      "aria-label": `Image ${frame.input}: ${counted(frame.counts.corners, "corner")}, ${counted(frame.counts.blobs, "blob")}, ` +
+      "aria-label": `Image ${frame.input}: ${countsOf([frame]).map((name) => `${words(name)} ${frame.counts[name]}, `).join("")}` +
         (frame.markers.length ? frame.markers.map((m) => `marker ${m.id}`).join(", ") : "no marker"),
     }, s("image", { href: "data:image/png;base64," + view.png, width: view.width, height: view.height }), [...groups.values()]);
     picture.replaceChildren(image);

@@ -1,11 +1,9 @@
 // What limits this design point, in sentences.
 import { h } from "../kit/dom.js";
 import { counted, fixed, percent, significant, tidy, words } from "../kit/format.js";
-import { value } from "../published.js";
-import { losses, partsOf, powerByModule, timingOf } from "./facts.js";
+import { partsOf, powerByModule, timingOf, warningsOf } from "./facts.js";
 
 const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
-const pixelClock = "ps.fclk_clk1.frequency";
 
 function limitingModule(run) {
   const modules = (run.result.timing?.modules ?? []).filter((m) => m.fmax_mhz > 0);
@@ -16,11 +14,7 @@ function limitingModule(run) {
   if (unknown.length > 0) return worst(unknown);
   // The first to fail as the clocks rise.
   const most = (m) => m.fmax_high_mhz / m.frequency_mhz;
-  if (modules.length > 0) return modules.reduce((a, b) => (most(b) < most(a) ? b : a));
-  const clock = run.megahertz(pixelClock);
-  const fmax = value("fmax.blob");
-  if (!run.hybrid || !clock || !fmax) return null;
-  return { name: "blob_detection", clock: "pixel", frequency_mhz: clock, fmax_mhz: fmax, met: clock <= fmax, published: true };
+  return modules.length > 0 ? modules.reduce((a, b) => (most(b) < most(a) ? b : a)) : null;
 }
 
 function timing(run, say) {
@@ -38,35 +32,30 @@ function timing(run, say) {
   }
   // Only a clock that the chip can have is worth a try.
   const next = module.reachable_mhz ?? module.fmax_mhz;
-  const stream = run.stageMean("feature_extraction");
+  const paced = run.stages.filter((name) => run.stage(name).clock === module.clock);
+  const gain = paced.reduce((sum, name) => sum + run.stageMean(name), 0) * (1 - module.frequency_mhz / next);
   const frame = run.stageMean("frame");
-  const gain = stream * (1 - module.frequency_mhz / next);
-  const more = Number.isFinite(gain) && run.hybrid && gain > 0
+  const more = gain > 0
     ? ` At ${tidy(next)} MHz${next < module.fmax_mhz ? ", the next clock that the PLLs make," : ""} a frame would take about ${significant((frame - gain) / 1e3, 3)} ms: ${fixed(1e6 / (frame - gain), 0)} frames/s (derived).` : "";
-  say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits the pixel clock, now ${now} MHz.${more}`);
+  say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits its clock, now ${now} MHz.${more}`);
 }
 
 function stages(run, say) {
   const whole = run.stageMean("frame");
   const longest = partsOf(run).map((name) => ({ name, us: run.stageMean(name) })).sort((a, b) => b.us - a.us);
   if (!(whole > 0) || longest.length === 0) return;
+  const because = ({ name }) => {
+    const { why, clock } = run.stage(name);
+    const megahertz = clock && run.megahertz(`${clock}.frequency`);
+    return why ? `: ${why}${megahertz ? `, at ${tidy(megahertz)} MHz` : ""}` : "";
+  };
   const [first, second] = longest;
-  const why = first.name === "feature_extraction" && run.hybrid && run.megahertz(pixelClock)
-    ? `: one pixel a clock at ${tidy(run.megahertz(pixelClock))} MHz, so it lasts as long as the image does` : "";
-  say("info", `${words(first.name)} takes ${percent(first.us / whole, 0)} of a frame${why}.`);
-  if (second && second.us / whole > 0.1) {
-    const tried = run.frames.reduce((sum, f) => sum + (f.counts?.candidates ?? 0), 0) / Math.max(1, run.frames.length);
-    const reason = second.name === "identification" ? `: ${fixed(tried, 1)} candidates a frame are tried one after the other until one is a marker` : "";
-    say("info", `${words(second.name)} comes second with ${percent(second.us / whole, 0)}${reason}.`);
-  }
+  say("info", `${words(first.name)} takes ${percent(first.us / whole, 0)} of a frame${because(first)}.`);
+  if (second && second.us / whole > 0.1) say("info", `${words(second.name)} comes second with ${percent(second.us / whole, 0)}${because(second)}.`);
 }
 
-function overflows(run, say) {
-  for (const [key, text] of Object.entries(losses)) {
-    const frames = run.frames.filter((frame) => frame.counts?.[key] > 0);
-    const total = frames.reduce((sum, frame) => sum + frame.counts[key], 0);
-    if (total > 0) say("bad", `${fixed(total, 0)} ${text} (${counted(frames.length, "frame")}, first ${frames[0].input}).`);
-  }
+function losses(run, say) {
+  for (const { text, frames } of warningsOf(run)) say("bad", `${text} (${counted(frames.length, "frame")}, first ${frames[0].input}).`);
 }
 
 function results(run, say) {
@@ -95,7 +84,7 @@ export function guidanceOf(run) {
   const say = (kind, text) => list.push({ kind, text: text[0].toUpperCase() + text.slice(1) });
   results(run, say);
   markers(run, say);
-  overflows(run, say);
+  losses(run, say);
   timing(run, say);
   stages(run, say);
   budgets(run, say);

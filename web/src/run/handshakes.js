@@ -8,15 +8,6 @@ const most = 24; // changes that are drawn
 
 const hex = (value) => value.toString(16).toUpperCase().padStart(8, "0");
 
-/** Figures 4.20 and 4.21 of the thesis. */
-function meaning(word) {
-  if (word === 0) return "none";
-  if (word === 0xffffffff) return "end of frame";
-  const place = `${word & 0x3ff}, ${(word >>> 10) & 0x1ff}`;
-  if (word >>> 31) return `corner ${place}`;
-  return `${(word >>> 30) & 1 ? "blob from" : "blob to"} ${place}`;
-}
-
 /** Every time at which something changes, with the values of all signals from then on. */
 function columnsOf(signals) {
   const times = [...new Set(signals.flatMap((s) => s.points.map((p) => p[0])))].sort((a, b) => a - b).slice(0, most);
@@ -54,10 +45,10 @@ export function handshakes(run) {
   new IntersectionObserver((entries) => { if (entries.some((e) => e.isIntersecting)) draw(); }, { rootMargin: "200px" }).observe(area);
   window.addEventListener("beforeprint", draw);
   return h("section", { id: "handshakes", "aria-labelledby": "handshakes-title" }, h("h2", { id: "handshakes-title" }, "Handshakes"),
-    h("p", { class: "note" }, `The first feature words of the run, since ena. The software toggles ready for each word that it has read; then the feature register shows the next. Each column is a change, at the time above it: not to scale.`),
-    h("div", { class: "table-scroll", tabindex: "0", role: "group", "aria-label": "Waveform of the first feature words" }, area),
+    h("p", { class: "note" }, `${shown.name}, the first of the run: how they are handed over, signal by signal. Each column is a change, at the time above it: not to scale.`),
+    h("div", { class: "table-scroll", tabindex: "0", role: "group", "aria-label": `Waveform: ${shown.name}` }, area),
     h("details", {}, h("summary", {}, "As a table"), dataTable({ caption: "Changes of the handshake", name: "handshake", exportable: true, rows: columns, sortable: false, columns: [
       { title: "Time", unit: "µs", csv: "Time us", number: true, value: (c) => c.time, show: (v) => fixed(v, 3) },
       ...shown.signals.map((signal, i) => ({ title: signal.name, value: (c) => (signal.bits > 8 ? hex(c.values[i]) : c.values[i].toString(2).padStart(signal.bits, "0")) })),
-      { title: "Word", value: (c) => meaning(c.values[1]) }] })));
+      { title: "Word", value: (c) => shown.meanings?.[c.values[1]] ?? "" }] })));
 }

@@ -19,8 +19,7 @@ function title(run) {
 
 function subtitle(run) {
   const { system, design, fidelity, profile } = run.result;
-  return [run.summary.frames !== undefined && counted(run.summary.frames, "frame"), system === "ps-only" ? "everything on the PS" : "features from the PL",
-    design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
+  return [run.summary.frames !== undefined && counted(run.summary.frames, "frame"), system && `program ${system}`, design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
 }
 
 export function runPage(result, extras) {

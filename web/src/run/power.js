@@ -6,7 +6,7 @@ import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour } from "../kit/theme.js";
 import { powerByModule } from "./facts.js";
-import { thesisStages } from "./thesis.js";
+import { systems, thesisOf } from "./thesis.js";
 
 function moduleChart(run) {
   const rows = run.result.power.modules.filter((m) => m.w > 0);
@@ -38,9 +38,10 @@ const columns = () => [
 /** This run beside the same work on the PS alone: the thesis' times at the power of this run's PS. */
 function energyChart(run) {
   const power = run.summary.power_w;
-  if (!power || !Number.isFinite(run.summary.energy_per_frame_mj) || !run.hybrid) return null;
+  const software = systems.find((system) => !system.logic);
+  if (!power || !Number.isFinite(run.summary.energy_per_frame_mj) || !thesisOf(run)?.logic) return null;
   const seconds = run.summary.energy_per_frame_mj / power.total / 1e3;
-  const other = thesisStages("ps-only").reduce((sum, stage) => sum + stage.us, 0) / 1e6;
+  const other = software.stages.reduce((sum, stage) => sum + stage.us, 0) / 1e6;
   const parts = [["PS", power.ps, power.ps], ["PL", power.pl, 0], ["Static", power.static, power.static]].filter(([, w]) => Number.isFinite(w));
   const bars = ["PS only (derived)", "This run"];
   const sums = [parts.reduce((sum, p) => sum + p[2] * other * 1e3, 0), parts.reduce((sum, p) => sum + p[1] * seconds * 1e3, 0)];

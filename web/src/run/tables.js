@@ -3,6 +3,7 @@ import { h } from "../kit/dom.js";
 import { fixed, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
+import { countsOf } from "./facts.js";
 
 export function frameTable(run) {
   if (run.frames.length === 0) return null;
@@ -15,9 +16,7 @@ export function frameTable(run) {
     { title: "Marker", value: (f) => f.markers.map((m) => m.id).join(", ") || (f.gave_up ? "no result" : "none") },
     ...run.stages.map((name) => number(words(name), "µs", (f) => f.time_us?.[name], 1)),
     number("Energy", "mJ", (f) => f.energy_mj?.total ?? f.energy_mj, 3),
-    number("Corners", null, (f) => f.counts.corners, 0),
-    number("Blobs", null, (f) => f.counts.blobs, 0),
-    number("Candidates", null, (f) => f.counts.candidates, 0),
+    ...countsOf(run.frames).map((name) => number(words(name), null, (f) => f.counts[name], 0)),
     number("Error", "px", (f) => first(f)?.error?.corner_px, 2),
     number("Error", "mm", (f) => first(f)?.error?.translation_mm, 1),
     number("Error", "°", (f) => first(f)?.error?.rotation_deg, 2),

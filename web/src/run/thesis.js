@@ -1,16 +1,15 @@
-// The thesis' stage times, from its published differences.
-import { value } from "../published.js";
+// What the thesis states of its systems, to stand beside runs of the same PS program.
+import text from "../../../data/thesis_systems.csv";
+import { parse } from "../published.js";
 
-const us = (id, scale) => (value(id) ?? NaN) * scale;
-
-/** Stages of a frame in the thesis (5.4.1, mean of 15 images): [{name, us}]. */
-export function thesisStages(system) {
-  const list = system === "hybrid"
-    ? [["feature_extraction", us("corner.hybrid", 1)], ["identification", us("identification.hybrid", 1e3)]]
-    : [["capture", us("capture.offset", 1)],
-      ["corner_detection", us("corner.hybrid", 1) + us("corner.delta", 1e3)],
-      ["threshold", us("threshold.ps", 1e3)],
-      ["blob_detection", us("blob.hybrid", 1) + us("blob.delta", 1e3)],
-      ["identification", us("identification.hybrid", 1e3) * us("identification.speedup", 1)]];
-  return [...list, ["pose", us("pose.duration", 1)]].filter(([, time]) => Number.isFinite(time)).map(([name, time]) => ({ name, us: time }));
+/** [{system, title, logic, frameUs, stages: [{name, us}]}]; `logic`: it uses the PL. */
+export const systems = [];
+for (const row of parse(text)) {
+  let system = systems.find((each) => each.system === row.system);
+  if (!system) systems.push(system = { system: row.system, title: row.title, logic: row.logic === "yes", stages: [] });
+  if (row.stage === "frame") system.frameUs = Number(row.us);
+  else system.stages.push({ name: row.stage, us: Number(row.us) });
 }
+
+/** The system that a run models; undefined for one that the thesis does not know. */
+export const thesisOf = (run) => systems.find((each) => each.system === run.result.system);

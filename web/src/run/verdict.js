@@ -3,6 +3,7 @@ import { h } from "../kit/dom.js";
 import { counted, fixed, signed, significant, tidy } from "../kit/format.js";
 import { legend, origin } from "../kit/origin.js";
 import { value } from "../published.js";
+import { thesisOf } from "./thesis.js";
 
 const realTime = 60; // frames per second: what the thesis calls so
 /** Whether the frames came fast enough: those of the camera, if it has a rate; else real time. */
@@ -16,19 +17,15 @@ function tile({ label, number, unit, band, source, detail, thesis, tone }) {
     h("dd", { class: "foot" }, origin(source, detail), thesis && h("span", { class: "thesis" }, thesis)));
 }
 
-function beside(ours, theirs, places, unit = "") {
+function beside(ours, theirs) {
   if (!Number.isFinite(theirs) || !Number.isFinite(ours)) return null;
-  return `thesis ${fixed(theirs, places)}${unit} (${signed(100 * (ours / theirs - 1), 0)} %)`;
-}
-
-function thesisFps(run) {
-  const fps = value("fps.average");
-  return run.hybrid ? fps : fps / value("speedup.all");
+  return `thesis ${significant(theirs, 3)} (${signed(100 * (ours / theirs - 1), 0)} %)`;
 }
 
 function tiles(run) {
   const { summary, result } = run;
   const { camera } = result;
+  const thesis = thesisOf(run);
   const list = [];
   if (summary.fps) {
     list.push(tile({
@@ -37,7 +34,7 @@ function tiles(run) {
         ? `busy ${fixed(camera.utilisation_percent, 1)} % of ${significant(1e3 / camera.rate_fps, 3)} ms, slack at least ${significant(camera.slack_us.min / 1e3, 3)} ms`
         : run.delivered.length > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one result",
       source: "simulated", detail: `delivered results over simulated time, ${camera ? "waits for the camera included" : "image upload excluded as in the thesis"}; times of software from the cost profile`,
-      thesis: camera ? null : beside(summary.fps.mean, thesisFps(run), run.hybrid ? 0 : 1),
+      thesis: camera ? null : beside(summary.fps.mean, 1e6 / thesis?.frameUs),
       tone: keepsUp(run) ? "good" : "bad",
     }));
     list.push(tile({
@@ -46,7 +43,7 @@ function tiles(run) {
         ? `${significant(run.latency.low / 1e3, 4)} to ${significant(run.latency.high / 1e3, 4)}, 95 % within ${significant(run.latency.p95 / 1e3, 4)}`
         : "from the frame's start to its result",
       source: "simulated", detail: "from the frame's start to its result",
-      thesis: beside(summary.latency_us.mean / 1e3, 1e3 / thesisFps(run), run.hybrid ? 2 : 0),
+      thesis: beside(summary.latency_us.mean / 1e3, thesis?.frameUs / 1e3),
     }));
   }
   const power = summary.power_w;
@@ -56,7 +53,7 @@ function tiles(run) {
       label: "Power", number: significant(power.total, 3), unit: "W",
       band: band ? `${significant(band.low, 3)} to ${significant(band.high, 3)}` : null,
       source: "derived", detail: "activity of this run times energy per event; the modules' sources stand in the table of power",
-      thesis: Number.isFinite(power.ps) ? `PS: thesis ${fixed(value("power.cpu"), 1)}, here ${significant(power.ps, 3)}` : null,
+      thesis: thesis && Number.isFinite(power.ps) ? `PS: thesis ${fixed(value("power.cpu"), 1)}, here ${significant(power.ps, 3)}` : null,
     }));
   }
   if (Number.isFinite(summary.energy_per_frame_mj)) {
@@ -79,7 +76,7 @@ function tiles(run) {
       label: "Error of the pose", number: fixed(run.error.translation, 1), unit: "mm",
       band: `${fixed(run.error.rotation, 2)}°, corners ${fixed(run.error.corner, 2)} px`,
       source: "simulated", detail: `mean over ${counted(run.error.count, "marker")} whose truth is known`,
-      thesis: `thesis ${value("pose.all.translation")} mm, ${value("pose.all.rotation")}°`,
+      thesis: thesis && `thesis ${value("pose.all.translation")} mm, ${value("pose.all.rotation")}°`,
     }));
   }
   return list;
