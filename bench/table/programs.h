@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "samples.h"
+#include "table.h"
 
 namespace bench {
 

@@ -120,7 +120,7 @@ def fit_all(reports):
 
 
 def total(r, coefficients):
-    """What find_static_point() of vp/thermal.h finds; PS and pins as reported."""
+    """What find_static_point() of vp/power_meter.h finds; PS and pins as reported."""
     dynamic = r.ps_w + r.io_w + r.mmcms * MMCM_W + sum(kind.predict(r, coefficients) for kind in KINDS)
     junction = AMBIENT_C
     for _ in range(100):

@@ -1,19 +1,22 @@
 #include <algorithm>
-#include <filesystem>
-#include <ostream>
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <page/page_file.h>
+#include <page/report_page.h>
 #include <report/console.h>
 #include <sweep/compare.h>
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <sweep/pareto.h>
+#include <sweep/report.h>
 #include <sweep/results.h>
 #include <sweep/sensitivity.h>
-#include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>
+
+#include <filesystem>
+#include <ostream>
 
 namespace platform::cli {
 
@@ -124,6 +127,34 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
 int compare_runs(const CompareOptions& options, std::ostream& out) {
   out << sweep::compare(sweep::read_comparable(options.first),
                         sweep::read_comparable(options.second));
+  return done;
+}
+
+int make_report(const ReportOptions& options, std::ostream& out) {
+  if (page::page_template().empty()) {
+    throw vp::InputError(
+        "this markervp was built without report.html: build it again with Node.js and npm "
+        "(Debian: nodejs npm)");
+  }
+  std::string file;
+  if (options.folders.size() == 1) {
+    if (options.output) {
+      throw vp::InputError("--output is for a comparison: the page of one folder stands in it");
+    }
+    const std::string& folder = options.folders[0];
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored)) {
+      const sweep::Store store(folder);
+      sweep::write_page(sweep::read_results(store, store.read_manifest()), folder);
+    } else {
+      page::write_report(folder);
+    }
+    file = (std::filesystem::path(options.folders[0]) / "report.html").string();
+  } else {
+    file = options.output.value_or("compare.html");
+    page::write_comparison(options.folders[0], options.folders[1], file);
+  }
+  out << "wrote " << file << std::endl;
   return done;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include <cli/app.h>
-#include <cli/provenance.h>
+#include <cli/program.h>
 #include <scene/scene.h>
 #include <vp/text.h>
 

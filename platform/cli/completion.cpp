@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include <cli/commands.h>
-#include <cli/completion.h>
+#include <cli/app.h>
 #include <cli/program.h>
 #include <scene/scene.h>
 #include <vp/text.h>

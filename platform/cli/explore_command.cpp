@@ -11,8 +11,8 @@
 #include <explore/relaxation.h>
 #include <host/process.h>
 #include <report/console.h>
-#include <sweep/engine_slurm.h>
-#include <sweep/tables.h>
+#include <sweep/engine.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/progress.h>
 #include <vp/text.h>

@@ -11,8 +11,8 @@
 
 #include <host/output_folder.h>
 #include <input/frame_source.h>
-#include <page/run_extras.h>
-#include <report/result_writer.h>
+#include <page/report_page.h>
+#include <report/result_json.h>
 #include <run/simulation.h>
 #include <vp/progress.h>
 

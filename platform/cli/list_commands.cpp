@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-#include <ostream>
-
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <designs/designs.h>
@@ -11,11 +8,14 @@
 #include <power/design_estimate.h>
 #include <power/power_table.h>
 #include <report/console.h>
+#include <run/simulation.h>
 #include <scene/scene.h>
-#include <vp/decimal.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
+#include <nlohmann/json.hpp>
+
+#include <ostream>
 
 namespace platform::cli {
 
@@ -391,6 +391,45 @@ int print_power_table(const PowerTableOptions& options, std::ostream& out) {
       "copy of\nthis one: 'markervp power FILE.json' checks it, '--set power.table=FILE.json' uses "
       "it.\n",
       table.name());
+  return done;
+}
+
+namespace {
+
+/// A plain number is frames a second.
+std::string with_unit(const std::string& rate) {
+  return vp::Decimal::parse(rate) ? rate + " fps" : rate;
+}
+
+}  // namespace
+
+void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration) {
+  for (const std::string& file : options.files) configuration.load_file(file);
+  for (const std::string& assignment : options.assignments) configuration.set(assignment);
+  if (options.design) configuration.set("design", *options.design, "--design");
+}
+
+void choose_platform(const PlatformOptions& options, vp::Configuration& configuration) {
+  if (options.fidelity) configuration.set("fidelity", *options.fidelity, "--fidelity");
+  if (options.rate) configuration.set("camera.rate", with_unit(*options.rate), "--rate");
+}
+
+std::unique_ptr<Simulation> build(vp::Configuration& configuration,
+                                  const SimulationOptions& options) {
+  const vp::Configuration::Scope scope(configuration);
+  auto simulation = std::make_unique<Simulation>(options);
+  configuration.check_unused();
+  return simulation;
+}
+
+int print_configuration(const ConfigOptions& options, std::ostream& out) {
+  vp::Configuration configuration;
+  load_configuration(options.configuration, configuration);
+  choose_platform(options, configuration);
+  SimulationOptions asked;
+  asked.program = options.program;
+  build(configuration, asked);
+  out << configuration.to_yaml();
   return done;
 }
 

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <ostream>
-
 #include <cli/commands.h>
 #include <cli/map.h>
 #include <run/simulation.h>
@@ -10,7 +8,219 @@
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>
 
+#include <algorithm>
+#include <ostream>
+#include <vector>
+
 namespace platform::cli {
+
+std::string bits_text(std::uint32_t mask) {
+  constexpr unsigned most_ranges = 4;
+  std::string text;
+  unsigned ranges = 0;
+  for (int high = 31; high >= 0; --high) {
+    if ((mask >> high & 1) == 0) continue;
+    int low = high;
+    while (low > 0 && (mask >> (low - 1) & 1) != 0) --low;
+    if (!text.empty()) text += ", ";
+    text += high == low ? std::to_string(high) : fmt::format("{}:{}", high, low);
+    ++ranges;
+    high = low;
+  }
+  return ranges > most_ranges ? fmt::format("0x{:08X}", mask) : text;
+}
+
+FieldsOnce::Found FieldsOnce::find(const report::HardwareMap::Register& r) {
+  if (r.fields.empty()) return {none_, ""};
+  const auto [place, first] = shown_.emplace(r.fields_of_kind, r.name);
+  if (first) return {r.fields, ""};
+  return {none_, place->second};
+}
+
+namespace {
+
+using report::HardwareMap;
+
+constexpr const char* head = R"(# Registers
+
+What software sees of the platform, as `markervp map --markdown` prints it; the program makes this page, a test keeps it
+up to date. Names, offsets, reset values and access come from the register descriptions (`models/*/*/registers/`), which
+the models and the PS software include, too.
+
+Access: `rw` read and write, `ro` read only, `wo` write only (reads 0), `w1c` writing 1 clears the bit, `w1s` writing 1
+sets it, `w1t` writing 1 inverts it. Writes change the bits of the column *writable* only; bits without field read 0. Reset
+values are those of an IP with all its build options; *at the start* is what boot code has left in this platform when the
+program begins. `markervp map DEVICE` shows the build and the values of one device of the platform as you configure it.
+)";
+
+/// A bar ends a cell of a table.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+/// 0x4120_0000, as the manuals write it.
+std::string address(std::uint64_t value) {
+  return fmt::format("0x{:04X}_{:04X}", value >> 16, value & 0xFFFF);
+}
+
+std::string devices(const HardwareMap& map) {
+  std::string text =
+      "\n## Memory map\n\n| Addresses | Size | Device | What | Reached through |\n"
+      "|---|---|---|---|---|\n";
+  for (const HardwareMap::Device& d : map.devices) {
+    text += fmt::format("| {} … {} | {} | `{}` | {} | {} |\n", address(d.base),
+                        address(d.base + d.size - 1),
+                        vp::format_quantity(vp::Decimal(d.size, 0), vp::Unit::bytes), d.name,
+                        cell(d.what), cell(d.way));
+  }
+  return text;
+}
+
+/// The register blocks of the PS that a program may expect (UG585 chapter 4 and appendix B).
+struct Block {
+  std::uint64_t base;
+  const char* name;
+};
+constexpr Block ps_blocks[] = {
+    {0xE000'0000, "UART 0"},
+    {0xE000'1000, "UART 1"},
+    {0xE000'2000, "USB 0"},
+    {0xE000'3000, "USB 1"},
+    {0xE000'4000, "I2C 0"},
+    {0xE000'5000, "I2C 1"},
+    {0xE000'6000, "SPI 0"},
+    {0xE000'7000, "SPI 1"},
+    {0xE000'8000, "CAN 0"},
+    {0xE000'9000, "CAN 1"},
+    {0xE000'A000, "GPIO of the PS (MIO and EMIO)"},
+    {0xE000'B000, "Ethernet (GEM) 0"},
+    {0xE000'C000, "Ethernet (GEM) 1"},
+    {0xE000'D000, "Quad-SPI; its flash would be at 0xFC00_0000"},
+    {0xE000'E000, "Static memory controller; its memories would be from 0xE100_0000 on"},
+    {0xE010'0000, "SDIO 0"},
+    {0xE010'1000, "SDIO 1"},
+    {0xF800'0000, "System level control registers"},
+    {0xF800'1000, "Triple timer counter 0"},
+    {0xF800'2000, "Triple timer counter 1"},
+    {0xF800'3000, "DMA controller of the PS (PL330), secure"},
+    {0xF800'4000, "DMA controller of the PS (PL330), non-secure"},
+    {0xF800'5000, "System watchdog"},
+    {0xF800'6000, "DDR memory controller: boot code waits for mode_sts_reg, 0xF800_6054"},
+    {0xF800'7000, "Device configuration (bitstreams) and XADC interface"},
+    {0xF800'8000, "AXI_HP 0 interface"},
+    {0xF800'9000, "AXI_HP 1 interface"},
+    {0xF800'A000, "AXI_HP 2 interface"},
+    {0xF800'B000, "AXI_HP 3 interface"},
+    {0xF800'C000, "On-chip memory control"},
+    {0xF880'0000, "CoreSight debug"},
+    {0xF890'0000, "Interconnect control (GPV)"},
+    {0xF8F0'0000, "Snoop control unit"},
+    {0xF8F0'0100, "Interrupt controller, CPU interface"},
+    {0xF8F0'0200, "Global timer"},
+    {0xF8F0'0600, "Private timer and watchdog"},
+    {0xF8F0'1000, "Interrupt controller, distributor"},
+    {0xF8F0'2000, "L2 cache controller (PL310)"},
+};
+
+/// Those where no device of the map is.
+std::string blocks_without_model(const HardwareMap& map) {
+  std::string text =
+      "\n## Blocks of the PS without a model\n\nTheir registers are not there: an access is a data "
+      "abort, which ends the program with their address.\nThe DDR works without its controller, "
+      "and "
+      "the caches are in the cost of memory accesses.\n\n| From | Block |\n|---|---|\n";
+  for (const Block& block : ps_blocks) {
+    const bool modelled = std::any_of(
+        map.devices.begin(), map.devices.end(), [&block](const HardwareMap::Device& device) {
+          return block.base >= device.base && block.base - device.base < device.size;
+        });
+    if (!modelled) text += fmt::format("| {} | {} |\n", address(block.base), block.name);
+  }
+  return text;
+}
+
+std::string interrupts(const HardwareMap& map) {
+  std::string text = "\n## Interrupts\n\n| Number | Raised by |\n|---|---|\n";
+  for (const HardwareMap::Interrupt& i : map.interrupts) {
+    text += fmt::format("| {} | `{}` |\n", i.id, i.source);
+  }
+  return text;
+}
+
+std::string clocks(const HardwareMap& map) {
+  std::string text = "\n## Clocks\n\n| Clock | At the start | Set by |\n|---|---|---|\n";
+  for (const HardwareMap::Clock& c : map.clocks) {
+    text +=
+        fmt::format("| `{}` | {} | {} |\n", c.name,
+                    vp::format_quantity(vp::Decimal(c.hertz, 0), vp::Unit::frequency), c.set_by);
+  }
+  return text;
+}
+
+/// The fields of a device's registers; "" if none has any.
+std::string fields(const HardwareMap::Device& device) {
+  std::string text;
+  FieldsOnce shown;
+  for (const HardwareMap::Register& r : device.registers) {
+    const FieldsOnce::Found found = shown.find(r);
+    for (const HardwareMap::Field& field : found.fields) {
+      const std::uint32_t lowest = field.mask & (~field.mask + 1);
+      text += fmt::format("| {} | {} | {} | {} | 0x{:X} | {} |\n", r.name, bits_text(field.mask),
+                          field.name, field.access, (r.declared_reset & field.mask) / lowest,
+                          cell(field.documentation));
+    }
+  }
+  if (text.empty()) return text;
+  return "\n| Register | Bits | Field | Access | Reset | What |\n|---|---|---|---|---|---|\n" +
+         text;
+}
+
+/// Devices of one kind: the first stands for all.
+std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
+  std::vector<std::string> names;
+  for (const HardwareMap::Device* d : kind) {
+    names.push_back(fmt::format("`{}` at {}", d->name, address(d->base)));
+  }
+  const HardwareMap::Device& first = *kind.front();
+  std::string text = fmt::format("\n## {}\n\n{}.\n\n", first.what, vp::join(names, ", "));
+  FieldsOnce shown;
+  text += "| Offset | Register | Access | Reset | Writable | What |\n|---|---|---|---|---|---|\n";
+  for (const HardwareMap::Register& r : first.registers) {
+    const std::string start =
+        r.at_start == r.reset ? "" : fmt::format("; {} at the start", address(r.at_start));
+    const std::string as = shown.find(r).as;
+    text += fmt::format("| 0x{:03X} | {} | {} | {} | {} | {}{}{} |\n", r.offset, r.name, r.access,
+                        address(r.declared_reset), address(r.writable), cell(r.documentation),
+                        as.empty() ? "" : "; bits as in " + as, start);
+  }
+  return text + fields(first);
+}
+
+}  // namespace
+
+std::string map_as_markdown(const HardwareMap& map) {
+  std::string text =
+      head + devices(map) + blocks_without_model(map) + interrupts(map) + clocks(map);
+  std::vector<const void*> done;
+  for (const HardwareMap::Device& device : map.devices) {
+    if (device.registers.empty() ||
+        std::find(done.begin(), done.end(), device.description) != done.end()) {
+      continue;
+    }
+    done.push_back(device.description);
+    std::vector<const HardwareMap::Device*> kind;
+    for (const HardwareMap::Device& other : map.devices) {
+      if (other.description == device.description) kind.push_back(&other);
+    }
+    text += registers(kind);
+  }
+  return text;
+}
 
 namespace {
 

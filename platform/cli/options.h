@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -249,5 +250,22 @@ struct CommandLine {
   SensitivityOptions sensitivity;
   CompareOptions compare;
 };
+
+/// A span of simulated time, ps.
+struct TimeWindow {
+  std::uint64_t from_ps = 0;
+  std::uint64_t to_ps = UINT64_MAX;
+};
+
+/// Reads "6ms:7ms", "6 ms : 7.5 ms", ":100us" (from the start) or "2ms:" (to the end).
+/// Throws vp::InputError, naming `option`, if it is malformed or ends before it begins.
+TimeWindow parse_trace_window(const std::string& text,
+                              const std::string& option = "--trace-window");
+
+/// What `markervp run --point FILE` runs: the inputs, program and configuration of a
+/// sweep's point; --set and --config change it. With --trace the fidelity is left to the trace.
+/// Says on `err` if the point was computed by another version. Without --point `options` as they
+/// are. Throws vp::InputError for a damaged file, or options that the point decides.
+RunOptions with_point(const RunOptions& options, std::ostream& err);
 
 }  // namespace platform::cli

@@ -17,14 +17,12 @@
 #include <designs/designs.h>
 #include <host/process.h>
 #include <report/console.h>
-#include <run/program_file.h>
 #include <sweep/database.h>
-#include <sweep/engine_slurm.h>
+#include <sweep/engine.h>
 #include <sweep/metrics.h>
 #include <sweep/report.h>
 #include <sweep/results.h>
 #include <sweep/spec.h>
-#include <sweep/tables.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/progress.h>

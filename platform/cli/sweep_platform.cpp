@@ -5,11 +5,10 @@
 #include <set>
 
 #include <cli/commands.h>
-#include <cli/provenance.h>
+#include <cli/program.h>
 #include <designs/designs.h>
-#include <host/child.h>
+#include <host/process.h>
 #include <input/frame_source.h>
-#include <run/program_file.h>
 #include <run/simulation.h>
 #include <sweep/axes.h>
 #include <vp/error.h>

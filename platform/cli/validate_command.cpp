@@ -9,7 +9,7 @@
 #include <thread>
 
 #include <cli/commands.h>
-#include <host/child.h>
+#include <host/process.h>
 #include <host/output_folder.h>
 #include <input/frame_source.h>
 #include <page/report_page.h>

@@ -9,7 +9,7 @@
 
 #include <report/console.h>
 #include <report/verdict.h>
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <report/console.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/text.h>
 
 namespace platform::explore {

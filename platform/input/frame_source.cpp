@@ -1,14 +1,241 @@
 #include <algorithm>
-#include <deque>
 
 #include <input/frame_source.h>
-#include <input/input_list.h>
+#include <input/image_file.h>
 #include <input/media.h>
+#include <scene/pose.h>
 #include <scene/renderer.h>
 #include <scene/scene.h>
 #include <vp/error.h>
+#include <vp/text.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cctype>
+#include <cmath>
+#include <deque>
+#include <filesystem>
+#include <set>
 
 namespace platform::input {
+
+namespace {
+
+bool same(ImageSize a, ImageSize b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+std::string text(ImageSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+/// The part of the image that is kept.
+cv::Rect kept_part(ImageSize size, ImageSize target, Fit fit) {
+  ImageSize part = target;
+  if (fit == Fit::scale) {
+    const double aspect = static_cast<double>(target.width) / target.height;
+    part.width = std::clamp(static_cast<int>(std::lround(size.height * aspect)), 1, size.width);
+    part.height = std::clamp(static_cast<int>(std::lround(size.width / aspect)), 1, size.height);
+  }
+  return {(size.width - part.width) / 2, (size.height - part.height) / 2, part.width, part.height};
+}
+
+}  // namespace
+
+void check_fit(const std::string& name, ImageSize size, ImageSize target, Fit fit) {
+  if (std::max(size.width, size.height) > largest_side_px) {
+    throw vp::InputError("'" + name + "' is " + text(size) + " px: an image has at most " +
+                         std::to_string(largest_side_px) + " px a side");
+  }
+  if (same(size, target) || fit == Fit::scale) return;
+  const std::string problem =
+      "'" + name + "' is " + text(size) + " px, the platform takes " + text(target) + ": ";
+  if (fit == Fit::none) throw vp::InputError(problem + "use --fit crop or --fit scale");
+  if (size.width < target.width || size.height < target.height) {
+    throw vp::InputError(problem + "too small to crop, use --fit scale");
+  }
+}
+
+GreyImage fit_image(GreyImage image, ImageSize target, Fit fit) {
+  const ImageSize size{image.width, image.height};
+  if (same(size, target)) return image;
+  const cv::Mat whole(image.height, image.width, CV_8UC1, image.pixels.data());
+  const cv::Rect part = kept_part(size, target, fit);
+  GreyImage fitted{target.width, target.height, {}};
+  fitted.pixels.resize(static_cast<std::size_t>(target.width) *
+                       static_cast<std::size_t>(target.height));
+  cv::Mat result(target.height, target.width, CV_8UC1, fitted.pixels.data());
+  const bool grows = part.width < target.width || part.height < target.height;
+  // With one thread and the exact bilinear variant the pixels are the same on every host.
+  cv::setNumThreads(1);
+  cv::resize(whole(part), result, result.size(), 0, 0,
+             grows ? cv::INTER_LINEAR_EXACT : cv::INTER_AREA);
+  return fitted;
+}
+
+Camera fit_camera(const Camera& camera, ImageSize target, Fit fit) {
+  const ImageSize size{camera.width, camera.height};
+  if (same(size, target)) return camera;
+  const cv::Rect part = kept_part(size, target, fit);
+  const double sx = static_cast<double>(target.width) / part.width;
+  const double sy = static_cast<double>(target.height) / part.height;
+  return {target.width,
+          target.height,
+          camera.fx * sx,
+          camera.fy * sy,
+          (camera.cx - part.x) * sx,
+          (camera.cy - part.y) * sy};
+}
+
+Camera camera_of(const InputOptions& options, ImageSize size) {
+  return options.camera ? camera_for(*options.camera, size)
+                        : Camera::for_resolution(size.width, size.height);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names by which a folder's images are known: those of the formats in ImageHeader.
+const std::set<std::string>& image_extensions() {
+  static const std::set<std::string> extensions{".bmp", ".dib", ".jp2",  ".jpe", ".jpeg",
+                                                ".jpg", ".pbm", ".pgm",  ".png", ".pnm",
+                                                ".ppm", ".tif", ".tiff", ".webp"};
+  return extensions;
+}
+
+std::string file_name(const std::string& path) {
+  return fs::path(path).filename().string();
+}
+
+bool has_image_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return image_extensions().count(extension) > 0;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& input) {
+  std::vector<std::string> names = scene_names();
+  for (const SceneGroup& group : scene_groups()) names.push_back(group.name);
+  const std::string nearest = vp::nearest_match(input, names);
+  throw vp::InputError("no scene, image, folder or video named '" + input + "': " +
+                       (nearest.empty() ? "" : "did you mean the scene '" + nearest + "'? ") +
+                       "'markervp scenes' lists the scenes");
+}
+
+const SceneGroup* find_group(const std::string& name) {
+  for (const SceneGroup& group : scene_groups()) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+class Lister {
+ public:
+  explicit Lister(const InputOptions& options) : options_(options) {}
+
+  void add(const std::string& input) {
+    if (is_scene(input)) return add_scene(input);
+    if (const SceneGroup* group = find_group(input)) {
+      for (const std::string& scene : group->scenes) add_scene(scene);
+      return;
+    }
+    std::error_code error;
+    const fs::file_status status = fs::status(input, error);
+    if (status.type() == fs::file_type::not_found) refuse_unknown(input);
+    if (fs::is_directory(status)) return add_folder(input);
+    if (!add_image(input)) add_video(input);
+  }
+
+  std::vector<InputItem> take() { return std::move(items_); }
+
+ private:
+  void add_scene(const std::string& name) {
+    camera_of(options_, options_.size);
+    items_.push_back({InputItem::Kind::scene, name, name});
+  }
+
+  bool add_image(const std::string& path) {
+    const std::optional<ImageSize> found = inspect_image(path);
+    if (!found) return false;
+    check(path, *found);
+    items_.push_back({InputItem::Kind::image, path, file_name(path)});
+    return true;
+  }
+
+  void add_video(const std::string& path) {
+    const std::optional<GreyImage> first = open_video(path)->next();
+    if (!first) throw vp::InputError("video '" + path + "' has no frames that can be read");
+    check(path, {first->width, first->height});
+    items_.push_back({InputItem::Kind::video, path, file_name(path)});
+  }
+
+  void add_folder(const std::string& path) {
+    std::error_code error;
+    std::vector<std::string> images;
+    fs::directory_iterator entry(path, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      if (name[0] != '.' && has_image_extension(name)) images.push_back(entry->path().string());
+    }
+    if (error) throw vp::InputError("folder '" + path + "' cannot be read: " + error.message());
+    if (images.empty()) throw vp::InputError("folder '" + path + "' has no images");
+    std::sort(images.begin(), images.end(), natural_less);
+    for (const std::string& image : images) {
+      if (!add_image(image)) throw vp::InputError("image '" + image + "' is damaged or no image");
+    }
+  }
+
+  /// Throws if an image of this size cannot be used.
+  void check(const std::string& path, ImageSize size) const {
+    check_fit(path, size, options_.size, options_.fit);
+    camera_of(options_, size);
+  }
+
+  const InputOptions& options_;
+  std::vector<InputItem> items_;
+};
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The run of digits at `at`, without leading zeros; moves `at` past it.
+std::string_view number_at(const std::string& text, std::size_t& at) {
+  while (at < text.size() && text[at] == '0') ++at;
+  const std::size_t first = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return std::string_view(text).substr(first, at - first);
+}
+
+}  // namespace
+
+std::vector<InputItem> list_inputs(const std::vector<std::string>& inputs,
+                                   const InputOptions& options) {
+  Lister lister(options);
+  for (const std::string& input : inputs) lister.add(input);
+  return lister.take();
+}
+
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view x = number_at(a, i);
+      const std::string_view y = number_at(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else if (a[i] != b[j]) {
+      return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return i == a.size();
+  return a < b;  // equal but for leading zeros
+}
 
 namespace {
 

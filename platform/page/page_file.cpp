@@ -2,7 +2,24 @@
 
 #include <vp/output_file.h>
 
+#ifdef MARKERVP_PAGE_TEMPLATE
+
+extern "C" {
+extern const char markervp_page_begin[] __attribute__((visibility("hidden")));
+extern const char markervp_page_end[] __attribute__((visibility("hidden")));
+}
+
+#endif
+
 namespace platform::page {
+
+std::string_view page_template() {
+#ifdef MARKERVP_PAGE_TEMPLATE
+  return {markervp_page_begin, static_cast<std::size_t>(markervp_page_end - markervp_page_begin)};
+#else
+  return {};
+#endif
+}
 
 namespace {
 

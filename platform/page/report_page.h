@@ -1,8 +1,39 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include <report/result.h>
+#include <scene/grey_image.h>
+#include <vp/configuration.h>
 
 namespace platform::page {
+
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
+/// What the page of a run shows besides result.json: images with their features, and what the
+/// parameters mean. Memory does not grow with the number of frames.
+class RunExtras {
+ public:
+  static constexpr std::size_t most_frames = 24;        ///< with their images
+  static constexpr std::size_t most_bytes = 3'000'000;  ///< of images, as text
+
+  /// Keeps a frame as long as there is room.
+  void add(const GreyImage& image, const report::FrameReport& frame);
+  /// A member of the block, for instance "timeline", as JSON text.
+  void add_member(std::string name, std::string json);
+  /// The block "extras".
+  std::string json(const std::vector<vp::ParameterDescription>& parameters) const;
+
+ private:
+  std::string frames_;
+  std::size_t count_ = 0;
+  bool full_ = false;
+  std::string members_;
+};
 
 inline constexpr const char* report_name = "report.html";
 

@@ -5,7 +5,6 @@
 #include <device/device.h>
 #include <power/power_table.h>
 #include <vp/power_meter.h>
-#include <vp/thermal.h>
 
 /// What parts of the chip take at the vendor's default activity, and what leaks.
 namespace platform::power {

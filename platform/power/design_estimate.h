@@ -8,7 +8,6 @@
 #include <power/chip_energy.h>
 #include <power/power_table.h>
 #include <vp/power_meter.h>
-#include <vp/thermal.h>
 
 // The power of a design of which there are only figures: those of a utilisation report and its
 // clocks. The vendor's default activity, as power.mode=vivado-default.

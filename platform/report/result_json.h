@@ -1,16 +1,86 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <host/output_folder.h>
 #include <report/result.h>
-#include <report/result_writer.h>
 #include <report/summary.h>
 #include <report/verdict.h>
+#include <vp/output_file.h>
+#include <nlohmann/json.hpp>
 
 namespace platform::report {
+
+/// Where a run's results go, frame by frame and in the end.
+class ResultSink {
+ public:
+  virtual ~ResultSink() = default;
+
+  virtual void add(const FrameReport& frame) = 0;
+  /// `warnings` are those of the whole run.
+  virtual void finish(const RunFacts& facts, const Provenance& provenance,
+                      const std::vector<std::string>& warnings) = 0;
+
+  const Summary& summary() const { return summary_; }
+
+ protected:
+  Summary summary_;
+};
+
+/// Writes `result.json`, schema 1, in memory that does not grow with the number of frames: frames
+/// wait in a file without a name until the header is known. The result appears under its name when
+/// finish() has written all of it, not before. Room for it is reserved as frames come: if the disk
+/// becomes full, the frames until then can still be written.
+///
+/// Real numbers are rounded to these decimal places, then written as the shortest text that reads
+/// back as the same double:
+///
+///   | Key                                          | Unit   | Places |
+///   |----------------------------------------------|--------|--------|
+///   | corners_px, reprojection_px, corner_px       | px     | 6      |
+///   | pose.rotation                                |        | 9      |
+///   | pose.translation_m                           | m      | 9      |
+///   | translation_mm                               | mm     | 6      |
+///   | rotation_deg                                 | degree | 6      |
+///   | time_us, latency_us (6 places are 1 ps)      | us     | 6      |
+///   | fps                                          | 1/s    | 6      |
+///   | power: w, total_w, rails; power_w            | W      | 12     |
+///   | mj, energy_mj, energy_per_frame_mj           | mJ     | 12     |
+///   | ambient_c, junction_c                        | C      | 6      |
+///   | frequency_mhz, fmax_mhz                      | MHz    | 6      |
+///   | margin_percent                               | %      | 3      |
+///   | bram36                                       |        | 1      |
+///   | provenance.wall_time_s                       | s      | 3      |
+///
+/// A marker without pose has no `pose`, `reprojection_px` and `iterations`, and its error has
+/// `corner_px` only.
+class ResultWriter : public ResultSink {
+ public:
+  /// Throws vp::OutputError if the disk has no room for a result. `folder` outlives this.
+  explicit ResultWriter(host::OutputFolder& folder);
+  ~ResultWriter() override;
+
+  /// Throws vp::OutputError if the file cannot be written, as finish() does. A frame that failed is
+  /// left out.
+  void add(const FrameReport& frame) override;
+  void finish(const RunFacts& facts, const Provenance& provenance,
+              const std::vector<std::string>& warnings) override;
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  host::OutputFolder& folder_;
+  vp::OutputFile file_;
+  std::unique_ptr<std::FILE, Close> frames_;
+  std::uint64_t bytes_ = 0;  ///< of whole frames in it
+};
 
 using Json = nlohmann::ordered_json;
 

@@ -1,7 +1,6 @@
 #include <run/simulation.h>
 
 #include <designs/designs.h>
-#include <run/program_file.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/systemc_pins.h>

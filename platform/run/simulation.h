@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <host/process.h>
 #include <input/image_file.h>
 #include <profiles/cost_profile.h>
 #include <ps/cpu/program.h>
@@ -20,7 +21,6 @@
 #include <zynq/parts.h>
 #include <zynq/software_options.h>
 #include <zynq/timeline_recorder.h>
-#include <zynq/working_folder.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>
 
@@ -83,7 +83,7 @@ class Simulation {
 
   SimulationOptions options_;
 
-  WorkingFolder folder_;  ///< before the program is loaded, and after it is gone
+  host::WorkingFolder folder_;  ///< before the program is loaded, and after it is gone
   vp::ReportRouter reports_;
   std::unique_ptr<vp::Parameter<std::string>> design_name_;
   const DesignInfo* design_ = nullptr;

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <sweep/axes.h>
-#include <vp/decimal.h>
+#include <vp/unit.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -6,7 +6,7 @@
 
 #include <host/document.h>
 #include <sweep/point.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -12,11 +12,9 @@
 #include <system_error>
 #include <utility>
 
-#include <host/child.h>
 #include <host/process.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
-#include <sweep/words.h>
 #include <sweep/worker.h>
 #include <vp/output_file.h>
 

@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <host/child.h>
 #include <host/document.h>
 #include <host/output_folder.h>
 #include <host/process.h>
-#include <sweep/engine_slurm.h>
+#include <sweep/engine.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>

@@ -10,7 +10,7 @@
 #include <host/document.h>
 #include <host/process.h>
 #include <input/camera_file.h>
-#include <input/input_list.h>
+#include <input/frame_source.h>
 #include <scene/scene.h>
 #include <sweep/identity.h>
 #include <vp/error.h>

@@ -6,11 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include <host/child.h>
-#include <sweep/metric_catalogue.h>
+#include <host/process.h>
+#include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/results.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

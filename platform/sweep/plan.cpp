@@ -11,10 +11,10 @@
 #include <sweep/axes.h>
 #include <sweep/expansion.h>
 #include <sweep/identity.h>
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/plan.h>
-#include <vp/decimal.h>
+#include <vp/unit.h>
 #include <vp/error.h>
 #include <vp/expression.h>
 #include <vp/text.h>

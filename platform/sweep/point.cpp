@@ -3,7 +3,7 @@
 #include <host/document.h>
 #include <sweep/identity.h>
 #include <sweep/point.h>
-#include <sweep/words.h>
+#include <sweep/worker.h>
 #include <vp/error.h>
 
 namespace platform::sweep {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <report/console.h>
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <sweep/results.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

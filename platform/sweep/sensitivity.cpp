@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <sweep/results.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -15,7 +15,7 @@
 #include <host/process.h>
 #include <sweep/identity.h>
 #include <sweep/store.h>
-#include <sweep/tables.h>
+#include <sweep/report.h>
 #include <vp/error.h>
 #include <vp/output_file.h>
 #include <vp/text.h>

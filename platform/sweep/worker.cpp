@@ -14,7 +14,6 @@
 #include <utility>
 
 #include <host/process.h>
-#include <sweep/words.h>
 #include <sweep/worker.h>
 #include <vp/output_file.h>
 

@@ -134,4 +134,7 @@ class PointWorker {
   bool clean_ = true;  ///< no run ended badly
 };
 
+/// What `markervp run` said last, without its name.
+std::string last_line(const std::string& text);
+
 }  // namespace platform::sweep

@@ -9,7 +9,6 @@
 #include <regex>
 #include <sstream>
 
-#include <host/child.h>
 #include <host/document.h>
 #include <host/process.h>
 #include <vp/error.h>

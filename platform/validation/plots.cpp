@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include <host/child.h>
+#include <host/process.h>
 #include <validation/plots.h>
 #include <vp/error.h>
 #include <vp/text.h>

@@ -10,7 +10,7 @@
 #include <vp/hierarchy.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <xilinx/axi_dma/memory_port.h>
+#include <xilinx/axi_dma/dma_channel.h>
 #include <zynq/hardware_map.h>
 
 namespace platform {

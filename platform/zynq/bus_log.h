@@ -10,7 +10,7 @@
 #include <vp/mm_link.h>
 #include <vp/output_file.h>
 #include <vp/signal.h>
-#include <vp/text_signal.h>
+#include <vp/probe.h>
 #include <zynq/zynq.h>
 
 namespace platform {

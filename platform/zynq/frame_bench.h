@@ -9,7 +9,7 @@
 
 #include <hal/hal.h>
 #include <input/frame_source.h>
-#include <ps/cpu/test_bench.h>
+#include <ps/cpu/cpu.h>
 #include <report/result.h>
 #include <report/summary.h>
 #include <vp/report.h>

@@ -2,19 +2,51 @@
 
 #include <cstdint>
 #include <deque>
+#include <string>
+#include <systemc>
 #include <vector>
 
 #include <power/power_table.h>
 #include <report/result.h>
 #include <vp/clock.h>
+#include <vp/parameter.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
-#include <vp/thermal.h>
 #include <zynq/parts.h>
-#include <zynq/power_options.h>
 #include <zynq/zynq.h>
 
 namespace platform {
+
+enum class PowerMode {
+  vivado_default,  ///< a vendor estimate: constant PS, default toggling in the PL
+  activity,        ///< load, traffic and events of the simulation
+};
+
+/// The parameters of the module that they are a member of.
+struct PowerOptions {
+  /// The defaults of pl_design and mode.
+  PowerOptions(bool uses_pl, PowerMode usual);
+
+  vp::Parameter<PowerMode> mode;
+  vp::Parameter<std::string> table;
+  vp::Parameter<double> ambient;
+  vp::Parameter<double> theta_ja;
+  vp::Parameter<bool> pl_design;
+
+  struct Ddr : sc_core::sc_module {
+    explicit Ddr(sc_core::sc_module_name name);
+    vp::Parameter<std::uint32_t> width;
+    vp::Parameter<std::uint64_t> frequency;
+    vp::Parameter<double> voltage;
+  } ddr{"ddr"};
+
+  struct Blob : sc_core::sc_module {
+    explicit Blob(sc_core::sc_module_name name);
+    vp::Parameter<bool> figure_includes_static;
+  } blob{"blob"};
+
+  vp::ThermalPath thermal_path() const { return {ambient, theta_ja}; }
+};
 
 /// The states on which power depends, with their history: frequencies of the clocks, whether the
 /// processor is awake, and whether the PL plays a frame. All of them are the same at every

@@ -7,7 +7,7 @@
 #include <vp/hierarchy.h>
 #include <vp/report.h>
 #include <vp/text.h>
-#include <xilinx/axi_dma/memory_port.h>
+#include <xilinx/axi_dma/dma_channel.h>
 
 namespace platform {
 

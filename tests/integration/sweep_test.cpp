@@ -2,7 +2,7 @@
 #include <set>
 #include <sstream>
 
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <sweep/point.h>
 
 #include "sweeps.h"

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
-#include "samples.h"
+#include "table.h"
 
 namespace {
 

@@ -3,7 +3,6 @@
 #include <vp/clock.h>
 #include <vp/probe.h>
 #include <vp/signal.h>
-#include <vp/text_signal.h>
 #include <vp/trace.h>
 #include <vp/wave_writer.h>
 

@@ -1,24 +1,7 @@
 #pragma once
 
-#include <hal/hal.h>
-
-#include <ps/cpu/console.h>
-#include <ps/cpu/cpu_time.h>
-#include <ps/cpu/fault_trap.h>
-#include <ps/cpu/poll.h>
-#include <ps/cpu/program.h>
-#include <ps/cpu/program_watch.h>
-#include <ps/cpu/test_bench.h>
-#include <vp/clock.h>
-#include <vp/clock_scheduler.h>
-#include <vp/counter.h>
-#include <vp/error.h>
-#include <vp/mm_link.h>
-#include <vp/parameter.h>
-#include <vp/register_route.h>
-#include <vp/signal.h>
-#include <vp/text_signal.h>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -29,7 +12,45 @@
 #include <utility>
 #include <vector>
 
+#include <hal/hal.h>
+#include <ps/cpu/console.h>
+#include <ps/cpu/cpu_time.h>
+#include <ps/cpu/fault_trap.h>
+#include <ps/cpu/poll.h>
+#include <ps/cpu/program.h>
+#include <ps/cpu/program_watch.h>
+#include <vp/clock.h>
+#include <vp/clock_scheduler.h>
+#include <vp/counter.h>
+#include <vp/error.h>
+#include <vp/mm_link.h>
+#include <vp/parameter.h>
+#include <vp/probe.h>
+#include <vp/register_route.h>
+#include <vp/signal.h>
+
 namespace ps {
+
+/// What stands around a program in a run: gives it images and options, takes its results. The
+/// platform implements it. Times are simulation times of the call in ps; the calls take none.
+class TestBench {
+ public:
+  virtual ~TestBench() = default;
+
+  /// When the next image comes, or it is known that there is none. The program wants it now, and
+  /// sleeps until then.
+  virtual std::uint64_t next_frame_ps(std::uint64_t now_ps) { return now_ps; }
+  /// The next image, or null when the run is over. Valid until the next call.
+  virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
+  /// What came of a frame; `data` is valid during the call only. False: no result, the program gave
+  /// the frame up.
+  virtual bool publish(std::uint32_t kind, const void* data, std::size_t size,
+                       std::uint64_t now_ps) = 0;
+  /// The value of the program's option number `option`.
+  virtual double option(std::uint32_t option, const hal_option_info& info) = 0;
+  /// The value that xparameters.h would give `name` ("AXI_GPIO_0_BASEADDR"), if any.
+  virtual std::optional<std::uint32_t> xparameter(const char* /*name*/) { return std::nullopt; }
+};
 
 class DmaAllocator;
 

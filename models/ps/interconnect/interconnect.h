@@ -1,6 +1,5 @@
 #pragma once
 
-#include <vp/bridge.h>
 #include <vp/parameter.h>
 #include <vp/router.h>
 #include <cstdint>

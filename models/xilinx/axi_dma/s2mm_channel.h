@@ -6,7 +6,6 @@
 
 #include <vp/axi_stream.h>
 #include <xilinx/axi_dma/dma_channel.h>
-#include <xilinx/axi_dma/memory_port.h>
 
 namespace xilinx {
 

@@ -1,4 +1,4 @@
-#include <cli/trace_window.h>
+#include <cli/options.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>

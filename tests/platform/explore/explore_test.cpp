@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 #include <vp/error.h>
 
 #include "explore_kit.h"

@@ -1,4 +1,3 @@
-#include <host/child.h>
 #include <signal.h>
 #include <unistd.h>
 

@@ -1,5 +1,4 @@
 // What a signal ends that does not end by itself.
-#include <host/child.h>
 #include <host/process.h>
 #include <unistd.h>
 

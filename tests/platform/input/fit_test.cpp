@@ -1,4 +1,4 @@
-#include <input/input_list.h>
+#include <input/frame_source.h>
 
 #include "image_kit.h"
 

@@ -1,6 +1,5 @@
 #include <input/frame_source.h>
 
-#include <input/input_list.h>
 #include <opencv2/videoio.hpp>
 
 #include <scene/renderer.h>

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <page/page_file.h>
-#include <page/run_extras.h>
+#include <page/report_page.h>
 
 namespace page = platform::page;
 using Json = nlohmann::json;

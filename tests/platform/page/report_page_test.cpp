@@ -8,7 +8,7 @@
 #include <page/report_page.h>
 #include <vp/error.h>
 
-#include <report/result_writer.h>
+#include <report/result_json.h>
 #include "../report/report_kit.h"
 #include "temporary_files.h"
 

@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include <page/run_extras.h>
+#include <page/report_page.h>
 
 namespace page = platform::page;
 using Json = nlohmann::json;

@@ -1,5 +1,4 @@
 // The power table: what is installed, and what is refused.
-#include <power/known_coefficients.h>
 #include <power/power_table.h>
 
 #include <boost/test/unit_test.hpp>

@@ -2,7 +2,7 @@
 #include <power/chip_energy.h>
 #include <power/power_table.h>
 #include <vp/text.h>
-#include <vp/thermal.h>
+#include <vp/power_meter.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

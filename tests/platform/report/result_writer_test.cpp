@@ -1,5 +1,4 @@
 #include <report/result_json.h>
-#include <report/result_writer.h>
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>

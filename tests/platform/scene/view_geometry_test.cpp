@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <scene/view_geometry.h>
+#include <scene/renderer.h>
 
 using namespace platform;
 

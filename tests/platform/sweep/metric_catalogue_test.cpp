@@ -1,4 +1,4 @@
-#include <sweep/metric_catalogue.h>
+#include <sweep/metrics.h>
 
 #include "sweep_kit.h"
 

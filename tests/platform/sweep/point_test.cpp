@@ -2,8 +2,8 @@
 #include <sweep/metrics.h>
 #include <sweep/point.h>
 #include <sweep/store.h>
-#include <sweep/tables.h>
-#include <vp/decimal.h>
+#include <sweep/report.h>
+#include <vp/unit.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"

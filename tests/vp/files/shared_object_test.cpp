@@ -1,4 +1,4 @@
-#include <vp/shared_object.h>
+#include <vp/input_file.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,4 @@
-#include <vp/decimal.h>
+#include <vp/unit.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <vp/thermal.h>
+#include <vp/power_meter.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -8,7 +8,6 @@
 
 #include <memory_target.h>
 #include <simulation.h>
-#include <vp/bridge.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/configuration.h>

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace vp {
 
@@ -51,5 +52,9 @@ constexpr std::uint64_t largest_by_hand = 1 << 22;
 /// InputFile does, and for a larger one.
 std::string read_text(const std::filesystem::path& path, const std::string& what,
                       std::uint64_t most = largest_by_hand);
+
+/// What to say of a shared object that dlopen() refused; `said` is the text of dlerror(). Continues
+/// "cannot load program 'x.so': ".
+std::string load_problem(const std::string& path, std::string_view said);
 
 }  // namespace vp

@@ -3,7 +3,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/frame_gate.h>
 #include <vp/signal.h>
-#include <vp/text_signal.h>
+#include <vp/probe.h>
 #include <vp/trace_filter.h>
 #include <vp/wave_writer.h>
 
