@@ -274,37 +274,29 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
   });
 }
 
-/// Signals that stand still where the IP in front of them is modelled by whole frames.
-constexpr std::pair<const char*, const char*> unplayed[] = {
-    {"sensor_input", "pl.sensor_input.pixel, .pixel_x, .pixel_y"},
-    {"axi_image_store", "pl.image_stream.*"},
-    {"global_threshold", "pl.global_threshold.thresh_*, .binary_*"},
-    {"axi_threshold_bridge",
-     "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, .fifo_count, "
-     "pl.binary_stream.*"}};
-
 /// What the user should know of the signals in a trace.
-std::string trace_text(const RunOptions& options, const vp::Configuration& configuration) {
+std::string trace_text(const RunOptions& options, const trace::Vocabulary& words,
+                       const vp::Configuration& configuration) {
   if (!options.trace) return "";
   if (!configuration.find("fidelity"))
     return "\n--trace chose fidelity clocked, which plays every signal; --fidelity tlm is faster "
            "and leaves some out";
   std::vector<std::string> still;
   const std::map<std::string, std::string> values = configuration.values();
-  for (const auto& [ip, signals] : unplayed) {
-    const auto found = values.find("pl.fidelity." + std::string(ip));
-    if (found != values.end() && found->second == "tlm") still.emplace_back(signals);
+  for (const trace::Vocabulary::Unplayed& unplayed : words.unplayed) {
+    const auto found = values.find(unplayed.fidelity);
+    if (found != values.end() && found->second == "tlm") still.push_back(unplayed.signals);
   }
   return still.empty() ? ""
                        : "\nfidelity tlm does not play " + vp::join(still, ", ") +
                              ": --fidelity clocked does";
 }
 
-/// `has_trace`: it recorded something. `failed`: something could not be written, which has its own
-/// message.
+/// `failed`: something could not be written, which has its own message.
 std::string written_text(const RunOptions& options, const FrameRunner& runner,
-                         const vp::Configuration& configuration, bool has_page, bool has_trace,
-                         bool failed) {
+                         const Simulation& simulation, const vp::Configuration& configuration,
+                         bool has_page, bool failed) {
+  const bool has_trace = simulation.wrote_trace();
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
   if (!options.no_pictures && runner.frames() > 0)
     text += ", " + report::counted(runner.frames(), "picture") + " beside it";
@@ -313,7 +305,7 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
     for (const std::string& file : other_outputs(options)) {
       if (file != options.trace || has_trace) text += ", " + file;
     }
-    if (has_trace) text += trace_text(options, configuration);
+    if (has_trace) text += trace_text(options, simulation.words(), configuration);
   }
   if (!options.no_report && page::page_template().empty())
     text += "\nno report.html: this markervp was built without it (needs Node.js and npm)";
@@ -404,8 +396,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
       {timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder, configuration},
       *simulation, error);
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
-      << written_text(options, runner, configuration, has_page, simulation->wrote_trace(),
-                      error != nullptr)
+      << written_text(options, runner, *simulation, configuration, has_page, error != nullptr)
       << std::flush;
   return verdict(options, runner, facts, error, err);
 }

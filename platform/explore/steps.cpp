@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <sweep/metric_catalogue.h>
-#include <sweep/tables.h>
+#include <sweep/metrics.h>
+#include <sweep/report.h>
 #include <vp/text.h>
 
 namespace platform::explore {

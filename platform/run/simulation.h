@@ -74,6 +74,8 @@ class Simulation {
   Zynq& zynq() { return *zynq_; }
   /// Energy of the run so far. Ask for its timeline before the run.
   ZynqPower& power() { return *power_; }
+  /// By which its design knows its signals.
+  const trace::Vocabulary& words() const { return design_->words(); }
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:

@@ -50,6 +50,13 @@ struct Vocabulary {
   /// The vector that these lines make, IRQ_F2P: it tells their numbers in this trace.
   std::string irq_f2p;
 
+  /// Signals that stand still where `fidelity`, a key of the configuration, is tlm: frames pass as
+  /// a whole there.
+  struct Unplayed {
+    std::string fidelity, signals;
+  };
+  std::vector<Unplayed> unplayed;
+
   /// Functions of the software between which its stages lie. Without `evaluation` there are no
   /// stages.
   struct Functions {

@@ -22,6 +22,14 @@ void PlPorts::m_axi_gp0(vp::Router& registers) {
 void PlPorts::s_axi_hp0(vp::Router& memory) {
   memory.map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
       .bind(ps.s_axi_hp0.socket);
+  has_memory_master_ = true;
+}
+
+void PlPorts::tie_off() {
+  if (!registers_) ps.m_axi_gp0.link.socket.bind(no_registers_.emplace("m_axi_gp0_tied").socket);
+  if (!has_memory_master_) {
+    no_memory_master_.emplace("s_axi_hp0_tied").socket.bind(ps.s_axi_hp0.socket);
+  }
 }
 
 void PlPorts::irq_f2p(vp::Signal<std::uint32_t>& lines) {

@@ -49,8 +49,15 @@ class PlPorts {
   /// What is behind M_AXI_GP0; null if nothing is.
   const vp::Router* registers() const { return registers_; }
 
+  /// Once the design stands: nothing answers behind a M_AXI_GP0 that it left (DECERR), and nobody
+  /// sends to a S_AXI_HP0.
+  void tie_off();
+
  private:
   const vp::Router* registers_ = nullptr;
+  bool has_memory_master_ = false;
+  std::optional<vp::Router> no_registers_;
+  std::optional<vp::MmLink> no_memory_master_;
 };
 
 /// What a design shows on the timeline of its first frames, between software and frame: signals

@@ -42,6 +42,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
                "how the programmable logic is modelled, if pl.fidelity names nothing else for an "
                "IP: whole frames, or clock by clock; the results are the same"),
       design_(design.make("pl", ports)) {
+  ports.tie_off();
   check_that_parts_are_inside();
   check_that_parts_are_reached(ports, pl());
   ps.start_clocks();

@@ -74,6 +74,12 @@ trace::Vocabulary make() {
               {"label_overflow", "pl.blob_detection.label_overflow"},
               {"bridge_overflow", "pl.axi_threshold_bridge.bridge_overflow"},
               {"crossing_overflow", "pl.clock_crossing.crossing_overflow"}};
+  v.unplayed = {{"pl.fidelity.sensor_input", "pl.sensor_input.pixel, .pixel_x, .pixel_y"},
+                {"pl.fidelity.axi_image_store", "pl.image_stream.*"},
+                {"pl.fidelity.global_threshold", "pl.global_threshold.thresh_*, .binary_*"},
+                {"pl.fidelity.axi_threshold_bridge",
+                 "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, .fifo_count, "
+                 "pl.binary_stream.*"}};
   v.interrupts = {{"pl.axi_dma_0.mm2s_introut", marker_logic::addresses::dma_image_interrupt,
                    "DMA 0: image", "dark blue"},
                   {"pl.axi_dma_1.s2mm_introut", marker_logic::addresses::dma_binary_interrupt,
