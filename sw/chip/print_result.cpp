@@ -1,8 +1,9 @@
 // A frame's result on the console of the chip: what a user wants to see first.
 #include <hal/hal.h>
+#include <marker/detection_result.h>
 #include <marker/result.h>
 
-#include <cstring>
+#include <array>
 
 namespace {
 
@@ -57,23 +58,31 @@ double milliseconds(const marker::StageTime& stage) {
   return static_cast<double>(stage.end - stage.start) / counts_per_millisecond;
 }
 
-void print_marker(const marker::Marker& marker) {
+void print_corners(std::uint32_t id, const marker::Quad& corners) {
   Line line;
-  line.text("  marker ").number(marker.identity.id).text(" at");
-  for (const marker::Point& corner : marker.corners) {
+  line.text("  marker ").number(id).text(" at");
+  for (const marker::Point& corner : corners) {
     line.text(" (").thousandths(corner.x).text(", ").thousandths(corner.y).text(")");
   }
   line.text(" px").write();
-  if (!marker.pose.valid) return;
-  const auto& t = marker.pose.translation;
-  Line()
-      .text("  translation ")
+}
+
+Line& add_translation(Line& line, const std::array<double, 3>& t) {
+  return line.text("  translation ")
       .thousandths(t[0])
       .text(", ")
       .thousandths(t[1])
       .text(", ")
       .thousandths(t[2])
-      .text(" m, reprojection error ")
+      .text(" m");
+}
+
+void print_marker(const marker::Marker& marker) {
+  print_corners(marker.identity.id, marker.corners);
+  if (!marker.pose.valid) return;
+  Line line;
+  add_translation(line, marker.pose.translation)
+      .text(", reprojection error ")
       .thousandths(marker.pose.reprojection_px)
       .text(" px after ")
       .number(marker.pose.iterations)
@@ -81,13 +90,13 @@ void print_marker(const marker::Marker& marker) {
       .write();
 }
 
-}  // namespace
+void print_pose(const marker::BoardPoses& pose) {
+  if (!pose.valid) return;
+  Line line;
+  add_translation(line, pose.best.translation).write();
+}
 
-/// Called by hal_publish(). False if the result is of another kind.
-extern "C" bool chip_print_result(uint32_t kind, const void* data, size_t size) {
-  static marker::FrameResult result;
-  if (kind != marker::frame_result_kind || size != sizeof result) return false;
-  std::memcpy(&result, data, sizeof result);
+bool print(const marker::FrameResult& result) {
   Line()
       .text("frame ")
       .number(result.frame)
@@ -105,4 +114,40 @@ extern "C" bool chip_print_result(uint32_t kind, const void* data, size_t size) 
       .write();
   for (std::uint32_t i = 0; i < result.marker_count; ++i) print_marker(result.markers[i]);
   return true;
+}
+
+bool print(const marker::DetectionResult& result) {
+  const marker::Detections& found = result.found;
+  Line()
+      .text("frame ")
+      .number(result.frame)
+      .text(": ")
+      .text(marker::status_name(result.status))
+      .text(", ")
+      .number(found.blobs.received)
+      .text(" blobs, ")
+      .number(found.count)
+      .text(found.count == 1 ? " marker, " : " markers, ")
+      .thousandths(milliseconds(result.times.frame))
+      .text(" ms")
+      .write();
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    print_corners(found.markers[i].marker.id, found.markers[i].marker.fit.image);
+    print_pose(found.markers[i].pose);
+  }
+  print_pose(found.board);
+  return true;
+}
+
+}  // namespace
+
+/// Called by hal_publish(). False if the result is of another kind.
+extern "C" bool chip_print_result(uint32_t kind, const void* data, size_t size) {
+  if (kind == marker::frame_result_kind && size == sizeof(marker::FrameResult)) {
+    return print(*static_cast<const marker::FrameResult*>(data));
+  }
+  if (kind == marker::detection_result_kind && size <= sizeof(marker::DetectionResult)) {
+    return print(*static_cast<const marker::DetectionResult*>(data));
+  }
+  return false;
 }

@@ -58,6 +58,10 @@ std::uint32_t AxiDma::status() const {
   return hal_read32(registers_.status);
 }
 
+std::uint32_t AxiDma::received() const {
+  return hal_read32(registers_.length);
+}
+
 void AxiDma::set_completion_interrupt(bool on) const {
   const std::uint32_t control = hal_read32(registers_.control);
   hal_write32(registers_.control,

@@ -35,6 +35,9 @@ class AxiDma {
   /// The status register, for messages.
   std::uint32_t status() const;
 
+  /// Bytes of the last packet, once the transfer of a stream into memory has completed.
+  std::uint32_t received() const;
+
   /// Lets a completed transfer interrupt (as after initialise()) or not. One that completed
   /// meanwhile interrupts when this is turned on. Errors always interrupt.
   void set_completion_interrupt(bool on) const;

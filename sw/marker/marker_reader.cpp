@@ -51,11 +51,8 @@ CellReading read_cells(const GreyImage& image, const Lens& lens, const QuadFit& 
   return reading;
 }
 
-Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& blob,
-                      const CodeBook& book, const DetectionOptions& options,
-                      DetectedMarker& marker) {
-  Quad guess{};
-  if (!largest_quad(blob, guess)) return Refusal::shape;
+Refusal read_marker(const GreyImage& image, const Lens& lens, const Quad& guess,
+                    const CodeBook& book, const DetectionOptions& options, DetectedMarker& marker) {
   const std::uint32_t cells = book.dictionary().cells;
   QuadFitOptions fit_options = options.fit;
   fit_options.cells = cells + 2;
@@ -70,6 +67,14 @@ Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& 
   // Turned by r quarters, the marker's own top left is the r-th corner clockwise from the first.
   marker.fit = counted_from(fit, match.rotation);
   return Refusal::none;
+}
+
+Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& blob,
+                      const CodeBook& book, const DetectionOptions& options,
+                      DetectedMarker& marker) {
+  Quad guess{};
+  if (!largest_quad(blob, guess)) return Refusal::shape;
+  return read_marker(image, lens, guess, book, options, marker);
 }
 
 }  // namespace marker

@@ -32,6 +32,10 @@ struct DetectedMarker {
   QuadFit fit;             ///< clockwise from the marker's own top left corner
 };
 
+/// From the guess of a blob's corners, as largest_quad gives it, to a marker.
+Refusal read_marker(const GreyImage& image, const Lens& lens, const Quad& guess,
+                    const CodeBook& book, const DetectionOptions& options, DetectedMarker& marker);
+
 /// From a blob to a marker. What is no quadrilateral with straight edges, dark inside and bright
 /// outside, is refused before a cell is read.
 Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& blob,

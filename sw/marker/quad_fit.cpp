@@ -36,6 +36,8 @@ constexpr double least_depth = 3;
 constexpr double most_depth = 10;
 /// The corners are fitted so often, each time around where they were found before.
 constexpr unsigned passes = 4;
+/// A corner that leaves its guess by more belongs to something else, px.
+constexpr double most_move = 6;
 /// A side with fewer crossings is not measured.
 constexpr std::uint32_t least_crossings = 6;
 /// So many crossings of a side are used; longer ones leave rows out.
@@ -457,9 +459,14 @@ QuadFit fit_quad(const Source& source, const Lens& lens, const Quad& guess,
   for (unsigned i = 0; i < 4; ++i) {
     if (!undistort(lens, guess[i], fit.ideal[i])) fit.refusal = Refusal::shape;
   }
+  const Quad start = fit.ideal;
   double reach = first_reach;
   for (unsigned pass = 0; pass < passes && fit.refusal == Refusal::none; ++pass) {
     fit.refusal = improve(source, lens, options, reach, fit);
+    for (unsigned i = 0; i < 4 && fit.refusal == Refusal::none; ++i) {
+      const Point move = fit.ideal[i] - start[i];
+      if (!(dot(move, move) <= most_move * most_move)) fit.refusal = Refusal::shape;
+    }
   }
   if (fit.refusal == Refusal::none && fit.raggedness > options.maximum_raggedness) {
     fit.refusal = Refusal::ragged;

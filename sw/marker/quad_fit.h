@@ -53,6 +53,8 @@ enum class Refusal : std::uint32_t {
   unknown,   ///< its cells are no word of the dictionary
 };
 
+inline constexpr std::uint32_t refusal_count = 7;
+
 constexpr const char* refusal_name(Refusal refusal) {
   switch (refusal) {
     case Refusal::none:
@@ -84,6 +86,9 @@ struct QuadFit {
   double raggedness;    ///< px: that of the worst side
 };
 
+/// A corner moves 6 px at most, an edge is 7 px wide, and grey levels are read 15 px beyond.
+inline constexpr std::uint32_t fit_margin = 32;
+
 /// Corners between grey pixels: a line through each side, and where they meet.
 ///
 /// The sum of the grey values of a strip across an edge says where the edge crosses it: exactly,
@@ -92,7 +97,8 @@ struct QuadFit {
 /// which are read where a strip stays dark (bright) all the way. Crossings are freed from the lens,
 /// the line is a least-squares fit, and its scatter says how well the line is known.
 ///
-/// `guess`: clockwise, image px, within 3 px of the corners.
+/// `guess`: clockwise, image px, within 3 px of the corners. Pixels farther than `fit_margin` from
+/// the box around a blob whose corners it holds are not read.
 QuadFit fit_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options);
 

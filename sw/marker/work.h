@@ -62,7 +62,10 @@
   X(capture)                  \
   X(corner_detection)         \
   X(thresholding)             \
-  X(blob_detection)
+  X(blob_detection)           \
+  X(marker_detection)         \
+  X(quad_fit)                 \
+  X(cell_reading)
 
 namespace marker {
 

@@ -139,8 +139,9 @@ double hal_option(std::uint32_t option) {
   return state().options[option];
 }
 
-std::uint32_t hal_xpar(const char*, std::uint32_t built_in) {
-  return built_in;
+std::uint32_t hal_xpar(const char* name, std::uint32_t built_in) {
+  const auto found = state().xparameters.find(name);
+  return found != state().xparameters.end() ? found->second : built_in;
 }
 
 void hal_work(std::uint32_t item, std::uint64_t count) {

@@ -1,3 +1,4 @@
+#include <apps/common/wait.h>
 #include <apps/hybrid/pl_link.h>
 #include <drivers/platform_addresses.h>
 #include <marker/work.h>
@@ -69,16 +70,7 @@ void PlLink::on_alarm(void* self) {
 bool PlLink::wait_for(const BurstChain& chain, std::uint64_t timeout) {
   alarm_ = false;
   timer_.set_alarm(timer_.now() + timeout);
-  for (;;) {
-    // Masked, so that no interrupt slips in between the test and the sleep; pending ones end the
-    // sleep all the same.
-    hal_interrupt_enable(false);
-    const bool over = chain.is_over() || alarm_;
-    if (!over) hal_wait_for_interrupt();
-    hal_interrupt_enable(true);
-    hal_barrier();
-    if (over) break;
-  }
+  apps::sleep_until([&] { return chain.is_over() || alarm_; });
   timer_.clear_alarm();
   return chain.is_over();
 }

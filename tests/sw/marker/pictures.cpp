@@ -1,5 +1,6 @@
 #include "pictures.h"
 
+#include <blob_stream.h>
 #include <scene/pose.h>
 #include <scene/renderer.h>
 
@@ -126,6 +127,29 @@ std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture, std::
     }
   }
   return found;
+}
+
+std::vector<std::uint32_t> words_of(const std::vector<marker::Extremes>& blobs) {
+  std::vector<std::uint32_t> words;
+  for (const marker::Extremes& blob : blobs) {
+    for (const marker::Point& p : blob) {
+      words.push_back(
+          blob_stream::point(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)));
+    }
+  }
+  return words;
+}
+
+platform::Scene ten_markers() {
+  platform::Scene scene;
+  scene.pose.rotation = platform::rotation_y(12) * platform::rotation_z(4);
+  scene.pose.translation = {-1.2, -0.5, 2.8};
+  scene.blur_sigma_px = 0.4;
+  for (int id = 1; id < 10; ++id) {
+    scene.squares.push_back(
+        {id % 5 * 0.56, id / 5 * 0.56, platform::marker_side_m, platform::marker_word(id)});
+  }
+  return scene;
 }
 
 Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture,

@@ -31,6 +31,12 @@ std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture,
                                          std::uint8_t threshold = 127,
                                          std::uint32_t minimum_side = 20);
 
+/// Such blobs as the logic sends them, without a trailer (blob_stream.h).
+std::vector<std::uint32_t> words_of(const std::vector<marker::Extremes>& blobs);
+
+/// A scene of ten markers of 0.3 m in five columns and two rows, 0.26 m apart, with the IDs 0 to 9.
+platform::Scene ten_markers();
+
 /// A candidate that was fitted, with the corner of it that is the marker's own top left.
 struct Found {
   bool found = false;

@@ -1,0 +1,164 @@
+#include <apps/common/message.h>
+#include <apps/improved/application.h>
+#include <marker/work.h>
+
+#include <blob_stream.h>
+#include <marker_logic.h>
+
+namespace improved {
+namespace {
+
+constexpr std::uint32_t picture_bytes(const hal_frame& frame) {
+  return frame.width * frame.height;
+}
+
+std::uint64_t counts(double milliseconds) {
+  return static_cast<std::uint64_t>(milliseconds *
+                                    (drivers::GlobalTimer::counts_per_second / 1000.0));
+}
+
+/// The logic sends whole words.
+constexpr bool is_legal_size(const hal_frame& frame) {
+  return marker_logic::min_width <= frame.width && frame.width <= marker_logic::max_width &&
+         marker_logic::min_height <= frame.height && frame.height <= marker_logic::max_height &&
+         picture_bytes(frame) % blob_stream::bytes_per_word == 0;
+}
+
+}  // namespace
+
+int Application::run() {
+  int failures = 0;
+  if (initialise()) {
+    for (bool more = begin_next(); more;) {
+      Slot& slot = slots_[next_slot_ ^ 1];
+      finish(slot);
+      if (options_.overlap) more = begin_next();
+      process(slot);
+      if (slot.status != Status::ok) failures = 1;
+      if (!options_.overlap) more = begin_next();
+    }
+  } else {
+    failures = 1;
+  }
+  capture_.shut_down();
+  return failures;
+}
+
+bool Application::initialise() {
+  options_ = read_options();
+  detector_.open(*options_.dictionary, options_.detector);
+  next_slot_ = 0;
+  knows_camera_frame_ = false;
+  if (capture_.initialise()) return true;
+  apps::Message().text("improved: a DMA engine does not leave reset").write();
+  return false;
+}
+
+/// Takes the next image, if there is one, and lets the logic have it.
+bool Application::begin_next() {
+  const hal_frame* const frame = hal_frame_next();
+  if (frame == nullptr) return false;
+  marker::work(marker::Work::frames, 1);
+  Slot& slot = slots_[next_slot_];
+  next_slot_ ^= 1;
+  slot.frame = *frame;
+  slot.status = admit(slot);
+  if (slot.status == Status::ok && !capture_.start(slot.buffers, picture_bytes(slot.frame))) {
+    slot.status = Status::picture_error;
+  }
+  slot.started = capture_.started();
+  return true;
+}
+
+Status Application::admit(Slot& slot) {
+  if (!is_legal_size(slot.frame) || picture_bytes(slot.frame) > capture_.max_picture_bytes()) {
+    return Status::unsupported_size;
+  }
+  return slot.buffers.reserve(picture_bytes(slot.frame)) ? Status::ok : Status::no_memory;
+}
+
+/// Waits until the frame is in memory, and looks whether it is whole.
+void Application::finish(Slot& slot) {
+  if (slot.status == Status::ok) slot.status = capture_.await(counts(options_.timeout));
+  if (slot.status == Status::ok) slot.status = read_packet(slot);
+  if (slot.status != Status::ok) {
+    knows_camera_frame_ = false;
+    slot.dma = capture_.dma_status();
+  }
+  slot.captured = capture_.now();
+}
+
+Status Application::read_packet(Slot& slot) {
+  const std::uint32_t bytes = capture_.packet_bytes();
+  const std::uint32_t count = blob_stream::blobs_in(bytes);
+  if (count == blob_stream::no_packet) return capture_.distrust(Status::malformed_packet);
+  hal_cache_invalidate(slot.buffers.packet.data, bytes);
+  const auto* const words = static_cast<const std::uint32_t*>(slot.buffers.packet.data);
+  slot.blobs = {words, count};
+  slot.trailer = words + count * blob_stream::words_per_blob;
+  if (slot.trailer[blob_stream::blobs_sent] != count) {
+    return capture_.distrust(Status::malformed_packet);
+  }
+  const std::uint32_t camera_frame = slot.trailer[blob_stream::frame_number];
+  if (knows_camera_frame_ && camera_frame != camera_frame_ + 1) {
+    return capture_.distrust(Status::wrong_frame);
+  }
+  knows_camera_frame_ = true;
+  camera_frame_ = camera_frame;
+  return Status::ok;
+}
+
+void Application::process(Slot& slot) {
+  result_.frame = slot.frame.index;
+  result_.status = slot.status;
+  result_.width = slot.frame.width;
+  result_.height = slot.frame.height;
+  result_.camera_frame = result_.lost_in_logic = result_.threshold = 0;
+  result_.times = {};
+  result_.times.capture = {slot.started, slot.captured};
+  result_.times.frame = result_.times.capture;
+  marker::clear(result_.found);
+  if (slot.status == Status::ok) {
+    find_markers(slot);
+  } else {
+    report(slot);
+  }
+  hal_publish(marker::detection_result_kind, &result_, marker::published_bytes(result_));
+}
+
+void Application::find_markers(const Slot& slot) {
+  const hal_frame& frame = slot.frame;
+  const marker::Camera camera{frame.fx, frame.fy, frame.cx, frame.cy};
+  const marker::CameraFrame picture{
+      {static_cast<const std::uint8_t*>(slot.buffers.picture.data), frame.width, frame.height},
+      true,
+      {camera, options_.k1, options_.k2, options_.p1, options_.p2, options_.k3}};
+  result_.camera_frame = slot.trailer[blob_stream::frame_number];
+  result_.lost_in_logic = slot.trailer[blob_stream::lost];
+  result_.threshold = slot.trailer[blob_stream::threshold];
+  marker::DetectionTimes& times = result_.times;
+  times.detection.start = capture_.now();
+  detector_.find_markers(picture, slot.blobs, result_.found);
+  times.detection.end = times.pose.start = capture_.now();
+  detector_.find_poses(camera, result_.found);
+  times.pose.end = times.frame.end = capture_.now();
+}
+
+void Application::report(const Slot& slot) const {
+  apps::Message message;
+  message.text("improved: frame ")
+      .number(slot.frame.index)
+      .text(": ")
+      .text(marker::status_name(slot.status))
+      .text(", ")
+      .number(slot.frame.width)
+      .text(" x ")
+      .number(slot.frame.height)
+      .text(" px");
+  if (slot.status != Status::unsupported_size && slot.status != Status::no_memory) {
+    message.text(", DMASR ").hexadecimal(slot.dma.picture).text(" ").hexadecimal(slot.dma.packet);
+  }
+  message.write();
+}
+
+}  // namespace improved

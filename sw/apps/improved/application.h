@@ -1,0 +1,53 @@
+#pragma once
+
+#include <apps/improved/capture.h>
+#include <apps/improved/options.h>
+#include <hal/hal.h>
+#include <marker/detection_result.h>
+#include <marker/marker_detector.h>
+
+#include <array>
+#include <cstdint>
+
+namespace improved {
+
+/// The PS side of the design `improved`: the logic sends each frame's picture and its blobs into
+/// memory, and takes the next frame into other buffers while the software works on this one.
+class Application {
+ public:
+  /// Works on all frames of the run. 0: every frame went well; 1: some did not, the console says
+  /// which and why.
+  int run();
+
+ private:
+  /// A frame under way.
+  struct Slot {
+    Buffers buffers;
+    hal_frame frame;
+    Status status;                    ///< so far
+    std::uint64_t started, captured;  ///< counts of the global timer
+    DmaStatus dma;                    ///< of a frame that went wrong
+    marker::BlobList blobs;
+    const std::uint32_t* trailer;
+  };
+
+  bool initialise();
+  bool begin_next();
+  Status admit(Slot& slot);
+  void finish(Slot& slot);
+  Status read_packet(Slot& slot);
+  void process(Slot& slot);
+  void find_markers(const Slot& slot);
+  void report(const Slot& slot) const;
+
+  Capture capture_;
+  Options options_;
+  std::array<Slot, 2> slots_;
+  std::uint32_t next_slot_;
+  bool knows_camera_frame_;     ///< after a frame that went wrong nobody knows
+  std::uint32_t camera_frame_;  ///< the number of the last one
+  marker::MarkerDetector detector_;
+  marker::DetectionResult result_;
+};
+
+}  // namespace improved

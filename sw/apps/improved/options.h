@@ -1,0 +1,59 @@
+#pragma once
+
+#include <hal/hal.h>
+#include <marker/camera.h>
+#include <marker/code_book.h>
+#include <marker/marker_detector.h>
+
+#include <cstdint>
+
+/// X(name, unit or names, default, minimum, maximum, documentation). The order is that of
+/// hal_program.options, and of `dictionary` that of marker::dictionaries.
+#define IMPROVED_OPTIONS(X)                                                                   \
+  X(dictionary,                                                                               \
+    "4x4_50|4x4_100|4x4_250|4x4_1000|5x5_50|5x5_100|5x5_250|5x5_1000|6x6_50|6x6_100|6x6_250|" \
+    "6x6_1000|7x7_50|7x7_100|7x7_250|7x7_1000|apriltag_36h11",                                \
+    2, 0, 16, "markers that are looked for (the thesis' are 4x4_250)")                        \
+  X(board, "none|grid|charuco", 0, 0, 2,                                                      \
+    "none: each marker has a pose of its own; else one pose of all that are on the board")    \
+  X(marker_side, "m", 0.30, 0.001, 100, "side of a marker's black square (thesis chapter 5)") \
+  X(board_columns, "", 5, 1, 1000, "of a grid: markers; of a ChArUco board: squares")         \
+  X(board_rows, "", 7, 1, 1000, "the same from top to bottom")                                \
+  X(board_gap, "m", 0.06, 0, 100, "between the markers of a grid")                            \
+  X(board_first_id, "", 0, 0, 1000, "ID of the top left marker of a grid")                    \
+  X(board_square, "m", 0.40, 0.001, 100, "side of a square of a ChArUco board")               \
+  X(board_white_first, "", 0, 0, 1,                                                           \
+    "1: the top left square of the ChArUco board is white (OpenCV up to 4.6, even rows)")     \
+  X(minimum_side, "px", 9, 4, 1000,                                                           \
+    "blobs whose box is smaller are not looked at: six cells of the least size (decision)")   \
+  X(white_border, "", 0, 0, 32, "so many cells of a marker's border may be white (decision)") \
+  X(lens_k1, "", 0, -100, 100, "distortion of the lens: radial (OpenCV's five coefficients)") \
+  X(lens_k2, "", 0, -1000, 1000, "radial")                                                    \
+  X(lens_p1, "", 0, -10, 10, "tangential")                                                    \
+  X(lens_p2, "", 0, -10, 10, "tangential")                                                    \
+  X(lens_k3, "", 0, -10000, 10000, "radial")                                                  \
+  X(overlap, "", 1, 0, 1,                                                                     \
+    "1: the logic takes the next frame while the software works on the last; 0: one by one")  \
+  X(timeout, "ms", 100, 0.1, 1000000,                                                         \
+    "longest time from the trigger to a frame in memory "                                     \
+    "(decision)")
+
+namespace improved {
+
+/// The options as values in the units above.
+struct Options {
+  const marker::Dictionary* dictionary;
+  marker::DetectorOptions detector;
+  double k1, k2, p1, p2, k3;
+  bool overlap;
+  double timeout;
+};
+
+/// For hal_program.options.
+extern const hal_option_info option_table[];
+extern const std::uint32_t option_count;
+
+/// What the run asks for.
+Options read_options();
+
+}  // namespace improved

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <marker/board_pose.h>
+#include <marker/camera.h>
+#include <marker/code_book.h>
+#include <marker/images.h>
+#include <marker/marker_reader.h>
+
+#include <array>
+#include <cstdint>
+
+namespace marker {
+
+/// Blobs as the logic sends them (blob_stream.h), at rest in memory.
+struct BlobList {
+  const std::uint32_t* words;
+  std::uint32_t count;  ///< blobs
+};
+
+/// The camera's picture, and how it was taken.
+struct CameraFrame {
+  GreyImage image;
+  bool in_dma_memory;  ///< a DMA engine wrote it: what is read is taken out of the caches first
+  Lens lens;
+};
+
+/// Which places the markers have to each other.
+struct Board {
+  enum class Kind : std::uint32_t { none, grid, charuco };
+
+  Kind kind = Kind::none;
+  double marker_side = 0.3;  ///< m, where the markers stand alone
+  GridBoard grid{};
+  CharucoBoard charuco{};
+
+  /// The corners of a marker on the board. False if the board does not have it, or there is none.
+  bool find(std::uint32_t id, Places& places) const;
+};
+
+struct DetectorOptions {
+  DetectionOptions detection;
+  /// A blob whose box is narrower or lower is not looked at, px: six cells of the smallest size
+  /// that can be measured.
+  std::uint32_t minimum_side = 9;
+  Board board;
+};
+
+/// What became of a frame's blobs. Each is in exactly one count, or among the markers.
+struct BlobCounts {
+  std::uint32_t received;
+  std::uint32_t malformed;  ///< outside of the picture, or no extremes of any blob
+  std::uint32_t small;
+  std::array<std::uint32_t, refusal_count> refused;  ///< by Refusal
+  std::uint32_t lost;                                ///< markers for which there was no room
+};
+
+/// More markers of a frame are counted as lost.
+inline constexpr std::uint32_t max_detections = 256;
+
+struct Detection {
+  DetectedMarker marker;
+  BoardPoses pose;  ///< of the marker alone; not valid where a board is looked for
+};
+
+/// All that was found in a frame.
+struct Detections {
+  BlobCounts blobs;
+  BoardPoses board;             ///< not valid: no board was asked for, or none is seen
+  std::uint32_t board_markers;  ///< of which its pose was made
+  std::uint32_t count;
+  std::array<Detection, max_detections> markers;  ///< in the order of the blobs
+};
+
+/// Makes `found` that of a new frame. Markers beyond the count keep what they held.
+inline void clear(Detections& found) {
+  found.blobs = {};
+  found.board.valid = false;
+  found.board_markers = found.count = 0;
+}
+
+/// From the blobs of a frame to its markers, and from those to poses.
+///
+/// What can be told from a blob's words is told before a pixel is read: a picture in DMA memory
+/// costs a cache line for each that is looked at.
+class MarkerDetector {
+ public:
+  /// The dictionary must outlive the detector.
+  void open(const Dictionary& dictionary, const DetectorOptions& options);
+
+  /// Finds the markers; `found` has no poses yet. The words may hold anything.
+  void find_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
+
+  /// The pose of each marker, or of the board. Where an ID is seen more than once nobody knows
+  /// which one is the board's: none of them counts.
+  void find_poses(const Camera& camera, Detections& found);
+
+ private:
+  CodeBook book_;
+  DetectorOptions options_;
+  std::array<SeenMarker, max_detections> seen_;
+};
+
+}  // namespace marker
