@@ -81,9 +81,11 @@ const DesignInfo& load_design(const std::string& file) {
 
 const DesignInfo& thesis_design();
 const DesignInfo& ps_only_design();
+const DesignInfo& improved_design();
 
 const std::vector<const DesignInfo*>& builtin_designs() {
-  static const std::vector<const DesignInfo*> designs{&thesis_design(), &ps_only_design()};
+  static const std::vector<const DesignInfo*> designs{&thesis_design(), &ps_only_design(),
+                                                      &improved_design()};
   return designs;
 }
 

@@ -69,7 +69,7 @@ std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
   return *first_ps_ + camera_.offset_ps(number);
 }
 
-// A program that does not upload its images finds them in the image store.
+// Of a program that does not upload its images: in the image store, or before the camera.
 void FrameBench::place(const input::InputFrame& frame) {
   if (!options_.uploads()) zynq_.design().show_image(frame.image);
   std::memcpy(zynq_.ps.ddr.at(frame_.bus_address, frame.image.pixels.size()),

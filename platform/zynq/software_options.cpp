@@ -1,7 +1,9 @@
 #include <zynq/software_options.h>
 
+#include <ps/cpu/program.h>
 #include <vp/error.h>
 #include <vp/unit.h>
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -54,6 +56,14 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
       values_.push_back(*decided);
       continue;
     }
+    if (const auto names = ps::option_names(info); !names.empty()) {
+      const auto& chosen =
+          names_.emplace_back(info.name, names.at(static_cast<std::size_t>(info.default_value)),
+                              names, vp::Source::decision, info.documentation);
+      const auto place = std::find(names.begin(), names.end(), chosen.get()) - names.begin();
+      values_.push_back(static_cast<double>(place));
+      continue;
+    }
     const vp::Unit dimension = dimension_of(info.unit, program, info.name);
     // Parameters are kept in the base unit of their dimension; the program thinks in its own.
     const double base =
@@ -68,11 +78,13 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
       check_clock(cpu_hz, range, program);
       usual = static_cast<double>(cpu_hz);
     }
-    if (is_upload && camera.has_rate()) usual = 0;
+    // At a rate it would sleep until the next image before it works on the last.
+    const bool is_overlap = info.name == std::string_view("overlap");
+    if ((is_upload || is_overlap) && camera.has_rate()) usual = 0;
     const auto& parameter = parameters_.emplace_back(info.name, usual, dimension, range,
                                                      vp::Source::decision, info.documentation);
     if (is_clock) parameter.follows("ps.cpu_clk.frequency");
-    if (is_upload) parameter.follows(camera.rate.name());
+    if (is_upload || is_overlap) parameter.follows(camera.rate.name());
     if (is_upload && camera.has_rate() && parameter >= 0.5) {
       throw vp::InputError(std::string(parameter.name()) + " is " + parameter.text() + ", and " +
                            camera.rate.name() + " is " + camera.rate.text() +

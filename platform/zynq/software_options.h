@@ -19,7 +19,8 @@ class SoftwareOptions : public sc_core::sc_module {
  public:
   /// What follows from other parameters: `opt` from the cost profile named `profile`; the option
   /// `cpu_clock`, for which a program on the chip is built, from the clock that it has here; and
-  /// `upload`, which a camera of a fixed rate does itself. Throws vp::InputError for a value out of
+  /// `upload`, which a camera of a fixed rate does itself; `overlap`, which such a camera leaves no
+  /// time for. Throws vp::InputError for a value out of
   /// its range or that contradicts these, and for a unit that the program's option may not have.
   /// What the logic of `design` decides is no parameter.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
@@ -37,8 +38,9 @@ class SoftwareOptions : public sc_core::sc_module {
  private:
   vp::Parameter<profiles::Optimisation> opt_;
   std::deque<vp::Parameter<double>> parameters_;
+  std::deque<vp::Parameter<std::string>> names_;
   std::vector<double> values_;
-  bool uploads_ = true;
+  bool uploads_ = false;  ///< a program that does has the option `upload`
 };
 
 }  // namespace platform

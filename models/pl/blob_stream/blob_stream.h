@@ -46,6 +46,7 @@ class BlobStream : public vp::Clocked, public vp::Ip {
       "fifo_depth",         512,
       vp::Unit::none,       {::blob_stream::words_per_blob, 65535},
       vp::Source::decision, "words that wait for the DMA, besides the output register"};
+  vp::Signal<std::uint32_t> depth{"depth", 17, fifo_depth};  ///< for traces: what is full
 
  private:
   struct Word {

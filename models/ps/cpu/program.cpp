@@ -24,6 +24,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -170,13 +171,28 @@ std::string problem_of_names(const char* kind, std::uint32_t count, Name name) {
   return {};
 }
 
+std::string problem_of_values(const hal_option_info& option) {
+  const std::vector<std::string> names = option_names(option);
+  if (names.empty()) return {};
+  for (const std::string& name : names) {
+    if (name.empty()) return "has an empty name among its values";
+  }
+  if (option.minimum == 0 && option.maximum == static_cast<double>(names.size() - 1) &&
+      option.default_value == std::floor(option.default_value)) {
+    return {};
+  }
+  return "names " + std::to_string(names.size()) +
+         " values: its default is the place of one of them, its range 0 to " +
+         std::to_string(names.size() - 1);
+}
+
 std::string problem_of_option(const hal_option_info& option) {
   const std::string which = std::string("option '") + option.name + "'";
   if (!is_key(option.name)) return "has the " + which + ": use letters, digits and _ only";
   if (option.name == std::string_view("opt")) {
     return "has the " + which + ", a name that the platform uses itself (sw.opt): rename it";
   }
-  if (!is_text(option.unit, longest_name) || !is_text(option.documentation, longest_text)) {
+  if (!is_text(option.unit, longest_text) || !is_text(option.documentation, longest_text)) {
     return "has the " + which + " without unit or documentation: either may be \"\"";
   }
   const bool finite = std::isfinite(option.default_value) && std::isfinite(option.minimum) &&
@@ -186,7 +202,8 @@ std::string problem_of_option(const hal_option_info& option) {
            " and the range " + std::to_string(option.minimum) + " to " +
            std::to_string(option.maximum) + ": give finite numbers, the default in the range";
   }
-  return {};
+  const std::string names = problem_of_values(option);
+  return names.empty() ? "" : "has the " + which + ", which " + names;
 }
 
 /// What makes a description unusable, as the end of a sentence that begins with the program's name;
@@ -413,6 +430,14 @@ std::string absolute(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<std::string> option_names(const hal_option_info& option) {
+  std::vector<std::string> names;
+  std::istringstream unit(option.unit);
+  for (std::string name; std::getline(unit, name, '|');) names.push_back(name);
+  if (names.size() < 2) names.clear();
+  return names;
+}
 
 std::unique_ptr<Program> Program::linked(const hal_program& description) {
   check(description, "the linked program");

@@ -4,8 +4,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace ps {
+
+/// The names of an option's values, which its unit lists ("none|grid|charuco"); none: its values
+/// are numbers.
+std::vector<std::string> option_names(const hal_option_info& option);
 
 /// A PS program that a Cpu can run.
 class Program {

@@ -168,6 +168,7 @@ BOOST_AUTO_TEST_CASE(options_that_cannot_be) {
   const double infinite = std::numeric_limits<double>::infinity();
   const std::string range = "give finite numbers, the default in the range";
   BOOST_TEST(error_of_options({{"a", "", 1, 0, 2, ""}, {"a_2", "", 0, 0, 0, "d"}}) == "");
+  BOOST_TEST(error_of_options({{"a", "no|yes", 1, 0, 1, ""}}) == "");
   for (const auto& [option, part] : std::vector<std::pair<hal_option_info, std::string>>{
            {{"a", "", nan, 0, 1, ""}, range},
            {{"a", "", 0, nan, 1, ""}, range},
@@ -178,6 +179,9 @@ BOOST_AUTO_TEST_CASE(options_that_cannot_be) {
            {{"opt", "", 0, 0, 1, ""}, "sw.opt"},
            {{"a", nullptr, 0, 0, 1, ""}, "without unit"},
            {{"a", "", 0, 0, 1, nullptr}, "without unit or documentation"},
+           {{"a", "no|yes", 0, 0, 2, ""}, "names 2 values: its default is the place of one"},
+           {{"a", "no|yes|maybe", 0.5, 0, 2, ""}, "its range 0 to 2"},
+           {{"a", "no||yes", 0, 0, 2, ""}, "empty name"},
            {{nullptr, "", 0, 0, 1, ""}, "no name for option number 0"}}) {
     const std::string error = error_of_options({option});
     BOOST_TEST(error.find(part) != std::string::npos, error);

@@ -54,6 +54,7 @@ BOOST_AUTO_TEST_CASE(a_design_chooses_its_program) {
 BOOST_AUTO_TEST_CASE(a_program_chooses_its_design) {
   BOOST_TEST(built("", "ps-only").design == "ps-only");
   BOOST_TEST(built("", "hybrid").design == "thesis");
+  BOOST_TEST(built("", "improved").design == "improved");
   BOOST_TEST(built("", "blink").design == "thesis");
 }
 
@@ -66,7 +67,7 @@ BOOST_AUTO_TEST_CASE(both_may_be_given) {
 
 BOOST_AUTO_TEST_CASE(a_name_that_no_design_has) {
   for (const auto& [name, words] :
-       {std::pair{"thesys", "did you mean 'thesis'?"}, std::pair{"nothing", "thesis or ps-only"}}) {
+       {std::pair{"thesys", "did you mean 'thesis'?"}, std::pair{"nothing", "thesis, ps-only or improved"}}) {
     BOOST_CHECK_EXCEPTION(built(name, std::nullopt), vp::InputError, [&](const auto& error) {
       return std::string(error.what()).find(words) != std::string::npos;
     });

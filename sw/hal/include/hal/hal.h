@@ -167,7 +167,8 @@ void hal_function_leave(void);
  * configuration, by its name. */
 typedef struct hal_option_info {
   const char* name;
-  const char* unit; /**< "px", "m" … or "" */
+  const char* unit; /**< "px", "m" … or ""; or the names of its values: "none|grid", then the value is
+                       the place of one of them, from 0 */
   double default_value, minimum, maximum;
   const char* documentation; /**< one line with its source */
 } hal_option_info;

@@ -1,0 +1,193 @@
+#include <designs/improved/improved_design.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <report/result.h>
+#include <vp/clock.h>
+
+namespace platform {
+
+namespace {
+
+report::FoundMarker found_marker(const marker::Detection& detection) {
+  const marker::DetectedMarker& m = detection.marker;
+  report::FoundMarker found;
+  found.id = m.id;
+  for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.fit.image[i].x, m.fit.image[i].y};
+  found.has_pose = detection.pose.valid;
+  if (!found.has_pose) return found;
+  const marker::BoardPose& pose = detection.pose.best;
+  found.pose.rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(pose.rotation.data());
+  found.pose.translation = Eigen::Vector3d::Map(pose.translation.data());
+  return found;
+}
+
+/// A result as long as it says that it is.
+bool read(const Publication& publication, marker::DetectionResult& result) {
+  if (publication.kind != marker::detection_result_kind) return false;
+  marker::clear(result.found);
+  if (publication.size > sizeof result ||
+      publication.size < sizeof result - sizeof result.found.markers) {
+    return false;
+  }
+  std::memcpy(&result, publication.data, publication.size);
+  return result.found.count <= marker::max_detections &&
+         publication.size == marker::published_bytes(result);
+}
+
+}  // namespace
+
+ImprovedDesign::ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports,
+                               const pl::Geometry& usual)
+    : ImprovedLogic(name, ports.fclk_clk(0), ports.fidelity, usual), ports_(ports) {
+  ports.m_axi_gp0(axi_interconnect);
+  ports.s_axi_hp0(axi_mem_interconnect);
+  ports.irq_f2p(concat.dout);
+  proc_sys_reset.ext_reset_in(ports.fclk_reset0_n());
+  camera.frame_ena.attach(*this);
+  control_block.rst_out.attach(*this);
+}
+
+input::ImageSize ImprovedDesign::frame_size() const {
+  return {static_cast<int>(geometry().width), static_cast<int>(geometry().height)};
+}
+
+void ImprovedDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
+  if (&signal == &control_block.rst_out) {
+    // Which the reset is about to clear.
+    settle();
+    note_dropped();
+    counted_ = {counted_[0], 0, 0, 0};
+    return;
+  }
+  if (signal.bits() != 0) return;
+  const std::uint32_t number = camera.frame_number;
+  sent_[number % sent_.size()] = {number, ports_.scheduler.now_ps()};
+}
+
+bool ImprovedDesign::report(const Publication& publication, report::FrameReport& frame) {
+  if (!read(publication, result_)) return false;
+  fill_in(frame, publication.ps);
+  add_times(frame, publication.ps);
+  add_counts(frame);
+  return true;
+}
+
+void ImprovedDesign::fill_in(report::FrameReport& frame, std::uint64_t now_ps) const {
+  frame.index = result_.frame;
+  frame.threshold = result_.threshold;
+  if (result_.status != marker::DetectionStatus::ok) {
+    frame.gave_up = marker::status_name(result_.status);
+    frame.warnings.push_back("the software gave up: " + frame.gave_up);
+  }
+  for (std::uint32_t i = 0; i < result_.found.count; ++i)
+    frame.markers.push_back(found_marker(result_.found.markers[i]));
+  frame.end_ps = now_ps;
+}
+
+void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps) const {
+  // Stamps count pairs of CPU cycles.
+  const vp::Clock& cpu = ports_.ps.cpu_clk.clk;
+  const auto duration = [&cpu](std::uint64_t counts) {
+    return cpu.duration_ps(2.0 * static_cast<double>(counts));
+  };
+  const marker::DetectionTimes& t = result_.times;
+  frame.start_ps = now_ps - std::min(now_ps, duration(t.frame.end - t.frame.start));
+  const auto stage = [&](const char* name, const marker::StageTime& time, const char* part_of) {
+    report::StageTime shown;
+    shown.name = name;
+    shown.ps = duration(time.end - time.start);
+    shown.start_ps = frame.start_ps + duration(time.start - t.frame.start);
+    shown.part_of = part_of;
+    return shown;
+  };
+  frame.times = {stage("capture", t.capture, "frame")};
+  frame.times[0].clock = "ps.fclk_clk0";
+  frame.times[0].why = "one pixel a clock, so it lasts as long as the image does";
+  const Sent& sent = sent_[result_.camera_frame % sent_.size()];
+  if (frame.delivered()) {
+    frame.times.push_back(stage("detection", t.detection, "frame"));
+    frame.times.push_back(stage("pose", t.pose, "frame"));
+    frame.times.push_back(stage("frame", t.frame, ""));
+    if (sent.number == result_.camera_frame && sent.end_ps != 0) {
+      report::StageTime latency;
+      latency.name = "last_pixel_to_result";
+      latency.ps = now_ps - sent.end_ps;
+      latency.start_ps = sent.end_ps;
+      frame.times.push_back(latency);
+    }
+  } else {
+    frame.times.push_back(stage("frame", t.frame, ""));
+  }
+}
+
+ImprovedDesign::Dropped ImprovedDesign::counters() const {
+  return {camera.dropped_triggers, pixel_stream.dropped_frames, pixel_stream.cut_frames,
+          blob_stream.dropped_frames};
+}
+
+void ImprovedDesign::note_dropped() {
+  const Dropped now = counters();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    dropped_[i] += now[i] < counted_[i] ? now[i] : now[i] - counted_[i];
+  counted_ = now;
+}
+
+void ImprovedDesign::add_counts(report::FrameReport& frame) {
+  const marker::Detections& found = result_.found;
+  frame.counts.set("blobs", found.blobs.received);
+  frame.counts.set("markers", found.count);
+  note_dropped();
+  const Dropped dropped = std::exchange(dropped_, {});
+  const auto lose = [&frame](const char* name, std::uint64_t count, const std::string& warning) {
+    frame.counts.lose(name, count);
+    if (count != 0) frame.warnings.push_back(std::to_string(count) + " " + warning);
+  };
+  lose("lost_in_logic", result_.lost_in_logic,
+       "blobs dropped or dark pixels without label: pl.blob_labelling.label_count or "
+       "pl.blob_stream.fifo_depth is too small");
+  lose("lost_markers", found.blobs.lost, "markers without room in the software");
+  lose("malformed", found.blobs.malformed, "blobs that cannot be: outside of the picture");
+  lose("dropped_triggers", dropped[0], "triggers dropped: a frame was under way");
+  lose("dropped_pictures", dropped[1], "pictures dropped: DMA 0 was not armed in time");
+  lose("cut_pictures", dropped[2],
+       "pictures cut: DMA 0 did not keep up, pl.pixel_stream.fifo_depth is too small");
+  lose("dropped_packets", dropped[3], "packets of blobs dropped: DMA 1 was not armed in time");
+}
+
+std::vector<Design::ClockRole> ImprovedDesign::clock_roles() {
+  return {{"pixel", &ports_.fclk_clk(0), "feature_extraction"}};
+}
+
+TimelineEngines ImprovedDesign::timeline() {
+  constexpr bool active_low = true, critical = true;
+  TimelineEngines shown;
+  shown.engines = {{"Camera", &camera.frame_ena, !active_low, critical},
+                   {"Blob labelling", &blob_labelling.idle, active_low},
+                   {"Blob stream", &blob_stream.busy, !active_low, critical}};
+  shown.channels = {
+      {"DMA 0, pixels out", &axi_dma_0.s2mm(), "IRQ of DMA 0", &axi_dma_0.s2mm_introut},
+      {"DMA 1, blobs out", &axi_dma_1.s2mm(), "IRQ of DMA 1", &axi_dma_1.s2mm_introut}};
+  shown.levels = {
+      {"Blob FIFO", "words", static_cast<double>(blob_stream.fifo_depth), &blob_stream.fifo_count}};
+  shown.waiting = "capture";
+  return shown;
+}
+
+const DesignInfo& improved_design() {
+  static const DesignInfo info{
+      "improved",
+      "all markers between pixels: merged blobs and pictures by DMA, one frame ahead of the "
+      "software",
+      {"improved"},
+      true,
+      improved_words,
+      [](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
+        return std::make_unique<ImprovedDesign>(name, ports, pl::Geometry{640, 480, 64});
+      }};
+  return info;
+}
+
+}  // namespace platform

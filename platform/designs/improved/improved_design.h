@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <designs/improved/improved_logic.h>
+#include <marker/detection_result.h>
+#include <trace/vocabulary.h>
+#include <vp/clock_scheduler.h>
+#include <zynq/design.h>
+
+namespace platform {
+
+/// The improved marker detector's logic in the Zynq, and how what its program publishes becomes a
+/// frame of the result. While the software works on a frame the logic may be at the next one.
+class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalListener {
+ public:
+  ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports, const pl::Geometry& usual);
+
+  input::ImageSize frame_size() const override;
+  void show_image(const GreyImage& image) override { camera.show(image.pixels); }
+  void settle() override { settle_counters(); }
+  bool report(const Publication& publication, report::FrameReport& frame) override;
+
+  vp::Signal<bool>* busy() override { return &camera.frame_ena; }
+  std::vector<std::string> groups() const override { return {"feature_extraction", "data_bridge"}; }
+  std::vector<ClockRole> clock_roles() override;
+  TimelineEngines timeline() override;
+
+ private:
+  /// A frame that left the camera.
+  struct Sent {
+    std::uint32_t number = 0;
+    std::uint64_t end_ps = 0;  ///< of its last pixel; 0: no such frame
+  };
+  /// What the logic dropped: triggers, pictures, the rest of pictures, packets.
+  using Dropped = std::array<std::uint64_t, 4>;
+
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void fill_in(report::FrameReport& frame, std::uint64_t now_ps) const;
+  void add_times(report::FrameReport& frame, std::uint64_t now_ps) const;
+  void add_counts(report::FrameReport& frame);
+  Dropped counters() const;
+  void note_dropped();
+
+  PlPorts& ports_;
+  std::array<Sent, 4> sent_;  ///< the last ones, by their number
+  Dropped counted_{};         ///< what the counters of the logic showed last
+  Dropped dropped_{};         ///< since the last frame was reported
+  marker::DetectionResult result_;
+};
+
+/// The words of the design's signals.
+const trace::Vocabulary& improved_words();
+
+}  // namespace platform

@@ -1,0 +1,162 @@
+#include <designs/improved/improved_logic.h>
+
+#include <blob_stream.h>
+#include <marker_logic.h>
+#include <xilinx/common/estimate.h>
+#include <initializer_list>
+
+namespace platform {
+
+namespace {
+
+/// An engine that writes packets of up to `bytes` into the DDR.
+xilinx::AxiDmaBuild packet_writer(std::uint32_t bytes, std::uint32_t burst_words) {
+  xilinx::AxiDmaBuild build;
+  build.include_mm2s = false;
+  build.burst_beats = burst_words;
+  build.length_width = marker_logic::bits_for(bytes + 1, 14);
+  return build;
+}
+
+xilinx::AxiGpioBuild control_outputs() {
+  xilinx::AxiGpioBuild build;
+  build.gpio.direction = xilinx::GpioDirection::all_outputs;
+  return build;
+}
+
+}  // namespace
+
+ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity otherwise,
+                                   const pl::Models<pl::GlobalThreshold>& thresholds)
+    : sc_module(name),
+      pixel_stream(pl::PixelStream::models(), otherwise),
+      blob_labelling(pl::BlobLabelling::models(), otherwise),
+      threshold(thresholds, otherwise, {&blob_labelling}),
+      camera(pl::Camera::models(), otherwise, {&pixel_stream, &threshold}) {}
+
+ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::Fidelity otherwise,
+                             const pl::Geometry& usual)
+    : sc_module(name),
+      fidelity("fidelity", otherwise,
+               threshold_rule.get() == "otsu" ? pl::OtsuThreshold::models()
+                                              : pl::GlobalThreshold::models()),
+      width("width", usual.width, vp::Unit::pixels, vp::Source::decision, "width of a frame"),
+      height("height", usual.height, vp::Unit::pixels, vp::Source::decision, "height of a frame"),
+      burst_words("burst_words", usual.burst_words, vp::Unit::none,
+                  {marker_logic::min_burst_words, marker_logic::max_burst_words},
+                  vp::Source::decision,
+                  "words of a burst of either DMA to the memory; 2, 4, 8, … 256"),
+      camera_(fidelity.camera.make({clk, geometry()})),
+      pixel_stream_(fidelity.pixel_stream.make({clk, geometry()})),
+      threshold_(fidelity.threshold.make({clk, geometry()})),
+      blob_labelling_(fidelity.blob_labelling.make({clk, geometry()})),
+      blob_stream("blob_stream", clk),
+      proc_sys_reset("proc_sys_reset", clk),
+      axi_interconnect("axi_interconnect", clk),
+      axi_mem_interconnect("axi_mem_interconnect", clk),
+      axi_gpio_0("axi_gpio_0", clk, control_outputs()),
+      axi_dma_0("axi_dma_0", clk, packet_writer(geometry().pixels(), burst_words)),
+      axi_dma_1("axi_dma_1", clk, packet_writer(::blob_stream::max_packet_bytes, burst_words)),
+      concat("concat", 2) {
+  control_block.set_logic_clock(clk);
+  connect_bus();
+  name_groups();
+  count_work();
+}
+
+void ImprovedLogic::before_end_of_elaboration() {
+  for (vp::In<bool>* rst :
+       {&camera.rst, &pixel_stream.rst, &threshold.rst, &blob_labelling.rst, &blob_stream.rst}) {
+    rst->bind(control_block.rst_out);
+  }
+  connect_pixels();
+  connect_blobs();
+}
+
+void ImprovedLogic::connect_pixels() {
+  camera.ena(control_block.ena);
+  camera.por(proc_sys_reset.peripheral_reset);
+  camera.hold(blob_stream.busy);
+  pixel_stream.ena(camera.frame_ena);
+  pixel_stream.pixel(camera.pixel);
+  threshold.por(proc_sys_reset.peripheral_reset);
+  threshold.wr_thresh(control_block.wr_thresh);
+  threshold.threshold(control_block.threshold);
+  threshold.frame_ena(camera.frame_ena);
+  threshold.pixel(camera.pixel);
+  threshold.x(camera.pixel_x);
+  threshold.y(camera.pixel_y);
+  if (!fidelity.camera.gives().frames) return;
+  pixel_stream.frames(camera.frames);
+  threshold.frames(camera.frames);
+}
+
+void ImprovedLogic::connect_blobs() {
+  blob_labelling.ena(threshold.binary_ena);
+  blob_labelling.pixel(threshold.binary_out);
+  blob_labelling.x(threshold.binary_x);
+  blob_labelling.y(threshold.binary_y);
+  if (fidelity.threshold.gives().frames) {
+    blob_labelling.frames(threshold.binary_frames);
+    threshold.binary_frames.take_whole();
+  }
+  blob_stream.frame_ena(camera.frame_ena);
+  blob_stream.frame_number(camera.frame_number);
+  blob_stream.threshold(threshold.active_threshold);
+  blob_stream.idle(blob_labelling.idle);
+  blob_stream.blob_out(blob_labelling.blob_out);
+  for (std::size_t i = 0; i < blob_stream.extreme.size(); ++i)
+    blob_stream.extreme[i](blob_labelling.extreme[i]);
+  blob_stream.label_overflow(blob_labelling.label_overflow);
+}
+
+void ImprovedLogic::connect_bus() {
+  namespace addresses = marker_logic::addresses;
+  control_block.gpio_in(axi_gpio_0.gpio.io_o);
+  control_block.por(proc_sys_reset.peripheral_reset);
+  axi_interconnect.connect(axi_dma_0.s_axi_lite, addresses::dma_image);
+  axi_interconnect.connect(axi_dma_1.s_axi_lite, addresses::dma_binary);
+  axi_interconnect.connect(axi_gpio_0.s_axi, addresses::gpio_control);
+  axi_gpio_0.s_axi_aresetn(proc_sys_reset.peripheral_aresetn);
+  axi_dma_0.axi_resetn(proc_sys_reset.peripheral_aresetn);
+  axi_dma_1.axi_resetn(proc_sys_reset.peripheral_aresetn);
+  axi_mem_interconnect.connect(axi_dma_0);
+  axi_mem_interconnect.connect(axi_dma_1);
+  pixel_stream.m(pixel_stream_link);
+  axi_dma_0.s2mm().s_axis(pixel_stream_link);
+  blob_stream.m(blob_stream_link);
+  axi_dma_1.s2mm().s_axis(blob_stream_link);
+  concat.connect_interrupt(axi_dma_0.s2mm_introut, addresses::dma_image_interrupt);
+  concat.connect_interrupt(axi_dma_1.s2mm_introut, addresses::dma_binary_interrupt);
+}
+
+// In the order of reports.
+void ImprovedLogic::name_groups() {
+  unsigned place = 0;
+  const auto group = [&place](const char* name, std::initializer_list<vp::Ip*> parts) {
+    for (vp::Ip* part : parts) part->set_group(name, place++);
+  };
+  group("feature_extraction", {&camera, &threshold, &blob_labelling});
+  group("data_bridge", {&pixel_stream, &blob_stream, &control_block, &axi_dma_0, &axi_dma_1,
+                        &axi_gpio_0, &axi_interconnect, &axi_mem_interconnect, &proc_sys_reset});
+}
+
+void ImprovedLogic::count_work() {
+  const auto pixel_words = [this] { return axi_dma_0.beats(); };
+  const auto blob_words = [this] { return axi_dma_1.beats(); };
+  pixel_stream.set_active_clocks(pixel_words);
+  blob_stream.set_active_clocks(blob_words);
+  axi_mem_interconnect.set_active_clocks([=] { return pixel_words() + blob_words(); });
+  axi_interconnect.set_active_clocks([this] {
+    return xilinx::clocks_per_access *
+           (xilinx::accesses(axi_gpio_0.s_axi) + xilinx::accesses(axi_dma_0.s_axi_lite) +
+            xilinx::accesses(axi_dma_1.s_axi_lite));
+  });
+}
+
+void ImprovedLogic::settle_counters() {
+  pixel_stream.settle();
+  blob_labelling.settle();
+}
+
+}  // namespace platform

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+
+#include <pl/blob_labelling/blob_labelling.h>
+#include <pl/blob_stream/blob_stream.h>
+#include <pl/camera/camera.h>
+#include <pl/common/fidelity.h>
+#include <pl/common/geometry.h>
+#include <pl/control_block/control_block.h>
+#include <pl/global_threshold/global_threshold.h>
+#include <pl/otsu_threshold/otsu_threshold.h>
+#include <pl/pixel_stream/pixel_stream.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
+#include <xilinx/axi_interconnect/axi_interconnect.h>
+#include <xilinx/concat/concat.h>
+#include <xilinx/proc_sys_reset/proc_sys_reset.h>
+
+namespace platform {
+
+/// How each IP is modelled that can be modelled in more than one way.
+struct ImprovedFidelity : sc_core::sc_module {
+  ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity otherwise,
+                   const pl::Models<pl::GlobalThreshold>& thresholds);
+
+  // Whoever feeds another one comes behind it.
+  pl::Choice<pl::PixelStream> pixel_stream;
+  pl::Choice<pl::BlobLabelling> blob_labelling;
+  pl::Choice<pl::GlobalThreshold> threshold;
+  pl::Choice<pl::Camera> camera;
+};
+
+/// The programmable logic of the design `improved`: the camera's pixels go to the DDR as they are,
+/// and through threshold and labelling to become a packet of blobs. One clock, no frame in block
+/// memory.
+///
+///   camera ─┬─ pixel_stream ── axi_dma_0 ── DDR
+///           └─ threshold ── blob_labelling ── blob_stream ── axi_dma_1 ── DDR
+class ImprovedLogic : public sc_core::sc_module {
+ public:
+  /// `usual`: the size of frames unless another is configured.
+  ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::Fidelity otherwise,
+                const pl::Geometry& usual);
+
+  vp::Parameter<std::string> threshold_rule{
+      "threshold_rule",
+      "otsu",
+      {"otsu", "global"},
+      vp::Source::decision,
+      "how the threshold of the next frame follows from a frame's histogram: Otsu's least "
+      "variance, "
+      "or midway between the peaks of its halves (thesis 4.3.5)"};
+  ImprovedFidelity fidelity;
+  vp::Parameter<std::uint32_t> width, height;
+  vp::Parameter<std::uint32_t> burst_words;
+  pl::Geometry geometry() const { return {width, height, burst_words}; }
+
+  /// Brings counters up to now, for whoever looks at them from outside.
+  void settle_counters();
+
+ private:
+  void before_end_of_elaboration() override;
+  void connect_pixels();
+  void connect_blobs();
+  void connect_bus();
+  void name_groups();
+  void count_work();
+
+  /// Refuses sizes that cannot be built before anything is made for them.
+  struct SizeCheck {
+    explicit SizeCheck(const pl::Geometry& geometry) { pl::check(geometry); }
+  } size_check_{geometry()};
+
+ public:
+  pl::ControlBlock control_block{"control_block"};
+  // Modelled as `fidelity` says.
+  const std::unique_ptr<pl::Camera> camera_;
+  pl::Camera& camera = *camera_;
+  const std::unique_ptr<pl::PixelStream> pixel_stream_;
+  pl::PixelStream& pixel_stream = *pixel_stream_;
+  const std::unique_ptr<pl::GlobalThreshold> threshold_;
+  pl::GlobalThreshold& threshold = *threshold_;
+  const std::unique_ptr<pl::BlobLabelling> blob_labelling_;
+  pl::BlobLabelling& blob_labelling = *blob_labelling_;
+  pl::BlobStream blob_stream;
+
+  xilinx::ProcSysReset proc_sys_reset;
+  xilinx::AxiInterconnect axi_interconnect;      ///< GP0 to the registers
+  xilinx::AxiInterconnect axi_mem_interconnect;  ///< DMA to HP0
+  xilinx::AxiGpio axi_gpio_0;                    ///< control packet, all outputs
+  xilinx::AxiDma axi_dma_0;                      ///< pixels to DDR, write channel only
+  xilinx::AxiDma axi_dma_1;                      ///< blobs to DDR, write channel only
+  vp::AxiStream pixel_stream_link{"pixels"};
+  vp::AxiStream blob_stream_link{"blobs"};
+  xilinx::Concat concat;  ///< interrupts of both DMAs
+};
+
+}  // namespace platform

@@ -1,0 +1,117 @@
+// The design `improved`, logic and software: the same at both fidelities, fast, exact, and honest
+// about what it lost.
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+
+#include "executable.h"
+
+using namespace integration;
+
+namespace {
+
+Json run_of(const Arguments& arguments, int exit_code = 0) {
+  const Workplace place;
+  Arguments all = arguments;
+  for (const char* more :
+       {"--design", "improved", "--quiet", "--no-pictures", "--set", "profile=a9-O2"})
+    all.emplace_back(more);
+  const kit::Outcome outcome = place.run(all);
+  BOOST_TEST(outcome.exit_code == exit_code, outcome.err);
+  return place.result();
+}
+
+Arguments with(Arguments arguments, const std::string& assignment) {
+  arguments.insert(arguments.end(), {"--set", assignment});
+  return arguments;
+}
+
+/// The first place where both fidelities differ; empty: none.
+std::string difference(const Arguments& arguments, int exit_code = 0) {
+  Json fast = run_of(with(arguments, "fidelity=tlm"), exit_code);
+  Json slow = run_of(with(arguments, "fidelity=clocked"), exit_code);
+  for (const char* key : {"fidelity", "configuration", "provenance"}) {
+    fast.erase(key);
+    slow.erase(key);
+  }
+  const Json patch = Json::diff(fast, slow);
+  return patch.empty() ? "" : patch[0].dump();
+}
+
+/// Mean over the frames.
+double mean_us(const Json& result, const std::string& stage) {
+  double sum = 0;
+  for (const Json& frame : result["frames"]) sum += double(frame["time_us"][stage]);
+  return sum / static_cast<double>(result["frames"].size());
+}
+
+double period_us(const Json& result) {
+  return 1e6 / double(result["summary"]["fps"]["mean"]);
+}
+
+double latency_us(const Json& frame) {
+  return frame["time_us"]["last_pixel_to_result"];
+}
+
+const Arguments scenes{"demo", "squares15", "roll30", "front7", "z4.5", "z0.5"};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(improved)
+
+BOOST_AUTO_TEST_CASE(both_fidelities_are_equal) {
+  BOOST_TEST(difference(scenes) == "");
+  BOOST_TEST(difference(with(scenes, "sw.overlap=0")) == "");
+  BOOST_TEST(difference(with(scenes, "pl.threshold_rule=global")) == "");
+}
+
+BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_at_other_clocks_and_sizes) {
+  BOOST_TEST(difference(with({"demo", "z1.0"}, "ps.fclk_clk0.frequency=31.25 MHz")) == "");
+  BOOST_TEST(difference(with(with({"demo", "z1.0"}, "pl.width=1280 px"), "pl.height=720 px")) ==
+             "");
+  BOOST_TEST(difference(with({"demo", "z1.0"}, "pl.camera.frame_blanking=1000 cycles")) == "");
+}
+
+// The DMA cannot keep up with bursts of two words: pictures end early, and the software says so.
+BOOST_AUTO_TEST_CASE(a_picture_that_the_dma_cannot_take_is_cut_and_told) {
+  const Arguments slow =
+      with(with({"z1.0", "z2.0"}, "pl.burst_words=2"), "pl.pixel_stream.fifo_depth=2");
+  BOOST_TEST(difference(slow, 1) == "");
+  const Json result = run_of(slow, 1);
+  for (const Json& frame : result["frames"]) {
+    BOOST_TEST(frame["counts"]["cut_pictures"] == 1);
+    BOOST_TEST(frame["markers"].empty());
+    BOOST_TEST(frame["warnings"].dump().find("picture cut short") != std::string::npos);
+  }
+  BOOST_TEST(!result["summary"].contains("fps"), "no result was delivered");
+}
+
+BOOST_AUTO_TEST_CASE(too_few_labels_are_told) {
+  const Json result = run_of(with({"squares15"}, "pl.blob_labelling.label_count=4"));
+  BOOST_TEST(result["frames"][0]["counts"]["lost_in_logic"] > 0);
+  BOOST_TEST(result["frames"][0]["warnings"].dump().find("label_count") != std::string::npos);
+}
+
+// Issue 17: 320 frames a second, a millisecond from the last pixel to the pose.
+BOOST_AUTO_TEST_CASE(one_marker_is_found_as_fast_as_pixels_come) {
+  const Json result = run_of({"z1.0", "--repeat", "20"});
+  BOOST_TEST(result["summary"]["detected"] == 20);
+  BOOST_TEST(result["frames"].back()["counts"]["lost_in_logic"] == 0);
+  const double fps = result["summary"]["fps"]["mean"], best = 100e6 / (640 * 480);
+  BOOST_TEST(fps > 320);
+  BOOST_TEST(fps < best, "one pixel a clock");
+  for (const Json& frame : result["frames"]) BOOST_TEST(latency_us(frame) < 1000);
+  BOOST_TEST(result["timing"]["met"] == true);
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {
+  const Json overlap = run_of({"squares15", "--repeat", "10"});
+  const Json serial = run_of({"squares15", "--repeat", "10", "--set", "sw.overlap=0"});
+  const double work_us = mean_us(serial, "detection") + mean_us(serial, "pose");
+  // All that is left of the software's work is what does not fit into the next frame.
+  const double hidden_us = period_us(serial) - period_us(overlap);
+  BOOST_TEST(hidden_us > 0.8 * std::min(work_us, 3072.0));
+  for (std::size_t i = 0; i < 10; ++i)
+    BOOST_TEST(overlap["frames"][i]["markers"] == serial["frames"][i]["markers"]);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
