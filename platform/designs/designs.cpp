@@ -82,10 +82,11 @@ const DesignInfo& load_design(const std::string& file) {
 const DesignInfo& thesis_design();
 const DesignInfo& ps_only_design();
 const DesignInfo& improved_design();
+const DesignInfo& hd_design();
 
 const std::vector<const DesignInfo*>& builtin_designs() {
   static const std::vector<const DesignInfo*> designs{&thesis_design(), &ps_only_design(),
-                                                      &improved_design()};
+                                                      &improved_design(), &hd_design()};
   return designs;
 }
 

@@ -9,11 +9,11 @@ using namespace integration;
 
 namespace {
 
-Json run_of(const Arguments& arguments, int exit_code = 0) {
+Json run_of(const Arguments& arguments, int exit_code = 0, const char* design = "improved") {
   const Workplace place;
   Arguments all = arguments;
   for (const char* more :
-       {"--design", "improved", "--quiet", "--no-pictures", "--set", "profile=a9-O2"})
+       {"--design", design, "--quiet", "--no-pictures", "--set", "profile=a9-O2"})
     all.emplace_back(more);
   const kit::Outcome outcome = place.run(all);
   BOOST_TEST(outcome.exit_code == exit_code, outcome.err);
@@ -101,6 +101,17 @@ BOOST_AUTO_TEST_CASE(one_marker_is_found_as_fast_as_pixels_come) {
   BOOST_TEST(fps < best, "one pixel a clock");
   for (const Json& frame : result["frames"]) BOOST_TEST(latency_us(frame) < 1000);
   BOOST_TEST(result["timing"]["met"] == true);
+}
+
+BOOST_AUTO_TEST_CASE(hd_is_the_same_in_another_size) {
+  Json hd = run_of({"demo"}, 0, "hd"),
+       larger = run_of({"demo", "--set", "pl.width=1280 px", "--set", "pl.height=720 px"});
+  for (const char* key : {"configuration", "design", "provenance"}) {
+    hd.erase(key);
+    larger.erase(key);
+  }
+  BOOST_TEST(hd == larger);
+  BOOST_TEST(hd["summary"]["detected"] == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {

@@ -254,7 +254,6 @@ std::uint64_t PixelStreamTlm::earliest_pass(std::uint32_t beats) {
 
 vp::BeatSource::Beats PixelStreamTlm::take(std::uint64_t cycle) {
   advance(cycle);
-  count();
   if (taken_ == passed_.size()) {
     passed_.clear();
     ends_.clear();

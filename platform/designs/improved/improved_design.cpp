@@ -185,7 +185,8 @@ const DesignInfo& improved_design() {
       true,
       improved_words,
       [](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
-        return std::make_unique<ImprovedDesign>(name, ports, pl::Geometry{640, 480, 64});
+        return std::make_unique<ImprovedDesign>(name, ports,
+                                                ImprovedDesign::usual_geometry(640, 480));
       }};
   return info;
 }

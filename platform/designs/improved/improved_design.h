@@ -19,6 +19,10 @@ namespace platform {
 class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalListener {
  public:
   ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports, const pl::Geometry& usual);
+  /// With the longest bursts: least time for addresses and gaps (decision).
+  static pl::Geometry usual_geometry(std::uint32_t width, std::uint32_t height) {
+    return {width, height, marker_logic::max_burst_words};
+  }
 
   input::ImageSize frame_size() const override;
   void show_image(const GreyImage& image) override { camera.show(image.pixels); }

@@ -5,6 +5,7 @@
 #include <string>
 #include <systemc>
 
+#include <marker_logic.h>
 #include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_stream/blob_stream.h>
 #include <pl/camera/camera.h>
@@ -73,9 +74,12 @@ class ImprovedLogic : public sc_core::sc_module {
   void name_groups();
   void count_work();
 
-  /// Refuses sizes that cannot be built before anything is made for them.
+  /// Refuses sizes that cannot be built before anything is made for them. A packet need not be
+  /// whole bursts.
   struct SizeCheck {
-    explicit SizeCheck(const pl::Geometry& geometry) { pl::check(geometry); }
+    explicit SizeCheck(const pl::Geometry& geometry) {
+      pl::check({geometry.width, geometry.height, marker_logic::min_burst_words});
+    }
   } size_check_{geometry()};
 
  public:

@@ -96,6 +96,7 @@ BOOST_DATA_TEST_CASE(a_frame_comes_at_its_times, data::make(both), tlm) {
       if (b.pixels.dma.s2mm_introut && done == 0) done = cycle;
     }
     BOOST_TEST(b.pixels.received() == frame_bytes);
+    b.stream.settle();
   });
   BOOST_TEST(risen == begin + blanking + 1);
   BOOST_TEST(fallen == risen + frame_bytes);
