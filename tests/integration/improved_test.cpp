@@ -2,6 +2,12 @@
 // about what it lost.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "executable.h"
 
@@ -69,6 +75,34 @@ BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_at_other_clocks_and_sizes) {
   BOOST_TEST(difference(with(with({"demo", "z1.0"}, "pl.width=1280 px"), "pl.height=720 px")) ==
              "");
   BOOST_TEST(difference(with({"demo", "z1.0"}, "pl.camera.frame_blanking=1000 cycles")) == "");
+}
+
+// Nothing, everything, noise, one blob of 640x480 px, and 540 blobs that are no markers.
+BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_on_pictures_of_nothing) {
+  const kit::TemporaryFolder pictures;
+  std::uint32_t noise = 1;
+  const std::vector<std::pair<std::string, std::function<int(int, int)>>> greys{
+      {"black", [](int, int) { return 0; }},
+      {"white", [](int, int) { return 255; }},
+      {"noise",
+       [&](int, int) {
+         noise = noise * 1'664'525 + 1'013'904'223;
+         return static_cast<int>(noise >> 24);
+       }},
+      {"chess", [](int x, int y) { return (x / 12 + y / 12) % 2 * 255; }},
+      {"squares", [](int x, int y) { return x % 24 < 14 && y % 24 < 14 ? 0 : 255; }}};
+  Arguments files;
+  for (const auto& [name, grey] : greys) {
+    files.push_back(pictures / (name + ".pgm"));
+    std::ofstream file(files.back(), std::ios::binary);
+    file << "P5 640 480 255\n";
+    for (int y = 0; y < 480; ++y)
+      for (int x = 0; x < 640; ++x) file.put(static_cast<char>(grey(x, y)));
+  }
+  BOOST_TEST(difference(files) == "");
+  const Json result = run_of(files);
+  BOOST_TEST(result["summary"]["detected"] == 0);
+  BOOST_TEST(result["frames"][4]["counts"]["blobs"] == 27 * 20);
 }
 
 // The DMA cannot keep up with bursts of two words: pictures end early, and the software says so.

@@ -103,24 +103,34 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
     shown.part_of = part_of;
     return shown;
   };
-  frame.times = {stage("capture", t.capture, "frame")};
-  frame.times[0].clock = "ps.fclk_clk0";
-  frame.times[0].why = "one pixel a clock, so it lasts as long as the image does";
-  const Sent& sent = sent_[result_.camera_frame % sent_.size()];
-  if (frame.delivered()) {
-    frame.times.push_back(stage("detection", t.detection, "frame"));
-    frame.times.push_back(stage("pose", t.pose, "frame"));
-    frame.times.push_back(stage("frame", t.frame, ""));
-    if (sent.number == result_.camera_frame && sent.end_ps != 0) {
-      report::StageTime latency;
-      latency.name = "last_pixel_to_result";
-      latency.ps = now_ps - sent.end_ps;
-      latency.start_ps = sent.end_ps;
-      frame.times.push_back(latency);
-    }
-  } else {
-    frame.times.push_back(stage("frame", t.frame, ""));
+  const report::StageTime whole = stage("frame", t.frame, "");
+  if (!frame.delivered()) {
+    frame.times = {stage("capture", t.capture, "frame"), whole};
+    return;
   }
+  const report::StageTime detection = stage("detection", t.detection, "frame");
+  frame.times = {detection, stage("pose", t.pose, "frame"), whole};
+  const Sent& sent = sent_[result_.camera_frame % sent_.size()];
+  if (sent.number != result_.camera_frame || sent.end_ps < frame.start_ps) return;
+  const auto between = [](const char* name, std::uint64_t from_ps, std::uint64_t to_ps,
+                          const char* part_of, const char* why) {
+    report::StageTime shown;
+    shown.name = name;
+    shown.ps = to_ps - std::min(from_ps, to_ps);
+    shown.start_ps = from_ps;
+    shown.part_of = part_of;
+    shown.why = why;
+    return shown;
+  };
+  report::StageTime capture = between("capture", frame.start_ps, sent.end_ps, "frame",
+                                      "one pixel a clock, so it lasts as long as the image does");
+  capture.clock = "ps.fclk_clk0";
+  frame.times.insert(
+      frame.times.begin(),
+      {capture, between("wait", sent.end_ps, detection.start_ps, "frame",
+                        "the last blobs and their DMA, the trigger of the next frame, and what the "
+                        "software still had to do for the one before")});
+  frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
 }
 
 ImprovedDesign::Dropped ImprovedDesign::counters() const {
