@@ -137,6 +137,20 @@ BOOST_AUTO_TEST_CASE(one_marker_is_found_as_fast_as_pixels_come) {
   BOOST_TEST(result["timing"]["met"] == true);
 }
 
+// Issue 17: 70 % of the thesis' energy at a fixed rate, the wait included.
+BOOST_AUTO_TEST_CASE(a_slow_clock_and_one_memory_chip_save_energy_at_60_frames_a_second) {
+  const Arguments camera =
+      with({"z1.0", "--repeat", "5", "--rate", "60 fps"}, "power.mode=activity");
+  Arguments eco = camera;
+  for (const char* setting :
+       {"ps.fclk_clk0.frequency=25 MHz", "power.ddr.voltage=1.35 V", "power.ddr.width=16"})
+    eco = with(eco, setting);
+  const Json saving = run_of(eco), thesis = run_of(camera, 0, "thesis");
+  BOOST_TEST(saving["summary"]["fps"]["mean"] == 60.0);
+  BOOST_TEST(double(saving["summary"]["energy_per_frame_mj"]) <
+             0.7 * double(thesis["summary"]["energy_per_frame_mj"]));
+}
+
 BOOST_AUTO_TEST_CASE(hd_is_the_same_in_another_size) {
   Json hd = run_of({"demo"}, 0, "hd"),
        larger = run_of({"demo", "--set", "pl.width=1280 px", "--set", "pl.height=720 px"});
