@@ -57,7 +57,7 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
       "be shown; 512 fill the depth of a block memory"};
   vp::Parameter<std::uint32_t> minimum_side{
       "minimum_side",       10,
-      vp::Unit::pixels,     {0, 2047},
+      vp::Unit::pixels,     {1, 2047},
       vp::Source::decision, "smallest side of a blob's bounding box (last - first) that is shown"};
 
   /// Brings label_overflow up to now, in the middle of a frame, too.
@@ -119,8 +119,7 @@ class BlobLabellingTlm final : public BlobLabelling, private FrameListener {
   void emit(std::uint64_t cycle);
   std::uint64_t next_change(std::uint64_t cycle) const;
   std::uint32_t lost_until(std::uint64_t cycle) const;
-  /// The first edge that may take the next frame's first pixel, and behind which nothing of this
-  /// one is looked at.
+  /// The first edge that may take the next frame's first pixel.
   std::uint64_t over() const { return begin_ + geometry_.pixels() + geometry_.width + 1; }
 
   LabellingFrame frame_;

@@ -57,7 +57,7 @@ LabellingCore::LabellingCore(const Geometry& geometry, std::uint32_t labels,
 void LabellingCore::reset() {
   free_.reset();
   read_ = write_ = 0;
-  pixel_ = {};
+  pixel_ = decided_ = {};
   flush_ = 0;
   busy_ = dark_ = dark_above_ = run_ended_ = false;
   open_.clear();
@@ -79,12 +79,15 @@ bool LabellingCore::idle() const {
 void LabellingCore::clock(bool ena, bool dark, std::uint32_t x, std::uint32_t y) {
   const Label returned = leave();
   bool taken = false;
-  if (pixel_.valid) {
+  const bool ends_frame = decided_.valid && decided_.y > height_;
+  if (decided_.valid) {
     if (run_ended_) taken = finish_run();
     step();
   }
   free_.clock(taken, returned);
+  decided_ = pixel_;
   capture(ena, dark, x, y);
+  if (ends_frame && !decided_.valid && !pixel_.valid) busy_ = false;
 }
 
 // A frame is followed by one bright row and a pixel more: its last runs pass.
@@ -95,7 +98,6 @@ void LabellingCore::capture(bool ena, bool dark, std::uint32_t x, std::uint32_t 
     pixel_ = {true, false, next_row ? 0 : pixel_.x, pixel_.y + next_row};
     return;
   }
-  if (pixel_.valid && pixel_.y > height_) busy_ = false;
   pixel_.valid = ena;
   if (!ena) return;
   busy_ = true;
@@ -128,7 +130,7 @@ LabellingCore::Label LabellingCore::leave() {
 }
 
 void LabellingCore::step() {
-  const auto [valid, dark, x, y] = pixel_;
+  const auto [valid, dark, x, y] = decided_;
   const bool first_column = x == 0;
   if (first_column && dark_above_) pass();  // the last run of the row before
   const bool dark_before = !first_column && dark_, above_before = !first_column && dark_above_;

@@ -156,7 +156,8 @@ class LabellingCore {
   std::vector<std::uint8_t> has_left_, has_right_;  ///< what there is of this row
   std::uint32_t read_ = 0, write_ = 0;
 
-  Pixel pixel_;                             ///< captured, looked at in the next clock
+  Pixel pixel_;                             ///< captured
+  Pixel decided_;                           ///< captured a clock before, looked at in the next one
   std::uint32_t flush_ = 0;                 ///< clocks of the bright row behind the frame to come
   bool busy_ = false;                       ///< a frame, or the row behind it
   bool dark_ = false, dark_above_ = false;  ///< the pixel before, and above it

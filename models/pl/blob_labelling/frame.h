@@ -75,7 +75,7 @@ class LabellingFrame {
   void leave(std::uint64_t clock, bool shown, const Extremes& extremes);
   Component root(Component component);
   /// The clock of the step that looks at column `x` of the present row.
-  std::uint64_t step(std::uint32_t x) const { return row_ + x + 1; }
+  std::uint64_t step(std::uint32_t x) const { return row_ + x + 2; }
 
   const Geometry geometry_;
   const std::uint32_t minimum_side_;

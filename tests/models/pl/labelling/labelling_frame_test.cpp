@@ -32,7 +32,7 @@ struct Pair {
     frame.find(picture.words().data(), begin, queue, blobs, losses);
     for (std::uint32_t i = 0; i < picture.count(); ++i)
       clock(true, picture.pixels[i], i % picture.width, i / picture.width);
-    over = now + picture.width + 1;
+    over = now + picture.width + 2;
     for (std::uint32_t i = 0; i < picture.width + 1 + pause; ++i) clock(false);
   }
   void finish() {

@@ -3,6 +3,7 @@
 #include <pl/blob_labelling/blob_labelling.h>
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
+#include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>
 #include <map>
@@ -154,6 +155,12 @@ struct Bench : kit::Simulation {
     for (const auto& candidate : pl::BlobLabelling::models().list()) {
       if (candidate.name == model) ip = candidate.make("blob_labelling", {clk, geometry});
     }
+#ifdef MARKERVP_LABELLING_RTL
+    if (model == "rtl") {
+      ip = pl::BlobLabelling::models().make_rtl("blob_labelling", {clk, geometry},
+                                                {MARKERVP_LABELLING_RTL});
+    }
+#endif
     ip->ena(source.ena);
     ip->rst(source.rst);
     ip->pixel(source.pixel);
@@ -228,7 +235,7 @@ BOOST_AUTO_TEST_CASE(frames_in_a_row_are_equal_in_both_models) {
       cycle += size.pixels() + size.width + 1 + random.below(2) * random.below(400);
     }
     script.end = cycle + 3000;
-    check(size, round % 3 == 0 ? 4 + random.below(30) : 512, random.below(6), script);
+    check(size, round % 3 == 0 ? 4 + random.below(30) : 512, 1 + random.below(6), script);
   }
 }
 
@@ -251,7 +258,7 @@ BOOST_AUTO_TEST_CASE(resets_at_any_clock_are_equal_in_both_models) {
       }
     }
     script.end = cycle + 2500;
-    check(size, 4 + random.below(80), random.below(4), script);
+    check(size, 4 + random.below(80), 1 + random.below(4), script);
   }
 }
 
@@ -269,12 +276,55 @@ BOOST_AUTO_TEST_CASE(pixels_that_change_before_they_come_are_equal_in_both_model
       cycle += size.pixels() + size.width + 1 + random.below(200);
     }
     script.end = cycle + 2500;
-    check(size, 4 + random.below(200), random.below(4), script);
+    check(size, 4 + random.below(200), 1 + random.below(4), script);
   }
 }
 
+#ifdef MARKERVP_LABELLING_RTL
+// Frames in a row, resets, and labels that run out.
+BOOST_AUTO_TEST_CASE(the_rtl_is_equal_to_the_clocked_model) {
+  Random random(4);
+  const pl::Geometry size{64, 16};
+  std::size_t shown = 0, lost = 0;
+  for (int round = 0; round < 60; ++round) {
+    Script script;
+    script.resets[2] = 2;  // registers have a value from the first reset on
+    std::uint64_t cycle = 10;
+    for (int frame = 0; frame < 12; ++frame) {
+      script.frames[cycle] = {random_picture(random, size.width, size.height)};
+      const std::uint32_t whole = size.pixels() + size.width + 1;
+      if (random.below(8) == 0) {
+        const std::uint64_t at = cycle + 1 + random.below(whole);
+        script.resets[at] = 1 + random.below(3);
+        cycle = at + 5 + random.below(20);
+      } else {
+        cycle += whole + random.below(2) * random.below(300);
+      }
+    }
+    script.end = cycle + 2500;
+    const Outcome clocked = run("clocked", size, 12, 2, script);
+    const Outcome rtl = run("rtl", size, 12, 2, script);
+    BOOST_TEST(rtl.seen == clocked.seen, boost::test_tools::per_element());
+    BOOST_TEST(rtl.losses == clocked.losses, boost::test_tools::per_element());
+    BOOST_TEST(rtl.settled == clocked.settled, boost::test_tools::per_element());
+    for (const Seen& seen : clocked.seen) shown += seen.blob_out;
+    for (const std::uint32_t loss : clocked.losses) lost += loss != 0;
+  }
+  BOOST_TEST(shown > 1000u);
+  BOOST_TEST(lost > 10u);
+}
+
+// What it was built for is compared with the configuration.
+BOOST_AUTO_TEST_CASE(rtl_of_another_size_is_refused) {
+  Script script;
+  BOOST_CHECK_THROW(run("rtl", {64, 32}, 12, 2, script), vp::InputError);
+  BOOST_CHECK_THROW(run("rtl", {64, 16}, 13, 2, script), vp::InputError);
+}
+#endif
+
 // A square of 20 px whose last run ends in (39, 24): pixel (39, 25) leaves the source on edge
-// 10 + 25 x 64 + 39 and is taken one edge later, the blob stands behind the sixth edge after that.
+// 10 + 25 x 64 + 39 and is taken one edge later, the blob stands behind the seventh edge after
+// that.
 BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   const pl::Geometry size{64, 32};
   Binary picture{size.width, size.height, std::vector<std::uint8_t>(size.pixels())};
@@ -284,8 +334,8 @@ BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   Script script;
   script.frames[10] = {picture};
   script.end = 10 + size.pixels() + 500;
-  const std::uint64_t out = 10 + 25 * 64 + 39 + 1 + 6;
-  const std::uint64_t over = 11 + size.pixels() + size.width + 1;
+  const std::uint64_t out = 10 + 25 * 64 + 39 + 1 + 7;
+  const std::uint64_t over = 11 + size.pixels() + size.width + 2;
   using blob_stream::point;
   const std::vector<Seen> expected{{1, true, false, {}},
                                    {12, false, false, {}},

@@ -81,9 +81,23 @@ BOOST_AUTO_TEST_CASE(lint_has_nothing_to_say_at_any_size) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(lint_has_nothing_to_say_of_blob_labelling_at_any_size) {
+  for (const Words& parameters : std::vector<Words>{
+           {},
+           {"WIDTH=32", "HEIGHT=16", "LABELS=4", "MINIMUM_SIDE=1"},
+           {"WIDTH=1280", "HEIGHT=720"},
+           {"WIDTH=2048", "HEIGHT=2048", "LABELS=2048", "MINIMUM_SIDE=2047"}}) {
+    const kit::Outcome outcome = lint(sources(), "blob_labelling", parameters);
+    BOOST_TEST(outcome.exit_code == 0);
+    BOOST_TEST(outcome.out + outcome.err == "");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(yosys_reads_it_and_finds_no_latch_and_no_loop) {
-  const kit::Outcome outcome = elaborate(sources(), "feature_extraction");
-  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+  for (const char* top : {"feature_extraction", "blob_labelling"}) {
+    const kit::Outcome outcome = elaborate(sources(), top);
+    BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+  }
 }
 
 // The checks above can fail.
@@ -110,6 +124,9 @@ BOOST_AUTO_TEST_CASE(memories_become_memories) {
   BOOST_TEST(blob["RAMB18E1"] == 1);
   BOOST_TEST(blob["RAM64M"] > 100);
   BOOST_TEST(blob["FDRE"] < 3200);
+  auto labelling = synthesise("blob_labelling");
+  BOOST_TEST(labelling["RAMB18E1"] + 2 * labelling["RAMB36E1"] >= 10);
+  BOOST_TEST(labelling["FDRE"] < 2500);
   auto packaging = synthesise("feature_packaging");
   BOOST_TEST(packaging["FDRE"] < 300);
   auto bridge = synthesise("axi_threshold_bridge");
