@@ -42,12 +42,24 @@ KERNELS = {
     "corner_detection": ["corner_pixels", "corner_survivors", "corner_bright", "corner_points",
                          "corner_rows", "corners_found", "corner_frames"],
     "threshold": ["threshold_pixels", "threshold_frames"],
+    "blob_check": ["blobs_checked", "hulls_tested", "quads_spanned"],
+    "quad_fit": ["crossings", "level_pixels", "level_reads", "strips", "lens_steps", "side_fits",
+                 "transitions", "points_refitted", "corners_met", "fit_passes", "quads_refined",
+                 "quads_fitted"],
+    "code_reading": ["code_cells", "code_turns", "code_parts", "code_compares", "codes_read"],
+    "board_pose": ["marker_weighings", "pose_steps", "board_poses"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }
 
+# Units of other kernels that a kernel does, too: their costs are taken off before it is fitted.
+BORROWED = {"code_reading": ["homographies"], "board_pose": ["homographies"]}
+# Units that say what memory costs that a DMA engine wrote, with the kernel and its first unit.
+COLD = {"grid_samples_dma": "identification", "crossings_dma": "quad_fit",
+        "code_cells_dma": "code_reading"}
+
 SOURCES = ["calibration/driver/%s.cpp" % n for n in
-           ("devices", "kernels", "main", "scene")] + [
+           ("detector", "devices", "kernels", "main", "scene")] + [
     os.path.relpath(path, ROOT) for path in sorted(glob.glob(os.path.join(ROOT, "sw/marker/*.cpp")))] + [
     "sw/apps/hybrid/burst_chain.cpp", "sw/apps/hybrid/pl_link.cpp"] + [
     "sw/drivers/%s.cpp" % n for n in ("axi_dma", "axi_gpio", "gic", "timers")]
@@ -141,6 +153,13 @@ def memory_costs(tools, level):
     return costs
 
 
+def borrowed(kernel, counts, kernels, what):
+    """Instructions or cycles of the units that the kernel borrows."""
+    return sum(counts.get(unit, 0) * entry["units"][unit][what]
+               for unit in BORROWED.get(kernel, []) for entry in kernels.values()
+               if unit in entry["units"])
+
+
 def calibrate(tools, level, scenes):
     """The kernels of a cost table, and whether all fits are good enough."""
     samples, blocks = tools.both(level, [str(scenes)])
@@ -151,8 +170,10 @@ def calibrate(tools, level, scenes):
           % level)
     print("kernel                    mean %    max %    mean %    max %  instruction  level 1  level 2")
     for kernel, units in KERNELS.items():
-        executed = [(counts, numbers[0]) for counts, numbers, _ in samples[kernel]]
-        taken = [(counts, sum(cycles[b] * n for b, n in runs.items()))
+        executed = [(counts, numbers[0] - borrowed(kernel, counts, kernels, "instructions"))
+                    for counts, numbers, _ in samples[kernel]]
+        taken = [(counts, sum(cycles[b] * n for b, n in runs.items()) -
+                  borrowed(kernel, counts, kernels, "cycles"))
                  for counts, _, runs in samples[kernel]]
         errors = fit.leave_one_out(executed, units)
         errors_taken = fit.leave_one_out(taken, units)
@@ -175,9 +196,10 @@ def calibrate(tools, level, scenes):
                            "units": entry}
     if unknown:
         print("not modelled, a cycle each: " + ", ".join(sorted({u.split()[0] for u in unknown})))
-    extra = max(0.0, memory["identification_cold"][1] - memory["identification"][1])
-    kernels["identification"]["units"]["grid_samples_dma"] = {
-        "instructions": 0, "cycles": 0, "stall_ns": round(extra * DDR_NS, 4)}
+    for unit, kernel in COLD.items():
+        extra = max(0.0, memory[kernel + "_cold"][1] - memory[kernel][1])
+        kernels[kernel]["units"][unit] = {
+            "instructions": 0, "cycles": 0, "stall_ns": round(extra * DDR_NS, 4)}
     cpi = kernels["decode"]["cycles_per_instruction"]
     kernels["application"] = {"source": "assumed", "units": {"frames": {
         "instructions": round(calls, 1), "cycles": round(calls * cpi, 1), "stall_ns": 0.0}}}

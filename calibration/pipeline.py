@@ -32,10 +32,11 @@ def for_model(text):
     """What llvm-mca can schedule in place of one instruction: a list of instructions.
 
     It knows no load and store of several registers (one transfer each instead), and takes calls for
-    100 cycles (a branch instead). Nothing for what only fills a slot.
+    100 cycles (a branch instead). Nothing for what only fills a slot, or says of the next
+    instructions when they hold (libgcc's division is in Thumb).
     """
     name = text.split()[0].replace(".w", "")
-    if name in ("nop", "dmb", "dsb", "isb"):
+    if name in ("nop", "dmb", "dsb", "isb") or re.fullmatch("it[te]*", name):
         return []
     if name.startswith(("push", "stm", "vpush", "vstm", "vstmia")):
         return ["str r0, [sp]"] * register_count(text)

@@ -129,6 +129,12 @@ void measure_evaluation(Random& random);
 void measure_identification(Random& random, std::uint32_t width, std::uint32_t height, bool cold);
 void measure_pose(Random& random);
 
+/// Measures the detector of the design `improved` on a random picture. `cold`: the picture is in no
+/// cache, as after a DMA engine wrote it.
+void measure_detector(Random& random, std::uint32_t width, std::uint32_t height, bool cold);
+/// And what follows, on random boards.
+void measure_board_pose(Random& random);
+
 /// Measures what the software does for the hardware: feature words and interrupts.
 void measure_hardware(Random& random);
 

@@ -14,10 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector8d = Eigen::Matrix<double, 8, 1>;
-using Matrix8d = Eigen::Matrix<double, 8, 8>;
-using Jacobian = Eigen::Matrix<double, 8, 6>;
 template <int size>
 using RowMajor = Eigen::Matrix<double, size, size, Eigen::RowMajor>;
 
@@ -106,6 +102,74 @@ bool rotations_of(const Tangent& tangent, Matrix3d& first, Matrix3d& second) {
 
 // ---- All corners --------------------------------------------------------------------------------
 
+/// How the eight coordinates of a marker's corners move with the pose, and how far they are off in
+/// the seventh column. By hand, since Eigen's general code takes five times as long.
+struct Rows {
+  double at[8][7];
+
+  /// Makes the coordinates independent and their variance 1: rows times the inverse of the
+  /// covariance's Cholesky factor.
+  void whiten(const std::array<double, 64>& covariance) {
+    double factor[8][8];
+    for (unsigned i = 0; i < 8; ++i) {
+      for (unsigned k = 0; k <= i; ++k) {
+        double rest = covariance[i * 8 + k];
+        for (unsigned j = 0; j < k; ++j) rest -= factor[i][j] * factor[k][j];
+        factor[i][k] = k < i ? rest * factor[k][k] : 1 / std::sqrt(rest);
+      }
+      for (unsigned k = 0; k < i; ++k) {
+        for (unsigned c = 0; c < 7; ++c) at[i][c] -= factor[i][k] * at[k][c];
+      }
+      for (unsigned c = 0; c < 7; ++c) at[i][c] *= factor[i][i];
+    }
+  }
+};
+
+/// JᵀΩJ, JᵀΩr and rᵀΩr: the products of such columns, lower half.
+struct Normal {
+  double at[7][7];
+
+  void add(const Rows& rows) {
+    // No sum waits for the one before: the Cortex-A9's takes long, and begins one each clock.
+    for (const double(&row)[7] : rows.at) {
+      for (unsigned i = 0; i < 7; ++i) {
+        for (unsigned k = 0; k <= i; ++k) at[i][k] += row[i] * row[k];
+      }
+    }
+  }
+  double error() const { return at[6][6]; }
+
+  /// The Cholesky factor of JᵀΩJ, with the inverse of its diagonal.
+  struct Factor {
+    double at[6][6];
+
+    /// What leads to `right`.
+    Vector6d solve(Vector6d right) const {
+      for (unsigned i = 0; i < 6; ++i) {
+        for (unsigned k = 0; k < i; ++k) right[i] -= at[i][k] * right[k];
+        right[i] *= at[i][i];
+      }
+      for (unsigned i = 6; i-- > 0;) {
+        for (unsigned k = i + 1; k < 6; ++k) right[i] -= at[k][i] * right[k];
+        right[i] *= at[i][i];
+      }
+      return right;
+    }
+  };
+  Factor factor() const {
+    Factor factor;
+    for (unsigned i = 0; i < 6; ++i) {
+      for (unsigned k = 0; k <= i; ++k) {
+        double rest = at[i][k];
+        for (unsigned j = 0; j < k; ++j) rest -= factor.at[i][j] * factor.at[k][j];
+        factor.at[i][k] = k < i ? rest * factor.at[k][k] : 1 / std::sqrt(rest);
+      }
+    }
+    return factor;
+  }
+  Vector6d gradient() const { return Eigen::Map<const Vector6d>(at[6]); }
+};
+
 class Corners {
  public:
   Corners(const SeenMarker* markers, std::uint32_t count, const Camera& camera)
@@ -134,46 +198,41 @@ class Corners {
 
   /// Gauss–Newton; a step that makes it worse is halved. False if it leads behind the camera.
   bool refine(Solution& solution, BoardPose& pose) const {
-    Matrix6d information;
-    Vector6d gradient;
-    double error = 0;
-    if (!weigh(solution, information, gradient, error)) return false;
+    Normal normal;
+    if (!weigh(solution, normal)) return false;
     for (unsigned step = 0; step < most_steps; ++step) {
-      Vector6d move = -information.ldlt().solve(gradient);
+      Vector6d move = -normal.factor().solve(normal.gradient());
       Solution next;
-      Matrix6d next_information;
-      Vector6d next_gradient;
-      double next_error = 0;
+      Normal next_normal;
       unsigned halvings = 0;
       for (;; ++halvings) {
         next = moved(solution, move);
-        if (weigh(next, next_information, next_gradient, next_error) && next_error <= error) break;
+        if (weigh(next, next_normal) && next_normal.error() <= normal.error()) break;
         if (halvings == most_halvings) break;
         move /= 2;
       }
       if (halvings == most_halvings) break;
-      const double gain = error - next_error;
+      const double gain = normal.error() - next_normal.error();
       solution = next;
-      information = next_information;
-      gradient = next_gradient;
-      error = next_error;
-      if (gain < least_gain * error || gain < least_gain) break;
+      normal = next_normal;
+      if (gain < least_share * normal.error() || gain < least_gain) break;
     }
     RowMajor<3>::Map(pose.rotation.data()) = solution.rotation;
     Vector3d::Map(pose.translation.data()) = solution.translation;
-    const Eigen::LDLT<Matrix6d> factor(information);
+    const Normal::Factor factor = normal.factor();
     for (unsigned column = 0; column < 6; ++column) {
       RowMajor<6>::Map(pose.covariance.data()).col(column) =
           factor.solve(Vector6d(Vector6d::Unit(column)));
     }
-    pose.chi_squared = error;
-    return std::isfinite(error);
+    pose.chi_squared = normal.error();
+    return std::isfinite(normal.error());
   }
 
  private:
   static constexpr unsigned most_steps = 30;
   static constexpr unsigned most_halvings = 8;
-  static constexpr double least_gain = 1e-10;
+  /// Of the sum of squared errors, relative and absolute: a hundredth of a standard deviation.
+  static constexpr double least_share = 1e-4, least_gain = 1e-8;
 
   const SeenMarker& largest() const {
     const SeenMarker* largest = markers_;
@@ -208,42 +267,40 @@ class Corners {
     return {turn.normalized().toRotationMatrix() * s.rotation, s.translation + move.tail<3>()};
   }
 
-  /// JᵀΩJ, JᵀΩr and rᵀΩr over all markers. False if a corner is not in front of the camera.
-  bool weigh(const Solution& s, Matrix6d& information, Vector6d& gradient, double& error) const {
-    information.setZero();
-    gradient.setZero();
-    error = 0;
+  /// Over all markers. False if a corner is not in front of the camera.
+  bool weigh(const Solution& s, Normal& normal) const {
+    work(Work::pose_steps, 1);
+    work(Work::marker_weighings, count_);
+    normal = {};
     for (std::uint32_t i = 0; i < count_; ++i) {
-      Jacobian j;
-      Vector8d r;
-      if (!look(s, markers_[i], j, r)) return false;
-      const Eigen::LLT<Matrix8d> factor(RowMajor<8>::Map(markers_[i].covariance.data()));
-      // Column by column and lazily: Eigen takes memory from the heap for larger products.
-      for (unsigned column = 0; column < 6; ++column) {
-        auto of_j = j.col(column);
-        factor.matrixL().solveInPlace(of_j);
-      }
-      factor.matrixL().solveInPlace(r);
-      information += j.transpose().lazyProduct(j);
-      gradient += j.transpose().lazyProduct(r);
-      error += r.squaredNorm();
+      Rows rows;
+      if (!look(s, markers_[i], rows)) return false;
+      rows.whiten(markers_[i].covariance);
+      normal.add(rows);
     }
     return true;
   }
 
-  bool look(const Solution& s, const SeenMarker& marker, Jacobian& j, Vector8d& r) const {
+  bool look(const Solution& s, const SeenMarker& marker, Rows& rows) const {
     for (unsigned i = 0; i < 4; ++i) {
       const Vector3d turned = s.rotation * vector(marker.places[i]);
       const Vector3d p = turned + s.translation;
       if (!(p.z() > 0)) return false;
       const double x = p.x() / p.z(), y = p.y() / p.z();
-      r[2 * i] = camera_.fx * x + camera_.cx - marker.corners[i].x;
-      r[2 * i + 1] = camera_.fy * y + camera_.cy - marker.corners[i].y;
       const Vector3d dx = camera_.fx / p.z() * Vector3d(1, 0, -x);
       const Vector3d dy = camera_.fy / p.z() * Vector3d(0, 1, -y);
       // A turn ω moves the point by ω × turned.
-      j.row(2 * i) << turned.cross(dx).transpose(), dx.transpose();
-      j.row(2 * i + 1) << turned.cross(dy).transpose(), dy.transpose();
+      const Vector3d turn_x = turned.cross(dx), turn_y = turned.cross(dy);
+      double* const row_x = rows.at[2 * i];
+      double* const row_y = rows.at[2 * i + 1];
+      for (unsigned k = 0; k < 3; ++k) {
+        row_x[k] = turn_x[k];
+        row_x[3 + k] = dx[k];
+        row_y[k] = turn_y[k];
+        row_y[3 + k] = dy[k];
+      }
+      row_x[6] = camera_.fx * x + camera_.cx - marker.corners[i].x;
+      row_y[6] = camera_.fy * y + camera_.cy - marker.corners[i].y;
     }
     return true;
   }
@@ -290,6 +347,7 @@ std::array<double, 64> independent_corners(double sigma) {
 BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
                                const Camera& camera) {
   const FunctionScope scope(Function::pose_estimation);
+  work(Work::board_poses, 1);
   BoardPoses poses{};
   if (count == 0 || !(camera.fx > 0 && camera.fy > 0)) return poses;
   const Corners corners(markers, count, camera);

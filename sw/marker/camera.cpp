@@ -1,4 +1,5 @@
 #include <marker/camera.h>
+#include <marker/work.h>
 
 namespace marker {
 namespace {
@@ -33,6 +34,11 @@ Point distort(const Lens& lens, Point ideal) {
 }
 
 bool undistort(const Lens& lens, Point image, Point& ideal) {
+  std::uint32_t steps = 0;
+  return undistort(lens, image, ideal, steps);
+}
+
+bool undistort(const Lens& lens, Point image, Point& ideal, [[maybe_unused]] std::uint32_t& steps) {
   ideal = image;
   if (lens.is_pinhole()) return true;
   const Camera& c = lens.camera;
@@ -42,6 +48,7 @@ bool undistort(const Lens& lens, Point image, Point& ideal) {
   Point p = wanted;
   for (unsigned step = 0; step < most_steps; ++step) {
     const Bent bent = bend(lens, p);
+    MARKERVP_COUNT(steps);
     const double dx = wanted.x - bent.at.x, dy = wanted.y - bent.at.y;
     // Where the model folds back its determinant changes sign.
     const double determinant = bent.xx * bent.yy - bent.xy * bent.xy;

@@ -2,6 +2,8 @@
 
 #include <marker/geometry.h>
 
+#include <cstdint>
+
 namespace marker {
 
 /// A pinhole camera: x right, y down, z forward.
@@ -25,5 +27,7 @@ Point distort(const Lens& lens, Point ideal);
 /// Where a pinhole camera would see a point of the picture. False if the model has no such point
 /// (beyond the radius where it folds back).
 bool undistort(const Lens& lens, Point image, Point& ideal);
+/// The same; adds how often the lens was asked.
+bool undistort(const Lens& lens, Point image, Point& ideal, std::uint32_t& steps);
 
 }  // namespace marker

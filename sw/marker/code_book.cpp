@@ -107,17 +107,19 @@ std::uint64_t CodeBook::part(std::uint64_t word, std::uint32_t index) const {
 }
 
 bool CodeBook::find_near(std::uint64_t word, Match& match) const {
-  std::uint32_t compares = 0;
+  [[maybe_unused]] std::uint32_t searched = 0, compares = 0;
   for (std::uint32_t i = 0; i < parts_ && !match.found; ++i) {
+    MARKERVP_COUNT(searched);
     const std::uint64_t wanted = part(word, i);
     const std::uint16_t* const end = order_[i].data() + dictionary_->size;
     const std::uint16_t* id = std::lower_bound(order_[i].data(), end, wanted,
                                                [&](std::uint16_t known, std::uint64_t value) {
+                                                 MARKERVP_COUNT(searched);
                                                  return part(dictionary_->words[known], i) < value;
                                                });
     for (; id != end && part(dictionary_->words[*id], i) == wanted; ++id) {
-      ++compares;
       const std::uint32_t wrong = ones(word ^ dictionary_->words[*id]);
+      MARKERVP_ADD(compares, wrong + 1);
       if (wrong > corrects()) continue;
       match.found = true;
       match.id = *id;
@@ -125,7 +127,8 @@ bool CodeBook::find_near(std::uint64_t word, Match& match) const {
       break;
     }
   }
-  work(Work::dictionary_compares, compares);
+  work(Work::code_parts, searched);
+  work(Work::code_compares, compares);
   return match.found;
 }
 
@@ -138,7 +141,7 @@ CodeBook::Match CodeBook::look_up(std::uint64_t word) const {
       break;
     }
     word = rotate_clockwise(word, dictionary_->cells);
-    work(Work::rotations, 1);
+    work(Work::code_turns, std::uint64_t{dictionary_->cells} * dictionary_->cells);
   }
   return match;
 }

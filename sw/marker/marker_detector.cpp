@@ -89,6 +89,9 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
   clear(found);
   BlobCounts& counts = found.blobs;
   counts.received = blobs.count;
+  work(Work::blobs_checked, blobs.count);
+  DetectionOptions options = options_.detection;
+  options.fit.in_dma_memory = frame.in_dma_memory;
   for (std::uint32_t i = 0; i < blobs.count; ++i) {
     const std::uint32_t* const words = blobs.words + i * blob_stream::words_per_blob;
     if (!is_blob(words, frame.image)) {
@@ -107,8 +110,7 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
     }
     if (frame.in_dma_memory) fetch(frame.image, box);
     DetectedMarker marker{};
-    const Refusal refusal =
-        read_marker(frame.image, frame.lens, guess, book_, options_.detection, marker);
+    const Refusal refusal = read_marker(frame.image, frame.lens, guess, book_, options, marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
     } else if (found.count == max_detections) {

@@ -1,4 +1,5 @@
 #include <marker/quad_fit.h>
+#include <marker/work.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,37 +35,67 @@ constexpr double least_cell = 1.5;
 /// cell goes, but not less than the first, which tells whether the code's cell is black, too.
 constexpr double least_depth = 3;
 constexpr double most_depth = 10;
-/// The corners are fitted so often, each time around where they were found before.
-constexpr unsigned passes = 4;
+/// The corners are found in so many passes, each around where they were before, from a few
+/// crossings of each side, and refined in a last one from all that are asked for.
+constexpr unsigned coarse_passes = 2;
+constexpr std::uint32_t coarse_crossings = 12;
 /// A corner that leaves its guess by more belongs to something else, px.
 constexpr double most_move = 6;
 /// A side with fewer crossings is not measured.
 constexpr std::uint32_t least_crossings = 6;
-/// So many crossings of a side are used; longer ones leave rows out.
+/// Room for the crossings of a side.
 constexpr std::uint32_t most_crossings = 256;
+/// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
+constexpr std::uint32_t level_pixels = 256, coarse_level_pixels = 64;
+/// A lens bends a side by less than a twentieth of a pixel on so many lines.
+constexpr double straight_lines = 32;
+constexpr std::uint32_t most_pieces = 64;
+
+/// Units of work that were done.
+struct Effort {
+  std::uint64_t passes = 0, sides = 0, strips = 0, crossings = 0, level_pixels = 0;
+  std::uint64_t transitions = 0, refitted = 0, level_reads = 0, corners = 0;
+  std::uint32_t lens_steps = 0;
+
+  void tell(bool in_dma_memory) const {
+    work(Work::fit_passes, passes);
+    work(Work::side_fits, sides);
+    work(Work::crossings, crossings);
+    work(Work::strips, strips);
+    work(Work::level_reads, level_reads);
+    work(Work::level_pixels, level_pixels);
+    work(Work::transitions, transitions);
+    work(Work::points_refitted, refitted);
+    work(Work::corners_met, corners);
+    if (lens_steps != 0) work(Work::lens_steps, lens_steps);
+    if (in_dma_memory) work(Work::crossings_dma, crossings);
+  }
+};
 
 /// Where grey values come from: the rows and columns of `image`, or `sides` where it has no pixels.
 struct Source {
   GreyImage image;
   const std::array<SideSupport, 4>* sides;
+  Effort& effort;
 };
 
 /// Between two corners of the quadrilateral, in ideal px.
 struct Side {
-  Point from, to, along, outward;
+  Point from, to, middle, along, outward;
   double length;
-  double height;     ///< of the quadrilateral over this side, at its lower end
-  bool by_rows;      ///< rows cross it
-  double steepness;  ///< px across the edge for one px along a strip
+  double height;             ///< of the quadrilateral over this side, at its lower end
+  bool by_rows;              ///< rows cross it
+  bool dark_first;           ///< along them the dark side comes first
+  double steepness;          ///< px across the edge for one px along a strip
+  Point from_seen, to_seen;  ///< in the picture
 };
 
-/// A strip and where its edge is expected.
+/// A strip and where its edge is.
 struct Crossing {
   Strip strip;
-  double position;           ///< px along the strip: expected, then found
   std::uint32_t begin, end;  ///< the pixels that hold the transition
-  bool dark_first;           ///< the dark side has the lower coordinates
-  double along, outward;     ///< what was found: px from the side's middle, and from the side
+  double position;           ///< px along the strip
+  double along, outward;     ///< px from the side's middle, and from the side
 };
 
 /// A line near a side: outward = offset + slope · along.
@@ -78,103 +109,144 @@ struct Line {
 
 /// The mean of some grey values and how far single ones lie from it.
 struct Level {
-  double sum = 0, squares = 0;
-  double count = 0;
+  std::uint32_t sum = 0, squares = 0, count = 0;
 
-  void add(double value) {
+  void add(std::uint32_t value) {
     sum += value;
     squares += value * value;
     ++count;
   }
-  double mean() const { return sum / count; }
+  double mean() const { return static_cast<double>(sum) / count; }
   /// Of the mean.
   double variance() const {
-    return count < 2 ? 0 : (squares - sum * sum / count) / (count - 1) / count;
+    if (count < 2) return 0;
+    const double n = count, s = sum;
+    return (squares - s * s / n) / (n - 1) / n;
   }
 };
 
-std::array<Side, 4> sides_of(const Source& source, const Quad& quad) {
+std::array<Side, 4> sides_of(const Source& source, const Quad& ideal, const Quad& seen) {
   std::array<Side, 4> sides{};
   for (unsigned i = 0; i < 4; ++i) {
     Side& side = sides[i];
-    side.from = quad[i];
-    side.to = quad[(i + 1) % 4];
+    side.from = ideal[i];
+    side.to = ideal[(i + 1) % 4];
+    side.middle = 0.5 * (side.from + side.to);
+    side.from_seen = seen[i];
+    side.to_seen = seen[(i + 1) % 4];
     const Point span = side.to - side.from;
     side.length = std::sqrt(dot(span, span));
     side.along = (1 / side.length) * span;
     side.outward = {side.along.y, -side.along.x};
-    const double one = dot(side.from - quad[(i + 2) % 4], side.outward);
-    const double other = dot(side.from - quad[(i + 3) % 4], side.outward);
+    const double one = dot(side.from - ideal[(i + 2) % 4], side.outward);
+    const double other = dot(side.from - ideal[(i + 3) % 4], side.outward);
     side.height = one < other ? one : other;
     side.by_rows = source.image.pixels != nullptr ? std::abs(span.y) >= std::abs(span.x)
                                                   : (*source.sides)[i].rows;
-    side.steepness = std::abs(side.by_rows ? side.outward.x : side.outward.y);
+    const double across = side.by_rows ? side.outward.x : side.outward.y;
+    side.dark_first = across > 0;
+    side.steepness = std::abs(across);
   }
   return sides;
 }
 
-Point on_strip(const Strip& strip, bool by_rows, double position) {
-  return by_rows ? Point{position, strip.line + 0.5} : Point{strip.line + 0.5, position};
+/// Coordinates of a point along the strips of a side, and from strip to strip.
+double along_strip(const Side& side, Point p) {
+  return side.by_rows ? p.x : p.y;
+}
+double line_of(const Side& side, Point p) {
+  return side.by_rows ? p.y : p.x;
+}
+Point on_strip(const Side& side, double line, double position) {
+  return side.by_rows ? Point{position, line} : Point{line, position};
 }
 
-/// Looks where a strip meets a side. False if it does not, or not far enough from other edges.
-bool expect(const Lens& lens, const std::array<Side, 4>& sides, unsigned which, double reach,
-            Crossing& crossing) {
-  const Side& side = sides[which];
-  const Side& before = sides[(which + 3) % 4];
-  const Side& after = sides[(which + 1) % 4];
-  const double across = side.by_rows ? side.outward.x : side.outward.y;
-  const Point middle = distort(lens, 0.5 * (side.from + side.to));
-  double position = side.by_rows ? middle.x : middle.y;
-  Point at{};
-  // A lens bends the side a little: the slope of the straight one leads there in a few steps.
-  const unsigned steps = lens.is_pinhole() ? 1 : 4;
-  for (unsigned step = 0; step < steps; ++step) {
-    if (!undistort(lens, on_strip(crossing.strip, side.by_rows, position), at)) return false;
-    position -= dot(at - side.from, side.outward) / across;
-  }
-  if (!undistort(lens, on_strip(crossing.strip, side.by_rows, position), at)) return false;
-  const double half = reach / side.steepness;
-  // Where the transition ends inside, other edges must be as far as this one.
-  crossing.dark_first = across > 0;
-  const double inwards = crossing.dark_first ? -half : half;
-  const Point inside = at + (side.by_rows ? Point{inwards, 0} : Point{0, inwards});
-  for (const Point p : {at, inside}) {
-    if (dot(p - before.to, before.outward) > -reach ||
-        dot(p - after.from, after.outward) > -reach) {
-      return false;
+/// Where the strips that stand on lines meet a side.
+class Path {
+ public:
+  /// False if no line meets the side at least `reach` px from its neighbours, there or where the
+  /// transition ends inside.
+  bool find(const Lens& lens, const std::array<Side, 4>& sides, unsigned which, double reach,
+            Effort& effort) {
+    const Side& side = sides[which];
+    const double half = reach / side.steepness;
+    const Point inside = on_strip(side, 0, side.dark_first ? -half : half);
+    const Point span = side.to_seen - side.from_seen;
+    const double from = line_of(side, side.from_seen), to = line_of(side, side.to_seen);
+    const double ahead = distance_from(sides[(which + 3) % 4], span, inside, reach);
+    const double behind = distance_from(sides[(which + 1) % 4], -1 * span, inside, reach);
+    if (!(ahead + behind < 1)) return false;
+    first_ = from + ahead * (to - from);
+    last_ = to - behind * (to - from);
+    if (first_ > last_) std::swap(first_, last_);
+    start_ = from;
+    nodes_[0] = along_strip(side, side.from_seen);
+    pieces_ = 1;
+    if (!lens.is_pinhole()) {
+      pieces_ += static_cast<std::uint32_t>(std::abs(to - from) / straight_lines);
+      if (pieces_ > most_pieces) pieces_ = most_pieces;
     }
+    per_line_ = pieces_ / (to - from);
+    for (std::uint32_t i = 1; i < pieces_; ++i) {
+      if (!meet_strip(lens, side, from + i / per_line_, nodes_[i] = nodes_[i - 1], effort))
+        return false;
+    }
+    nodes_[pieces_] = along_strip(side, side.to_seen);
+    return true;
   }
-  const Strip& strip = crossing.strip;
-  if (!(position - half >= strip.first && position + half <= strip.first + strip.size))
+
+  double first() const { return first_; }
+  double last() const { return last_; }
+
+  /// px along the strip on that line.
+  double at(double line) const {
+    const double place = (line - start_) * per_line_;
+    std::uint32_t piece = place > 0 ? static_cast<std::uint32_t>(place) : 0;
+    if (piece >= pieces_) piece = pieces_ - 1;
+    return nodes_[piece] + (place - piece) * (nodes_[piece + 1] - nodes_[piece]);
+  }
+
+ private:
+  /// The share of a side next to a neighbour that is too near to it; `span` leads away from there.
+  static double distance_from(const Side& neighbour, Point span, Point inside, double reach) {
+    const double away = -dot(span, neighbour.outward);
+    if (!(away > 0)) return 1;
+    const double nearer = dot(inside, neighbour.outward);
+    return (reach + (nearer > 0 ? nearer : 0)) / away;
+  }
+
+  /// From a position near by; the slope of the straight side leads there in a few steps.
+  static bool meet_strip(const Lens& lens, const Side& side, double line, double& position,
+                         Effort& effort) {
+    const double across = side.dark_first ? side.steepness : -side.steepness;
+    for (unsigned step = 0; step < 4; ++step) {
+      Point at{};
+      if (!undistort(lens, on_strip(side, line, position), at, effort.lens_steps)) return false;
+      position -= dot(at - side.from, side.outward) / across;
+    }
+    return true;
+  }
+
+  double first_, last_;
+  double start_, per_line_;
+  std::uint32_t pieces_;
+  std::array<double, most_pieces + 1> nodes_;
+};
+
+/// The pixels of a strip around `position` that hold a transition of `half` px to both sides. False
+/// if they, or one more on each side, which tells the level, are not in the strip.
+bool cover(const Strip& strip, double position, double half, Crossing& crossing) {
+  if (!(position - half >= strip.first + 1.0 && position + half < strip.first + strip.size - 1.0)) {
     return false;
-  crossing.position = position;
+  }
+  crossing.strip = strip;
   crossing.begin = static_cast<std::uint32_t>(position - half);
   crossing.end = static_cast<std::uint32_t>(position + half) + 1;
-  // One pixel more on each side tells the level.
-  return crossing.begin > strip.first && crossing.end < strip.first + strip.size;
+  return true;
 }
 
 std::uint32_t grey(const Strip& strip, std::uint32_t position) {
   return strip.pixels[std::size_t{position - strip.first} * strip.stride];
-}
-
-/// Adds the pixels beyond the transition on one side, if all of them, and one more, are on the same
-/// side of `limit`.
-void read_level(const Crossing& crossing, bool dark, double depth, double limit, Level& level) {
-  const Strip& strip = crossing.strip;
-  const bool below = dark == crossing.dark_first;
-  const std::uint32_t room =
-      below ? crossing.begin - strip.first : strip.first + strip.size - crossing.end;
-  const auto wanted = static_cast<std::uint32_t>(depth) + 1;
-  const std::uint32_t count = room < wanted ? room : wanted;
-  const auto at = [&](std::uint32_t i) {
-    return grey(strip, below ? crossing.begin - 1 - i : crossing.end + i);
-  };
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (dark ? at(i) > limit : at(i) < limit) return;
-  }
-  for (std::uint32_t i = 0; i + 1 < count; ++i) level.add(at(i));
 }
 
 /// Both grey levels of a side.
@@ -184,18 +256,62 @@ struct Levels {
   double contrast() const { return bright.mean() - dark.mean(); }
 };
 
-Levels read_levels(const Crossing* crossings, std::uint32_t count, double depth) {
-  Levels near;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Crossing& c = crossings[i];
-    (c.dark_first ? near.dark : near.bright).add(grey(c.strip, c.begin));
-    (c.dark_first ? near.bright : near.dark).add(grey(c.strip, c.end - 1));
+/// Pixels beyond a transition.
+struct Beyond {
+  const std::uint8_t* pixels;  ///< the first
+  std::ptrdiff_t stride;
+  std::uint32_t count;
+};
+
+Beyond beyond(const Crossing& crossing, bool below, std::uint32_t wanted) {
+  const Strip& strip = crossing.strip;
+  const auto stride = static_cast<std::ptrdiff_t>(strip.stride);
+  const std::uint32_t room =
+      below ? crossing.begin - strip.first : strip.first + strip.size - crossing.end;
+  const std::uint32_t at = below ? crossing.begin - 1 : crossing.end;
+  return {strip.pixels + static_cast<std::ptrdiff_t>(at - strip.first) * stride,
+          below ? -stride : stride, room < wanted ? room : wanted};
+}
+
+/// Adds them, but for the last one, if all are from `least` to `most`.
+void read_level(const Beyond& beyond, std::uint32_t least, std::uint32_t most, Level& level,
+                [[maybe_unused]] Effort& effort) {
+  const std::uint32_t range = most - least;
+  const std::uint8_t* pixel = beyond.pixels;
+  Level found;
+  std::uint32_t last = 0;
+  for (std::uint32_t i = 0; i < beyond.count; ++i, pixel += beyond.stride) {
+    MARKERVP_COUNT(effort.level_pixels);
+    last = *pixel;
+    if (last - least > range) return;
+    found.sum += last;
+    found.squares += last * last;
   }
-  const double eighth = near.contrast() / 8;
+  if (beyond.count == 0) return;
+  level.sum += found.sum - last;
+  level.squares += found.squares - last * last;
+  level.count += beyond.count - 1;
+}
+
+Levels read_levels(const Crossing* crossings, std::uint32_t count, bool dark_first, double depth,
+                   std::uint32_t most_pixels, Effort& effort) {
+  const auto wanted = static_cast<std::uint32_t>(depth) + 1;
+  const std::uint32_t step = count * wanted / most_pixels + 1;
+  Levels near;
+  for (std::uint32_t i = 0; i < count; i += step) {
+    const Crossing& c = crossings[i];
+    (dark_first ? near.dark : near.bright).add(grey(c.strip, c.begin));
+    (dark_first ? near.bright : near.dark).add(grey(c.strip, c.end - 1));
+  }
+  const double dark = near.dark.mean(), bright = near.bright.mean(), eighth = (bright - dark) / 8;
+  if (!(eighth > 0)) return near;
+  const auto most_dark = static_cast<std::uint32_t>(dark + eighth);
+  const auto least_bright = static_cast<std::uint32_t>(bright - eighth) + 1;
   Levels deep;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    read_level(crossings[i], true, depth, near.dark.mean() + eighth, deep.dark);
-    read_level(crossings[i], false, depth, near.bright.mean() - eighth, deep.bright);
+  for (std::uint32_t i = 0; i < count; i += step) {
+    MARKERVP_COUNT(effort.level_reads);
+    read_level(beyond(crossings[i], dark_first, wanted), 0, most_dark, deep.dark, effort);
+    read_level(beyond(crossings[i], !dark_first, wanted), least_bright, 255, deep.bright, effort);
   }
   // A cell of the code next to the border may be white all along a side.
   if (deep.dark.count < least_crossings) deep.dark = near.dark;
@@ -203,65 +319,100 @@ Levels read_levels(const Crossing* crossings, std::uint32_t count, double depth)
   return deep;
 }
 
+/// What turns the sum of a strip's pixels into the place of its edge.
+struct Scale {
+  double bright, per_level;  ///< grey level; 1 / contrast
+
+  explicit Scale(const Levels& levels)
+      : bright(levels.bright.mean()), per_level(1 / levels.contrast()) {}
+};
+
 /// Where the edge crosses: as many pixels are dark as the sum says. False if that is outside.
-bool locate(const Lens& lens, const Side& side, const Levels& levels, Crossing& c) {
+/// No `lens`: a pinhole.
+bool locate(const Lens* lens, const Side& side, const Scale& scale, Crossing& c, Effort& effort) {
+  const std::uint8_t* pixel =
+      c.strip.pixels + std::size_t{c.begin - c.strip.first} * c.strip.stride;
   std::uint32_t sum = 0;
-  for (std::uint32_t i = c.begin; i < c.end; ++i) sum += grey(c.strip, i);
-  const double bright = levels.bright.mean(), size = c.end - c.begin;
-  const double dark = (bright * size - sum) / (bright - levels.dark.mean());
+  for (std::uint32_t i = c.begin; i < c.end; ++i, pixel += c.strip.stride) sum += *pixel;
+  const double size = c.end - c.begin;
+  const double dark = (scale.bright * size - sum) * scale.per_level;
   if (!(dark > 0 && dark < size)) return false;
-  c.position = c.dark_first ? c.begin + dark : c.end - dark;
-  Point at{};
-  if (!undistort(lens, on_strip(c.strip, side.by_rows, c.position), at)) return false;
-  const Point off = at - 0.5 * (side.from + side.to);
+  c.position = side.dark_first ? c.begin + dark : c.end - dark;
+  Point at = on_strip(side, c.strip.line + 0.5, c.position);
+  if (lens != nullptr && !undistort(*lens, Point(at), at, effort.lens_steps)) return false;
+  const Point off = at - side.middle;
   c.along = dot(off, side.along);
   c.outward = dot(off, side.outward);
   return true;
 }
 
-/// The variance of a transition is twice the first moment of what parts it from a step.
+/// What parts a transition from a step, times the way to it: the first moment about the edge of
+/// `size` pixels of which the first ones are on the side of level `before`.
+double moment(const Crossing& c, double before, double after) {
+  const std::uint32_t size = c.end - c.begin;
+  const double edge = c.position - c.begin;
+  const auto near = static_cast<std::uint32_t>(edge + 0.5);
+  const std::uint8_t* pixel =
+      c.strip.pixels + std::size_t{c.begin - c.strip.first} * c.strip.stride;
+  // Sums of the grey values, and of them times twice the way of the pixel from the first one's
+  // edge.
+  std::uint32_t sum = 0, way = 0, sum_after = 0, way_after = 0;
+  for (std::uint32_t i = 0; i < near; ++i, pixel += c.strip.stride) {
+    sum += *pixel;
+    way += *pixel * (2 * i + 1);
+  }
+  for (std::uint32_t i = near; i < size; ++i, pixel += c.strip.stride) {
+    sum_after += *pixel;
+    way_after += *pixel * (2 * i + 1);
+  }
+  const double n = near, rest = size - near;
+  const double first = edge * (sum - n * before) - (way - before * n * n) / 2;
+  const double last =
+      (after * (n + size) * rest - way_after) / 2 - edge * (after * rest - sum_after);
+  return first + last;
+}
+
+/// The variance of a transition is twice that moment.
 double transition_variance(const Crossing* crossings, std::uint32_t count, const Side& side,
                            const Levels& levels) {
   const double dark = levels.dark.mean(), bright = levels.bright.mean();
-  double moment = 0;
+  double sum = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Crossing& c = crossings[i];
-    for (std::uint32_t p = c.begin; p < c.end; ++p) {
-      const double off = p + 0.5 - c.position;
-      const bool is_dark = (off < 0) == c.dark_first;
-      const double level = grey(c.strip, p);
-      moment += (is_dark ? level - dark : bright - level) * std::abs(off);
-    }
+    sum +=
+        side.dark_first ? moment(crossings[i], dark, bright) : -moment(crossings[i], bright, dark);
   }
-  const double variance = 2 * moment / (count * (bright - dark)) * side.steepness * side.steepness;
+  const double variance = 2 * sum / (count * (bright - dark)) * side.steepness * side.steepness;
   return variance > 0 ? variance : 0;
 }
 
 /// The least-squares line through `count` crossings, none of which is known better than to a
-/// variance of `least_variance`, px².
+/// variance of `least_variance`, px². `along` is counted from the middle, so the sums lose nothing.
 Line fit_line(const Crossing* crossings, std::uint32_t count, double least_variance) {
-  double t = 0, e = 0;
+  double t = 0, e = 0, tt = 0, te = 0, ee = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    t += crossings[i].along / count;
-    e += crossings[i].outward / count;
+    const double along = crossings[i].along, outward = crossings[i].outward;
+    t += along;
+    e += outward;
+    tt += along * along;
+    te += along * outward;
+    ee += outward * outward;
   }
-  double tt = 0, te = 0, ee = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double dt = crossings[i].along - t, de = crossings[i].outward - e;
-    tt += dt * dt;
-    te += dt * de;
-    ee += de * de;
-  }
+  const double n = count;
+  t /= n;
+  e /= n;
+  tt -= n * t * t;
+  te -= n * t * e;
+  ee -= n * e * e;
   Line line{};
   line.slope = te / tt;
   line.offset = e - line.slope * t;
   const double left = ee - line.slope * te;
-  double variance = left / (count - 2);
+  double variance = left / (n - 2);
   if (!(variance > least_variance)) variance = least_variance;
   line.scatter = std::sqrt(variance);
   line.slope_variance = variance / tt;
   line.covariance = -t * line.slope_variance;
-  line.offset_variance = variance / count + t * t * line.slope_variance;
+  line.offset_variance = variance / n + t * t * line.slope_variance;
   return line;
 }
 
@@ -270,49 +421,63 @@ std::uint32_t keep_near(Crossing* crossings, std::uint32_t count, const Line& li
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Crossing& c = crossings[i];
-    if (std::abs(c.outward - line.offset - line.slope * c.along) <= limit) crossings[kept++] = c;
+    if (!(std::abs(c.outward - line.offset - line.slope * c.along) <= limit)) continue;
+    if (kept != i) crossings[kept] = c;
+    ++kept;
   }
   return kept;
 }
 
+/// How one pass measures the sides.
+struct Pass {
+  double reach, depth;      ///< px across the edge
+  std::uint32_t crossings;  ///< of a side, at most
+  bool is_last;             ///< nobody asks for the transition any more
+};
+
 class SideFit {
  public:
   SideFit(const Source& source, const Lens& lens, const std::array<Side, 4>& sides, unsigned which,
-          double reach, double depth, const QuadFitOptions& options)
+          const Pass& pass, const QuadFitOptions& options)
       : source_(source),
         lens_(lens),
         sides_(sides),
         which_(which),
-        reach_(reach),
-        depth_(depth),
-        options_(options) {}
+        pass_(pass),
+        options_(options),
+        half_(pass.reach / sides[which].steepness) {}
 
   Refusal fit(Line& line) {
     const Side& side = sides_[which_];
-    if (source_.image.pixels != nullptr) {
-      collect_from_frame();
-    } else {
-      const SideSupport& support = (*source_.sides)[which_];
-      for (std::uint32_t i = 0; i < support.count; ++i) collect(support.strips[i]);
+    if (path_.find(lens_, sides_, which_, pass_.reach, source_.effort)) {
+      if (source_.image.pixels != nullptr) {
+        collect_from_frame();
+      } else {
+        collect_from_strips((*source_.sides)[which_]);
+      }
     }
+    MARKERVP_ADD(source_.effort.strips, count_);
     if (!is_covered(count_)) return Refusal::hidden;
-    const Levels levels = read_levels(crossings_.data(), count_, depth_ / side.steepness);
+    const Levels levels =
+        read_levels(crossings_.data(), count_, side.dark_first, pass_.depth / side.steepness,
+                    pass_.is_last ? level_pixels : coarse_level_pixels, source_.effort);
     if (!(levels.contrast() >= options_.minimum_contrast)) return Refusal::contrast;
-    std::uint32_t located = 0;
-    for (std::uint32_t i = 0; i < count_; ++i) {
-      if (locate(lens_, side, levels, crossings_[i])) crossings_[located++] = crossings_[i];
-    }
+    const double pixels = crossings_[0].end - crossings_[0].begin;
+    const std::uint32_t located = locate_all(levels);
     if (!is_covered(located)) return Refusal::hidden;
     // Grey levels are whole numbers: each is off by a variance of 1/12.
-    const double pixels = crossings_[0].end - crossings_[0].begin;
     const double per_level = side.steepness / levels.contrast();
     const double rounding = pixels / 12 * per_level * per_level;
     line = fit_line(crossings_.data(), located, rounding);
     const double limit = line.scatter > 0.02 ? 3 * line.scatter : 0.06;
     const std::uint32_t kept = keep_near(crossings_.data(), located, line, limit);
     if (kept < least_crossings) return Refusal::ragged;
-    line = fit_line(crossings_.data(), kept, rounding);
-    line.transition = transition_variance(crossings_.data(), kept, side, levels);
+    MARKERVP_ADD(source_.effort.refitted, kept < located ? kept : 0);
+    if (kept < located) line = fit_line(crossings_.data(), kept, rounding);
+    if (!pass_.is_last) {
+      MARKERVP_ADD(source_.effort.transitions, kept);
+      line.transition = transition_variance(crossings_.data(), kept, side, levels);
+    }
     // A level that is off shifts the whole side.
     const double lever = pixels / 2 * per_level;
     line.offset_variance += lever * lever * (levels.dark.variance() + levels.bright.variance());
@@ -325,16 +490,13 @@ class SideFit {
   void collect_from_frame() {
     const Side& side = sides_[which_];
     const GreyImage& image = source_.image;
-    const Point a = distort(lens_, side.from), b = distort(lens_, side.to);
-    double low = side.by_rows ? a.y : a.x, high = side.by_rows ? b.y : b.x;
-    if (low > high) std::swap(low, high);
     const double limit = side.by_rows ? image.height : image.width;
-    if (low < 0) low = 0;
-    if (high > limit) high = limit;
-    if (!(high > low)) return;
+    const double low = path_.first() > 0 ? path_.first() : 0;
+    const double high = path_.last() < limit - 1 ? path_.last() : limit - 1;
+    if (!(high >= low)) return;
     const auto first = static_cast<std::uint32_t>(low), last = static_cast<std::uint32_t>(high);
-    step_ = (last - first) / most_crossings + 1;
-    for (std::uint32_t i = first; i <= last && i < limit; i += step_) {
+    step_ = (last - first) / pass_.crossings + 1;
+    for (std::uint32_t i = first; i <= last; i += step_) {
       if (side.by_rows) {
         collect({image.pixels + std::size_t{i} * image.width, 1, 0, image.width, i});
       } else {
@@ -343,26 +505,47 @@ class SideFit {
     }
   }
 
+  void collect_from_strips(const SideSupport& support) {
+    step_ = (support.count - 1) / pass_.crossings + 1;
+    for (std::uint32_t i = 0; i < support.count; i += step_) collect(support.strips[i]);
+  }
+
   /// True if the edge was seen on enough of the side, its ends at the corners left out.
   bool is_covered(std::uint32_t count) const {
     const Side& side = sides_[which_];
-    const double lines = side.length * side.steepness - 4 * reach_;
+    const double lines = side.length * side.steepness - 4 * pass_.reach;
     return count >= least_crossings && count * step_ >= options_.minimum_coverage * lines;
   }
 
   void collect(const Strip& strip) {
-    if (count_ == most_crossings) return;
-    Crossing& crossing = crossings_[count_];
-    crossing.strip = strip;
-    if (expect(lens_, sides_, which_, reach_, crossing)) ++count_;
+    const double line = strip.line + 0.5;
+    if (count_ == crossings_.size() || line < path_.first() || line > path_.last()) return;
+    if (cover(strip, path_.at(line), half_, crossings_[count_])) ++count_;
+  }
+
+  /// Leaves out those without an edge. Returns how many have one.
+  std::uint32_t locate_all(const Levels& levels) {
+    const Side& side = sides_[which_];
+    const Scale scale(levels);
+    const Lens* const lens = lens_.is_pinhole() ? nullptr : &lens_;
+    MARKERVP_ADD(source_.effort.crossings, count_);
+    std::uint32_t located = 0;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (!locate(lens, side, scale, crossings_[i], source_.effort)) continue;
+      if (located != i) crossings_[located] = crossings_[i];
+      ++located;
+    }
+    return located;
   }
 
   const Source& source_;
   const Lens& lens_;
   const std::array<Side, 4>& sides_;
   unsigned which_;
-  double reach_, depth_;
+  const Pass& pass_;
   const QuadFitOptions& options_;
+  double half_;  ///< of the pixels around a crossing, px
+  Path path_;
   std::array<Crossing, most_crossings> crossings_;
   std::uint32_t count_ = 0;
   std::uint32_t step_ = 1;
@@ -379,8 +562,8 @@ bool meet(const Side& first, const Line& one, const Side& second, const Line& ot
   // Line: n · p = d.
   const Point n = first.outward - one.slope * first.along;
   const Point m = second.outward - other.slope * second.along;
-  const double d = one.offset + 0.5 * dot(n, first.from + first.to);
-  const double e = other.offset + 0.5 * dot(m, second.from + second.to);
+  const double d = one.offset + dot(n, first.middle);
+  const double e = other.offset + dot(m, second.middle);
   const double determinant = n.x * m.y - n.y * m.x;
   if (!(std::abs(determinant) > 1e-3)) return false;
   meeting.by_first = {m.y / determinant, -m.x / determinant};
@@ -390,7 +573,7 @@ bool meet(const Side& first, const Line& one, const Side& second, const Line& ot
 }
 
 double along(const Side& side, Point corner) {
-  return dot(corner - 0.5 * (side.from + side.to), side.along);
+  return dot(corner - side.middle, side.along);
 }
 
 /// Covariance of a line's offsets at two places along it.
@@ -420,10 +603,11 @@ void fill_covariance(const std::array<Side, 4>& sides, const std::array<Line, 4>
 }
 
 /// One pass: the sides around `fit.ideal`, and the corners anew.
-Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& options,
-                double& transition_reach, QuadFit& fit) {
+Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& options, bool is_last,
+                QuadFit& fit) {
+  MARKERVP_COUNT(source.effort.passes);
   if (!is_convex_clockwise(fit.ideal)) return Refusal::shape;
-  const std::array<Side, 4> sides = sides_of(source, fit.ideal);
+  const std::array<Side, 4> sides = sides_of(source, fit.ideal, fit.image);
   double transition = 0;
   std::array<Line, 4> lines{};
   fit.dark = fit.bright = fit.raggedness = 0;
@@ -432,9 +616,12 @@ Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& op
     const double cell = sides[i].height / options.cells;
     if (!(cell >= least_cell)) return Refusal::shape;
     const double pixel = (std::abs(sides[i].outward.x) + std::abs(sides[i].outward.y)) / 2;
-    const double reach = std::min(cell / 2, std::max(transition_reach, pixel) + slack);
-    const double depth = std::min(std::max(cell - 2 * reach, least_depth), most_depth);
-    const Refusal refusal = SideFit(source, lens, sides, i, reach, depth, options).fit(lines[i]);
+    const double reach = std::min(cell / 2, std::max(fit.reach, pixel) + slack);
+    const double depth =
+        is_last ? std::min(std::max(cell - 2 * reach, least_depth), most_depth) : least_depth;
+    const Pass pass{reach, depth, is_last ? options.crossings : coarse_crossings, is_last};
+    MARKERVP_COUNT(source.effort.sides);
+    const Refusal refusal = SideFit(source, lens, sides, i, pass, options).fit(lines[i]);
     if (refusal != Refusal::none) return refusal;
     fit.dark += lines[i].dark / 4;
     fit.bright += lines[i].bright / 4;
@@ -444,39 +631,61 @@ Refusal improve(const Source& source, const Lens& lens, const QuadFitOptions& op
   std::array<Meeting, 4> corners{};
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4;
+    MARKERVP_COUNT(source.effort.corners);
     if (!meet(sides[before], lines[before], sides[i], lines[i], corners[i])) return Refusal::shape;
     fit.ideal[i] = corners[i].corner;
     fit.image[i] = distort(lens, corners[i].corner);
+    MARKERVP_ADD(source.effort.lens_steps, lens.is_pinhole() ? 0 : 1);
   }
-  fill_covariance(sides, lines, corners, fit.covariance);
-  transition_reach = reach_in_deviations * std::sqrt(transition);
+  if (is_last) fill_covariance(sides, lines, corners, fit.covariance);
+  if (!is_last) fit.reach = reach_in_deviations * std::sqrt(transition);
   return is_convex_clockwise(fit.ideal) ? Refusal::none : Refusal::shape;
 }
 
-QuadFit fit_quad(const Source& source, const Lens& lens, const Quad& guess,
-                 const QuadFitOptions& options) {
-  QuadFit fit{};
+/// No corner left its guess.
+bool are_near(const Quad& corners, const Quad& guess) {
+  for (unsigned i = 0; i < 4; ++i) {
+    const Point move = corners[i] - guess[i];
+    if (!(dot(move, move) <= most_move * most_move)) return false;
+  }
+  return true;
+}
+
+void find_quad(const Source& source, const Lens& lens, const Quad& guess,
+               const QuadFitOptions& options, QuadFit& fit) {
+  const FunctionScope scope(Function::quad_fit);
+  work(Work::quads_fitted, 1);
+  fit = {};
+  fit.image = guess;
   for (unsigned i = 0; i < 4; ++i) {
     if (!undistort(lens, guess[i], fit.ideal[i])) fit.refusal = Refusal::shape;
   }
-  const Quad start = fit.ideal;
-  double reach = first_reach;
-  for (unsigned pass = 0; pass < passes && fit.refusal == Refusal::none; ++pass) {
-    fit.refusal = improve(source, lens, options, reach, fit);
-    for (unsigned i = 0; i < 4 && fit.refusal == Refusal::none; ++i) {
-      const Point move = fit.ideal[i] - start[i];
-      if (!(dot(move, move) <= most_move * most_move)) fit.refusal = Refusal::shape;
-    }
+  fit.reach = first_reach;
+  for (unsigned pass = 0; pass < coarse_passes && fit.refusal == Refusal::none; ++pass) {
+    fit.refusal = improve(source, lens, options, false, fit);
+    if (fit.refusal == Refusal::none && !are_near(fit.image, guess)) fit.refusal = Refusal::shape;
   }
+  source.effort.tell(options.in_dma_memory);
+}
+
+void refine_quad(const Source& source, const Lens& lens, const QuadFitOptions& options,
+                 QuadFit& fit) {
+  const FunctionScope scope(Function::quad_fit);
+  if (fit.refusal != Refusal::none) return;
+  work(Work::quads_refined, 1);
+  const Quad found = fit.image;
+  fit.refusal = improve(source, lens, options, true, fit);
+  if (fit.refusal == Refusal::none && !are_near(fit.image, found)) fit.refusal = Refusal::shape;
   if (fit.refusal == Refusal::none && fit.raggedness > options.maximum_raggedness) {
     fit.refusal = Refusal::ragged;
   }
-  return fit;
+  source.effort.tell(options.in_dma_memory);
 }
 
 }  // namespace
 
 bool largest_quad(const Extremes& extremes, Quad& quad) {
+  [[maybe_unused]] std::uint32_t tests = 0;
   // A blob ends where its outermost pixels end.
   constexpr std::array<Point, 8> half_pixel = {{{0, -0.5},
                                                 {0.5, -0.5},
@@ -495,7 +704,9 @@ bool largest_quad(const Extremes& extremes, Quad& quad) {
         for (unsigned d = c + 1; d < 8; ++d) {
           const Quad q = {ends[a], ends[b], ends[c], ends[d]};
           const double area = cross(q[0], q[1], q[2]) + cross(q[0], q[2], q[3]);
-          if (area > largest && is_convex_clockwise(q)) {
+          if (!(area > largest)) continue;
+          MARKERVP_COUNT(tests);
+          if (is_convex_clockwise(q)) {
             largest = area;
             quad = q;
           }
@@ -503,17 +714,45 @@ bool largest_quad(const Extremes& extremes, Quad& quad) {
       }
     }
   }
+  work(Work::quads_spanned, 1);
+  work(Work::hulls_tested, tests);
   return largest > 0;
+}
+
+QuadFit find_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
+                  const QuadFitOptions& options) {
+  Effort effort;
+  QuadFit fit;
+  find_quad(Source{image, nullptr, effort}, lens, guess, options, fit);
+  return fit;
+}
+
+void refine_quad(const GreyImage& image, const Lens& lens, const QuadFitOptions& options,
+                 QuadFit& fit) {
+  Effort effort;
+  refine_quad(Source{image, nullptr, effort}, lens, options, fit);
 }
 
 QuadFit fit_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options) {
-  return fit_quad(Source{image, nullptr}, lens, guess, options);
+  QuadFit fit = find_quad(image, lens, guess, options);
+  refine_quad(image, lens, options, fit);
+  return fit;
 }
 
 QuadFit fit_quad(const std::array<SideSupport, 4>& sides, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options) {
-  return fit_quad(Source{{}, &sides}, lens, guess, options);
+  QuadFit fit;
+  for (const bool is_last : {false, true}) {
+    Effort effort;
+    const Source source{{}, &sides, effort};
+    if (is_last) {
+      refine_quad(source, lens, options, fit);
+    } else {
+      find_quad(source, lens, guess, options, fit);
+    }
+  }
+  return fit;
 }
 
 QuadFit counted_from(const QuadFit& fit, unsigned first) {

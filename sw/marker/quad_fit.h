@@ -40,6 +40,8 @@ struct QuadFitOptions {
   double minimum_contrast = 20;     ///< grey levels between the sides of an edge
   double maximum_raggedness = 0.4;  ///< px: deviation of a side's edge points from its line
   double minimum_coverage = 0.5;    ///< share of a side on which the edge must be seen
+  bool in_dma_memory = false;       ///< a DMA engine wrote the picture: reads stall
+  std::uint32_t crossings = 256;    ///< of a side that are measured, 16 to 256: time for accuracy
 };
 
 /// Why a candidate is no marker, or `none`.
@@ -84,6 +86,7 @@ struct QuadFit {
   std::array<double, 64> covariance;
   double dark, bright;  ///< grey levels on both sides of the edges, mean of the four
   double raggedness;    ///< px: that of the worst side
+  double reach;         ///< px: half the width of an edge
 };
 
 /// A corner moves 6 px at most, an edge is 7 px wide, and grey levels are read 15 px beyond.
@@ -102,7 +105,16 @@ inline constexpr std::uint32_t fit_margin = 32;
 QuadFit fit_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options);
 
-/// The same from gathered strips; side i leads from corner i of the guess to the next.
+/// The first part of it: corners from a few strips of each side, well enough for a look at the
+/// cells. Has no covariance.
+QuadFit find_quad(const GreyImage& image, const Lens& lens, const Quad& guess,
+                  const QuadFitOptions& options);
+
+/// The second part, with the options of the first: from all strips. A refused fit stays as it is.
+void refine_quad(const GreyImage& image, const Lens& lens, const QuadFitOptions& options,
+                 QuadFit& fit);
+
+/// Both from gathered strips; side i leads from corner i of the guess to the next.
 QuadFit fit_quad(const std::array<SideSupport, 4>& sides, const Lens& lens, const Quad& guess,
                  const QuadFitOptions& options);
 

@@ -6,47 +6,72 @@
 
 /// The units of work that PS programs count: X(name, what one unit is). The order is that of
 /// hal_program.work.
-#define MARKERVP_WORK_ITEMS(X)                                                            \
-  X(frames, "a frame set up and taken down by the application")                           \
-  X(interrupts, "a DMA interrupt served, dispatcher included")                            \
-  X(words_received, "a feature word stored, counted and acknowledged")                    \
-  X(packets_decoded, "a feature word decoded; a corner is stored, too")                   \
-  X(boxes_decoded, "two words matched to a bounding box and stored")                      \
-  X(corners_freed, "a corner marked as not assigned before the evaluation")               \
-  X(blobs_evaluated, "a bounding box prepared and its four corners checked")              \
-  X(corner_tests, "a corner looked at for one blob: assigned already?")                   \
-  X(box_tests, "a corner not assigned: inside the box?")                                  \
-  X(corners_inside, "a corner inside the box: its quadrants")                             \
-  X(quadrant_tests, "one of them tested against one quadrant")                            \
-  X(score_evaluations, "a corner score computed and compared")                            \
-  X(quads_checked, "four corners of a box: distinct and convex?")                         \
-  X(candidates, "a candidate stored")                                                     \
-  X(homographies, "the eight components of appendix D")                                   \
-  X(grid_samples, "a canonical sample mapped into the image and read")                    \
-  X(grid_samples_dma, "one of them read from memory that a DMA engine wrote: stalls")     \
-  X(cells, "a cell's majority decided")                                                   \
-  X(rotations, "a code turned by a quarter")                                              \
-  X(dictionary_compares, "a code compared with one of the dictionary")                    \
-  X(poses, "a pose set up and concluded")                                                 \
-  X(posit_iterations, "one POS step of POSIT with the error of both its poses")           \
-  X(corner_frames, "an image searched for corners on the PS: what does not depend on it") \
-  X(corner_rows, "a row of points scored")                                                \
-  X(corner_pixels, "a point pre-tested, and its strength looked at")                      \
-  X(corner_survivors, "a point that passed the pre-test: all 16 pixels of its circle")    \
-  X(corner_bright, "a bright pixel on the circle of such a point")                        \
-  X(corner_points, "a corner before suppression, compared with its neighbours")           \
-  X(corners_found, "a corner stored with its direction")                                  \
-  X(threshold_frames, "an image made binary on the PS: histogram cleared, peaks found")   \
-  X(threshold_pixels, "a pixel counted in the histogram and compared")                    \
-  X(blob_frames, "an image grouped on the PS: what does not depend on it")                \
-  X(blob_rows, "a row grouped, and ended blobs looked for")                               \
-  X(blob_pixels, "a pixel of the binary image read, its label stored")                    \
-  X(blob_dark, "one of them dark")                                                        \
-  X(blob_runs, "a dark pixel without labelled left neighbour: the whole window")          \
-  X(blob_rivals, "another label enters the window of a run: widths compared")             \
-  X(blob_labels, "a new label")                                                           \
-  X(blob_label_checks, "a label asked whether its blob ended")                            \
-  X(blobs_ended, "a label given back, its box filtered by size")
+#define MARKERVP_WORK_ITEMS(X)                                                                \
+  X(frames, "a frame set up and taken down by the application")                               \
+  X(interrupts, "a DMA interrupt served, dispatcher included")                                \
+  X(words_received, "a feature word stored, counted and acknowledged")                        \
+  X(packets_decoded, "a feature word decoded; a corner is stored, too")                       \
+  X(boxes_decoded, "two words matched to a bounding box and stored")                          \
+  X(corners_freed, "a corner marked as not assigned before the evaluation")                   \
+  X(blobs_evaluated, "a bounding box prepared and its four corners checked")                  \
+  X(corner_tests, "a corner looked at for one blob: assigned already?")                       \
+  X(box_tests, "a corner not assigned: inside the box?")                                      \
+  X(corners_inside, "a corner inside the box: its quadrants")                                 \
+  X(quadrant_tests, "one of them tested against one quadrant")                                \
+  X(score_evaluations, "a corner score computed and compared")                                \
+  X(quads_checked, "four corners of a box: distinct and convex?")                             \
+  X(candidates, "a candidate stored")                                                         \
+  X(homographies, "the eight components of appendix D")                                       \
+  X(grid_samples, "a canonical sample mapped into the image and read")                        \
+  X(grid_samples_dma, "one of them read from memory that a DMA engine wrote: stalls")         \
+  X(cells, "a cell's majority decided")                                                       \
+  X(rotations, "a code turned by a quarter")                                                  \
+  X(dictionary_compares, "a code compared with one of the dictionary")                        \
+  X(poses, "a pose set up and concluded")                                                     \
+  X(posit_iterations, "one POS step of POSIT with the error of both its poses")               \
+  X(corner_frames, "an image searched for corners on the PS: what does not depend on it")     \
+  X(corner_rows, "a row of points scored")                                                    \
+  X(corner_pixels, "a point pre-tested, and its strength looked at")                          \
+  X(corner_survivors, "a point that passed the pre-test: all 16 pixels of its circle")        \
+  X(corner_bright, "a bright pixel on the circle of such a point")                            \
+  X(corner_points, "a corner before suppression, compared with its neighbours")               \
+  X(corners_found, "a corner stored with its direction")                                      \
+  X(threshold_frames, "an image made binary on the PS: histogram cleared, peaks found")       \
+  X(threshold_pixels, "a pixel counted in the histogram and compared")                        \
+  X(blob_frames, "an image grouped on the PS: what does not depend on it")                    \
+  X(blob_rows, "a row grouped, and ended blobs looked for")                                   \
+  X(blob_pixels, "a pixel of the binary image read, its label stored")                        \
+  X(blob_dark, "one of them dark")                                                            \
+  X(blob_runs, "a dark pixel without labelled left neighbour: the whole window")              \
+  X(blob_rivals, "another label enters the window of a run: widths compared")                 \
+  X(blob_labels, "a new label")                                                               \
+  X(blob_label_checks, "a label asked whether its blob ended")                                \
+  X(blobs_ended, "a label given back, its box filtered by size")                              \
+  X(blobs_checked, "a blob of a packet: its extremes and its size checked")                   \
+  X(quads_spanned, "four of eight extremes chosen, before a pixel is read")                   \
+  X(hulls_tested, "four that span more than those before: convex?")                           \
+  X(quads_fitted, "a candidate's corners looked for: set up and concluded")                   \
+  X(quads_refined, "its covariance, at the end of the last pass")                             \
+  X(fit_passes, "a quadrilateral's sides set up")                                             \
+  X(side_fits, "a side measured: path, grey levels, line, without its crossings")             \
+  X(corners_met, "a corner where two lines meet")                                             \
+  X(lens_steps, "a point led once through the lens, with its derivatives")                    \
+  X(strips, "a strip laid across a side")                                                     \
+  X(crossings, "the edge in one of them found and taken into the line")                       \
+  X(transitions, "a crossing whose blur is measured")                                         \
+  X(points_refitted, "a crossing moved up and taken into a line once more")                   \
+  X(level_reads, "a strip asked for the grey levels beside its edge")                         \
+  X(level_pixels, "a pixel beyond a transition read for a grey level")                        \
+  X(codes_read, "a marker's cells set up")                                                    \
+  X(code_cells, "a cell of a marker read in nine places")                                     \
+  X(code_parts, "a word of a book looked at in the search for a part of one")                 \
+  X(code_compares, "a cell in which a word differs from one of a book counted, and one more") \
+  X(code_turns, "a cell of a word turned by a quarter")                                       \
+  X(board_poses, "a pose of a marker or board set up, both solutions concluded")              \
+  X(pose_steps, "a step of one of them, without the markers")                                 \
+  X(marker_weighings, "a marker's corners weighed in such a step")                            \
+  X(crossings_dma, "a crossing in memory that a DMA engine wrote: stalls")                    \
+  X(code_cells_dma, "a cell in such memory: stalls")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.
@@ -107,6 +132,13 @@ inline void work([[maybe_unused]] Work item, [[maybe_unused]] std::uint64_t coun
 #define MARKERVP_COUNT(counter) static_cast<void>(0)
 #else
 #define MARKERVP_COUNT(counter) static_cast<void>(++(counter))
+#endif
+
+/// Adds to such a counter.
+#ifdef HAL_BARE_METAL
+#define MARKERVP_ADD(counter, units) static_cast<void>(0)
+#else
+#define MARKERVP_ADD(counter, units) static_cast<void>((counter) += (units))
 #endif
 
 /// Marks a function from construction to the end of the block. Nothing on the chip.

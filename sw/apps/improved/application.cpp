@@ -70,11 +70,15 @@ bool Application::begin_next() {
   return true;
 }
 
-Status Application::admit(Slot& slot) {
+Status Application::admit(const Slot& slot) {
   if (!is_legal_size(slot.frame) || picture_bytes(slot.frame) > capture_.max_picture_bytes()) {
     return Status::unsupported_size;
   }
-  return slot.buffers.reserve(picture_bytes(slot.frame)) ? Status::ok : Status::no_memory;
+  // Those of the next frame, too: nobody makes room while a frame waits to be worked on.
+  for (Slot& each : slots_) {
+    if (!each.buffers.reserve(picture_bytes(slot.frame))) return Status::no_memory;
+  }
+  return Status::ok;
 }
 
 /// Waits until the frame is in memory, and looks whether it is whole.

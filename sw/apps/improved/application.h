@@ -33,7 +33,7 @@ class Application {
 
   bool initialise();
   bool begin_next();
-  Status admit(Slot& slot);
+  Status admit(const Slot& slot);
   void finish(Slot& slot);
   Status read_packet(Slot& slot);
   void process(Slot& slot);

@@ -77,8 +77,8 @@ BOOST_AUTO_TEST_CASE(poses_of_the_thesis_at_any_blur) {
     Errors errors;
   };
   for (const Measured& measured :
-       {Measured{0, {0.0040, 0.17, 0.041}}, Measured{0.35, {0.0044, 0.15, 0.045}},
-        Measured{0.7, {0.0064, 0.24, 0.050}}}) {
+       {Measured{0, {0.0042, 0.18, 0.043}}, Measured{0.35, {0.0047, 0.16, 0.047}},
+        Measured{0.7, {0.0071, 0.25, 0.052}}}) {
     const Errors errors = over_the_poses(measured.blur);
     BOOST_TEST(errors.corner_px < measured.errors.corner_px);
     BOOST_TEST(errors.translation_mm < measured.errors.translation_mm);

@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(small_and_flat_blobs_cost_no_pixel) {
   words.insert(words.end(), line.begin(), line.end());
   detect(picture, words, true);
   BOOST_TEST(found->blobs.small == 2u);
-  BOOST_TEST(fake_hal::state().work[static_cast<std::uint32_t>(marker::Work::cells)] == 0u);
+  BOOST_TEST(fake_hal::state().work[static_cast<std::uint32_t>(marker::Work::code_cells)] == 0u);
   BOOST_TEST(found->count == 0u);
 }
 

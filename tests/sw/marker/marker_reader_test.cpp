@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(refused_before_cells_are_read) {
   for (const Extremes& blob : pictures::find_blobs(image, 127, 16)) {
     BOOST_TEST(marker::detect_marker(image, pinhole, blob, *book, {}, found) != Refusal::none);
   }
-  BOOST_TEST(fake_hal::state().work[static_cast<std::uint32_t>(marker::Work::cells)] == 0u);
+  BOOST_TEST(fake_hal::state().work[static_cast<std::uint32_t>(marker::Work::code_cells)] == 0u);
 }
 
 // Uniform noise makes blobs of every shape: none is a marker.
