@@ -75,7 +75,8 @@ std::string error_line(const report::FrameReport& frame, const report::FoundMark
     return "error   " + report::error_text(marker, *truth);
   }
   if (frame.truth) return fmt::format("another marker: the scene has {}", frame.truth->marker_id);
-  return fmt::format("reprojection {:.2f} px", marker.reprojection_px);
+  if (!marker.reprojection_px) return {};
+  return fmt::format("reprojection {:.2f} px", *marker.reprojection_px);
 }
 
 std::string counts_line(const report::FrameReport& frame) {

@@ -69,9 +69,11 @@ std::string pose_text(const FoundMarker& found) {
   const auto metres = [&](std::size_t axis) {
     return vp::format_fixed(found.pose.translation[axis], 3);
   };
-  return fmt::format("t ({}, {}, {}) m   {}   {} to {:.2f} px", metres(0), metres(1), metres(2),
-                     angles_text(found.pose.rotation), counted(found.iterations, "iteration"),
-                     found.reprojection_px);
+  std::string text = fmt::format("t ({}, {}, {}) m   {}", metres(0), metres(1), metres(2),
+                                 angles_text(found.pose.rotation));
+  if (found.iterations) text += "   " + counted(*found.iterations, "iteration");
+  if (found.reprojection_px) text += fmt::format(" to {:.2f} px", *found.reprojection_px);
+  return text;
 }
 
 std::string marker_text(const FrameReport& frame, const FoundMarker& found) {

@@ -186,8 +186,9 @@ struct FoundMarker {
   std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
   bool has_pose = true;                  ///< false: the corners admit no pose
   Pose pose;
-  double reprojection_px = 0;  ///< mean distance of the corners from their projections
-  std::uint32_t iterations = 0;
+  // Of the pose, where the program tells them.
+  std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
+  std::optional<std::uint32_t> iterations;
 };
 
 /// What a picture shows besides the marker. Not part of result.json.

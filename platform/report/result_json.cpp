@@ -97,8 +97,8 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
   json["corners_px"] = corners_json(found.corners_px);
   if (found.has_pose) {
     json["pose"] = pose_json(found.pose);
-    json["reprojection_px"] = rounded(found.reprojection_px, px_places);
-    json["iterations"] = found.iterations;
+    if (found.reprojection_px) json["reprojection_px"] = rounded(*found.reprojection_px, px_places);
+    if (found.iterations) json["iterations"] = *found.iterations;
   }
   if (const GroundTruth* truth = truth_of(frame, found)) {
     json["truth"]["corners_px"] = corners_json(truth->corners_px);

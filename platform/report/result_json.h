@@ -57,8 +57,8 @@ class ResultSink {
 ///   | bram36                                       |        | 1      |
 ///   | provenance.wall_time_s                       | s      | 3      |
 ///
-/// A marker without pose has no `pose`, `reprojection_px` and `iterations`, and its error has
-/// `corner_px` only.
+/// `reprojection_px` and `iterations` are there if the program tells them. A marker without pose
+/// has neither, no `pose`, and its error has `corner_px` only.
 class ResultWriter : public ResultSink {
  public:
   /// Throws vp::OutputError if the disk has no room for a result. `folder` outlives this.

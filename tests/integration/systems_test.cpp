@@ -23,8 +23,8 @@ void check_same_marker(const FrameReport& a, const FrameReport& b) {
     const auto &one = a.markers[i], &other = b.markers[i];
     BOOST_TEST(one.id == other.id);
     BOOST_TEST(one.rotation == other.rotation);
-    BOOST_TEST(one.iterations == other.iterations);
-    BOOST_TEST(one.reprojection_px == other.reprojection_px);
+    BOOST_TEST((one.iterations == other.iterations));
+    BOOST_TEST((one.reprojection_px == other.reprojection_px));
     for (std::size_t n = 0; n < 4; ++n) {
       BOOST_TEST(one.corners_px[n].x == other.corners_px[n].x);
       BOOST_TEST(one.corners_px[n].y == other.corners_px[n].y);

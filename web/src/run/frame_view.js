@@ -69,7 +69,8 @@ function facts(frame) {
     add("Marker", `ID ${marker.id}${marker.rotation ? `, turned ${90 * marker.rotation}°` : ", upright"}`);
     if (marker.pose) {
       add("Position", marker.pose.translation_m.map((m) => fixed(m, 3)).join(", ") + " m");
-      add("Reprojection", `${fixed(marker.reprojection_px, 2)} px after ${counted(marker.iterations, "iteration")}`);
+      if (marker.reprojection_px !== undefined)
+        add("Reprojection", `${fixed(marker.reprojection_px, 2)} px after ${counted(marker.iterations, "iteration")}`);
     }
     if (marker.error) {
       add("Error", [`${fixed(marker.error.corner_px, 2)} px`, marker.error.translation_mm !== undefined && `${fixed(marker.error.translation_mm, 1)} mm`,
