@@ -109,6 +109,8 @@ install(FILES models/registers/CMakeLists.txt DESTINATION "${data_folder}/chip/s
 install(DIRECTORY vp/registers DESTINATION "${data_folder}/chip/source/vp")
 install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake DESTINATION "${data_folder}/chip/source/cmake")
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
+# Where Debian's Python looks for modules.
+install(FILES python/markervp.py DESTINATION "lib/python3/dist-packages")
 install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

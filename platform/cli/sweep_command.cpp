@@ -109,10 +109,11 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
   std::uint64_t older = 0;
   std::string version;
   for (const std::string& key : keys) {
-    if (std::binary_search(planned.begin(), planned.end(), key)) continue;
+    if (std::binary_search(planned.begin(), planned.end(), key) ||
+        store.looks_like_one_of(manifest.program, key))
+      continue;
     try {
       const sweep::Json other = store.read(key).identity_json().at("markervp");
-      if (other == manifest.program) continue;
       ++older;
       version = other.value("version", "") + " " + other.value("revision", "");
     } catch (const vp::InputError& error) {

@@ -1,3 +1,4 @@
+#include <scene/conditions.h>
 #include <scene/scene.h>
 
 #include <array>
@@ -119,10 +120,7 @@ GroundTruth ground_truth(const Scene& scene) {
 
 namespace {
 
-/// Squares in the last picture of thesis 5.2.4, the marker included.
-constexpr int most_squares = 15;
-
-/// The marker and `count` - 1 squares around it, 1 to 15 (thesis 5.2.4).
+/// The marker and `count` - 1 squares around it (thesis 5.2.4).
 void fill_squares(Scene& scene, int count);
 
 /// A view of thesis 5.2.1. The thesis names the IDs but not the places: decision.
@@ -165,13 +163,7 @@ constexpr std::array<std::pair<int, int>, most_squares> square_places{{
 
 void fill_squares(Scene& scene, int count) {
   scene.pose.translation = {-marker_side_m / 2, -marker_side_m / 2, 2.5};
-  for (int i = 1; i < count; ++i) {
-    const auto [column, row] = square_places[static_cast<std::size_t>(i)];
-    Square square;
-    square.u = column * square_pitch_m;
-    square.v = row * square_pitch_m;
-    scene.squares.push_back(square);
-  }
+  scene.squares = squares_around(count);
 }
 
 const std::vector<IdentificationView>& identification_views() {
@@ -344,6 +336,18 @@ std::uint64_t seed_of(const std::string& name) {
 
 }  // namespace
 
+std::vector<Square> squares_around(int count) {
+  std::vector<Square> squares;
+  for (int i = 1; i < count; ++i) {
+    const auto [column, row] = square_places[static_cast<std::size_t>(i)];
+    Square square;
+    square.u = column * square_pitch_m;
+    square.v = row * square_pitch_m;
+    squares.push_back(square);
+  }
+  return squares;
+}
+
 const std::vector<SceneGroup>& scene_groups() {
   static const std::vector<SceneGroup> groups = [] {
     std::vector<SceneGroup> list;
@@ -362,17 +366,19 @@ std::vector<std::string> scene_names() {
 }
 
 bool is_scene(const std::string& name) {
-  return find_entry(name) != nullptr;
+  return find_entry(name.substr(0, name.find('@'))) != nullptr;
 }
 
 Scene make_scene(const std::string& name, const Camera& camera) {
-  const Entry* entry = find_entry(name);
-  if (entry == nullptr) refuse_unknown(name);
+  const std::size_t conditions = name.find('@');
+  const Entry* entry = find_entry(name.substr(0, conditions));
+  if (entry == nullptr) refuse_unknown(name.substr(0, conditions));
   Scene scene;
   scene.name = name;
   scene.camera = camera;
   scene.seed = seed_of(name);
   entry->fill(scene);
+  if (conditions != std::string::npos) set_conditions(scene, name.substr(conditions + 1));
   return scene;
 }
 

@@ -93,6 +93,10 @@ std::string point_text(const PointRecord& record) {
   return text;
 }
 
+std::string identity_start(const Json& program) {
+  return "\"identity\":{\"markervp\":" + program.dump() + ",";
+}
+
 PointRecord read_point(const std::string& path, bool verify) {
   Json json = whole_json(path);
   const std::string start = "'" + path + "' ";

@@ -44,6 +44,9 @@ PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
 
 std::string point_text(const PointRecord& record);
 
+/// How the third line of the text begins of a point that this version of the program computed.
+std::string identity_start(const Json& program);
+
 /// As text. File names may hold any bytes, JSON only UTF-8: others are replaced.
 std::string json_text(const Json& json);
 

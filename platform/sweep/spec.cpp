@@ -30,7 +30,11 @@ class Reader : private vp::YamlReader {
     const Keys keys{
         {"title", [&](const YAML::Node& n) { spec_.title = scalar(n, "title"); }},
         {"text", [&](const YAML::Node& n) { spec_.text = scalar(n, "text"); }},
-        {"inputs", [&](const YAML::Node& n) { spec_.inputs = scalars(n, "inputs"); }},
+        {"inputs",
+         [&](const YAML::Node& n) {
+           for (std::string& input : scalars(n, "inputs")) spec_.inputs.push_back(std::move(input));
+         }},
+        {"scenes", [&](const YAML::Node& n) { read_scenes(n); }},
         {"system", [&](const YAML::Node& n) { read_program(n, "system"); }},
         {"program", [&](const YAML::Node& n) { read_program(n, "program"); }},
         {"camera", [&](const YAML::Node& n) { spec_.camera = scalar(n, "camera"); }},
@@ -61,6 +65,8 @@ class Reader : private vp::YamlReader {
   static constexpr std::uint64_t most_frames = 1'000'000;
   static constexpr std::uint64_t most_points = 10'000'000;
   static constexpr double most_rate = 1e6;
+  static constexpr std::size_t most_scenes = 10'000;
+  static constexpr const char* usual_scene = "front0";
   static constexpr std::uint64_t most_seed = 1'000'000'000'000;
 
   void read_program(const YAML::Node& node, const std::string& key) {
@@ -202,6 +208,30 @@ class Reader : private vp::YamlReader {
     const bool counted = sampling.method == Method::random || sampling.method == Method::sobol;
     if (counted != has_points)
       fail(node, counted ? "'sample' needs 'points'" : "this method takes no 'points'");
+  }
+
+  /// Every combination of conditions becomes an input: "demo@distance=2 m,noise=0.02".
+  void read_scenes(const YAML::Node& node) {
+    if (!node.IsMap() || node.size() == 0)
+      fail(node, "'scenes' is 'condition: values' lines: 'noise: [0.01, 0.03]'");
+    std::vector<std::string> scenes{""};
+    std::string base = usual_scene;
+    for (const auto& entry : node) {
+      const std::string key = scalar(entry.first, "scenes");
+      if (key == "base") {
+        base = scalar(entry.second, key);
+        continue;
+      }
+      std::vector<std::string> longer;
+      for (const std::string& scene : scenes) {
+        for (const std::string& value : scalars(entry.second, key))
+          longer.push_back(scene + (scene.empty() ? "" : ",") + key + "=" + value);
+      }
+      if (longer.size() > most_scenes) fail(node, "'scenes' has more than 10000 combinations");
+      scenes = std::move(longer);
+    }
+    for (const std::string& conditions : scenes)
+      spec_.inputs.push_back(conditions.empty() ? base : base + "@" + conditions);
   }
 
   void read_search(const YAML::Node& node) {

@@ -91,6 +91,16 @@ void Store::write(const PointRecord& record) const {
   vp::write_file(point_path(record.key), point_text(record));
 }
 
+bool Store::looks_like_one_of(const Json& program, const std::string& key) const {
+  std::ifstream file(point_path(key), std::ios::binary);
+  const std::string wanted = identity_start(program);
+  std::string line;
+  for (int i = 0; i < 2; ++i) std::getline(file, line);
+  std::string start(wanted.size(), ' ');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start == wanted;
+}
+
 PointRecord Store::read(const std::string& key, bool verify) const {
   PointRecord record = read_point(point_path(key), verify);
   if (record.key != key)

@@ -38,6 +38,9 @@ class Store {
   void write(const PointRecord& record) const;
   /// Flushes to the disk all points that were written. Throws vp::OutputError.
   void flush() const;
+  /// Whether the point's file begins as one that this version of the program wrote; false if it
+  /// cannot be read. A glance: a folder may have a million points.
+  bool looks_like_one_of(const Json& program, const std::string& key) const;
   /// Throws vp::InputError for a damaged one, or one of another name.
   PointRecord read(const std::string& key, bool verify = true) const;
 

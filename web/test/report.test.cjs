@@ -13,7 +13,7 @@ const samples = require("./samples.cjs");
 const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
-  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), validation: samples.validation(), comparison: samples.comparison(),
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), validation: samples.validation(), comparison: samples.comparison(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
@@ -251,6 +251,39 @@ test("a point of a sweep opens, with its command", () => open("sweep", async (pa
   assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json'`);
   await page.locator("#maps select").first().selectOption({ label: "Power" });
   assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);
+}));
+
+const move = (slider, to) => slider.evaluate((input, value) => {
+  input.value = String(value);
+  const begin = performance.now();
+  input.dispatchEvent(new Event("input", { bubbles: true }));
+  return performance.now() - begin;
+}, to);
+
+test("sliders find the computed point, or say that it is only the nearest", () => open("smallSweep", async (page) => {
+  const part = page.locator("#what-if");
+  const [pixel, cpu] = [part.locator("input").nth(0), part.locator("input").nth(1)];
+  assert.equal(await part.locator("input").count(), 2);  // the others do not vary
+  await move(pixel, 14);
+  await move(cpu, 1);
+  assert.equal(await part.locator("[role=status]").textContent(), "This point was computed.");
+  assert.match(await part.textContent(), /misses timing/);
+  await part.getByRole("button", { name: "Keep to compare" }).click();
+  await move(cpu, 2);
+  assert.equal(await part.locator("[role=status]").textContent(), "This point was not computed. The nearest that was has ps.fclk_clk1.frequency 75 MHz, not 100 MHz.");
+  await part.getByRole("button", { name: "Keep to compare" }).click();
+  const cells = await part.locator("table tbody tr").first().locator("th, td").allTextContents();
+  assert.deepEqual(cells, ["ps.fclk_clk1.frequency", "100 MHz", "75 MHz"]);
+  await part.getByRole("button", { name: "Open this point" }).click();
+  assert.match(await page.locator("#point").textContent(), /75 MHz/);
+}));
+
+test("with 20 000 points a move of a slider takes less than 100 ms", () => open("largeSweep", async (page) => {
+  const slider = page.locator("#what-if input").first();
+  const times = [];
+  for (let i = 0; i < 15; i++) times.push(await move(slider, i));
+  // The least: other work of the machine only adds.
+  assert.ok(Math.min(...times) < 100, `${times}`);
 }));
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {

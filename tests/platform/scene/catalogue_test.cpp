@@ -137,6 +137,44 @@ BOOST_AUTO_TEST_CASE(a_camera_can_be_given) {
   BOOST_TEST(std::abs(corners[1].x - corners[0].x - 2 * 381.36 * 0.3) < 1e-9);
 }
 
+BOOST_AUTO_TEST_CASE(conditions_change_a_scene) {
+  const Scene noisy = make_scene("demo@noise=0.02, blur=1.5px,light=0.5");
+  BOOST_TEST(noisy.name == "demo@noise=0.02, blur=1.5px,light=0.5");
+  BOOST_TEST(noisy.noise_sigma == 0.02);
+  BOOST_TEST(noisy.blur_sigma_px == 1.5);
+  BOOST_TEST(noisy.brightness.wall == 0.349);
+  BOOST_TEST((noisy.pose.translation == make_scene("demo").pose.translation));
+  BOOST_TEST(noisy.squares.size() == make_scene("demo").squares.size());
+  const Scene placed = make_scene("z4.5@distance=2m,yaw=30 deg,roll=90deg,id=7,squares=5");
+  BOOST_TEST((placed.pose.rotation == rotation_y(30) * rotation_z(90)));
+  BOOST_TEST((placed.pose.translation ==
+              pose_from_centre(rotation_y(30) * rotation_z(90), {0, 0, 2}).translation));
+  BOOST_TEST(placed.marker_id == 7);
+  BOOST_TEST(placed.squares.size() == 4u);
+  // The middle of the marker lies in the middle of the picture.
+  const auto corners = ground_truth(make_scene("front3@distance=1500mm")).corners_px;
+  const Camera camera;
+  BOOST_TEST(std::abs((corners[0].x + corners[2].x) / 2 - camera.cx) < 1e-9);
+  BOOST_TEST(std::abs((corners[0].y + corners[2].y) / 2 - camera.cy) < 1e-9);
+  // Each has noise of its own.
+  BOOST_TEST(make_scene("z1.0@noise=0.02").seed != make_scene("z1.0@noise=0.03").seed);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_conditions_are_refused) {
+  check_refused([] { make_scene("demo@nose=0.02"); }, "did you mean 'noise'?");
+  check_refused([] { make_scene("demo@"); }, "is no condition: there are blur, distance");
+  check_refused([] { make_scene("demo@noise"); }, "as in 'demo@distance=2m,noise=0.02'");
+  check_refused([] { make_scene("demo@distance=2"); }, "distance: '2' has no unit");
+  check_refused([] { make_scene("demo@noise=much"); }, "noise: 'much'");
+  check_refused([] { make_scene("demo@squares=16"); }, "no whole number from 1 to 15");
+  check_refused([] { make_scene("demo@id=1.5"); }, "no whole number from 0 to 249");
+  check_refused([] { make_scene("demo@light=2"); }, "brightness");
+  check_refused([] { make_scene("demo@noise=-1"); }, "noise is");
+  check_refused([] { make_scene("demo@distance=-1m"); }, "");
+  check_refused([] { make_scene("demo@yaw=120deg"); }, "back");
+  check_refused([] { make_scene("dmo@noise=0.1"); }, "did you mean 'demo'");
+}
+
 BOOST_AUTO_TEST_CASE(unknown_names_are_refused_with_the_nearest) {
   check_refused([] { make_scene("squres15"); }, "did you mean 'squares15'");
   check_refused([] { make_scene("squares16"); }, "unknown scene 'squares16'");

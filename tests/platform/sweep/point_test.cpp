@@ -94,6 +94,20 @@ BOOST_AUTO_TEST_CASE(a_point_reads_back_without_provenance) {
   BOOST_TEST(*metrics_of(read.outcome["result"]).find("summary.frames") == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_glance_tells_which_version_computed_a_point) {
+  const kit::TemporaryFolder folder;
+  const Store store(folder.path());
+  Manifest manifest = one_point();
+  const std::string key = manifest.points[0].key;
+  BOOST_TEST(!store.looks_like_one_of(manifest.program, key));
+  store.write(record_of(manifest));
+  BOOST_TEST(store.looks_like_one_of(manifest.program, key));
+  manifest.program["version"] = "2";
+  BOOST_TEST(!store.looks_like_one_of(manifest.program, key));
+  kit::write_file(store.point_path(key), "{");
+  BOOST_TEST(!store.looks_like_one_of(one_point().program, key));
+}
+
 BOOST_AUTO_TEST_CASE(damage_is_noticed) {
   const kit::TemporaryFolder folder;
   const Store store(folder.path());

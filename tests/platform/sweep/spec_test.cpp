@@ -65,4 +65,17 @@ BOOST_AUTO_TEST_CASE(mistakes_are_named_with_their_line) {
       contains(complaint([] { platform::sweep::read_spec("/nowhere.yaml"); }), "No such file"));
 }
 
+BOOST_AUTO_TEST_CASE(scenes_are_every_combination_of_their_conditions) {
+  const Spec spec = parse_spec(
+      "inputs: [z1.0]\nscenes: {base: demo, distance: [1 m, 2 m], noise: [0.01, 0.03]}\n",
+      "here.yaml");
+  const std::vector<std::string> wanted{
+      "z1.0", "demo@distance=1 m,noise=0.01", "demo@distance=1 m,noise=0.03",
+      "demo@distance=2 m,noise=0.01", "demo@distance=2 m,noise=0.03"};
+  BOOST_TEST(spec.inputs == wanted, boost::test_tools::per_element());
+  BOOST_TEST(parse_spec("scenes: {blur: 1 px}\n", "x").inputs.front() == "front0@blur=1 px");
+  BOOST_TEST(contains(complaint([] { parse_spec("scenes: [demo]\n", "x"); }),
+                      "'scenes' is 'condition: values' lines"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,6 +5,7 @@ import { dataTable } from "../kit/table.js";
 import { shellWord } from "../run/tables.js";
 import { columnsOf, heatMap, parallel, tornado, tradeOff } from "./charts.js";
 import { makeSweep, metricName } from "./facts.js";
+import { whatIf } from "./what_if.js";
 
 function pointPanel(sweep) {
   const panel = h("section", { id: "point", class: "panel", "aria-label": "Point", tabindex: "-1", hidden: true });
@@ -79,6 +80,7 @@ export function sweepPage(data) {
     subtitle: [counted(sweep.points.length, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, open)), panel,
+      section("what-if", "What if?", whatIf(sweep, open)),
       section("space", "Design space", parallel(sweep, open)), section("maps", "Map", heatMap(sweep, open)), section("influence", "Influence", tornado(sweep)),
       section("steps", "What a step is worth", sweep.steps && stepTable(sweep.steps)),
       section("points", "Points", points(sweep, (p) => p.reasons.length === 0, "Feasible points, the best first", "points", open),

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <scene/scene.h>
+
+namespace platform {
+
+/// Squares in the last picture of thesis 5.2.4, the marker included.
+constexpr int most_squares = 15;
+
+/// Those around the marker in the picture with `count` squares in all, 1 to 15 (thesis 5.2.4).
+std::vector<Square> squares_around(int count);
+
+/// Changes a scene by "distance=2m,roll=30deg,noise=0.02,…":
+///
+///   distance               of the marker's centre, on the camera's axis
+///   pitch, yaw, roll       angles of the marker: Rx(pitch) * Ry(yaw) * Rz(roll)
+///   noise                  deviation, fraction of full scale
+///   blur                   deviation, px
+///   light                  factor of all brightness
+///   squares                the marker and others around it, 1 to 15
+///   id                     of the marker
+///
+/// One of the first four places the marker anew; those of them that are not given are 1 m and 0.
+/// Throws vp::InputError for what is none, and for a scene that cannot be rendered then.
+void set_conditions(Scene& scene, const std::string& conditions);
+
+}  // namespace platform
