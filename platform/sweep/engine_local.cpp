@@ -43,18 +43,21 @@ class Pipe {
   }
   ~Pipe() {
     close_writing();
-    ::close(ends_[0]);
+    close_reading();
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
 
   int reading() const { return ends_[0]; }
   int writing() const { return ends_[1]; }
-  void close_writing() {
-    if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
-  }
+  void close_writing() { close(ends_[1]); }
+  void close_reading() { close(ends_[0]); }
 
  private:
+  static void close(int& end) {
+    if (end >= 0) ::close(std::exchange(end, -1));
+  }
+
   std::array<int, 2> ends_{-1, -1};
 };
 
@@ -114,6 +117,8 @@ class Pool {
     }
     running.child.emplace([&](std::ostream&, std::ostream&) {
       list_.store.leave_lock_to_parent();
+      // Else a process whose parent was killed waits for ever in the middle of a message.
+      for (Running& other : running_) other.pipe.close_reading();
       // What PS programs print is of no use here.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
