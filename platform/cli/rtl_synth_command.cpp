@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <charconv>
+#include <future>
 #include <ostream>
+#include <thread>
 
 #include <cli/commands.h>
 #include <synthesis/synthesis.h>
@@ -60,7 +64,7 @@ std::string name_of(const Figures& figures) {
   return name;
 }
 
-constexpr const char* row = "{:<34} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
+constexpr const char* row = "{:<34} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
 
 void print_row(const Figures& figures, const synthesis::PathTiming& timing, std::ostream& out) {
   const synthesis::Cells& c = figures.netlist.cells;
@@ -71,9 +75,37 @@ void print_row(const Figures& figures, const synthesis::PathTiming& timing, std:
                        range.low, range.high, path->cells_ns, path->nets, path->fan_out, path->from,
                        path->to);
   }
-  out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_memory, c.ff, c.carry4,
-                     c.ramb18, c.ramb36, c.dsp, fmax)
+  out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_memory, c.lut_through, c.ff,
+                     c.carry4, c.ramb18, c.ramb36, c.dsp, fmax)
       << std::flush;
+}
+
+/// As many at a time as there are processors, for Yosys uses one. A row is printed as soon as those
+/// before it are.
+std::vector<Figures> synthesise_all(const std::vector<Design>& designs,
+                                    const synthesis::PathTiming& timing, std::ostream& out) {
+  std::vector<std::promise<Figures>> made(designs.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < designs.size(); i = next++) {
+      try {
+        made[i].set_value(synthesis::synthesise(designs[i], timing));
+      } catch (...) {
+        next = designs.size();
+        made[i].set_exception(std::current_exception());
+      }
+    }
+  };
+  std::vector<std::future<void>> workers;  // wait for their work in the end
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  while (workers.size() < std::min(processors, designs.size()))
+    workers.push_back(std::async(std::launch::async, work));
+  std::vector<Figures> figures;
+  for (std::promise<Figures>& one : made) {
+    figures.push_back(one.get_future().get());
+    print_row(figures.back(), timing, out);
+  }
+  return figures;
 }
 
 }  // namespace
@@ -85,13 +117,9 @@ int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out) {
   std::optional<vp::OutputFile> file;
   if (options.output) file.emplace(*options.output);
   out << tool << ", 7 series, speed grade -1, not routed\n"
-      << fmt::format(fmt::runtime(row), "module", "LUT", "LUTRAM", "FF", "CARRY4", "RAMB18",
-                     "RAMB36", "DSP", "Fmax, longest path");
-  std::vector<Figures> figures;
-  for (const Design& design : designs) {
-    figures.push_back(synthesis::synthesise(design, timing));
-    print_row(figures.back(), timing, out);
-  }
+      << fmt::format(fmt::runtime(row), "module", "LUT", "LUTRAM", "through", "FF", "CARRY4",
+                     "RAMB18", "RAMB36", "DSP", "Fmax, longest path");
+  const std::vector<Figures> figures = synthesise_all(designs, timing, out);
   if (file) {
     file->write(synthesis::to_json(figures, tool, timing));
     file->commit();

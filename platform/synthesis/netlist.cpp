@@ -194,6 +194,12 @@ class Graph {
     return walk_back(*last, last_state, way.through);
   }
 
+  std::uint32_t luts_to_let_through() const {
+    return static_cast<std::uint32_t>(
+        std::count_if(entrances_.begin(), entrances_.end(),
+                      [this](unsigned i) { return bits_[i].driver != Kind::lut; }));
+  }
+
  private:
   static bool is_input(const Json& cell, const std::string& port) {
     return cell.at("port_directions").at(port) == "input";
@@ -221,6 +227,7 @@ class Graph {
         if (i == none || (input && is_clock(port))) continue;
         if (input) {
           ++bits_[i].fan_out;
+          if (kind == Kind::carry && port == "S") entrances_.push_back(i);
         } else {
           bits_[i].driver = kind;
         }
@@ -460,6 +467,7 @@ class Graph {
   const PathTiming& timing_;
   std::unordered_map<unsigned, unsigned> index_;
   std::vector<Bit> bits_;
+  std::vector<unsigned> entrances_;  ///< what enters carry chains
   std::vector<std::string> names_;
   std::vector<Arc> arcs_;
   std::vector<End> ends_;
@@ -478,6 +486,7 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
   Netlist netlist;
   for (const auto& [name, cell] : module.at("cells").items()) count(cell.at("type"), netlist.cells);
   const Graph graph(module, timing);
+  netlist.cells.lut_through = graph.luts_to_let_through();
   const std::vector<unsigned> order = graph.in_order();
   // A path's nets are judged by their number and by the largest fan-out. So the longest path is
   // that of one of the graphs that are left below a fan-out.

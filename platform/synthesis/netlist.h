@@ -14,6 +14,9 @@ namespace platform::synthesis {
 struct Cells {
   std::uint32_t lut = 0;         ///< without those that are memory
   std::uint32_t lut_memory = 0;  ///< distributed memory and shift registers
+  /// That nothing but let a signal through, to a carry chain: it has no other entrance. Yosys does
+  /// not count them.
+  std::uint32_t lut_through = 0;
   std::uint32_t ff = 0;
   std::uint32_t carry4 = 0;
   std::uint32_t ramb18 = 0;

@@ -155,7 +155,11 @@ fs::path rtl_folder() {
 
 /// What figures are kept of: the defaults, and the parameters on which size or speed depend.
 std::vector<std::pair<std::string, Parameters>> own_variants() {
-  return {{"axi_threshold_bridge", {}},
+  return {{"axi_image_store", {}},
+          {"axi_threshold_bridge", {{"FIFO_DEPTH", 64}}},
+          {"axi_threshold_bridge", {{"FIFO_DEPTH", 256}}},
+          {"axi_threshold_bridge", {{"FIFO_DEPTH", 512}}},
+          {"blob_detection", {{"LABELS", 16}}},
           {"blob_detection", {{"LABELS", 32}}},
           {"blob_detection", {{"LABELS", 64}}},
           {"blob_detection", {{"LABELS", 128}}},
@@ -163,7 +167,9 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"control_block", {}},
           {"corner_detection", {{"LEAN", 0}}},
           {"corner_detection", {{"LEAN", 1}}},
+          {"feature_packaging", {{"BUFFER_DEPTH", 16}}},
           {"feature_packaging", {{"BUFFER_DEPTH", 100}}},
+          {"feature_packaging", {{"BUFFER_DEPTH", 256}}},
           {"frame_status", {}},
           {"global_threshold", {}},
           {"sensor_input", {}}};
@@ -254,6 +260,7 @@ std::string to_json(const std::vector<Figures>& figures, const std::string& tool
                {"parameters", f.parameters},
                {"lut", cells.lut},
                {"lut_memory", cells.lut_memory},
+               {"lut_through", cells.lut_through},
                {"ff", cells.ff},
                {"carry4", cells.carry4},
                {"ramb18", cells.ramb18},

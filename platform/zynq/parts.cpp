@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <synthesis/known_figures.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -39,7 +40,7 @@ vp::Source source_of(vp::FmaxOrigin origin) {
     case vp::FmaxOrigin::published:
       return vp::Source::published;
     case vp::FmaxOrigin::derived:
-    case vp::FmaxOrigin::synthesis:
+    case vp::FmaxOrigin::synthesised:
       return vp::Source::derived;
     case vp::FmaxOrigin::estimated:
       break;
@@ -65,6 +66,7 @@ std::vector<Part> parts_of(const sc_core::sc_object& pl) {
     const vp::Clock& clock = ip->logic_clock();
     parts.push_back(
         {object.name(), object.basename(), ip->group(), &clock, name_of(clock), ip->estimate()});
+    synthesis::KnownFigures::installed().apply(parts.back().estimate);
   }
   return parts;
 }

@@ -26,7 +26,8 @@ struct Part {
   vp::IpEstimate estimate;
 };
 
-/// Everything below `pl` that is an IP (vp::Ip), in the order of reports.
+/// Everything below `pl` that is an IP (vp::Ip), in the order of reports, with the figures of
+/// synthesis where it has RTL.
 std::vector<Part> parts_of(const sc_core::sc_object& pl);
 
 /// What that takes of a device.

@@ -12,8 +12,8 @@ const char* to_string(FmaxOrigin origin) {
       return "published";
     case FmaxOrigin::derived:
       return "derived";
-    case FmaxOrigin::synthesis:
-      return "synthesis";
+    case FmaxOrigin::synthesised:
+      return "synthesised";
     case FmaxOrigin::estimated:
       break;
   }

@@ -107,7 +107,7 @@ void AxiImageStore::store_beat() {
 
 // An address counter. Works while an image is uploaded, which is not part of a frame.
 vp::IpEstimate AxiImageStore::own_estimate() const {
-  vp::IpEstimate e = small_ip("axi_image_store", 50, 60, 100 * mhz);
+  vp::IpEstimate e = rtl_ip("axi_image_store");
   e.active_clocks = [] { return std::uint64_t{0}; };
   return e;
 }

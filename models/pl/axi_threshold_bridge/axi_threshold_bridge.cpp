@@ -233,8 +233,8 @@ void AxiThresholdBridge::reset() {
 }
 
 vp::IpEstimate AxiThresholdBridge::own_estimate() const {
-  vp::IpEstimate e = small_ip("axi_threshold_bridge", 60, 80, 100 * mhz);
-  add_fifo(e, fifo_depth, 32);
+  vp::IpEstimate e = rtl_ip("axi_threshold_bridge", {{"FIFO_DEPTH", fifo_depth}});
+  e.bram36 = fifo_memory(fifo_depth, 32);
   return e;
 }
 

@@ -20,8 +20,8 @@ void BlobDetection::connect(IpPorts& ports) {
   ports.input(ena);
   ports.input(rst);
   ports.input(pixel);
-  ports.input(x, 10);
-  ports.input(y, 9);
+  ports.input(x, geometry_.words().x_bits());
+  ports.input(y, geometry_.words().y_bits());
   ports.output(blob_out);
   ports.output(blob_start, &blob_out);
   ports.output(blob_end, &blob_out);
@@ -70,60 +70,26 @@ namespace {
 
 /// Labels for which the thesis' figures are taken to hold (decision: it does not give the number).
 constexpr std::uint32_t thesis_labels = 128;
-constexpr std::uint32_t thesis_box_bits = 38;  ///< four coordinates
-
-/// LUT of the logic around the labels. Each has its box in registers, a comparison that finds out
-/// when it expires, a choice of what its box becomes, and its share of the multiplexers through
-/// which seven neighbours look up their widths.
-constexpr std::uint32_t logic_of_labels(std::uint32_t labels, std::uint32_t box_bits) {
-  constexpr std::uint32_t look_up = 42;  // 7 neighbours × 20 bits × 0.3 LUT an input
-  const std::uint32_t read_out = 11, grow = 2 * box_bits, expire = 45, choose = 10;
-  return 600 + (look_up + read_out + grow + expire + choose) * labels;
-}
-
-/// The thesis finds the next label, and the widest of the neighbours' blobs, in one clock: trees
-/// over all labels. Its 55 MHz are those of 128 labels, seven levels. For others it is not known
-/// how much of the period the trees take: nothing, then Fmax stays, or all, then it goes with their
-/// depth.
-void set_fmax(vp::IpEstimate& e, unsigned levels) {
-  constexpr std::uint64_t published_hz = 55 * mhz;
-  constexpr unsigned published_levels = 7;
-  const std::uint64_t all_tree_hz = published_hz * published_levels / levels;
-  e.fmax_hz = std::min(published_hz, all_tree_hz);
-  e.fmax_high_hz = std::max(published_hz, all_tree_hz);
-  if (levels == published_levels) {
-    e.fmax_origin = vp::FmaxOrigin::published;
-    e.fmax_documentation = "the slowest module of the PL (thesis 4.6.1)";
-  } else {
-    e.fmax_origin = vp::FmaxOrigin::estimated;
-    e.fmax_documentation =
-        "55 MHz with 128 labels (thesis 4.6.1); between none and all of that period is a label "
-        "search of 7 levels, here " +
-        std::to_string(levels);
-  }
-}
+/// What the thesis finds the next label with, and the widest of the neighbours' blobs, in one
+/// clock: a tree over all labels. With more of them it is not faster, with fewer not slower.
+constexpr std::uint64_t thesis_hz = 55 * mhz;
 
 }  // namespace
 
 // Grows with the labels. Its power was measured for the whole module (thesis 4.6.1).
 vp::IpEstimate BlobDetection::own_estimate() const {
   const std::uint32_t labels = label_count;
-  const std::uint32_t box_bits = 2 * geometry_.words().number_shift();
   std::uint32_t label_bits = 1;
   while ((std::uint64_t{1} << label_bits) < labels) ++label_bits;
 
-  vp::IpEstimate e;
-  e.kind = "blob_detection";
-  e.size = static_cast<double>(logic_of_labels(labels, box_bits)) /
-           logic_of_labels(thesis_labels, thesis_box_bits);
+  vp::IpEstimate e = rtl_ip("blob_detection", {{"LABELS", labels}});
+  e.rtl.measured = {{"LABELS", thesis_labels}};
   e.includes_memory = true;
-  e.lut = logic_of_labels(labels, box_bits);
-  e.ff = 250 + (box_bits + 1) * labels;
   e.bram36 = xilinx::block_ram_36(geometry_.width, label_bits);  // labels of the line above
-  add_fifo(e, labels, label_bits);                               // free labels
-  e.uncertainty_percent = 50;
-  e.source = "derived from the structure of thesis 4.3.6: 184 LUT and 39 FF a label";
-  set_fmax(e, label_bits);
+  e.fmax_hz = labels <= thesis_labels ? thesis_hz : 0;
+  e.fmax_high_hz = 2 * labels > thesis_labels ? thesis_hz : 0;
+  e.fmax_origin = vp::FmaxOrigin::published;
+  e.fmax_documentation = "55 MHz with 128 labels, the slowest module of the PL (thesis 4.6.1)";
   return e;
 }
 

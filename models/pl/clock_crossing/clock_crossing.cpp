@@ -56,7 +56,7 @@ ClockCrossing::ClockCrossing(sc_core::sc_module_name name, const Site& site)
 
 // A register and a toggle for corners, blobs (two words) and binary words, and the way back.
 vp::IpEstimate ClockCrossing::own_estimate() const {
-  return small_ip("clock_crossing", 40, 280, 100 * mhz);
+  return rtl_ip("clock_crossing");
 }
 
 void ClockCrossingClocked::edge() {

@@ -1,29 +1,50 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
 
 #include <vp/ip.h>
 #include <xilinx/bram/bram.h>
 
-/// What the estimates of the thesis' own IP share. The thesis' utilisation is in figures 4.26,
-/// 4.29 and 4.31, whose numbers are not in its text: all counts are derived from the structure that
-/// the text describes.
+/// What the estimates of the IP share. The thesis' utilisation is in figures 4.26, 4.29 and 4.31,
+/// whose numbers are not in its text: counts come from synthesis of the IP's RTL, or are derived
+/// from the structure where there is none.
 namespace pl {
 
 constexpr std::uint64_t mhz = 1'000'000;
 
-/// A FIFO of `depth` words: distributed memory up to 256 words (a RAM64M is 64 × 3 bits in 4 LUT),
-/// block memory beyond.
+/// Words of a FIFO up to which it is distributed memory, or what synthesis makes of it.
+constexpr std::uint32_t deepest_in_lut = 256;
+
+/// Block memories of a FIFO of `depth` words that is deeper.
+inline double fifo_memory(std::uint32_t depth, std::uint32_t width) {
+  return depth > deepest_in_lut ? xilinx::block_ram_36(depth, width) : 0;
+}
+
+/// A FIFO of `depth` words: a RAM64M is 64 × 3 bits in 4 LUT.
 inline void add_fifo(vp::IpEstimate& e, std::uint32_t depth, std::uint32_t width) {
-  constexpr std::uint32_t deepest_in_lut = 256, rows = 64, bits = 3, luts = 4;
+  constexpr std::uint32_t rows = 64, bits = 3, luts = 4;
   constexpr std::uint32_t pointers = 30;
   e.lut += pointers;
   e.ff += pointers + width;
-  if (depth > deepest_in_lut) {
-    e.bram36 += xilinx::block_ram_36(depth, width);
-  } else {
+  e.bram36 += fifo_memory(depth, width);
+  if (depth <= deepest_in_lut)
     e.lut += (depth + rows - 1) / rows * ((width + bits - 1) / bits) * luts;
-  }
+}
+
+/// An IP that comes with RTL, on which synthesis knows more than the thesis: that it works at its
+/// system clock.
+inline vp::IpEstimate rtl_ip(const char* kind,
+                             std::map<std::string, std::int64_t> parameters = {}) {
+  vp::IpEstimate e;
+  e.kind = kind;
+  e.rtl = {kind, std::move(parameters), {}};
+  e.fmax_hz = 100 * mhz;
+  e.fmax_origin = vp::FmaxOrigin::derived;
+  e.fmax_documentation = "works at the thesis' system clock (4.1)";
+  return e;
 }
 
 /// An IP whose clock the thesis does not limit: it works at `fmax_hz` there.

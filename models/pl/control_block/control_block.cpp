@@ -8,7 +8,7 @@ ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name), Ip(n
 
 // With the frame status: a few gates and flags.
 vp::IpEstimate ControlBlock::own_estimate() const {
-  return small_ip("control_block", 25, 10, 100 * mhz);
+  return rtl_ip("control_block");
 }
 
 void ControlBlock::end_of_elaboration() {

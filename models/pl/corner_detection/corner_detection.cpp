@@ -20,8 +20,8 @@ void CornerDetection::connect(IpPorts& ports) {
   ports.input(ena);
   ports.input(rst);
   ports.input(pixel);
-  ports.input(x, 10);
-  ports.input(y, 9);
+  ports.input(x, geometry_.words().x_bits());
+  ports.input(y, geometry_.words().y_bits());
   ports.output(corner_out);
   ports.output(corner_data, &corner_out);
   ports.parameter("WIDTH", "pl.width", geometry_.width);
@@ -65,27 +65,11 @@ void CornerDetectionClocked::reset() {
 // The non-maximum suppression is the thesis' pipelined one. To see what one would allow that
 // compares nine strengths in one clock, set timing.corner_detection.fmax to 36.63 MHz (4.3.4.4).
 vp::IpEstimate CornerDetection::own_estimate() const {
-  constexpr std::uint32_t fast_modules = 9, circle = 16, lines = 8;
+  constexpr std::uint32_t lines = 8;
   const std::uint32_t line_depth = 1u << marker_logic::bits_for(geometry_.width, 10);
-  constexpr std::uint32_t compare_and_subtract = 25, sum = 150, contiguous = 60, direction = 40;
-  constexpr std::uint32_t fast_lut = circle * compare_and_subtract + sum + contiguous + direction;
-  constexpr std::uint32_t fast_ff = circle * 9 + 15;  // differences, then strength and direction
-  constexpr std::uint32_t window_ff = 9 * 9 * 8;
-
-  vp::IpEstimate e;
-  e.kind = "corner_detection";
-  e.lut = fast_modules * fast_lut + lines * 45 + 250;
-  e.ff = fast_modules * fast_ff + window_ff + lines * 30 + 250;
+  vp::IpEstimate e = rtl_ip("corner_detection", {{"LEAN", 0}});
   e.bram36 = lines * xilinx::block_ram_36(line_depth, 8);
-  e.uncertainty_percent = 40;
-  e.source = "derived from the structure of thesis 4.3.4: 9 FAST modules of 650 LUT, 8 line FIFOs";
-  e.fmax_hz = 100 * mhz;
-  // Its structure through Yosys' synthesis for the 7 series, without any wire.
-  e.fmax_high_hz = 236 * mhz;
-  e.fmax_origin = vp::FmaxOrigin::published;
-  e.fmax_documentation =
-      "runs comfortably at it (thesis 4.6.1); the cells of its longest path alone take 4.23 ns "
-      "(Yosys)";
+  e.fmax_documentation = "runs comfortably at 100 MHz (thesis 4.6.1)";
   return e;
 }
 

@@ -48,9 +48,9 @@ FeaturePackaging::FeaturePackaging(sc_core::sc_module_name name, const Site& sit
 
 // Two buffers, and what builds and chooses words.
 vp::IpEstimate FeaturePackaging::own_estimate() const {
-  vp::IpEstimate e = small_ip("feature_packaging", 150, 110, 100 * mhz);
-  add_fifo(e, buffer_depth, 32);
-  add_fifo(e, buffer_depth, 32);
+  vp::IpEstimate e = rtl_ip("feature_packaging", {{"BUFFER_DEPTH", buffer_depth}});
+  if (buffer_depth > deepest_in_lut)  // corners, and pairs of words for blobs
+    e.bram36 = xilinx::block_ram_36(buffer_depth, 32) + xilinx::block_ram_36(buffer_depth / 2, 64);
   return e;
 }
 

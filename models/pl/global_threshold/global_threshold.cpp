@@ -21,8 +21,8 @@ void GlobalThreshold::connect(IpPorts& ports) {
   ports.input(wr_thresh);
   ports.input(threshold);
   ports.input(pixel);
-  ports.input(x, 10);
-  ports.input(y, 9);
+  ports.input(x, geometry_.words().x_bits());
+  ports.input(y, geometry_.words().y_bits());
   ports.output(binary_ena);
   ports.output(binary_out, &binary_ena);
   ports.output(binary_x, &binary_ena);
@@ -82,19 +82,8 @@ void GlobalThresholdClocked::reset() {
 // The histogram is cleared in one clock, so its 256 counters are registers, each as wide as the
 // number of pixels, read through a multiplexer.
 vp::IpEstimate GlobalThreshold::own_estimate() const {
-  constexpr std::uint32_t levels = 256;
-  std::uint32_t bits = 1;
-  while ((std::uint64_t{1} << bits) <= geometry_.pixels()) ++bits;
-
-  vp::IpEstimate e;
-  e.kind = "global_threshold";
-  e.lut = 150 + levels * 3 / 2 + levels * bits / 3;  // clock enables, multiplexer
-  e.ff = 150 + levels * bits;
-  e.uncertainty_percent = 40;
-  e.source = "derived from the structure of thesis 4.3.5: 256 counters in registers";
-  e.fmax_hz = 100 * mhz;
-  e.fmax_origin = vp::FmaxOrigin::published;
-  e.fmax_documentation = "runs comfortably at it (thesis 4.6.1)";
+  vp::IpEstimate e = rtl_ip("global_threshold");
+  e.fmax_documentation = "runs comfortably at 100 MHz (thesis 4.6.1)";
   return e;
 }
 

@@ -96,6 +96,19 @@ BOOST_AUTO_TEST_CASE(a_carry_chain_is_entered_through_a_lut_and_ripples_without_
              timing["ff_out"] + timing["lut"] + timing["carry_enter"] + timing["carry_leave"]);
   BOOST_TEST(netlist.longest->nets == 1u);
   BOOST_TEST(netlist.cells.carry4 == 2u);
+  BOOST_TEST(netlist.cells.lut_through == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_register_enters_a_carry_chain_through_a_lut_that_nobody_wrote) {
+  Module module;
+  module.flip_flop(30, 2);
+  module.lut(2, 3);
+  module.add("CARRY4",
+             {{"CI", {"0"}}, {"CYINIT", {"0"}}, {"DI", {2, 2, "0", "0"}}, {"S", {3, 2, 2, "1"}}},
+             {{"O", {20, 21, 22, 30}}});
+  const Netlist netlist = module.read();
+  BOOST_TEST(netlist.cells.lut == 1u);
+  BOOST_TEST(netlist.cells.lut_through == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(sum_bits_depend_on_lower_bits_only) {

@@ -2,6 +2,7 @@
 #include <synthesis/synthesis.h>
 
 #include <boost/test/unit_test.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include <vp/error.h>
@@ -128,6 +129,27 @@ BOOST_AUTO_TEST_CASE(a_name_that_is_none_never_reaches_yosys) {
 BOOST_AUTO_TEST_CASE(a_folder_without_verilog_and_an_unknown_ip_are_refused) {
   BOOST_CHECK_THROW(sources_in(folder.path()), vp::InputError);
   BOOST_CHECK_THROW(sources_in(folder / "none"), vp::InputError);
+}
+
+// The whole set takes minutes: platform_synthesis_figures, of ctest -C nightly.
+BOOST_AUTO_TEST_CASE(the_smallest_of_each_ip_is_what_is_committed) {
+  using Json = nlohmann::ordered_json;
+  const Json committed =
+      Json::parse(kit::read_file(MARKERVP_DATA "/rtl/synthesis.json")).at("entries");
+  std::map<std::string, Json> smallest;
+  for (const Json& entry : committed) {
+    Json& least = smallest[entry.at("ip")];
+    if (least.is_null() || entry.at("lut") < least.at("lut")) least = entry;
+  }
+  std::size_t compared = 0;
+  for (const Design& design : own_designs({})) {
+    const Json& expected = smallest.at(design.ip);
+    if (expected.at("parameters") != Json(design.parameters)) continue;
+    const Json made = Json::parse(to_json({synthesise(design, timing)}, "any", timing));
+    BOOST_TEST(made.at("entries").at(0) == expected, design.ip);
+    ++compared;
+  }
+  BOOST_TEST(compared == smallest.size());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

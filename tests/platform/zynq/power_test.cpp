@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(blob_detection_takes_what_the_thesis_says) {
 
 BOOST_AUTO_TEST_CASE(the_whole_system_is_that_of_the_estimate) {
   const report::PowerReport power = report_of({});
-  BOOST_TEST(power.total_w == 2.27, boost::test_tools::tolerance(0.01));
+  BOOST_TEST(power.total_w == 2.23, boost::test_tools::tolerance(0.01));
   BOOST_TEST(power.junction_c == 51.0, boost::test_tools::tolerance(0.02));
   BOOST_TEST(power.low_w < power.total_w);
   BOOST_TEST(power.total_w < power.high_w);
@@ -361,7 +361,11 @@ BOOST_AUTO_TEST_CASE(the_thesis_design_fits_and_meets_timing) {
 
 BOOST_AUTO_TEST_CASE(more_labels_take_more_logic_until_it_is_too_much) {
   const auto with_labels = [](const char* labels) {
-    return Platform(Settings{{"pl.blob_detection.label_count", labels}}).power->resource_report();
+    return Platform(Settings{{"pl.blob_detection.label_count", labels},
+                             {"device", "xc7z010"},
+                             {"pl.width", "320 px"},
+                             {"pl.height", "240 px"}})
+        .power->resource_report();
   };
   BOOST_TEST(with_labels("64").total.lut < with_labels("128").total.lut);
   const report::ResourceReport large = with_labels("512");
@@ -376,7 +380,7 @@ BOOST_AUTO_TEST_CASE(larger_images_and_deeper_buffers_take_block_memory) {
     return Platform(settings).power->resource_report().total.bram36;
   };
   BOOST_TEST(bram({{"pl.width", "1024 px"}, {"pl.height", "512 px"}}) == bram({}) + 128 - 75);
-  BOOST_TEST(bram({{"pl.feature_packaging.buffer_depth", "1024"}}) == bram({}) + 2);
+  BOOST_TEST(bram({{"pl.feature_packaging.buffer_depth", "1024"}}) == bram({}) + 2 - 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(a_clock_above_fmax_is_infeasible_and_says_by_how_much) {
@@ -398,7 +402,7 @@ BOOST_AUTO_TEST_CASE(a_clock_above_fmax_is_infeasible_and_says_by_how_much) {
 
 BOOST_AUTO_TEST_CASE(above_a_lower_bound_nobody_knows) {
   Platform platform(
-      {{"ps.fclk_clk1.frequency", "125 MHz"}, {"timing.blob_detection.fmax", "200 MHz"}});
+      {{"ps.fclk_clk1.frequency", "111.111 MHz"}, {"timing.blob_detection.fmax", "200 MHz"}});
   const report::TimingReport timing = platform.power->timing_report(*platform.timing);
   BOOST_TEST(!timing.met);
   const auto warnings = report::timing_warnings(timing);

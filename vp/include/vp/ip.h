@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <systemc>
 #include <utility>
@@ -14,10 +15,10 @@ namespace vp {
 
 /// Where a range of Fmax comes from.
 enum class FmaxOrigin {
-  published,  ///< somebody built it and said so
-  derived,    ///< follows from what was published: it works there at that clock
-  synthesis,  ///< of its RTL
-  estimated,  ///< from its structure; nobody built it
+  published,    ///< somebody built it and said so
+  derived,      ///< follows from what was published: it works there at that clock
+  synthesised,  ///< from what synthesis makes of its RTL
+  estimated,    ///< from its structure; nobody built it
 };
 
 const char* to_string(FmaxOrigin origin);
@@ -32,6 +33,18 @@ struct IpEstimate {
   std::uint32_t dsp = 0;
   unsigned uncertainty_percent = 0;
   std::string source;  ///< of the four numbers
+
+  /// The RTL that comes with the IP. Where figures from its synthesis are known
+  /// (data/rtl/synthesis.json), they take the place of LUT, flip-flops and DSP, and of block
+  /// memories that are not given here; and the range of Fmax becomes theirs, within the limits that
+  /// are given here.
+  struct Rtl {
+    std::string module;  ///< empty: there is none
+    std::map<std::string, std::int64_t> parameters;
+    /// Of the module that the coefficient of power was read from: `size` follows. Empty: it is 1.
+    std::map<std::string, std::int64_t> measured;
+  };
+  Rtl rtl;
 
   // Its highest clock in the slowest speed grade, as far as it is known.
   std::uint64_t fmax_hz = 0;       ///< up to this clock it works

@@ -5,20 +5,21 @@
 module line_buffer #(
     parameter int WIDTH = 640,  // columns
     parameter int BITS = 8,
-    parameter int AHEAD = 0     // `above` belongs to column x + AHEAD
+    parameter int AHEAD = 0,    // `above` belongs to column x + AHEAD
+    parameter int X_BITS = 10
 ) (
     input  logic            clk,
     input  logic            ena,
-    input  logic [     9:0] x,
+    input  logic [X_BITS-1:0] x,
     input  logic [BITS-1:0] value,
     output logic [BITS-1:0] above
 );
   localparam int PLACE_BITS = $clog2(WIDTH);
-  localparam logic [9:0] WRAP = 10'(WIDTH - 1 - AHEAD);
+  localparam logic [X_BITS-1:0] WRAP = X_BITS'(WIDTH - 1 - AHEAD);
 
   logic [BITS-1:0] stored[0:WIDTH-1];
   wire [PLACE_BITS-1:0] place = PLACE_BITS'(x);
-  wire [PLACE_BITS-1:0] next = PLACE_BITS'(x >= WRAP ? x - WRAP : x + 10'(AHEAD + 1));
+  wire [PLACE_BITS-1:0] next = PLACE_BITS'(x >= WRAP ? x - WRAP : x + X_BITS'(AHEAD + 1));
 
   always_ff @(posedge clk)
     if (ena) begin

@@ -2,12 +2,13 @@
 // leftmost; the pixel of row r and column c is window[(SIZE * r + c) * 8 +: 8].
 module pixel_window #(
     parameter int WIDTH = 640,
-    parameter int SIZE  = 9
+    parameter int SIZE  = 9,
+    parameter int X_BITS = 10
 ) (
     input  logic                     clk,
     input  logic                     ena,
     input  logic [              7:0] pixel,
-    input  logic [              9:0] x,
+    input  logic [       X_BITS-1:0] x,
     output logic [SIZE*SIZE*8-1:0] window
 );
   // The column of pixels that enters: the new one below those of the lines before.
@@ -16,8 +17,9 @@ module pixel_window #(
 
   for (genvar row = 0; row < SIZE - 1; row++) begin : g_lines
     line_buffer #(
-        .WIDTH(WIDTH),
-        .BITS (8)
+        .WIDTH (WIDTH),
+        .BITS  (8),
+        .X_BITS(X_BITS)
     ) line (
         .clk,
         .ena,

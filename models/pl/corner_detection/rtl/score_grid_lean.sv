@@ -2,19 +2,21 @@
 // points of interest were new before, and their scores are kept for two lines, as in the C++ core.
 module score_grid_lean #(
     parameter int WIDTH = 640,
-    parameter int THRESHOLD = 30
+    parameter int THRESHOLD = 30,
+    parameter int X_BITS = 10
 ) (
     input  logic            clk,
     input  logic            ena,
     input  logic [     7:0] pixel,
-    input  logic [     9:0] x,
+    input  logic [X_BITS-1:0] x,
     output logic [9*12-1:0] scores,
     output logic [     1:0] direction
 );
   logic [7*7*8-1:0] window;
   pixel_window #(
-      .WIDTH(WIDTH),
-      .SIZE (7)
+      .WIDTH (WIDTH),
+      .SIZE  (7),
+      .X_BITS(X_BITS)
   ) pixels (
       .clk,
       .ena,
@@ -38,11 +40,11 @@ module score_grid_lean #(
 
   // The newest pixel's column beside the stages of window and FAST module.
   logic [2:0] ena_at;
-  logic [3*10-1:0] x_at;
-  wire [9:0] scored_x = x_at[20+:10];
+  logic [3*X_BITS-1:0] x_at;
+  wire [X_BITS-1:0] scored_x = x_at[2*X_BITS+:X_BITS];
   always_ff @(posedge clk) begin
     ena_at <= {ena_at[1:0], ena};
-    x_at   <= {x_at[19:0], x};
+    x_at   <= {x_at[2*X_BITS-1:0], x};
   end
 
   // Of each row of the grid the score that enters on the right.
@@ -50,8 +52,9 @@ module score_grid_lean #(
   logic [11:0] here, above;
   logic [1:0] here_direction;
   line_buffer #(
-      .WIDTH(WIDTH),
-      .BITS (14)
+      .WIDTH (WIDTH),
+      .BITS  (14),
+      .X_BITS(X_BITS)
   ) line_here (
       .clk,
       .ena  (ena_at[2]),
@@ -60,8 +63,9 @@ module score_grid_lean #(
       .above({here_direction, here})
   );
   line_buffer #(
-      .WIDTH(WIDTH),
-      .BITS (12)
+      .WIDTH (WIDTH),
+      .BITS  (12),
+      .X_BITS(X_BITS)
   ) line_above (
       .clk,
       .ena  (ena_at[2]),

@@ -2,19 +2,21 @@
 // them (4.3.4): nine FAST modules side by side over a 9 x 9 window. Three clocks.
 module score_grid_thesis #(
     parameter int WIDTH = 640,
-    parameter int THRESHOLD = 30
+    parameter int THRESHOLD = 30,
+    parameter int X_BITS = 10
 ) (
     input  logic            clk,
     input  logic            ena,
     input  logic [     7:0] pixel,
-    input  logic [     9:0] x,
+    input  logic [X_BITS-1:0] x,
     output logic [9*12-1:0] scores,    // of row r and column c: [(3 * r + c) * 12 +: 12]; 0: no corner
     output logic [     1:0] direction  // of the centre
 );
   logic [9*9*8-1:0] window;
   pixel_window #(
-      .WIDTH(WIDTH),
-      .SIZE (9)
+      .WIDTH (WIDTH),
+      .SIZE  (9),
+      .X_BITS(X_BITS)
   ) pixels (
       .clk,
       .ena,

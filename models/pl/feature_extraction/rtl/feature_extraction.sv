@@ -1,8 +1,8 @@
 // The feature extraction with its data bridge, wired as the thesis' figure E.1: pixels from a block
 // memory in, feature words and the binary image out. What connects it to the PS (GPIO, DMA) is outside.
 module feature_extraction #(
-    parameter int WIDTH = 640,       // a multiple of 32, at most 1024
-    parameter int HEIGHT = 480,      // at most 512; WIDTH * HEIGHT a multiple of 1024
+    parameter int WIDTH = 640,       // a multiple of 32, at most 2048
+    parameter int HEIGHT = 480,      // at most 2048; WIDTH * HEIGHT a multiple of 1024
     parameter int THRESHOLD = 30,    // of corner detection
     parameter int LEAN = 0,          // 1: one FAST module instead of nine
     parameter int LABELS = 128,
@@ -30,6 +30,8 @@ module feature_extraction #(
     output logic [31:0] bridge_overflow
 );
   localparam int WORD_BITS = $clog2(WIDTH * HEIGHT / 4);
+  localparam int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10;
+  localparam int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9;
 
   logic ena, rst, wr_en, wr_thresh;
   logic [1:0] ready;
@@ -78,8 +80,8 @@ module feature_extraction #(
 
   logic frame_ena;
   logic [7:0] pixel;
-  logic [9:0] pixel_x;
-  logic [8:0] pixel_y;
+  logic [X_BITS-1:0] pixel_x;
+  logic [Y_BITS-1:0] pixel_y;
   sensor_input #(
       .WIDTH (WIDTH),
       .HEIGHT(HEIGHT),
@@ -102,7 +104,9 @@ module feature_extraction #(
   corner_detection #(
       .WIDTH(WIDTH),
       .THRESHOLD(THRESHOLD),
-      .LEAN(LEAN)
+      .LEAN(LEAN),
+      .X_BITS(X_BITS),
+      .Y_BITS(Y_BITS)
   ) corner_detection (
       .clk(pixel_clk),
       .ena(frame_ena),
@@ -115,8 +119,8 @@ module feature_extraction #(
   );
 
   logic binary_ena, binary_out, thresh_out;
-  logic [9:0] binary_x;
-  logic [8:0] binary_y;
+  logic [X_BITS-1:0] binary_x;
+  logic [Y_BITS-1:0] binary_y;
   logic [31:0] thresh_data;
   /* verilator lint_off UNUSEDSIGNAL */
   logic [7:0] active_threshold;  // for simulations
@@ -149,7 +153,9 @@ module feature_extraction #(
   blob_detection #(
       .WIDTH(WIDTH),
       .LABELS(LABELS),
-      .MINIMUM_SIDE(MINIMUM_SIDE)
+      .MINIMUM_SIDE(MINIMUM_SIDE),
+      .X_BITS(X_BITS),
+      .Y_BITS(Y_BITS)
   ) blob_detection (
       .clk(pixel_clk),
       .ena(binary_ena),

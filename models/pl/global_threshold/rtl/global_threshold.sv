@@ -6,7 +6,9 @@
 module global_threshold #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
-    parameter logic [7:0] DEFAULT_THRESHOLD = 8'd127  // after a system reset
+    parameter logic [7:0] DEFAULT_THRESHOLD = 8'd127,  // after a system reset
+    parameter int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10,
+    parameter int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9
 ) (
     input  logic        clk,
     input  logic        por,               // system reset
@@ -15,12 +17,12 @@ module global_threshold #(
     input  logic        wr_thresh,         // a level: loads `threshold` on every clock
     input  logic [ 7:0] threshold,
     input  logic [ 7:0] pixel,
-    input  logic [ 9:0] x,
-    input  logic [ 8:0] y,
+    input  logic [X_BITS-1:0] x,
+    input  logic [Y_BITS-1:0] y,
     output logic        binary_ena,
     output logic        binary_out,        // 1 is dark
-    output logic [ 9:0] binary_x,
-    output logic [ 8:0] binary_y,
+    output logic [X_BITS-1:0] binary_x,
+    output logic [Y_BITS-1:0] binary_y,
     output logic        thresh_out,
     output logic [31:0] thresh_data,       // bit i is pixel 32w + i
     output logic [ 7:0] active_threshold   // for reports

@@ -4,7 +4,9 @@
 module sensor_input #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
-    parameter int ADDRESS_BITS = $clog2(WIDTH * HEIGHT)
+    parameter int ADDRESS_BITS = $clog2(WIDTH * HEIGHT),
+    parameter int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10,
+    parameter int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9
 ) (
     input  logic                    clk,
     input  logic                    rst,
@@ -14,15 +16,15 @@ module sensor_input #(
     input  logic [             7:0] bram_dout,
     output logic                    frame_ena,
     output logic [             7:0] pixel,
-    output logic [             9:0] pixel_x,
-    output logic [             8:0] pixel_y
+    output logic [      X_BITS-1:0] pixel_x,
+    output logic [      Y_BITS-1:0] pixel_y
 );
-  localparam logic [9:0] LAST_COLUMN = 10'(WIDTH - 1);
-  localparam logic [8:0] LAST_ROW = 9'(HEIGHT - 1);
+  localparam logic [X_BITS-1:0] LAST_COLUMN = X_BITS'(WIDTH - 1);
+  localparam logic [Y_BITS-1:0] LAST_ROW = Y_BITS'(HEIGHT - 1);
 
   logic running, ena_before;
-  logic [9:0] column;
-  logic [8:0] row;
+  logic [X_BITS-1:0] column;
+  logic [Y_BITS-1:0] row;
 
   assign bram_en = running && !rst;
   assign pixel = bram_dout;

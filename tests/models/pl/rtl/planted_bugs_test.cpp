@@ -1,5 +1,6 @@
 // Bugs planted into the RTL: lock-step finds each at the port where it shows, behind the clock in
 // which it shows first.
+#include <vp/error.h>
 #include <vp/unit.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <systemc>
 
@@ -34,8 +36,8 @@ const Bug bugs[] = {
     {"eight_suffice", "corner_detection", "fast_module.sv", "|nine", "|eight", "corner_"},
     {"south_at_a_tie", "corner_detection", "fast_module.sv", "south > north", "south >= north",
      "corner_data"},
-    {"strength_shifted", "corner_detection", "corner_detection.sv", "centre[11:2]", "centre[10:1]",
-     "corner_data"},
+    {"strength_shifted", "corner_detection", "corner_detection.sv", "centre[11-:STRENGTH_BITS]",
+     "centre[10-:STRENGTH_BITS]", "corner_data"},
     {"tie_below", "corner_detection", "corner_detection.sv", "centre >= below", "centre > below",
      "corner_out"},
     {"tie_in_the_row", "corner_detection", "corner_detection.sv",
@@ -45,8 +47,8 @@ const Bug bugs[] = {
      "x >= 2 * REACH - 10'd1 &&", "corner_out"},
     {"first_column_lost", "corner_detection", "corner_detection.sv", "x >= 2 * REACH &&",
      "x > 2 * REACH &&", "corner_out"},
-    {"one_to_the_right", "corner_detection", "corner_detection.sv", "x_at[30+:10] - REACH",
-     "x_at[30+:10] - REACH + 10'd1", "corner_data"},
+    {"one_to_the_right", "corner_detection", "corner_detection.sv",
+     "x_at[3*X_BITS+:X_BITS] - REACH", "x_at[3*X_BITS+:X_BITS] - REACH + 10'd1", "corner_data"},
     {"threshold_is_bright", "global_threshold", "global_threshold.sv", "pixel <= active_threshold",
      "pixel < active_threshold", "binary_out"},
     {"word_one_pixel_early", "global_threshold", "global_threshold.sv",
@@ -63,9 +65,10 @@ const Bug bugs[] = {
      "if (por || rst) active_threshold", "active_threshold"},
     {"label_expires_late", "blob_detection", "blob_detection.sv", "here >= ends[n]",
      "here > ends[n]", "blob_out"},
-    {"last_of_the_widest", "blob_detection", "blob_detection.sv", "11] > a[", "11] >= a[", "blob_"},
-    {"left_neighbour_lost", "blob_detection", "blob_detection.sv", "x > 10'd1 ? left_2",
-     "x > 10'd2 ? left_2", "blob_"},
+    {"last_of_the_widest", "blob_detection", "blob_detection.sv", "WIDER] > a[", "WIDER] >= a[",
+     "blob_"},
+    {"left_neighbour_lost", "blob_detection", "blob_detection.sv", "x > X_BITS'(1) ? left_2",
+     "x > X_BITS'(2) ? left_2", "blob_"},
     {"labels_lost", "blob_detection", "blob_detection.sv", ".give_back(retires)",
      ".give_back(1'b0)", "label_overflow"},
     {"numbers_by_twos", "blob_detection", "blob_detection.sv", "number + 1'b1", "number + 11'd2",
@@ -102,6 +105,13 @@ const Strings ips{"corner_detection", "global_threshold",  "blob_detection",
                   "sensor_input",     "axi_image_store",   "axi_threshold_bridge",
                   "clock_crossing",   "feature_packaging", "frame_status"};
 
+/// Those whose ports are coordinates, for 1280 × 720 pixels.
+const std::map<std::string, std::string> wide{{"sensor_input", "WIDTH=1280 HEIGHT=720"},
+                                              {"corner_detection", "WIDTH=1280 Y_BITS=10 LEAN=1"},
+                                              {"global_threshold", "WIDTH=1280 HEIGHT=720"},
+                                              {"blob_detection", "WIDTH=1280 Y_BITS=10"},
+                                              {"axi_image_store", "ADDRESS_BITS=18"}};
+
 /// All of them, and the RTL as it is, built once.
 class Objects {
  public:
@@ -117,8 +127,9 @@ class Objects {
     std::string project =
         "cmake_minimum_required(VERSION 3.25)\nproject(bugs LANGUAGES CXX)\n"
         "include(\"" MARKERVP_SOURCE "/cmake/MarkervpRtl.cmake\")\n";
-    for (const std::string& ip : ips) project += object(ip, ip, nullptr);
-    for (const Bug& bug : bugs) project += object(bug.name, bug.ip, &bug);
+    for (const std::string& ip : ips) project += object(ip, ip, nullptr, parameters(ip));
+    for (const Bug& bug : bugs) project += object(bug.name, bug.ip, &bug, parameters(bug.ip));
+    for (const auto& [ip, values] : wide) project += object(ip + "_wide", ip, nullptr, values);
     kit::write_file(folder_ / "CMakeLists.txt", project);
     cmake({"-S", ".", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
            "-DCMAKE_CXX_FLAGS_DEBUG="});
@@ -131,20 +142,21 @@ class Objects {
   }
 
   /// Copies the RTL of an IP, with the bug if there is one; gives the words that build it.
-  std::string object(const std::string& name, const std::string& ip, const Bug* bug) const {
+  std::string object(const std::string& name, const std::string& ip, const Bug* bug,
+                     const std::string& parameters) const {
     const fs::path models(MARKERVP_SOURCE "/models/pl");
     const fs::path copy(folder_ / name);
     fs::copy(models / ip / "rtl", copy);
     if (bug) plant(*bug, copy / bug->file);
     return "file(GLOB sources " + name + "/*.sv)\nmarkervp_add_rtl(" + name + " IP " + ip +
            " TOP " + ip + " SOURCES ${sources} " + (models / "common/rtl/line_buffer.sv").string() +
-           parameters(ip) + ")\n";
+           (parameters.empty() ? "" : " PARAMETERS " + parameters) + ")\n";
   }
 
   static std::string parameters(const std::string& ip) {
-    if (ip == "corner_detection") return " PARAMETERS WIDTH=64 LEAN=1";
-    if (ip == "blob_detection") return " PARAMETERS WIDTH=64 LABELS=16 MINIMUM_SIDE=1";
-    return ip == "global_threshold" || ip == "sensor_input" ? " PARAMETERS WIDTH=64 HEIGHT=32" : "";
+    if (ip == "corner_detection") return "WIDTH=64 LEAN=1";
+    if (ip == "blob_detection") return "WIDTH=64 LABELS=16 MINIMUM_SIDE=1";
+    return ip == "global_threshold" || ip == "sensor_input" ? "WIDTH=64 HEIGHT=32" : "";
   }
 
   static void plant(const Bug& bug, const std::string& file) {
@@ -318,6 +330,34 @@ BOOST_AUTO_TEST_CASE(in_the_place_of_the_models_nobody_sees_a_difference) {
     BOOST_TEST((seen_of({all.back()}) == models), ip);
   }
   BOOST_TEST((seen_of(all) == models));
+}
+
+BOOST_AUTO_TEST_CASE(frames_wider_than_those_of_the_thesis) {
+  harness::Image image = harness::rectangles(1280, 720, 300, 5);
+  const harness::Image few = harness::noise(1280, 64, 9);
+  std::copy(few.begin(), few.end(), image.end() - static_cast<std::ptrdiff_t>(few.size()));
+  const auto words = [&image](const Strings& more) {
+    Strings all = harness::frame_size(1280, 720);
+    all.insert(all.end(), more.begin(), more.end());
+    harness::Pipeline pipeline({100'000'000, 50'000'000}, all);
+    pipeline.load(image);
+    return pipeline.run_frame();
+  };
+  Strings rtl;
+  for (const auto& [ip, values] : wide)
+    rtl.push_back("pl.fidelity." + ip + "=" + Objects::get().file(ip + "_wide"));
+  const std::vector<harness::Word> expected = words({});
+  const marker_logic::WordFormat format(1280, 720);
+  BOOST_TEST(std::any_of(expected.begin(), expected.end(), [&](const harness::Word& word) {
+    return word.kind != 'T' && format.x(word.first) > 1023 && format.y(word.first) > 511;
+  }));
+  BOOST_TEST(harness::first_difference(words(rtl), expected) == "");
+  // A narrower one is refused, and the message says what to declare.
+  BOOST_CHECK_EXCEPTION(
+      words({"pl.fidelity.corner_detection=" + Objects::get().file("corner_detection")}),
+      vp::InputError, [](const vp::InputError& error) {
+        return std::string(error.what()).find("'input logic [10:0] x'") != std::string::npos;
+      });
 }
 
 BOOST_AUTO_TEST_CASE(each_is_found_at_its_port_behind_its_clock) {

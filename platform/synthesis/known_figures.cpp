@@ -1,0 +1,164 @@
+#include <synthesis/known_figures.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <host/document.h>
+#include <host/process.h>
+#include <vp/error.h>
+#include <vp/text.h>
+
+namespace platform::synthesis {
+
+namespace {
+
+using Point = KnownFigures::Point;
+
+constexpr double hz_per_mhz = 1e6;
+/// Of LUT and flip-flops, against what Vivado makes of the same RTL (docs/rtl.md).
+constexpr unsigned uncertainty_percent = 40, uncertainty_beyond_percent = 60;
+
+std::string mhz(std::uint64_t hz) {
+  return vp::format_fixed(static_cast<double>(hz) / hz_per_mhz, 0);
+}
+
+Point point_of(const nlohmann::json& entry) {
+  Point point;
+  for (const char* kind : {"lut", "lut_memory", "lut_through"})
+    point.lut += entry.at(kind).get<double>();
+  point.ff = entry.at("ff");
+  point.bram36 = entry.at("ramb36").get<double>() + entry.at("ramb18").get<double>() / 2;
+  point.dsp = entry.at("dsp");
+  if (const auto fmax = entry.find("fmax_mhz"); fmax != entry.end()) {
+    const auto hz = [&](const char* end) {
+      return static_cast<std::uint64_t>(std::llround(fmax->at(end).get<double>() * hz_per_mhz));
+    };
+    point.fmax_hz = hz("low");
+    point.fmax_high_hz = hz("high");
+  }
+  for (const auto& [name, value] : entry.at("parameters").items()) {
+    point.at += (point.at.empty() ? "" : " ") + name + "=" + std::to_string(value.get<int>());
+  }
+  return point;
+}
+
+/// On the line through `a` and `b`; `share` of the way from one to the other.
+Point on_line(const Point& a, const Point& b, double share) {
+  const auto at = [share](double x, double y) { return std::max(0.0, x + share * (y - x)); };
+  Point point;
+  point.lut = at(a.lut, b.lut);
+  point.ff = at(a.ff, b.ff);
+  point.bram36 = std::ceil(2 * at(a.bram36, b.bram36)) / 2;
+  point.dsp = std::ceil(at(a.dsp, b.dsp));
+  point.fmax_hz = std::min(a.fmax_hz, b.fmax_hz);
+  point.fmax_high_hz = std::max(a.fmax_high_hz, b.fmax_high_hz);
+  point.at = "between " + a.at + " and " + b.at;
+  return point;
+}
+
+/// Beyond `end`, which `before` leads to. A tree over twice as many is a level deeper.
+Point beyond(const Point& before, const Point& end, double share, double value, double end_value) {
+  Point point = on_line(before, end, share);
+  const double slower = value > end_value ? std::log(end_value) / std::log(value) : 1;
+  point.fmax_hz = static_cast<std::uint64_t>(static_cast<double>(end.fmax_hz) * slower);
+  point.fmax_high_hz = end.fmax_high_hz;
+  point.at = "continued from " + before.at + " and " + end.at;
+  point.beyond = true;
+  return point;
+}
+
+}  // namespace
+
+const KnownFigures& KnownFigures::installed() {
+  static const KnownFigures figures = [] {
+    for (const std::string& folder : host::library_folders()) {
+      const std::filesystem::path file = std::filesystem::path(folder) / "rtl" / "synthesis.json";
+      if (std::filesystem::exists(file)) return load(file);
+    }
+    throw vp::InputError("no rtl/synthesis.json is installed in " +
+                         host::library_folders().front() + "; install markervp completely");
+  }();
+  return figures;
+}
+
+KnownFigures KnownFigures::load(const std::filesystem::path& file) {
+  const nlohmann::json json = host::read_json(file, "figures of synthesis");
+  KnownFigures figures;
+  try {
+    figures.tool_ = json.at("tool");
+    for (const nlohmann::json& entry : json.at("entries")) {
+      figures.entries_.push_back({entry.at("ip"), entry.at("parameters"), point_of(entry)});
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw vp::InputError("'" + file.string() +
+                         "' is no file of 'markervp rtl synth --output': " + error.what());
+  }
+  return figures;
+}
+
+std::optional<Point> KnownFigures::find(const vp::IpEstimate::Rtl& rtl) const {
+  std::vector<const Entry*> found;
+  for (const Entry& entry : entries_) {
+    if (entry.module == rtl.module) found.push_back(&entry);
+  }
+  for (const auto& [name, value] : rtl.parameters) {
+    std::vector<const Entry*> here;
+    std::map<std::int64_t, const Entry*> by_value;
+    for (const Entry* entry : found) {
+      const auto parameter = entry->parameters.find(name);
+      if (parameter == entry->parameters.end()) continue;
+      if (parameter->second == value) here.push_back(entry);
+      by_value.emplace(parameter->second, entry);
+    }
+    if (!here.empty()) {
+      found = here;
+    } else if (by_value.size() >= 2) {
+      auto b = by_value.lower_bound(value);
+      const bool inside = b != by_value.begin() && b != by_value.end();
+      if (b == by_value.begin()) ++b;
+      if (b == by_value.end()) --b;
+      const auto a = std::prev(b);
+      const auto share =
+          static_cast<double>(value - a->first) / static_cast<double>(b->first - a->first);
+      if (inside) return on_line(a->second->point, b->second->point, share);
+      return beyond(a->second->point, b->second->point, share, static_cast<double>(value),
+                    static_cast<double>(b->first));
+    }
+  }
+  if (found.empty()) return std::nullopt;
+  return found.front()->point;
+}
+
+void KnownFigures::apply(vp::IpEstimate& e) const {
+  const std::optional<Point> point = find(e.rtl);
+  if (!point) return;
+  const auto count = [](double number) { return static_cast<std::uint32_t>(std::llround(number)); };
+  e.lut = count(point->lut);
+  e.ff = count(point->ff);
+  e.dsp = count(point->dsp);
+  if (e.bram36 == 0) e.bram36 = point->bram36;
+  if (!e.rtl.measured.empty()) {
+    if (const auto measured = find({e.rtl.module, e.rtl.measured, {}})) {
+      e.size = point->lut / measured->lut;
+    }
+  }
+  const std::string where = point->at.empty() ? "" : ", " + point->at;
+  e.uncertainty_percent = point->beyond ? uncertainty_beyond_percent : uncertainty_percent;
+  e.source = "synthesised from its RTL (" + tool_ + ")" + where;
+  if (point->fmax_hz == 0) return;
+  const bool limits_known = e.fmax_hz != 0 && e.fmax_hz == e.fmax_high_hz;
+  const std::string range = "synthesis of its RTL" + where + ": " + mhz(point->fmax_hz) + " to " +
+                            mhz(point->fmax_high_hz) + " MHz";
+  const std::string known = e.fmax_documentation;
+  e.fmax_documentation = limits_known    ? known + "; " + range
+                         : known.empty() ? range
+                                         : range + "; " + known;
+  if (limits_known) return;
+  e.fmax_origin = vp::FmaxOrigin::synthesised;
+  const std::uint64_t high =
+      e.fmax_high_hz != 0 ? e.fmax_high_hz : std::max(point->fmax_high_hz, e.fmax_hz);
+  e.fmax_hz = std::min(high, std::max(e.fmax_hz, point->fmax_hz));
+  e.fmax_high_hz = high;
+}
+
+}  // namespace platform::synthesis

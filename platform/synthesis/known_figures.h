@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vp/ip.h>
+
+namespace platform::synthesis {
+
+/// What synthesis made of the RTL that comes with markervp: rtl/synthesis.json, as `markervp rtl
+/// synth` wrote it.
+class KnownFigures {
+ public:
+  /// Of a module at one value of its parameters.
+  struct Point {
+    double lut = 0, ff = 0, bram36 = 0, dsp = 0;
+    std::uint64_t fmax_hz = 0, fmax_high_hz = 0;  ///< 0: no path from register to register
+    std::string at;                               ///< "LABELS=64"; "between … and …"
+    bool beyond = false;  ///< outside of what was synthesised: the last two points, continued
+  };
+
+  /// What is installed, read once. Throws vp::InputError if it is not there.
+  static const KnownFigures& installed();
+  /// Throws vp::InputError for a file that is none of this kind.
+  static KnownFigures load(const std::filesystem::path& file);
+
+  /// Parameters that the figures do not name are at their default. Between two values counts are
+  /// on a line, and Fmax is the range of both. Beyond them the line goes on, and the low end of
+  /// Fmax falls as if all of the path were a tree over the parameter. None: no such module.
+  std::optional<Point> find(const vp::IpEstimate::Rtl& rtl) const;
+
+  /// Puts the figures into an estimate with RTL (vp::IpEstimate::Rtl); others stay as they are.
+  void apply(vp::IpEstimate& estimate) const;
+
+ private:
+  struct Entry {
+    std::string module;
+    std::map<std::string, std::int64_t> parameters;
+    Point point;
+  };
+
+  std::string tool_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace platform::synthesis

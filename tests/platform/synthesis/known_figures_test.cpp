@@ -1,0 +1,153 @@
+// What estimates take from the figures of synthesis: between them, beyond them, and within what is
+// known otherwise.
+#include <synthesis/known_figures.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cstdint>
+
+#include <vp/error.h>
+
+#include "temporary_files.h"
+
+using namespace platform::synthesis;
+
+namespace {
+
+constexpr std::uint64_t mhz = 1'000'000;
+
+const char* const simple = R"({"version": 1, "tool": "Yosys 0.23", "entries": [
+  {"ip": "tree", "parameters": {"LABELS": 16}, "lut": 85, "lut_memory": 10, "lut_through": 5, "ff": 50, "ramb18": 1,
+   "ramb36": 0, "dsp": 0, "fmax_mhz": {"low": 60, "nominal": 80, "high": 120}},
+  {"ip": "tree", "parameters": {"LABELS": 64}, "lut": 270, "lut_memory": 20, "lut_through": 10, "ff": 250, "ramb18": 1,
+   "ramb36": 1, "dsp": 2, "fmax_mhz": {"low": 50, "nominal": 70, "high": 90}},
+  {"ip": "wires", "parameters": {}, "lut": 5, "lut_memory": 0, "lut_through": 0, "ff": 0, "ramb18": 0, "ramb36": 0,
+   "dsp": 0}]})";
+
+KnownFigures figures(const std::string& text = simple) {
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "synthesis.json", text);
+  return KnownFigures::load(folder / "synthesis.json");
+}
+
+vp::IpEstimate tree(std::int64_t labels) {
+  vp::IpEstimate e;
+  e.rtl = {"tree", {{"LABELS", labels}, {"WIDTH", 640}}, {}};
+  return e;
+}
+
+vp::IpEstimate applied(vp::IpEstimate e) {
+  figures().apply(e);
+  return e;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(known_figures)
+
+BOOST_AUTO_TEST_CASE(a_point_is_taken_as_it_is) {
+  const vp::IpEstimate e = applied(tree(64));
+  BOOST_TEST(e.lut == 300u);
+  BOOST_TEST(e.ff == 250u);
+  BOOST_TEST(e.bram36 == 1.5);
+  BOOST_TEST(e.dsp == 2u);
+  BOOST_TEST(e.fmax_hz == 50 * mhz);
+  BOOST_TEST(e.fmax_high_hz == 90 * mhz);
+  BOOST_TEST((e.fmax_origin == vp::FmaxOrigin::synthesised));
+  BOOST_TEST(e.uncertainty_percent == 40u);
+  BOOST_TEST(e.source == "synthesised from its RTL (Yosys 0.23), LABELS=64");
+}
+
+BOOST_AUTO_TEST_CASE(between_two_points_counts_are_on_a_line_and_fmax_is_in_both_ranges) {
+  const vp::IpEstimate e = applied(tree(40));
+  BOOST_TEST(e.lut == 200u);
+  BOOST_TEST(e.ff == 150u);
+  BOOST_TEST(e.bram36 == 1.0);
+  BOOST_TEST(e.dsp == 1u);
+  BOOST_TEST(e.fmax_hz == 50 * mhz);
+  BOOST_TEST(e.fmax_high_hz == 120 * mhz);
+  BOOST_TEST(has(e.source, "between LABELS=16 and LABELS=64"), e.source);
+}
+
+BOOST_AUTO_TEST_CASE(beyond_them_the_line_goes_on_and_less_is_known) {
+  const vp::IpEstimate more = applied(tree(256));  // eight levels after six
+  BOOST_TEST(more.lut == 1100u);
+  BOOST_TEST(more.fmax_hz == 50 * mhz * 6 / 8);
+  BOOST_TEST(more.fmax_high_hz == 90 * mhz);
+  BOOST_TEST(more.uncertainty_percent == 60u);
+  BOOST_TEST(has(more.source, "continued from LABELS=16 and LABELS=64"), more.source);
+  const vp::IpEstimate fewer = applied(tree(4));
+  BOOST_TEST(fewer.lut == 50u);
+  BOOST_TEST(fewer.ff == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(limits_that_are_known_otherwise_hold) {
+  vp::IpEstimate both = tree(64);
+  both.fmax_hz = both.fmax_high_hz = 55 * mhz;
+  both.fmax_origin = vp::FmaxOrigin::published;
+  both.fmax_documentation = "somebody measured it";
+  both = applied(both);
+  BOOST_TEST(both.fmax_hz == 55 * mhz);
+  BOOST_TEST(both.fmax_high_hz == 55 * mhz);
+  BOOST_TEST((both.fmax_origin == vp::FmaxOrigin::published));
+  BOOST_TEST(has(both.fmax_documentation, "somebody measured it; "), both.fmax_documentation);
+  BOOST_TEST(has(both.fmax_documentation, "50 to 90 MHz"), both.fmax_documentation);
+
+  vp::IpEstimate low = tree(64);
+  low.fmax_hz = 100 * mhz;
+  low = applied(low);
+  BOOST_TEST(low.fmax_hz == 100 * mhz);
+  BOOST_TEST(low.fmax_high_hz == 100 * mhz);
+
+  vp::IpEstimate high = tree(64);
+  high.fmax_high_hz = 40 * mhz;
+  high = applied(high);
+  BOOST_TEST(high.fmax_hz == 40 * mhz);
+  BOOST_TEST(high.fmax_high_hz == 40 * mhz);
+
+  vp::IpEstimate memory = tree(64);
+  memory.bram36 = 3;
+  BOOST_TEST(applied(memory).bram36 == 3.0);
+}
+
+BOOST_AUTO_TEST_CASE(size_is_that_against_the_module_whose_power_was_measured) {
+  vp::IpEstimate e = tree(64);
+  e.rtl.measured = {{"LABELS", 16}};
+  BOOST_TEST(applied(e).size == 3.0);
+}
+
+BOOST_AUTO_TEST_CASE(without_a_path_and_without_figures_the_own_ones_stay) {
+  vp::IpEstimate wires;
+  wires.rtl.module = "wires";
+  wires.fmax_hz = 100 * mhz;
+  wires = applied(wires);
+  BOOST_TEST(wires.lut == 5u);
+  BOOST_TEST(wires.fmax_hz == 100 * mhz);
+  BOOST_TEST((wires.fmax_origin == vp::FmaxOrigin::estimated));
+  vp::IpEstimate other;
+  other.lut = 7;
+  BOOST_TEST(applied(other).lut == 7u);
+  other.rtl.module = "unknown";
+  BOOST_TEST(applied(other).lut == 7u);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_of_another_kind_is_refused) {
+  for (const char* text : {"{}", "[]", R"({"tool": 1, "entries": []})",
+                           R"({"tool": "x", "entries": [{"ip": "a"}]})"}) {
+    BOOST_CHECK_EXCEPTION(figures(text), vp::InputError, [](const vp::InputError& error) {
+      return has(error.what(), "markervp rtl synth --output");
+    });
+  }
+}
+
+// What the models compute themselves is what synthesis makes of it.
+BOOST_AUTO_TEST_CASE(block_memories_of_the_defaults) {
+  const KnownFigures committed = KnownFigures::load(MARKERVP_DATA "/rtl/synthesis.json");
+  BOOST_TEST(committed.find({"corner_detection", {{"LEAN", 0}}, {}})->bram36 == 4.0);
+  BOOST_TEST(committed.find({"blob_detection", {{"LABELS", 128}}, {}})->bram36 == 0.5);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
