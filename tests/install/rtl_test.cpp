@@ -179,6 +179,14 @@ BOOST_AUTO_TEST_CASE(what_verilator_refuses_is_told_when_it_is_configured) {
                     "always_comb if (ena) corner_out = clk ^ rst ^ ^pixel ^ ^x ^ ^y;\n"
                     "assign corner_data = 0;"),
           {"latch.sv:10", "atch", "mend"});
+  refused(configure("loop", inputs + outputs,
+                    "logic a, b;\nassign a = b ^ clk;\nassign b = a | ena;\n"
+                    "assign corner_out = a ^ rst ^ ^pixel ^ ^x ^ ^y;\nassign corner_data = 0;"),
+          {"loop.sv:10", "Circular combinational logic", "mend"});
+  refused(configure("late", inputs + outputs,
+                    "assign corner_data = 0;\n"
+                    "always @(posedge clk) #5 corner_out <= ena ^ rst ^ ^pixel ^ ^x ^ ^y;"),
+          {"late.sv:11", "delays", "mend"});
   refused(configure("top", inputs + outputs, nothing, "TOP another"), {"another", "mend"});
   refused(configure("missing", inputs + outputs, nothing, "missing_too.sv"),
           {"there is no file", "missing_too.sv"});

@@ -160,12 +160,15 @@ class Auditor {
 
   static Part timing(const Json& timing) {
     Part missed, unknown, met;
-    double first_to_fail = 0;
+    double first_to_fail = 0, surest = 0;
     for (const Json& module : timing["modules"]) {
       const double clock = module["frequency_mhz"], low = module["fmax_mhz"],
                    high = module["fmax_high_mhz"];
       const double margin = 100 * (low / clock - 1);
-      if (clock > high) missed.narrow(margin);
+      if (clock > high && (!missed.has_margin || high / clock < surest)) {
+        missed = {"no", true, margin};
+        surest = high / clock;
+      }
       if (clock > low && clock <= high) unknown.narrow(margin);
       if (clock > low || (met.has_margin && high / clock >= first_to_fail)) continue;
       met = {"yes", true, margin};
@@ -213,11 +216,12 @@ void check_rate(const Json& result) {
              boost::test_tools::tolerance(1e-6));
 }
 
-/// Of an IP without a limit of the user's own, and the factor of the grade, which says itself.
+/// Of an IP that is known to work at the system clock of the thesis, and the factor of the grade.
 void check_fmax(const Json& timing, const std::string& device) {
   const std::map<char, double> factor{{'1', 1.0}, {'2', 1.18}};
   for (const Json& module : timing["modules"]) {
     if (module["name"] == "pl.blob_detection" || module["name"] == "pl.corner_detection") continue;
+    if (module["origin"] == "synthesised") continue;
     BOOST_TEST(module["fmax_mhz"].get<double>() == 100 * factor.at(device.back()));
   }
 }
