@@ -189,7 +189,7 @@ TimelineEngines ImprovedDesign::timeline() {
 const DesignInfo& improved_design() {
   static const DesignInfo info{
       "improved",
-      "all markers between pixels: merged blobs and pictures by DMA, one frame ahead of the "
+      "all markers between pixels: blobs and pictures by DMA, one frame ahead of the "
       "software",
       {"improved"},
       true,

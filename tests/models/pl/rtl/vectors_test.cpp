@@ -120,7 +120,7 @@ BOOST_FIXTURE_TEST_CASE(icarus_finds_the_rtl_equal_and_a_bug_in_it, Verilog) {
   }
   write("corner_detection");
   copy_rtl("corner_detection");
-  replace("corner_detection.sv", "centre[11:2]", "centre[10:1]");
+  replace("corner_detection.sv", "centre[11-:STRENGTH_BITS]", "centre[10-:STRENGTH_BITS]");
   const kit::Outcome outcome = simulate("corner_detection");
   BOOST_TEST(outcome.exit_code != 0);
   BOOST_TEST(contains(outcome.out, "FAIL: behind clock "), outcome.out);
