@@ -1,11 +1,11 @@
 // The parts of a frame one by one, and OpenCV's FAST on the same image.
 #include <benchmark/benchmark.h>
-#include <pl/blob_detection/frame.h>
+#include <pl/blob_detection/core.h>
 #include <pl/common/simd_target.h>
-#include <pl/corner_detection/frame.h>
-#include <pl/global_threshold/frame.h>
-#include <scene/scene.h>
+#include <pl/corner_detection/core.h>
+#include <pl/global_threshold/core.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>

@@ -10,12 +10,9 @@
 #include <marker/marker_search.h>
 #include <marker/posit.h>
 #include <pl/blob_detection/core.h>
-#include <pl/blob_detection/frame.h>
 #include <pl/common/geometry.h>
 #include <pl/corner_detection/core.h>
-#include <pl/corner_detection/frame.h>
 #include <pl/global_threshold/core.h>
-#include <pl/global_threshold/frame.h>
 
 namespace bench {
 

@@ -11,7 +11,7 @@
 #include <cli/sweep_platform.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 
 /// libsystemc refers to it.
 extern "C" int sc_main(int, char**) {

@@ -12,7 +12,7 @@
 #include <sweep/results.h>
 #include <sweep/sensitivity.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include <cli/options.h>
 #include <host/process.h>
+#include <report/result.h>
 #include <report/result_json.h>
 #include <vp/configuration.h>
 
@@ -121,5 +123,27 @@ void choose_platform(const PlatformOptions& options, vp::Configuration& configur
 /// Builds the platform and checks that every key the user set was one. Throws vp::InputError.
 std::unique_ptr<Simulation> build(vp::Configuration& configuration,
                                   const SimulationOptions& options);
+
+/// "31:24", "0", "15:12, 3"; as a mask if they are many ranges.
+std::string bits_text(std::uint32_t mask);
+
+/// The fields of the registers of one device, one after the other: a set of fields that several
+/// registers have appears once.
+class FieldsOnce {
+ public:
+  struct Found {
+    const std::vector<report::HardwareMap::Field>& fields;  ///< to be shown
+    std::string as;  ///< name of the register that showed the same; "" if none did
+  };
+  Found find(const report::HardwareMap::Register& r);
+
+ private:
+  std::map<const void*, std::string> shown_;
+  std::vector<report::HardwareMap::Field> none_;
+};
+
+/// The map as a page: memory map, interrupts, clocks, and the registers of each kind of device
+/// once, as their descriptions declare them.
+std::string map_as_markdown(const report::HardwareMap& map);
 
 }  // namespace platform::cli

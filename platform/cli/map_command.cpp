@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cli/commands.h>
-#include <cli/map.h>
 #include <run/simulation.h>
 #include <vp/error.h>
 #include <vp/text.h>

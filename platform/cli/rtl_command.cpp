@@ -6,7 +6,7 @@
 #include <trace/replay.h>
 #include <trace/tools.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 

@@ -10,7 +10,7 @@
 #include <cli/commands.h>
 #include <synthesis/synthesis.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 namespace platform::cli {
 

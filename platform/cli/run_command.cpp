@@ -13,7 +13,7 @@
 #include <sweep/identity.h>
 #include <sweep/point.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 #include <algorithm>

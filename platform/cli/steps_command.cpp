@@ -13,7 +13,7 @@
 #include <sweep/report.h>
 #include <sweep/results.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/progress.h>
 
 namespace platform::cli {

@@ -24,7 +24,7 @@
 #include <sweep/results.h>
 #include <sweep/spec.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/progress.h>
 
 namespace platform::cli {

@@ -12,7 +12,7 @@
 #include <run/simulation.h>
 #include <sweep/axes.h>
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/text.h>
 
 namespace platform::cli {

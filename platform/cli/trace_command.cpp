@@ -8,9 +8,9 @@
 #include <trace/statistics.h>
 #include <trace/tools.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
+#include <vp/frame_gate.h>
 #include <vp/text.h>
-#include <vp/trace_filter.h>
 #include <vp/unit.h>
 
 #include <optional>

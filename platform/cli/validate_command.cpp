@@ -9,15 +9,15 @@
 #include <thread>
 
 #include <cli/commands.h>
-#include <host/process.h>
 #include <host/output_folder.h>
+#include <host/process.h>
 #include <input/frame_source.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
 #include <validation/plots.h>
 #include <validation/validation.h>
 #include <validation/words.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/progress.h>
 
 namespace platform::cli {

@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 #include <host/process.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <zynq/design_plugin.h>
 

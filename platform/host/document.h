@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 
 namespace platform::host {
 

@@ -11,7 +11,7 @@
 
 #include <host/output_folder.h>
 #include <host/process.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::host {

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #include <algorithm>
 #include <cerrno>

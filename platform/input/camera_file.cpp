@@ -11,7 +11,7 @@
 
 #include <input/camera_file.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/yaml.h>
 

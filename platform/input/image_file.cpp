@@ -17,7 +17,7 @@
 #include <input/media.h>
 #include <scene/grey_image.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 
 namespace platform::input {
 

@@ -7,7 +7,7 @@
 #include <input/image_file.h>
 #include <input/media.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 #define MARKERVP_TEXT_OF(name) #name

@@ -1,6 +1,6 @@
 #include <page/page_file.h>
 
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #ifdef MARKERVP_PAGE_TEMPLATE
 

@@ -7,7 +7,7 @@
 #include <report/result.h>
 #include <report/summary.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <zlib.h>
 #include <opencv2/core.hpp>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <vp/yaml.h>

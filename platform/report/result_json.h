@@ -11,7 +11,7 @@
 #include <report/result.h>
 #include <report/summary.h>
 #include <report/verdict.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <nlohmann/json.hpp>
 
 namespace platform::report {

@@ -2,7 +2,7 @@
 
 #include <designs/designs.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/systemc_pins.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>

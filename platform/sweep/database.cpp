@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 

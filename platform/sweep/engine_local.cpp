@@ -16,7 +16,7 @@
 #include <sweep/engine.h>
 #include <sweep/store.h>
 #include <sweep/worker.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 

@@ -16,7 +16,7 @@
 #include <host/process.h>
 #include <sweep/engine.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {

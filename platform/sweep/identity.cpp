@@ -14,7 +14,7 @@
 #include <scene/scene.h>
 #include <sweep/identity.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 

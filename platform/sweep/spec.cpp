@@ -10,7 +10,7 @@
 #include <host/process.h>
 #include <sweep/spec.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <vp/yaml.h>

@@ -14,10 +14,10 @@
 #include <host/document.h>
 #include <host/process.h>
 #include <sweep/identity.h>
-#include <sweep/store.h>
 #include <sweep/report.h>
+#include <sweep/store.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {

@@ -15,7 +15,7 @@
 
 #include <host/process.h>
 #include <sweep/worker.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 

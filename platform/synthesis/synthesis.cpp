@@ -12,8 +12,7 @@
 #include <host/document.h>
 #include <host/process.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::synthesis {

@@ -8,7 +8,7 @@
 #include <trace/replay.h>
 #include <trace/tools.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 

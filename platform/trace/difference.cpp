@@ -9,7 +9,7 @@
 
 #include <trace/replay.h>
 #include <vp/error.h>
-#include <vp/trace_filter.h>
+#include <vp/frame_gate.h>
 
 namespace platform::trace {
 

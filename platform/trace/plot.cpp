@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <trace/replay.h>
+#include <vp/frame_gate.h>
 #include <vp/text.h>
-#include <vp/trace_filter.h>
 #include <vp/unit.h>
 
 namespace platform::trace {

@@ -8,8 +8,7 @@
 
 #include <trace/replay.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/wave_writer.h>
 #include <vp/yaml.h>

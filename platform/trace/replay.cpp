@@ -6,9 +6,9 @@
 
 #include <gic_registers.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
+#include <vp/frame_gate.h>
 #include <vp/text.h>
-#include <vp/trace_filter.h>
 
 namespace platform::trace {
 

@@ -6,7 +6,7 @@
 
 #include <trace/replay.h>
 #include <trace/tools.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 namespace platform::trace {
 

@@ -12,7 +12,7 @@
 #include <trace/replay.h>
 #include <trace/vocabulary.h>
 #include <vp/expression.h>
-#include <vp/trace_filter.h>
+#include <vp/frame_gate.h>
 
 namespace platform::trace {
 

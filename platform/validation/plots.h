@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <validation/evidence.h>
+#include <validation/measured.h>
 #include <validation/validation.h>
 
 namespace platform::validation {

@@ -6,7 +6,7 @@
 #include <host/process.h>
 #include <validation/published.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::validation {

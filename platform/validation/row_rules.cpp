@@ -1,6 +1,5 @@
 #include <validation/validation.h>
 
-#include <validation/evidence.h>
 #include <validation/measured.h>
 
 namespace platform::validation {

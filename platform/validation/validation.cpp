@@ -8,7 +8,7 @@
 #include <report/console.h>
 #include <report/result_json.h>
 #include <scene/scene.h>
-#include <validation/evidence.h>
+#include <validation/measured.h>
 #include <validation/published.h>
 #include <validation/words.h>
 #include <vp/error.h>

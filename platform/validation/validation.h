@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <profiles/cost_profile.h>
-#include <validation/evidence.h>
 #include <validation/measured.h>
 #include <validation/published.h>
 

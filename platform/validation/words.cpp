@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <validation/evidence.h>
+#include <validation/measured.h>
 #include <validation/published.h>
 #include <validation/words.h>
 #include <vp/text.h>

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <xilinx/axi_dma/dma_channel.h>

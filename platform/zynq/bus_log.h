@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <report/hardware_map.h>
-#include <vp/hierarchy.h>
+#include <report/result.h>
+#include <vp/file.h>
+#include <vp/ip.h>
 #include <vp/mm_link.h>
-#include <vp/output_file.h>
-#include <vp/signal.h>
 #include <vp/probe.h>
+#include <vp/signal.h>
 #include <zynq/zynq.h>
 
 namespace platform {

@@ -10,7 +10,7 @@
 
 #include <gic_registers.h>
 #include <slcr_registers.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/register_bank.h>
 #include <vp/text.h>
 #include <xilinx/axi_dma/axi_dma.h>

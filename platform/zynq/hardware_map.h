@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <report/hardware_map.h>
+#include <report/result.h>
 #include <zynq/zynq.h>
 
 /// Writes xparameters.h from a memory map, in the names that Vivado exports.

@@ -2,7 +2,7 @@
 
 #include <power/chip_energy.h>
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <xilinx/axi_dma/dma_channel.h>
 #include <zynq/design.h>
 #include <zynq/parts.h>

@@ -11,7 +11,7 @@
 #include <slcr_registers.h>
 #include <uart_registers.h>
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 
 namespace platform {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <axi_dma_registers.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/report.h>
 #include <vp/text.h>
 #include <xilinx/axi_dma/dma_channel.h>

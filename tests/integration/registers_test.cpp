@@ -1,7 +1,7 @@
 // One description of the registers: headers, models and documentation agree.
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
-#include <cli/map.h>
+#include <cli/commands.h>
 #include <designs/designs.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>

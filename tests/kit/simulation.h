@@ -5,7 +5,7 @@
 #include <systemc>
 
 #include <vp/clock_scheduler.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 
 namespace kit {
 

@@ -3,7 +3,7 @@
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/text.h>
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/report.h>
 
 namespace vp {

@@ -1,6 +1,6 @@
 #include <vp/configuration.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/yaml.h>
 

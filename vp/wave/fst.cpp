@@ -4,7 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #include <cerrno>
 #include <csignal>
@@ -18,8 +18,7 @@
 #include <system_error>
 #include <vector>
 
-#include "byte_source.h"
-#include "wave_scope.h"
+#include "wave_input.h"
 
 namespace vp {
 

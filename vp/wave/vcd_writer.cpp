@@ -1,6 +1,6 @@
 #include <vp/error.h>
 #include <vp/text.h>
-#include <vp/vcd_writer.h>
+#include <vp/wave_writer.h>
 
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "wave_scope.h"
+#include "wave_input.h"
 
 namespace vp {
 

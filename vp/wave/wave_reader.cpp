@@ -1,6 +1,6 @@
 #include <fcntl.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/wave_reader.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "byte_source.h"
+#include "wave_input.h"
 
 namespace vp {
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <pl/blob_detection/core.h>
-#include <pl/blob_detection/frame.h>
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
 #include <vp/clock.h>

@@ -11,7 +11,7 @@
 
 #include <pl/common/fidelity.h>
 #include <pl/common/rtl_interface.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 #include <vp/signal.h>
 
 namespace pl {

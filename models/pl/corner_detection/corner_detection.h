@@ -7,7 +7,6 @@
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
 #include <pl/corner_detection/core.h>
-#include <pl/corner_detection/frame.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>

@@ -1,4 +1,4 @@
-#include <pl/corner_detection/frame.h>
+#include <pl/corner_detection/core.h>
 
 #include <cstring>
 

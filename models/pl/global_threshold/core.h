@@ -1,7 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include <pl/common/geometry.h>
 
 namespace pl {
 
@@ -56,5 +60,68 @@ class ThresholdCore {
   std::uint8_t dark_peak_ = 0, bright_peak_ = 255;
   std::uint8_t threshold_ = default_threshold;
 };
+
+/// Pixels of each grey level.
+using Histogram = std::array<std::uint32_t, 256>;
+Histogram count_levels(const std::uint8_t* pixels, std::size_t count);
+
+/// The two peaks of a histogram as ThresholdCore has them after the last pixel.
+struct Peaks {
+  std::uint8_t dark = 0;      ///< 0 to 127; 0 if no pixel is below 128
+  std::uint8_t bright = 255;  ///< 128 to 255; 255 if no pixel is above 127
+
+  std::uint8_t threshold() const { return static_cast<std::uint8_t>((dark + bright) / 2); }
+};
+
+/// Peaks of `count` pixels in the order in which they come: of several levels with the greatest
+/// count, the one that reached it first.
+Peaks find_peaks(const std::uint8_t* pixels, std::size_t count);
+
+/// Global Threshold over a whole frame: the words of GlobalThresholdClocked, and the next
+/// threshold.
+///
+/// Works in pieces of any length, so that software may load a threshold between two pixels.
+class ThresholdFrame {
+ public:
+  explicit ThresholdFrame(const Geometry& geometry);
+
+  /// A new frame; the threshold stays. `image` holds width x height pixels, and stays valid until
+  /// end().
+  void begin(const std::uint8_t* image);
+  /// Binarises up to the pixel of raster index `pixels` - 1 with the present threshold.
+  void advance(std::uint32_t pixels);
+  /// Pixels from this raster index on count as not binarised; the threshold stays as it is now.
+  void rewind(std::uint32_t pixel);
+  /// Of `count` pixels that were binarised, from `first` on, the values changed: they are binarised
+  /// again with the present threshold.
+  void refresh(std::uint32_t first, std::uint32_t count);
+  /// The frame is over: takes over the threshold that its pixels so far give, and returns it.
+  std::uint8_t end();
+
+  /// The frame is over: of its pixels so far.
+  Histogram histogram() const { return count_levels(image_, position_); }
+
+  /// The frame's words, row by row; bit i of word w is pixel 32w + i. Bits of pixels that were not
+  /// binarised are 0.
+  const std::vector<std::uint32_t>& words() const { return words_; }
+  std::uint32_t pixels() const { return position_; }
+
+  /// For the pixels from now on.
+  void set_threshold(std::uint8_t threshold) { threshold_ = threshold; }
+  std::uint8_t threshold() const { return threshold_; }
+
+ private:
+  void advance_by_pixel(std::uint32_t to);
+
+  const std::uint8_t* image_ = nullptr;
+  std::vector<std::uint32_t> words_;
+  std::uint32_t position_ = 0;
+  std::uint8_t threshold_ = ThresholdCore::default_threshold;
+};
+
+/// Packs 32 pixels a word, the first in bit 0: 1 if a pixel is not above `threshold`. Reads and
+/// writes nothing beyond the `words` words.
+void pack_dark(const std::uint8_t* pixels, std::size_t words, std::uint8_t threshold,
+               std::uint32_t* binary);
 
 }  // namespace pl

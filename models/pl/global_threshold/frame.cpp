@@ -1,4 +1,4 @@
-#include <pl/global_threshold/frame.h>
+#include <pl/global_threshold/core.h>
 
 #include <algorithm>
 

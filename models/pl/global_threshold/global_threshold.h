@@ -5,7 +5,6 @@
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
 #include <pl/global_threshold/core.h>
-#include <pl/global_threshold/frame.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/probe.h>

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <pl/global_threshold/frame.h>
+#include <pl/global_threshold/core.h>
 
 namespace pl {
 

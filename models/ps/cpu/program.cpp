@@ -8,7 +8,7 @@
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 #include <algorithm>
 #include <cerrno>
 #include <climits>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <vp/counter.h>
-#include <vp/memory_target.h>
+#include <vp/mm_link.h>
 #include <vp/parameter.h>
 
 namespace vp {

@@ -7,7 +7,7 @@
 
 #include <vp/clock.h>
 #include <vp/counter.h>
-#include <vp/memory_target.h>
+#include <vp/mm_link.h>
 #include <vp/parameter.h>
 #include <vp/signal.h>
 

@@ -1,7 +1,7 @@
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <vp/text.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/common/estimate.h>

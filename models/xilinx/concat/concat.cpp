@@ -2,7 +2,7 @@
 
 #include <gic_registers.h>
 #include <vp/error.h>
-#include <vp/hierarchy.h>
+#include <vp/ip.h>
 #include <stdexcept>
 #include <string>
 

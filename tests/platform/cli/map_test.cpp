@@ -1,4 +1,4 @@
-#include <cli/map.h>
+#include <cli/commands.h>
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
 

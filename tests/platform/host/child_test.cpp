@@ -10,7 +10,7 @@
 
 #include <host/process.h>
 #include <vp/error.h>
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #include "temporary_files.h"
 

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <functional>
 
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #include "temporary_files.h"
 

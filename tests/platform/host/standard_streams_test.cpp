@@ -11,7 +11,7 @@
 #include <iostream>
 #include <sstream>
 
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 using namespace platform;
 

@@ -2,7 +2,7 @@
 #include <profiles/cost_profile.h>
 #include <scene/renderer.h>
 #include <scene/scene.h>
-#include <validation/evidence.h>
+#include <validation/measured.h>
 #include <validation/plots.h>
 #include <validation/validation.h>
 #include <validation/words.h>

@@ -1,4 +1,4 @@
-#include <apps/hybrid/options.h>
+#include <apps/hybrid/application.h>
 
 #include <boost/test/unit_test.hpp>
 #include <set>

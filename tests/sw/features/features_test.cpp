@@ -3,9 +3,9 @@
 #include <marker/fast.h>
 #include <marker/threshold.h>
 #include <marker/work.h>
-#include <pl/blob_detection/frame.h>
-#include <pl/corner_detection/frame.h>
-#include <pl/global_threshold/frame.h>
+#include <pl/blob_detection/core.h>
+#include <pl/corner_detection/core.h>
+#include <pl/global_threshold/core.h>
 
 #include <boost/test/unit_test.hpp>
 #include <memory>

@@ -1,5 +1,5 @@
 // The earliest of numbered times, against a multimap that keeps all of them in order.
-#include <vp/clock_times.h>
+#include <vp/clock_scheduler.h>
 
 #include <boost/test/unit_test.hpp>
 #include <map>

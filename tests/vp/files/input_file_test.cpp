@@ -2,7 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <vp/error.h>
-#include <vp/input_file.h>
+#include <vp/file.h>
 
 #include <boost/test/unit_test.hpp>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include <vp/output_file.h>
+#include <vp/file.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>

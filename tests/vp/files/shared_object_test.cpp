@@ -1,4 +1,4 @@
-#include <vp/input_file.h>
+#include <vp/file.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,4 @@
-#include <vp/trace_filter.h>
+#include <vp/frame_gate.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,5 +1,5 @@
 #include <vp/error.h>
-#include <vp/vcd_writer.h>
+#include <vp/wave_writer.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cstring>

@@ -2,9 +2,8 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/frame_gate.h>
-#include <vp/signal.h>
 #include <vp/probe.h>
-#include <vp/trace_filter.h>
+#include <vp/signal.h>
 #include <vp/wave_writer.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // BlobFrame against BlobCore: the same packets at the same clocks, the same labels free in the same
 // order.
-#include <pl/blob_detection/frame.h>
+#include <pl/blob_detection/core.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

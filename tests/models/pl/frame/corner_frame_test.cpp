@@ -1,7 +1,6 @@
 // CornerFrame against CornerCore: the same packets at the same clocks.
 #include <pl/common/simd_target.h>
 #include <pl/corner_detection/core.h>
-#include <pl/corner_detection/frame.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

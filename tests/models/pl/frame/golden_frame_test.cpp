@@ -1,7 +1,7 @@
 // The whole-frame functions against the reference RTL, word for word and clock for clock.
-#include <pl/blob_detection/frame.h>
-#include <pl/corner_detection/frame.h>
-#include <pl/global_threshold/frame.h>
+#include <pl/blob_detection/core.h>
+#include <pl/corner_detection/core.h>
+#include <pl/global_threshold/core.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

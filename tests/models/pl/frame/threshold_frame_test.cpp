@@ -1,6 +1,6 @@
 // ThresholdFrame against ThresholdCore: the same words, the same next threshold.
 #include <pl/common/simd_target.h>
-#include <pl/global_threshold/frame.h>
+#include <pl/global_threshold/core.h>
 
 #include <boost/test/unit_test.hpp>
 
