@@ -25,7 +25,7 @@ function themeButton() {
 function frame({ title, subtitle, sections }) {
   document.title = `${title} · markervp`;
   const shown = sections.filter(Boolean);
-  const links = shown.map((section) => [section.id, section.querySelector("h2")?.textContent]).filter(([, name]) => name);
+  const links = shown.filter((section) => !section.hidden).map((section) => [section.id, section.querySelector("h2")?.textContent]).filter(([, name]) => name);
   document.getElementById("page").replaceChildren(
     h("header", { class: "bar" }, h("div", { class: "bar-inner" },
       h("div", { class: "mark" }, s("svg", { viewBox: "0 0 6 6", "aria-hidden": "true" }, s("path", { d: cells, "fill-rule": "evenodd" })), h("span", {}, "markervp")),

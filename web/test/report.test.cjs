@@ -13,7 +13,7 @@ const samples = require("./samples.cjs");
 const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
-  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), validation: samples.validation(), comparison: samples.comparison(),
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
@@ -248,7 +248,8 @@ test("the timeline is moved by keyboard, and has its numbers as a table", () => 
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
   const button = page.locator("#points tbody button").nth(4);
   await button.click();
-  assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json'`);
+  assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json' --output 'out/a sweep/reports/${await button.textContent()}cafe'`);
+  assert.equal(await page.locator("#point a").getAttribute("href"), `reports/${await button.textContent()}cafe/report.html`);
   await page.locator("#maps select").first().selectOption({ label: "Power" });
   assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);
 }));
@@ -272,10 +273,18 @@ test("sliders find the computed point, or say that it is only the nearest", () =
   await move(cpu, 2);
   assert.equal(await part.locator("[role=status]").textContent(), "This point was not computed. The nearest that was has ps.fclk_clk1.frequency 75 MHz, not 100 MHz.");
   await part.getByRole("button", { name: "Keep to compare" }).click();
-  const cells = await part.locator("table tbody tr").first().locator("th, td").allTextContents();
-  assert.deepEqual(cells, ["ps.fclk_clk1.frequency", "100 MHz", "75 MHz"]);
   await part.getByRole("button", { name: "Open this point" }).click();
   assert.match(await page.locator("#point").textContent(), /75 MHz/);
+  // Any number of points stand side by side.
+  const head = () => page.locator("#compare table tbody tr").first().locator("th, td").allTextContents();
+  assert.deepEqual(await head(), ["ps.fclk_clk1.frequency", "100 MHz", "75 MHz"]);
+  for (const to of [0, 3, 6]) {
+    await move(pixel, to);
+    await part.getByRole("button", { name: "Keep to compare" }).click();
+  }
+  assert.deepEqual(await head(), ["ps.fclk_clk1.frequency", "100 MHz", "75 MHz", "30 MHz", "45 MHz", "60 MHz"]);
+  await page.locator("#compare").getByRole("button", { name: /^Drop point/ }).nth(1).click();
+  assert.deepEqual(await head(), ["ps.fclk_clk1.frequency", "100 MHz", "30 MHz", "45 MHz", "60 MHz"]);
 }));
 
 test("with 20 000 points a move of a slider takes less than 100 ms", () => open("largeSweep", async (page) => {
@@ -283,6 +292,119 @@ test("with 20 000 points a move of a slider takes less than 100 ms", () => open(
   const times = [];
   for (let i = 0; i < 15; i++) times.push(await move(slider, i));
   // The least: other work of the machine only adds.
+  assert.ok(Math.min(...times) < 100, `${times}`);
+}));
+
+/** Points that nothing beats in figures a and b, of which more is better if `more`. */
+function frontOf(points, [a, moreOfA], [b, moreOfB]) {
+  const figures = (p) => [p.metrics[a] * (moreOfA ? 1 : -1), p.metrics[b] * (moreOfB ? 1 : -1)];
+  const beats = (q, p) => q[0] >= p[0] && q[1] >= p[1] && (q[0] > p[0] || q[1] > p[1]);
+  return points.filter((p) => !points.some((q) => beats(figures(q), figures(p)))).map((p) => p.metrics[a]);
+}
+const sorted = (numbers) => numbers.map((n) => Number(n.toPrecision(4))).sort((x, y) => x - y);
+const onlyLimited = (point) => point.reasons.every((reason) => reason.startsWith("breaks "));
+
+/** Waits until `check` no longer throws: what moves is drawn before the next picture, on a busy machine later. */
+async function eventually(check) {
+  for (let left = 100; ; left--) {
+    try { return await check(); } catch (error) { if (left === 0) throw error; }
+    await new Promise((done) => setTimeout(done, 50));
+  }
+}
+
+test("a limit that is dragged or typed holds in all charts", () => open("fastSweep", async (page) => {
+  const list = blocks.fastSweep.sweep.points.filter((p) => onlyLimited(p) && p.metrics[0] !== null);
+  const kept = (least) => list.filter((p) => p.metrics[0] >= least);
+  const said = async () => Number((await page.locator("#trade-off [role=status]").textContent()).match(/^\d+/)[0]);
+  assert.equal(await said(), kept(140).length, "the study's constraint is the first limit");
+  const grip = page.getByRole("slider", { name: "Frame rate, at least" });
+  await page.locator("#trade-off").scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await grip.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 - 100, box.y + box.height / 2, { steps: 4 });
+  await page.mouse.up();
+  const now = async () => Number(await grip.getAttribute("aria-valuenow"));
+  await eventually(async () => assert.ok(await now() < 135));
+  await eventually(async () => assert.equal(await said(), kept(await now()).length));
+  const least = await now();
+  assert.ok(kept(least).length > kept(140).length, "points that only broke the constraint count now");
+  const front = (await rowsOf(page, "Frame rate and power")).map((row) => row.find((cell, i) => i === 4));
+  assert.deepEqual(sorted(front.map(Number)), sorted(frontOf(kept(least), [0, true], [2, false])));
+  await scrollThrough(page);
+  const rows = await page.locator("#points table").first().locator("tbody tr").evaluateAll((all) => all.map((row) => Number(row.cells[5].textContent)));
+  assert.ok(rows.length > 0 && rows.every((rate) => rate >= least - 0.1));
+  assert.match(await page.locator("#space [role=status]").textContent(), /points kept\./);
+  const swing = (await rowsOf(page, "What moves")).flatMap((row) => [Number(row[2]), Number(row[4])]);
+  assert.ok(swing.length > 0 && swing.every((rate) => rate >= least), "only points within the limit count");
+  // By keyboard: to the end, where there is no limit.
+  await grip.focus();
+  await page.keyboard.press("Home");
+  await eventually(async () => assert.equal(await grip.getAttribute("aria-valuetext"), "no limit"));
+  assert.equal(await said(), list.length);
+  for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowRight");
+  await eventually(async () => assert.notEqual(await grip.getAttribute("aria-valuetext"), "no limit"));
+  await eventually(async () => assert.equal(await said(), kept(await now()).length));
+  await page.getByRole("button", { name: "As the study asks" }).click();
+  await eventually(async () => assert.equal(await said(), kept(140).length));
+}));
+
+test("the front is that of any two figures", () => open("fastSweep", async (page) => {
+  const good = blocks.fastSweep.sweep.points.filter((p) => p.reasons.length === 0 && p.metrics[0] !== null);
+  await page.getByLabel("Across").first().selectOption({ label: "Corner error (least)" });
+  await page.getByLabel("Up").first().selectOption({ label: "LUT (least)" });
+  const errors = (await rowsOf(page, "Corner error and lut")).map((row) => Number(row.at(-3)));
+  assert.deepEqual(sorted(errors), sorted(frontOf(good, [11, false], [7, false])));
+  assert.doesNotMatch(await page.locator("#trade-off .note").textContent(), /equal energy/);
+  await page.getByLabel("Across").first().selectOption({ label: "Power (least)" });
+  await page.getByLabel("Up").first().selectOption({ label: "Frame rate (most)" });
+  assert.match(await page.locator("#trade-off .note").textContent(), /lines: equal energy a frame/);
+}));
+
+test("a rectangle, and a drag along an axis, keep points", () => open("fastSweep", async (page) => {
+  const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  const box = await area.boundingBox();
+  await page.mouse.move(box.x + 300, box.y + 120);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 700, box.y + 300, { steps: 4 });
+  await page.mouse.up();
+  const limits = page.locator("#trade-off .limits");
+  await limits.getByRole("button", { name: /^Let go of Power [\d.]+ to [\d.]+ W$/ }).waitFor();
+  const [, low, high] = (await limits.textContent()).match(/Frame rate ([\d.]+) to ([\d.]+) frames/);
+  const count = async () => Number((await limits.textContent()).match(/^\d+/)[0]);
+  const inside = await count();
+  assert.ok(inside < blocks.fastSweep.sweep.points.filter((p) => onlyLimited(p) && p.metrics[0] >= Number(low) && p.metrics[0] <= Number(high)).length + 1);
+  assert.ok(!(await page.locator("#point").isVisible()), "a rectangle is no click");
+  const lines = page.locator('.chart-area[aria-label^="All parameters"]');
+  await lines.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(300);
+  const plot = await lines.boundingBox();
+  await page.mouse.move(plot.x + 56, plot.y + 70);
+  await page.mouse.down();
+  await page.mouse.move(plot.x + 56, plot.y + 250, { steps: 6 });
+  await page.mouse.up();
+  await limits.getByRole("button", { name: /^Let go of ps.fclk_clk1.frequency [\d.]+ to [\d.]+ MHz$/ }).waitFor();
+  assert.ok(await count() <= inside);
+  await limits.getByRole("button", { name: "Let go of all" }).click();
+  await limits.getByText("no limits").waitFor();
+}));
+
+test("with 20 000 points a move of a limit is on the screen within 100 ms", () => open("largeSweep", async (page) => {
+  const grip = page.getByRole("slider", { name: "Frame rate, at least" });
+  await grip.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(300);
+  const times = [];
+  const key = (name) => grip.evaluate((element, pressed) => new Promise((done) => {
+    const begin = performance.now();
+    element.dispatchEvent(new KeyboardEvent("keydown", { key: pressed, bubbles: true, cancelable: true }));
+    requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now() - begin)));
+  }), name);
+  // The least of some: other work of the machine only adds.
+  for (let i = 0; i < 60 && !times.some((time) => time < 100); i++) times.push(await key(i % 20 < 10 ? "ArrowRight" : "ArrowLeft"));
+  console.log(`a limit among 20 000 points: ${times.map(Math.round).join(" ")} ms`);
   assert.ok(Math.min(...times) < 100, `${times}`);
 }));
 
@@ -299,7 +421,7 @@ test("a sweep shows what its study asks for: the best points first, the others a
   assert.match(verdict, /Most: Frame rate.*fclk_clk1.frequency \d+ MHz, cpu_clk.frequency \d+ MHz, blob_detection.label_count \d+, profile/s);
   assert.match(verdict, /Least: Power/);
   const captions = await page.$$eval("#points table caption", (all) => all.map((each) => each.textContent));
-  assert.deepEqual(captions, ["Feasible points, the best first", "Not feasible or not proven", "Failed"]);
+  assert.deepEqual(captions, ["Feasible points within the limits, the best first", "Not feasible, not proven or outside the limits", "Failed"]);
   const tables = page.locator("#points table");
   const rates = await tables.nth(0).locator("tbody tr").evaluateAll((rows) => rows.map((row) => row.cells[0].textContent));
   const list = blocks.sweep.sweep.points;

@@ -138,8 +138,8 @@ function gaveUp({ all = false } = {}) {
   return blocks;
 }
 
-/** The block of a sweep's page. */
-function sweep({ points = 5000, seed = 2 } = {}) {
+/** The block of a sweep's page. `rate`: frames a second that the study asks for. */
+function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
   const random = randomFrom(seed);
   const swept = ["ps.fclk_clk1.frequency", "ps.cpu_clk.frequency", "pl.blob_detection.label_count", "profile"];
   const list = Array.from({ length: points }, (_, i) => {
@@ -152,6 +152,7 @@ function sweep({ points = 5000, seed = 2 } = {}) {
     const reasons = pixel > 55 ? ["misses timing: pl.blob_detection"] : labels > 200 ? ["too large: lut"] : [];
     const failed = pixel === 100 && cpu === 333;
     if (failed) reasons.unshift("failed: the binary image timed out");
+    if (1e3 / ms < rate) reasons.push(`breaks summary.fps.mean >= ${rate}`);
     return { key: `${i.toString(16).padStart(8, "0")}cafe`, swept: [`${pixel} MHz`, `${cpu} MHz`, `${labels}`, profile], reasons, failed,
       metrics: i === 7 ? new Array(14).fill(null) : [1e3 / ms, ms * 1e3, watts, watts * ms, 25 + watts * 11.5, 41, 41, 9000 + labels * 184, 12000 + labels * 39, 82, 0, 1.2 + random() * 0.1, 40 + random() * 10, 4 + random()] };
   });
@@ -161,7 +162,7 @@ function sweep({ points = 5000, seed = 2 } = {}) {
   for (const p of list) p.front = ranked.includes(p) ? 1 + Number(ranked.some((q) => beats(q, p))) : 0;
   const objectives = [{ metric: "summary.fps.mean", unit: "1/s", better: 1 }, { metric: "power.total_w.nominal", unit: "W", better: -1 }];
   const paths = ["summary.fps.mean", "summary.latency_us.mean", "power.total_w.nominal", "summary.energy_per_frame_mj", "power.junction_c", "summary.detected", "summary.frames", "resources.total.lut", "resources.total.ff", "resources.total.bram36", "resources.total.dsp", "frames.error.corner_px.mean", "frames.error.translation_mm.mean", "frames.error.rotation_deg.mean"];
-  return { sweep: { objectives, constraints: ["summary.detected >= 40"], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, effects: [], missing: 3, points: list,
+  return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, effects: [], missing: 3, points: list,
     metrics: paths.map((path) => ({ path, unit: "" })) } };
 }
 

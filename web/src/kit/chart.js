@@ -1,5 +1,5 @@
 // A chart: drawn when scrolled to, with a text for those who do not see it, its numbers as a table, and exports.
-import { download, h, newId } from "./dom.js";
+import { download, h, newId, whenSeen } from "./dom.js";
 import { echarts } from "./echarts.js";
 import { onTheme, palette } from "./theme.js";
 import { csvOf, dataTable } from "./table.js";
@@ -36,10 +36,6 @@ export function axis(options = {}) {
   };
 }
 
-const observer = new IntersectionObserver((entries) => {
-  for (const entry of entries) if (entry.isIntersecting) entry.target.draw?.();
-}, { rootMargin: "200px" });
-
 /** Puts the plot below its legend, however many lines that takes. Returns by how much the chart must be higher for it. */
 function belowLegend(instance, { legend, grid }) {
   if (!legend) return 0;
@@ -52,17 +48,21 @@ function belowLegend(instance, { legend, grid }) {
 /**
  * @param name      short, for file names
  * @param title     heading of the figure
- * @param summary   what one sees, in a sentence: read to those who cannot see it
+ * @param summary   what one sees, in a sentence: read to those who cannot see it. It and `note` may be functions
  * @param height    px
  * @param least     px of width below which it is scrolled instead of squeezed
  * @param option    function that gives ECharts' option for the present theme
  * @param table     {columns, rows} of its numbers, as dataTable takes it
  * @param canvas    true: many points
  * @param ready     called with ECharts' instance once drawn
+ * @param overlay   element that lies on the chart, and is no part of its exports
  * @param screen    draws into the element instead of ECharts, and returns {redraw, resize}; exports use `option`
  */
-export function chart({ name, title, summary, note, height = 280, least, option, table, canvas = false, ready, screen }) {
-  const target = h("div", { class: "chart-area", role: "img", "aria-label": `${title}. ${summary}`, style: { height: height + "px", minWidth: least ? least + "px" : "" } });
+export function chart({ name, title, summary, note, height = 280, least, option, table, canvas = false, ready, screen, overlay }) {
+  const words = (text) => (typeof text === "function" ? text() : text);
+  const label = () => `${title}. ${words(summary)}`;
+  const noted = note && h("p", { class: "note" }, words(note));
+  const target = h("div", { class: "chart-area", role: "img", "aria-label": label(), style: { height: height + "px", minWidth: least ? least + "px" : "" } });
   let instance = null;
   // Tooltips are drawn, not HTML: names of files stand in them.
   const full = () => {
@@ -88,10 +88,17 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     ready?.(instance);
     return instance;
   };
-  target.draw = draw;
-  observer.observe(target);
+  // Axes and legend stay: to lay them out again would cost more than the points.
+  const update = () => {
+    target.setAttribute("aria-label", label());
+    if (noted) noted.textContent = words(note);
+    const { grid, legend, ...rest } = full();
+    instance.setOption(rest, { replaceMerge: ["series"] });
+    ready?.(instance, true);
+  };
+  const stale = whenSeen(target, () => (instance ? update() : draw()));
   const entry = {
-    target, draw,
+    target,
     redraw() {
       if (screen || !instance) return instance?.redraw();
       instance.setOption(full(), { notMerge: true });
@@ -145,7 +152,7 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     },
   }, "Table");
   const holder = table && h("div", { id: tableId, hidden: true, class: "chart-table" });
-  return h("figure", { class: "chart" },
+  const figure = h("figure", { class: "chart" },
     h("figcaption", {},
       h("h3", {}, title),
       h("div", { class: "tools", role: "group", "aria-label": `Export ${title}` },
@@ -153,8 +160,17 @@ export function chart({ name, title, summary, note, height = 280, least, option,
         h("button", { type: "button", onclick: saveSvg, "aria-label": `${title} as SVG` }, "SVG"),
         h("button", { type: "button", onclick: savePng, "aria-label": `${title} as PNG` }, "PNG"),
         table && h("button", { type: "button", "aria-label": `${title} as CSV`, onclick: () => { const t = table(); download(name + ".csv", csvOf(t), "text/csv"); } }, "CSV"))),
-    note && h("p", { class: "note" }, note),
-    least ? h("div", { class: "chart-scroll", tabindex: "0", role: "group", "aria-label": title }, target) : target, holder);
+    noted,
+    least ? h("div", { class: "chart-scroll", tabindex: "0", role: "group", "aria-label": title }, target) : h("div", { class: "chart-stage" }, target, overlay), holder);
+  /** What it shows has changed. */
+  figure.update = () => {
+    if (numbers) { numbers.remove(); numbers = null; }
+    if (holder && !holder.hidden) holder.append((numbers = dataTable({ ...table(), name })));
+    stale();
+  };
+  /** Another takes its place. */
+  figure.leave = () => { charts.splice(charts.indexOf(entry), 1); instance?.dispose(); };
+  return figure;
 }
 
 onTheme(() => charts.forEach((each) => each.redraw()));
@@ -163,4 +179,4 @@ window.addEventListener("resize", () => {
   cancelAnimationFrame(pending);
   pending = requestAnimationFrame(() => charts.forEach((each) => each.resize()));
 });
-window.addEventListener("beforeprint", () => charts.forEach((each) => { each.draw(); each.resize(); }));
+window.addEventListener("beforeprint", () => charts.forEach((each) => { each.target.drawNow(); each.resize(); }));

@@ -24,6 +24,23 @@ export const s = (tag, attributes, ...children) =>
 let ids = 0;
 export const newId = (stem) => `${stem}-${++ids}`;
 
+const observer = new IntersectionObserver((entries) => {
+  for (const entry of entries) entry.target.seen(entry.isIntersecting);
+}, { rootMargin: "200px" });
+
+/** Calls `draw` when `element` comes near the window. Returns a function that has it drawn again, at once or when it is next seen. */
+export function whenSeen(element, draw) {
+  let near = false, fresh = false;
+  element.drawNow = () => {
+    if (fresh) return;
+    fresh = true;
+    draw();
+  };
+  element.seen = (now) => { near = now; if (near) element.drawNow(); };
+  observer.observe(element);
+  return () => { fresh = false; element.seen(near); };
+}
+
 /** Gives the user a file. */
 export function download(name, content, type) {
   const url = typeof content === "string" && content.startsWith("data:")

@@ -19,15 +19,19 @@ function parsed(text) {
   return { number: Number(match[1]) * scale, unit };
 }
 
+/** `numbers`: of each point, by its index. */
+const axisOf = (facts, numbers) => ({ ...facts, of: (point) => numbers[point.index] });
+
 function parameterAxis(sweep, index) {
-  const values = sweep.points.map((point) => parsed(point.swept[index]));
+  const texts = sweep.points.map((point) => String(point.swept[index]));
+  const values = texts.map(parsed);
   const numeric = values.length > 0 && values.every((v) => Number.isFinite(v.number));
-  const words = [...new Set(sweep.points.map((point) => String(point.swept[index])))];
-  return {
-    id: sweep.swept[index], name: sweep.swept[index], unit: numeric ? values[0].unit : "", numeric, words, parameter: true,
-    of: (point) => (numeric ? parsed(point.swept[index]).number : words.indexOf(String(point.swept[index]))),
+  const words = [...new Set(texts)];
+  const places = new Map(words.map((word, place) => [word, place]));
+  return axisOf({
+    id: sweep.swept[index], name: sweep.swept[index], unit: numeric ? values[0].unit : "", better: 0, numeric, words, parameter: true,
     text: (point) => String(point.swept[index]),
-  };
+  }, numeric ? values.map((v) => v.number) : texts.map((text) => places.get(text)));
 }
 
 /** {name, unit, better, scale} of a metric. */
@@ -39,15 +43,22 @@ export function metricName({ path, unit: given }) {
 function metricAxis(sweep, index) {
   const { path } = sweep.metrics[index];
   const { name, unit, better, scale } = metricName(sweep.metrics[index]);
-  return {
-    id: path, name, unit, better, numeric: true,
-    of: (point) => (point.metrics[index] === null || point.metrics[index] === undefined ? NaN : point.metrics[index] * scale),
-  };
+  return axisOf({ id: path, name, unit, better, scale, numeric: true }, sweep.points.map(({ metrics }) => (metrics[index] ?? NaN) * scale));
 }
 
 /** The axis of an objective: the page has a figure for each, or it is a parameter. */
 function objectiveAxis(axes, { metric, better }) {
-  return { ...axes.find((axis) => axis.id === metric), better };
+  const axis = axes.find(({ id }) => id === metric);
+  return axis && Object.assign(axis, { better });
+}
+
+/** Of a constraint like "summary.fps.mean >= 200", which can be moved, the axis and the range within; else null. */
+function limitOf(text, axes) {
+  const [, path, relation, number] = text.match(/^`?([\w.]+)`? (>=|<=) (-?[\d.]+(?:e[-+]?\d+)?)$/i) ?? [];
+  const axis = axes.find(({ id }) => id === path);
+  if (!axis) return null;
+  const bound = Number(number) * axis.scale;
+  return { text, axis, range: relation === ">=" ? [bound, Infinity] : [-Infinity, bound] };
 }
 
 /** The feasible points front by front, in each the best first; then the others. */
@@ -60,7 +71,8 @@ function bestFirst(points, objective) {
 /** Names of values on an axis: those that differ, and the unit. */
 export const shortName = (a, separator = " ") => a.name.split(".").slice(-2).join(separator) + (a.unit ? `, ${a.unit}` : "");
 
-export function makeSweep(sweep) {
+export function makeSweep(data) {
+  const sweep = { ...data, points: data.points.map((point, index) => ({ ...point, index })) };
   // A run that failed stopped early: its means are not those of a whole one.
   const whole = sweep.points.filter((p) => !p.failed);
   const parameters = sweep.swept.map((_, index) => parameterAxis(sweep, index)).filter((axis) => axis.words.length > 1);
@@ -68,15 +80,16 @@ export function makeSweep(sweep) {
   const find = (id) => metrics.find((axis) => axis.id === id);
   const fps = find("summary.fps.mean");
   const power = find("power.total_w.nominal");
-  const objectives = sweep.objectives.map((objective) => objectiveAxis([...metrics, ...parameters], objective)).filter((axis) => axis.id);
-  const [x, y] = [objectives[0] ?? fps, objectives[1] ?? power];
-  const front = sweep.points.filter((p) => p.front === 1 && p.reasons.length === 0).sort((a, b) => x.of(a) - x.of(b) || y.of(a) - y.of(b));
+  const objectives = sweep.objectives.map((objective) => objectiveAxis([...metrics, ...parameters], objective)).filter(Boolean);
+  // What a constraint that can be moved says of a point, the selection says.
+  const limits = sweep.constraints.map((text) => limitOf(text, metrics)).filter(Boolean);
+  const movable = new Set(limits.map(({ text }) => `breaks ${text}`));
+  for (const point of sweep.points) point.faults = point.reasons.filter((reason) => !movable.has(reason));
   return {
-    ...sweep, parameters, metrics, fps, power, objectives, x, y, front,
+    ...sweep, parameters, metrics, fps, power, objectives, limits,
     points: bestFirst(sweep.points, objectives[0]),
     whole,
     feasible: sweep.points.filter((p) => p.reasons.length === 0),
     label: (axis) => axis.name + (axis.unit ? `, ${axis.unit}` : ""),
-    show: (axis, point) => (axis.parameter ? axis.text(point) : axis.of(point)),
   };
 }

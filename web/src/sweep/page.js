@@ -1,27 +1,31 @@
 // The page of a sweep.
-import { h } from "../kit/dom.js";
+import { h, whenSeen } from "../kit/dom.js";
 import { counted, fixed, significant } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { shellWord } from "../run/tables.js";
-import { columnsOf, heatMap, parallel, tornado, tradeOff } from "./charts.js";
+import { columnsOf, heatMap, parallel, tornado } from "./charts.js";
 import { makeSweep, metricName } from "./facts.js";
-import { whatIf } from "./what_if.js";
+import { makeSelection } from "./selection.js";
+import { tradeOff } from "./trade_off.js";
+import { comparison, whatIf } from "./what_if.js";
 
-function pointPanel(sweep) {
+function pointPanel(sweep, selection, compare) {
   const panel = h("section", { id: "point", class: "panel", "aria-label": "Point", tabindex: "-1", hidden: true });
   panel.show = (point) => {
     panel.hidden = false;
-    const file = `${sweep.folder.replace(/\/$/, "")}/points/${point.key}.json`;
+    const folder = sweep.folder.replace(/\/$/, "");
+    const run = `reports/${point.key.slice(0, 12)}`;
+    const reasons = selection.why(point);
     const fact = (name, text) => h("div", {}, h("dt", {}, name), h("dd", {}, text));
     panel.replaceChildren(
       h("div", { class: "section-head" }, h("h2", {}, "Point ", h("code", {}, point.key.slice(0, 12))),
-        h("div", { class: "tools" }, h("button", { type: "button", onclick: () => { panel.hidden = true; } }, "Close"))),
-      point.reasons.length > 0 && h("ul", { class: "chips" }, point.reasons.map((reason) => h("li", { class: "bad" }, reason))),
+        h("div", { class: "tools" }, h("button", { type: "button", onclick: () => compare.keep(point) }, "Keep to compare"), h("button", { type: "button", onclick: () => { panel.hidden = true; } }, "Close"))),
+      reasons.length > 0 && h("ul", { class: "chips" }, reasons.map((reason) => h("li", { class: "bad" }, reason))),
       h("div", { class: "columns" },
         h("dl", { class: "facts wide" }, sweep.parameters.map((p) => fact(p.name, p.text(point)))),
         h("dl", { class: "facts wide" }, sweep.metrics.filter((m) => Number.isFinite(m.of(point))).map((m) => fact(m.name, `${significant(m.of(point), 5)} ${m.unit}`)))),
-      h("p", { class: "note", style: { margin: "18px 0 6px" } }, "To run it again, with its own report:"),
-      h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, `markervp run --point ${shellWord(file)}`)));
+      h("p", { class: "note", style: { margin: "18px 0 6px" } }, "To run it again, with pictures and ", h("a", { href: `${run}/report.html` }, "its own report"), ", which is there then:"),
+      h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, `markervp run --point ${shellWord(`${folder}/points/${point.key}.json`)} --output ${shellWord(`${folder}/${run}`)}`)));
     panel.focus({ preventScroll: true });
     panel.scrollIntoView({ block: "nearest" });
   };
@@ -64,26 +68,36 @@ function stepTable({ key, figures, rows }) {
     dataTable({ columns, rows, caption: "Steps, the strongest first", name: "steps", exportable: true, limit: 40 }));
 }
 
-function points(sweep, wanted, caption, name, open) {
-  const rows = sweep.points.filter(wanted);
+/** A table of the points that are `wanted` now. */
+function points(sweep, selection, wanted, caption, name, open) {
   const key = { title: "Point", value: (p) => p.key, node: (p) => h("button", { type: "button", class: "plain", onclick: () => open(p) }, p.key.slice(0, 8)) };
-  return rows.length > 0 && h("div", {}, h("h3", {}, caption), dataTable({ columns: [key, ...columnsOf(sweep, rows)], rows, caption, name, exportable: true, limit: 20 }));
+  const holder = h("div");
+  const fill = () => {
+    const rows = sweep.points.filter(wanted);
+    holder.replaceChildren(...(rows.length ? [h("h3", {}, caption), dataTable({ columns: [key, ...columnsOf(sweep, selection, rows)], rows, caption, name, exportable: true, limit: 20 })] : []));
+  };
+  fill();
+  selection.onChange(whenSeen(holder, fill));
+  return holder;
 }
 
 export function sweepPage(data) {
   const sweep = makeSweep(data);
-  const panel = pointPanel(sweep);
+  const selection = makeSelection(sweep);
+  const compare = comparison(sweep, selection);
+  const panel = pointPanel(sweep, selection, compare);
   const section = (id, title, ...content) => (content.some(Boolean) ? h("section", { id, "aria-labelledby": `${id}-title` }, h("h2", { id: `${id}-title` }, title), h("div", { class: "stack" }, content)) : null);
   const open = panel.show;
+  const list = (wanted, caption, name) => points(sweep, selection, wanted, caption, name, open);
   return {
     title: sweep.title || (sweep.name ? `Sweep ${sweep.name}` : "Sweep"),
     subtitle: [counted(sweep.points.length, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
-      section("trade-off", "Trade-off", tradeOff(sweep, open)), panel,
-      section("what-if", "What if?", whatIf(sweep, open)),
-      section("space", "Design space", parallel(sweep, open)), section("maps", "Map", heatMap(sweep, open)), section("influence", "Influence", tornado(sweep)),
+      section("trade-off", "Trade-off", tradeOff(sweep, selection, open)), panel,
+      section("what-if", "What if?", whatIf(sweep, selection, open, compare)), compare,
+      section("space", "Design space", parallel(sweep, selection)), section("maps", "Map", heatMap(sweep, selection, open)), section("influence", "Influence", tornado(sweep, selection)),
       section("steps", "What a step is worth", sweep.steps && stepTable(sweep.steps)),
-      section("points", "Points", points(sweep, (p) => p.reasons.length === 0, "Feasible points, the best first", "points", open),
-        points(sweep, (p) => p.reasons.length > 0 && !p.failed, "Not feasible or not proven", "not-feasible", open), points(sweep, (p) => p.failed, "Failed", "failed", open))],
+      section("points", "Points", list(selection.good, "Feasible points within the limits, the best first", "points"),
+        list((p) => !p.failed && !selection.good(p), "Not feasible, not proven or outside the limits", "not-feasible"), list((p) => p.failed, "Failed", "failed"))],
   };
 }

@@ -28,33 +28,42 @@ function finder(sweep, scales) {
   };
 }
 
-function comparison(sweep, kept) {
-  if (kept.length === 0) return null;
-  const rows = [...sweep.parameters.map((p) => ({ name: p.name, unit: "", of: (point) => p.text(point) })),
+/** Any number of points side by side: `keep` adds one. */
+export function comparison(sweep, selection) {
+  const kept = [];
+  const table = h("div");
+  const element = h("section", { id: "compare", "aria-labelledby": "compare-title", hidden: true }, h("h2", { id: "compare-title" }, "Points side by side"), table);
+  const rowsOf = () => [...sweep.parameters.map((p) => ({ name: p.name, unit: "", of: (point) => p.text(point) })),
     ...sweep.metrics.map((m) => ({ name: m.name, unit: m.unit, of: (point) => (Number.isFinite(m.of(point)) ? tidy(m.of(point)) : "–") })),
-    { name: "Why not", unit: "", of: (point) => point.reasons.join("; ") }];
-  return dataTable({ caption: "Points side by side", name: "compared", rows, sortable: false, exportable: true,
-    columns: [{ title: "", value: (row) => row.name + (row.unit ? `, ${row.unit}` : ""), head: true }, ...kept.map((point) => ({ title: point.key.slice(0, 8), value: (row) => row.of(point) }))] });
+    { name: "Why not", unit: "", of: (point) => selection.why(point).join("; ") }];
+  const update = () => {
+    element.hidden = kept.length === 0;
+    const columns = [{ title: "", value: (row) => row.name + (row.unit ? `, ${row.unit}` : ""), head: true }, ...kept.map((point) => ({ title: point.key.slice(0, 8), value: (row) => row.of(point) }))];
+    const drop = (point) => h("button", { type: "button", "aria-label": `Drop point ${point.key.slice(0, 8)}`, onclick: () => { kept.splice(kept.indexOf(point), 1); update(); } }, `${point.key.slice(0, 8)} ✕`);
+    table.replaceChildren(dataTable({ caption: "Points side by side", name: "compared", rows: rowsOf(), sortable: false, exportable: true, columns }), h("div", { class: "limits" }, kept.map(drop)));
+  };
+  selection.onChange(() => { if (kept.length) update(); });
+  element.keep = (point) => { if (!kept.includes(point)) kept.push(point); update(); };
+  return element;
 }
 
-export function whatIf(sweep, open) {
+export function whatIf(sweep, selection, open, compare) {
   if (sweep.parameters.length === 0) return null;
   const scales = sweep.parameters.map((parameter) => scaleOf(sweep, parameter));
   const find = finder(sweep, scales);
   const asked = scales.map((scale) => scale.rank(sweep.points[0]));
-  const kept = [];
   let found = null;
   const said = h("p", { class: "note", role: "status" });
   const figures = h("dl", { class: "facts wide" });
   const why = h("ul", { class: "chips" });
-  const beside = h("div");
   const update = () => {
     found = find(asked);
     const others = scales.flatMap((scale, axis) => (found.ranks[axis] === asked[axis] ? [] : [`${sweep.parameters[axis].name} ${scale.texts[found.ranks[axis]]}, not ${scale.texts[asked[axis]]}`]));
     said.textContent = others.length === 0 ? "This point was computed." : `This point was not computed. The nearest that was has ${others.join("; ")}.`;
     figures.replaceChildren(...sweep.metrics.filter((m) => Number.isFinite(m.of(found.point))).slice(0, 8)
       .map((m) => h("div", {}, h("dt", {}, m.name), h("dd", {}, `${tidy(m.of(found.point))} ${m.unit}`))));
-    why.replaceChildren(...(found.point.reasons.length ? found.point.reasons.map((reason) => h("li", { class: "bad" }, reason)) : [h("li", { class: "good" }, "feasible")]));
+    const reasons = selection.why(found.point);
+    why.replaceChildren(...(reasons.length ? reasons.map((reason) => h("li", { class: "bad" }, reason)) : [h("li", { class: "good" }, "feasible")]));
   };
   const slider = (parameter, axis) => {
     const scale = scales[axis];
@@ -68,12 +77,9 @@ export function whatIf(sweep, open) {
     input.value = String(asked[axis]);
     return h("label", {}, parameter.name, input, shown);
   };
-  const keep = () => {
-    if (!kept.includes(found.point)) kept.push(found.point);
-    beside.replaceChildren(...[comparison(sweep, kept)].filter(Boolean));
-  };
   const controls = h("div", { class: "controls" }, sweep.parameters.map(slider));
   update();
+  selection.onChange(update);
   return h("div", {}, controls, said, why, figures,
-    h("p", { style: { margin: "16px 0" } }, h("button", { type: "button", onclick: () => open(found.point) }, "Open this point"), " ", h("button", { type: "button", onclick: keep }, "Keep to compare")), beside);
+    h("p", { style: { margin: "16px 0" } }, h("button", { type: "button", onclick: () => open(found.point) }, "Open this point"), " ", h("button", { type: "button", onclick: () => compare.keep(found.point) }, "Keep to compare")));
 }
