@@ -135,7 +135,7 @@ void add_build(Device& device, const sc_core::sc_object& module) {
     device.driver = "AXIDMA";
     device.options = {{"INCLUDE_MM2S", dma->include_mm2s.get()},
                       {"INCLUDE_S2MM", dma->include_s2mm.get()},
-                      {"INCLUDE_SG", 0},
+                      {"INCLUDE_SG", dma->include_sg.get()},
                       {"SG_LENGTH_WIDTH", dma->length_width},
                       {"M_AXI_MM2S_DATA_WIDTH", 32},
                       {"M_AXI_S2MM_DATA_WIDTH", 32}};

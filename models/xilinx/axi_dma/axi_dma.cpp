@@ -25,9 +25,8 @@ vp::RegisterBankOptions bank_options() {
   return options;
 }
 
-[[noreturn]] void not_built(const AxiDma& dma, const char* channel) {
-  throw std::logic_error(std::string(dma.name()) + " was built without its " + channel +
-                         " channel");
+[[noreturn]] void not_built(const AxiDma& dma, const char* part) {
+  throw std::logic_error(std::string(dma.name()) + " was built without its " + part);
 }
 
 }  // namespace
@@ -39,6 +38,9 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                    "build option Enable Read Channel (PG021)"),
       include_s2mm("include_s2mm", build.include_s2mm, vp::Source::published,
                    "build option Enable Write Channel (PG021)"),
+      include_sg("include_sg", build.include_sg, vp::Source::published,
+                 "build option Enable Scatter Gather Engine: descriptors in memory instead of the "
+                 "address and LENGTH registers (PG021)"),
       length_width("length_width", build.length_width, vp::Unit::none, {8, 26},
                    vp::Source::published,
                    "bits of the LENGTH registers (PG021; 14 is Vivado's default)"),
@@ -58,6 +60,7 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                          ": must be a power of two from 2 to 256");
   }
   build_channels();
+  build_scatter_gather();
   s_axi_lite.before_access([this] {
     for (DmaChannel* channel : std::initializer_list<DmaChannel*>{mm2s_.get(), s2mm_.get()}) {
       if (channel && channel->finishing()) channel->bring_up_to(clock().cycle());
@@ -65,12 +68,14 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
   });
 }
 
-// Direct register mode, 32 bit: the DataMover's FIFO for a burst is block memory (PG021). Its logic
-// works on a beat a clock.
+// 32 bit: the DataMover's FIFO for a burst is block memory (PG021). Its logic works on a beat a
+// clock. The scatter-gather engine and what each channel has for it come on top.
 vp::IpEstimate AxiDma::own_estimate() const {
   const std::uint32_t channels = (include_mm2s ? 1u : 0u) + (include_s2mm ? 1u : 0u);
+  const std::uint32_t sg = include_sg ? 1 : 0;
   vp::IpEstimate e =
-      axi_estimate("axi_dma", 250 + 900 * channels, 300 + 1300 * channels, 1.0 * channels);
+      axi_estimate("axi_dma", 250 + 900 * channels + sg * (400 + 350 * channels),
+                   300 + 1300 * channels + sg * (500 + 450 * channels), 1.0 * channels);
   e.active_clocks = [this] { return beats(); };
   return e;
 }
@@ -88,7 +93,9 @@ void AxiDma::build_channels() {
     mm2s_->configure(length_width, mm2s_dre);
     interrupts_.push_back({mm2s_.get(), &mm2s_introut});
   } else {
-    for (const std::uint32_t offset : {MM2S_DMACR, MM2S_DMASR, MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH}) {
+    for (const std::uint32_t offset :
+         {MM2S_DMACR, MM2S_DMASR, MM2S_CURDESC, MM2S_CURDESC_MSB, MM2S_TAILDESC, MM2S_TAILDESC_MSB,
+          MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH}) {
       s_axi_lite[offset].remove();
     }
   }
@@ -97,25 +104,51 @@ void AxiDma::build_channels() {
     s2mm_->configure(length_width, s2mm_dre);
     interrupts_.push_back({s2mm_.get(), &s2mm_introut});
   } else {
-    for (const std::uint32_t offset : {S2MM_DMACR, S2MM_DMASR, S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH}) {
+    for (const std::uint32_t offset :
+         {S2MM_DMACR, S2MM_DMASR, S2MM_CURDESC, S2MM_CURDESC_MSB, S2MM_TAILDESC, S2MM_TAILDESC_MSB,
+          S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH}) {
       s_axi_lite[offset].remove();
     }
   }
 }
 
+// The registers of the other mode are not built.
+void AxiDma::build_scatter_gather() {
+  if (!include_sg) {
+    for (const std::uint32_t offset :
+         {MM2S_CURDESC, MM2S_CURDESC_MSB, MM2S_TAILDESC, MM2S_TAILDESC_MSB, S2MM_CURDESC,
+          S2MM_CURDESC_MSB, S2MM_TAILDESC, S2MM_TAILDESC_MSB}) {
+      s_axi_lite[offset].remove();
+    }
+    return;
+  }
+  scatter_gather_ = std::make_unique<ScatterGather>(clock().scheduler());
+  for (const std::uint32_t offset :
+       {MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH, S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH}) {
+    s_axi_lite[offset].remove();
+  }
+  for (const Interrupt& i : interrupts_) i.channel->use(*scatter_gather_);
+}
+
+ScatterGather& AxiDma::scatter_gather() {
+  if (!scatter_gather_) not_built(*this, "scatter-gather engine");
+  return *scatter_gather_;
+}
+
 Mm2sChannel& AxiDma::mm2s() {
-  if (!mm2s_) not_built(*this, "MM2S");
+  if (!mm2s_) not_built(*this, "MM2S channel");
   return *mm2s_;
 }
 
 S2mmChannel& AxiDma::s2mm() {
-  if (!s2mm_) not_built(*this, "S2MM");
+  if (!s2mm_) not_built(*this, "S2MM channel");
   return *s2mm_;
 }
 
 void AxiDma::share_memory_path(MemoryPath& path) {
   if (mm2s_) mm2s_->m_axi.share(path);
   if (s2mm_) s2mm_->m_axi.share(path);
+  if (scatter_gather_) scatter_gather_->m_axi.share(path);
 }
 
 void AxiDma::before_end_of_elaboration() {
@@ -219,7 +252,7 @@ std::uint64_t AxiDma::run_soft_reset(std::uint64_t cycle) {
   if (reset_done_at_ == vp::Clock::never) {
     const bool quiet = std::all_of(interrupts_.begin(), interrupts_.end(),
                                    [cycle](const Interrupt& i) { return i.channel->quiet(cycle); });
-    if (!quiet) return cycle + 1;
+    if (!quiet || (scatter_gather_ && !scatter_gather_->m_axi.done())) return cycle + 1;
     reset_done_at_ = cycle + latencies.reset_cycles;
   }
   if (cycle < reset_done_at_) return reset_done_at_;

@@ -12,6 +12,7 @@
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
+#include <xilinx/axi_dma/descriptor_ring.h>
 #include <xilinx/axi_dma/dma_channel.h>
 #include <xilinx/axi_dma/mm2s_channel.h>
 #include <xilinx/axi_dma/s2mm_channel.h>
@@ -22,17 +23,18 @@ namespace xilinx {
 struct AxiDmaBuild {
   bool include_mm2s = true;
   bool include_s2mm = true;
+  bool include_sg = false;  ///< scatter-gather instead of direct register mode
   std::uint32_t length_width = 14;
   bool mm2s_dre = false;  ///< data realignment engine: unaligned addresses
   bool s2mm_dre = false;
   std::uint32_t burst_beats = 32;
 };
 
-/// AXI DMA v7.1 in direct register mode (PG021), register-accurate, 32-bit memory and stream, one
-/// clock.
+/// AXI DMA v7.1 (PG021) in direct register mode or with scatter-gather, register-accurate, 32-bit
+/// memory and stream, one clock; without the control and status streams and several channels.
 ///
 ///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
-///   dma.s2mm().s_axis(link);
+///   dma.s2mm().s_axis(link); with include_sg dma.scatter_gather().m_axi.link.socket.bind(...);
 class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
  public:
   /// Throws vp::InputError if neither channel is built or a burst is no power of two.
@@ -41,6 +43,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
 
   vp::Parameter<bool> include_mm2s;
   vp::Parameter<bool> include_s2mm;
+  vp::Parameter<bool> include_sg;
   vp::Parameter<std::uint32_t> length_width;
   vp::Parameter<bool> mm2s_dre;
   vp::Parameter<bool> s2mm_dre;
@@ -55,6 +58,8 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   /// The channels. Throw std::logic_error if the build does not have them.
   Mm2sChannel& mm2s();
   S2mmChannel& s2mm();
+  /// The engine that moves descriptors. Throws std::logic_error if the build does not have it.
+  ScatterGather& scatter_gather();
 
   /// Words moved between memory and the core so far.
   std::uint64_t beats() const;
@@ -88,6 +93,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   void warn(const char* id, const std::string& message) const override;
 
   void build_channels();
+  void build_scatter_gather();
   void drive(Interrupt& interrupt);
   bool interrupts_differ() const;
   std::uint64_t run_soft_reset(std::uint64_t cycle);
@@ -95,6 +101,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
 
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;
+  std::unique_ptr<ScatterGather> scatter_gather_;
   std::vector<Interrupt> interrupts_;  ///< of the channels that are built
   std::uint64_t planned_ = 0;  ///< the next edge that runs, unless a signal wakes it earlier
   bool stopped_ = false;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <tlm>
@@ -111,8 +112,12 @@ struct DmaTiming {
                       "soft reset, once outstanding bursts are over (HDL of v7.1)"};
 };
 
-/// What both channels share: the registers, run and halt, completion, errors and the interrupt.
-/// Derived classes move the data.
+class DescriptorRing;
+struct Descriptor;
+struct ScatterGather;
+
+/// What both channels share: the registers, run and halt, descriptors, completion, errors and the
+/// interrupt. Derived classes move the data.
 class DmaChannel {
  public:
   /// The part of the core that a channel needs.
@@ -137,7 +142,7 @@ class DmaChannel {
   };
 
   struct Offsets {
-    std::uint32_t dmacr, dmasr, address, address_msb, length;
+    std::uint32_t dmacr, dmasr, curdesc, taildesc, address, address_msb, length;
   };
 
   static constexpr std::uint64_t never = vp::Clock::never;
@@ -145,19 +150,25 @@ class DmaChannel {
   /// `counts_at_rest`: sample() is to run without a transfer, too.
   DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name,
              bool counts_at_rest);
-  virtual ~DmaChannel() = default;
+  virtual ~DmaChannel();
 
   vp::Register& dmacr;
   vp::Register& dmasr;
+  vp::Register& curdesc;
+  vp::Register& taildesc;
   vp::Register& address;
   vp::Register& address_msb;
   vp::Register& length;
 
   /// Bits of LENGTH, and whether the address may be unaligned (data realignment engine).
   void configure(std::uint32_t length_width, bool unaligned);
+  /// Descriptors say what is to be moved, instead of the address and LENGTH registers. After
+  /// configure().
+  void use(ScatterGather& engine);
 
   /// Told when a transfer is accepted (true) and when its end shows in the status register (false),
-  /// at these very times. Null: nobody is.
+  /// at these very times; with descriptors, when the first of a row begins to move and when the
+  /// last has moved. Null: nobody is.
   using TransferListener = std::function<void(bool begins)>;
   void on_transfer(TransferListener listener) { transfer_listener_ = std::move(listener); }
 
@@ -175,6 +186,8 @@ class DmaChannel {
   /// Status AND enable: what the interrupt output shows one clock later.
   bool interrupt() const { return (dmasr & dmacr & axi_dma::dmasr::interrupts) != 0; }
 
+  /// No burst is on the bus, no status of a descriptor on its way.
+  bool settled(std::uint64_t cycle) const;
   /// RS = 0, the transfer is dropped; halts when outstanding bursts are over.
   void stop();
   /// Drops the transfer under way; bursts on the bus finish.
@@ -185,8 +198,17 @@ class DmaChannel {
   void reset();
 
  protected:
+  /// What a transfer moves: all of it in direct register mode, or the buffer of a descriptor.
+  struct Segment {
+    std::uint32_t address = 0;
+    std::uint32_t bytes = 0;
+    bool ends_packet = true;  ///< to a stream: TLAST comes with its last beat
+  };
+
   /// A transfer begins: first address or TREADY on edge `first_cycle`.
-  virtual void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) = 0;
+  virtual void begin(const Segment& segment, std::uint64_t first_cycle) = 0;
+  /// Another one may begin while those before it are still under way.
+  virtual bool accepts_segment() const = 0;
   /// Moves data on one edge; calls finish() or fail(). Returns the next edge that it needs.
   virtual std::uint64_t move(std::uint64_t cycle) = 0;
   /// The part of an edge that always runs: sampling the stream.
@@ -197,8 +219,9 @@ class DmaChannel {
   /// The transfer has reached memory or stream.
   virtual void completed() {}
 
-  /// The transfer is done and shows in the status register on edge `cycle`.
-  void finish(std::uint64_t cycle) { finish_at_ = cycle; }
+  /// The oldest transfer is done and shows in the status register on edge `cycle`, or in that of
+  /// its descriptor later: bytes and frame bits of its status are `status`.
+  void finish(std::uint64_t cycle, std::uint32_t status, bool ends_packet);
   /// It is not: something came in between.
   void unfinish() { finish_at_ = never; }
   /// The transfer failed; `error` is one of the error bits of DMASR.
@@ -210,6 +233,17 @@ class DmaChannel {
   static std::uint32_t error_bit(tlm::tlm_response_status response);
   bool keyhole() const { return dmacr.any(axi_dma::dmacr::Keyhole); }
 
+  bool uses_descriptors() const { return ring_ != nullptr; }
+  /// Begins what descriptors are there for, as far as the channel accepts it.
+  void begin_descriptors(std::uint64_t cycle);
+  /// The stream's packets, for the delay timer.
+  void packet_begins();
+  void packet_ends(std::uint64_t cycle);
+  /// The delay timer wants to know of the next packet's first beat.
+  bool waits_for_packet() const;
+  /// Takes back what began and has moved nothing yet; tells how many that were.
+  virtual unsigned withdraw_unused() { return 0; }
+
   Core& core_;
 
  private:
@@ -219,14 +253,28 @@ class DmaChannel {
   void status_written(std::uint32_t word);
   void length_written(std::uint32_t word);
   void latch_address();
+  void current_written(std::uint32_t word);
+  void tail_written(std::uint32_t word);
   bool at_rest() const {
-    return phase_ == Phase::idle && run_at_ == never && halt_at_ == never && !halting_;
+    return phase_ == Phase::idle && run_at_ == never && halt_at_ == never && !halting_ &&
+           (!ring_ || ring_rests());
   }
+  bool ring_rests() const;
+  bool cyclic() const { return dmacr.any(axi_dma::dmacr::Cyclic_BD_Enable); }
+  void run_ring(std::uint64_t cycle);
+  void pause_ring(std::uint64_t cycle);
+  void begin_descriptor(const Descriptor& next, std::uint64_t cycle);
+  void leave(unsigned count);
+  Segment segment_of(const Descriptor& from) const;
+  std::uint32_t aligned(std::uint32_t address) const;
   std::uint64_t starts_at() const;
   void start(std::uint64_t cycle);
   std::uint64_t shows_at() const;
   void report_status(std::uint64_t cycle);
+  void report_error(std::uint64_t cycle, std::uint32_t error);
   void warn_of_bus_error() const;
+  void warn_of_pointer(const std::string& pointer, std::uint32_t word) const;
+  void warn_of_descriptor(std::uint32_t at, std::uint32_t error) const;
   void set_interrupt(std::uint32_t bit, std::uint64_t cycle);
   std::uint64_t run_and_halt(std::uint64_t cycle);
   void halt_after(std::uint64_t cycle);
@@ -235,9 +283,14 @@ class DmaChannel {
   bool running() const { return dmacr.any(axi_dma::dmacr::RS); }
 
   std::string name_;
+  std::unique_ptr<DescriptorRing> ring_;  ///< null in direct register mode
+  unsigned under_way_ = 0;                ///< descriptors whose data is being moved
+  bool in_order_ = false;                 ///< descriptors go on: Idle comes when they are done
+  std::uint32_t control_ = 0;             ///< DMACR before the last write
   TransferListener transfer_listener_;
   const bool counts_at_rest_;
   bool unaligned_ = false;
+  std::uint32_t length_width_ = 0;
   Phase phase_ = Phase::idle;
   std::uint32_t requested_bytes_ = 0;
   std::uint64_t accepted_at_ = 0;

@@ -16,7 +16,11 @@ constexpr unsigned outstanding_bursts = 4;
 /// FIFO of the DataMover in bursts: pipeline + 2, rounded up to a power of two (HDL of v5.1).
 constexpr unsigned fifo_bursts = 8;
 
-constexpr DmaChannel::Offsets offsets{MM2S_DMACR, MM2S_DMASR, MM2S_SA, MM2S_SA_MSB, MM2S_LENGTH};
+/// Commands that the DataMover holds (HDL of v5.1).
+constexpr unsigned command_queue = 4;
+
+constexpr DmaChannel::Offsets offsets{MM2S_DMACR, MM2S_DMASR,  MM2S_CURDESC, MM2S_TAILDESC,
+                                      MM2S_SA,    MM2S_SA_MSB, MM2S_LENGTH};
 
 }  // namespace
 
@@ -30,12 +34,20 @@ Mm2sChannel::Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
   owner.wake_on(m_axis.tready);
 }
 
-void Mm2sChannel::begin(std::uint32_t from, std::uint32_t bytes, std::uint64_t first_cycle) {
-  read_address_ = from;
-  to_request_ = to_send_ = bytes;
-  buffered_ = 0;
-  taken_ = 0;
+bool Mm2sChannel::accepts_segment() const {
+  return to_request_ == 0 && segments_.size() < command_queue;
+}
+
+void Mm2sChannel::begin(const Segment& segment, std::uint64_t first_cycle) {
+  read_address_ = segment.address;
+  to_request_ = segment.bytes;
   request_at_ = first_cycle;
+  if (segments_.empty()) {
+    to_send_ = segment.bytes;
+    buffered_ = 0;
+    taken_ = 0;
+  }
+  segments_.push_back(segment);
 }
 
 void Mm2sChannel::sample(std::uint64_t) {
@@ -43,15 +55,18 @@ void Mm2sChannel::sample(std::uint64_t) {
 }
 
 std::uint64_t Mm2sChannel::move(std::uint64_t cycle) {
-  if (accepted_ && m_axis.tlast.get()) {
-    withdraw();
-    finish(cycle + core_.timing().completion_latency);
-    return never;
+  if (accepted_ && to_send_ == 0) {
+    end_segment(cycle);
+    if (segments_.empty()) {
+      withdraw();
+      return never;
+    }
   }
   if (!bursts_.empty() && bursts_.back().pending && m_axi.done()) schedule(bursts_.back(), cycle);
   if (next_request_at(cycle) <= cycle) {
     if (take_whole_burst(cycle)) return never;
     request(cycle);
+    if (to_request_ == 0) begin_descriptors(cycle);
   }
   if ((!offering_ || accepted_) && !offer(cycle)) withdraw();
   return next_edge(cycle);
@@ -127,6 +142,16 @@ std::uint64_t Mm2sChannel::next_beat_at() const {
   return never;
 }
 
+void Mm2sChannel::end_segment(std::uint64_t cycle) {
+  const Segment sent = segments_.front();
+  segments_.pop_front();
+  to_send_ = segments_.empty() ? 0 : segments_.front().bytes;
+  if (sent.ends_packet) packet_ends(cycle);
+  in_packet_ = !sent.ends_packet;
+  finish(cycle + core_.timing().completion_latency, sent.bytes, sent.ends_packet);
+  begin_descriptors(cycle);
+}
+
 // Offers the next beat if its data has come. False if there is none to offer.
 bool Mm2sChannel::offer(std::uint64_t cycle) {
   if (to_send_ == 0 || next_beat_at() > cycle) return false;
@@ -151,7 +176,10 @@ bool Mm2sChannel::offer(std::uint64_t cycle) {
   to_send_ -= bytes;
   buffered_ -= bytes;
   offering_ = true;
-  m_axis.offer(data, to_send_ == 0, static_cast<std::uint8_t>((1u << bytes) - 1));
+  if (!in_packet_) packet_begins();
+  in_packet_ = true;
+  const bool last = to_send_ == 0 && segments_.front().ends_packet;
+  m_axis.offer(data, last, static_cast<std::uint8_t>((1u << bytes) - 1));
   return true;
 }
 
@@ -172,6 +200,7 @@ std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
 
 // A transfer of one burst of whole words whose data is there at once: its time is known.
 bool Mm2sChannel::take_whole_burst(std::uint64_t cycle) {
+  if (uses_descriptors()) return false;
   const std::uint32_t bytes = to_request_;
   if (bytes != to_send_ || !bursts_.empty() || offering_) return false;
   if (burst_bytes() != bytes || keyhole()) return false;
@@ -185,7 +214,7 @@ bool Mm2sChannel::take_whole_burst(std::uint64_t cycle) {
   std::uint64_t& bus_free = m_axi.path().read_free;
   whole_first_ = std::max(cycle + t.read_latency + t.memory_read_latency, bus_free);
   bus_free = bus_busy_until_ = whole_first_ + whole_words_;
-  finish(bus_busy_until_ + t.completion_latency);
+  finish(bus_busy_until_ + t.completion_latency, bytes, true);
   return true;
 }
 
@@ -194,6 +223,7 @@ void Mm2sChannel::completed() {
   m_axis.send_burst(whole_burst_.data(), whole_words_, true);
   whole_words_ = 0;
   to_request_ = to_send_ = 0;
+  segments_.clear();
 }
 
 // What passed so far is given; the state is that of single beats from here on.
@@ -227,6 +257,8 @@ void Mm2sChannel::abandon() {
   settle(core_.channel_clock().cycle());
   withdraw();
   to_request_ = to_send_ = buffered_ = 0;
+  segments_.clear();
+  in_packet_ = false;
   if (m_axi.done()) bursts_.clear();
 }
 

@@ -30,7 +30,8 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
     std::vector<unsigned char> data;
   };
 
-  void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) override;
+  void begin(const Segment& segment, std::uint64_t first_cycle) override;
+  bool accepts_segment() const override;
   std::uint64_t move(std::uint64_t cycle) override;
   void sample(std::uint64_t cycle) override;
   void abandon() override;
@@ -43,6 +44,7 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   void schedule(Burst& burst, std::uint64_t cycle);
   bool offer(std::uint64_t cycle);
   void withdraw();
+  void end_segment(std::uint64_t cycle);
   std::uint64_t next_edge(std::uint64_t cycle) const;
   std::uint64_t next_beat_at() const;
   bool take_whole_burst(std::uint64_t cycle);
@@ -52,13 +54,15 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   std::deque<Burst> bursts_;
   std::uint64_t read_address_ = 0;
   std::uint32_t to_request_ = 0;  ///< bytes of the transfer not requested yet
-  std::uint32_t to_send_ = 0;     ///< bytes not offered yet
+  std::deque<Segment> segments_;  ///< under way; the first is being sent
+  std::uint32_t to_send_ = 0;     ///< bytes of that one not offered yet
   std::uint32_t buffered_ = 0;    ///< bytes requested and not offered yet
   unsigned taken_ = 0;            ///< bytes of the first burst offered already
   std::uint64_t request_at_ = 0;
   std::uint64_t bus_busy_until_ = 0;
   bool offering_ = false;  ///< tvalid, as driven last
   bool accepted_ = false;  ///< the beat on offer passed on this edge
+  bool in_packet_ = false;
   std::vector<std::uint32_t>
       whole_burst_;                ///< begins with the words that go to a sink in one call,
   std::uint32_t whole_words_ = 0;  ///< so many

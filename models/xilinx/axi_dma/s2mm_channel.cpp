@@ -15,7 +15,11 @@ constexpr std::uint8_t all_bytes = 0xF;
 /// FIFO of the DataMover in bursts (HDL of v5.1, as for reads).
 constexpr unsigned fifo_bursts = 8;
 
-constexpr DmaChannel::Offsets offsets{S2MM_DMACR, S2MM_DMASR, S2MM_DA, S2MM_DA_MSB, S2MM_LENGTH};
+/// Commands that the DataMover holds (HDL of v5.1).
+constexpr unsigned command_queue = 4;
+
+constexpr DmaChannel::Offsets offsets{S2MM_DMACR, S2MM_DMASR,  S2MM_CURDESC, S2MM_TAILDESC,
+                                      S2MM_DA,    S2MM_DA_MSB, S2MM_LENGTH};
 
 }  // namespace
 
@@ -30,12 +34,27 @@ S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
   s_axis.accept_source();
 }
 
-void S2mmChannel::begin(std::uint32_t to, std::uint32_t bytes, std::uint64_t first_cycle) {
-  write_address_ = to;
-  capacity_ = bytes;
+bool S2mmChannel::accepts_segment() const {
+  return closed_ && transfers_.size() < command_queue;
+}
+
+void S2mmChannel::begin(const Segment& segment, std::uint64_t first_cycle) {
+  write_address_ = segment.address;
+  capacity_ = segment.bytes;
   received_ = 0;
   ready_from_ = first_cycle;
   closed_ = overflow_ = draining_ = false;
+  transfers_.emplace_back().status = in_packet_ ? 0 : descriptor::StartOfFrame;
+}
+
+// The buffer that takes beats, if none came.
+unsigned S2mmChannel::withdraw_unused() {
+  if (closed_ || received_ != 0 || in_packet_) return 0;
+  transfers_.pop_back();
+  closed_ = true;
+  ready_from_ = never;
+  s_axis.tready = false;
+  return 1;
 }
 
 void S2mmChannel::sample(std::uint64_t cycle) {
@@ -46,6 +65,7 @@ void S2mmChannel::sample(std::uint64_t cycle) {
 std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
   take_beats(cycle);
   drive_bus(cycle);
+  if (closed_) begin_descriptors(cycle);
   s_axis.tready = cycle >= ready_from_ && !closed_ && buffered_beats(cycle) < fifo_beats_;
   return next_edge(cycle);
 }
@@ -97,8 +117,9 @@ std::uint64_t S2mmChannel::next_beat_of_interest(std::uint64_t cycle) const {
   const std::uint32_t in_burst = static_cast<std::uint32_t>(
       keyhole() ? collected_.size() : (write_address_ + collected_.size()) % burst_size_);
   const std::uint32_t bytes = std::min(burst_size_ - in_burst, capacity_ - received_);
-  const std::uint32_t beats =
-      std::min((bytes + word_bytes - 1) / word_bytes, fifo_beats_ - buffered_beats(cycle));
+  const std::uint32_t beats = waits_for_packet() ? 1
+                                                 : std::min((bytes + word_bytes - 1) / word_bytes,
+                                                            fifo_beats_ - buffered_beats(cycle));
   return std::max(cycle + 1, s_axis.source()->earliest_pass(std::max(beats, 1u)));
 }
 
@@ -118,10 +139,21 @@ void S2mmChannel::take_beat(std::uint32_t data, std::uint8_t keep, bool last, st
   end_beat(last, cycle);
 }
 
+// The next descriptor has room for the rest of a packet; in direct register mode nothing has.
 void S2mmChannel::end_beat(bool last, std::uint64_t cycle) {
-  if (received_ == capacity_ && !last) overflow_ = true;
-  closed_ = last || overflow_;
-  if (closed_) close_burst(cycle);
+  if (!in_packet_) packet_begins();
+  in_packet_ = !last;
+  if (last) packet_ends(cycle);
+  const bool full = received_ == capacity_;
+  if (full && !last && !uses_descriptors()) overflow_ = true;
+  closed_ = last || full || overflow_;
+  if (!closed_) return;
+  close_burst(cycle);
+  ready_from_ = never;
+  Transfer& transfer = transfers_.back();
+  transfer.closed = true;
+  transfer.overflow = overflow_;
+  transfer.status |= received_ | (last ? descriptor::EndOfFrame : 0);
 }
 
 void S2mmChannel::close_burst(std::uint64_t cycle) {
@@ -139,6 +171,7 @@ void S2mmChannel::close_burst(std::uint64_t cycle) {
   queued_beats_ += burst.beats;
   collected_beats_ = 0;
   bursts_.push_back(std::move(burst));
+  ++transfers_.back().bursts;
 }
 
 // Beats in the FIFO after edge `cycle`: those of the burst on the bus leave one by one.
@@ -167,8 +200,8 @@ void S2mmChannel::drive_bus(std::uint64_t cycle) {
       cycle >= bus_free_at_) {
     start_burst(cycle);
   }
-  if (closed_ && bursts_.empty() && bus_ == Bus::free) {
-    conclude(cycle + core_.timing().memory_write_latency, overflow_ ? dmasr::DMAIntErr : 0);
+  if (!transfers_.empty() && transfers_.front().closed && transfers_.front().bursts == 0) {
+    conclude(cycle);
   }
 }
 
@@ -184,18 +217,29 @@ void S2mmChannel::end_burst(std::uint64_t cycle) {
   bus_free_at_ = cycle + core_.timing().write_gap;
   queued_beats_ -= bursts_.front().beats;
   bursts_.pop_front();
+  if (!transfers_.empty()) --transfers_.front().bursts;
   const std::uint32_t error = error_bit(m_axi.response());
-  if (error != 0 && !draining_) conclude(cycle + core_.timing().memory_write_latency, error);
+  if (error != 0 && !draining_) fail_transfer(cycle, error);
 }
 
-void S2mmChannel::conclude(std::uint64_t cycle, std::uint32_t error) {
+// The oldest transfer is in memory.
+void S2mmChannel::conclude(std::uint64_t cycle) {
+  const Transfer transfer = transfers_.front();
+  if (transfer.overflow) return fail_transfer(cycle, dmasr::DMAIntErr);
+  transfers_.pop_front();
+  finish(shown_at(cycle), transfer.status, (transfer.status & descriptor::EndOfFrame) != 0);
+}
+
+void S2mmChannel::fail_transfer(std::uint64_t cycle, std::uint32_t error) {
   ready_from_ = never;
-  closed_ = false;
-  if (error != 0) {
-    fail(cycle + core_.timing().completion_latency, error);
-  } else {
-    finish(cycle + core_.timing().completion_latency);
-  }
+  closed_ = true;
+  transfers_.clear();
+  fail(shown_at(cycle), error);
+}
+
+std::uint64_t S2mmChannel::shown_at(std::uint64_t cycle) const {
+  const DmaTiming& timing = core_.timing();
+  return cycle + timing.memory_write_latency + timing.completion_latency;
 }
 
 void S2mmChannel::completed() {
@@ -227,8 +271,9 @@ void S2mmChannel::abandon() {
     while (s_axis.source()->take(core_.channel_clock().cycle()).count != 0) continue;
   }
   ready_from_ = never;
-  closed_ = overflow_ = false;
-  draining_ = true;
+  closed_ = draining_ = true;
+  overflow_ = in_packet_ = false;
+  transfers_.clear();
   collected_.clear();
   collected_beats_ = 0;
   while (bursts_.size() > (bus_ == Bus::free ? 0u : 1u)) bursts_.pop_back();

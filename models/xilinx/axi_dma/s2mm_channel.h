@@ -30,9 +30,18 @@ class S2mmChannel : public DmaChannel {
     unsigned beats = 0;
     std::vector<unsigned char> data;
   };
+  /// A transfer that is not in memory yet.
+  struct Transfer {
+    bool closed = false;       ///< no more beats belong to it
+    bool overflow = false;     ///< the packet is longer, or had no TLAST at its end
+    unsigned bursts = 0;       ///< to be written
+    std::uint32_t status = 0;  ///< bytes received and frame bits, as descriptors have them
+  };
   enum class Bus { free, busy, answering };
 
-  void begin(std::uint32_t address, std::uint32_t bytes, std::uint64_t first_cycle) override;
+  void begin(const Segment& segment, std::uint64_t first_cycle) override;
+  bool accepts_segment() const override;
+  unsigned withdraw_unused() override;
   std::uint64_t move(std::uint64_t cycle) override;
   void sample(std::uint64_t cycle) override;
   void abandon() override;
@@ -49,7 +58,9 @@ class S2mmChannel : public DmaChannel {
   void drive_bus(std::uint64_t cycle);
   void start_burst(std::uint64_t cycle);
   void end_burst(std::uint64_t cycle);
-  void conclude(std::uint64_t cycle, std::uint32_t error);
+  void conclude(std::uint64_t cycle);
+  void fail_transfer(std::uint64_t cycle, std::uint32_t error);
+  std::uint64_t shown_at(std::uint64_t cycle) const;
   unsigned buffered_beats(std::uint64_t cycle) const;
   std::uint64_t next_edge(std::uint64_t cycle) const;
 
@@ -59,8 +70,10 @@ class S2mmChannel : public DmaChannel {
   std::uint32_t capacity_ = 0;       ///< LENGTH
   std::uint32_t received_ = 0;       ///< bytes taken that LENGTH has room for
   std::uint64_t ready_from_ = never;
-  bool closed_ = false;    ///< no more beats belong to the transfer
-  bool overflow_ = false;  ///< the packet is longer than LENGTH, or had no TLAST at its end
+  bool closed_ = true;     ///< no more beats belong to the last transfer
+  bool overflow_ = false;  ///< the packet has bytes that it has no room for
+  bool in_packet_ = false;
+  std::deque<Transfer> transfers_;  ///< under way; the last one takes beats until it is closed
   std::vector<unsigned char> collected_;
   unsigned collected_beats_ = 0;
   std::deque<Burst> bursts_;

@@ -26,6 +26,7 @@ void AxiInterconnect::connect(AxiDma& dma) {
   };
   if (dma.include_mm2s) add(dma.mm2s().m_axi);
   if (dma.include_s2mm) add(dma.s2mm().m_axi);
+  if (dma.include_sg) add(dma.scatter_gather().m_axi);
 }
 
 // With the protocol converter of the registers, or the width converter of the memory port.

@@ -62,6 +62,10 @@ struct DmaBench : Simulation {
       dma.s2mm().s_axis(s2mm_link);
       dma.s2mm().m_axi.link.add_observer(s2mm_bursts);
     }
+    if (build.include_sg) {
+      dma.scatter_gather().m_axi.link.socket.bind(router.socket);
+      dma.scatter_gather().m_axi.link.add_observer(sg_bursts);
+    }
     dma.axi_resetn(resetn);
     std::iota(memory.data(), memory.data() + memory_size, 0);
   }
@@ -115,7 +119,7 @@ struct DmaBench : Simulation {
   vp::AxiStream mm2s_link{"mm2s_link"}, s2mm_link{"s2mm_link"};
   StreamSink sink{"sink", clock};
   StreamSource source{"source", clock};
-  BurstLog mm2s_bursts, s2mm_bursts;
+  BurstLog mm2s_bursts, s2mm_bursts, sg_bursts;
   std::ostringstream text;
   vp::ReportRouter reports;
 };
