@@ -14,9 +14,7 @@
 #include <input/frame_source.h>
 #include <page/report_page.h>
 #include <profiles/cost_profile.h>
-#include <validation/plots.h>
 #include <validation/validation.h>
-#include <validation/words.h>
 #include <vp/file.h>
 #include <vp/progress.h>
 

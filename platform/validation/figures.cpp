@@ -3,7 +3,7 @@
 #include <scene/renderer.h>
 #include <scene/scene.h>
 #include <validation/measured.h>
-#include <validation/plots.h>
+#include <validation/validation.h>
 
 namespace platform::validation {
 

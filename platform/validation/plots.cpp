@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <host/process.h>
-#include <validation/plots.h>
+#include <validation/validation.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -10,7 +10,6 @@
 #include <scene/scene.h>
 #include <validation/measured.h>
 #include <validation/published.h>
-#include <validation/words.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,7 @@
 
 #include <validation/measured.h>
 #include <validation/published.h>
-#include <validation/words.h>
+#include <validation/validation.h>
 #include <vp/text.h>
 
 namespace platform::validation {

@@ -1,6 +1,6 @@
 #include <zynq/power_sources.h>
 
-#include <power/chip_energy.h>
+#include <power/design_estimate.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <xilinx/axi_dma/dma_channel.h>

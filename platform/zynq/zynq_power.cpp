@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <power/chip_energy.h>
+#include <power/design_estimate.h>
 #include <zynq/parts.h>
 #include <zynq/power_sources.h>
 

@@ -1,8 +1,8 @@
 // The model against public power reports of Vivado for the same device.
-#include <power/chip_energy.h>
+#include <power/design_estimate.h>
 #include <power/power_table.h>
-#include <vp/text.h>
 #include <vp/power_meter.h>
+#include <vp/text.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include <scene/scene.h>
-#include <validation/plots.h>
+#include <validation/validation.h>
 
 namespace synthetic {
 

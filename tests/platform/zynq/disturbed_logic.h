@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <designs/marker/programmable_logic.h>
+#include <designs/marker/marker_design.h>
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
 #include <vp/configuration.h>
