@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <utility>
 
 #include <report/console.h>
@@ -104,47 +103,6 @@ std::optional<double> seconds_of(const sweep::SearchChoice& choice) {
                        "' is no time for a search: write '90 s' or '3600 s'");
 }
 
-/// "summary.fps.mean >= 200", in parts.
-struct Bound {
-  std::string name, comparison;
-  double number;
-};
-
-std::optional<Bound> bound_of(const std::string& text) {
-  static const std::regex form(R"(\s*`?([\w.]+)`?\s*(<=|>=|<|>|==)\s*([-+.\deE]+)\s*)");
-  std::smatch parts;
-  if (!std::regex_match(text, parts, form)) return std::nullopt;
-  return Bound{parts[1], parts[2], std::strtod(parts[3].str().c_str(), nullptr)};
-}
-
-/// Whether no number is within both.
-bool contradict(const Bound& a, const Bound& b) {
-  if (a.comparison[0] == '>' && b.comparison[0] != '>') return contradict(b, a);
-  if (a.comparison == "==" && b.comparison == "==") return a.number != b.number;
-  const bool both = a.comparison.size() == 2 && b.comparison.size() == 2;  // ends included
-  const auto is_above = [&](double most, double least) {
-    return both ? least > most : least >= most;
-  };
-  if (a.comparison[0] == '<' && b.comparison[0] != '<') return is_above(a.number, b.number);
-  if (a.comparison == "==")
-    return b.comparison[0] == '<' ? is_above(b.number, a.number) : is_above(a.number, b.number);
-  return b.comparison == "==" && is_above(a.number, b.number);
-}
-
-void check_bounds(const std::vector<vp::Expression>& constraints) {
-  std::map<std::string, std::vector<std::pair<Bound, std::string>>> bounds;
-  for (const vp::Expression& constraint : constraints) {
-    const std::optional<Bound> bound = bound_of(constraint.text());
-    if (!bound) continue;
-    for (const auto& [other, text] : bounds[bound->name]) {
-      if (contradict(*bound, other))
-        throw vp::InputError("'" + text + "' and '" + constraint.text() +
-                             "' contradict each other: no point can do both; leave out one");
-    }
-    bounds[bound->name].emplace_back(*bound, constraint.text());
-  }
-}
-
 }  // namespace
 
 Explorer::Explorer(sweep::Space& space, Compute compute, OnGeneration on_generation)
@@ -179,20 +137,6 @@ void Explorer::check() const {
     throw vp::InputError(start +
                          "the space has one point, so there is nothing to search: "
                          "'markervp sweep' computes it; give parameters more values");
-  for (const sweep::Objective& objective : goal_.objectives) check_objective(objective);
-  check_bounds(results_.constraints);
-}
-
-void Explorer::check_objective(const sweep::Objective& objective) const {
-  const vp::Expression& figure = objective.figure();
-  const vp::ExpressionValue value =
-      figure.value([&](const std::string& name) -> vp::ExpressionValue {
-        if (sweep::kind_of_metric(name) != nullptr) return 1.0L;
-        return space_.value({}, name);
-      });
-  if (value.is_text)
-    figure.refuse(figure.names().front(),
-                  "this is a text: an objective is a number; 'markervp metrics' lists those");
 }
 
 void Explorer::check_first_generation() const {

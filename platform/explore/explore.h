@@ -83,7 +83,6 @@ class Explorer {
 
  private:
   void check() const;
-  void check_objective(const sweep::Objective& objective) const;
   void check_first_generation() const;
   sweep::Assignment assignment(const Genome& genome) const;
   double broken_conditions(const sweep::Assignment& point, const Goal& goal) const;

@@ -14,10 +14,10 @@
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/plan.h>
-#include <vp/unit.h>
 #include <vp/error.h>
 #include <vp/expression.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 
 namespace platform::sweep {
 
@@ -152,7 +152,19 @@ class Planner {
       }
     }
     for (const std::string& text : spec_.objectives)
-      check_names(Objective(text, spec_.origin + ": objectives").figure());
+      check_figure(Objective(text, spec_.origin + ": objectives").figure());
+  }
+
+  void check_figure(const vp::Expression& figure) const {
+    check_names(figure);
+    const vp::ExpressionValue value =
+        figure.value([&](const std::string& name) -> vp::ExpressionValue {
+          const bool known = is_special(name) || bases_.front().table.has(name);
+          return known ? value_of({}, name) : vp::ExpressionValue(1.0L);
+        });
+    if (value.is_text)
+      figure.refuse(figure.names().front(),
+                    "this is a text: an objective is a number; 'markervp metrics' lists those");
   }
 
   void check_names(const vp::Expression& expression) const {

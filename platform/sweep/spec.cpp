@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <host/process.h>
@@ -20,6 +24,48 @@ namespace platform::sweep {
 namespace {
 
 constexpr const char* inputs_axis = "inputs";
+
+/// "summary.fps.mean >= 200", in parts.
+struct Bound {
+  std::string name, comparison;
+  double number;
+};
+
+std::optional<Bound> bound_of(const std::string& text) {
+  static const std::regex form(R"(\s*`?([\w.]+)`?\s*(<=|>=|<|>|==)\s*([-+.\deE]+)\s*)");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  return Bound{parts[1], parts[2], std::strtod(parts[3].str().c_str(), nullptr)};
+}
+
+/// Whether no number is within both.
+bool contradict(const Bound& a, const Bound& b) {
+  if (a.comparison[0] == '>' && b.comparison[0] != '>') return contradict(b, a);
+  if (a.comparison == "==" && b.comparison == "==") return a.number != b.number;
+  const bool both = a.comparison.size() == 2 && b.comparison.size() == 2;  // ends included
+  const auto is_above = [&](double most, double least) {
+    return both ? least > most : least >= most;
+  };
+  if (a.comparison[0] == '<' && b.comparison[0] != '<') return is_above(a.number, b.number);
+  if (a.comparison == "==")
+    return b.comparison[0] == '<' ? is_above(b.number, a.number) : is_above(a.number, b.number);
+  return b.comparison == "==" && is_above(a.number, b.number);
+}
+
+/// Throws vp::InputError for two constraints that no point can meet.
+void check_bounds(const std::vector<Condition>& constraints) {
+  std::map<std::string, std::vector<std::pair<Bound, std::string>>> bounds;
+  for (const Condition& constraint : constraints) {
+    const std::optional<Bound> bound = bound_of(constraint.text);
+    if (!bound) continue;
+    for (const auto& [other, text] : bounds[bound->name]) {
+      if (contradict(*bound, other))
+        throw vp::InputError(constraint.where + ": '" + text + "' and '" + constraint.text +
+                             "' contradict each other: no point can do both; leave out one");
+    }
+    bounds[bound->name].emplace_back(*bound, constraint.text);
+  }
+}
 
 class Reader : private vp::YamlReader {
  public:
@@ -59,6 +105,7 @@ class Reader : private vp::YamlReader {
         {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
     for_each(root, keys, "a sweep");
+    check_bounds(spec_.constraints);
   }
 
  private:

@@ -110,6 +110,12 @@ BOOST_FIXTURE_TEST_CASE(mistakes_cost_no_time, Sweeps) {
                       "did you mean 'sw.margin'"));
   BOOST_TEST(contains(problem("parameters: {sw.margin: [4 px]}\nobjectives: [summary.fps.mean]"),
                       "max METRIC"));
+  BOOST_TEST(contains(problem("parameters: {sw.margin: [4 px, 5 px]}\nobjectives: [max device]"),
+                      "this is a text"));
+  BOOST_TEST(contains(
+      problem("parameters: {sw.margin: [4 px, 5 px]}\ntarget_rate: 200 fps\nconstraints: "
+              "[summary.fps.mean <= 100]"),
+      "contradict each other"));
   BOOST_TEST(contains(run({"sweep", "pixel-clok"}).err, "did you mean 'pixel-clock'"));
 }
 

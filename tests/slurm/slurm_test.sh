@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sweep on a real Slurm of three nodes, of which one is lost in the middle: every point is computed once, and the
-# results are those of the local engine, byte for byte.
+# A sweep on a real Slurm of three nodes, of which one is lost in the middle, and a search: every point is computed once, and
+# the results are those of the local engine, byte for byte.
 #   slurm_test.sh MARKERVP
 # Exit code 77: skipped, because Slurm is not installed or may not be started.
 set -euo pipefail
@@ -79,5 +79,21 @@ grep -q 'of an earlier call is still in the queue: waiting for it' attached.log 
 [ "$(ls left/slurm | grep -c '^[0-9]*$')" = 1 ] || fail "the points were handed in again"
 each_once left 60
 diff -r local/points left/points || fail "points differ from those of the local engine"
+
+# A search hands in a generation at a time, and finds what it finds here.
+cat >search.yaml <<'Y'
+parameters:
+  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 79 MHz, step: 1 MHz}
+  ps.cpu_clk.frequency: {start: 200 MHz, stop: 650 MHz, step: 10 MHz}
+objectives: [max summary.fps.mean, min power.total_w.nominal]
+search: {points: 24, generation: 12}
+Y
+"$markervp" explore search.yaml --output found >found.log 2>&1 || fail "the local search"
+"$markervp" explore search.yaml --output searched --engine slurm --chunk 4 >searched.log 2>&1 || fail "the search on the cluster"
+grep -q 'The search looked at 24 of 2760 points' searched.log || fail "the search did not say what it looked at"
+diff -r found/points searched/points || fail "the search on the cluster computed other points"
+cmp found/sweep.csv searched/sweep.csv || fail "sweep.csv of the searches differs"
+each_once searched 24
+grep -q '"engine":"slurm"' searched/runs/*.jsonl || fail "nothing of the search was computed on the cluster"
 
 echo "60 points, each once, on $(cat cluster/runs/*.jsonl | sed 's/.*"host":"\([^"]*\)".*/\1/' | sort -u | tr '\n' ' ')"

@@ -1,12 +1,16 @@
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
 
+#include <host/process.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
 
@@ -49,6 +53,8 @@ class Platform : public kit::TemporaryFolder {
 
   explicit Platform(int count) : manifest_(points(count)) {}
 
+  int more_figures = 0;  ///< of each result
+
   Tally compute(const LocalOptions& options, const Mischief& mischief = {}) {
     const RunPoint run = [&](const PointRun& asked, PointResult& result, std::ostream& err) {
       const std::string number = asked.settings.at("a");
@@ -58,6 +64,8 @@ class Platform : public kit::TemporaryFolder {
       const int code = mischief ? mischief(std::stoi(number), attempts(number), err) : 0;
       result.configuration = {{"a", number}};
       result.result["summary"]["number"] = std::stoi(number);
+      for (int i = 0; i < more_figures; ++i)
+        result.result["summary"]["figure_" + std::to_string(i)] = i;
       return code;
     };
     std::vector<std::size_t> all;
@@ -167,6 +175,33 @@ BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_c
   for (const RunEntry& entry : entries)
     BOOST_TEST(entry.host.empty() == (entry.key == platform.key(1)), "nobody knows who it was");
   BOOST_TEST(platform.complete_runs().size() == 3u);
+}
+
+BOOST_AUTO_TEST_CASE(a_process_whose_sweep_was_killed_ends_in_the_middle_of_its_message) {
+  Platform platform(2);
+  platform.more_figures = 20'000;  // more than a pipe holds
+  std::array<int, 2> alive{};      // open as long as one of the processes is there
+  BOOST_TEST_REQUIRE(::pipe(alive.data()) == 0);
+  const pid_t sweep = ::fork();
+  if (sweep == 0) {
+    const platform::host::InterruptGuard
+        guard;  // as the command has it: a signal ends no process at once
+    platform.compute({1, "local", 64}, [](int, int, std::ostream&) {
+      ::kill(::getppid(), SIGKILL);
+      return 0;
+    });
+    ::_exit(0);
+  }
+  ::close(alive[1]);
+  int status = 0;
+  BOOST_TEST_REQUIRE(::waitpid(sweep, &status, 0) == sweep);
+  BOOST_TEST_REQUIRE((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+  pollfd end{alive[0], 0, 0};
+  constexpr int generous_ms = 60'000;
+  BOOST_TEST(::poll(&end, 1, generous_ms) == 1, "the process waits for a reader that is gone");
+  ::close(alive[0]);
+  BOOST_TEST(platform.store().has(platform.key(0)), "what it computed is kept");
+  BOOST_TEST(platform.attempts("1") == 0);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {

@@ -65,6 +65,17 @@ BOOST_AUTO_TEST_CASE(mistakes_are_named_with_their_line) {
       contains(complaint([] { platform::sweep::read_spec("/nowhere.yaml"); }), "No such file"));
 }
 
+BOOST_AUTO_TEST_CASE(constraints_that_no_point_can_meet_are_refused) {
+  BOOST_TEST(contains(problem("target_rate: 200 fps\nconstraints: [summary.fps.mean < 100]"),
+                      "s.yaml:2: 'summary.fps.mean >= 200' and 'summary.fps.mean < 100' "
+                      "contradict each other"));
+  for (const char* pair : {"a > 5, a < 5", "a >= 5, a < 5", "a == 5, a == 6", "a == 5, a > 5"})
+    BOOST_TEST(contains(problem("constraints: [" + std::string(pair) + "]"), "contradict"), pair);
+  for (const char* pair : {"a >= 5, a <= 5", "a > 5, b < 5", "a > 5, a < 6", "a > 5, a + 0 < 5"})
+    BOOST_CHECK_NO_THROW(
+        platform::sweep::parse_spec("constraints: [" + std::string(pair) + "]", "s.yaml"));
+}
+
 BOOST_AUTO_TEST_CASE(scenes_are_every_combination_of_their_conditions) {
   const Spec spec = parse_spec(
       "inputs: [z1.0]\nscenes: {base: demo, distance: [1 m, 2 m], noise: [0.01, 0.03]}\n",
