@@ -5,8 +5,8 @@
 #include <report/console.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
-#include <vp/unit.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 
 #include <algorithm>
 #include <array>
@@ -147,6 +147,9 @@ namespace {
 constexpr std::size_t most_figures = 6;
 /// Reasons of failure that are printed.
 constexpr std::size_t most_reasons = 8;
+
+/// Points that the page has: among so many a slider's move takes less than a tenth of a second.
+constexpr std::size_t most_page_points = 20'000;
 
 /// Figures that the page has of every sweep.
 constexpr const char* usual_figures[] = {"summary.fps.mean",
@@ -358,6 +361,37 @@ std::map<const ResultRow*, std::size_t> fronts_of(const Results& results,
   return found;
 }
 
+/// The rows that the page has room for: all of the first front, and of the others every so many.
+std::vector<const ResultRow*> page_rows(const Results& results,
+                                        const std::map<const ResultRow*, std::size_t>& fronts) {
+  std::vector<const ResultRow*> best, others;
+  for (const ResultRow& row : results.rows) {
+    const auto ranked = fronts.find(&row);
+    (ranked != fronts.end() && ranked->second == 1 ? best : others).push_back(&row);
+  }
+  const auto thin_out = [](std::vector<const ResultRow*>& rows, std::size_t most) {
+    const std::size_t all = rows.size();
+    if (all <= most) return;
+    for (std::size_t i = 0; i < most; ++i) rows[i] = rows[i * all / most];
+    rows.resize(most);
+  };
+  thin_out(best, most_page_points);
+  thin_out(others, most_page_points - best.size());
+  std::vector<const ResultRow*> rows(best);
+  rows.insert(rows.end(), others.begin(), others.end());
+  std::sort(rows.begin(), rows.end());  // as the sweep has them
+  return rows;
+}
+
+Json counts_json(const Results& results) {
+  const auto feasible = [&](const ResultRow& row) {
+    return results.feasible(row) == report::Holds::yes;
+  };
+  return {{"points", results.rows.size()},
+          {"feasible", std::count_if(results.rows.begin(), results.rows.end(), feasible)},
+          {"failed", results.failed()}};
+}
+
 }  // namespace
 
 std::string page_block(const Results& results, const std::string& folder, const Json& steps) {
@@ -373,6 +407,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
             {"swept", manifest.swept},
             {"effects", effects_json(manifest)},
             {"missing", results.missing},
+            {"counts", counts_json(results)},
             {"objectives", objectives_json(objectives)},
             {"constraints", Json::array()},
             {"metrics", Json::array()}};
@@ -383,9 +418,9 @@ std::string page_block(const Results& results, const std::string& folder, const 
   if (!steps.is_null()) json["steps"] = steps;
   const std::map<const ResultRow*, std::size_t> fronts = fronts_of(results, objectives);
   std::string points;
-  for (const ResultRow& row : results.rows) {
-    Json point = point_json(results, row, columns);
-    const auto ranked = fronts.find(&row);
+  for (const ResultRow* row : page_rows(results, fronts)) {
+    Json point = point_json(results, *row, columns);
+    const auto ranked = fronts.find(row);
     point["front"] = ranked == fronts.end() ? 0 : ranked->second;
     points += (points.empty() ? "" : ",") + json_text(point);
   }

@@ -13,7 +13,7 @@ const samples = require("./samples.cjs");
 const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
-  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(),
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
@@ -410,9 +410,18 @@ test("with 20 000 points a move of a limit is on the screen within 100 ms", () =
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {
   assert.match(await page.locator("#verdict").textContent(), /not feasible or not proven/);
+  assert.doesNotMatch(await page.locator("#verdict").textContent(), /This page has/);
   assert.match(await page.locator("#verdict").textContent(), /56 failed/);
   assert.match(await page.locator("#trade-off .note").textContent(), /56 points that failed are left out here/);
   assert.match(await page.locator("#maps .note").textContent(), /Crossed cells failed/);
+}));
+
+test("a page that has not all points of a sweep says so", () => open("partOfSweep", async (page) => {
+  const verdict = await page.locator("#verdict").textContent();
+  assert.match(verdict, /^300\u202f000 feasible points/);
+  assert.match(verdict, /699\u202f990 not feasible or not proven/);
+  assert.match(verdict, /This page has 40 of 1\u202f000\u202f000 points: the Pareto front/);
+  assert.match(await page.locator(".masthead").textContent(), /1\u202f000\u202f000 points/);
 }));
 
 test("a sweep shows what its study asks for: the best points first, the others apart with why", () => open("sweep", async (page) => {

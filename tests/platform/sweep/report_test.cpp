@@ -118,6 +118,37 @@ BOOST_AUTO_TEST_CASE(the_page_has_what_the_console_says) {
     "metrics":[null,null],"failed":true,"reasons":["failed: it stood"],"front":0})"));
 }
 
+BOOST_AUTO_TEST_CASE(a_page_of_very_many_points_has_the_front_and_some_of_the_others) {
+  Results results = example();
+  const ResultRow usual = results.rows[1];
+  results.rows.resize(4);
+  const std::size_t all = 45'003;
+  // The front is where a sample of every so many would leave it out.
+  const std::vector<std::size_t> best{1, 31'337, all - 1};
+  std::vector<ResultRow> rows(all, usual);
+  for (std::size_t i = 0; i < all; ++i) rows[i].key = std::to_string(i);
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const double better = static_cast<double>(i);
+    rows[best[i]].metrics =
+        judged(1, {{"summary.fps.mean", 90 + better}, {"power.total_w.nominal", 2 + better}});
+  }
+  results.rows = rows;
+  const Json block = Json::parse(page_block(results, "x"));
+  const Json counts{{"points", all}, {"feasible", best.size()}, {"failed", 0}};
+  BOOST_TEST(block["counts"] == counts);
+  BOOST_TEST_REQUIRE(block["points"].size() == 20'000u);
+  std::size_t on_front = 0, before = 0;
+  for (const Json& point : block["points"]) {
+    const std::size_t place = std::stoul(point["key"].get<std::string>());
+    BOOST_TEST((place == 0 || (place > before && place - before <= 4)), place);
+    before = place;
+    on_front += point["front"] == 1 ? 1 : 0;
+  }
+  BOOST_TEST(on_front == best.size());
+  BOOST_TEST(Json::parse(page_block(example(), "x"))["counts"] ==
+             Json::parse(R"({"points":5,"feasible":2,"failed":1})"));
+}
+
 BOOST_AUTO_TEST_CASE(a_point_without_a_verdict_is_not_feasible) {
   Results results = example();
   results.rows[0].metrics = {{"summary.fps.mean", 90}, {"power.total_w.nominal", 2}};

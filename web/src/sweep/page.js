@@ -43,12 +43,13 @@ function verdict(sweep) {
       h("dd", { class: "figure" }, h("span", { class: "value" }, significant(axis.of(point), 4)), h("span", { class: "unit" }, " " + axis.unit)),
       h("dd", { class: "band" }, sweep.parameters.map((p) => `${p.name.split(".").slice(-2).join(".")} ${p.text(point)}`).join(", ")));
   };
-  const failed = sweep.points.length - sweep.whole.length;
-  const bad = sweep.whole.length - sweep.feasible.length;
+  const { points: all, feasible, failed } = sweep.counts;
+  const bad = all - feasible - failed;
   return h("section", { id: "verdict", "aria-label": "Verdict" },
-    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(sweep.feasible.length, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} not feasible or not proven`),
+    h("ul", { class: "chips" }, h("li", { class: "good" }, `${counted(feasible, "feasible point")}`), bad > 0 && h("li", { class: "bad" }, `${fixed(bad, 0)} not feasible or not proven`),
       failed > 0 && h("li", { class: "bad" }, `${fixed(failed, 0)} failed`),
       sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
+    all > sweep.points.length && h("p", { class: "note", style: { margin: "0 0 14px" } }, `This page has ${fixed(sweep.points.length, 0)} of ${counted(all, "point")}: the Pareto front, and of the others every so many. sweep.csv and sweep.sqlite have all.`),
     sweep.constraints.length > 0 && h("p", { class: "note", style: { margin: "0 0 14px" } }, `A point must have ${sweep.constraints.join(" and ")}.`),
     h("dl", { class: "tiles" }, sweep.objectives.map(tile)));
 }
@@ -91,7 +92,7 @@ export function sweepPage(data) {
   const list = (wanted, caption, name) => points(sweep, selection, wanted, caption, name, open);
   return {
     title: sweep.title || (sweep.name ? `Sweep ${sweep.name}` : "Sweep"),
-    subtitle: [counted(sweep.points.length, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
+    subtitle: [counted(sweep.counts.points, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, selection, open)), panel,
       section("what-if", "What if?", whatIf(sweep, selection, open, compare)), compare,
