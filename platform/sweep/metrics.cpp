@@ -83,10 +83,20 @@ void gather(const Json& json, std::string path, Gathering& into) {
   walk(json, path, [&](const std::string& name, double value) { into[name].add(value); });
 }
 
+bool has_marker(const Json& frame, const Json& id) {
+  const auto markers = frame.find("markers");
+  return markers != frame.end() &&
+         std::any_of(markers->begin(), markers->end(),
+                     [&](const Json& marker) { return marker.value("id", Json()) == id; });
+}
+
 template <class Found>
 void find_in_frames(const Json& frames, const Found& found) {
   Gathering all;
+  Gathered detected;
   for (const Json& frame : frames) {
+    if (frame.contains("scene_marker"))
+      detected.add(has_marker(frame, frame["scene_marker"]) ? 1 : 0);
     for (const auto& [name, value] : frame.items()) {
       if (name == "markers") {
         all["frames.markers"].add(static_cast<double>(value.size()));
@@ -108,6 +118,7 @@ void find_in_frames(const Json& frames, const Found& found) {
     found(name + ".mean", gathered.sum / gathered.count);
     found(name + ".max", gathered.max);
   }
+  if (detected.count != 0) found("summary.detection_rate", detected.sum / detected.count);
 }
 
 /// A limit that is only known to be no lower says nothing about a clock above it.
@@ -294,6 +305,8 @@ const std::vector<MetricKind>& metric_kinds() {
       {"summary.frames", "", "frames that the software worked on"},
       {"summary.delivered", "", "of them with a result"},
       {"summary.detected", "", "of them with a marker"},
+      {"summary.detection_rate", "",
+       "share of the scenes' markers that were found, each with its ID; 1: all"},
       {"summary.fps.mean", "1/s", "frame rate: results over the time that they took"},
       {"summary.fps.min", "1/s", "frame rate of the slowest result"},
       {"summary.fps.max", "1/s", "frame rate of the fastest result"},

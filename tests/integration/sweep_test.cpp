@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -65,6 +66,37 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, 
   BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
 }
 
+// What a process keeps from one point for the next must show nowhere.
+BOOST_FIXTURE_TEST_CASE(a_random_tenth_of_a_study_equals_runs_of_their_own, Sweeps) {
+  write("s.yaml",
+        "inputs: [demo, z1.0]\n"
+        "parameters:\n"
+        "  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 70 MHz}\n"
+        "  ps.cpu_clk.frequency: {start: 200 MHz, stop: 667 MHz}\n"
+        "  pl.blob_detection.label_count: [16, 32, 64, 128]\n"
+        "  pl.feature_packaging.buffer_depth: [16, 64, 100]\n"
+        "  sw.canonical_width: [18 px, 36 px, 60 px]\n"
+        "  sw.opt: [O0, O2]\n"
+        "sample: {method: sobol, points: 100}\n");
+  BOOST_TEST(run({"sweep", "s.yaml", "--no-report", "--jobs", "2"}).exit_code == 0);
+  std::vector<std::string> files;
+  for (const auto& [file, text] : points("out/s")) files.push_back(file);
+  BOOST_TEST_REQUIRE(files.size() > 90u);
+  std::shuffle(files.begin(), files.end(), std::minstd_rand(18));
+  files.resize(files.size() / 10);
+  for (const std::string& file : files) {
+    const std::string point = *this / ("out/s/points/" + file);
+    const kit::Outcome alone =
+        run({"run", "--point", point, "--no-pictures", "--no-report", "-q", "-o", "alone"});
+    BOOST_TEST(alone.exit_code == 0, alone.err);
+    Json result = Json::parse(kit::read_file(*this / "alone/result.json"));
+    const Json record = Json::parse(kit::read_file(point));
+    BOOST_TEST(result["configuration"].dump() == record["identity"]["configuration"].dump());
+    for (const char* elsewhere : {"provenance", "configuration"}) result.erase(elsewhere);
+    BOOST_TEST(result.dump() == record["outcome"]["result"].dump(), file);
+  }
+}
+
 BOOST_FIXTURE_TEST_CASE(equal_points_are_computed_once, Sweeps) {
   write("s.yaml", "parameters: {ps.fclk_clk1.frequency: [50 MHz, 50000 kHz, 0.05 GHz, 25 MHz]}");
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--output", "d"}).out, "2 points: 2 computed now"));
@@ -112,10 +144,10 @@ BOOST_FIXTURE_TEST_CASE(mistakes_cost_no_time, Sweeps) {
                       "max METRIC"));
   BOOST_TEST(contains(problem("parameters: {sw.margin: [4 px, 5 px]}\nobjectives: [max device]"),
                       "this is a text"));
-  BOOST_TEST(contains(
-      problem("parameters: {sw.margin: [4 px, 5 px]}\ntarget_rate: 200 fps\nconstraints: "
-              "[summary.fps.mean <= 100]"),
-      "contradict each other"));
+  BOOST_TEST(
+      contains(problem("parameters: {sw.margin: [4 px, 5 px]}\ntarget_rate: 200 fps\nconstraints: "
+                       "[summary.fps.mean <= 100]"),
+               "contradict each other"));
   BOOST_TEST(contains(run({"sweep", "pixel-clok"}).err, "did you mean 'pixel-clock'"));
 }
 

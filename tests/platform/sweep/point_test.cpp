@@ -1,8 +1,8 @@
 #include <sweep/identity.h>
 #include <sweep/metrics.h>
 #include <sweep/point.h>
-#include <sweep/store.h>
 #include <sweep/report.h>
+#include <sweep/store.h>
 #include <vp/unit.h>
 
 #include "sweep_kit.h"
@@ -172,6 +172,20 @@ BOOST_AUTO_TEST_CASE(a_module_with_several_rows_is_one_figure) {
   BOOST_TEST(*metrics.find("power.modules.pl.blob_detection.w") == 0.4 + 0.01);
   BOOST_TEST(*metrics.find("power.modules.pl.blob_detection.mj") == 3.5);
   BOOST_TEST(*metrics.find("power.modules.ps.ddr.w") == 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_marker_counts_as_found_with_its_id_only) {
+  const auto rate = [](const char* frames) {
+    const Metrics metrics = metrics_of(Json::parse(std::string("{\"frames\": ") + frames + "}"));
+    const double* found = metrics.find("summary.detection_rate");
+    return found ? *found : -1;
+  };
+  BOOST_TEST(rate(R"([{"scene_marker": 7, "markers": [{"id": 3}, {"id": 7}]},
+                      {"scene_marker": 7, "markers": [{"id": 3}]},
+                      {"scene_marker": 7, "markers": []},
+                      {"scene_marker": 7, "gave_up": "it stood"},
+                      {"markers": [{"id": 5}]}])") == 0.25);
+  BOOST_TEST(rate(R"([{"markers": [{"id": 5}]}])") == -1, "nobody knows what a photograph has");
 }
 
 BOOST_AUTO_TEST_CASE(times_of_a_frame_given_up_are_no_figures) {

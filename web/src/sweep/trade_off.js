@@ -39,7 +39,9 @@ function isoLines({ x, y }, points, scales) {
     const place = (rate) => (turned ? [mj * rate / 1e3, rate] : [rate, mj * rate / 1e3]);
     if (to > from) lines.push({ mj, line: [place(from), place(to)] });
   }
-  return lines;
+  // Labels at the ends of lines that are too close would lie on each other.
+  const apart = (a, b) => Math.abs(a[0] - b[0]) / (scales.x.max - scales.x.min) + Math.abs(a[1] - b[1]) / (scales.y.max - scales.y.min);
+  return lines.reduce((kept, each) => (kept.length && apart(kept.at(-1).line[1], each.line[1]) < 0.05 ? kept : [...kept, each]), []);
 }
 
 /** What can stand at an axis: each figure with the way that is better, both ways where nobody says. */
@@ -192,7 +194,7 @@ function figureOf(sweep, selection, shown, frontIn, open) {
       const c = palette();
       sort();
       const scaled = (dim, more) => axis({ type: "value", min: scales[dim].min, max: scales[dim].max, interval: scales[dim].tick, name: sweep.label(shown[dim].axis), ...more,
-        axisLabel: { formatter: (v) => significant(Number(v.toPrecision(9)), scales[dim].tick < 0.01 ? 4 : 3) } });
+        axisLabel: { formatter: (v) => (Number.isInteger(scales[dim].tick) ? fixed(v, 0) : significant(Number(v.toPrecision(9)), scales[dim].tick < 0.01 ? 4 : 3)) } });
       return {
         legend: { top: 0, left: 0, itemWidth: 9, itemHeight: 9, data: looks().map((g) => g.name), textStyle: { color: c.soft } },
         grid: { left: 20, right: 64, top: 36, bottom: 34, containLabel: true },
