@@ -47,7 +47,7 @@ KERNELS = {
                  "transitions", "points_refitted", "corners_met", "fit_passes", "quads_refined",
                  "quads_fitted"],
     "code_reading": ["code_cells", "code_turns", "code_parts", "code_compares", "codes_read"],
-    "board_pose": ["marker_weighings", "pose_steps", "board_poses"],
+    "board_pose": ["marker_weighings", "markers_weighted", "pose_steps", "board_poses"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }

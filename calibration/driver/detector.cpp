@@ -44,8 +44,10 @@ std::vector<std::uint32_t> small_blobs(Random& random, std::uint32_t width, std:
 
 /// The extremes of a square at any angle.
 marker::Extremes random_extremes(Random& random) {
-  const double x = random.between(50, 100), y = random.between(50, 100), side = 20 * random.unit();
-  const double lean = side * random.unit();
+  const auto x = static_cast<std::int32_t>(random.between(50, 100));
+  const auto y = static_cast<std::int32_t>(random.between(50, 100));
+  const auto side = static_cast<std::int32_t>(random.between(8, 20));
+  const auto lean = static_cast<std::int32_t>(side * random.unit());
   return {{{x + lean, y},
            {x + lean + side, y},
            {x + lean + side, y + lean},
@@ -67,7 +69,7 @@ void measure_blob_check(Random& random, const marker::GreyImage& image) {
   measure(
       "blob_check",
       [&] {
-        detector.find_markers({image, false, {camera}}, blobs, detections);
+        detector.find_markers({image, {camera}}, blobs, detections);
         for (std::size_t i = 0; i < extremes.size(); ++i) {
           marker::largest_quad(extremes[i], quads[i]);
         }
@@ -118,7 +120,7 @@ void measure_detector(Random& random, std::uint32_t width, std::uint32_t height,
   measure(
       cold ? "quad_fit_cold" : "quad_fit",
       [&] {
-        for (Candidate& c : candidates) c.fit = marker::fit_quad(c.image, lens, c.guess, {});
+        for (Candidate& c : candidates) c.fit = marker::fit_quad({c.image, lens}, c.guess, {});
       },
       [&] {
         Checksum sum;
@@ -140,8 +142,9 @@ void measure_detector(Random& random, std::uint32_t width, std::uint32_t height,
       cold ? "code_reading_cold" : "code_reading",
       [&] {
         for (Candidate& c : candidates) {
-          const marker::CellReading reading =
-              marker::read_cells(c.image, {camera}, c.fit, book.dictionary().cells);
+          const marker::CellLook look =
+              marker::look_at_cells({c.image, {camera}}, c.fit.ideal, book.dictionary().cells);
+          const marker::CellReading reading = marker::read_cells(look, c.fit.dark, c.fit.bright);
           c.match = book.look_up(reading.word);
         }
       },
@@ -157,6 +160,7 @@ void measure_detector(Random& random, std::uint32_t width, std::uint32_t height,
 
 void measure_board_pose(Random& random) {
   std::vector<marker::SeenMarker> seen(1 + random.below(8));
+  std::vector<std::array<double, 64>> covariances(seen.size());
   const marker::GridBoard board{4, 4, 0.1, 0.03, 0};
   // A board seen aslant: its plane leans, without trigonometry.
   const double lean = random.unit() - 0.5, turn = random.unit() - 0.5, far = 1 + random.unit();
@@ -170,12 +174,14 @@ void measure_board_pose(Random& random) {
       seen[i].corners[k] = {camera.fx * x / z + camera.cx + 0.05 * random.unit(),
                             camera.fy * v / z + camera.cy + 0.05 * random.unit()};
     }
-    seen[i].covariance = marker::independent_corners(0.01 + 0.02 * random.unit());
+    covariances[i] = marker::independent_corners(0.01 + 0.02 * random.unit());
   }
   marker::BoardPoses poses{};
   measure(
       "board_pose",
       [&] {
+        for (std::size_t i = 0; i < seen.size(); ++i)
+          seen[i].weights = marker::weights_of(covariances[i]);
         poses = marker::estimate_board_pose(seen.data(), static_cast<std::uint32_t>(seen.size()),
                                             camera);
       },

@@ -39,7 +39,7 @@ const std::vector<Kernel>& kernels() {
         "lens_steps"}},
       {"code_reading",
        {"codes_read", "code_cells", "code_cells_dma", "code_parts", "code_compares", "code_turns"}},
-      {"board_pose", {"board_poses", "pose_steps", "marker_weighings"}},
+      {"board_pose", {"board_poses", "pose_steps", "markers_weighted", "marker_weighings"}},
       {"blob_detection",
        {"blob_frames", "blob_rows", "blob_pixels", "blob_dark", "blob_runs", "blob_rivals",
         "blob_labels", "blob_label_checks", "blobs_ended"}},

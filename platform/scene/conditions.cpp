@@ -31,7 +31,12 @@ class Conditions {
     }
   }
 
-  void place() const {
+  /// What several conditions decide together.
+  void finish() const {
+    if (all_markers_) {
+      int id = scene_.marker_id;
+      for (Square& square : scene_.squares) square.word = marker_word(++id % dictionary_size);
+    }
     if (!placed_) return;
     scene_.pose = pose_from_centre(rotation_x(pitch_) * (rotation_y(yaw_) * rotation_z(roll_)),
                                    {0, 0, distance_});
@@ -50,6 +55,7 @@ class Conditions {
         {"blur", &Conditions::set_blur},
         {"light", &Conditions::set_light},
         {"squares", &Conditions::set_squares},
+        {"markers", &Conditions::set_markers},
         {"id", &Conditions::set_id}};
     return all;
   }
@@ -95,11 +101,16 @@ class Conditions {
   }
   void set_squares(const std::string& text) {
     scene_.squares = squares_around(whole(text, 1, most_squares));
+    all_markers_ = false;
+  }
+  void set_markers(const std::string& text) {
+    set_squares(text);
+    all_markers_ = true;
   }
   void set_id(const std::string& text) { scene_.marker_id = whole(text, 0, dictionary_size - 1); }
 
   Scene& scene_;
-  bool placed_ = false;
+  bool placed_ = false, all_markers_ = false;
   double distance_ = 1;
   double pitch_ = 0, yaw_ = 0, roll_ = 0;
 };
@@ -109,7 +120,7 @@ class Conditions {
 void set_conditions(Scene& scene, const std::string& conditions) {
   Conditions reader(scene);
   for (const std::string& condition : vp::split(conditions, ',')) reader.set(condition);
-  reader.place();
+  reader.finish();
   validate(scene);
 }
 

@@ -20,7 +20,8 @@ std::vector<Square> squares_around(int count);
 ///   noise                  deviation, fraction of full scale
 ///   blur                   deviation, px
 ///   light                  factor of all brightness
-///   squares                the marker and others around it, 1 to 15
+///   squares                the marker and plain ones around it, 1 to 15
+///   markers                the marker and others around it, 1 to 15, whose IDs count on from its
 ///   id                     of the marker
 ///
 /// One of the first four places the marker anew; those of them that are not given are 1 m and 0.

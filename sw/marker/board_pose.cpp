@@ -25,6 +25,10 @@ Vector3d vector(const Place& place) {
   return {place[0], place[1], place[2]};
 }
 
+/// A solution whose sum of squared errors is so many times that of the other at first does not come
+/// near it.
+constexpr double rival = 1e4;
+
 struct Solution {
   Matrix3d rotation;
   Vector3d translation;
@@ -107,20 +111,16 @@ bool rotations_of(const Tangent& tangent, Matrix3d& first, Matrix3d& second) {
 struct Rows {
   double at[8][7];
 
-  /// Makes the coordinates independent and their variance 1: rows times the inverse of the
-  /// covariance's Cholesky factor.
-  void whiten(const std::array<double, 64>& covariance) {
-    double factor[8][8];
-    for (unsigned i = 0; i < 8; ++i) {
+  void weigh(const CornerWeights& weights) {
+    const double* weight = weights.data() + weights.size();
+    // From the last one on: each needs those before it as they were.
+    for (unsigned i = 8; i-- > 0;) {
+      weight -= i + 1;
+      double row[7] = {};
       for (unsigned k = 0; k <= i; ++k) {
-        double rest = covariance[i * 8 + k];
-        for (unsigned j = 0; j < k; ++j) rest -= factor[i][j] * factor[k][j];
-        factor[i][k] = k < i ? rest * factor[k][k] : 1 / std::sqrt(rest);
+        for (unsigned c = 0; c < 7; ++c) row[c] += weight[k] * at[k][c];
       }
-      for (unsigned k = 0; k < i; ++k) {
-        for (unsigned c = 0; c < 7; ++c) at[i][c] -= factor[i][k] * at[k][c];
-      }
-      for (unsigned c = 0; c < 7; ++c) at[i][c] *= factor[i][i];
+      for (unsigned c = 0; c < 7; ++c) at[i][c] = row[c];
     }
   }
 };
@@ -170,13 +170,34 @@ struct Normal {
   Vector6d gradient() const { return Eigen::Map<const Vector6d>(at[6]); }
 };
 
+/// A pose on its way to the one that fits best.
+struct Descent {
+  Solution solution;
+  Normal normal;
+  double error;
+  bool is_seen;  ///< all corners are in front of the camera
+
+  BoardPose pose() const {
+    BoardPose pose{};
+    RowMajor<3>::Map(pose.rotation.data()) = solution.rotation;
+    Vector3d::Map(pose.translation.data()) = solution.translation;
+    const Normal::Factor factor = normal.factor();
+    for (unsigned column = 0; column < 6; ++column) {
+      RowMajor<6>::Map(pose.covariance.data()).col(column) =
+          factor.solve(Vector6d(Vector6d::Unit(column)));
+    }
+    pose.chi_squared = error;
+    return pose;
+  }
+};
+
 class Corners {
  public:
   Corners(const SeenMarker* markers, std::uint32_t count, const Camera& camera)
       : markers_(markers), count_(count), camera_(camera) {}
 
-  /// Both poses of the largest marker.
-  bool start(Solution& first, Solution& second) const {
+  /// Both poses of the largest marker, as all markers see them.
+  bool start(std::array<Descent, 2>& descents) const {
     const SeenMarker& marker = largest();
     const Frame frame = frame_of(marker.places);
     Quad seen{};
@@ -186,53 +207,52 @@ class Corners {
     }
     Tangent tangent;
     if (!(frame.side > 0) || !tangent_of(seen, frame.side, tangent) ||
-        !rotations_of(tangent, first.rotation, second.rotation)) {
+        !rotations_of(tangent, descents[0].solution.rotation, descents[1].solution.rotation)) {
       return false;
     }
-    for (Solution* const s : {&first, &second}) {
-      s->rotation = s->rotation * frame.axes.transpose();
-      s->translation = translation(marker.places, seen, s->rotation);
+    for (Descent& descent : descents) {
+      Solution& s = descent.solution;
+      s.rotation = s.rotation * frame.axes.transpose();
+      s.translation = translation(marker.places, seen, s.rotation);
+      descent.is_seen = weigh(s, descent.normal);
+      descent.error = descent.normal.error();
     }
     return true;
   }
 
-  /// Gauss–Newton; a step that makes it worse is halved. False if it leads behind the camera.
-  bool refine(Solution& solution, BoardPose& pose) const {
-    Normal normal;
-    if (!weigh(solution, normal)) return false;
+  /// Gauss–Newton; a step that makes it worse is halved.
+  void refine(Descent& descent) const {
+    auto& [solution, normal, error, is_seen] = descent;
     for (unsigned step = 0; step < most_steps; ++step) {
       Vector6d move = -normal.factor().solve(normal.gradient());
+      // What the step gains where the corners move in proportion. So near nobody looks again.
+      const double gain = -normal.gradient().dot(move);
+      if (gain < least_gain * (1 + error)) {
+        solution = moved(solution, move);
+        error -= gain;
+        return;
+      }
       Solution next;
       Normal next_normal;
       unsigned halvings = 0;
       for (;; ++halvings) {
         next = moved(solution, move);
-        if (weigh(next, next_normal) && next_normal.error() <= normal.error()) break;
-        if (halvings == most_halvings) break;
+        if (weigh(next, next_normal) && next_normal.error() <= error) break;
+        if (halvings == most_halvings) return;
         move /= 2;
       }
-      if (halvings == most_halvings) break;
-      const double gain = normal.error() - next_normal.error();
       solution = next;
       normal = next_normal;
-      if (gain < least_share * normal.error() || gain < least_gain) break;
+      error = normal.error();
     }
-    RowMajor<3>::Map(pose.rotation.data()) = solution.rotation;
-    Vector3d::Map(pose.translation.data()) = solution.translation;
-    const Normal::Factor factor = normal.factor();
-    for (unsigned column = 0; column < 6; ++column) {
-      RowMajor<6>::Map(pose.covariance.data()).col(column) =
-          factor.solve(Vector6d(Vector6d::Unit(column)));
-    }
-    pose.chi_squared = normal.error();
-    return std::isfinite(normal.error());
   }
 
  private:
   static constexpr unsigned most_steps = 30;
   static constexpr unsigned most_halvings = 8;
-  /// Of the sum of squared errors, relative and absolute: a hundredth of a standard deviation.
-  static constexpr double least_share = 1e-4, least_gain = 1e-8;
+  /// Of the sum of squared errors, absolute and relative: a tenth of a standard deviation, after
+  /// which the last step leaves less than a hundredth.
+  static constexpr double least_gain = 1e-2;
 
   const SeenMarker& largest() const {
     const SeenMarker* largest = markers_;
@@ -275,7 +295,7 @@ class Corners {
     for (std::uint32_t i = 0; i < count_; ++i) {
       Rows rows;
       if (!look(s, markers_[i], rows)) return false;
-      rows.whiten(markers_[i].covariance);
+      rows.weigh(markers_[i].weights);
       normal.add(rows);
     }
     return true;
@@ -344,6 +364,28 @@ std::array<double, 64> independent_corners(double sigma) {
   return covariance;
 }
 
+CornerWeights weights_of(const std::array<double, 64>& covariance) {
+  work(Work::markers_weighted, 1);
+  CornerWeights weights;
+  double factor[8][8];  // Cholesky's, with the inverse of its diagonal
+  double inverse[8][8];
+  double* weight = weights.data();
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned k = 0; k <= i; ++k) {
+      double rest = covariance[i * 8 + k];
+      for (unsigned j = 0; j < k; ++j) rest -= factor[i][j] * factor[k][j];
+      factor[i][k] = k < i ? rest * factor[k][k] : 1 / std::sqrt(rest);
+    }
+    for (unsigned k = 0; k < i; ++k) {
+      double sum = 0;
+      for (unsigned j = k; j < i; ++j) sum -= factor[i][j] * inverse[j][k];
+      *weight++ = inverse[i][k] = sum * factor[i][i];
+    }
+    *weight++ = inverse[i][i] = factor[i][i];
+  }
+  return weights;
+}
+
 BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
                                const Camera& camera) {
   const FunctionScope scope(Function::pose_estimation);
@@ -351,17 +393,19 @@ BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
   BoardPoses poses{};
   if (count == 0 || !(camera.fx > 0 && camera.fy > 0)) return poses;
   const Corners corners(markers, count, camera);
-  Solution first, second;
-  if (!corners.start(first, second)) return poses;
-  BoardPose a{}, b{};
-  const bool has_first = corners.refine(first, a), has_second = corners.refine(second, b);
-  if (!has_first && !has_second) return poses;
-  if (!has_first) a = b;
-  if (!has_second) b = a;
-  const bool swap = b.chi_squared < a.chi_squared;
+  std::array<Descent, 2> descents;
+  if (!corners.start(descents)) return poses;
+  auto& [first, second] = descents;
+  if (!first.is_seen || (second.is_seen && second.error < first.error)) std::swap(first, second);
+  if (!first.is_seen) return poses;
+  corners.refine(first);
+  if (!std::isfinite(first.error)) return poses;
   poses.valid = true;
-  poses.best = swap ? b : a;
-  poses.other = swap ? a : b;
+  poses.best = poses.other = first.pose();
+  if (!second.is_seen) return poses;
+  if (second.error < rival * (1 + first.error)) corners.refine(second);
+  poses.other = second.pose();
+  if (second.error < first.error) std::swap(poses.best, poses.other);
   return poses;
 }
 

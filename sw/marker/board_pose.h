@@ -39,16 +39,22 @@ struct CharucoBoard {
   bool find(std::uint32_t id, Places& places) const;
 };
 
+/// The covariance of corners each of which is off by `sigma` px in x and in y, independently.
+std::array<double, 64> independent_corners(double sigma);
+
+/// What makes a marker's eight coordinates independent, each of variance 1: the inverse of their
+/// covariance's Cholesky factor, row by row up to the diagonal.
+using CornerWeights = std::array<double, 36>;
+
+/// `covariance`: px², row by row, in the order x0 y0 x1 … y3; as QuadFit has it.
+CornerWeights weights_of(const std::array<double, 64>& covariance);
+
 /// A marker that was found and identified.
 struct SeenMarker {
   Places places;
   Quad corners;  ///< ideal px, in the order of `places`
-  /// Of `corners`, px², row by row, in the order x0 y0 x1 … y3; as QuadFit has it.
-  std::array<double, 64> covariance;
+  CornerWeights weights;
 };
-
-/// The covariance of corners each of which is off by `sigma` px in x and in y, independently.
-std::array<double, 64> independent_corners(double sigma);
 
 /// Where the board is: X = R·U + T.
 struct BoardPose {
@@ -63,12 +69,14 @@ struct BoardPoses {
   bool valid;  ///< false: the corners admit no pose
   BoardPose best;
   /// What the other of the two solutions that a plane has became; `best` again if both led there.
-  /// Where its chi_squared is not much larger, the corners do not tell which is true.
+  /// Where its chi_squared is not much larger, the corners do not tell which is true; where it is
+  /// some thousand times as large, it is as it was before any step.
   BoardPose other;
 };
 
-/// IPPE (Collins and Bartoli 2014) on the largest marker gives two poses; each is refined by
-/// Gauss–Newton on the corners of all markers, weighted by their covariances.
+/// IPPE (Collins and Bartoli 2014) on the largest marker gives two poses; the better one is refined
+/// by Gauss–Newton on the corners of all markers, weighted by their covariances, and so is the
+/// other, unless it is far worse.
 BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
                                const Camera& camera);
 

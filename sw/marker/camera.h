@@ -1,6 +1,7 @@
 #pragma once
 
 #include <marker/geometry.h>
+#include <marker/images.h>
 
 #include <cstdint>
 
@@ -29,5 +30,20 @@ Point distort(const Lens& lens, Point ideal);
 bool undistort(const Lens& lens, Point image, Point& ideal);
 /// The same; adds how often the lens was asked.
 bool undistort(const Lens& lens, Point image, Point& ideal, std::uint32_t& steps);
+
+/// Pixels of a picture: columns from `left` up to, but not including `right`, and rows likewise.
+struct Box {
+  std::uint32_t left, top, right, bottom;
+};
+
+/// The camera's picture, and how it was taken.
+struct CameraFrame {
+  GreyImage image;
+  Lens lens;
+  bool in_dma_memory =
+      false;  ///< a DMA engine wrote it: what is read is taken out of the caches first
+  /// No pixel outside of it is read.
+  Box part = {0, 0, image.width, image.height};
+};
 
 }  // namespace marker

@@ -10,6 +10,19 @@ struct Point {
   double x, y;
 };
 
+constexpr Point operator+(Point a, Point b) {
+  return {a.x + b.x, a.y + b.y};
+}
+constexpr Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y};
+}
+constexpr Point operator*(double s, Point a) {
+  return {s * a.x, s * a.y};
+}
+constexpr double dot(Point a, Point b) {
+  return a.x * b.x + a.y * b.y;
+}
+
 /// Four corners; the order stands with each use.
 using Quad = std::array<Point, 4>;
 

@@ -3,8 +3,15 @@
 
 #include <blob_stream.h>
 
+#include <algorithm>
+
 namespace marker {
 namespace {
+
+/// So much of a picture around a blob is taken out of the caches, and looked at, px: its corners
+/// may be 3 px off, an edge is looked for 4.5 px along a strip, and the paper's grey level is read
+/// behind it. More changes nothing in the corners.
+constexpr std::uint32_t fetch_margin = 10;
 
 /// The eight directions of Extremes, and of blob_stream's words.
 constexpr std::array<std::array<std::int32_t, 2>, 8> directions = {
@@ -27,40 +34,47 @@ bool is_blob(const std::uint32_t* words, const GreyImage& image) {
   return true;
 }
 
-/// Pixels from the first to the last one, both included.
-struct Box {
-  std::uint32_t left, top, right, bottom;
-
-  std::uint32_t width() const { return right - left + 1; }
-  std::uint32_t height() const { return bottom - top + 1; }
-};
-
 Box box_of(const std::uint32_t* words) {
   return {blob_stream::x(words[blob_stream::least_x]), blob_stream::y(words[blob_stream::least_y]),
-          blob_stream::x(words[blob_stream::greatest_x]),
-          blob_stream::y(words[blob_stream::greatest_y])};
+          blob_stream::x(words[blob_stream::greatest_x]) + 1,
+          blob_stream::y(words[blob_stream::greatest_y]) + 1};
 }
 
 Extremes extremes_of(const std::uint32_t* words) {
   Extremes extremes{};
   for (unsigned i = 0; i < extremes.size(); ++i) {
-    extremes[i] = {blob_stream::x(words[i]) + 0.5, blob_stream::y(words[i]) + 0.5};
+    extremes[i] = {static_cast<std::int32_t>(blob_stream::x(words[i])),
+                   static_cast<std::int32_t>(blob_stream::y(words[i]))};
   }
   return extremes;
 }
 
-/// Takes all that fit_quad and read_cells may read of a blob out of the caches.
-void fetch(const GreyImage& image, const Box& box) {
-  const auto lowest = [](std::uint32_t at) { return at < fit_margin ? 0 : at - fit_margin; };
-  const auto end = [](std::uint32_t at, std::uint32_t size) {
-    return size - at <= fit_margin ? size : at + fit_margin + 1;
-  };
-  const std::uint32_t left = lowest(box.left);
-  const std::uint32_t bytes = end(box.right, image.width) - left;
-  const std::uint32_t bottom = end(box.bottom, image.height);
-  for (std::uint32_t y = lowest(box.top); y < bottom; ++y) {
+/// True if a side runs along the border of the picture: nobody sees what is beyond it.
+bool is_cut(const Quad& quad, const GreyImage& image) {
+  for (unsigned i = 0; i < 4; ++i) {
+    const Point a = quad[i], b = quad[(i + 1) % 4];
+    if ((a.x < 1 && b.x < 1) || (a.y < 1 && b.y < 1) ||
+        (a.x > image.width - 1.0 && b.x > image.width - 1.0) ||
+        (a.y > image.height - 1.0 && b.y > image.height - 1.0)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The surroundings of a blob that are looked at.
+Box around(const Box& box, const GreyImage& image) {
+  return {box.left - std::min(box.left, fetch_margin), box.top - std::min(box.top, fetch_margin),
+          std::min(box.right + fetch_margin, image.width),
+          std::min(box.bottom + fetch_margin, image.height)};
+}
+
+/// Takes a part of a picture out of the caches.
+void fetch(const GreyImage& image, const Box& part) {
+  for (std::uint32_t y = part.top; y < part.bottom; ++y) {
     hal_cache_invalidate(
-        const_cast<std::uint8_t*>(image.pixels + std::size_t{y} * image.width + left), bytes);
+        const_cast<std::uint8_t*>(image.pixels + std::size_t{y} * image.width + part.left),
+        part.right - part.left);
   }
 }
 
@@ -90,8 +104,7 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
   BlobCounts& counts = found.blobs;
   counts.received = blobs.count;
   work(Work::blobs_checked, blobs.count);
-  DetectionOptions options = options_.detection;
-  options.fit.in_dma_memory = frame.in_dma_memory;
+  CameraFrame near = frame;
   for (std::uint32_t i = 0; i < blobs.count; ++i) {
     const std::uint32_t* const words = blobs.words + i * blob_stream::words_per_blob;
     if (!is_blob(words, frame.image)) {
@@ -99,7 +112,8 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
       continue;
     }
     const Box box = box_of(words);
-    if (box.width() < options_.minimum_side || box.height() < options_.minimum_side) {
+    if (box.right - box.left < options_.minimum_side ||
+        box.bottom - box.top < options_.minimum_side) {
       ++counts.small;
       continue;
     }
@@ -108,9 +122,14 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
       ++counts.refused[static_cast<std::uint32_t>(Refusal::shape)];
       continue;
     }
-    if (frame.in_dma_memory) fetch(frame.image, box);
+    if (is_cut(guess, frame.image)) {
+      ++counts.refused[static_cast<std::uint32_t>(Refusal::hidden)];
+      continue;
+    }
+    near.part = around(box, frame.image);
+    if (frame.in_dma_memory) fetch(frame.image, near.part);
     DetectedMarker marker{};
-    const Refusal refusal = read_marker(frame.image, frame.lens, guess, book_, options, marker);
+    const Refusal refusal = read_marker(near, guess, book_, options_.detection, marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
     } else if (found.count == max_detections) {
@@ -127,7 +146,7 @@ void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
   if (options_.board.kind == Board::Kind::none) {
     for (std::uint32_t i = 0; i < found.count; ++i) {
       const QuadFit& fit = found.markers[i].marker.fit;
-      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, fit.covariance};
+      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, weights_of(fit.covariance)};
       found.markers[i].pose = estimate_board_pose(seen_.data(), 1, camera);
     }
     return;
@@ -141,7 +160,7 @@ void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
     SeenMarker& seen = seen_[found.board_markers];
     if (times > 1 || !options_.board.find(marker.id, seen.places)) continue;
     seen.corners = marker.fit.ideal;
-    seen.covariance = marker.fit.covariance;
+    seen.weights = weights_of(marker.fit.covariance);
     ++found.board_markers;
   }
   found.board = estimate_board_pose(seen_.data(), found.board_markers, camera);

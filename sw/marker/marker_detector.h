@@ -17,13 +17,6 @@ struct BlobList {
   std::uint32_t count;  ///< blobs
 };
 
-/// The camera's picture, and how it was taken.
-struct CameraFrame {
-  GreyImage image;
-  bool in_dma_memory;  ///< a DMA engine wrote it: what is read is taken out of the caches first
-  Lens lens;
-};
-
 /// Which places the markers have to each other.
 struct Board {
   enum class Kind : std::uint32_t { none, grid, charuco };

@@ -2,13 +2,20 @@
 #include <marker/rectification.h>
 #include <marker/work.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace marker {
 namespace {
 
 /// A cell is looked at in its middle and so far from it, shares of its side: blur and neighbours
 /// reach less far.
 constexpr double spread = 0.2;
-constexpr double samples = 9;
+constexpr std::uint32_t samples = 9;
+constexpr std::uint32_t white = 255;
+/// Shares of a cell: by so much corners may be off before its nine places leave it.
+constexpr double most_shift = 0.15;
 
 /// A cell in the picture: its middle, and the ways to the places right and below. Perspective and
 /// lens bend nothing within a cell that matters.
@@ -16,54 +23,108 @@ struct Cell {
   Point middle, right, down;
 };
 
-Cell cell_at(const Homography& h, const Lens& lens, double u, double v) {
-  const double scale = 1 / (h.h7 * u + h.h8 * v + 1);
-  const Point ideal{(h.h1 * u + h.h2 * v + h.u1) * scale, (h.h4 * u + h.h5 * v + h.v1) * scale};
-  const double step = spread * scale;
-  Cell cell{ideal,
-            {(h.h1 - ideal.x * h.h7) * step, (h.h4 - ideal.y * h.h7) * step},
-            {(h.h2 - ideal.x * h.h8) * step, (h.h5 - ideal.y * h.h8) * step}};
-  if (lens.is_pinhole()) return cell;
-  cell.middle = distort(lens, ideal);
-  for (Point* const way : {&cell.right, &cell.down}) {
-    const Point there = distort(lens, {ideal.x + way->x, ideal.y + way->y});
-    *way = {there.x - cell.middle.x, there.y - cell.middle.y};
-  }
-  return cell;
+/// Through a lens, from where a pinhole camera would see it.
+Cell seen_through(const Lens& lens, const Cell& ideal) {
+  Cell seen = ideal;
+  seen.middle = distort(lens, ideal.middle);
+  seen.right = distort(lens, ideal.middle + ideal.right) - seen.middle;
+  seen.down = distort(lens, ideal.middle + ideal.down) - seen.middle;
+  return seen;
 }
 
-/// The sum of the grey values of the pixels at the nine places; `otherwise` outside of the picture.
-double sum_of(const Cell& cell, const GreyImage& image, double otherwise) {
-  std::uint32_t sum = 0, outside = 0;
-  for (int row = -1; row <= 1; ++row) {
-    double x = cell.middle.x + row * cell.down.x - cell.right.x;
-    double y = cell.middle.y + row * cell.down.y - cell.right.y;
-    for (int column = 0; column < 3; ++column, x += cell.right.x, y += cell.right.y) {
-      if (x >= 0 && x < image.width && y >= 0 && y < image.height) {
-        sum += image.pixels[std::size_t{static_cast<std::uint32_t>(y)} * image.width +
-                            static_cast<std::uint32_t>(x)];
-      } else {
-        ++outside;
+/// The sum of the grey values of the pixels at the nine places; what lies outside is white.
+std::uint32_t sum_of(const Cell& cell, const CameraFrame& frame) {
+  const Box& part = frame.part;
+  const double reach_x = std::abs(cell.right.x) + std::abs(cell.down.x);
+  const double reach_y = std::abs(cell.right.y) + std::abs(cell.down.y);
+  const Point first = cell.middle - cell.right - cell.down;
+  std::uint32_t sum = 0;
+  // The hundredth of a pixel is for what the steps below are rounded by.
+  if (cell.middle.x - reach_x > part.left + 0.01 && cell.middle.x + reach_x < part.right - 0.01 &&
+      cell.middle.y - reach_y > part.top + 0.01 && cell.middle.y + reach_y < part.bottom - 0.01) {
+    constexpr double whole = 65536;
+    const auto fixed = [](double value) { return static_cast<std::int32_t>(value * whole); };
+    const std::int32_t right_x = fixed(cell.right.x), right_y = fixed(cell.right.y);
+    const std::int32_t back_x = fixed(cell.down.x) - 3 * right_x;
+    const std::int32_t back_y = fixed(cell.down.y) - 3 * right_y;
+    std::uint32_t x = fixed(first.x), y = fixed(first.y);
+    for (unsigned row = 0; row < 3; ++row, x += back_x, y += back_y) {
+      for (unsigned column = 0; column < 3; ++column, x += right_x, y += right_y) {
+        sum += frame.image.pixels[(y >> 16) * frame.image.width + (x >> 16)];
       }
     }
+    return sum;
   }
-  return sum + outside * otherwise;
+  for (unsigned i = 0; i < samples; ++i) {
+    const Point p = first + (i % 3) * cell.right + (i / 3) * cell.down;
+    const bool inside =
+        p.x >= part.left && p.x < part.right && p.y >= part.top && p.y < part.bottom;
+    sum +=
+        inside
+            ? frame.image.pixels[std::size_t{static_cast<std::uint32_t>(p.y)} * frame.image.width +
+                                 static_cast<std::uint32_t>(p.x)]
+            : white;
+  }
+  return sum;
+}
+
+/// Squared, px².
+double distance(Point a, Point b) {
+  return dot(b - a, b - a);
+}
+
+/// True if cells that were looked at in one quadrilateral are still those of another.
+bool are_same_cells(const Quad& one, const Quad& other, std::uint32_t side) {
+  double farthest = 0, shortest = distance(one[3], one[0]);
+  for (unsigned i = 0; i < 4; ++i) {
+    farthest = std::max(farthest, distance(one[i], other[i]));
+    if (i != 0) shortest = std::min(shortest, distance(one[i - 1], one[i]));
+  }
+  const double most = most_shift / side;
+  return farthest <= most * most * shortest;
 }
 
 }  // namespace
 
-CellReading read_cells(const GreyImage& image, const Lens& lens, const QuadFit& fit,
-                       std::uint32_t cells) {
+CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint32_t cells) {
   const FunctionScope scope(Function::cell_reading);
-  const Quad& c = fit.ideal;
+  CellLook look;
+  look.cells = cells;
   const std::uint32_t side = cells + 2;
-  const Homography homography = make_homography({c[0], c[1], c[3], c[2]}, side);
-  const double limit = (fit.dark + fit.bright) / 2 * samples;
+  const Homography h = make_homography({corners[0], corners[1], corners[3], corners[2]}, side);
+  const bool is_pinhole = frame.lens.is_pinhole();
+  std::uint32_t* sum = look.sums.data();
+  for (std::uint32_t row = 0; row < side; ++row) {
+    const double v = row + 0.5, x = h.h2 * v + h.u1, y = h.h5 * v + h.v1, depth = h.h8 * v + 1;
+    for (std::uint32_t column = 0; column < side; ++column) {
+      const double u = column + 0.5, scale = 1 / (h.h7 * u + depth), step = spread * scale;
+      const Point middle{(h.h1 * u + x) * scale, (h.h4 * u + y) * scale};
+      const Cell cell{middle,
+                      {(h.h1 - middle.x * h.h7) * step, (h.h4 - middle.y * h.h7) * step},
+                      {(h.h2 - middle.x * h.h8) * step, (h.h5 - middle.y * h.h8) * step}};
+      *sum++ = sum_of(is_pinhole ? cell : seen_through(frame.lens, cell), frame);
+    }
+  }
+  work(Work::codes_read, 1);
+  work(Work::code_cells, std::uint64_t{side} * side);
+  if (!is_pinhole) work(Work::lens_steps, std::uint64_t{3} * side * side);
+  return look;
+}
+
+bool is_plain(const CellLook& look, double minimum_contrast) {
+  const auto end = look.sums.begin() + (look.cells + 2) * (look.cells + 2);
+  const auto [least, most] = std::minmax_element(look.sums.begin(), end);
+  return *most - *least < minimum_contrast / 2 * samples;
+}
+
+CellReading read_cells(const CellLook& look, double dark, double bright) {
+  const std::uint32_t side = look.cells + 2;
+  const double limit = (dark + bright) / 2 * samples;
   CellReading reading{};
+  const std::uint32_t* sum = look.sums.data();
   for (std::uint32_t row = 0; row < side; ++row) {
     for (std::uint32_t column = 0; column < side; ++column) {
-      const Cell cell = cell_at(homography, lens, column + 0.5, row + 0.5);
-      const bool black = sum_of(cell, image, fit.bright) < limit;
+      const bool black = *sum++ < limit;
       if (row == 0 || column == 0 || row + 1 == side || column + 1 == side) {
         if (!black) ++reading.white_border;
       } else {
@@ -71,28 +132,29 @@ CellReading read_cells(const GreyImage& image, const Lens& lens, const QuadFit& 
       }
     }
   }
-  work(Work::codes_read, 1);
-  work(Work::code_cells, std::uint64_t{side} * side);
-  if (!lens.is_pinhole()) work(Work::lens_steps, std::uint64_t{3} * side * side);
   return reading;
 }
 
-Refusal read_marker(const GreyImage& image, const Lens& lens, const Quad& guess,
-                    const CodeBook& book, const DetectionOptions& options, DetectedMarker& marker) {
+Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
+                    const DetectionOptions& options, DetectedMarker& marker) {
   const std::uint32_t cells = book.dictionary().cells;
   QuadFitOptions fit_options = options.fit;
   fit_options.cells = cells + 2;
-  QuadFit fit = find_quad(image, lens, guess, fit_options);
+  QuadFit fit = guess_quad(frame.lens, guess, fit_options);
   if (fit.refusal != Refusal::none) return fit.refusal;
-  const CellReading reading = read_cells(image, lens, fit, cells);
-  if (fit_options.in_dma_memory) {
-    work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
-  }
+  const Quad guessed = fit.ideal;
+  CellLook look = look_at_cells(frame, guessed, cells);
+  if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
+  if (is_plain(look, fit_options.minimum_contrast)) return Refusal::plain;
+  find_quad(frame, fit_options, fit);
+  if (fit.refusal != Refusal::none) return fit.refusal;
+  if (!are_same_cells(fit.ideal, guessed, cells + 2)) look = look_at_cells(frame, fit.ideal, cells);
+  const CellReading reading = read_cells(look, fit.dark, fit.bright);
   if (reading.white_border > options.white_border) return Refusal::border;
   const CodeBook::Match match = book.look_up(reading.word);
   if (!match.found) return Refusal::unknown;
   // Only what is a marker is worth all of its edges.
-  refine_quad(image, lens, fit_options, fit);
+  refine_quad(frame, fit_options, fit);
   if (fit.refusal != Refusal::none) return fit.refusal;
   marker.id = match.id;
   marker.corrected = match.corrected;
@@ -101,12 +163,11 @@ Refusal read_marker(const GreyImage& image, const Lens& lens, const Quad& guess,
   return Refusal::none;
 }
 
-Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& blob,
-                      const CodeBook& book, const DetectionOptions& options,
-                      DetectedMarker& marker) {
+Refusal detect_marker(const CameraFrame& frame, const Extremes& blob, const CodeBook& book,
+                      const DetectionOptions& options, DetectedMarker& marker) {
   Quad guess{};
   if (!largest_quad(blob, guess)) return Refusal::shape;
-  return read_marker(image, lens, guess, book, options, marker);
+  return read_marker(frame, guess, book, options, marker);
 }
 
 }  // namespace marker

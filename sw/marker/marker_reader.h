@@ -5,21 +5,33 @@
 #include <marker/images.h>
 #include <marker/quad_fit.h>
 
+#include <array>
 #include <cstdint>
 
 namespace marker {
 
-/// What the cells of a candidate show.
+/// The cells of a candidate, its border included, row by row: the sums of the grey values at nine
+/// places around their middles. What lies outside of the picture is white.
+struct CellLook {
+  std::uint32_t cells;  ///< of the code's side
+  std::array<std::uint32_t, (max_code_cells + 2) * (max_code_cells + 2)> sums;
+};
+
+/// `corners`: clockwise, ideal px.
+CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint32_t cells);
+
+/// True if a blob is as dark all over as only one without a code can be: its cells differ by less
+/// than half of `minimum_contrast`. A guess of the corners will do.
+bool is_plain(const CellLook& look, double minimum_contrast);
+
+/// What the cells of a marker show.
 struct CellReading {
   std::uint32_t white_border;  ///< cells of the border that are not black
   std::uint64_t word;          ///< of the code, as in a Dictionary
 };
 
-/// Reads a marker of `cells` × `cells` and its border from grey values: a cell is black if the mean
-/// of nine places around its middle is nearer to the dark level of the fit than to the bright one.
-/// What lies outside of the picture is white.
-CellReading read_cells(const GreyImage& image, const Lens& lens, const QuadFit& fit,
-                       std::uint32_t cells);
+/// A cell is black if it is nearer to the grey level `dark` than to `bright`.
+CellReading read_cells(const CellLook& look, double dark, double bright);
 
 struct DetectionOptions {
   QuadFitOptions fit;              ///< but for `cells`, which the dictionary says
@@ -33,13 +45,12 @@ struct DetectedMarker {
 };
 
 /// From the guess of a blob's corners, as largest_quad gives it, to a marker.
-Refusal read_marker(const GreyImage& image, const Lens& lens, const Quad& guess,
-                    const CodeBook& book, const DetectionOptions& options, DetectedMarker& marker);
+Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
+                    const DetectionOptions& options, DetectedMarker& marker);
 
-/// From a blob to a marker. What is no quadrilateral with straight edges, dark inside and bright
-/// outside, is refused before a cell is read.
-Refusal detect_marker(const GreyImage& image, const Lens& lens, const Extremes& blob,
-                      const CodeBook& book, const DetectionOptions& options,
-                      DetectedMarker& marker);
+/// From a blob to a marker. What has no code, or is no quadrilateral with straight edges, dark
+/// inside and bright outside, is refused before its word is looked up.
+Refusal detect_marker(const CameraFrame& frame, const Extremes& blob, const CodeBook& book,
+                      const DetectionOptions& options, DetectedMarker& marker);
 
 }  // namespace marker

@@ -69,6 +69,7 @@
   X(code_turns, "a cell of a word turned by a quarter")                                       \
   X(board_poses, "a pose of a marker or board set up, both solutions concluded")              \
   X(pose_steps, "a step of one of them, without the markers")                                 \
+  X(markers_weighted, "what the corners of a marker weigh, from their covariance")            \
   X(marker_weighings, "a marker's corners weighed in such a step")                            \
   X(crossings_dma, "a crossing in memory that a DMA engine wrote: stalls")                    \
   X(code_cells_dma, "a cell in such memory: stalls")

@@ -135,8 +135,8 @@ void Application::find_markers(const Slot& slot) {
   const marker::Camera camera{frame.fx, frame.fy, frame.cx, frame.cy};
   const marker::CameraFrame picture{
       {static_cast<const std::uint8_t*>(slot.buffers.picture.data), frame.width, frame.height},
-      true,
-      {camera, options_.k1, options_.k2, options_.p1, options_.p2, options_.k3}};
+      {camera, options_.k1, options_.k2, options_.p1, options_.p2, options_.k3},
+      true};
   result_.camera_frame = slot.trailer[blob_stream::frame_number];
   result_.lost_in_logic = slot.trailer[blob_stream::lost];
   result_.threshold = slot.trailer[blob_stream::threshold];

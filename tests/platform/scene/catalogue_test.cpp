@@ -151,6 +151,14 @@ BOOST_AUTO_TEST_CASE(conditions_change_a_scene) {
               pose_from_centre(rotation_y(30) * rotation_z(90), {0, 0, 2}).translation));
   BOOST_TEST(placed.marker_id == 7);
   BOOST_TEST(placed.squares.size() == 4u);
+  // Ten markers, whichever comes first.
+  for (const char* name : {"z2.0@markers=10,id=245", "z2.0@id=245,markers=10"}) {
+    const Scene markers = make_scene(name);
+    BOOST_REQUIRE(markers.squares.size() == 9u);
+    BOOST_TEST(markers.squares[0].word == marker_word(246));
+    BOOST_TEST(markers.squares[8].word == marker_word(4));
+  }
+  BOOST_TEST(make_scene("z2.0@markers=10,squares=2").squares[0].word == plain_square_word);
   // The middle of the marker lies in the middle of the picture.
   const auto corners = ground_truth(make_scene("front3@distance=1500mm")).corners_px;
   const Camera camera;
@@ -166,6 +174,7 @@ BOOST_AUTO_TEST_CASE(wrong_conditions_are_refused) {
   check_refused([] { make_scene("demo@noise"); }, "as in 'demo@distance=2m,noise=0.02'");
   check_refused([] { make_scene("demo@distance=2"); }, "distance: '2' has no unit");
   check_refused([] { make_scene("demo@noise=much"); }, "noise: 'much'");
+  check_refused([] { make_scene("demo@markers=16"); }, "no whole number from 1 to 15");
   check_refused([] { make_scene("demo@squares=16"); }, "no whole number from 1 to 15");
   check_refused([] { make_scene("demo@id=1.5"); }, "no whole number from 0 to 249");
   check_refused([] { make_scene("demo@light=2"); }, "brightness");

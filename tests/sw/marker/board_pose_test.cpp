@@ -24,9 +24,13 @@ namespace {
 
 const Camera camera{381.36, 380, 320, 240};
 
+marker::CornerWeights weights_of(double sigma) {
+  return marker::weights_of(marker::independent_corners(sigma));
+}
+
 SeenMarker seen(const Places& places, const Eigen::Matrix3d& rotation,
                 const Eigen::Vector3d& translation, double sigma = 0.02) {
-  SeenMarker marker{places, {}, marker::independent_corners(sigma)};
+  SeenMarker marker{places, {}, weights_of(sigma)};
   for (unsigned i = 0; i < 4; ++i) {
     const Eigen::Vector3d p = rotation * Eigen::Vector3d(places[i].data()) + translation;
     marker.corners[i] = {camera.fx * p.x() / p.z() + camera.cx,
@@ -95,7 +99,7 @@ BOOST_AUTO_TEST_CASE(the_other_solution) {
 BOOST_AUTO_TEST_CASE(covariance_follows_that_of_the_corners) {
   const SeenMarker fine = seen(marker::single_marker(0.3), turn(20, 30, 10), {0, 0, 1}, 0.01);
   SeenMarker coarse = fine;
-  coarse.covariance = marker::independent_corners(0.03);
+  coarse.weights = weights_of(0.03);
   const BoardPoses a = marker::estimate_board_pose(&fine, 1, camera);
   const BoardPoses b = marker::estimate_board_pose(&coarse, 1, camera);
   for (unsigned i = 0; i < 36; ++i) {
@@ -110,7 +114,9 @@ BOOST_AUTO_TEST_CASE(corners_count_as_far_as_they_are_known) {
   SeenMarker marker = seen(marker::single_marker(0.3), rotation, {0, 0, 1}, 0.01);
   marker.corners[2].x += 1;
   const BoardPoses trusting = marker::estimate_board_pose(&marker, 1, camera);
-  marker.covariance[4 * 9] = 100;
+  std::array<double, 64> covariance = marker::independent_corners(0.01);
+  covariance[4 * 9] = 100;
+  marker.weights = marker::weights_of(covariance);
   const BoardPoses wary = marker::estimate_board_pose(&marker, 1, camera);
   BOOST_TEST(angle_between(rotation_of(trusting.best), rotation) > 0.2);
   BOOST_TEST(angle_between(rotation_of(wary.best), rotation) < 0.01);
@@ -197,7 +203,7 @@ BOOST_AUTO_TEST_CASE(what_admits_no_pose) {
   unknown.corners[1].x = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(!marker::estimate_board_pose(&unknown, 1, camera).valid);
   SeenMarker certain = marker;
-  certain.covariance.fill(0);
+  certain.weights = weights_of(0);
   BOOST_TEST(!marker::estimate_board_pose(&certain, 1, camera).valid);
 }
 

@@ -42,7 +42,7 @@ struct Fixture {
               bool in_dma_memory = false) {
     const BlobList blobs{words.data(),
                          static_cast<std::uint32_t>(words.size() / blob_stream::words_per_blob)};
-    detector->find_markers({pictures::view(picture), in_dma_memory, {thesis_camera}}, blobs,
+    detector->find_markers({pictures::view(picture), {thesis_camera}, in_dma_memory}, blobs,
                            *found);
     detector->find_poses(thesis_camera, *found);
     const marker::BlobCounts& counts = found->blobs;

@@ -17,9 +17,7 @@ namespace {
 constexpr std::array<std::array<int, 2>, 8> directions = {
     {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
 
-struct Pixel {
-  std::uint32_t x, y;
-};
+using marker::Pixel;
 
 class Blobs {
  public:
@@ -33,15 +31,15 @@ class Blobs {
   /// Takes the blob of a dark pixel out of the picture.
   marker::Extremes take(Pixel start) {
     marker::Extremes extremes;
-    extremes.fill({start.x + 0.5, start.y + 0.5});
+    extremes.fill(start);
     waiting_ = {start};
     dark_[index(start)] = false;
     while (!waiting_.empty()) {
       const Pixel p = waiting_.back();
       waiting_.pop_back();
-      extend(extremes, {p.x + 0.5, p.y + 0.5});
-      for (std::uint32_t y = p.y == 0 ? 0 : p.y - 1; y <= p.y + 1 && y < image_.height; ++y) {
-        for (std::uint32_t x = p.x == 0 ? 0 : p.x - 1; x <= p.x + 1 && x < image_.width; ++x) {
+      extend(extremes, p);
+      for (int y = std::max(p.y - 1, 0); y <= std::min(p.y + 1, height() - 1); ++y) {
+        for (int x = std::max(p.x - 1, 0); x <= std::min(p.x + 1, width() - 1); ++x) {
           if (!is_dark({x, y})) continue;
           dark_[index({x, y})] = false;
           waiting_.push_back({x, y});
@@ -52,12 +50,14 @@ class Blobs {
   }
 
  private:
-  std::size_t index(Pixel p) const { return std::size_t{p.y} * image_.width + p.x; }
+  int width() const { return static_cast<int>(image_.width); }
+  int height() const { return static_cast<int>(image_.height); }
+  std::size_t index(Pixel p) const { return static_cast<std::size_t>(p.y * width() + p.x); }
 
-  static void extend(marker::Extremes& extremes, marker::Point p) {
+  static void extend(marker::Extremes& extremes, Pixel p) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
       const auto [dx, dy] = directions[i];
-      marker::Point& best = extremes[i];
+      Pixel& best = extremes[i];
       if (dx * p.x + dy * p.y > dx * best.x + dy * best.y) best = p;
     }
   }
@@ -119,11 +119,12 @@ std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture, std::
                                          std::uint32_t minimum_side) {
   Blobs blobs(picture, threshold);
   std::vector<marker::Extremes> found;
-  for (std::uint32_t y = 0; y < picture.height; ++y) {
-    for (std::uint32_t x = 0; x < picture.width; ++x) {
+  const auto side = static_cast<int>(minimum_side);
+  for (int y = 0; y < static_cast<int>(picture.height); ++y) {
+    for (int x = 0; x < static_cast<int>(picture.width); ++x) {
       if (!blobs.is_dark({x, y})) continue;
       const marker::Extremes e = blobs.take({x, y});
-      if (e[2].x - e[6].x >= minimum_side && e[4].y - e[0].y >= minimum_side) found.push_back(e);
+      if (e[2].x - e[6].x >= side && e[4].y - e[0].y >= side) found.push_back(e);
     }
   }
   return found;
@@ -132,7 +133,7 @@ std::vector<marker::Extremes> find_blobs(const marker::GreyImage& picture, std::
 std::vector<std::uint32_t> words_of(const std::vector<marker::Extremes>& blobs) {
   std::vector<std::uint32_t> words;
   for (const marker::Extremes& blob : blobs) {
-    for (const marker::Point& p : blob) {
+    for (const Pixel p : blob) {
       words.push_back(
           blob_stream::point(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)));
     }
@@ -158,7 +159,7 @@ Found find_marker(const platform::Scene& scene, const marker::GreyImage& picture
   for (const marker::Extremes& blob : find_blobs(picture)) {
     marker::Quad guess{};
     if (!marker::largest_quad(blob, guess)) continue;
-    const marker::QuadFit fit = marker::fit_quad(picture, lens, guess, {});
+    const marker::QuadFit fit = marker::fit_quad({picture, lens}, guess, {});
     if (fit.refusal != marker::Refusal::none) continue;
     for (unsigned turns = 0; turns < 4; ++turns) {
       const Found found{true, marker::counted_from(fit, turns), 0};

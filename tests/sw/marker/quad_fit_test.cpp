@@ -58,38 +58,8 @@ double farthest(const Quad& a, const Quad& b) {
   return farthest;
 }
 
-/// What the PL would gather around a side: 32 pixels of each row or column that crosses it.
-struct Gathered {
-  std::vector<std::vector<std::uint8_t>> pixels;
-  std::vector<marker::Strip> strips;
-  bool rows;
-
-  Gathered(const GreyImage& image, Point a, Point b)
-      : rows(std::abs(b.y - a.y) >= std::abs(b.x - a.x)) {
-    const double from = rows ? a.y : a.x, to = rows ? b.y : b.x;
-    for (auto line = static_cast<std::uint32_t>(std::min(from, to)); line < std::max(from, to);
-         ++line) {
-      const double share = (line + 0.5 - from) / (to - from);
-      const double at = rows ? a.x + share * (b.x - a.x) : a.y + share * (b.y - a.y);
-      const auto first = static_cast<std::uint32_t>(std::max(0.0, at - 16));
-      std::vector<std::uint8_t> values;
-      for (std::uint32_t i = first; i < first + 32 && i < (rows ? image.width : image.height);
-           ++i) {
-        values.push_back(image.pixels[rows ? line * image.width + i : i * image.width + line]);
-      }
-      strips.push_back({nullptr, 1, first, static_cast<std::uint32_t>(values.size()), line});
-      pixels.push_back(values);
-    }
-    for (std::size_t i = 0; i < strips.size(); ++i) strips[i].pixels = pixels[i].data();
-  }
-
-  marker::SideSupport support() const {
-    return {strips.data(), static_cast<std::uint32_t>(strips.size()), rows};
-  }
-};
-
 Refusal refusal(const Picture& picture, const Quad& guess, const Lens& lens = pinhole) {
-  return marker::fit_quad(picture.view(), lens, guess, {}).refusal;
+  return marker::fit_quad({picture.view(), lens}, guess, {}).refusal;
 }
 
 }  // namespace
@@ -105,33 +75,40 @@ BOOST_AUTO_TEST_CASE(corners_of_a_rolled_square_whatever_the_angle) {
                                   {0, 1},  {-1, 1}, {-1, 0}, {-1, -1}};
     Extremes extremes{};
     for (unsigned i = 0; i < 8; ++i) {
-      extremes[i] = *std::max_element(corners.begin(), corners.end(), [&](Point a, Point b) {
-        return directions[i][0] * a.x + directions[i][1] * a.y <
-               directions[i][0] * b.x + directions[i][1] * b.y;
-      });
+      const Point outermost =
+          *std::max_element(corners.begin(), corners.end(), [&](Point a, Point b) {
+            return directions[i][0] * a.x + directions[i][1] * a.y <
+                   directions[i][0] * b.x + directions[i][1] * b.y;
+          });
+      extremes[i] = {static_cast<int>(outermost.x), static_cast<int>(outermost.y)};
     }
     Quad quad{};
     BOOST_REQUIRE(marker::largest_quad(extremes, quad));
-    // Where the pixels end: half a pixel, or half a pixel's diagonal.
+    // Where the pixels end in which the corners are.
     double nearest = 1e9;
     for (unsigned turns = 0; turns < 4; ++turns) {
       nearest =
           std::min(nearest, farthest(quad, {{corners[turns], corners[(turns + 1) % 4],
                                              corners[(turns + 2) % 4], corners[(turns + 3) % 4]}}));
     }
-    BOOST_TEST(nearest < 0.708, "rolled by " << degrees);
+    BOOST_TEST(nearest < 1.415, "rolled by " << degrees);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_line_is_as_thin_as_its_pixels) {
   Extremes extremes{};
-  for (unsigned i = 0; i < 8; ++i) extremes[i] = {i < 4 ? 30.5 : 10.5, 20.5};
+  for (unsigned i = 0; i < 8; ++i) extremes[i] = {i < 4 ? 30 : 10, 20};
   extremes[0] = extremes[7];
   extremes[4] = extremes[3];
   Quad quad{};
   BOOST_REQUIRE(marker::largest_quad(extremes, quad));
   for (const Point corner : quad) BOOST_TEST(std::abs(corner.y - 20.5) <= 0.5);
-  extremes.fill({std::nan(""), 0});
+}
+
+BOOST_AUTO_TEST_CASE(what_turns_anticlockwise_is_no_blob) {
+  const Extremes extremes = {
+      {{20, 10}, {10, 20}, {10, 40}, {20, 50}, {40, 50}, {50, 40}, {50, 20}, {40, 10}}};
+  Quad quad{};
   BOOST_TEST(!marker::largest_quad(extremes, quad));
 }
 
@@ -143,7 +120,7 @@ BOOST_AUTO_TEST_CASE(edges_between_whole_pixels_are_exact) {
   const Picture picture = black_square(20, 24, 48);
   for (const double off : {-2.5, -1.0, 0.0, 1.0, 2.5}) {
     const QuadFit fit =
-        marker::fit_quad(picture.view(), pinhole, square(20 + off, 24 - off, 48), {});
+        marker::fit_quad({picture.view(), pinhole}, square(20 + off, 24 - off, 48), {});
     BOOST_TEST(fit.refusal == Refusal::none);
     BOOST_TEST(farthest(fit.ideal, square(20, 24, 48)) < 1e-9, "guess off by " << off);
     BOOST_TEST(fit.dark == 20);
@@ -184,27 +161,6 @@ BOOST_AUTO_TEST_CASE(a_rendered_marker) {
   // Corners that do not share a side know nothing of each other.
   BOOST_TEST(covariance(0, 4) == 0);
   BOOST_TEST(covariance(3, 7) == 0);
-}
-
-BOOST_AUTO_TEST_CASE(gathered_strips_are_as_good_as_the_frame) {
-  platform::Scene scene;
-  scene.pose =
-      platform::pose_from_centre(platform::rotation_x(20) * platform::rotation_z(25), {0, 0, 1});
-  const platform::GreyImage picture = platform::render(scene);
-  const GreyImage image = pictures::view(picture);
-  const Lens lens = pictures::lens_of(scene.camera);
-  const auto truth = platform::project_marker(scene.camera, scene.pose);
-  Quad guess{};
-  for (unsigned i = 0; i < 4; ++i) guess[i] = {std::floor(truth[i].x), std::floor(truth[i].y)};
-  std::array<marker::SideSupport, 4> sides{};
-  std::vector<Gathered> gathered;
-  for (unsigned i = 0; i < 4; ++i) gathered.emplace_back(image, guess[i], guess[(i + 1) % 4]);
-  for (unsigned i = 0; i < 4; ++i) sides[i] = gathered[i].support();
-  const QuadFit from_frame = marker::fit_quad(image, lens, guess, {});
-  const QuadFit from_strips = marker::fit_quad(sides, lens, guess, {});
-  BOOST_TEST(from_frame.refusal == Refusal::none);
-  BOOST_TEST(from_strips.refusal == Refusal::none);
-  BOOST_TEST(farthest(from_frame.ideal, from_strips.ideal) < 0.002);
 }
 
 // The far corner is bent by 34 px; the corners are found within 0.0051 px.
