@@ -19,6 +19,16 @@ const blocks = {
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
   hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
 };
+{
+  const { sweep } = samples.sweep({ points: 30 });
+  const failed = (point) => ({ ...point, failed: true, front: 0, reasons: ["failed: it stood"], metrics: point.metrics.map(() => null) });
+  blocks.onePoint = samples.sweep({ points: 1 });
+  blocks.noPoint = { sweep: { ...sweep, points: [] } };
+  blocks.allFailed = { sweep: { ...sweep, points: sweep.points.map(failed) } };
+  blocks.equal = { sweep: { ...sweep, points: sweep.points.map((point) => ({ ...point, metrics: point.metrics.map(() => 5) })) } };
+  const more = samples.sweep({ points: 300 }).sweep;
+  blocks.threeObjectives = { sweep: { ...more, objectives: [...more.objectives, { metric: "frames.error.corner_px.mean", unit: "px", better: -1 }] } };
+}
 let browser;
 
 before(async () => {
@@ -406,6 +416,27 @@ test("with 20 000 points a move of a limit is on the screen within 100 ms", () =
   for (let i = 0; i < 200 && !times.some((time) => time < 100); i++) times.push(await key(i % 20 < 10 ? "ArrowRight" : "ArrowLeft"));
   console.log(`a limit among 20 000 points: ${times.map(Math.round).join(" ")} ms`);
   assert.ok(Math.min(...times) < 100, `${times}`);
+}));
+
+for (const name of ["onePoint", "noPoint", "allFailed", "equal"]) {
+  test(`a sweep like ${name} has a page, too`, () => open(name, async (page) => {
+    await scrollThrough(page);
+    const limit = page.locator(".grip.x");
+    if (await limit.count() > 0 && await limit.getAttribute("aria-valuenow")) await limit.press("ArrowRight");
+    assert.match(await page.locator("#verdict").textContent(), /feasible point/);
+  }));
+}
+
+test("of three objectives the front is that of all, or of the two shown", () => open("threeObjectives", async (page) => {
+  const points = blocks.threeObjectives.sweep.points.filter((p) => p.reasons.length === 0 && p.metrics[0] !== null);
+  const beats = (q, p) => [[0, 1], [2, -1], [11, -1]].every(([i, sign]) => q.metrics[i] * sign >= p.metrics[i] * sign) && q !== p;
+  const rates = async () => sorted((await rowsOf(page, "Frame rate and power")).map((row) => Number(row[row.length - 14])));
+  const all = points.filter((p) => !points.some((q) => beats(q, p))).map((p) => p.metrics[0]);
+  assert.deepEqual(await rates(), sorted(all));
+  await page.getByLabel("Front in").selectOption("shown");
+  const ofTwo = frontOf(points, [0, true], [2, false]);
+  assert.ok(ofTwo.length < all.length, "the two differ");
+  assert.deepEqual(await rates(), sorted(ofTwo));
 }));
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {
