@@ -110,7 +110,8 @@ install(DIRECTORY vp/registers DESTINATION "${data_folder}/chip/source/vp")
 install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake DESTINATION "${data_folder}/chip/source/cmake")
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 # Where Debian's Python looks for modules.
-install(FILES python/markervp.py DESTINATION "lib/python3/dist-packages")
+set(MARKERVP_PYTHON_FOLDER "lib/python3/dist-packages")
+install(FILES python/markervp.py python/markervp_pytest.py DESTINATION "${MARKERVP_PYTHON_FOLDER}")
 install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
@@ -120,7 +121,7 @@ foreach(component programs models designs)
 endforeach()
 set(MARKERVP_RTL_FOLDER "${data_folder}/rtl")
 configure_package_config_file(cmake/markervpConfig.cmake.in "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
-  INSTALL_DESTINATION "${package_folder}" PATH_VARS MARKERVP_RTL_FOLDER)
+  INSTALL_DESTINATION "${package_folder}" PATH_VARS MARKERVP_RTL_FOLDER MARKERVP_PYTHON_FOLDER)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(FILES

@@ -19,3 +19,31 @@ function(markervp_add_program NAME)
     set_target_properties(${NAME} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${MARKERVP_PROGRAM_FOLDER}")
   endif()
 endfunction()
+
+# markervp_add_program_test(NAME test SCRIPT test_x.py PROGRAM target) runs the tests of a Python file with pytest, and the program
+# in them: the fixture `board` starts it (docs/software.md). JUnit: <test>.xml beside the build. Without SCRIPT the test is that
+# `markervp run` ends well; ARGUMENTS go to it.
+function(markervp_add_program_test)
+  cmake_parse_arguments(TEST "" "NAME;SCRIPT;PROGRAM" "ARGUMENTS" ${ARGN})
+  if(NOT TEST_NAME OR NOT TEST_PROGRAM OR TEST_UNPARSED_ARGUMENTS OR (TEST_SCRIPT AND TEST_ARGUMENTS))
+    message(FATAL_ERROR "markervp_add_program_test(NAME test PROGRAM target [SCRIPT test_x.py | ARGUMENTS …]): got '${ARGN}'")
+  endif()
+  if(PROJECT_NAME STREQUAL "markervp")
+    set(markervp $<TARGET_FILE:markervp>)
+    set(modules "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../python")
+  else()
+    set(markervp $<TARGET_FILE:markervp::markervp>)
+    set(modules "${markervp_PYTHON}")
+  endif()
+  if(NOT TEST_SCRIPT)
+    add_test(NAME ${TEST_NAME} COMMAND "${markervp}" run --program $<TARGET_FILE:${TEST_PROGRAM}> --no-pictures --no-report
+      --output ${TEST_NAME}.out ${TEST_ARGUMENTS})
+    return()
+  endif()
+  find_program(MARKERVP_PYTEST NAMES pytest-3 pytest REQUIRED DOC "pytest, Debian's python3-pytest")
+  cmake_path(ABSOLUTE_PATH TEST_SCRIPT)
+  add_test(NAME ${TEST_NAME} COMMAND "${MARKERVP_PYTEST}" -q -p markervp_pytest -p no:cacheprovider
+    --junitxml=${TEST_NAME}.xml "${TEST_SCRIPT}")
+  set_tests_properties(${TEST_NAME} PROPERTIES ENVIRONMENT
+    "MARKERVP=${markervp};MARKERVP_PROGRAM=$<TARGET_FILE:${TEST_PROGRAM}>;PYTHONPATH=${modules};PYTHONDONTWRITEBYTECODE=1")
+endfunction()

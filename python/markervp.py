@@ -6,6 +6,8 @@
     sweep = markervp.sweep({"parameters": {"sw.canonical_width": ["24 px", "60 px"]}})
     sweep.frame()                       # a pandas.DataFrame, where pandas is installed
     markervp.read_sweep("out/mine")     # what was computed before
+    with markervp.Session("./blink.so") as board:   # a test leads the run
+        board.wait_for("axi_gpio_0.GPIO_DATA == 0x100", timeout="1 ms")
 
 The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a markervp.Error with its message. Nothing is computed
 here: every figure comes from result.json or a sweep's files.
@@ -15,10 +17,12 @@ import json
 import os
 import pathlib
 import shutil
+import socket
 import sqlite3
 import subprocess
+import tempfile
 
-__all__ = ["Error", "Run", "Sweep", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
+__all__ = ["Error", "Run", "Session", "Sweep", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
 
 _points_failed = 4
 
@@ -174,3 +178,149 @@ def explore(study, output=None, options=()):
 def read_sweep(folder):
     """What stands in the folder of a sweep or a search that was made before."""
     return Sweep(folder)
+
+
+def _time(value):
+    """Of a text as it is ("5 ms"), of a number in seconds."""
+    return value if isinstance(value, str) else f"{round(value * 1e12)} ps"
+
+
+class Session:
+    """A run that a test leads: it lets time pass or waits, reads and writes from outside, and looks at what came of it.
+
+    Simulated time stands while the test thinks, so that the same test always sees the same. Times are texts ("5 ms") or
+    numbers, s. Registers and addresses are named as `markervp map` does: "axi_gpio_0.GPIO_DATA", "ddr+0x1000", 0x41200000;
+    signals as in a trace: "ps.gic.n_irq". What the platform refuses is a markervp.Error, and the run goes on.
+
+    `wall_time`, s: the longest that a command may take on this computer; the run is killed then.
+    """
+
+    def __init__(self, program_file=None, inputs=(), set=None, output=None, options=(), wall_time=60):
+        self._folder = None if output else tempfile.TemporaryDirectory(prefix="markervp-")
+        self.output = pathlib.Path(output or self._folder.name)
+        self.console = []  #: lines that the program and the UARTs printed
+        self.time = 0.0  #: simulated, s
+        self.ended = False  #: the program has
+        self._reply, theirs = b"", None
+        self._socket, theirs = socket.socketpair()
+        self._socket.settimeout(wall_time)
+        arguments = [program(), "run", *map(str, inputs), "--quiet", "--no-pictures", "--output", str(self.output),
+                     "--control", str(theirs.fileno()), *options]
+        if program_file:
+            arguments += ["--program", str(program_file)]
+        for path, value in (set or {}).items():
+            arguments += ["--set", f"{path}={_text(value)}"]
+        self._messages = tempfile.TemporaryFile("w+")
+        self._process = subprocess.Popen(arguments, pass_fds=[theirs.fileno()], stdout=subprocess.DEVNULL,
+                                         stderr=self._messages, text=True)
+        theirs.close()
+        try:
+            self._ask("run", **{"for": "0 ps"})
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, trace):
+        self.close()
+
+    def close(self):
+        """Ends the run, wherever it is."""
+        self._socket.close()
+        if self._process.poll() is None:
+            self._process.kill()
+        self._process.wait()
+        self._messages.close()
+        if self._folder:
+            self._folder.cleanup()
+
+    def _failed(self, what):
+        self._process.kill()
+        code = self._process.wait()
+        self._messages.seek(0)
+        lines = self._messages.read().strip().splitlines() or [what]
+        return Error(lines[-1].removeprefix("markervp: "), code)
+
+    def _ask(self, command, **values):
+        try:
+            self._socket.sendall(json.dumps({"do": command, **values}).encode() + b"\n")
+            while b"\n" not in self._reply:
+                more = self._socket.recv(1 << 16)
+                if not more:
+                    self._process.wait()
+                    raise self._failed("the run ended without an answer")
+                self._reply += more
+        except socket.timeout:
+            raise self._failed(f"no answer to '{command}' within {self._socket.gettimeout():g} s") from None
+        except (BrokenPipeError, ConnectionResetError):
+            self._process.wait()
+            raise self._failed("the run is over") from None
+        line, self._reply = self._reply.split(b"\n", 1)
+        reply = json.loads(line)
+        self.time, self.ended = reply["time_ps"] / 1e12, reply["ended"]
+        self.console += reply["console"]
+        if "error" in reply:
+            raise Error(reply["error"], None)
+        return reply
+
+    def run(self, time):
+        """Lets so much time pass, or less if the program ends."""
+        self._ask("run", **{"for": _time(time)})
+
+    def wait_for(self, condition, timeout, every="1 us"):
+        """Until an expression over signals and registers holds (docs/expressions.md): "ps.gic.n_irq falls",
+        "axi_dma_0.MM2S_DMASR[0] == 0". At its very instant where it names signals only; registers are looked at `every` so
+        often. Returns the time, s. An Error if it did not come in time."""
+        self._met(self._ask("wait", timeout=_time(timeout), every=_time(every), **{"for": condition}), condition, timeout)
+        return self.time
+
+    def wait_for_text(self, text, timeout):
+        """Until a line with that text is printed. Lines that were there before the last command do not count."""
+        self._met(self._ask("wait_text", timeout=_time(timeout), text=text), f"'{text}' on the console", timeout)
+        return self.time
+
+    def _met(self, reply, what, timeout):
+        if not reply["met"]:
+            end = "before the program ended" if self.ended else f"within {timeout if isinstance(timeout, str) else f'{timeout:g} s'}"
+            raise Error(f"{what}: did not come {end}; it is {self.time * 1e3:g} ms now", None)
+
+    def read(self, at):
+        """A word, without the effects that a read by software has."""
+        return self.read_words(at, 1)[0]
+
+    def read_words(self, at, count):
+        return self._ask("read", at=str(at), words=count)["words"]
+
+    def write(self, at, value):
+        """Puts a word into memory or a register, without the effects that a write by software has."""
+        self._ask("write", at=str(at), value=value)
+
+    def signal(self, name):
+        return self._ask("signal", name=name)["value"]
+
+    def drive(self, name, value):
+        """Sets a signal, such as a pin from outside; what drives it in the design may change it again."""
+        self._ask("drive", name=name, value=int(value))
+
+    def interrupt(self, number, level=True):
+        """Sets the wire of an interrupt, 32 to 95."""
+        self._ask("interrupt", id=number, level=int(level))
+
+    def uart(self, text, device="uart0"):
+        """Types into an UART; characters come at its baud rate."""
+        self._ask("receive", device=device, text=text)
+
+    def finish(self):
+        """Lets the program run to its end. Returns the Run; an Error if it failed."""
+        while not self.ended:
+            self.run("1000 s")
+        self._socket.sendall(b'{"do": "finish"}\n')
+        try:
+            code = self._process.wait(self._socket.gettimeout())
+        except subprocess.TimeoutExpired:
+            raise self._failed("the run's results were not written in time") from None
+        if code != 0:
+            raise self._failed("the run failed")
+        return Run(self.output)

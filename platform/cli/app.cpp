@@ -185,6 +185,10 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
       .add_option("--register-coverage", target.register_coverage,
                   "write which registers and bits the program used")
       ->type_name("FILE");
+  command
+      .add_option("--control", target.control,
+                  "let a test lead the run through this socket (docs/software.md)")
+      ->type_name("DESCRIPTOR");
 }
 
 void add_run(CLI::App& app, RunOptions& target) {

@@ -141,6 +141,11 @@ SimulationOptions simulation_options(const RunOptions& options) {
   result.timeline_frames = options.timeline_frames;
   if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
   result.register_coverage = options.register_coverage;
+  if (options.control && !host::is_socket(*options.control)) {
+    throw vp::InputError("--control " + std::to_string(*options.control) +
+                         ": no socket is open under this number: python/markervp.py opens one");
+  }
+  result.control = options.control;
   return result;
 }
 

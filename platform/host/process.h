@@ -71,6 +71,9 @@ class InterruptGuard : private vp::HostTicks::Listener {
 /// the standard output of a program that was started without one. Writing to them fails.
 void fill_standard_descriptors();
 
+/// True if `descriptor` is an open socket of this process.
+bool is_socket(int descriptor);
+
 /// Throws vp::OutputError if what went to `out` could not all be written. Call it right after
 /// writing: errno says why.
 void check_written(std::ostream& out);

@@ -23,13 +23,6 @@ struct ConsoleFlush {
   }
 };
 
-void connect_consoles(ProcessingSystem& ps, std::ostream& out) {
-  const auto print = [&out](const std::string& line) { out << line << std::endl; };
-  ps.cpu.console.connect(print);
-  ps.uart0.console.connect(print, "uart0: ");
-  ps.uart1.console.connect(print, "uart1: ");
-}
-
 }  // namespace
 
 // The design names the program, or the program its design.
@@ -42,6 +35,17 @@ void Simulation::choose_design() {
       "what stands in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
   if (!program_) program_ = ps::Program::load(usual_program(*design_));
+}
+
+void Simulation::connect_consoles() {
+  if (!options_.console && !control_) return;
+  const auto print = [this](const std::string& line) {
+    if (options_.console) *options_.console << line << std::endl;
+    if (control_) control_->printed(line);
+  };
+  zynq_->ps.cpu.console.connect(print);
+  zynq_->ps.uart0.console.connect(print, "uart0: ");
+  zynq_->ps.uart1.console.connect(print, "uart1: ");
 }
 
 Simulation::Simulation(const SimulationOptions& options) : options_(options) {
@@ -70,7 +74,9 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   if (options_.trace) power_->follow();
   zynq_->ps.cpu.load(*program_, costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
-  if (options_.console) connect_consoles(zynq_->ps, *options_.console);
+  if (options_.control)
+    control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);
+  connect_consoles();
 }
 
 input::ImageSize Simulation::image_size() const {
@@ -152,6 +158,7 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
   try {
     vp::settle_foreign_modules();
     sc_core::sc_start();
+    if (control_) control_->finish();
     zynq_->ps.cpu.check();
     // Modules may have a last word: end_of_simulation().
     if (sc_core::sc_get_status() != sc_core::SC_STOPPED) sc_core::sc_stop();

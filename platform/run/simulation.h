@@ -19,6 +19,7 @@
 #include <zynq/camera_timing.h>
 #include <zynq/frame_bench.h>
 #include <zynq/parts.h>
+#include <zynq/remote_control.h>
 #include <zynq/software_options.h>
 #include <zynq/timeline_recorder.h>
 #include <zynq/zynq.h>
@@ -33,6 +34,7 @@ struct SimulationOptions {
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
   std::optional<std::string> register_coverage = {};  ///< file: which registers the program used
+  std::optional<int> control = {};                    ///< socket of a test that leads the run
   std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
 };
 
@@ -80,6 +82,7 @@ class Simulation {
 
  private:
   void choose_design();
+  void connect_consoles();
   /// The error that ended it; null for none.
   std::exception_ptr simulate(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
@@ -99,6 +102,7 @@ class Simulation {
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;
+  std::unique_ptr<RemoteControl> control_;
   bool wrote_trace_ = false;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };

@@ -3,7 +3,6 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>
-#include <cstring>
 #include <iostream>
 #include <optional>
 
@@ -13,25 +12,11 @@ namespace {
 
 Zynq* debugged = nullptr;
 
-std::optional<std::uint32_t> word_at(std::uint32_t address) {
-  std::uint32_t word = 0;
-  unsigned char bytes[sizeof word] = {};
-  tlm::tlm_generic_payload payload;
-  payload.set_command(tlm::TLM_READ_COMMAND);
-  payload.set_address(address);
-  payload.set_data_ptr(bytes);
-  payload.set_data_length(sizeof bytes);
-  payload.set_streaming_width(sizeof bytes);
-  if (debugged->ps.cpu.m_axi.transport_debug(payload) != sizeof bytes) return std::nullopt;
-  std::memcpy(&word, bytes, sizeof word);
-  return word;
-}
-
 void print(const report::HardwareMap::Device& device) {
   for (const report::HardwareMap::Register& r : device.registers) {
     if (!r.built) continue;
     const auto address = static_cast<std::uint32_t>(device.base + r.offset);
-    const std::optional<std::uint32_t> word = word_at(address);
+    const std::optional<std::uint32_t> word = debugged->peek(address);
     std::cout << vp::hex(address) << "  " << (word ? vp::hex(*word) : "no answer ") << "  "
               << r.name << "\n";
   }
@@ -54,7 +39,7 @@ using platform::debugged;
 extern "C" {
 
 std::uint32_t markervp_peek(std::uint32_t address) {
-  return debugged ? platform::word_at(address).value_or(0xFFFF'FFFF) : 0xFFFF'FFFF;
+  return debugged ? debugged->peek(address).value_or(0xFFFF'FFFF) : 0xFFFF'FFFF;
 }
 
 void markervp_registers(const char* device) {

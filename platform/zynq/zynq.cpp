@@ -1,5 +1,7 @@
 #include <zynq/zynq.h>
 
+#include <cstring>
+
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
@@ -48,6 +50,30 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
   ps.start_clocks();
   scheduler.set_batch(true);
   ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
+}
+
+bool Zynq::look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word) {
+  unsigned char bytes[sizeof word];
+  std::memcpy(bytes, &word, sizeof word);
+  tlm::tlm_generic_payload payload;
+  payload.set_command(command);
+  payload.set_address(address);
+  payload.set_data_ptr(bytes);
+  payload.set_data_length(sizeof bytes);
+  payload.set_streaming_width(sizeof bytes);
+  const bool answered = ps.cpu.m_axi.transport_debug(payload) == sizeof bytes;
+  std::memcpy(&word, bytes, sizeof word);
+  return answered;
+}
+
+std::optional<std::uint32_t> Zynq::peek(std::uint32_t address) {
+  std::uint32_t word = 0;
+  if (!look(tlm::TLM_READ_COMMAND, address, word)) return std::nullopt;
+  return word;
+}
+
+bool Zynq::poke(std::uint32_t address, std::uint32_t word) {
+  return look(tlm::TLM_WRITE_COMMAND, address, word);
 }
 
 std::string Zynq::device_at(std::uint32_t address) const {

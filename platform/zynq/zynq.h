@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 
@@ -35,10 +36,18 @@ struct Zynq {
     design_->settle();
   }
 
+  /// The word that the processor would find at an address, without any effect; none: nothing
+  /// answers there.
+  std::optional<std::uint32_t> peek(std::uint32_t address);
+  /// Puts a word there, without the effects of a write. False: nothing answers there.
+  bool poke(std::uint32_t address, std::uint32_t word);
+
   /// What the processor finds at an address; of several the nearest to the device. "" for nothing.
   std::string device_at(std::uint32_t address) const;
 
  private:
+  bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
+
   std::unique_ptr<Design> design_;
 };
 

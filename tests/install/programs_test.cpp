@@ -76,6 +76,14 @@ BOOST_AUTO_TEST_CASE(a_program_that_takes_images) {
   BOOST_TEST(result()["summary"]["frames"] == 2);
 }
 
+BOOST_AUTO_TEST_CASE(tests_of_a_program_run_in_ctest) {
+  const kit::Outcome outcome = installed.build_target("programs", "test");
+  BOOST_TEST(outcome.exit_code == 0, outcome.out);
+  BOOST_TEST(contains(outcome.out, "100% tests passed, 0 tests failed out of 2"), outcome.out);
+  BOOST_TEST(
+      contains(kit::read_file(installed.beside("programs/frames_led.xml")), "failures=\"0\""));
+}
+
 BOOST_AUTO_TEST_CASE(a_program_that_fails) {
   const kit::Outcome outcome = run(file("failing"));
   BOOST_TEST(outcome.exit_code == 1);

@@ -173,6 +173,11 @@ void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
   if (risen || !idle_) update_lines();
 }
 
+void Gic::set_wire(std::uint32_t id, bool level) {
+  logic_.set_wire(id, level);
+  update_lines();
+}
+
 // True if an input has risen.
 bool Gic::set_f2p(std::uint32_t levels) {
   const bool risen = (levels & ~f2p_levels_) != 0;

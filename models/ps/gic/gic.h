@@ -129,6 +129,9 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   /// Wires `signal` to interrupt `id` (16 … 95), active high: before the simulation starts.
   void connect(std::uint32_t id, vp::Signal<bool>& signal);
 
+  /// Sets the level at interrupt `id` from outside, until the signal wired to it changes next.
+  void set_wire(std::uint32_t id, bool level);
+
   const InterruptLogic& logic() const { return logic_; }
 
  private:
