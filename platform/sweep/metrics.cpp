@@ -306,7 +306,7 @@ const std::vector<MetricKind>& metric_kinds() {
       {"summary.delivered", "", "of them with a result"},
       {"summary.detected", "", "of them with a marker"},
       {"summary.detection_rate", "",
-       "share of the scenes' markers that were found, each with its ID; 1: all"},
+       "share of the scenes whose marker was found, with its ID; 1: all"},
       {"summary.fps.mean", "1/s", "frame rate: results over the time that they took"},
       {"summary.fps.min", "1/s", "frame rate of the slowest result"},
       {"summary.fps.max", "1/s", "frame rate of the fastest result"},
