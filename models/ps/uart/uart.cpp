@@ -207,6 +207,7 @@ void Uart::start_shifters() {
     tx_ = {tx_fifo_.front(), now + length};
     tx_fifo_.pop_front();
     if (tx_fifo_.empty()) raise(uart::event::TEMPTY);
+    if (mode() == uart::mr::CHMODE_local_loopback) restart_timeout();  // the receiver sees it begin
   }
   if (!rx_.busy() && !line_.empty()) {
     rx_ = {line_.front(), now + length};

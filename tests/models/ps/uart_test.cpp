@@ -344,6 +344,21 @@ BOOST_AUTO_TEST_CASE(the_time_out_counts_from_the_last_start_bit) {
   });
 }
 
+// The receiver sees the start bits of what the transmitter sends.
+BOOST_AUTO_TEST_CASE(the_time_out_in_local_loopback) {
+  UartBench b;
+  b.run([&] {
+    set_up(uart::mr::PAR_none | uart::mr::CHMODE_local_loopback);
+    set(uart::RXTOUT, 10);  // 43 bits
+    send("ab");
+    after_ps(character_ps + 43 * bit_ps - 1'000);
+    BOOST_TEST((get(uart::ISR) & uart::event::TIMEOUT) == 0u);
+    after_ps(1'000);
+    BOOST_TEST((get(uart::ISR) & uart::event::TIMEOUT) == uart::event::TIMEOUT);
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(channel_modes) {
   UartBench local;
   local.run([&] {
