@@ -107,7 +107,7 @@ foreach(folder IN LISTS register_folders)
 endforeach()
 install(FILES models/registers/CMakeLists.txt DESTINATION "${data_folder}/chip/source/models/registers")
 install(DIRECTORY vp/registers DESTINATION "${data_folder}/chip/source/vp")
-install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake DESTINATION "${data_folder}/chip/source/cmake")
+install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake cmake/MarkervpProgram.cpp.in DESTINATION "${data_folder}/chip/source/cmake")
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 # Where Debian's Python looks for modules.
 set(MARKERVP_PYTHON_FOLDER "lib/python3/dist-packages")
@@ -130,5 +130,7 @@ install(FILES
   cmake/MarkervpDesign.cmake
   cmake/MarkervpProgram.cmake
   cmake/MarkervpRtl.cmake
+  cmake/MarkervpProgram.cpp.in
   cmake/MarkervpRtl.cpp.in
+  cmake/MarkervpVendor.c
   DESTINATION "${package_folder}")

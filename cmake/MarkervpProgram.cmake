@@ -1,14 +1,63 @@
-# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…])
-# A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it.
+set(markervp_program_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpProgram.cpp.in")
+set(markervp_vendor_tables "${CMAKE_CURRENT_LIST_DIR}/MarkervpVendor.c")
+
+# Drivers of the vendor's in place of those of markervp::compat, from a copy that the user has: those that are found in
+# FOLDER, the libsrc of a board support package or a checkout of the vendor's repository.
+function(_markervp_use_vendor_drivers NAME FOLDER)
+  get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  if(NOT CMAKE_C_COMPILER)
+    message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP): the vendor's drivers are C, write project(… LANGUAGES C CXX)")
+  endif()
+  set(drivers "")
+  foreach(driver axidma gpio scugic scutimer uartps)
+    set(place "${driver}*/src/x${driver}.c")
+    file(GLOB found "${folder}/${place}" "${folder}/libsrc/${place}" "${folder}/*/libsrc/${place}"
+      "${folder}/XilinxProcessorIPLib/drivers/${place}")
+    list(LENGTH found count)
+    if(count EQUAL 0)
+      continue()
+    elseif(count GREATER 1)
+      list(JOIN found ", " found)
+      message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): which ${driver}? There are ${found}: "
+        "name the folder that holds one of them")
+    endif()
+    cmake_path(GET found PARENT_PATH source)
+    file(GLOB sources CONFIGURE_DEPENDS "${source}/*.c")
+    list(FILTER sources EXCLUDE REGEX "_g\\.c$")  # the devices of another design
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
+    target_sources(${NAME} PRIVATE ${sources})
+    target_include_directories(${NAME} BEFORE PRIVATE "${source}")
+    string(TOUPPER "${driver}" upper)
+    target_compile_definitions(${NAME} PRIVATE "MARKERVP_VENDOR_${upper}")
+    list(APPEND drivers ${driver})
+  endforeach()
+  if(NOT drivers)
+    message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): no driver of the vendor's is there. "
+      "Name the libsrc of a board support package or a checkout of the vendor's repository; looked for "
+      "axidma, gpio, scugic, scutimer and uartps, each as <driver>*/src/x<driver>.c")
+  endif()
+  target_sources(${NAME} PRIVATE "${markervp_vendor_tables}")
+  list(JOIN drivers ", " drivers)
+  message(STATUS "${NAME}: the vendor's drivers of ${drivers}")
+endfunction()
+
+# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER])
+# A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it. The sources
+# define hal_program_info, or main().
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
-  cmake_parse_arguments(PROGRAM "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…]): "
+    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder]): "
       "got '${ARGN}'")
   endif()
-  add_library(${NAME} MODULE ${PROGRAM_SOURCES})
+  set(description "${CMAKE_CURRENT_BINARY_DIR}/${NAME}_program.cpp")
+  configure_file("${markervp_program_template}" "${description}" @ONLY)
+  add_library(${NAME} MODULE ${PROGRAM_SOURCES} "${description}")
   target_link_libraries(${NAME} PRIVATE markervp::hal ${PROGRAM_LIBRARIES})
+  if(DEFINED PROGRAM_VENDOR_BSP)
+    _markervp_use_vendor_drivers(${NAME} "${PROGRAM_VENDOR_BSP}")
+  endif()
   # Numbers as on the chip: no contraction.
   target_compile_options(${NAME} PRIVATE -ffp-contract=off)
   # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.

@@ -39,7 +39,8 @@ class Definitions {
   std::string text;
 };
 
-/// Both under the instance's name and under that of the driver: code uses either.
+/// Both under the instance's name and under that of the driver: code uses either. Interrupts end in
+/// INTR under the one, in VEC_ID under the other, which leaves the line out if there is only one.
 void define_device(Definitions& out, const Device& device, unsigned number) {
   out.text += "\n/* " + device.name + " */\n";
   const bool has_driver = !device.driver.empty();
@@ -53,6 +54,10 @@ void define_device(Definitions& out, const Device& device, unsigned number) {
   }
   for (const auto& [line, id] : device.interrupts) {
     out.number("FABRIC_" + device.name + "_" + line + "_INTR", id);
+    if (has_driver) out.number("FABRIC_" + names.back() + "_" + line + "_VEC_ID", id);
+  }
+  if (has_driver && device.interrupts.size() == 1) {
+    out.number("FABRIC_" + names.back() + "_VEC_ID", device.interrupts.front().second);
   }
 }
 
@@ -72,13 +77,27 @@ constexpr const char* processor_devices =
     "#define XPAR_PS7_SCUGIC_0_DEVICE_ID 0\n"
     "#define XPAR_SCUGIC_0_DEVICE_ID 0\n"
     "#define XPAR_SCUGIC_SINGLE_DEVICE_ID 0\n"
+    "#define XPAR_XSCUGIC_NUM_INSTANCES 1\n"
     "#define XPAR_SCUGIC_0_CPU_BASEADDR 0xF8F00100U\n"
     "#define XPAR_SCUGIC_0_DIST_BASEADDR 0xF8F01000U\n"
     "#define XPAR_GLOBAL_TMR_BASEADDR 0xF8F00200U\n"
     "#define XPAR_GLOBAL_TMR_INTR 27\n"
     "#define XPAR_SCUTIMER_0_BASEADDR 0xF8F00600U\n"
     "#define XPAR_SCUTIMER_INTR 29\n"
-    "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n";
+    "#define XPAR_SCUTIMER_DEVICE_ID 0\n"
+    "#define XPAR_XSCUTIMER_NUM_INSTANCES 1\n"
+    "#define XPAR_XSCUTIMER_0_DEVICE_ID 0\n"
+    "#define XPAR_XSCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n"
+    "\n/* UARTs, and what the processing system has besides */\n"
+    "#define XPAR_XUARTPS_0_DEVICE_ID 0\n"
+    "#define XPAR_XUARTPS_0_BASEADDR 0xE0000000U\n"
+    "#define XPAR_XUARTPS_0_UART_CLK_FREQ_HZ 50000000\n"
+    "#define XPAR_XUARTPS_1_DEVICE_ID 1\n"
+    "#define XPAR_XUARTPS_1_BASEADDR 0xE0001000U\n"
+    "#define XPAR_XUARTPS_1_UART_CLK_FREQ_HZ 50000000\n"
+    "#define XPAR_XUARTPS_NUM_INSTANCES 2\n"
+    "#include <xparameters_ps.h>\n";
 
 }  // namespace
 

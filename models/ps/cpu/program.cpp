@@ -213,8 +213,11 @@ std::string problem_of(const hal_program& program) {
     return "was built for version " + std::to_string(program.abi) +
            " of the HAL, this is version " + std::to_string(HAL_ABI) + ": rebuild it";
   }
-  if (!is_name(program.name) || !program.entry) {
-    return "has an incomplete hal_program_info: it needs a name and an entry";
+  if (is_name(program.name) && !program.entry) {
+    return "is not a PS program: it has neither main() nor an entry in its hal_program_info";
+  }
+  if (!is_name(program.name)) {
+    return "has an incomplete hal_program_info: it needs a name";
   }
   std::string problem = problem_of_table("unit", program.work, program.work_count);
   if (problem.empty())

@@ -1,8 +1,6 @@
-/* Written as for a board support package: includes and names as there, nothing of markervp but the
- * description at the end. Blinks an output that nobody looks at (the threshold field of the control
- * packet, without wr_thresh) and measures its own period with the global timer; the timer's alarm
- * counts in an interrupt. */
-#include <hal/hal.h>
+/* Written as for a board support package: includes and names as there, nothing of markervp. Blinks
+ * an output that nobody looks at (the threshold field of the control packet, without wr_thresh) and
+ * measures its own period with the global timer; the timer's alarm counts in an interrupt. */
 #include <sleep.h>
 #include <xgpio.h>
 #include <xil_exception.h>
@@ -78,7 +76,7 @@ static void Blink(int Number) {
              Microseconds >= 2U * HALF_PERIOD_US ? "not too fast" : "too fast");
 }
 
-static int Run(void) {
+int main(void) {
   if (XGpio_Initialize(&Gpio, XPAR_AXI_GPIO_0_DEVICE_ID) != XST_SUCCESS) return XST_FAILURE;
   XGpio_SetDataDirection(&Gpio, 1, 0);
   if (SetUpInterrupts() != XST_SUCCESS) return XST_FAILURE;
@@ -90,5 +88,3 @@ static int Run(void) {
              (unsigned)Alarms, (unsigned)InterruptController.UnhandledInterrupts);
   return XST_SUCCESS;
 }
-
-const hal_program hal_program_info = {HAL_ABI, "blink", Run, NULL, 0, NULL, 0, NULL, 0};

@@ -1,122 +1,15 @@
-// xscugic.h.
+// xtime_l.h and sleep.h.
 #include <algorithm>
 
-#include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <hal/hal.h>
 #include <sleep.h>
-#include <xscugic.h>
+#include <uart_registers.h>
+#include <xil_assert.h>
+#include <xil_printf.h>
+#include <xil_testio.h>
+#include <xil_util.h>
 #include <xtime_l.h>
-
-namespace {
-
-static_assert(XSCUGIC_MAX_NUM_INTR_INPUTS == gic::id_count, "one entry per interrupt");
-
-constexpr std::uint32_t default_priority = 0xA0;
-constexpr std::uint32_t priority_mask = 0xF0;
-
-XScuGic_Config config = {
-    XPAR_SCUGIC_0_DEVICE_ID, XPAR_SCUGIC_0_CPU_BASEADDR, XPAR_SCUGIC_0_DIST_BASEADDR, {}};
-
-std::uint32_t cpu_interface(const XScuGic* instance, std::uint32_t offset) {
-  return static_cast<std::uint32_t>(instance->Config->CpuBaseAddress) + offset;
-}
-
-std::uint32_t distributor(const XScuGic* instance, std::uint32_t offset) {
-  return static_cast<std::uint32_t>(instance->Config->DistBaseAddress) + offset;
-}
-
-void initialise_distributor(const XScuGic* instance) {
-  hal_write32(distributor(instance, gic::ICDDCR), 0);
-  for (unsigned n = gic::first_spi / 16; n < gic::sense_registers; ++n) {
-    hal_write32(distributor(instance, gic::ICDICFR(n)), 0);
-  }
-  for (unsigned n = 0; n < gic::byte_registers; ++n) {
-    hal_write32(distributor(instance, gic::ICDIPR(n)), default_priority * 0x0101'0101u);
-  }
-  for (unsigned n = gic::first_spi / 4; n < gic::byte_registers; ++n) {
-    hal_write32(distributor(instance, gic::ICDIPTR(n)), 0x0101'0101u);
-  }
-  for (unsigned n = 0; n < gic::bit_registers; ++n) {
-    hal_write32(distributor(instance, gic::ICDICER(n)), 0xFFFF'FFFFu);
-  }
-  hal_write32(distributor(instance, gic::ICDDCR), gic::icddcr::EnableS);
-}
-
-void replace_bits(std::uint32_t address, std::uint32_t mask, std::uint32_t value) {
-  hal_write32(address, (hal_read32(address) & ~mask) | value);
-}
-
-}  // namespace
-
-extern "C" {
-
-XScuGic_Config* XScuGic_LookupConfig(u16 DeviceId) {
-  return DeviceId == config.DeviceId ? &config : nullptr;
-}
-
-s32 XScuGic_CfgInitialize(XScuGic* InstancePtr, XScuGic_Config* ConfigPtr, UINTPTR) {
-  if (InstancePtr == nullptr || ConfigPtr == nullptr) return XST_INVALID_PARAM;
-  InstancePtr->Config = ConfigPtr;
-  InstancePtr->UnhandledInterrupts = 0;
-  for (XScuGic_VectorTableEntry& entry : ConfigPtr->HandlerTable) entry = {nullptr, nullptr};
-  initialise_distributor(InstancePtr);
-  hal_write32(cpu_interface(InstancePtr, gic::ICCPMR), priority_mask);
-  hal_write32(cpu_interface(InstancePtr, gic::ICCICR),
-              gic::iccicr::EnableS | gic::iccicr::EnableNS | gic::iccicr::AckCtl);
-  InstancePtr->IsReady = XIL_COMPONENT_IS_READY;
-  return XST_SUCCESS;
-}
-
-s32 XScuGic_Connect(XScuGic* InstancePtr, u32 Int_Id, Xil_InterruptHandler Handler,
-                    void* CallBackRef) {
-  if (Int_Id >= gic::id_count || Handler == nullptr) return XST_INVALID_PARAM;
-  InstancePtr->Config->HandlerTable[Int_Id] = {Handler, CallBackRef};
-  return XST_SUCCESS;
-}
-
-void XScuGic_Disconnect(XScuGic* InstancePtr, u32 Int_Id) {
-  if (Int_Id >= gic::id_count) return;
-  XScuGic_Disable(InstancePtr, Int_Id);
-  InstancePtr->Config->HandlerTable[Int_Id] = {nullptr, nullptr};
-}
-
-void XScuGic_Enable(XScuGic* InstancePtr, u32 Int_Id) {
-  if (Int_Id >= gic::id_count) return;
-  hal_write32(distributor(InstancePtr, gic::ICDISER(Int_Id / 32)), 1u << Int_Id % 32);
-}
-
-void XScuGic_Disable(XScuGic* InstancePtr, u32 Int_Id) {
-  if (Int_Id >= gic::id_count) return;
-  hal_write32(distributor(InstancePtr, gic::ICDICER(Int_Id / 32)), 1u << Int_Id % 32);
-}
-
-void XScuGic_SetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8 Priority, u8 Trigger) {
-  if (Int_Id >= gic::id_count) return;
-  const unsigned byte = Int_Id % 4 * 8;
-  replace_bits(distributor(InstancePtr, gic::ICDIPR(Int_Id / 4)), 0xFFu << byte,
-               (Priority & gic::priority_mask) << byte);
-  const unsigned pair = Int_Id % 16 * 2;
-  replace_bits(distributor(InstancePtr, gic::ICDICFR(Int_Id / 16)), 3u << pair,
-               (Trigger & 3u) << pair);
-}
-
-void XScuGic_InterruptHandler(XScuGic* InstancePtr) {
-  const std::uint32_t acknowledged = hal_read32(cpu_interface(InstancePtr, gic::ICCIAR));
-  const std::uint32_t id = acknowledged & gic::icciar::ACKINTID;
-  if (id >= gic::id_count) return;  // spurious: there is nothing to end
-  const XScuGic_VectorTableEntry& entry = InstancePtr->Config->HandlerTable[id];
-  if (entry.Handler != nullptr) {
-    entry.Handler(entry.CallBackRef);
-  } else {
-    ++InstancePtr->UnhandledInterrupts;
-  }
-  hal_write32(cpu_interface(InstancePtr, gic::ICCEOIR), acknowledged);
-}
-
-}  // extern "C"
-
-// xtime_l.h and sleep.h.
 
 namespace {
 
@@ -172,6 +65,95 @@ int usleep(unsigned int useconds) {
 
 unsigned int sleep(unsigned int seconds) {
   wait_counts(static_cast<u64>(seconds) * COUNTS_PER_SECOND);
+  return 0;
+}
+
+}  // extern "C"
+
+// xil_assert.h, xil_util.h, xil_testio.h, and inbyte() of xil_printf.h.
+
+namespace {
+
+Xil_AssertCallback assert_callback = nullptr;
+
+}  // namespace
+
+extern "C" {
+
+u32 Xil_AssertStatus = XIL_ASSERT_NONE;
+s32 Xil_AssertWait = 1;
+
+void Xil_AssertSetCallback(Xil_AssertCallback Routine) {
+  assert_callback = Routine;
+}
+
+// The vendor's waits here for ever; a trap ends the run and says where it was.
+void Xil_Assert(const char8* File, s32 Line) {
+  if (assert_callback != nullptr) assert_callback(File, Line);
+  if (Xil_AssertWait == 0) return;
+  xil_printf("%s:%d: an argument is not as the driver needs it\n", File, static_cast<int>(Line));
+  __builtin_trap();
+}
+
+void XNullHandler(void*) {}
+
+char inbyte(void) {
+  while (hal_read32(STDOUT_BASEADDRESS + uart::SR) & uart::sr::REMPTY) {
+  }
+  return static_cast<char>(hal_read32(STDOUT_BASEADDRESS + uart::FIFO));
+}
+
+u32 Xil_WaitForEvent(u32 RegAddr, u32 EventMask, u32 Event, u32 Timeout) {
+  u32 seen = 0;
+  return Xil_WaitForEvents(RegAddr, EventMask, Event, &seen, Timeout);
+}
+
+u32 Xil_WaitForEvents(u32 EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32* Events, u32 Timeout) {
+  for (u32 looks = 0; looks < Timeout; ++looks) {
+    const u32 seen = Xil_In32(EventsRegAddr) & EventsMask;
+    if ((seen & WaitEvents) == WaitEvents) {
+      *Events = seen;
+      return XST_SUCCESS;
+    }
+    usleep(1);
+  }
+  return XST_FAILURE;
+}
+
+u32 Xil_ConvertCharToNibble(u8 InChar, u8* Num) {
+  if (InChar >= '0' && InChar <= '9') {
+    *Num = static_cast<u8>(InChar - '0');
+  } else if (InChar >= 'a' && InChar <= 'f') {
+    *Num = static_cast<u8>(InChar - 'a' + 10);
+  } else if (InChar >= 'A' && InChar <= 'F') {
+    *Num = static_cast<u8>(InChar - 'A' + 10);
+  } else {
+    return XST_FAILURE;
+  }
+  return XST_SUCCESS;
+}
+
+s32 Xil_TestIO8(u8* Addr, s32 Length, u8 Value) {
+  for (s32 i = 0; i < Length; ++i) {
+    Xil_Out8(reinterpret_cast<UINTPTR>(Addr), Value);
+    if (Xil_In8(reinterpret_cast<UINTPTR>(Addr)) != Value) return -1;
+  }
+  return 0;
+}
+
+s32 Xil_TestIO16(u16* Addr, s32 Length, u16 Value, s32, s32) {
+  for (s32 i = 0; i < Length; ++i) {
+    Xil_Out16(reinterpret_cast<UINTPTR>(Addr), Value);
+    if (Xil_In16(reinterpret_cast<UINTPTR>(Addr)) != Value) return -1;
+  }
+  return 0;
+}
+
+s32 Xil_TestIO32(u32* Addr, s32 Length, u32 Value, s32, s32) {
+  for (s32 i = 0; i < Length; ++i) {
+    Xil_Out32(reinterpret_cast<UINTPTR>(Addr), Value);
+    if (Xil_In32(reinterpret_cast<UINTPTR>(Addr)) != Value) return -1;
+  }
   return 0;
 }
 

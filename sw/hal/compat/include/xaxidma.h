@@ -1,8 +1,13 @@
 #ifndef XAXIDMA_H
 #define XAXIDMA_H
 
-/* AXI DMA in direct register mode (PG021). */
+/* AXI DMA in direct register mode and with scatter-gather (PG021). */
 
+#include <sleep.h>
+#include <xaxidma_bd.h>
+#include <xaxidma_bdring.h>
+#include <xil_assert.h>
+#include <xil_cache.h>
 #include <xil_types.h>
 #include <xparameters.h>
 #include <xstatus.h>
@@ -11,39 +16,47 @@
 extern "C" {
 #endif
 
-#define XAXIDMA_DMA_TO_DEVICE 0x00
-#define XAXIDMA_DEVICE_TO_DMA 0x01
-
-#define XAXIDMA_IRQ_IOC_MASK 0x00001000
-#define XAXIDMA_IRQ_DELAY_MASK 0x00002000
-#define XAXIDMA_IRQ_ERROR_MASK 0x00004000
-#define XAXIDMA_IRQ_ALL_MASK 0x00007000
+#define XAXIDMA_MICROMODE_MIN_BUF_ALIGN 0xFFF
 
 typedef struct {
   u32 DeviceId;
   UINTPTR BaseAddr;
+  int HasStsCntrlStrm;
   int HasMm2S;
+  int HasMm2SDRE;
+  int Mm2SDataWidth; /**< bits */
   int HasS2Mm;
-  u32 LengthWidth; /**< bits of the LENGTH register */
-  u32 DataWidth;   /**< of the stream, bits */
+  int HasS2MmDRE;
+  int S2MmDataWidth; /**< bits */
+  int HasSg;
+  int Mm2sNumChannels;
+  int S2MmNumChannels;
+  int AddrWidth;
+  int SgLengthWidth; /**< bits of lengths */
 } XAxiDma_Config;
 
 typedef struct {
   UINTPTR RegBase;
   int HasMm2S;
   int HasS2Mm;
-  u32 MaxTransferLen;
-  u32 Alignment;
   int Initialized;
+  int HasSg;
+  XAxiDma_BdRing TxBdRing;
+  XAxiDma_BdRing RxBdRing[1];
+  int TxNumChannels;
+  int RxNumChannels;
 } XAxiDma;
 
 /** NULL if there is no such device. */
 XAxiDma_Config* XAxiDma_LookupConfig(u32 DeviceId);
+XAxiDma_Config* XAxiDma_LookupConfigBaseAddr(UINTPTR Baseaddr);
 
 /** Resets the core. XST_FAILURE if it does not leave reset. */
 int XAxiDma_CfgInitialize(XAxiDma* InstancePtr, XAxiDma_Config* Config);
 void XAxiDma_Reset(XAxiDma* InstancePtr);
 int XAxiDma_ResetIsDone(XAxiDma* InstancePtr);
+/** XST_SUCCESS if the channels that are built are there. */
+int XAxiDma_Selftest(XAxiDma* InstancePtr);
 
 /** Starts a transfer. XST_FAILURE while one runs; XST_INVALID_PARAM if the channel, the length or
  * the address does not fit the build, or the buffer has no bus address: take it from
@@ -53,15 +66,26 @@ u32 XAxiDma_SimpleTransfer(XAxiDma* InstancePtr, UINTPTR BuffAddr, u32 Length, i
 /** True until the first transfer of a channel is over, and for a channel that was not built. */
 u32 XAxiDma_Busy(XAxiDma* InstancePtr, int Direction);
 
+/** Stops both channels after what they are at; only for scatter-gather. */
+int XAxiDma_Pause(XAxiDma* InstancePtr);
+/** Lets them go on. */
+int XAxiDma_Resume(XAxiDma* InstancePtr);
+int XAxiDma_SelectKeyHole(XAxiDma* InstancePtr, int Direction, int Select);
+/** Descriptors are used again and again. */
+int XAxiDma_SelectCyclicMode(XAxiDma* InstancePtr, int Direction, int Select);
+
 void XAxiDma_IntrEnable(XAxiDma* InstancePtr, u32 Mask, int Direction);
 void XAxiDma_IntrDisable(XAxiDma* InstancePtr, u32 Mask, int Direction);
+u32 XAxiDma_IntrGetEnabled(XAxiDma* InstancePtr, int Direction);
 u32 XAxiDma_IntrGetIrq(XAxiDma* InstancePtr, int Direction);
 void XAxiDma_IntrAckIrq(XAxiDma* InstancePtr, u32 Mask, int Direction);
 
-/** Scatter-gather is not built. */
+#define XAxiDma_GetTxRing(InstancePtr) (&((InstancePtr)->TxBdRing))
+#define XAxiDma_GetRxRing(InstancePtr) (&((InstancePtr)->RxBdRing[0]))
+#define XAxiDma_GetRxIndexRing(InstancePtr, RingIndex) (&((InstancePtr)->RxBdRing[RingIndex]))
+
 static inline int XAxiDma_HasSg(const XAxiDma* InstancePtr) {
-  (void)InstancePtr;
-  return 0;
+  return InstancePtr->HasSg;
 }
 
 #ifdef __cplusplus

@@ -3,6 +3,8 @@
 
 /* AXI GPIO (PG144). */
 
+#include <xgpio_l.h>
+#include <xil_assert.h>
 #include <xil_types.h>
 #include <xparameters.h>
 #include <xstatus.h>
@@ -30,6 +32,8 @@ XGpio_Config* XGpio_LookupConfig(u16 DeviceId);
 int XGpio_CfgInitialize(XGpio* InstancePtr, XGpio_Config* Config, UINTPTR EffectiveAddr);
 /** XST_DEVICE_NOT_FOUND if there is no such device. */
 int XGpio_Initialize(XGpio* InstancePtr, u16 DeviceId);
+/** XST_SUCCESS if the device was initialised. */
+int XGpio_SelfTest(XGpio* InstancePtr);
 
 /** `Channel` is 1 or 2; a 1 in `DirectionMask` is an input. */
 void XGpio_SetDataDirection(XGpio* InstancePtr, unsigned Channel, u32 DirectionMask);
@@ -38,6 +42,16 @@ u32 XGpio_DiscreteRead(XGpio* InstancePtr, unsigned Channel);
 void XGpio_DiscreteWrite(XGpio* InstancePtr, unsigned Channel, u32 Mask);
 void XGpio_DiscreteSet(XGpio* InstancePtr, unsigned Channel, u32 Mask);
 void XGpio_DiscreteClear(XGpio* InstancePtr, unsigned Channel, u32 Mask);
+
+/** Interrupts need a device that was built with them. `Mask`: XGPIO_IR_CH1_MASK, XGPIO_IR_CH2_MASK.
+ */
+void XGpio_InterruptGlobalEnable(XGpio* InstancePtr);
+void XGpio_InterruptGlobalDisable(XGpio* InstancePtr);
+void XGpio_InterruptEnable(XGpio* InstancePtr, u32 Mask);
+void XGpio_InterruptDisable(XGpio* InstancePtr, u32 Mask);
+void XGpio_InterruptClear(XGpio* InstancePtr, u32 Mask);
+u32 XGpio_InterruptGetEnabled(XGpio* InstancePtr);
+u32 XGpio_InterruptGetStatus(XGpio* InstancePtr);
 
 #ifdef __cplusplus
 }

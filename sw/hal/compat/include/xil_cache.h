@@ -20,6 +20,7 @@ static inline void Xil_DCacheInvalidateRange(INTPTR adr, u32 len) {
 
 static inline void Xil_DCacheEnable(void) {}
 static inline void Xil_ICacheEnable(void) {}
+static inline void Xil_ICacheInvalidate(void) {}
 
 #define MARKERVP_NOT_OFFERED(text) __attribute__((error(text)))
 void Xil_DCacheDisable(void) MARKERVP_NOT_OFFERED(

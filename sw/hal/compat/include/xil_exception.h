@@ -5,16 +5,20 @@
 
 #include <hal/hal.h>
 #include <xil_types.h>
+#include <xpseudo_asm.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef void (*Xil_ExceptionHandler)(void* data);
+typedef void (*Xil_InterruptHandler)(void* data);
 
 #define XIL_EXCEPTION_ID_IRQ_INT 5U
 #define XIL_EXCEPTION_ID_INT XIL_EXCEPTION_ID_IRQ_INT
 #define XIL_EXCEPTION_IRQ 0x80U
+#define XIL_EXCEPTION_FIQ 0x40U
+#define XIL_EXCEPTION_ALL 0xC0U
 
 static inline void Xil_ExceptionInit(void) {}
 

@@ -9,7 +9,10 @@
  */
 
 #include <hal/hal.h>
+#include <xil_printf.h>
 #include <xil_types.h>
+#include <xpseudo_asm.h>
+#include <xstatus.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,6 +2,7 @@
 #define XIL_PRINTF_H
 
 #include <xil_types.h>
+#include <xparameters.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,6 +16,9 @@ void xil_printf(const char8* ctrl1, ...) __attribute__((format(printf, 1, 2)));
 void print(const char8* ptr);
 
 void outbyte(char c);
+
+/** The next byte that the console's UART receives; waits for it. */
+char inbyte(void);
 
 #ifdef __cplusplus
 }

@@ -31,6 +31,20 @@ typedef void (*XExceptionHandler)(void* InstancePtr);
 #define FALSE 0U
 #endif
 
+#ifndef NULL
+#define NULL 0
+#endif
+
 #define XIL_COMPONENT_IS_READY 0x11111111U
+#define XIL_COMPONENT_IS_STARTED 0x22222222U
+
+#define ULONG64_HI_MASK 0xFFFFFFFF00000000U
+#define ULONG64_LO_MASK (~ULONG64_HI_MASK)
+#define UPPER_32_BITS(n) ((u32)(((u64)(n)) >> 32))
+#define LOWER_32_BITS(n) ((u32)(n))
+
+#ifndef INLINE
+#define INLINE __inline
+#endif
 
 #endif

@@ -3,18 +3,18 @@
 
 /* The interrupt controller of the Cortex-A9 MPCore, for one CPU. */
 
+#include <xil_assert.h>
 #include <xil_exception.h>
 #include <xil_types.h>
 #include <xparameters.h>
+#include <xscugic_hw.h>
 #include <xstatus.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define XSCUGIC_MAX_NUM_INTR_INPUTS 96U
-
-typedef void (*Xil_InterruptHandler)(void* data);
+#define XSCUGIC_CPU_ID 0U
 
 typedef struct {
   Xil_InterruptHandler Handler;
@@ -40,6 +40,10 @@ XScuGic_Config* XScuGic_LookupConfig(u16 DeviceId);
 /** All interrupts off, priority 0xA0, to CPU 0; then controller and CPU interface on. The base
  * address is that of the configuration. */
 s32 XScuGic_CfgInitialize(XScuGic* InstancePtr, XScuGic_Config* ConfigPtr, UINTPTR EffectiveAddr);
+/** Reads the identification registers. */
+s32 XScuGic_SelfTest(XScuGic* InstancePtr);
+/** All interrupts off, controller off. */
+void XScuGic_Stop(XScuGic* InstancePtr);
 
 s32 XScuGic_Connect(XScuGic* InstancePtr, u32 Int_Id, Xil_InterruptHandler Handler,
                     void* CallBackRef);
@@ -49,6 +53,11 @@ void XScuGic_Disable(XScuGic* InstancePtr, u32 Int_Id);
 
 /** `Trigger`: 1 level high, 3 rising edge. */
 void XScuGic_SetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8 Priority, u8 Trigger);
+void XScuGic_GetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8* Priority, u8* Trigger);
+void XScuGic_InterruptMaptoCpu(XScuGic* InstancePtr, u8 Cpu_Id, u32 Int_Id);
+void XScuGic_InterruptUnmapFromCpu(XScuGic* InstancePtr, u8 Cpu_Id, u32 Int_Id);
+/** Raises interrupt 0 to 15 at the CPUs whose bits are set. */
+s32 XScuGic_SoftwareIntr(XScuGic* InstancePtr, u32 Int_Id, u32 Cpu_Identifier);
 
 /** For Xil_ExceptionRegisterHandler: serves one interrupt. */
 void XScuGic_InterruptHandler(XScuGic* InstancePtr);

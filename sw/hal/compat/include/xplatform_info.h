@@ -1,0 +1,16 @@
+#ifndef XPLATFORM_INFO_H
+#define XPLATFORM_INFO_H
+
+/* Which chip this is: a Zynq-7000. */
+
+#include <xil_types.h>
+
+#define XPLAT_ZYNQ_ULTRA_MP 0x1U
+#define XPLAT_VERSAL 0x2U
+#define XPLAT_ZYNQ 0x4U
+
+static inline u32 XGetPlatform_Info(void) {
+  return XPLAT_ZYNQ;
+}
+
+#endif

@@ -1,0 +1,100 @@
+#ifndef XUARTPS_HW_H
+#define XUARTPS_HW_H
+
+/* UART of the processing system: offsets and bits of registers (UG585 chapter 19). */
+
+#include <xil_assert.h>
+#include <xil_io.h>
+#include <xil_types.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define XUARTPS_CR_OFFSET 0x00U
+#define XUARTPS_MR_OFFSET 0x04U
+#define XUARTPS_IER_OFFSET 0x08U
+#define XUARTPS_IDR_OFFSET 0x0CU
+#define XUARTPS_IMR_OFFSET 0x10U
+#define XUARTPS_ISR_OFFSET 0x14U
+#define XUARTPS_BAUDGEN_OFFSET 0x18U
+#define XUARTPS_RXTOUT_OFFSET 0x1CU
+#define XUARTPS_RXWM_OFFSET 0x20U
+#define XUARTPS_MODEMCR_OFFSET 0x24U
+#define XUARTPS_MODEMSR_OFFSET 0x28U
+#define XUARTPS_SR_OFFSET 0x2CU
+#define XUARTPS_FIFO_OFFSET 0x30U
+#define XUARTPS_BAUDDIV_OFFSET 0x34U
+#define XUARTPS_FLOWDEL_OFFSET 0x38U
+#define XUARTPS_TXWM_OFFSET 0x44U
+
+#define XUARTPS_CR_STOPBRK 0x00000100U
+#define XUARTPS_CR_STARTBRK 0x00000080U
+#define XUARTPS_CR_TORST 0x00000040U
+#define XUARTPS_CR_TX_DIS 0x00000020U
+#define XUARTPS_CR_TX_EN 0x00000010U
+#define XUARTPS_CR_RX_DIS 0x00000008U
+#define XUARTPS_CR_RX_EN 0x00000004U
+#define XUARTPS_CR_EN_DIS_MASK 0x0000003CU
+#define XUARTPS_CR_TXRST 0x00000002U
+#define XUARTPS_CR_RXRST 0x00000001U
+
+#define XUARTPS_MR_CHMODE_MASK 0x00000300U
+#define XUARTPS_MR_CHMODE_SHIFT 8U
+#define XUARTPS_MR_STOPMODE_MASK 0x000000C0U
+#define XUARTPS_MR_STOPMODE_SHIFT 6U
+#define XUARTPS_MR_PARITY_MASK 0x00000038U
+#define XUARTPS_MR_PARITY_SHIFT 3U
+#define XUARTPS_MR_CHARLEN_MASK 0x00000006U
+#define XUARTPS_MR_CHARLEN_SHIFT 1U
+#define XUARTPS_MR_CLKSEL 0x00000001U
+
+#define XUARTPS_IXR_TOVR 0x00001000U
+#define XUARTPS_IXR_TNFUL 0x00000800U
+#define XUARTPS_IXR_TTRIG 0x00000400U
+#define XUARTPS_IXR_DMS 0x00000200U
+#define XUARTPS_IXR_TOUT 0x00000100U
+#define XUARTPS_IXR_PARITY 0x00000080U
+#define XUARTPS_IXR_FRAMING 0x00000040U
+#define XUARTPS_IXR_OVER 0x00000020U
+#define XUARTPS_IXR_TXFULL 0x00000010U
+#define XUARTPS_IXR_TXEMPTY 0x00000008U
+#define XUARTPS_IXR_RXFULL 0x00000004U
+#define XUARTPS_IXR_RXEMPTY 0x00000002U
+#define XUARTPS_IXR_RXOVR 0x00000001U
+#define XUARTPS_IXR_MASK 0x00001FFFU
+
+#define XUARTPS_SR_TNFUL 0x00004000U
+#define XUARTPS_SR_TTRIG 0x00002000U
+#define XUARTPS_SR_TACTIVE 0x00000800U
+#define XUARTPS_SR_RACTIVE 0x00000400U
+#define XUARTPS_SR_TXFULL 0x00000010U
+#define XUARTPS_SR_TXEMPTY 0x00000008U
+#define XUARTPS_SR_RXFULL 0x00000004U
+#define XUARTPS_SR_RXEMPTY 0x00000002U
+#define XUARTPS_SR_RXOVR 0x00000001U
+
+#define XUARTPS_RXWM_MASK 0x0000003FU
+#define XUARTPS_RXWM_DISABLE 0U
+#define XUARTPS_RXTOUT_MASK 0x000000FFU
+
+#define XUartPs_ReadReg(BaseAddress, RegOffset) Xil_In32((BaseAddress) + (u32)(RegOffset))
+#define XUartPs_WriteReg(BaseAddress, RegOffset, RegisterValue) \
+  Xil_Out32((BaseAddress) + (u32)(RegOffset), (u32)(RegisterValue))
+#define XUartPs_IsReceiveData(BaseAddress) \
+  ((XUartPs_ReadReg(BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_RXEMPTY) == 0U)
+#define XUartPs_IsTransmitFull(BaseAddress) \
+  ((XUartPs_ReadReg(BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_TXFULL) != 0U)
+#define XUartPs_IsTransmitEmpty(InstancePtr)                                                       \
+  ((XUartPs_ReadReg((InstancePtr)->Config.BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_TXEMPTY) != \
+   0U)
+
+/** Both wait for room and for a byte. */
+void XUartPs_SendByte(UINTPTR BaseAddress, u8 Data);
+u8 XUartPs_RecvByte(UINTPTR BaseAddress);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,111 @@
+// Programs written for Vitis standalone, unchanged: built outside of the tree, on the installed
+// executable.
+#include <boost/test/unit_test.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "installation.h"
+
+using namespace install_test;
+
+namespace {
+
+struct Vitis {
+  Vitis() { installed.build(project("vitis"), "vitis"); }
+
+  kit::Outcome run(const std::string& program, const Words& more = {}) const {
+    Words arguments{"run",
+                    "--design",
+                    installed.beside("vitis/loop.so"),
+                    "--program",
+                    installed.beside("vitis/" + program + ".so"),
+                    "--output",
+                    "vitis_out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return installed.markervp(arguments);
+  }
+  nlohmann::json result() const {
+    return nlohmann::json::parse(kit::read_file(installed.beside("vitis_out/result.json")));
+  }
+
+  const Installation& installed = Installation::get();
+};
+
+const Words scatter_gather{"--set", "pl.axi_dma_0.include_sg=true"};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(vitis, Vitis)
+
+// Each ends as on the board: with its message and 0.
+BOOST_AUTO_TEST_CASE(examples_end_as_on_the_board) {
+  struct Example {
+    const char *program, *says;
+    bool scatter_gather;
+  };
+  const Example examples[] = {
+      {"gpio", "Successfully ran Gpio Example", false},
+      {"gpio_low_level", "Successfully ran Gpio Low Level Example", false},
+      {"gpio_interrupt", "Successfully ran Gpio Interrupt Tapp Example", false},
+      {"dma_simple_poll", "Successfully ran XAxiDma_SimplePoll Example", false},
+      {"dma_simple_interrupt", "Successfully ran AXI DMA interrupt Example", false},
+      {"dma_sg_poll", "Successfully ran AXI DMA SG Polling Example", true},
+      {"dma_sg_interrupt", "Successfully ran AXI DMA SG interrupt Example", true},
+      {"scutimer_polled", "Successfully ran SCU Timer Polled Mode Example Test", false},
+      {"scutimer_interrupt", "expired 3", false},
+      {"uart_hello", "uart1: Hello World from the UART", false},
+      {"uart_polled", "Successfully ran Uartps polled Example", false},
+      {"uart_interrupt", "Successfully ran Uartps interrupt Example", false},
+      {"gic_software", "Successfully ran GIC Example", false},
+      {"bsp_odds", "Successfully ran the odds and ends", false},
+  };
+  for (const Example& example : examples) {
+    const kit::Outcome outcome =
+        run(example.program, example.scatter_gather ? scatter_gather : Words{});
+    BOOST_TEST(outcome.exit_code == 0, example.program << ": " << outcome.out << outcome.err);
+    BOOST_TEST(contains(outcome.out, example.says), example.program << ": " << outcome.out);
+    BOOST_TEST(outcome.err == "", example.program);
+    BOOST_TEST(result()["system"] == example.program);
+  }
+}
+
+// What main() returns is the program's exit code.
+BOOST_AUTO_TEST_CASE(a_main_that_fails) {
+  const kit::Outcome outcome = run("dma_sg_poll");
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.out, "Device configured as Simple mode"));
+  BOOST_TEST(run("dma_simple_poll", scatter_gather).exit_code == 1);
+}
+
+BOOST_AUTO_TEST_CASE(runs_are_alike) {
+  run("dma_sg_interrupt", scatter_gather);
+  const nlohmann::json first = result()["program_end"];
+  run("dma_sg_interrupt", scatter_gather);
+  BOOST_TEST(first == result()["program_end"]);
+}
+
+BOOST_AUTO_TEST_CASE(drivers_of_the_vendor_take_the_place_of_ours) {
+  const kit::Outcome outcome = run("gpio_vendor");
+  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+  BOOST_TEST(contains(outcome.out, "another driver, write 6\nSuccessfully ran Gpio Example"),
+             outcome.out);
+  BOOST_TEST(!contains(run("gpio").out, "another driver"));
+}
+
+BOOST_AUTO_TEST_CASE(a_vendor_folder_that_is_none) {
+  for (const char* folder : {"nowhere", "../vitis"}) {
+    const kit::Outcome outcome = installed.configure(project("vitis"), "vitis_refused",
+                                                     {std::string("-DVENDOR_FOLDER=") + folder});
+    BOOST_TEST(outcome.exit_code != 0);
+    BOOST_TEST(contains(outcome.err, folder), outcome.err);
+    BOOST_TEST(contains(outcome.err, "no driver of"), outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_modelled_does_not_build) {
+  const kit::Outcome outcome = installed.build_target("vitis", "not_modelled");
+  BOOST_TEST(outcome.exit_code != 0);
+  BOOST_TEST(contains(outcome.out + outcome.err, "use Xil_DCacheFlushRange"), outcome.out);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
