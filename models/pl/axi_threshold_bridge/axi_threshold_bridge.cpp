@@ -147,18 +147,7 @@ void AxiThresholdBridge::connect(IpPorts& ports) {
   ports.input(rst);
   ports.input(thresh_in);
   ports.input(thresh_data);
-  ports.input(m.tready);
-  const auto valid = [this] { return m.tvalid.get(); };
-  using Word = std::uint32_t;
-  using Lanes = std::uint8_t;
-  ports.output<Word>(
-      "m_tdata", 32, [this]() -> auto& { return m.link().tdata; }, valid);
-  ports.output<Lanes>(
-      "m_tkeep", 4, [this]() -> auto& { return m.link().tkeep; }, valid);
-  ports.output<bool>(
-      "m_tvalid", 1, [this]() -> auto& { return m.link().tvalid; });
-  ports.output<bool>(
-      "m_tlast", 1, [this]() -> auto& { return m.link().tlast; });
+  add_stream(ports, m);
   ports.output(thresh_seen);
   ports.report(fifo_count);
   ports.report(bridge_overflow);

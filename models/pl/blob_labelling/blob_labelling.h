@@ -21,7 +21,7 @@ class IpPorts;
 ///
 /// Pixels come in raster order, one a clock or with any pause between them. A frame is whole unless
 /// `rst` cuts it, and the next one begins at least width + 1 clocks behind its last pixel; anything
-/// else ends the run with an error. A blob whose last run ends in column x of row y is shown 6
+/// else ends the run with an error. A blob whose last run ends in column x of row y is shown 9
 /// clocks behind the edge that takes pixel (x, y + 1), if nothing else waits; at most one is shown
 /// in LabellingCore::clocks_per_blob clocks, in the order in which they are complete.
 class BlobLabelling : public vp::Clocked, public vp::Ip {

@@ -1,5 +1,8 @@
 #include <pl/blob_labelling/core.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace pl {
 
 std::uint32_t Extremes::point(std::size_t extreme) const {
@@ -62,6 +65,7 @@ void LabellingCore::reset() {
   busy_ = dark_ = dark_above_ = run_ended_ = false;
   open_.clear();
   leaving_.clear();
+  done_ = {};
   stages_ = {};
   spacing_ = 0;
   shows_ = false;
@@ -70,7 +74,8 @@ void LabellingCore::reset() {
 
 bool LabellingCore::idle() const {
   const bool leaving =
-      !leaving_.empty() || stages_[0].label || stages_[1].label || stages_[2].label;
+      done_.label != 0 || !leaving_.empty() ||
+      std::any_of(stages_.begin(), stages_.end(), [](const Leaving& l) { return l.label != 0; });
   return !busy_ && !leaving && !shows_;
 }
 
@@ -105,8 +110,10 @@ void LabellingCore::capture(bool ena, bool dark, std::uint32_t x, std::uint32_t 
   if (x + 1 == width_ && y + 1 == height_) flush_ = width_ + 1;
 }
 
+// A stage takes the next label when it was empty before this clock.
 LabellingCore::Label LabellingCore::leave() {
-  auto& [address, memory, output] = stages_;
+  const auto before = stages_;
+  auto& output = stages_.back();
   const bool shows = output.blob && extremes_[output.label].at_least(minimum_side_);
   shows_ = shows && spacing_ == 0;
   if (shows_) shown_ = extremes_[output.label];
@@ -114,18 +121,16 @@ LabellingCore::Label LabellingCore::leave() {
   spacing_ = shows_ ? clocks_per_blob - 1 : spacing_ - (spacing_ != 0);
   const Label returned = leaves ? output.label : Label{0};
   if (leaves) output = {};
-  // Each stage moves on as soon as the next one is free.
-  const auto move = [](Leaving& from, Leaving& to) {
-    if (to.label != 0) return;
-    to = from;
-    from = {};
-  };
-  move(memory, output);
-  move(address, memory);
-  if (address.label == 0 && !leaving_.empty()) {
-    address = leaving_.front();
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    if (before[i].label != 0 || before[i - 1].label == 0) continue;
+    stages_[i] = before[i - 1];
+    stages_[i - 1] = {};
+  }
+  if (before[0].label == 0 && !leaving_.empty()) {
+    stages_[0] = leaving_.front();
     leaving_.pop_front();
   }
+  if (done_.label != 0) leaving_.push_back(std::exchange(done_, {}));
   return returned;
 }
 
@@ -179,12 +184,12 @@ void LabellingCore::join() {
       last_[outer] = last_[label_];
     }
     extremes_[outer].join(extremes_[label_]);
-    leaving_.push_back({label_, false});
+    done_ = {label_, false};
     label_ = outer;
     linked_ = true;
   } else {
     extremes_[label_].join(extremes_[above_.label]);
-    leaving_.push_back({above_.label, false});
+    done_ = {above_.label, false};
     above_.label = label_;
     above_.seen = true;
   }
@@ -196,7 +201,7 @@ void LabellingCore::pass() {
   if (has_right_[above_.place]) {
     open_.push_back(above_);
   } else if (!above_.seen) {
-    leaving_.push_back({above_.label, true});
+    done_ = {above_.label, true};
   }
 }
 

@@ -170,8 +170,9 @@ class LabellingCore {
   bool linked_ = false;  ///< its component has a run further left in this row
   Label label_ = 0;      ///< 0: none yet
 
-  std::deque<Leaving> leaving_;
-  std::array<Leaving, 3> stages_;  ///< from the queue to the output: address, memory, register
+  Leaving done_;                   ///< comes into the queue next
+  std::deque<Leaving> leaving_;    ///< the queue
+  std::array<Leaving, 4> stages_;  ///< behind it: address, memory, keys, output
   unsigned spacing_ = 0;
   bool shows_ = false;
   Extremes shown_;

@@ -14,10 +14,10 @@ bool LabelQueue::take(std::uint64_t now) {
 }
 
 std::uint64_t LabelQueue::leave(std::uint64_t now, bool shown) {
-  constexpr std::uint64_t stages = 4;  // queue, address, memory, output
+  constexpr std::uint64_t stages = 6;  // register, queue, address, memory, keys, output
   std::uint64_t leaves = std::max(now + stages, next_leave_);
   if (shown) leaves = std::max(leaves, next_shown_);
-  next_leave_ = leaves + 1;
+  next_leave_ = leaves + 2;  // a stage takes one in two clocks
   if (shown) next_shown_ = leaves + LabellingCore::clocks_per_blob;
   returns_.push_back(leaves);
   empty_from_ = leaves + shown;

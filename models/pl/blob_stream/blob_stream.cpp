@@ -1,6 +1,7 @@
 #include <pl/blob_stream/blob_stream.h>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 #include <cstddef>
 
@@ -8,9 +9,17 @@ namespace pl {
 
 namespace packet = ::blob_stream;
 
-BlobStream::BlobStream(sc_core::sc_module_name name, vp::Clock& clk)
-    : Clocked(name, clk),
-      Ip(&clk),
+Models<BlobStream>& BlobStream::models() {
+  static Models<BlobStream> models{
+      "blob_stream",
+      {model<BlobStream, BlobStreamClocked>("clocked", no_image, no_image)},
+      rtl_model<BlobStream, BlobStreamClocked>()};
+  return models;
+}
+
+BlobStream::BlobStream(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk),
+      Ip(&site.clk),
       extreme{{vp::In<std::uint32_t>{"extreme_0", this}, vp::In<std::uint32_t>{"extreme_1", this},
                vp::In<std::uint32_t>{"extreme_2", this}, vp::In<std::uint32_t>{"extreme_3", this},
                vp::In<std::uint32_t>{"extreme_4", this}, vp::In<std::uint32_t>{"extreme_5", this},
@@ -23,37 +32,55 @@ BlobStream::BlobStream(sc_core::sc_module_name name, vp::Clock& clk)
   wake_on(m.tready);
 }
 
-void BlobStream::edge() {
+void BlobStream::connect(IpPorts& ports) {
+  ports.input(rst);
+  ports.input(frame_ena);
+  ports.input(frame_number);
+  ports.input(threshold);
+  ports.input(idle);
+  ports.input(blob_out);
+  for (const vp::In<std::uint32_t>& point : extreme) ports.input(point);
+  ports.input(label_overflow);
+  add_stream(ports, m);
+  ports.output(busy);
+  ports.report(fifo_count);
+  ports.report(dropped_frames);
+  ports.report(dropped_blobs);
+  ports.parameter("FIFO_DEPTH", fifo_depth.name(), fifo_depth);
+}
+
+void BlobStreamClocked::edge() {
   const bool frame = frame_ena, begins = frame && !frame_before_;
   frame_before_ = frame;
   if (rst) return reset();
   // What stood before this clock decides.
-  const bool room = fifo_.size() < fifo_depth;
+  const std::size_t waits = fifo_.size();
+  const bool room = waits < fifo_depth, moves = !sender_.empty() && room;
   const bool free = m.tready && !m.tvalid.get() && fifo_.empty();
   offer();
   fill_fifo(room);
   if (begins) begin_frame(free);
-  if (blob_out) take_blob();
+  if (blob_out) take_blob(waits + moves + packet::words_per_blob <= fifo_depth);
   if (busy.written() && !frame && idle && !blob_out && sender_.empty()) end_frame();
   fifo_count = static_cast<std::uint16_t>(fifo_.size());
   if (may_sleep()) sleep();
 }
 
-void BlobStream::offer() {
+void BlobStreamClocked::offer() {
   if (!m.free()) return;
   if (fifo_.empty()) return m.withdraw();
   m.offer(fifo_.front().data, fifo_.front().last);
   fifo_.pop_front();
 }
 
-void BlobStream::fill_fifo(bool room) {
+void BlobStreamClocked::fill_fifo(bool room) {
   if (sender_.empty() || !room) return;
   fifo_.push_back(sender_.front());
   sender_.pop_front();
   if (fifo_.back().last) busy = false;
 }
 
-void BlobStream::begin_frame(bool free) {
+void BlobStreamClocked::begin_frame(bool free) {
   if (busy.written() || !free) dropped_frames = dropped_frames.written() + 1;
   if (busy.written()) {
     mixed_ = true;
@@ -70,9 +97,8 @@ void BlobStream::begin_frame(bool free) {
 
 // The words follow each other into the FIFO without a gap: it has room for all of them, or for
 // none.
-void BlobStream::take_blob() {
+void BlobStreamClocked::take_blob(bool room) {
   if (dropping_ || !busy.written()) return;
-  const bool room = fifo_.size() + packet::words_per_blob <= fifo_depth;
   if (mixed_ || !sender_.empty() || !room || sent_ == packet::max_blobs) {
     ++lost_;
     dropped_blobs = dropped_blobs.written() + 1;
@@ -82,7 +108,7 @@ void BlobStream::take_blob() {
   for (const auto& point : extreme) sender_.push_back({point, false});
 }
 
-void BlobStream::end_frame() {
+void BlobStreamClocked::end_frame() {
   if (dropping_) {
     busy = false;
     return;
@@ -91,13 +117,13 @@ void BlobStream::end_frame() {
   sender_ = {{number_, false}, {sent_, false}, {lost_, false}, {threshold_, true}};
 }
 
-bool BlobStream::may_sleep() const {
+bool BlobStreamClocked::may_sleep() const {
   const bool stuck = m.tvalid.written() && !m.tready;
   const bool moves = m.tvalid.written() || !fifo_.empty();
   return sender_.empty() && (stuck || !moves);
 }
 
-void BlobStream::reset() {
+void BlobStreamClocked::reset() {
   fifo_.clear();
   sender_.clear();
   m.withdraw();

@@ -5,7 +5,7 @@
 #include <deque>
 
 #include <blob_stream.h>
-#include <pl/common/geometry.h>
+#include <pl/common/fidelity.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -14,15 +14,17 @@
 
 namespace pl {
 
-/// Sends the blobs of each frame as one packet (blob_stream.h). One model for both fidelities: it
-/// works only while there is a blob.
+class IpPorts;
+
+/// Sends the blobs of each frame as one packet (blob_stream.h).
 ///
 /// A blob for which the FIFO has no room, or that leaves while another one is sent, is dropped
-/// whole and counted. A frame that begins while the slave is not ready, or the packet of the one
-/// before is under way, is dropped whole, with all its blobs.
+/// whole and counted; room is what there was before the clock. A frame that begins while the slave
+/// is not ready, or the packet of the one before is under way, is dropped whole, with all its
+/// blobs.
 class BlobStream : public vp::Clocked, public vp::Ip {
  public:
-  BlobStream(sc_core::sc_module_name name, vp::Clock& clk);
+  static Models<BlobStream>& models();
 
   vp::In<bool> rst{"rst", this};
   vp::In<bool> frame_ena{"frame_ena", this};  ///< the camera's
@@ -48,6 +50,21 @@ class BlobStream : public vp::Clocked, public vp::Ip {
       vp::Source::decision, "words that wait for the DMA, besides the output register"};
   vp::Signal<std::uint32_t> depth{"depth", 17, fifo_depth};  ///< for traces: what is full
 
+ protected:
+  BlobStream(sc_core::sc_module_name name, const Site& site);
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+};
+
+/// Blob Stream clock by clock, and the model for both fidelities: it works only while there is a
+/// blob.
+class BlobStreamClocked : public BlobStream {
+ public:
+  BlobStreamClocked(sc_core::sc_module_name name, const Site& site) : BlobStream(name, site) {}
+
  private:
   struct Word {
     std::uint32_t data;
@@ -55,12 +72,11 @@ class BlobStream : public vp::Clocked, public vp::Ip {
   };
 
   void edge() override;
-  vp::IpEstimate own_estimate() const override;
   void reset();
   void offer();
   void fill_fifo(bool room);
   void begin_frame(bool free);
-  void take_blob();
+  void take_blob(bool room);
   void end_frame();
   bool may_sleep() const;
 

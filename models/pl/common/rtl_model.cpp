@@ -55,6 +55,21 @@ std::string declaration(const std::string& name, unsigned bits, bool output) {
 
 }  // namespace
 
+void add_stream(IpPorts& ports, vp::AxiStreamMaster& m) {
+  ports.input(m.tready);
+  const auto valid = [&m] { return m.tvalid.get(); };
+  using Word = std::uint32_t;
+  using Lanes = std::uint8_t;
+  ports.output<Word>(
+      "m_tdata", 32, [&m]() -> auto& { return m.link().tdata; }, valid);
+  ports.output<Lanes>(
+      "m_tkeep", 4, [&m]() -> auto& { return m.link().tkeep; }, valid);
+  ports.output<bool>(
+      "m_tvalid", 1, [&m]() -> auto& { return m.link().tvalid; });
+  ports.output<bool>(
+      "m_tlast", 1, [&m]() -> auto& { return m.link().tlast; });
+}
+
 RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::string& instance,
                  IpPorts ports)
     : file_(file),

@@ -11,6 +11,7 @@
 
 #include <pl/common/fidelity.h>
 #include <pl/common/rtl_interface.h>
+#include <vp/axi_stream.h>
 #include <vp/file.h>
 #include <vp/signal.h>
 
@@ -107,6 +108,9 @@ class IpPorts {
                        [&port](std::uint64_t bits) { port = static_cast<T>(bits); }});
   }
 };
+
+/// Adds the pins of a stream's master.
+void add_stream(IpPorts& ports, vp::AxiStreamMaster& m);
 
 /// The pins of a Verilated module, connected with the ports of the IP in whose place it stands.
 class RtlPins {
@@ -296,13 +300,14 @@ class WatchedModel final : public Clocked {
   std::unique_ptr<vp::Clocked> watcher_;
 };
 
-/// What an IP in whose place RTL can stand gives its list of models.
-template <class Ip, class Clocked>
+/// What an IP in whose place RTL can stand gives its list of models. `Bare`: what the RTL stands
+/// behind, if that is more than the ports that `Ip` has.
+template <class Ip, class Clocked, class Bare = Ip>
 typename Models<Ip>::MakeRtl rtl_model() {
   return [](const char* name, const Site& site, const RtlFile& rtl) -> std::unique_ptr<Ip> {
     if (rtl.use != RtlFile::Use::in_place)
       return std::make_unique<WatchedModel<Clocked>>(name, site, rtl);
-    return std::make_unique<RtlModel<Ip>>(name, site, rtl.path);
+    return std::make_unique<RtlModel<Bare>>(name, site, rtl.path);
   };
 }
 

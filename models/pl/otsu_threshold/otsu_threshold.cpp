@@ -1,6 +1,7 @@
 #include <pl/otsu_threshold/otsu_threshold.h>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
@@ -8,7 +9,8 @@ Models<GlobalThreshold>& OtsuThreshold::models() {
   static Models<GlobalThreshold> models{
       "otsu_threshold",
       {model<GlobalThreshold, OtsuThresholdClocked>("clocked", by_pixel, by_pixel),
-       model<GlobalThreshold, OtsuThresholdTlm>("tlm", by_frame, by_frame)}};
+       model<GlobalThreshold, OtsuThresholdTlm>("tlm", by_frame, by_frame)},
+      rtl_model<GlobalThreshold, OtsuThresholdClocked, OtsuThreshold>()};
   return models;
 }
 
@@ -55,6 +57,10 @@ vp::IpEstimate estimate_otsu() {
 }
 
 }  // namespace
+
+vp::IpEstimate OtsuThreshold::own_estimate() const {
+  return estimate_otsu();
+}
 
 vp::IpEstimate OtsuThresholdClocked::own_estimate() const {
   return estimate_otsu();

@@ -10,13 +10,21 @@ namespace pl {
 ///
 /// The threshold is loaded OtsuSearch::clocks behind the frame, or on the edge behind the next one
 /// if that began sooner. One that ends sooner starts a new search, and the old one has no result.
-struct OtsuThreshold {
+class OtsuThreshold : public GlobalThreshold {
+ public:
   static Models<GlobalThreshold>& models();
+
+ protected:
+  OtsuThreshold(sc_core::sc_module_name name, const Site& site) : GlobalThreshold(name, site) {}
+
+ private:
+  vp::IpEstimate own_estimate() const override;
 };
 
 /// Otsu Threshold clock by clock.
-class OtsuThresholdClocked final : public GlobalThresholdClocked {
+class OtsuThresholdClocked : public GlobalThresholdClocked {
  public:
+  static Models<GlobalThreshold>& models() { return OtsuThreshold::models(); }
   OtsuThresholdClocked(sc_core::sc_module_name name, const Site& site)
       : GlobalThresholdClocked(name, site) {}
 

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 
 namespace pl {
 
 namespace {
 
-class PixelStreamClocked final : public PixelStream {
+class PixelStreamClocked : public PixelStream {
  public:
   PixelStreamClocked(sc_core::sc_module_name name, const Site& site) : PixelStream(name, site) {}
 
@@ -274,17 +275,31 @@ Models<PixelStream>& PixelStream::models() {
   static Models<PixelStream> models{
       "pixel_stream",
       {model<PixelStream, PixelStreamClocked>("clocked", by_pixel, no_image),
-       model<PixelStream, PixelStreamTlm>("tlm", by_frame, no_image)}};
+       model<PixelStream, PixelStreamTlm>("tlm", by_frame, no_image)},
+      rtl_model<PixelStream, PixelStreamClocked>()};
   return models;
 }
 
 PixelStream::PixelStream(sc_core::sc_module_name name, const Site& site)
     : Clocked(name, site.clk),
       Ip(&site.clk),
-      core_(site.geometry.pixels() / pixels_per_word, fifo_depth) {
+      core_(site.geometry.pixels() / pixels_per_word, fifo_depth),
+      geometry_(site.geometry) {
   wake_on(rst);
   wake_on(ena);
   wake_on(m.tready);
+}
+
+void PixelStream::connect(IpPorts& ports) {
+  ports.input(rst);
+  ports.input(ena);
+  ports.input(pixel);
+  add_stream(ports, m);
+  ports.report(dropped_frames);
+  ports.report(cut_frames);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("HEIGHT", "pl.height", geometry_.height);
+  ports.parameter("FIFO_DEPTH", fifo_depth.name(), fifo_depth);
 }
 
 void PixelStream::show_counts() {

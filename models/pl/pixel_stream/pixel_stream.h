@@ -13,6 +13,8 @@
 
 namespace pl {
 
+class IpPorts;
+
 /// Sends each frame of grey pixels as one packet, four pixels a word, the leftmost in bits 7:0;
 /// TLAST comes with the last word.
 ///
@@ -44,6 +46,8 @@ class PixelStream : public vp::Clocked, public vp::Ip {
 
  protected:
   PixelStream(sc_core::sc_module_name name, const Site& site);
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
   void show_counts();
   /// Offers what the core has in its output register.
   void drive();
@@ -51,6 +55,7 @@ class PixelStream : public vp::Clocked, public vp::Ip {
   PixelStreamCore core_;
 
  private:
+  const Geometry geometry_;
   vp::IpEstimate own_estimate() const override;
 
   vp::Probe<std::uint32_t> fifo_count_{"fifo_count", [this] { return core_.fifo_count(); }, 17};

@@ -30,6 +30,7 @@ ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity ot
                                    const pl::Models<pl::GlobalThreshold>& thresholds)
     : sc_module(name),
       pixel_stream(pl::PixelStream::models(), otherwise),
+      blob_stream(pl::BlobStream::models(), otherwise),
       blob_labelling(pl::BlobLabelling::models(), otherwise),
       threshold(thresholds, otherwise, {&blob_labelling}),
       camera(pl::Camera::models(), otherwise, {&pixel_stream, &threshold}) {}
@@ -50,7 +51,7 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
       pixel_stream_(fidelity.pixel_stream.make({clk, geometry()})),
       threshold_(fidelity.threshold.make({clk, geometry()})),
       blob_labelling_(fidelity.blob_labelling.make({clk, geometry()})),
-      blob_stream("blob_stream", clk),
+      blob_stream_(fidelity.blob_stream.make({clk, geometry()})),
       proc_sys_reset("proc_sys_reset", clk),
       axi_interconnect("axi_interconnect", clk),
       axi_mem_interconnect("axi_mem_interconnect", clk),

@@ -33,6 +33,7 @@ struct ImprovedFidelity : sc_core::sc_module {
 
   // Whoever feeds another one comes behind it.
   pl::Choice<pl::PixelStream> pixel_stream;
+  pl::Choice<pl::BlobStream> blob_stream;
   pl::Choice<pl::BlobLabelling> blob_labelling;
   pl::Choice<pl::GlobalThreshold> threshold;
   pl::Choice<pl::Camera> camera;
@@ -93,7 +94,8 @@ class ImprovedLogic : public sc_core::sc_module {
   pl::GlobalThreshold& threshold = *threshold_;
   const std::unique_ptr<pl::BlobLabelling> blob_labelling_;
   pl::BlobLabelling& blob_labelling = *blob_labelling_;
-  pl::BlobStream blob_stream;
+  const std::unique_ptr<pl::BlobStream> blob_stream_;
+  pl::BlobStream& blob_stream = *blob_stream_;
 
   xilinx::ProcSysReset proc_sys_reset;
   xilinx::AxiInterconnect axi_interconnect;      ///< GP0 to the registers

@@ -40,9 +40,11 @@ module blob_labelling #(
   logic step, dark, first_column, last_column, below, final_pixel, busy;
   logic [X_BITS-1:0] column;
   logic [Y_BITS-1:0] row;
-  logic [X_BITS:0] flush;
-  wire flushing = flush != '0;
-  wire [X_BITS-1:0] next_column = !flushing ? x : last_column ? '0 : column + 1'b1;
+  logic flushing;
+  logic [X_BITS:0] flush;  // clocks of it that are left
+  wire last_flush = flush == (X_BITS + 1)'(1);
+  logic [X_BITS-1:0] flush_column;
+  wire [X_BITS-1:0] next_column = flushing ? flush_column : x;
 
   logic line[0:WIDTH-1];
   logic line_above;
@@ -52,36 +54,44 @@ module blob_labelling #(
   end
 
   always_ff @(posedge clk) begin
+    flush_column <= flushing && flush_column != LAST ? flush_column + 1'b1 : '0;
     if (flushing || ena) begin
       dark         <= !flushing && pixel;
       column       <= next_column;
       first_column <= next_column == '0;
       last_column  <= next_column == LAST;
-      below        <= flushing ? flush != (X_BITS + 1)'(1) : y != '0;
-      final_pixel  <= flush == (X_BITS + 1)'(1);
+      below        <= flushing ? !last_flush : y != '0;
+      final_pixel  <= flushing && last_flush;
       if (!flushing) row <= y;
     end
     if (rst) begin
-      step  <= 1'b0;
-      flush <= '0;
-      busy  <= 1'b0;
+      step     <= 1'b0;
+      flushing <= 1'b0;
+      flush    <= '0;
+      busy     <= 1'b0;
     end else begin
       step <= flushing || ena;
-      if (flushing) flush <= flush - 1'b1;
-      else if (ena && x == LAST && y == BOTTOM) flush <= (X_BITS + 1)'(WIDTH + 1);
+      if (flushing) begin
+        flush <= flush - 1'b1;
+        if (last_flush) flushing <= 1'b0;
+      end else if (ena && x == LAST && y == BOTTOM) begin
+        flush <= (X_BITS + 1)'(WIDTH + 1);
+        flushing <= 1'b1;
+      end
       if (!flushing && ena) busy <= 1'b1;
       else if (ends_frame && !step) busy <= 1'b0;
     end
   end
 
   // What starts and ends in this row and in the row above, in the next clock.
-  logic last_dark, last_above, last_ended;
+  logic last_dark, last_above, last_ended, row_dark;
   wire dark_before = !first_column && last_dark;
   wire above_before = !first_column && last_above;
   wire above = below && line_above;
   wire start = dark && !dark_before;
   wire above_start = above && !above_before;
-  logic starts, above_starts, touches, passes, finishes, seen_dark, decides, ends_frame;
+  logic starts, above_starts, starts_below, meets, passes, finishes, spans, seen_dark, decides;
+  logic ends_frame, at_first, behind_first;
   logic [X_BITS-1:0] place_x;
   logic [Y_BITS-1:0] place_y;
 
@@ -95,52 +105,64 @@ module blob_labelling #(
       last_dark    <= 1'b0;
       last_above   <= 1'b0;
       last_ended   <= 1'b0;
+      row_dark     <= 1'b0;
       starts       <= 1'b0;
       above_starts <= 1'b0;
-      touches      <= 1'b0;
+      starts_below <= 1'b0;
+      meets        <= 1'b0;
       passes       <= 1'b0;
       finishes     <= 1'b0;
+      spans        <= 1'b0;
       decides      <= 1'b0;
       ends_frame   <= 1'b0;
+      at_first     <= 1'b0;
+      behind_first <= 1'b0;
     end else begin
       starts       <= step && start;
       above_starts <= step && above_start;
-      touches      <= step && (start ? above || above_before : dark_before && above_start);
+      starts_below <= step && start && (above || above_before);  // touches a run above
+      meets        <= step && dark_before && above_start;        // a run touches one that starts now
       passes       <= step && (first_column ? last_above : above_before && !above);
       finishes     <= step && last_ended;
+      spans        <= step && last_ended && row_dark;            // it is the only one of its row
       decides      <= step;
       ends_frame   <= step && final_pixel;
+      at_first     <= step && first_column;
+      behind_first <= at_first;
       if (step) begin
         last_dark  <= dark;
         last_above <= above;
         last_ended <= (dark_before && !dark) || (dark && last_column);
+        row_dark   <= first_column ? dark : row_dark && (dark || last_column);
       end
     end
   end
 
   // The run above: the present one or the one before, and the next one. A run that has another one of
-  // its component to its left finds it on top of the stack of open components. Labels are compared
-  // before it is known which one counts.
-  logic [BITS-1:0] above_label, next_above_label, open_label;
+  // its component to its left finds it on top of the stack of open components. A run that spans a row, but
+  // for its last pixel, may be taken from the row above in the clock in which it ends.
+  logic [BITS-1:0] above_label, stored_label, open_label, final_label;
   logic above_valid, above_seen, above_left, above_right, open_seen;
-  logic next_above_valid, next_above_left, next_above_right, joins_valid, joins_left, joins_same;
-  logic [PLACE-1:0] above_place, read;
-  wire [BITS-1:0] new_label = next_above_left ? open_label : next_above_label;
-  wire new_valid = next_above_left || next_above_valid;
-  wire new_seen = next_above_left && open_seen;
+  logic stored_valid, stored_left, is_valid, is_linked;
+  wire next_left = spans ? is_linked : stored_left;
+  wire new_valid = next_left || (spans ? is_valid : stored_valid);
+  wire [BITS-1:0] new_label = next_left ? open_label : spans ? final_label : stored_label;
+  wire new_seen = next_left && open_seen;
   wire [BITS-1:0] touched = above_starts ? new_label : above_label;
   wire touched_valid = above_starts ? new_valid : above_valid;
   wire touched_seen = above_starts ? new_seen : above_seen;
 
   // The run of this row; `held`: whose extremes are at hand, if `holds`.
-  logic [BITS-1:0] label, next_label, held;
+  logic [BITS-1:0] label, held;
   logic labelled, linked, holds;
-  wire adopts = touches && touched_valid && (starts || !labelled);
-  // A component is joined where its run starts, and never in the clock in which a run ends.
-  wire same = joins_left ? open_label == label : joins_same;
-  wire joins = touches && !starts && labelled && (joins_left || joins_valid) && !same;
-  wire joins_outer = joins && joins_left && open_seen;
-  wire joins_inner = joins && !(joins_left && open_seen);
+  wire adopts = (starts_below && touched_valid) || (meets && new_valid && !labelled);
+  // Components are joined where the run of one starts, and never in the clock in which a run ends. One
+  // that has runs in this row lies around the present one, and is the open one.
+  wire other_open = stored_left && open_label != label;
+  wire other_next = !stored_left && stored_valid && stored_label != label;
+  wire joins_outer = meets && labelled && other_open && open_seen;
+  wire joins_inner = meets && labelled && (other_next || (other_open && !open_seen));
+  wire joins = joins_outer || joins_inner;
 
   always_ff @(posedge clk) begin
     if (adopts || joins_outer) label <= touched;
@@ -151,18 +173,19 @@ module blob_labelling #(
     if (above_starts) begin
       above_label <= joins_inner ? label : new_label;
       above_valid <= new_valid;
-      above_left  <= next_above_left;
-      above_place <= read;
+      above_left  <= next_left;
     end
     if (above_starts) above_seen <= new_seen || adopts || joins_inner;
     else if (adopts) above_seen <= 1'b1;
   end
 
   // The run that ended: its label, a new one if it has none, none if none is free.
+  logic [BITS-1:0] next_label;
+  logic label_free;
   wire is_new = finishes && !labelled;
-  wire [BITS-1:0] final_label = labelled ? label : next_label;
-  wire is_linked = labelled && linked;
-  wire is_valid = labelled || next_label != '0;
+  assign final_label = labelled ? label : next_label;
+  assign is_linked = labelled && linked;
+  assign is_valid = labelled || label_free;
   wire written = finishes && is_valid;
   logic [X_BITS-1:0] run_first, run_last, run_length;
   logic [Y_BITS-1:0] run_row;
@@ -183,53 +206,52 @@ module blob_labelling #(
   end
 
   // Components that are open in the row above; the top is a register.
-  wire right, open_push, open_pop, open_replace;
-  wire passed_seen = above_seen || (adopts && !above_starts);
+  logic first_is_set, right;
+  wire passed_seen = above_seen || (starts_below && !above_starts);
   wire passed = passes && above_valid;
-  assign open_replace = passed && right && above_left;
-  assign open_push = passed && right && !above_left;
-  assign open_pop = passed && !right && above_left;
+  wire open_replace = passed && right && above_left;
+  wire open_push = passed && right && !above_left;
+  wire open_pop = passed && !right && above_left;
   wire complete = passed && !right && !passed_seen;
 
   logic [BITS:0] stack[0:(1<<(PLACE-1))-1];
-  logic [PLACE-2:0] depth;
-  wire [PLACE-2:0] under = depth - 1'b1;
+  logic [PLACE-2:0] depth, under;  // under = depth - 1
   always_ff @(posedge clk) begin
     if (open_push) stack[depth] <= {open_seen, open_label};
     if (open_push || open_replace) {open_seen, open_label} <= {passed_seen, above_label};
     else if (open_pop) {open_seen, open_label} <= stack[under];
-    if (rst) depth <= '0;
-    else if (open_push) depth <= depth + 1'b1;
-    else if (open_pop) depth <= under;
+    if (rst) {depth, under} <= {(PLACE - 1)'(0), ~(PLACE - 1)'(0)};
+    else if (open_push) {depth, under} <= {depth + 1'b1, depth};
+    else if (open_pop) {depth, under} <= {under, under - 1'b1};
   end
 
+  logic stored_right;
   run_ring #(
       .PLACE(PLACE),
       .BITS (BITS)
   ) ring (
       .clk,
       .rst,
+      .begins_row(behind_first),
       .finishes,
       .label(final_label),
       .valid(is_valid),
       .linked(is_linked),
+      .meets,
       .joins_linked(joins_outer && linked),
-      .outer(touched),
+      .outer(open_label),
       .inner(label),
       .take(above_starts),
-      .held_place(above_place),
-      .held_right(above_right),
-      .read,
-      .next_label(next_above_label),
-      .next_valid(next_above_valid),
-      .joins_valid,
-      .joins_left,
-      .joins_same,
-      .next_left(next_above_left),
-      .next_right(next_above_right),
-      .right
+      .stored_label,
+      .stored_valid,
+      .stored_left,
+      .stored_right,
+      .first_is_set
   );
-  always_ff @(posedge clk) above_right <= above_starts ? next_above_right : right;
+  // The last run of a row may be finished while the first one is taken from the row above, or passes.
+  wire next_right = !spans && (stored_right || (first_is_set && (at_first || behind_first)));
+  assign right = above_right || (first_is_set && behind_first);
+  always_ff @(posedge clk) above_right <= above_starts ? next_right : right;
 
   // Labels that are done with leave one after the other; those of complete components with them.
   wire leaves;
@@ -238,7 +260,7 @@ module blob_labelling #(
   wire [BITS-1:0] out_label;
   wire [KEYS-1:0] out_keys;
 
-  free_labels #(
+  label_pool #(
       .LABELS(LABELS)
   ) free (
       .clk,
@@ -246,7 +268,8 @@ module blob_labelling #(
       .take(is_new),
       .give_back(leaves),
       .returned(leaving),
-      .next(next_label)
+      .next(next_label),
+      .found(label_free)
   );
 
   label_extremes #(
@@ -283,8 +306,8 @@ module blob_labelling #(
       .clk,
       .rst,
       .push(complete || joins),
-      .push_blob(complete),
-      .push_label(complete ? above_label : joins_outer ? label : touched),
+      .push_blob(passes),
+      .push_label(passes ? above_label : stored_left && open_seen ? label : new_label),
       .take(take_out),
       .take_label(out_label),
       .taken_keys(out_keys),

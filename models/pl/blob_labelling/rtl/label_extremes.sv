@@ -61,16 +61,16 @@ module label_extremes #(
   };
 
   // Commands on their way: behind the decision, behind the memory, at the comparison.
-  logic write_1, write_2, write_3, write_4, clear_1, clear_2, clear_3, load_1, load_2, load_3, holds_1, join_1, join_2;
-  logic [BITS-1:0] label_1, label_2, label_3, label_4, held_1, other_1, other_2;
+  logic write_1, write_2, write_3, clear_1, clear_2, clear_3, load_1, load_2, load_3, holds_1, join_1, join_2;
+  logic [BITS-1:0] label_1, label_2, label_3, held_1, other_1, other_2;
   logic [KEYS-1:0] run_1, run_2;
   always_ff @(posedge clk) begin
-    {write_4, write_3, write_2, write_1} <= {write_3, write_2, write_1, write};
+    {write_3, write_2, write_1} <= {write_2, write_1, write};
     {clear_3, clear_2, clear_1} <= {clear_2, clear_1, clear};
     {load_3, load_2, load_1} <= {load_2, load_1 && !(holds_1 && other_1 == held_1), load};
     {holds_1, held_1} <= {holds, held};
     {join_2, join_1} <= {join_1, join_};
-    {label_4, label_3, label_2, label_1} <= {label_3, label_2, label_1, write_label};
+    {label_3, label_2, label_1} <= {label_2, label_1, write_label};
     {other_2, other_1} <= {other_1, other};
     {run_2, run_1} <= {run_1, run};
   end
@@ -78,8 +78,8 @@ module label_extremes #(
   // What a run wrote is not in the memory yet when the next ones read it. Two clocks later it is taken
   // from `recent`. One clock later, too: that is the first run of a row, which joins nothing else.
   logic [KEYS-1:0] current, operand, memory, stored, recent;
-  logic load_recent;
-  wire [KEYS-1:0] answer = write_4 && other_2 == label_4 ? recent : stored;
+  logic load_recent, answer_recent;
+  wire [KEYS-1:0] answer = answer_recent ? recent : stored;
   wire [KEYS-1:0] loaded = clear_3 ? '1 : load_recent ? recent : memory;
   wire [KEYS-1:0] joined;
   for (genvar i = 0; i < 8; i++) begin : g_key
@@ -95,6 +95,7 @@ module label_extremes #(
     stored <= keys[other_1];
     memory <= answer;
     operand <= write_2 ? run_2 : join_2 ? answer : '1;
+    answer_recent <= write_3 && other_1 == label_3;
     load_recent <= write_3 && other_2 == label_3;
     recent <= joined;
     current <= clear_3 || load_3 ? loaded : joined;

@@ -1,5 +1,5 @@
-// Labels that are done with, on their way out: a queue, the memory's address, the memory, the output.
-// Those of complete components show them, at most one in eight clocks, if they are large enough.
+// Labels that are done with, on their way out: a queue, the memory's address, the memory, its keys, the
+// output. Those of complete components show them, at most one in eight clocks, if they are large enough.
 module leaving_blobs #(
     parameter int X_BITS = 10,
     parameter int Y_BITS = 9,
@@ -33,53 +33,61 @@ module leaving_blobs #(
   localparam logic [SUM-1:0] BIAS = {1'b1, TIE'(0)};
   localparam logic [2:0] SPACING = 3'd7;
 
+  logic pushed, pushed_blob;
+  logic [BITS-1:0] pushed_label;
   logic [BITS:0] queue[0:(1<<BITS)-1];
   logic [BITS:0] read, write;
   wire queued = read != write;
 
-  logic address_valid, address_blob, memory_valid, memory_blob, valid, blob;
+  logic address_valid, address_blob, memory_valid, memory_blob, keys_valid, keys_blob, valid, blob;
   logic big_enough;
-  logic [BITS-1:0] address_label, memory_label;
+  logic [BITS-1:0] address_label, memory_label, keys_label;
   logic [KEYS-1:0] keys;
   logic [2:0] spacing;
 
-  // The filter looks at the keys as they come out of the memory.
-  function automatic logic [SUM-1:0] value(input logic [KEYS-1:0] of, input int extreme);
-    value = of[extreme*(SUM+TIE)+TIE+:SUM];
-  endfunction
-  wire [SUM-1:0] wide = ~value(taken_keys, 2) - value(taken_keys, 6);
-  wire [SUM-1:0] high = ~value(taken_keys, 4) - value(taken_keys, 0);
-
-  // Each stage moves on as soon as the next one is free.
-  wire output_free = !valid || leaves;
-  wire memory_free = !memory_valid || output_free;
-  wire address_free = !address_valid || memory_free;
-  wire pop = address_free && queued;
-  assign take = memory_free;
+  // A stage takes the next label when it is empty: one label in two clocks, and no stage has to know
+  // of another one. The output is empty while it is shown, and stands still.
+  wire pop = !address_valid && queued;
+  wire to_memory = !memory_valid && address_valid;
+  wire to_keys = !keys_valid && memory_valid;
+  wire to_output = !valid && keys_valid;
+  wire shows = blob && big_enough;
+  wire shown = valid && shows && spacing == 3'd0;
+  assign leaves = valid && (!shows || spacing == 3'd0);
+  assign take = !memory_valid;
   assign take_label = address_label;
-  assign waiting = queued || address_valid || memory_valid || valid;
+  assign waiting = pushed || queued || address_valid || memory_valid || keys_valid || valid;
 
   always_ff @(posedge clk) begin
-    if (push) queue[write[BITS-1:0]] <= {push_blob, push_label};
-    if (address_free) {address_blob, address_label} <= queue[read[BITS-1:0]];
-    if (memory_free) {memory_blob, memory_label} <= {address_blob, address_label};
-    if (output_free) begin
-      {blob, leaving} <= {memory_blob, memory_label};
+    {pushed_blob, pushed_label} <= {push_blob, push_label};
+    if (pushed) queue[write[BITS-1:0]] <= {pushed_blob, pushed_label};
+    if (!address_valid) {address_blob, address_label} <= queue[read[BITS-1:0]];
+    if (!memory_valid) {memory_blob, memory_label} <= {address_blob, address_label};
+    if (!keys_valid) begin
+      {keys_blob, keys_label} <= {memory_blob, memory_label};
       keys <= taken_keys;
-      big_enough <= wide >= SUM'(MINIMUM_SIDE) && high >= SUM'(MINIMUM_SIDE);
     end
     if (rst) begin
+      pushed        <= 1'b0;
       read          <= '0;
       write         <= '0;
       address_valid <= 1'b0;
       memory_valid  <= 1'b0;
+      keys_valid    <= 1'b0;
       valid         <= 1'b0;
+      blob_out      <= 1'b0;
+      spacing       <= 3'd0;
     end else begin
-      if (push) write <= write + 1'b1;
+      pushed <= push;
+      if (pushed) write <= write + 1'b1;
       if (pop) read <= read + 1'b1;
-      if (address_free) address_valid <= queued;
-      if (memory_free) memory_valid <= address_valid;
-      if (output_free) valid <= memory_valid;
+      address_valid <= pop || (address_valid && !to_memory);
+      memory_valid  <= to_memory || (memory_valid && !to_keys);
+      keys_valid    <= to_keys || (keys_valid && !to_output);
+      valid         <= to_output || (valid && !leaves);
+      blob_out <= shown;
+      if (shown) spacing <= SPACING;
+      else if (spacing != 3'd0) spacing <= spacing - 1'b1;
     end
   end
 
@@ -91,20 +99,13 @@ module leaving_blobs #(
   wire [SUM-1:0] x_3 = ~value_3 - SUM'(tie_3);
   wire [SUM-1:0] x_5 = value_5 - BIAS + SUM'(tie_5);
   wire [SUM-1:0] x_7 = value_7 - SUM'(tie_7);
-  wire shows = valid && blob && big_enough;
-  assign leaves = valid && (!shows || spacing == 3'd0);
-  wire shown = shows && spacing == 3'd0;
+  wire [SUM-1:0] wide = ~value_2 - value_6;
+  wire [SUM-1:0] high = ~value_4 - value_0;
 
-  always_ff @(posedge clk) begin
-    if (rst) begin
-      blob_out <= 1'b0;
-      spacing  <= 3'd0;
-    end else begin
-      blob_out <= shown;
-      if (shown) spacing <= SPACING;
-      else if (spacing != 3'd0) spacing <= spacing - 1'b1;
-    end
-    if (shown) begin
+  always_ff @(posedge clk)
+    if (!valid) begin
+      {blob, leaving} <= {keys_blob, keys_label};
+      big_enough <= wide >= SUM'(MINIMUM_SIDE) && high >= SUM'(MINIMUM_SIDE);
       extreme_0 <= {16'(value_0), 16'(tie_0)};
       extreme_1 <= {16'(tie_1), 16'(x_1)};
       extreme_2 <= {16'(tie_2), 16'(TIE'(~value_2))};
@@ -114,5 +115,4 @@ module leaving_blobs #(
       extreme_6 <= {16'(tie_6), 16'(value_6)};
       extreme_7 <= {16'(tie_7), 16'(x_7)};
     end
-  end
 endmodule

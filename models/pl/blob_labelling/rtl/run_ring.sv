@@ -1,53 +1,52 @@
 // Runs of the row above that are still to come, and runs of this row: label, and whether their
 // component has another run to the left and to the right. Written one clock behind the decision.
 //
-// `right` is written at two places at once: 0 for the new run, 1 for the one that it continues. It is
-// the difference of two memories, so that each has one port for writing.
+// Even and odd places lie in memories of their own, so the next run and the one behind it are read at
+// once. `right` is written at two places at once: 0 for the new run, 1 for the one that it continues.
+// It is the difference of two memories, so that each has one port for writing.
 module run_ring #(
     parameter int PLACE = 9,
     parameter int BITS = 9
 ) (
     input  logic             clk,
     input  logic             rst,
+    input  logic             begins_row,    // the next run to end is the row's first
     // A run of this row ends. If it is linked, its component's last one is to its left.
     input  logic             finishes,
     input  logic [ BITS-1:0] label,
-    input  logic             valid,       // it has one
+    input  logic             valid,         // it has one
     input  logic             linked,
-    // The runs of the component `inner` in this row become part of `outer`.
+    // The runs of the component `inner` in this row become part of `outer`; it may happen only where
+    // components meet, and no run ends there.
+    input  logic             meets,
     input  logic             joins_linked,
     input  logic [ BITS-1:0] outer,
     input  logic [ BITS-1:0] inner,
-    // The next run of the row above is taken.
+    // The next run of the row above is taken, and known from the clock on behind the one in which it
+    // ended.
     input  logic             take,
-    input  logic [PLACE-1:0] held_place,
-    input  logic             held_right,
-    output logic [PLACE-1:0] read,
-    output logic [ BITS-1:0] next_label,
-    output logic             next_valid,
-    output logic             joins_valid, // of the next run in a clock in which no run ends
-    output logic             joins_left,
-    output logic             joins_same,  // its label is `inner`
-    output logic             next_left,
-    output logic             next_right,  // with what is written in this clock
-    output logic             right        // of the run that was taken last, the same
+    output logic [ BITS-1:0] stored_label,
+    output logic             stored_valid,
+    output logic             stored_left,
+    output logic             stored_right,  // before what is written in this clock
+    output logic             first_is_set   // in this clock `right` of the row's first run is written
 );
-  logic [PLACE-1:0] first[0:(1<<BITS)-1];  // of a label's runs in this row
-  logic [PLACE-1:0] last[0:(1<<BITS)-1];
-  logic [BITS:0] labels[0:(1<<PLACE)-1];  // and whether it has one
-  logic lefts[0:(1<<PLACE)-1];
-  logic right_new[0:(1<<PLACE)-1];
-  logic right_set[0:(1<<PLACE)-1];
+  // Of a label's runs in this row.
+  (* ram_style = "distributed" *) logic [PLACE-1:0] first[0:(1<<BITS)-1];
+  (* ram_style = "distributed" *) logic [PLACE-1:0] last[0:(1<<BITS)-1];
 
-  // What is to be written in the next clock.
+  // What is to be written in the next clock: the run that ended, or that `inner` became part of `outer`.
   logic [PLACE-1:0] write;
   logic adds, adds_valid, adds_linked, sets, moves, moves_last;
-  logic [PLACE-1:0] set_place, left_place, last_value;
+  logic [PLACE-1:0] left_place;
+  logic [PLACE-1:0] not_mine, not_others;  // inverted, or Yosys takes them into the memory's ports
   logic [BITS-1:0] first_label, last_label;
+  wire [PLACE-1:0] set_place = ~(moves ? not_others : not_mine);
+  wire [PLACE-1:0] last_place = moves ? ~not_mine : left_place;
 
   // The last run of a label may be written just now.
-  wire [PLACE-1:0] last_mine = moves_last && last_label == inner ? last_value : last[inner];
-  wire [PLACE-1:0] last_outer = moves_last && last_label == outer ? last_value : last[outer];
+  wire [PLACE-1:0] last_mine = moves_last && last_label == inner ? last_place : last[inner];
+  wire [PLACE-1:0] last_others = moves_last && last_label == outer ? last_place : last[outer];
   wire [PLACE-1:0] first_mine = adds && !adds_linked && first_label == inner ? left_place : first[inner];
 
   always_ff @(posedge clk) begin
@@ -57,59 +56,90 @@ module run_ring #(
     moves       <= joins_linked && !rst;
     moves_last  <= (finishes || joins_linked) && !rst;
     sets        <= ((finishes && linked) || joins_linked) && !rst;
-    set_place   <= joins_linked ? last_outer : last_mine;
-    left_place  <= joins_linked ? first_mine : write;
+    not_mine    <= ~last_mine;
+    not_others  <= ~last_others;
+    left_place  <= meets ? first_mine : write;
     first_label <= label;
-    last_label  <= joins_linked ? outer : label;
-    last_value  <= joins_linked ? last_mine : write;
+    last_label  <= meets ? outer : label;
     if (rst) write <= '0;
     else if (finishes) write <= write + 1'b1;
   end
 
+  // The label of the row's first run, which is `alone` until another run gets it.
+  logic [BITS-1:0] opener;
+  logic opens_row, alone;
+  wire joins_first = alone && ((finishes && linked && label == opener) || (joins_linked && outer == opener));
   always_ff @(posedge clk) begin
-    if (adds) labels[left_place] <= {adds_valid, first_label};
-    if (adds && !adds_linked) first[first_label] <= left_place;
-    if (moves_last) last[last_label] <= last_value;
-    if (adds || moves) lefts[left_place] <= moves || adds_linked;
-    if (adds) right_new[left_place] <= right_set[left_place];
-    if (sets) right_set[set_place] <= !right_new[set_place];
+    if (finishes && opens_row) opener <= label;
+    alone <= finishes && opens_row ? valid : alone && !joins_first;
+    opens_row <= rst || begins_row || (opens_row && !finishes);
+    first_is_set <= joins_first && !rst;
   end
 
-  // The next run is read again in every clock, and one ahead when it is taken. One that spans the row
-  // is taken when it ends (`now`), or before it can be read (`fresh`).
-  logic [PLACE-1:0] following;
-  wire [PLACE-1:0] place = take ? following : read;
-  logic [BITS-1:0] stored_label;
-  logic empty, fresh, fresh_following, stored_valid, stored_left, stored_right;
-  // At both places, so that `take` selects bits and no addresses.
-  wire right_read = (right_new[read] ^ right_set[read]) || (sets && set_place == read);
-  wire right_following = (right_new[following] ^ right_set[following]) || (sets && set_place == following);
-  wire now = finishes && empty;
-  wire rewrites = take ? fresh_following : fresh;  // what is read is being written
   always_ff @(posedge clk) begin
-    if (rst) begin
-      read      <= '0;
-      following <= PLACE'(1);
-      empty     <= 1'b1;
-      fresh <= 1'b0;
-      fresh_following <= 1'b0;
-    end else begin
-      read <= place;
-      if (take) following <= following + 1'b1;
-      empty <= (finishes ? write + 1'b1 : write) == place;
-      fresh <= finishes && write == place;
-      fresh_following <= finishes && write == (take ? following + 1'b1 : following);
-    end
-    {stored_valid, stored_label} <= rewrites ? {adds_valid, first_label} : labels[place];
-    stored_left  <= rewrites ? adds_linked : take ? lefts[following] : lefts[read];
-    stored_right <= !rewrites && (take ? right_following : right_read);
+    if (adds && !adds_linked) first[first_label] <= left_place;
+    if (moves_last) last[last_label] <= last_place;
   end
-  assign next_label = now ? label : fresh ? first_label : stored_label;
-  assign next_valid = now ? valid : joins_valid;
-  assign joins_valid = fresh ? adds_valid : stored_valid;
-  assign joins_left = fresh ? adds_linked : stored_left;
-  assign joins_same = fresh ? first_label == inner : stored_label == inner;
-  assign next_left = now ? linked : joins_left;
-  assign next_right = !now && !fresh && (stored_right || (sets && set_place == read));
-  assign right = held_right || (sets && set_place == held_place);
+
+  logic next_is_odd;
+  localparam int RUN = BITS + 3;  // right, left, valid, label
+  logic [2*RUN-1:0] found;
+  for (genvar odd = 0; odd < 2; odd++) begin : g_half
+    logic [BITS:0] labels[0:(1<<(PLACE-1))-1];
+    logic lefts[0:(1<<(PLACE-1))-1];
+    logic right_new[0:(1<<(PLACE-1))-1];
+    logic right_set[0:(1<<(PLACE-1))-1];
+    wire adds_here = left_place[0] == 1'(odd);
+    wire sets_here = sets && set_place[0] == 1'(odd);
+    wire [PLACE-2:0] added = left_place[PLACE-1:1];
+    wire [PLACE-2:0] set = set_place[PLACE-1:1];
+    logic [PLACE-2:0] place;
+    always_ff @(posedge clk) begin
+      if (adds && adds_here) labels[added] <= {adds_valid, first_label};
+      if ((adds || moves) && adds_here) lefts[added] <= moves || adds_linked;
+      if (adds && adds_here) right_new[added] <= right_set[added];
+      if (sets_here) right_set[set] <= !right_new[set];
+      if (rst) place <= '0;
+      else if (take && next_is_odd == 1'(odd)) place <= place + 1'b1;
+    end
+    wire right = (right_new[place] ^ right_set[place]) || (sets_here && set == place);
+    assign found[odd*RUN+:RUN] = {right, lefts[place], labels[place]};
+  end
+  wire [RUN-1:0] next = take == next_is_odd ? found[0+:RUN] : found[RUN+:RUN];
+
+  // The next run is read again in every clock, and one ahead when it is taken. How many there are
+  // tells which one is not in the memory yet.
+  logic [PLACE-1:0] count;
+  logic none, one, two;  // runs to come
+  wire arrives = finishes && (take ? one : none);  // the run that ends is the next one,
+  logic arrived, followed;  // or was, or the one behind that
+  wire rewrites = take ? followed : arrived;
+  always_ff @(posedge clk) begin
+    arrived  <= arrives;
+    followed <= finishes && (take ? two : one);
+    if (rst) begin
+      next_is_odd <= 1'b0;
+      count       <= '0;
+      none        <= 1'b1;
+      one         <= 1'b0;
+      two         <= 1'b0;
+    end else begin
+      if (take) next_is_odd <= !next_is_odd;
+      if (finishes && !take) begin
+        count <= count + 1'b1;
+        none  <= 1'b0;
+        one   <= none;
+        two   <= one;
+      end else if (take && !finishes) begin
+        count <= count - 1'b1;
+        none  <= one;
+        one   <= two;
+        two   <= count == PLACE'(3);
+      end
+    end
+    if (arrives) {stored_right, stored_left, stored_valid, stored_label} <= {1'b0, linked, valid, label};
+    else if (rewrites)
+      {stored_right, stored_left, stored_valid, stored_label} <= {1'b0, adds_linked, adds_valid, first_label};
+    else {stored_right, stored_left, stored_valid, stored_label} <= next;
+  end
 endmodule

@@ -324,7 +324,7 @@ BOOST_AUTO_TEST_CASE(rtl_of_another_size_is_refused) {
 #endif
 
 // A square of 20 px whose last run ends in (39, 24): pixel (39, 25) leaves the source on edge
-// 10 + 25 x 64 + 39 and is taken one edge later, the blob stands behind the seventh edge after
+// 10 + 25 x 64 + 39 and is taken one edge later, the blob stands behind the ninth edge after
 // that.
 BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   const pl::Geometry size{64, 32};
@@ -335,7 +335,7 @@ BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   Script script;
   script.frames[10] = {picture};
   script.end = 10 + size.pixels() + 500;
-  const std::uint64_t out = 10 + 25 * 64 + 39 + 1 + 7;
+  const std::uint64_t out = 10 + 25 * 64 + 39 + 1 + 9;
   const std::uint64_t over = 11 + size.pixels() + size.width + 2;
   using blob_stream::point;
   const std::vector<Seen> expected{{1, true, false, {}},

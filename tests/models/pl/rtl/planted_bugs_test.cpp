@@ -7,28 +7,17 @@
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <systemc>
 
-#include "child_process.h"
 #include "pipeline.h"
+#include "rtl_objects.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using Strings = std::vector<std::string>;
-
-struct Bug {
-  const char* name;
-  const char* ip;
-  const char* file;
-  const char* right;
-  const char* wrong;
-  const char* port;  ///< that differs first
-};
 
 const Bug bugs[] = {
     {"brighter_or_equal", "corner_detection", "fast_module.sv",
@@ -112,66 +101,23 @@ const std::map<std::string, std::string> wide{{"sensor_input", "WIDTH=1280 HEIGH
                                               {"blob_detection", "WIDTH=1280 Y_BITS=10"},
                                               {"axi_image_store", "ADDRESS_BITS=18"}};
 
+std::string parameters(const std::string& ip) {
+  if (ip == "corner_detection") return "WIDTH=64 LEAN=1";
+  if (ip == "blob_detection") return "WIDTH=64 LABELS=16 MINIMUM_SIDE=1";
+  return ip == "global_threshold" || ip == "sensor_input" ? "WIDTH=64 HEIGHT=32" : "";
+}
+
 /// All of them, and the RTL as it is, built once.
-class Objects {
- public:
-  static const Objects& get() {
-    static const Objects objects;
-    return objects;
-  }
-
-  std::string file(const std::string& name) const { return folder_ / ("build/" + name + ".so"); }
-
- private:
-  Objects() {
-    std::string project =
-        "cmake_minimum_required(VERSION 3.25)\nproject(bugs LANGUAGES CXX)\n"
-        "include(\"" MARKERVP_SOURCE "/cmake/MarkervpRtl.cmake\")\n";
-    for (const std::string& ip : ips) project += object(ip, ip, nullptr, parameters(ip));
-    for (const Bug& bug : bugs) project += object(bug.name, bug.ip, &bug, parameters(bug.ip));
-    for (const auto& [ip, values] : wide) project += object(ip + "_wide", ip, nullptr, values);
-    kit::write_file(folder_ / "CMakeLists.txt", project);
-    cmake({"-S", ".", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
-           "-DCMAKE_CXX_FLAGS_DEBUG="});
-    cmake({"--build", "build"});
-  }
-
-  void cmake(const Strings& arguments) const {
-    const kit::Outcome outcome = kit::run_process(MARKERVP_CMAKE, arguments, folder_.path());
-    if (outcome.exit_code != 0) throw std::runtime_error(outcome.out + outcome.err);
-  }
-
-  /// Copies the RTL of an IP, with the bug if there is one; gives the words that build it.
-  std::string object(const std::string& name, const std::string& ip, const Bug* bug,
-                     const std::string& parameters) const {
-    const fs::path models(MARKERVP_SOURCE "/models/pl");
-    const fs::path copy(folder_ / name);
-    fs::copy(models / ip / "rtl", copy);
-    if (bug) plant(*bug, copy / bug->file);
-    return "file(GLOB sources " + name + "/*.sv)\nmarkervp_add_rtl(" + name + " IP " + ip +
-           " TOP " + ip + " SOURCES ${sources} " + (models / "common/rtl/line_buffer.sv").string() +
-           (parameters.empty() ? "" : " PARAMETERS " + parameters) + ")\n";
-  }
-
-  static std::string parameters(const std::string& ip) {
-    if (ip == "corner_detection") return "WIDTH=64 LEAN=1";
-    if (ip == "blob_detection") return "WIDTH=64 LABELS=16 MINIMUM_SIDE=1";
-    return ip == "global_threshold" || ip == "sensor_input" ? "WIDTH=64 HEIGHT=32" : "";
-  }
-
-  static void plant(const Bug& bug, const std::string& file) {
-    std::string text = kit::read_file(file);
-    const std::size_t at = text.find(bug.right);
-    if (at == std::string::npos)
-      throw std::runtime_error(std::string(bug.name) + ": " + file + " has no '" + bug.right + "'");
-    for (std::size_t from = at; from != std::string::npos;
-         from = text.find(bug.right, from + std::string(bug.wrong).size()))
-      text.replace(from, std::string(bug.right).size(), bug.wrong);
-    kit::write_file(file, text);
-  }
-
-  kit::TemporaryFolder folder_;
-};
+const RtlObjects& objects() {
+  static const RtlObjects built = [] {
+    std::vector<RtlObjects::Object> all;
+    for (const std::string& ip : ips) all.push_back({ip, ip, parameters(ip)});
+    for (const Bug& bug : bugs) all.push_back({bug.name, bug.ip, parameters(bug.ip), &bug});
+    for (const auto& [ip, values] : wide) all.push_back({ip + "_wide", ip, values});
+    return RtlObjects(all);
+  }();
+  return built;
+}
 
 /// Few grey levels: many scores, widths and counts are equal.
 harness::Image posterised(std::uint64_t seed) {
@@ -247,7 +193,7 @@ struct Logic : harness::Pipeline {
 };
 
 std::string fidelity(const Bug& bug, const std::string& how) {
-  return std::string("pl.fidelity.") + bug.ip + "=" + how + Objects::get().file(bug.name);
+  return std::string("pl.fidelity.") + bug.ip + "=" + how + objects().file(bug.name);
 }
 
 /// Times and words of all frames, until the first frame in which a word differs from `expected`:
@@ -315,7 +261,7 @@ BOOST_AUTO_TEST_SUITE(planted_bugs)
 
 BOOST_AUTO_TEST_CASE(the_rtl_as_it_is_never_differs) {
   for (const std::string& ip : ips) {
-    Logic logic({"pl.fidelity." + ip + "=lockstep:" + Objects::get().file(ip)});
+    Logic logic({"pl.fidelity." + ip + "=lockstep:" + objects().file(ip)});
     BOOST_TEST(logic.failure() == "", ip);
   }
 }
@@ -326,7 +272,7 @@ BOOST_AUTO_TEST_CASE(in_the_place_of_the_models_nobody_sees_a_difference) {
   BOOST_TEST(models.size() > 10'000u);
   Strings all;
   for (const std::string& ip : ips) {
-    all.push_back("pl.fidelity." + ip + "=" + Objects::get().file(ip));
+    all.push_back("pl.fidelity." + ip + "=" + objects().file(ip));
     BOOST_TEST((seen_of({all.back()}) == models), ip);
   }
   BOOST_TEST((seen_of(all) == models));
@@ -345,7 +291,7 @@ BOOST_AUTO_TEST_CASE(frames_wider_than_those_of_the_thesis) {
   };
   Strings rtl;
   for (const auto& [ip, values] : wide)
-    rtl.push_back("pl.fidelity." + ip + "=" + Objects::get().file(ip + "_wide"));
+    rtl.push_back("pl.fidelity." + ip + "=" + objects().file(ip + "_wide"));
   const std::vector<harness::Word> expected = words({});
   const marker_logic::WordFormat format(1280, 720);
   BOOST_TEST(std::any_of(expected.begin(), expected.end(), [&](const harness::Word& word) {
@@ -354,8 +300,8 @@ BOOST_AUTO_TEST_CASE(frames_wider_than_those_of_the_thesis) {
   BOOST_TEST(harness::first_difference(words(rtl), expected) == "");
   // A narrower one is refused, and the message says what to declare.
   BOOST_CHECK_EXCEPTION(
-      words({"pl.fidelity.corner_detection=" + Objects::get().file("corner_detection")}),
-      vp::InputError, [](const vp::InputError& error) {
+      words({"pl.fidelity.corner_detection=" + objects().file("corner_detection")}), vp::InputError,
+      [](const vp::InputError& error) {
         return std::string(error.what()).find("'input logic [10:0] x'") != std::string::npos;
       });
 }

@@ -75,7 +75,7 @@ struct BlobBench : kit::Simulation {
   vp::Signal<std::uint8_t> threshold{"threshold", 8, 77};
   std::array<std::unique_ptr<vp::Signal<std::uint32_t>>, words_per_blob> extremes;
   vp::AxiStream link{"link"};
-  pl::BlobStream ip{"blob_stream", clk};
+  pl::BlobStreamClocked ip{"blob_stream", {clk, small_frame}};
   harness::StreamSink sink{"sink", clk};
 };
 
