@@ -57,6 +57,13 @@ constexpr const char* config_examples =
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
+constexpr const char* compare_detectors_help =
+    R"(  markervp compare-detectors photos --set sw.marker_side=0.05m
+  markervp compare-detectors x y z pitch yaw roll
+  markervp scenes roll -o rolls; markervp compare-detectors rolls
+Errors are told where the truth is known: of scenes, and of folders with a truth.json (docs/detectors.md). The
+libraries look for the dictionary and the size of markers that the designs look for.)";
+
 constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash)
 For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
 For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)";
@@ -265,6 +272,8 @@ void add_scenes(CLI::App& app, ScenesOptions& target) {
   CLI::App* command = app.add_subcommand("scenes", "list the scenes that can be rendered");
   command->add_option("GROUP", target.group, "only this group, in detail")->type_name("");
   command->add_flag("--names", target.names_only, "one name a line, for scripts");
+  command->add_option("-o,--output", target.output, "write images and truth.json of them")
+      ->type_name("DIR");
 }
 
 void add_designs(CLI::App& app, DesignsOptions& target) {
@@ -326,6 +335,35 @@ void add_validate(CLI::App& app, ValidateOptions& target) {
       ->type_name("FILE");
   command->add_flag("--no-report", target.no_report, "no page report.html");
   add_configuration_options(*command, target.configuration);
+}
+
+void add_compare_detectors(CLI::App& app, CompareDetectorsOptions& target) {
+  CLI::App* command = app.add_subcommand(
+      "compare-detectors", "our designs beside OpenCV's ArUco and AprilTag 3 on the same images");
+  command->add_option("INPUT", target.inputs, "folders, images, scenes")->type_name("")->required();
+  command
+      ->add_option("--design", target.designs,
+                   "only this one of ours, may be repeated (default: all that take the images)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--truth", target.truth, "what is in the images (default: their truth.json)")
+      ->type_name("FILE");
+  command->add_option("--camera", target.camera, "camera calibration (OpenCV or ROS)")
+      ->type_name("FILE");
+  command->add_option("--fit", target.fit, "make images of another size fit")
+      ->type_name("crop|scale")
+      ->check(CLI::IsMember({"crop", "scale"}).description(""));
+  command->add_option("--profile", target.profile, "costs of our software (default: a9-O2)")
+      ->type_name("NAME");
+  command
+      ->add_option("-o,--output", target.output, "folder for the results (default: out/detectors)")
+      ->type_name("DIR");
+  command->add_option("--markdown", target.markdown, "write the table as a page, too")
+      ->type_name("FILE");
+  command->add_flag("--no-report", target.no_report, "no page report.html");
+  add_configuration_options(*command, target.configuration);
+  command->footer(compare_detectors_help);
 }
 
 void add_devices(CLI::App& app, DevicesOptions& target) {
@@ -399,6 +437,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_rtl(*app, target.rtl);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
+  add_compare_detectors(*app, target.compare_detectors);
   add_completion(*app, target.completion);
   app->footer(examples);  // last: commands would take it over
   return app;

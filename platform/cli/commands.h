@@ -49,6 +49,7 @@ struct MemoryRun {
 /// have written result.json, also if this throws.
 int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& err);
 
+/// Lists scenes, or writes their images and what is in them.
 int list_scenes(const ScenesOptions& options, std::ostream& out);
 
 /// Lists what may stand in the programmable logic.
@@ -114,6 +115,9 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
 int find_step_effects(const SensitivityOptions& options, std::ostream& out, std::ostream& err);
 
 int compare_runs(const CompareOptions& options, std::ostream& out);
+
+/// Shows the same images to our designs, OpenCV's ArUco and AprilTag 3.
+int compare_detectors(const CompareDetectorsOptions& options, std::ostream& out, std::ostream& err);
 
 /// Reads --config, --set and --design into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);

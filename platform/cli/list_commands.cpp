@@ -3,14 +3,19 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <designs/designs.h>
+#include <detectors/truth.h>
 #include <device/clock_plan.h>
 #include <device/device.h>
+#include <host/output_folder.h>
+#include <input/frame_source.h>
+#include <picture/picture.h>
 #include <power/design_estimate.h>
 #include <power/power_table.h>
 #include <report/console.h>
 #include <run/simulation.h>
 #include <scene/scene.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <nlohmann/json.hpp>
@@ -65,10 +70,30 @@ const SceneGroup& find_group(const std::string& name) {
                        "there are " + vp::join(names, ", "));
 }
 
+/// The scenes as image files, with what is in them.
+void write_scenes(const ScenesOptions& options, std::ostream& out) {
+  if (options.group.empty())
+    throw vp::InputError("scenes --output: name a scene or a group, as in 'markervp scenes roll'");
+  const auto source = input::open_inputs({options.group}, {});
+  host::OutputFolder folder(*options.output);
+  detectors::Truth truth;
+  while (const auto frame = source->next()) {
+    if (!frame->truth) throw vp::InputError("'" + options.group + "' is no scene");
+    const std::string file = frame->name + ".png";
+    vp::write_file(folder.add(file), picture::encode_png(frame->image));
+    truth.add(file, *frame->truth);
+  }
+  vp::write_file(folder.add(detectors::Truth::file_name), truth.json());
+  out << "wrote " << report::counted(*source->size(), "image") << " and "
+      << detectors::Truth::file_name << " in " << *options.output << "\n";
+}
+
 }  // namespace
 
 int list_scenes(const ScenesOptions& options, std::ostream& out) {
-  if (options.names_only) {
+  if (options.output) {
+    write_scenes(options, out);
+  } else if (options.names_only) {
     const auto names = options.group.empty() ? scene_names() : find_group(options.group).scenes;
     for (const std::string& name : names) out << name << "\n";
   } else if (options.group.empty()) {

@@ -84,8 +84,9 @@ struct RtlOptions {
 
 /// `markervp scenes`.
 struct ScenesOptions {
-  std::string group;        ///< empty: all
-  bool names_only = false;  ///< one name a line, for scripts
+  std::string group;                  ///< empty: all
+  bool names_only = false;            ///< one name a line, for scripts
+  std::optional<std::string> output;  ///< folder for images and truth.json
 };
 
 /// `markervp designs`.
@@ -228,6 +229,20 @@ struct CompareOptions {
   std::string second;
 };
 
+/// `markervp compare-detectors`.
+struct CompareDetectorsOptions {
+  std::vector<std::string> inputs;
+  std::vector<std::string> designs;  ///< none: all that come with the program
+  ConfigurationOptions configuration;
+  std::string profile = "a9-O2";
+  std::optional<std::string> camera;
+  std::optional<std::string> fit;
+  std::optional<std::string> truth;  ///< of all images; none: that of each folder
+  std::string output = "out/detectors";
+  std::optional<std::string> markdown;  ///< page of the documentation to write
+  bool no_report = false;
+};
+
 /// Everything the user typed.
 struct CommandLine {
   RunOptions run;
@@ -250,6 +265,7 @@ struct CommandLine {
   ParetoOptions pareto;
   SensitivityOptions sensitivity;
   CompareOptions compare;
+  CompareDetectorsOptions compare_detectors;
 };
 
 /// A span of simulated time, ps.

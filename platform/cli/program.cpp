@@ -67,6 +67,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
   if (command == "compare") return compare_runs(line.compare, out);
+  if (command == "compare-detectors") return compare_detectors(line.compare_detectors, out, err);
   return print_completion(line.completion, app, out);
 }
 

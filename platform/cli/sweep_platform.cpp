@@ -56,32 +56,50 @@ sweep::Elaborated elaborated_from(const Json& json) {
   return result;
 }
 
-sweep::Elaborated elaborate(const sweep::Build& build, const std::string& origin) {
-  host::Child child([&](std::ostream& out, std::ostream&) {
-    vp::Configuration configuration;
-    for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
-    SimulationOptions options;
-    options.program = if_named(build.program);
-    const auto simulation = cli::build(configuration, options);
-    out << "\n" << to_json(configuration.parameters(), simulation->image_size()).dump();
-    return done;
-  });
-  const host::ChildEnd end = child.wait();
-  const Json description = Json::parse(last_line(end.out), nullptr, false);
-  if (end.exit_code == done && description.is_object()) return elaborated_from(description);
-  const std::string name = "markervp: ";
-  std::string message(vp::trim(end.err));
-  message = last_line(message);
-  if (message.rfind(name, 0) == 0) message.erase(0, name.size());
-  if (message.empty()) message = "the platform cannot be built: its process was ended";
-  throw vp::InputError(message);
+Json built(vp::Configuration& configuration, const std::optional<std::string>& program) {
+  SimulationOptions options;
+  options.program = program;
+  const auto simulation = cli::build(configuration, options);
+  return to_json(configuration.parameters(), simulation->image_size());
 }
 
 }  // namespace
 
+Json made_apart(const std::function<Json(std::ostream& err)>& work) {
+  host::Child child([&](std::ostream& out, std::ostream& err) {
+    out << "\n" << work(err).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return done;
+  });
+  const host::ChildEnd end = child.wait();
+  Json document = Json::parse(last_line(end.out), nullptr, false);
+  if (end.exit_code == done && document.is_object()) return document;
+  const std::string name = "markervp: ";
+  std::string message(vp::trim(end.err));
+  message = last_line(message);
+  if (message.rfind(name, 0) == 0) message.erase(0, name.size());
+  if (message.empty()) message = "the platform's process was ended";
+  if (end.exit_code == protocol_broken) throw vp::ProtocolError(message);
+  throw vp::InputError(message);
+}
+
+sweep::Elaborated elaborate(const ConfigurationOptions& options,
+                            const std::optional<std::string>& program) {
+  return elaborated_from(made_apart([&](std::ostream&) {
+    vp::Configuration configuration;
+    load_configuration(options, configuration);
+    return built(configuration, program);
+  }));
+}
+
 sweep::Platform sweep_platform() {
   sweep::Platform platform;
-  platform.elaborate = elaborate;
+  platform.elaborate = [](const sweep::Build& build, const std::string& origin) {
+    return elaborated_from(made_apart([&](std::ostream&) {
+      vp::Configuration configuration;
+      for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
+      return built(configuration, if_named(build.program));
+    }));
+  };
   platform.program_file = [](const std::string& program, const std::string& design) {
     return program.empty() ? usual_program(design_named(design)) : program_file(program);
   };

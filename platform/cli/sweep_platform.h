@@ -5,7 +5,21 @@
 
 #include <cli/options.h>
 
+#include <functional>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+
 namespace platform::cli {
+
+/// The document that `work` makes in a forked process: SystemC and PS programs leave nothing behind
+/// in this one, and may crash. If `work` throws or makes no object, throws what it said last on
+/// `err`: vp::ProtocolError if hardware or software broke a rule, else vp::InputError.
+nlohmann::ordered_json made_apart(
+    const std::function<nlohmann::ordered_json(std::ostream& err)>& work);
+
+/// Builds the platform, apart, and tells its parameters. Throws vp::InputError.
+sweep::Elaborated elaborate(const ConfigurationOptions& options,
+                            const std::optional<std::string>& program = std::nullopt);
 
 /// What sweeps ask of the platform.
 sweep::Platform sweep_platform();

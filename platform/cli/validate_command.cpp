@@ -97,13 +97,6 @@ validation::Measured read_runs(const ValidateOptions& options) {
   return {read(validation::hybrid), read(validation::ps_only)};
 }
 
-/// Throws if the page could not be written after the systems have run; makes its folder.
-void check_page(const fs::path& page) {
-  if (page.has_parent_path()) host::prepare_output_folder(page.parent_path().string());
-  const int problem = vp::output_problem(page.string());
-  if (problem != 0) throw vp::OutputError(page.string(), problem);
-}
-
 /// False: gnuplot is not installed.
 bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
   host::prepare_output_folder(folder.string());
@@ -137,7 +130,7 @@ std::string write_results(const ValidateOptions& options, const validation::Vali
 int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
              std::ostream& out, std::ostream& err) {
   const auto published = validation::read_published(validation::published_file());
-  if (options.markdown) check_page(*options.markdown);
+  if (options.markdown) host::prepare_output_file(*options.markdown);
   host::prepare_output_folder(options.output);
   if (const int code = run_systems(options, arguments, err); code != done) {
     return code;

@@ -129,6 +129,13 @@ bool prepare_output_folder(const std::string& folder) {
   return made;
 }
 
+void prepare_output_file(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty()) prepare_output_folder(folder.string());
+  const int problem = vp::output_problem(file);
+  if (problem != 0) throw vp::OutputError(file, problem);
+}
+
 OutputFolder::OutputFolder(const std::string& path)
     : path_(path), list_((fs::path(path) / list_name).string()) {
   made_ = prepare_output_folder(path);

@@ -34,6 +34,9 @@ class FileLock {
 /// Throws vp::InputError otherwise; leaves no file behind. Returns whether it made the folder.
 bool prepare_output_folder(const std::string& folder);
 
+/// The same for one file that is written after long work; makes its folder.
+void prepare_output_file(const std::string& file);
+
 /// A folder that one run or sweep writes into at a time.
 ///
 /// Its file ".markervp" is locked while this lives, and says who has it and what it wrote there. So

@@ -1,5 +1,6 @@
 #include <host/process.h>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/text.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -32,8 +34,9 @@ namespace {
 
 constexpr const char* standard_output = "standard output";
 
-/// What a message quotes may be anything: lines, escape sequences of the terminal, a megabyte. One
-/// line comes of it, with the beginning, which says where, and the end, which says what to do.
+/// What a message quotes may be anything: lines, escape sequences of the terminal, a megabyte.
+/// One line comes of it, with the beginning, which says where, and the end, which says what to
+/// do.
 std::string one_line(std::string text) {
   constexpr std::size_t longest = 4000;
   constexpr std::size_t part = 1500;
@@ -56,7 +59,8 @@ void end_as_the_system_does(int signal) {
   ::raise(signal);
 }
 
-/// Of the second that a run has after a signal, for the frame at hand. The rest is for its results.
+/// Of the second that a run has after a signal, for the frame at hand. The rest is for its
+/// results.
 constexpr std::uint64_t frame_ns = 300'000'000;
 constexpr std::uint64_t all_ns = 900'000'000;
 
@@ -106,8 +110,8 @@ void prepare_signals() {
   }
 }
 
-// Nothing but system calls, as it comes from a signal handler. Not _exit(), which ends a PS program
-// that runs (ps/cpu/fault_trap.cpp).
+// Nothing but system calls, as it comes from a signal handler. Not _exit(), which ends a PS
+// program that runs (ps/cpu/fault_trap.cpp).
 void end_by(int signal) {
   vp::remove_part_files();
   if (signal == SIGQUIT) end_as_the_system_does(signal);
@@ -203,6 +207,25 @@ std::vector<std::string> library_folders() {
   const std::string system = (root / MARKERVP_LIBDIR / "markervp").string();
   if (system != folders.front()) folders.push_back(system);
   return folders;
+}
+
+void* load_plugin(const std::vector<std::string>& folders, const std::string& file,
+                  const std::string& entry, const std::string& problem) {
+  for (const std::string& folder : folders) {
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    if (!std::filesystem::exists(path)) continue;
+    void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) {
+      throw vp::InputError(problem + ": '" + path + "': " + vp::load_problem(path, ::dlerror()) +
+                           "; install markervp completely");
+    }
+    void* function = ::dlsym(library, entry.c_str());
+    if (function != nullptr) return function;
+    throw vp::InputError(problem + ": '" + path +
+                         "' is of another version than this program; install both anew");
+  }
+  throw vp::InputError(problem + ": " + file + " is missing in " + vp::one_of(folders) +
+                       "; install markervp completely");
 }
 
 namespace {

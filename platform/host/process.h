@@ -114,6 +114,12 @@ std::string utc_now();
 /// (`lib/x86_64-linux-gnu`) is tried too.
 std::vector<std::string> library_folders();
 
+/// The function `entry` of the plug-in `file`, from the first of `folders` that has it; it stays
+/// loaded. Throws vp::InputError "PROBLEM: why" if it is missing, no plug-in, or of another
+/// version, which has another entry.
+void* load_plugin(const std::vector<std::string>& folders, const std::string& file,
+                  const std::string& entry, const std::string& problem);
+
 constexpr int no_such_command = 127;
 
 struct CommandEnd {

@@ -1,8 +1,6 @@
 // The plug-in behind input/media.h: OpenCV's image and video codecs.
+#include <host/stderr_capture.h>
 #include <input/media.h>
-
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -14,33 +12,6 @@
 namespace platform::input {
 
 namespace {
-
-/// Codecs write what they think of a file to stderr. While this lives, that goes into memory
-/// instead, to be judged.
-class StderrCapture {
- public:
-  StderrCapture() : saved_(::dup(STDERR_FILENO)), memory_(::memfd_create("codec", MFD_CLOEXEC)) {
-    if (saved_ >= 0 && memory_ >= 0) ::dup2(memory_, STDERR_FILENO);
-  }
-  ~StderrCapture() {
-    if (saved_ >= 0) ::dup2(saved_, STDERR_FILENO);
-    ::close(saved_);
-    ::close(memory_);
-  }
-  StderrCapture(const StderrCapture&) = delete;
-  StderrCapture& operator=(const StderrCapture&) = delete;
-
-  std::string text() const {
-    std::string text(1 << 12, '\0');
-    const ssize_t size = ::pread(memory_, text.data(), text.size(), 0);
-    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    return text;
-  }
-
- private:
-  int saved_;
-  int memory_;
-};
 
 GreyImage grey_image(const cv::Mat& picture) {
   cv::Mat grey;
@@ -75,7 +46,7 @@ class OpencvVideo : public VideoStream {
   explicit OpencvVideo(cv::VideoCapture capture) : capture_(std::move(capture)) {}
 
   std::optional<GreyImage> next() override {
-    const StderrCapture silence;
+    const host::StderrCapture silence;
     cv::Mat picture;
     try {
       if (!capture_.read(picture) || picture.empty() || picture.depth() != CV_8U)
@@ -114,7 +85,7 @@ class OpencvMedia : public Media {
   }
 
   Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes) const override {
-    const StderrCapture noise;
+    const host::StderrCapture noise;
     try {
       const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
       if (picture.empty() || complains(noise.text())) return Unreadable::damaged;
@@ -128,7 +99,7 @@ class OpencvMedia : public Media {
   /// FFmpeg only: OpenCV's other backends wait without limit for what a damaged file never gives
   /// (GStreamer), or know nothing that FFmpeg does not.
   Decoded<std::unique_ptr<VideoStream>> open_video(const std::string& path) const override {
-    const StderrCapture silence;
+    const host::StderrCapture silence;
     // FFmpeg takes what stands before a colon for a protocol, unless a slash comes first.
     const std::string file = std::filesystem::absolute(path).string();
     try {

@@ -192,12 +192,15 @@ bool write_report(const std::string& folder, const std::string& extras) {
       blocks.push_back({"frames", Json(vp::read_text(frames, "table", host::largest_result))
                                       .dump(-1, ' ', false, replace)});
     }
+  } else if (fs::exists(root / detectors_name, ignored)) {
+    blocks.push_back(
+        {"detectors", host::read_json<Json>(root / detectors_name, "comparison").dump()});
   } else if (fs::exists(root / "result.json", ignored)) {
     add_run(blocks, root, "", extras);
   } else {
     throw vp::InputError("'" + folder +
-                         "' has neither result.json (a run), manifest.json (a sweep) nor "
-                         "validation.json: name a folder that markervp wrote");
+                         "' has neither result.json (a run), manifest.json (a sweep), "
+                         "validation.json nor detectors.json: name a folder that markervp wrote");
   }
   return write_page((root / report_name).string(), blocks);
 }

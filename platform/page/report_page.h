@@ -36,12 +36,13 @@ class RunExtras {
 };
 
 inline constexpr const char* report_name = "report.html";
+inline constexpr const char* detectors_name = "detectors.json";
 
-/// Writes report.html into a folder that has result.json (a run) or validation.json (a validation),
-/// from these files; a sweep has its own (sweep/report.h). Of a run, `extras` is the block that
-/// RunExtras made; empty: that of the page that is there already, if there is one. False if the
-/// program was built without the page. Throws vp::InputError if the folder has none of these, or a
-/// file is damaged.
+/// Writes report.html into a folder that has result.json (a run), validation.json (a validation) or
+/// detectors.json (a comparison of detectors), from these files; a sweep has its own
+/// (sweep/report.h). Of a run, `extras` is the block that RunExtras made; empty: that of the page
+/// that is there already, if there is one. False if the program was built without the page. Throws
+/// vp::InputError if the folder has none of these, or a file is damaged.
 bool write_report(const std::string& folder, const std::string& extras = "");
 
 /// A page into `output` that compares the runs in two folders.

@@ -57,7 +57,9 @@ constexpr int fps_places = 6;
 constexpr int second_places = 3;
 constexpr int percent_places = 3;
 
-Json corners_json(const std::array<PixelPoint, 4>& corners) {
+}  // namespace
+
+Json to_json(const std::array<PixelPoint, 4>& corners) {
   Json array = Json::array();
   for (const PixelPoint& corner : corners) {
     array.push_back({rounded(corner.x, px_places), rounded(corner.y, px_places)});
@@ -65,7 +67,7 @@ Json corners_json(const std::array<PixelPoint, 4>& corners) {
   return array;
 }
 
-Json pose_json(const Pose& pose) {
+Json to_json(const Pose& pose) {
   Json rotation = Json::array();
   for (const auto& row : pose.rotation.rowwise()) {
     Json values = Json::array();
@@ -79,6 +81,8 @@ Json pose_json(const Pose& pose) {
   json["translation_m"] = translation;
   return json;
 }
+
+namespace {
 
 Json error_json(const FoundMarker& found, const GroundTruth& truth) {
   const MarkerError error = measure_error(found, truth);
@@ -94,15 +98,15 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
   Json json;
   json["id"] = found.id;
   json["rotation"] = found.rotation;
-  json["corners_px"] = corners_json(found.corners_px);
+  json["corners_px"] = to_json(found.corners_px);
   if (found.has_pose) {
-    json["pose"] = pose_json(found.pose);
+    json["pose"] = to_json(found.pose);
     if (found.reprojection_px) json["reprojection_px"] = rounded(*found.reprojection_px, px_places);
     if (found.iterations) json["iterations"] = *found.iterations;
   }
   if (const GroundTruth* truth = truth_of(frame, found)) {
-    json["truth"]["corners_px"] = corners_json(truth->corners_px);
-    json["truth"]["pose"] = pose_json(truth->pose);
+    json["truth"]["corners_px"] = to_json(truth->corners_px);
+    json["truth"]["pose"] = to_json(truth->pose);
     json["error"] = error_json(found, *truth);
   }
   return json;

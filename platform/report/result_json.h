@@ -88,6 +88,10 @@ using Json = nlohmann::ordered_json;
 /// ResultWriter.
 double rounded(double value, int places);
 
+/// Corners and poses as a marker of result.json has them.
+Json to_json(const std::array<PixelPoint, 4>& corners_px);
+Json to_json(const Pose& pose);
+
 /// One element of `frames`.
 Json to_json(const FrameReport& frame);
 Json to_json(const Summary& summary);

@@ -2,6 +2,7 @@
 import { h, s } from "./kit/dom.js";
 import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
 import { comparePage } from "./compare/page.js";
+import { detectorsPage } from "./detectors/page.js";
 import { runPage } from "./run/page.js";
 import { sweepPage } from "./sweep/page.js";
 import { validationPage } from "./validation/page.js";
@@ -41,6 +42,8 @@ function show() {
   if (sweep) return frame(sweepPage(sweep));
   const validation = block("validation");
   if (validation) return frame(validationPage(validation, block("frames")));
+  const detectors = block("detectors");
+  if (detectors) return frame(detectorsPage(detectors));
   const folders = block("comparison");
   if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
   if (result) return frame(runPage(result, block("extras")));

@@ -13,7 +13,7 @@ const samples = require("./samples.cjs");
 const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
-  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(),
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(), detectors: samples.detectors(),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
@@ -63,7 +63,7 @@ async function scrollThrough(page) {
   await page.waitForTimeout(150);
 }
 
-const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3 };
+const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4 };
 const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2 };
 for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
   for (const colorScheme of inLightOnly[name] ? ["light"] : ["light", "dark"]) {
@@ -224,7 +224,7 @@ test("charts and tables are exported", () => open("run", async (page) => {
 }));
 
 test("every chart is exported", async () => {
-  for (const name of ["run", "sweep", "validation", "comparison"]) {
+  for (const name of ["run", "sweep", "validation", "comparison", "detectors"]) {
     await open(name, async (page) => {
       await scrollThrough(page);
       const buttons = page.locator('figure .tools button[aria-label$=" as SVG"], figure .tools button[aria-label$=" as PNG"]');
