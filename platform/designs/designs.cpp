@@ -83,10 +83,11 @@ const DesignInfo& thesis_design();
 const DesignInfo& ps_only_design();
 const DesignInfo& improved_design();
 const DesignInfo& hd_design();
+const DesignInfo& eco_design();
 
 const std::vector<const DesignInfo*>& builtin_designs() {
-  static const std::vector<const DesignInfo*> designs{&thesis_design(), &ps_only_design(),
-                                                      &improved_design(), &hd_design()};
+  static const std::vector<const DesignInfo*> designs{
+      &thesis_design(), &ps_only_design(), &improved_design(), &hd_design(), &eco_design()};
   return designs;
 }
 

@@ -7,7 +7,7 @@
 
 namespace platform {
 
-/// The designs that come with the program, a folder each. The first is the usual one.
+/// The designs that come with the program. The first is the usual one.
 const std::vector<const DesignInfo*>& builtin_designs();
 
 /// One of these, or one from outside by the file of its shared object (load_design()). Throws

@@ -23,6 +23,15 @@ struct ConsoleFlush {
   }
 };
 
+/// What the user sets wins.
+void set_defaults(const DesignInfo& design) {
+  vp::Configuration* configuration = vp::Configuration::current();
+  for (const auto& [path, value] : design.defaults) {
+    if (configuration && !configuration->find(path))
+      configuration->set(path, value, "design '" + design.name + "'");
+  }
+}
+
 }  // namespace
 
 // The design names the program, or the program its design.
@@ -34,6 +43,7 @@ void Simulation::choose_design() {
       "design", usual.name, vp::Source::decision,
       "what stands in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
+  set_defaults(*design_);
   if (!program_) program_ = ps::Program::load(usual_program(*design_));
 }
 

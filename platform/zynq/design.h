@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include <input/image_file.h>
@@ -173,6 +174,10 @@ struct DesignInfo {
   const trace::Vocabulary& (*words)() = no_words;
   /// Builds it as the module `name`, wired to `ports`, which outlive it.
   std::unique_ptr<Design> (*make)(const char* name, PlPorts& ports);
+  /// Parameters of the whole platform that are otherwise with this design unless the user sets
+  /// them:
+  /// {"power.ddr.width", "16"}.
+  std::vector<std::pair<std::string, std::string>> defaults = {};
 };
 
 }  // namespace platform

@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(designs_are_listed) {
   const auto list = nlohmann::json::parse(out);
   std::vector<std::string> names;
   for (const auto& design : list) names.push_back(design["name"]);
-  BOOST_TEST(names == (std::vector<std::string>{"thesis", "ps-only", "improved", "hd"}),
+  BOOST_TEST(names == (std::vector<std::string>{"thesis", "ps-only", "improved", "hd", "eco"}),
              boost::test_tools::per_element());
   BOOST_TEST(list[1]["programs"][0] == "ps-only");
 }
