@@ -279,6 +279,13 @@ void add_scenes(CLI::App& app, ScenesOptions& target) {
 void add_designs(CLI::App& app, DesignsOptions& target) {
   CLI::App* command =
       app.add_subcommand("designs", "list what may stand in the programmable logic");
+  command
+      ->add_option("INPUT", target.inputs,
+                   "what figures are measured with (default: the 41 poses of chapter 5)")
+      ->type_name("");
+  command->add_flag("--figures", target.figures, "run each, show rate, errors, resources, power");
+  command->add_flag("--changes", target.changes,
+                    "the same for each change from thesis to improved");
   command->add_flag("--json", target.json, "for scripts");
 }
 

@@ -52,7 +52,7 @@ int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& er
 /// Lists scenes, or writes their images and what is in them.
 int list_scenes(const ScenesOptions& options, std::ostream& out);
 
-/// Lists what may stand in the programmable logic.
+/// Lists what may stand in the programmable logic, or runs each to see what it reaches and takes.
 int list_designs(const DesignsOptions& options, std::ostream& out);
 
 int print_configuration(const ConfigOptions& options, std::ostream& out);

@@ -249,7 +249,7 @@ class Comparer {
     const auto source = input::open_inputs(options_.inputs, input_);
     for (detectors::Image& image : result_.images) {
       const input::InputFrame frame = *source->next();
-      if (frame.truth) image.truth = detectors::truth_of(*frame.truth);
+      if (frame.truth) image.truth = detectors::truth_of(make_scene(frame.name, frame.camera));
       for (std::size_t i = 0; i < peers.size(); ++i) {
         const HostClock::time_point start = HostClock::now();
         found[i].seen.push_back(peers[i]->find(frame.image, frame.camera));

@@ -2,7 +2,6 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <designs/designs.h>
 #include <detectors/truth.h>
 #include <device/clock_plan.h>
 #include <device/device.h>
@@ -81,7 +80,7 @@ void write_scenes(const ScenesOptions& options, std::ostream& out) {
     if (!frame->truth) throw vp::InputError("'" + options.group + "' is no scene");
     const std::string file = frame->name + ".png";
     vp::write_file(folder.add(file), picture::encode_png(frame->image));
-    truth.add(file, *frame->truth);
+    truth.add(file, make_scene(frame->name, frame->camera));
   }
   vp::write_file(folder.add(detectors::Truth::file_name), truth.json());
   out << "wrote " << report::counted(*source->size(), "image") << " and "
@@ -100,24 +99,6 @@ int list_scenes(const ScenesOptions& options, std::ostream& out) {
     print_groups(out);
   } else {
     print_group(find_group(options.group), out);
-  }
-  return done;
-}
-
-int list_designs(const DesignsOptions& options, std::ostream& out) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  std::string text = fmt::format("{:<12} {:<20} {}\n", "design", "PS programs", "what");
-  for (const DesignInfo* design : builtin_designs()) {
-    list.push_back({{"name", design->name},
-                    {"description", design->description},
-                    {"programs", design->programs}});
-    text += fmt::format("{:<12} {:<20} {}\n", design->name, vp::join(design->programs, ", "),
-                        design->description);
-  }
-  if (options.json) {
-    out << list.dump(2) << "\n";
-  } else {
-    out << text << "\nThe first is the usual one; 'markervp run --design NAME' takes another.\n";
   }
   return done;
 }

@@ -91,6 +91,9 @@ struct ScenesOptions {
 
 /// `markervp designs`.
 struct DesignsOptions {
+  std::vector<std::string> inputs;  ///< of figures; none: the 41 poses of the thesis
+  bool figures = false;             ///< what each one reaches and takes
+  bool changes = false;             ///< the same for each step from thesis to improved
   bool json = false;
 };
 

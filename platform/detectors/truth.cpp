@@ -3,6 +3,8 @@
 #include <host/document.h>
 #include <vp/error.h>
 
+#include <algorithm>
+
 namespace platform::detectors {
 
 using report::Json;
@@ -30,8 +32,16 @@ TrueMarker marker_from(const Json& json) {
   return marker;
 }
 
-TrueMarker true_marker(const GroundTruth& truth) {
-  return {truth.marker_id, truth.corners_px, truth.pose};
+/// Programs take all markers to be as large as the scene's own: of others they cannot know the
+/// pose.
+TrueMarker true_marker(const Scene& scene, const Square& square, int id) {
+  TrueMarker marker;
+  marker.id = id;
+  Pose pose = ground_truth(scene).pose;
+  pose.translation = transform(pose, {square.u, square.v, 0});
+  marker.corners_px = project_marker(scene.camera, pose, square.side);
+  if (square.side == marker_side_m) marker.pose = pose;
+  return marker;
 }
 
 }  // namespace
@@ -89,8 +99,8 @@ Truth Truth::of_folder(const std::filesystem::path& folder) {
   return std::filesystem::exists(file, ignored) ? read(file) : Truth();
 }
 
-void Truth::add(const std::string& image, const GroundTruth& marker) {
-  images_[image].push_back(true_marker(marker));
+void Truth::add(const std::string& image, const Scene& scene) {
+  images_[image] = *truth_of(scene).markers;
 }
 
 ImageTruth Truth::of(const std::string& image) const {
@@ -113,8 +123,15 @@ std::string Truth::json() const {
   return text + "}}\n";
 }
 
-ImageTruth truth_of(const GroundTruth& scene) {
-  return {{{true_marker(scene)}}, {}};
+ImageTruth truth_of(const Scene& scene) {
+  std::vector<TrueMarker> markers{true_marker(scene, Square{}, scene.marker_id)};
+  const auto& words = dictionary();
+  for (const Square& square : scene.squares) {
+    const auto word = std::find(words.begin(), words.end(), square.word);
+    if (word != words.end())
+      markers.push_back(true_marker(scene, square, static_cast<int>(word - words.begin())));
+  }
+  return {markers, {}};
 }
 
 }  // namespace platform::detectors

@@ -46,7 +46,7 @@ class Truth {
   /// That of the folder; nothing is known if it has none.
   static Truth of_folder(const std::filesystem::path& folder);
 
-  void add(const std::string& image, const GroundTruth& marker);
+  void add(const std::string& image, const Scene& scene);
   /// `image`: its file's name.
   ImageTruth of(const std::string& image) const;
   bool empty() const { return images_.empty() && !ids_; }
@@ -58,8 +58,8 @@ class Truth {
   std::optional<std::set<int>> ids_;
 };
 
-/// That of a scene.
-ImageTruth truth_of(const GroundTruth& scene);
+/// All markers of the dictionary in a scene.
+ImageTruth truth_of(const Scene& scene);
 
 // Corners and poses as result.json has them. nlohmann::json::exception: they are none.
 std::array<PixelPoint, 4> corners_from(const report::Json& json);

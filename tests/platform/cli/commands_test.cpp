@@ -162,6 +162,27 @@ BOOST_AUTO_TEST_CASE(designs_are_listed) {
   BOOST_TEST(list[1]["programs"][0] == "ps-only");
 }
 
+BOOST_AUTO_TEST_CASE(designs_are_shown_with_their_figures) {
+  BOOST_TEST(run({"designs", "z1.0", "--figures", "--json"}) == 0, err);
+  const nlohmann::json designs = nlohmann::json::parse(out);
+  BOOST_TEST(designs.size() == 5u);
+  const auto figure = [&](std::size_t i, const char* key) {
+    return designs[i].at(key).get<double>();
+  };
+  BOOST_TEST(designs[2]["name"] == "improved");
+  BOOST_TEST(figure(2, "fps") > figure(0, "fps"));
+  BOOST_TEST(figure(2, "corner_px") < figure(0, "corner_px"));
+  BOOST_TEST(figure(2, "bram36") < figure(0, "bram36"));
+  BOOST_TEST(figure(1, "lut") == 0.0, "ps-only leaves the PL empty");
+
+  BOOST_TEST(run({"designs", "z1.0", "--changes"}) == 0, err);
+  BOOST_TEST(contains(out, "\n+ overlap "), out);
+  BOOST_TEST(run({"designs", "z1.0"}) == 2);
+  BOOST_TEST(is_one_line_with(err, "--figures"));
+  BOOST_TEST(run({"designs", "--figures", "nowhere"}) == 2);
+  BOOST_TEST(is_one_line_with(err, "nowhere"));
+}
+
 BOOST_AUTO_TEST_CASE(power_prints_the_coefficients_and_checks_others) {
   BOOST_TEST(run({"power"}) == 0);
   BOOST_TEST(contains(out, "ps.core_cycle"), out);

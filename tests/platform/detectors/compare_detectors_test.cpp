@@ -86,6 +86,14 @@ BOOST_AUTO_TEST_CASE(the_same_again_but_for_the_time_of_this_computer) {
   BOOST_TEST(file("found/detections.csv") == detections);
 }
 
+BOOST_AUTO_TEST_CASE(each_of_several_markers_is_judged) {
+  BOOST_TEST(compare({"z2.0@markers=10", "--design", "improved", "--no-report"}) == 0, err);
+  BOOST_TEST(of("improved")["markers"] == 10);
+  BOOST_TEST(of("improved")["found"] == 10);
+  BOOST_TEST(of("improved")["false"] == 0);
+  BOOST_TEST(double(of("improved")["translation_mm"]) < 5);
+}
+
 BOOST_AUTO_TEST_CASE(a_folder_brings_its_truth) {
   BOOST_TEST(run({"scenes", "z1.0@noise=0.02", "-o", "noisy"}) == 0, err);
   BOOST_TEST(out == "wrote 1 image and truth.json in noisy\n");

@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   const kit::TemporaryFolder folder;
   const Scene scene = make_scene("roll30");
   Truth truth;
-  truth.add("roll30.png", ground_truth(scene));
+  truth.add("roll30.png", scene);
   kit::write_file(folder / Truth::file_name, truth.json());
   const Truth read = Truth::of_folder(folder.path());
   const std::vector<TrueMarker> markers = read.of("roll30.png").markers.value();
@@ -141,6 +141,14 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   BOOST_TEST(translation_error_mm(*markers[0].pose, known.pose) < 1e-6);
   BOOST_TEST(rotation_error_deg(*markers[0].pose, known.pose) < 1e-6);
   BOOST_TEST(!read.of("other.png").markers.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(all_markers_of_a_scene_are_in_it) {
+  const std::vector<TrueMarker> markers = *truth_of(make_scene("z2.0@markers=3")).markers;
+  BOOST_TEST_REQUIRE(markers.size() == 3u);
+  for (int i = 0; i < 3; ++i) BOOST_TEST(markers[static_cast<std::size_t>(i)].id == i);
+  BOOST_TEST(truth_of(make_scene("z2.0@squares=3")).markers->size() == 1u,
+             "plain squares are none");
 }
 
 BOOST_AUTO_TEST_CASE(a_folder_without_file_knows_nothing) {
