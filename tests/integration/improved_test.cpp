@@ -281,10 +281,10 @@ BOOST_AUTO_TEST_CASE(eco_takes_less_than_70_percent_of_the_thesis_energy_at_60_f
 BOOST_AUTO_TEST_CASE(settings_of_a_design_are_defaults) {
   const Json usual = run_of({"demo"}, 0, "eco");
   BOOST_TEST(usual["configuration"]["power.ddr.width"] == "16");
-  BOOST_TEST(usual["configuration"]["ps.cpu_clk.frequency"] == "400 MHz");
+  BOOST_TEST(usual["configuration"]["ps.cpu_clk.frequency"] == "333.333333 MHz");
   const Json own = run_of(with({"demo"}, "power.ddr.width=32"), 0, "eco");
   BOOST_TEST(own["configuration"]["power.ddr.width"] == "32");
-  BOOST_TEST(own["configuration"]["ps.cpu_clk.frequency"] == "400 MHz");
+  BOOST_TEST(own["configuration"]["ps.cpu_clk.frequency"] == "333.333333 MHz");
   BOOST_TEST(run_of({"demo"})["configuration"]["power.ddr.width"] == "32");
 }
 

@@ -26,8 +26,8 @@ const DesignInfo& eco_design() {
                                improved_words,
                                improved_design().make,
                                {{"camera.rate", "60 fps"},
-                                {"ps.fclk_clk0.frequency", "31.25 MHz"},
-                                {"ps.cpu_clk.frequency", "400 MHz"},
+                                {"ps.fclk_clk0.frequency", "25 MHz"},
+                                {"ps.cpu_clk.frequency", "333.333333 MHz"},
                                 {"power.ddr.width", "16"},
                                 {"power.ddr.frequency", "400 MHz"},
                                 {"power.ddr.voltage", "1.35 V"}}};
