@@ -192,12 +192,17 @@ std::string yosys_version() {
 }
 
 std::vector<Design> own_designs(const std::vector<std::string>& only) {
-  const std::vector<fs::path> sources = sources_in(rtl_folder());
+  const fs::path folder = rtl_folder();
+  const std::vector<fs::path> common = sources_in(folder / "common");
   std::vector<std::string> names;
   std::vector<Design> designs;
   for (const auto& [ip, parameters] : own_variants()) {
     if (std::find(names.begin(), names.end(), ip) == names.end()) names.push_back(ip);
     if (only.empty() || std::find(only.begin(), only.end(), ip) != only.end()) {
+      // Of other IP nothing is read: Yosys names what it makes by all that it has read, and ties in
+      // the mapping fall by names.
+      std::vector<fs::path> sources = sources_in(folder / ip);
+      sources.insert(sources.end(), common.begin(), common.end());
       designs.push_back({ip, ip, sources, parameters});
     }
   }

@@ -108,7 +108,8 @@ BOOST_AUTO_TEST_CASE(files_that_are_no_programs) {
   kit::write_file(installed.beside("text.so"), std::string(1000, 't'));
   check_refused(run("text.so"),
                 {"cannot load program '", "text.so", "no shared object for this machine"});
-  check_refused(run(file("no_entry")), {"no_entry.so' is not a PS program", "hal_program_info"});
+  check_refused(run(file("no_entry")),
+                {"no_entry.so' is not a PS program", "neither main() nor an entry"});
   check_refused(run(file("wrong_abi")), {"wrong_abi.so", "was built for version", "rebuild it"});
   check_refused(run(file("unresolved")), {"unresolved.so", "nobody_has_this"});
   check_refused(run("nonsense"), {"no program 'nonsense'", "programs"});
