@@ -201,7 +201,7 @@ class Session:
         self.console = []  #: lines that the program and the UARTs printed
         self.time = 0.0  #: simulated, s
         self.ended = False  #: the program has
-        self._reply, theirs = b"", None
+        self._reply = b""  # what was received and not yet read
         self._socket, theirs = socket.socketpair()
         self._socket.settimeout(wall_time)
         arguments = [program(), "run", *map(str, inputs), "--quiet", "--no-pictures", "--output", str(self.output),

@@ -1,11 +1,10 @@
 #include <zynq/remote_control.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <sys/socket.h>
-#include <unistd.h>
 #include <vp/expression.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -237,6 +236,7 @@ Json RemoteControl::obey_in_time(const std::string& what, const Json& command) {
 
 /// Lets simulated time pass, less if what the test waits for comes.
 void RemoteControl::pass(std::uint64_t ps) {
+  woken_.cancel();  // of a wait whose time was over at that very instant
   wait(sc_core::sc_time::from_value(ps), woken_);
   zynq_.scheduler.synchronise();
 }

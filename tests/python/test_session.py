@@ -61,6 +61,17 @@ def test_a_run_that_is_only_watched_is_the_run(start, tmp_path):
     assert json.dumps(result) == json.dumps(alone)
 
 
+def test_what_comes_at_the_very_end_of_a_wait_ends_no_later_one(start):
+    # The interrupt falls into the last picosecond of a wait that looks at a register, too.
+    falls = start("blink").wait_for("ps.gic.n_irq falls", timeout="1 ms")
+    again = start("blink")
+    again.wait_for("axi_gpio_0.GPIO_DATA == 0xFFFF or ps.gic.n_irq falls", timeout=falls, every=falls)
+    before = again.time
+    again.run("7 us")
+    assert falls == before
+    assert again.time == pytest.approx(before + 7e-6, abs=1e-12)
+
+
 @pytest.mark.parametrize("mistake, message", [
     (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ddr"),
     (lambda board: board.read("axi_gpio_0.DATA"), "axi_gpio_0 has GPIO_DATA, GPIO_TRI"),
@@ -90,8 +101,9 @@ def test_a_mistake_is_told_and_the_run_goes_on(board, mistake, message):
 
 def test_a_program_that_fails_is_told(start, tmp_path):
     board = start()
-    board.uart("q")
-    assert board.finish()["program_end.exit_code"] == 0
+    board.uart("f")
+    with pytest.raises(markervp.Error, match="program 'echo' ended with exit code 1"):
+        board.finish()
     with pytest.raises(markervp.Error, match="no program 'nosuch'"):
         start("nosuch")
 

@@ -31,6 +31,7 @@ int run() {
       hal_console_write("pressed\n", 8);
     }
     if (!uart0.try_get(key)) continue;
+    if (key == 'f') return 1;
     if (key == 'q') break;
     const std::uint8_t line[] = {'<', key, '>', '\n'};
     uart0.write(line, sizeof line);
