@@ -103,16 +103,19 @@ std::optional<Point> KnownFigures::find(const vp::IpEstimate::Rtl& rtl) const {
   }
   for (const auto& [name, value] : rtl.parameters) {
     std::vector<const Entry*> here;
+    for (const Entry* entry : found) {
+      const auto parameter = entry->parameters.find(name);
+      if (parameter != entry->parameters.end() && parameter->second == value) here.push_back(entry);
+    }
+    if (!here.empty()) found = here;
+  }
+  for (const auto& [name, value] : rtl.parameters) {
     std::map<std::int64_t, const Entry*> by_value;
     for (const Entry* entry : found) {
       const auto parameter = entry->parameters.find(name);
-      if (parameter == entry->parameters.end()) continue;
-      if (parameter->second == value) here.push_back(entry);
-      by_value.emplace(parameter->second, entry);
+      if (parameter != entry->parameters.end()) by_value.emplace(parameter->second, entry);
     }
-    if (!here.empty()) {
-      found = here;
-    } else if (by_value.size() >= 2) {
+    if (by_value.size() >= 2) {
       auto b = by_value.lower_bound(value);
       const bool inside = b != by_value.begin() && b != by_value.end();
       if (b == by_value.begin()) ++b;

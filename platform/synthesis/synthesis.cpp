@@ -67,7 +67,9 @@ void check_name(const std::string& name, const char* what) {
 }
 
 std::string script_of(const Design& design, const Scratch& scratch) {
-  std::string script = "read_verilog -sv";
+  // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
+  // ties in the mapping fall by these numbers.
+  std::string script = "read_verilog -sv -defer";
   for (const fs::path& source : design.sources) script += " " + quoted(source);
   script += "\nhierarchy -check -top " + design.top;
   for (const auto& [name, value] : design.parameters)
@@ -162,6 +164,11 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"blob_detection", {{"LABELS", 32}}},
           {"blob_detection", {{"LABELS", 64}}},
           {"blob_detection", {{"LABELS", 128}}},
+          {"blob_labelling", {{"LABELS", 128}, {"WIDTH", 640}}},
+          {"blob_labelling", {{"LABELS", 512}, {"WIDTH", 640}}},
+          {"blob_labelling", {{"LABELS", 512}, {"WIDTH", 1280}}},
+          {"blob_stream", {{"FIFO_DEPTH", 64}}},
+          {"blob_stream", {{"FIFO_DEPTH", 512}}},
           {"clock_crossing", {}},
           {"control_block", {}},
           {"corner_detection", {{"LEAN", 0}}},
@@ -171,6 +178,9 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"feature_packaging", {{"BUFFER_DEPTH", 256}}},
           {"frame_status", {}},
           {"global_threshold", {}},
+          {"otsu_threshold", {}},
+          {"pixel_stream", {{"FIFO_DEPTH", 64}}},
+          {"pixel_stream", {{"FIFO_DEPTH", 512}}},
           {"sensor_input", {}}};
 }
 
@@ -192,17 +202,12 @@ std::string yosys_version() {
 }
 
 std::vector<Design> own_designs(const std::vector<std::string>& only) {
-  const fs::path folder = rtl_folder();
-  const std::vector<fs::path> common = sources_in(folder / "common");
+  const std::vector<fs::path> sources = sources_in(rtl_folder());
   std::vector<std::string> names;
   std::vector<Design> designs;
   for (const auto& [ip, parameters] : own_variants()) {
     if (std::find(names.begin(), names.end(), ip) == names.end()) names.push_back(ip);
     if (only.empty() || std::find(only.begin(), only.end(), ip) != only.end()) {
-      // Of other IP nothing is read: Yosys names what it makes by all that it has read, and ties in
-      // the mapping fall by names.
-      std::vector<fs::path> sources = sources_in(folder / ip);
-      sources.insert(sources.end(), common.begin(), common.end());
       designs.push_back({ip, ip, sources, parameters});
     }
   }

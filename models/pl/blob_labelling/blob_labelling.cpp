@@ -84,29 +84,8 @@ void BlobLabellingClocked::reset() {
   sleep();
 }
 
-// Figures of its RTL at 640x480 with 512 labels (docs/rtl.md). What depends on these two: tables of
-// labels and runs in distributed memory, keys in two block memories.
 vp::IpEstimate BlobLabelling::own_estimate() const {
-  constexpr std::uint32_t synthesised_labels = 512, synthesised_key_bits = 8 * 21;
-  const marker_logic::WordFormat words = geometry_.words();
-  const std::uint32_t key_bits = 8 * (2 * std::max(words.x_bits(), words.y_bits()) + 1);
-  const std::uint32_t labels = label_count;
-
-  vp::IpEstimate e;
-  e.kind = "blob_labelling";
-  e.includes_memory = true;
-  e.lut = 1746 * key_bits / synthesised_key_bits + 681 * labels / synthesised_labels;
-  e.ff = 1735 * key_bits / synthesised_key_bits;
-  e.bram36 = 2 * xilinx::block_ram_36(labels, key_bits) + 1.5;
-  e.uncertainty_percent = 20;
-  e.source = "synthesis of its RTL at 640x480 with 512 labels, and its structure for other sizes";
-  const bool wide = geometry_.width > 640;
-  e.fmax_hz = (wide ? 98 : 104) * mhz;
-  e.fmax_high_hz = (wide ? 179 : 189) * mhz;
-  e.fmax_documentation =
-      "synthesis of its RTL, not routed: nine of ten such paths come to 104 to 189 MHz in frames "
-      "of 640 px, to 98 to 179 in frames of 1280";
-  return e;
+  return synthesised_ip("blob_labelling", {{"LABELS", label_count}, {"WIDTH", geometry_.width}});
 }
 
 BlobLabellingTlm::BlobLabellingTlm(sc_core::sc_module_name name, const Site& site)

@@ -134,14 +134,9 @@ void BlobStreamClocked::reset() {
   sleep();
 }
 
-// The registers of a blob and of the trailer, and a FIFO that keeps TLAST beside each word.
 vp::IpEstimate BlobStream::own_estimate() const {
-  constexpr std::uint32_t blob_bits = 32 * packet::words_per_blob, counters = 5 * 32;
-  vp::IpEstimate e =
-      small_ip("blob_stream", 60 + blob_bits / 2 + counters, blob_bits + counters, 100 * mhz);
-  e.source = "derived from the model's registers";
-  e.fmax_documentation = "counters, a shift register and a FIFO, as the threshold bridge";
-  add_fifo(e, fifo_depth, 33);
+  vp::IpEstimate e = synthesised_ip("blob_stream", {{"FIFO_DEPTH", fifo_depth}});
+  e.bram36 = fifo_memory(fifo_depth, 33);
   return e;
 }
 

@@ -23,24 +23,19 @@ inline double fifo_memory(std::uint32_t depth, std::uint32_t width) {
   return depth > deepest_in_lut ? xilinx::block_ram_36(depth, width) : 0;
 }
 
-/// A FIFO of `depth` words: a RAM64M is 64 × 3 bits in 4 LUT.
-inline void add_fifo(vp::IpEstimate& e, std::uint32_t depth, std::uint32_t width) {
-  constexpr std::uint32_t rows = 64, bits = 3, luts = 4;
-  constexpr std::uint32_t pointers = 30;
-  e.lut += pointers;
-  e.ff += pointers + width;
-  e.bram36 += fifo_memory(depth, width);
-  if (depth <= deepest_in_lut)
-    e.lut += (depth + rows - 1) / rows * ((width + bits - 1) / bits) * luts;
-}
-
-/// An IP that comes with RTL, on which synthesis knows more than the thesis: that it works at its
-/// system clock.
-inline vp::IpEstimate rtl_ip(const char* kind,
-                             std::map<std::string, std::int64_t> parameters = {}) {
+/// An IP that comes with RTL: all that is known of it is what synthesis gives.
+inline vp::IpEstimate synthesised_ip(const char* kind,
+                                     std::map<std::string, std::int64_t> parameters = {}) {
   vp::IpEstimate e;
   e.kind = kind;
   e.rtl = {kind, std::move(parameters), {}};
+  return e;
+}
+
+/// One of the thesis, where it works at the system clock.
+inline vp::IpEstimate rtl_ip(const char* kind,
+                             std::map<std::string, std::int64_t> parameters = {}) {
+  vp::IpEstimate e = synthesised_ip(kind, std::move(parameters));
   e.fmax_hz = 100 * mhz;
   e.fmax_origin = vp::FmaxOrigin::derived;
   e.fmax_documentation = "works at the thesis' system clock (4.1)";

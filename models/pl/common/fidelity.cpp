@@ -91,10 +91,15 @@ bool ChoiceBase::feeds(const ModelTraits& model, const Feeds& others) const {
 void ChoiceBase::check(const ChoiceBase& other) const {
   const ModelTraits &mine = traits_[chosen_], &theirs = other.traits_[other.chosen_];
   if (goes(mine.gives, theirs.takes)) return;
+  std::vector<std::string> ways;
+  for (const ModelTraits& model : other.traits_) {
+    if (goes(mine.gives, model.takes))
+      ways.push_back(std::string(other.parameter_.name()) + "=" + model.name);
+  }
   throw vp::InputError(std::string(parameter_.name()) + " = " + mine.name + " does not go with " +
                        other.parameter_.name() + " = " + theirs.name + ": one gives " +
                        words(mine.gives) + ", the other takes " + words(theirs.takes) +
-                       "; choose models that go together");
+                       "; choose " + (ways.empty() ? "another model" : vp::one_of(ways)));
 }
 
 }  // namespace pl

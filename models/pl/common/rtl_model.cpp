@@ -33,6 +33,8 @@ const RtlDescriptor& open(const std::string& file) {
   return rtl;
 }
 
+/// Of the peripherals by Processor System Reset (PG164).
+constexpr unsigned reset_clocks = 16;
 /// Behind the first difference, for a trace.
 constexpr std::uint64_t clocks_shown = 8;
 
@@ -97,6 +99,27 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
       refuse(rtl_.ports[i].place, std::string("the IP has no port '") + rtl_.ports[i].name +
                                       "': remove it from module '" + rtl_.top + "'");
     }
+  }
+  reset();
+}
+
+// As a system reset does before time 0, after which models begin: all other inputs are 0.
+void RtlPins::reset() {
+  const auto set_resets = [this](std::uint64_t level) {
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      const IpPorts::Input& input = ports_.inputs[i];
+      if (input.name == "rst" || input.name == "por") store(before_[i], input.bits, level);
+    }
+  };
+  set_resets(1);
+  for (unsigned edge = 0; edge < reset_clocks; ++edge) cycle_clock();
+  set_resets(0);
+}
+
+void RtlPins::cycle_clock() {
+  for (const std::uint8_t level : {1, 0}) {
+    *clk_ = level;
+    rtl_.eval(model_.get());
   }
 }
 

@@ -161,6 +161,8 @@ class RtlPins {
       store(before_[i], ports_.inputs[i].bits, ports_.inputs[i].read());
   }
   void ask_memory();
+  void reset();
+  void cycle_clock();
   const RtlPort* find(const std::string& name) const;
   void* pin(const std::string& name, unsigned bits, bool output);
   void leave_out_what_it_lacks();

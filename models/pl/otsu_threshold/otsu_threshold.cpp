@@ -40,20 +40,8 @@ std::uint64_t OtsuThresholdTlm::pass_time(std::uint64_t cycle) {
 
 namespace {
 
-/// Two histograms in turn, in a block memory as the logarithms are; three products of 18 to 30 bits
-/// by as many, sums, shifts to the first set bit.
 vp::IpEstimate estimate_otsu() {
-  vp::IpEstimate e;
-  e.kind = "otsu_threshold";
-  e.lut = 900;
-  e.ff = 900;
-  e.bram36 = 1.5;
-  e.dsp = 8;
-  e.uncertainty_percent = 50;
-  e.source = "derived from its structure: a histogram in block memory, logarithms from a table";
-  e.fmax_hz = 100 * mhz;
-  e.fmax_documentation = "products, shifts and comparisons have a clock of their own each";
-  return e;
+  return synthesised_ip("otsu_threshold");
 }
 
 }  // namespace

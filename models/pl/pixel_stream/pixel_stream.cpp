@@ -315,12 +315,9 @@ void PixelStream::drive() {
   }
 }
 
-// A word is gathered in 32 bits; the FIFO keeps TLAST beside each word.
 vp::IpEstimate PixelStream::own_estimate() const {
-  vp::IpEstimate e = small_ip("pixel_stream", 60, 130, 100 * mhz);
-  e.source = "derived from the model's registers";
-  e.fmax_documentation = "counters, a comparison and a FIFO, as the threshold bridge";
-  add_fifo(e, fifo_depth, 33);
+  vp::IpEstimate e = synthesised_ip("pixel_stream", {{"FIFO_DEPTH", fifo_depth}});
+  e.bram36 = fifo_memory(fifo_depth, 33);
   return e;
 }
 

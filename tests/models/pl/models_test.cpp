@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(models_that_do_not_go_together_are_refused_with_their_names
   BOOST_TEST(refusal([] { Logic(pl::Fidelity::tlm, {"pl.fidelity.global_threshold=clocked"}); }) ==
              "pl.fidelity.global_threshold = clocked does not go with "
              "pl.fidelity.blob_detection = tlm: one gives pixels one by one, the other takes "
-             "whole frames; choose models that go together");
+             "whole frames; choose pl.fidelity.blob_detection=clocked");
   const std::string why = refusal([] { Logic(pl::Fidelity::tlm, {}, &wire); });
   BOOST_TEST(contains(why,
                       "pl.fidelity.wire = clocked does not go with "

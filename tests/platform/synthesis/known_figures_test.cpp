@@ -84,6 +84,27 @@ BOOST_AUTO_TEST_CASE(beyond_them_the_line_goes_on_and_less_is_known) {
   BOOST_TEST(fewer.ff == 0u);
 }
 
+// Of LABELS=16 there is no frame of 1280: what was synthesised for that width is nearer than a line
+// through frames of another.
+BOOST_AUTO_TEST_CASE(a_value_that_was_synthesised_comes_before_a_line_over_another_parameter) {
+  const std::string entries =
+      R"({"version": 1, "tool": "Yosys 0.23", "entries": [)"
+      R"({"ip": "tree", "parameters": {"LABELS": 16, "WIDTH": 640}, "lut": 100,)"
+      R"( "lut_memory": 0, "lut_through": 0, "ff": 0, "ramb18": 0, "ramb36": 0, "dsp": 0},)"
+      R"({"ip": "tree", "parameters": {"LABELS": 64, "WIDTH": 640}, "lut": 200,)"
+      R"( "lut_memory": 0, "lut_through": 0, "ff": 0, "ramb18": 0, "ramb36": 0, "dsp": 0},)"
+      R"({"ip": "tree", "parameters": {"LABELS": 64, "WIDTH": 1280}, "lut": 300,)"
+      R"( "lut_memory": 0, "lut_through": 0, "ff": 0, "ramb18": 0, "ramb36": 0, "dsp": 0}]})";
+  const KnownFigures two = figures(entries);
+  const auto lut = [&](std::int64_t labels, std::int64_t width) {
+    return two.find({"tree", {{"LABELS", labels}, {"WIDTH", width}}, {}})->lut;
+  };
+  BOOST_TEST(lut(64, 1280) == 300);
+  BOOST_TEST(lut(64, 960) == 250);
+  BOOST_TEST(lut(40, 640) == 150);
+  BOOST_TEST(lut(40, 1280) == 300);
+}
+
 BOOST_AUTO_TEST_CASE(limits_that_are_known_otherwise_hold) {
   vp::IpEstimate both = tree(64);
   both.fmax_hz = both.fmax_high_hz = 55 * mhz;

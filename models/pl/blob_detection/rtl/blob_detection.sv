@@ -81,10 +81,11 @@ module blob_detection #(
 
   // The pixel's label.
   logic [BITS-1:0] next_label;
+  logic label_free;
   wire dark = ena && pixel;
   wire is_new = dark && neighbours == '0;
   wire [BITS-1:0] label = !dark ? '0 : is_new ? next_label : widest;
-  wire labelled = label != '0;
+  wire labelled = dark && (!is_new || label_free);
 
   wire [X_BITS-1:0] span_left = span[0+:X_BITS], span_right = span[X_BITS+:X_BITS];
   wire [X_BITS-1:0] grown_left = !is_new && span_left < x ? span_left : x;
@@ -161,7 +162,8 @@ module blob_detection #(
       .take(is_new),
       .give_back(retires),
       .returned(retired_label),
-      .next(next_label)
+      .next(next_label),
+      .found(label_free)
   );
 
   always_ff @(posedge clk)

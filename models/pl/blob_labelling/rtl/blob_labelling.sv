@@ -260,7 +260,7 @@ module blob_labelling #(
   wire [BITS-1:0] out_label;
   wire [KEYS-1:0] out_keys;
 
-  label_pool #(
+  free_labels #(
       .LABELS(LABELS)
   ) free (
       .clk,

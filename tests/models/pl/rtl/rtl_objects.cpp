@@ -41,7 +41,7 @@ std::string RtlObjects::copy(const Object& object) const {
   const fs::path models(MARKERVP_SOURCE "/models/pl");
   const fs::path folder(folder_ / object.name);
   fs::copy(models / object.ip / "rtl", folder);
-  fs::copy(models / "common/rtl/line_buffer.sv", folder);
+  fs::copy(models / "common/rtl", folder);
   if (object.bug) plant(*object.bug, folder / object.bug->file);
   return "file(GLOB sources " + object.name + "/*.sv)\nmarkervp_add_rtl(" + object.name + " IP " +
          object.ip + " TOP " + object.ip + " SOURCES ${sources}" +

@@ -1,6 +1,7 @@
-// The labels that nobody has, as free_labels.sv of blob detection gives them, but at twice its clock:
-// whether there is a label is known in registers, and not from comparisons.
-module label_pool #(
+// The labels that no blob has, oldest first; the next one is read ahead. Labels that were never used
+// come before those that were given back: they need no memory. Registers, and no comparisons, tell
+// whether there is a label: blob labelling runs at 100 MHz.
+module free_labels #(
     parameter int LABELS = 128,
     parameter int BITS = $clog2(LABELS)
 ) (
