@@ -58,8 +58,9 @@ function(markervp_add_program NAME)
   if(DEFINED PROGRAM_VENDOR_BSP)
     _markervp_use_vendor_drivers(${NAME} "${PROGRAM_VENDOR_BSP}")
   endif()
-  # Numbers as on the chip: no contraction.
-  target_compile_options(${NAME} PRIVATE -ffp-contract=off)
+  # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.
+  target_compile_options(${NAME} PRIVATE -ffp-contract=off
+    "$<$<COMPILE_LANGUAGE:C,CXX>:-g;-fno-optimize-sibling-calls>")
   # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
   target_compile_options(${NAME} PRIVATE
     "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")

@@ -130,6 +130,7 @@ void add_output_options(CLI::App& command, RunOptions& target) {
       ->type_name("DIR");
   command.add_flag("--require-marker", target.require_marker,
                    "exit code 1 if a frame has no marker");
+  command.add_flag("--strict", target.strict, "exit code 1 if the run was warned of something");
   command.add_flag("--no-pictures", target.no_pictures, "no annotated pictures");
   command.add_flag("--no-report", target.no_report, "no page report.html");
   command.add_flag("-q,--quiet", target.quiet, "no report per frame");

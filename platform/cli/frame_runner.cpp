@@ -78,6 +78,7 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
   if (outputs.page) outputs.page->add(input.image, report);
   outputs.result.add(report);
   if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
+  warnings_ += report.warnings.size();
   ++frames_;
   if (progress_) progress_->update(frames_);
   if (outputs.done) ++*outputs.done;

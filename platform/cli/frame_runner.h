@@ -43,6 +43,8 @@ class FrameRunner {
   /// What ended the run early; null if nothing did. An interrupt is none.
   std::exception_ptr error() const { return error_; }
   std::uint64_t frames() const { return frames_; }
+  /// In the reports of all frames.
+  std::uint64_t warnings() const { return warnings_; }
   std::uint64_t without_marker() const { return without_marker_; }
   /// The first input in which no marker was found.
   const std::string& first_without_marker() const { return first_without_marker_; }
@@ -60,6 +62,7 @@ class FrameRunner {
   std::unique_ptr<vp::Progress> progress_;
   std::exception_ptr error_;
   std::uint64_t frames_ = 0;
+  std::uint64_t warnings_ = 0;
   std::uint64_t without_marker_ = 0;
   std::string first_without_marker_;
 };

@@ -50,6 +50,7 @@ struct RunOptions : PlatformOptions {
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
   bool require_marker = false;
+  bool strict = false;  ///< warnings of the run are failures
   bool no_pictures = false;
   bool no_report = false;
   bool quiet = false;

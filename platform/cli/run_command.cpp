@@ -317,8 +317,9 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
   return text + "\n";
 }
 
+/// `warnings`: those of the run as a whole, which no frame's report has.
 int verdict(const RunOptions& options, const FrameRunner& runner, const report::RunFacts& facts,
-            const std::exception_ptr& error, std::ostream& err) {
+            std::uint64_t warnings, const std::exception_ptr& error, std::ostream& err) {
   if (error) std::rethrow_exception(error);
   if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted; results up to here are kept" << std::endl;
@@ -333,6 +334,12 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
     err << "markervp: no marker in " << runner.without_marker() << " of "
         << report::counted(runner.frames(), "frame") << ", first in "
         << runner.first_without_marker() << std::endl;
+    return run_failed;
+  }
+  warnings += runner.warnings();
+  if (options.strict && warnings > 0) {
+    err << "markervp: " << report::counted(warnings, "warning") << ", and --strict lets none pass"
+        << std::endl;
     return run_failed;
   }
   return done;
@@ -394,7 +401,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   result.finish(facts, origin, warnings);
   if (memory) {
     memory->configuration = configuration.values();
-    return verdict(options, runner, facts, runner.error(), err);
+    return verdict(options, runner, facts, warnings.size(), runner.error(), err);
   }
   std::exception_ptr error = runner.error();
   const bool has_page = write_views(
@@ -403,7 +410,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
       << written_text(options, runner, *simulation, configuration, has_page, error != nullptr)
       << std::flush;
-  return verdict(options, runner, facts, error, err);
+  return verdict(options, runner, facts, warnings.size(), error, err);
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   zynq_ =
       std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
+  reports_.set_place_source([this] { return zynq_->ps.cpu.program_counter(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(
       "profile", "thesis", vp::Source::decision,
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "

@@ -362,6 +362,22 @@ report::HardwareMap hardware_map(Zynq& zynq) {
   return map;
 }
 
+std::string register_text(const HardwareMap& map, std::uint32_t address, std::uint32_t value) {
+  for (const HardwareMap::Device& device : map.devices) {
+    for (const HardwareMap::Register& r : device.registers) {
+      if (device.base + r.offset != address) continue;
+      std::string set;
+      for (const HardwareMap::Field& field : r.fields) {
+        const std::uint32_t bits = (value & field.mask) / (field.mask & (~field.mask + 1));
+        if (bits != 0) set += field.name + " " + std::to_string(bits) + ", ";
+      }
+      return device.name + "." + r.name + ": " + vp::hex(value) +
+             (set.empty() ? "" : " (" + set + "all else 0)");
+    }
+  }
+  return {};
+}
+
 namespace {
 
 /// "-" if the register was not used so.

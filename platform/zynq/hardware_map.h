@@ -39,8 +39,13 @@ std::string header(const Platform& platform);
 
 namespace platform {
 
-/// The map of the platform as it is built now, before the simulation starts.
+/// The map of the platform as it is built now.
 report::HardwareMap hardware_map(Zynq& zynq);
+
+/// What a register holds: "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1, all else 0)"; "" where no
+/// register is.
+std::string register_text(const report::HardwareMap& map, std::uint32_t address,
+                          std::uint32_t value);
 
 /// The text of xparameters.h for the platform as it is configured: what Vivado would export for it.
 std::string xparameters_header(Zynq& zynq);

@@ -179,6 +179,8 @@ void ProcessingSystem::start_clocks() {
     cpu_clk.make(plan_.cpu.hz);
   }
   slcr.drive_cpu(cpu_clk.clk);
+  slcr.limit_fclk(static_cast<std::uint64_t>(device::hz_per_mhz *
+                                             limit_of(chip_.data, device::ClockKind::fclk).value));
   drive_fclks();
   slcr.drive_uart_ref(0, uart0_ref_clk);
   slcr.drive_uart_ref(1, uart1_ref_clk);

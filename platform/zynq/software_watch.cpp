@@ -54,10 +54,25 @@ CacheContract::CacheContract(Zynq& zynq)
       [this](ps::Cpu::CacheCall call, std::uintptr_t address, std::size_t bytes) {
         mark(address, bytes, call == ps::Cpu::CacheCall::flush ? current : invalidated);
       });
+  check_transfers();
 }
 
 CacheContract::~CacheContract() {
   zynq_.ps.cpu.on_cache_call(nullptr);
+  for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(nullptr);
+}
+
+// What is not of hal_dma_allocate() is the program's own affair.
+void CacheContract::check_transfers() {
+  const ps::DmaAllocator& memory = zynq_.ps.ddr.dma_memory();
+  const auto check = [&memory](std::uint64_t address, std::uint64_t bytes) -> std::string {
+    const auto buffer = memory.buffer_at(address);
+    if (!buffer || address + bytes <= buffer->end) return {};
+    return "leaves its buffer, " + std::to_string(buffer->end - buffer->first) + " bytes at " +
+           vp::hex(buffer->first) + ", by " + std::to_string(address + bytes - buffer->end) +
+           " bytes: allocate more, or transfer less";
+  };
+  for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(check);
 }
 
 void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned marks) {

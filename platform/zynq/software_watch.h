@@ -13,7 +13,8 @@ namespace platform {
 
 /// Warns of DMA buffers that work here, where no cache is simulated, and fail on the chip: a device
 /// reads memory that the program never flushed, or the program publishes a result while memory that
-/// a device wrote was never invalidated. Once each.
+/// a device wrote was never invalidated. Once each. And of each transfer that begins in a buffer of
+/// hal_dma_allocate() and ends behind it.
 ///
 /// What the program itself reads and writes cannot be seen: a buffer that was flushed once, and
 /// written again, is taken as flushed.
@@ -51,6 +52,7 @@ class CacheContract {
     vp::MmLink& link_;
   };
 
+  void check_transfers();
   void mark(std::uint64_t address, std::uint64_t bytes, unsigned marks);
   void device_reads(std::uint64_t address, std::uint64_t bytes);
 

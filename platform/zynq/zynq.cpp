@@ -2,9 +2,12 @@
 
 #include <cstring>
 
+#include <gic_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
+#include <vp/unit.h>
+#include <zynq/hardware_map.h>
 
 namespace platform {
 
@@ -50,6 +53,28 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
   ps.start_clocks();
   scheduler.set_batch(true);
   ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
+  ps.cpu.describe_registers([this](std::uint32_t address, std::uint32_t value) {
+    return register_text(hardware_map(*this), address, value);
+  });
+  ps.cpu.describe_requests([this] {
+    const ps::Gic::Request request = ps.gic.request();
+    return ps::Cpu::Request{request_text(request), request.since_ps};
+  });
+}
+
+std::string Zynq::request_text(const ps::Gic::Request& request) {
+  if (request.id >= gic::id_count) return {};
+  std::string text = "interrupt " + std::to_string(request.id);
+  for (const auto& interrupt : hardware_map(*this).interrupts) {
+    if (interrupt.id == request.id) text += ", " + interrupt.source;
+  }
+  const bool edge = ps.gic.logic().edge[request.id];
+  const bool held = ps.gic.logic().wire[request.id];
+  return text +
+         (edge   ? ", an edge at "
+          : held ? ", a level held since "
+                 : ", raised at ") +
+         vp::format_time(request.since_ps);
 }
 
 bool Zynq::look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word) {

@@ -46,6 +46,7 @@ struct Zynq {
   std::string device_at(std::uint32_t address) const;
 
  private:
+  std::string request_text(const ps::Gic::Request& request);
   bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
 
   std::unique_ptr<Design> design_;

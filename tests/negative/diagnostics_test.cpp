@@ -9,6 +9,20 @@ using namespace negative;
 namespace {
 
 struct Diagnostics : CommandLine {
+  /// Runs the careless program on a frame.
+  kit::Outcome run(int mistake, const Words& more = {},
+                   const std::string& program = MARKERVP_CARELESS) const {
+    Words arguments{"run",
+                    "z1.0",
+                    "--no-pictures",
+                    "--program",
+                    program,
+                    "--set",
+                    "sw.mistake=" + std::to_string(mistake)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return start(arguments);
+  }
+
   /// Runs the careless program on two frames. The warnings of all frames and of the run.
   Words warnings(int mistake, const Words& more = {}) const {
     Words arguments{"run",       "z1.0",
@@ -98,6 +112,62 @@ BOOST_AUTO_TEST_CASE(loops_that_may) {
 BOOST_AUTO_TEST_CASE(a_buffer_that_was_not_invalidated) {
   check(10, 1,
         {"a DMA wrote 0x", "never invalidated", "hal_cache_invalidate()", "not_invalidated at "});
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_that_is_acknowledged_late) {
+  check(11, 2,
+        {"returned 1000 times in a row with an interrupt still pending (interrupt 62, "
+         "pl.axi_dma_1.s2mm_introut, a level held since ",
+         "acknowledge it at the device", "not_acknowledged at "});
+}
+
+BOOST_AUTO_TEST_CASE(interrupts_that_come_too_fast) {
+  check(12, 2,
+        {"interrupts come faster than they are handled", "1000 times in a row",
+         "(interrupt 29, ps.private_timer.irq, an edge at ", "do less in the handler",
+         "overrun at "});
+}
+
+BOOST_AUTO_TEST_CASE(a_sleep_with_interrupts_unmasked) {
+  check(13, 1, {"hal_wait_for_interrupt() with IRQ unmasked", "hal_interrupt_enable(false)"});
+}
+
+BOOST_AUTO_TEST_CASE(a_transfer_that_leaves_its_buffer) {
+  check(14, 2,
+        {"axi_dma_1: S2MM transfer of 132 bytes at 0x", "leaves its buffer, 128 bytes at 0x",
+         "by 4 bytes", "past_buffer at "});
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_that_the_chip_does_not_give) {
+  for (const char* part :
+       {"FCLK_CLK1 is set to 500000000 Hz", "(250000000 Hz)", "[/markervp/slcr/fclk_too_fast] at ",
+        "set_pl_clock", "called from clock_faster (", "careless.cpp:"}) {
+    BOOST_TEST(contains(run(15).err, part), run(15).err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_warning_leads_to_the_line) {
+  const std::string err = run(14).err;
+  BOOST_TEST(contains(err, "[/markervp/axi_dma/past_buffer] at "), err);
+  BOOST_TEST(contains(err, "careless.cpp:"), err);
+  BOOST_TEST(contains(err, ", called from "), err);
+  const kit::Outcome strip = shell("strip -o stripped.so '" + std::string(MARKERVP_CARELESS) + "'");
+  BOOST_TEST_REQUIRE(strip.exit_code == 0);
+  const std::string stripped = run(14, {}, "./stripped.so").err;
+  BOOST_TEST(contains(stripped, "[/markervp/axi_dma/past_buffer] at "), stripped);
+  BOOST_TEST(contains(stripped, ", pc 0x"), stripped);
+  BOOST_TEST(!contains(stripped, "careless.cpp"), stripped);
+}
+
+BOOST_AUTO_TEST_CASE(warnings_are_failures_for_the_strict) {
+  BOOST_TEST(run(0).exit_code == 0);
+  const Words stored{"--strict", "--set", "sw.upload=0"};
+  const kit::Outcome outcome = run(14, stored);
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "--strict lets none pass"), outcome.err);
+  const auto result = nlohmann::json::parse(kit::read_file(*this / "out/result.json"));
+  BOOST_TEST(result["frames"].size() == 1u);
+  BOOST_TEST(start({"run", "z1.0", "--no-pictures", "--strict"}).exit_code == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -125,6 +125,10 @@ void hal_console_write(const char* text, std::size_t length) {
   state().console.append(text, length);
 }
 
+void hal_warn(const char* text) {
+  state().warnings.emplace_back(text);
+}
+
 const hal_frame* hal_frame_next(void) {
   if (state().next_frame == state().frames.size()) return nullptr;
   return &state().frames[state().next_frame++];

@@ -52,10 +52,11 @@ struct State {
   // Test bench.
   std::vector<hal_frame> frames;
   std::size_t next_frame = 0;
-  std::map<std::uint32_t, double> options;  ///< by number; the rest are 0
+  std::map<std::uint32_t, double> options;           ///< by number; the rest are 0
   std::map<std::string, std::uint32_t> xparameters;  ///< where the design differs from the header
   std::vector<Publication> publications;
   std::string console;
+  std::vector<std::string> warnings;  ///< of drivers
 
   // Annotations.
   std::map<std::uint32_t, std::uint64_t> work;

@@ -150,6 +150,11 @@ void ReportRouter::print(const sc_core::sc_report& report, const Warning& entry,
   if (report.get_severity() < sc_core::SC_ERROR && repeats > repeat_limit) return;
   std::string line = entry.where.empty() ? "" : entry.where + ": ";
   line += entry.message + " [" + entry.id + "] at " + format_time(entry.time_ps);
+  // A message that says it itself is left alone.
+  if (report.get_severity() != sc_core::SC_INFO && place_ && line.find(", pc 0x") == line.npos) {
+    const std::string place = place_();
+    if (!place.empty()) line += ", " + place;
+  }
   if (report.get_severity() < sc_core::SC_ERROR && repeats == repeat_limit)
     line += " (further ones are only counted)";
   std::replace(line.begin(), line.end(), '\n', ' ');

@@ -156,7 +156,8 @@ std::string Cpu::where() const {
     text += std::string(" in function '") + description.functions[number] + "'";
   }
   if (in_handler_now_) text += " in the interrupt handler";
-  return text + " of program '" + description.name + "'" + program_counter();
+  const std::string place = program_counter();
+  return text + " of program '" + description.name + "'" + (place.empty() ? "" : ", ") + place;
 }
 
 void Cpu::check() const {
@@ -194,6 +195,7 @@ std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value)
   } else {
     transport(read, address, value);
   }
+  if (read) last_look_ = {address, value, Look::By::read};
   return value;
 }
 

@@ -110,6 +110,19 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void name_devices(std::function<std::string(std::uint32_t)> device) {
     device_ = std::move(device);
   }
+  /// Says what a register holds: "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1)"; "" if there is none.
+  void describe_registers(
+      std::function<std::string(std::uint32_t address, std::uint32_t value)> d) {
+    describe_register_ = std::move(d);
+  }
+  /// Why nIRQ is low: the interrupt, and since when its line asks for it.
+  struct Request {
+    std::string text;
+    std::uint64_t since_ps = 0;
+  };
+  void describe_requests(std::function<Request()> describe) {
+    describe_request_ = std::move(describe);
+  }
   enum class CacheCall { flush, invalidate };
   /// Told of each cache operation of the program, when it is over. Null: nobody is.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
@@ -120,6 +133,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void on_loop(LoopListener listener) { loop_listener_ = std::move(listener); }
   /// Where the program is, as messages end: ", at 320 ns in function 'f' of program 'p', pc …".
   std::string where() const;
+  /// "pc …" as CodeLocator::path() has it, while the program or a HAL call of it is under way;
+  /// otherwise empty.
+  std::string program_counter() const;
   /// False: polls make every read. Default: those that cannot see anything new only take their
   /// time, and are counted like the others.
   void set_poll_elision(bool elide) { poll_elision_ = elide; }
@@ -171,6 +187,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   bool enable_interrupt(bool enable);
   void wait_for_interrupt();
   void write_console(const char* text, std::size_t length);
+  void warn(const char* text);
   const hal_frame* next_frame();
   void publish(std::uint32_t kind, const void* data, std::size_t size);
   double option(std::uint32_t option);
@@ -208,7 +225,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void call_handler();
   void check_acknowledged();
   void look_at(const void* data, std::size_t size) const;
-  std::string program_counter() const;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void run();
 
@@ -265,7 +281,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
   [[noreturn]] static void nothing_runs(const char* call);
-  [[noreturn]] void time_out(const char* what);
+  [[noreturn]] void time_out(const char* what, const std::string& hint = {});
+  std::string last_look() const;
   [[noreturn]] void misuse(const std::string& problem);
   [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
@@ -276,6 +293,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   TestBench* bench_ = nullptr;
   DmaAllocator* dma_memory_ = nullptr;
   std::function<std::string(std::uint32_t)> device_;
+  std::function<std::string(std::uint32_t, std::uint32_t)> describe_register_;
+  std::function<Request()> describe_request_;
   std::string cost_profile_;
   CacheListener cache_listener_;
   LoopListener loop_listener_;
@@ -301,7 +320,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
   std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
   std::uint64_t deadline_ps_ = 0;
-  unsigned unacknowledged_ = 0;  ///< handlers in a row that left the request pending
+  unsigned unacknowledged_ = 0;                ///< handlers in a row that left a request pending
+  std::uint64_t first_unacknowledged_ps_ = 0;  ///< when the first of them returned
+  bool slept_unmasked_ = false;
 
   hal_interrupt_handler handler_ = nullptr;
   void* handler_context_ = nullptr;
@@ -313,11 +334,16 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t skipped_polls_ = 0;
   tlm::tlm_generic_payload payload_;
   unsigned char data_[4] = {};
+  /// The register that the program looked at last, and what it saw.
+  struct Look {
+    std::uint32_t address = 0, value = 0;
+    enum class By { nobody, read, poll } by = By::nobody;
+  } last_look_;
 
   FaultTrap trap_;
   MemoryWatch memory_watch_;
-  std::optional<CodeLocator> code_;  ///< of a plug-in
-  std::uintptr_t fault_pc_ = 0;      ///< in the program, of the fault that ended it
+  std::optional<CodeLocator> code_;          ///< of a plug-in
+  std::vector<std::uintptr_t> fault_calls_;  ///< under way in the fault that ended it
 
   static Cpu* running_;
 };

@@ -5,6 +5,7 @@
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/program_watch.h>
 #include <ps/memory/memory.h>
+#include <vp/report.h>
 
 namespace ps {
 
@@ -63,6 +64,12 @@ void Cpu::write_console(const char* text, std::size_t length) {
   console.write(text, length);
 }
 
+// What came before the call comes first.
+void Cpu::warn(const char* text) {
+  catch_up();
+  vp::warn(*this, "/markervp/cpu/program", text);
+}
+
 const hal_frame* Cpu::next_frame() {
   catch_up();
   if (bench_) sleep_until(bench_->next_frame_ps(now_ps()));
@@ -103,11 +110,10 @@ std::string Cpu::name_of_function() const {
 
 // Without the place in the file, which changes with every build.
 std::string Cpu::name_of_handler() const {
-  if (!in_handler || !code_) return in_handler ? "handler" : "";
-  const std::string& place = code_->text(reinterpret_cast<std::uintptr_t>(handler_));
-  const auto from = place.find(' '), to = place.rfind('+');
-  if (from == std::string::npos || to == std::string::npos || to < from) return "handler";
-  return place.substr(from + 1, to - from - 1);
+  if (!in_handler) return {};
+  const std::string name =
+      code_ ? code_->symbol(reinterpret_cast<std::uintptr_t>(handler_)) : std::string();
+  return name.empty() ? "handler" : name;
 }
 
 }  // namespace ps
@@ -172,6 +178,10 @@ void hal_wait_for_interrupt(void) {
 
 void hal_console_write(const char* text, size_t length) {
   on_cpu("hal_console_write", [&](ps::Cpu& cpu) { cpu.write_console(text, length); });
+}
+
+void hal_warn(const char* text) {
+  on_cpu("hal_warn", [&](ps::Cpu& cpu) { cpu.warn(text); });
 }
 
 const hal_frame* hal_frame_next(void) {

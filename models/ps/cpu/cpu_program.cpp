@@ -85,8 +85,8 @@ void Cpu::report(const Fault& fault) {
     }
   }
   if (code_) {
-    fault_pc_ = code_->first_inside(std::vector<std::uintptr_t>(
-        fault.frames, fault.frames + std::min(fault.frame_count, Fault::most_frames)));
+    fault_calls_.assign(fault.frames,
+                        fault.frames + std::min(fault.frame_count, Fault::most_frames));
   }
   break_off(text);
 }
@@ -109,11 +109,23 @@ void Cpu::call_handler() {
 void Cpu::check_acknowledged() {
   if (!interrupt_pending()) {
     unacknowledged_ = 0;
-  } else if (++unacknowledged_ == many_handlers) {
+    return;
+  }
+  if (++unacknowledged_ == 1) first_unacknowledged_ps_ = now_ps();
+  if (unacknowledged_ != many_handlers) return;
+  const Request request = describe_request_ ? describe_request_() : Request{};
+  const std::string which = request.text.empty() ? "" : " (" + request.text + ")";
+  const std::string so_often = std::to_string(many_handlers) + " times in a row";
+  if (request.since_ps <= first_unacknowledged_ps_) {
     vp::warn(*this, "/markervp/cpu/not_acknowledged",
-             "the interrupt handler has returned " + std::to_string(many_handlers) +
-                 " times in a row with an interrupt still pending: acknowledge it at the device, "
-                 "and end it at the interrupt controller");
+             "the interrupt handler has returned " + so_often + " with an interrupt still pending" +
+                 which + ": acknowledge it at the device, and end it at the interrupt controller");
+  } else {
+    vp::warn(*this, "/markervp/cpu/overrun",
+             "interrupts come faster than they are handled: the handler has returned " + so_often +
+                 ", since " + vp::format_time(first_unacknowledged_ps_) +
+                 ", with the next one pending" + which +
+                 ": let them come more rarely, or do less in the handler");
   }
 }
 
@@ -138,11 +150,9 @@ void Cpu::notice_loop(unsigned before) {
   if (loop_listener_) loop_listener_(memory_watch_);
 }
 
-// ", pc 0x1a2b make()+0x1c": where the program is, if that can be told.
 std::string Cpu::program_counter() const {
   if (!code_ || running_ != this) return {};
-  const std::uintptr_t pc = fault_pc_ != 0 ? fault_pc_ : code_->first_inside(return_addresses());
-  return pc == 0 ? std::string() : ", pc " + code_->text(pc);
+  return code_->path(fault_calls_.empty() ? return_addresses() : fault_calls_);
 }
 
 }  // namespace ps

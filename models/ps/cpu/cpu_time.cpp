@@ -7,6 +7,7 @@
 
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -217,7 +218,7 @@ std::uint64_t Cpu::pass_busy(std::uint64_t start_ps, std::uint64_t end_ps) {
   const std::uint64_t end = std::min(end_ps, std::max(deadline_ps_, start_ps));
   scheduler_.pass_from(start_ps, end);
   activity_.busy(end - start_ps);
-  if (end >= deadline_ps_) time_out("no end");
+  if (end >= deadline_ps_) time_out("no end", last_look());
   return end;
 }
 
@@ -291,13 +292,23 @@ std::uint64_t Cpu::pass(std::uint64_t ps) {
   scheduler_.pass_from(start, end, interruptible() ? irq_is_low : nullptr, this);
   const std::uint64_t now = now_ps();
   activity_.busy(now - start);
-  if (now >= deadline_ps_) time_out("no end");
+  if (now >= deadline_ps_) time_out("no end", last_look());
   return now - start;
 }
 
-void Cpu::time_out(const char* what) {
+void Cpu::time_out(const char* what, const std::string& hint) {
   fail(std::string(what) + " within " + vp::format_time(timeout) +
-       " of simulated time since the last image (" + timeout.name() + ")");
+       " of simulated time since the last image (" + timeout.name() + ")" + hint);
+}
+
+// What a program that does not end was likely waiting for.
+std::string Cpu::last_look() const {
+  if (last_look_.by == Look::By::nobody) return {};
+  std::string text =
+      describe_register_ ? describe_register_(last_look_.address, last_look_.value) : std::string();
+  if (text.empty()) text = vp::hex(last_look_.address) + ": " + vp::hex(last_look_.value);
+  return last_look_.by == Look::By::poll ? "; it polls for a change of any bit of " + text
+                                         : "; the last register that it read was " + text;
 }
 
 bool Cpu::irq_is_low(const void* cpu) {
@@ -335,6 +346,13 @@ void Cpu::run_handler() {
 }
 
 void Cpu::wait_for_interrupt() {
+  if (!masked_ && !in_handler_now_ && !slept_unmasked_) {
+    slept_unmasked_ = true;
+    vp::warn(*this, "/markervp/cpu/sleeps_unmasked",
+             "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes after the last "
+             "look at what it changes, and before the sleep, wakes nobody; mask IRQ before the "
+             "look, with hal_interrupt_enable(false)");
+  }
   catch_up();
   if (!interrupt_pending()) sleep();
   take_interrupts();

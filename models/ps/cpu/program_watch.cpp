@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 
+#include <backtrace.h>
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <elf.h>
@@ -214,11 +215,65 @@ std::string CodeLocator::look_up(std::uintptr_t address) const {
   return hex_short(place) + (symbol.empty() ? "" : " " + symbol);
 }
 
-std::uintptr_t CodeLocator::first_inside(const std::vector<std::uintptr_t>& addresses) const {
-  for (const std::uintptr_t address : addresses) {
-    if (contains(address)) return address;
+// An instruction that was inlined has several, the innermost first. libbacktrace knows the objects
+// that were loaded when it was asked for the first time.
+std::vector<CodeLocator::Line> CodeLocator::lines(std::uintptr_t address) const {
+  const auto ignore = [](void*, const char*, int) {};
+  if (!debug_) debug_ = backtrace_create_state(nullptr, 0, ignore, nullptr);
+  std::vector<Line> found;
+  if (!debug_) return found;
+  const auto take = [](void* data, std::uintptr_t, const char* file, int line,
+                       const char* function) {
+    if (!file) return 0;
+    static_cast<std::vector<Line>*>(data)->push_back(
+        {function ? demangled(function) : "", std::string(file) + ":" + std::to_string(line)});
+    return 0;
+  };
+  backtrace_pcinfo(debug_, address, take, ignore, &found);
+  return found;
+}
+
+std::string CodeLocator::symbol(std::uintptr_t address) const {
+  const std::string& place = text(address);
+  const std::size_t from = place.find(' '), to = place.rfind('+');
+  if (from == place.npos || to == place.npos || to < from) return {};
+  return place.substr(from + 1, to - from - 1);
+}
+
+std::vector<std::string> CodeLocator::functions(std::uintptr_t address) const {
+  std::vector<std::string> names;
+  for (Line& line : lines(address)) names.push_back(std::move(line.function));
+  if (!names.empty()) names.pop_back();
+  const std::string around = symbol(address);
+  names.push_back(around.empty() ? text(address) : around);
+  return names;
+}
+
+std::string CodeLocator::path(const std::vector<std::uintptr_t>& calls) const {
+  constexpr std::size_t most = 8;  // levels: deeper ones say little
+  std::string text;
+  std::size_t levels = 0;
+  const char* how = ", in ";
+  const auto add = [&](const Line& line) {
+    if (++levels > most) return;
+    text += how + line.function + (line.place.empty() ? "" : " (" + line.place + ")");
+    how = ", called from ";
+  };
+  for (const std::uintptr_t call : calls) {
+    if (!contains(call)) continue;
+    const std::vector<Line> found = lines(call);
+    const bool innermost = text.empty();
+    if (innermost) text = "pc " + this->text(call);
+    if (innermost && found.size() < 2) {
+      if (!found.empty()) text += " (" + found.front().place + ")";
+      how = ", called from ";
+    } else if (found.empty()) {
+      add({functions(call).front(), ""});
+    } else {
+      for (const Line& line : found) add(line);
+    }
   }
-  return 0;
+  return levels > most ? text + ", …" : text;
 }
 
 std::vector<std::uintptr_t> return_addresses() {

@@ -9,6 +9,8 @@
 
 #include <vp/host_ticks.h>
 
+struct backtrace_state;
+
 namespace ps {
 
 /// What the processor has to know of the program's own statements, which it does not see: whether
@@ -153,15 +155,29 @@ class CodeLocator {
   /// around it. Only the place if the file was stripped. Looked up in the file once: a trace asks
   /// at each interrupt.
   const std::string& text(std::uintptr_t address) const;
-  /// The first of `addresses` that lies in the program; 0 if none does.
-  std::uintptr_t first_inside(const std::vector<std::uintptr_t>& addresses) const;
+  /// The function around `address`: "make(Mistake)"; empty if the file was stripped.
+  std::string symbol(std::uintptr_t address) const;
+  /// The functions that `address` lies in: those that were inlined there, the innermost first, then
+  /// symbol(), or "0x1a2b" for none.
+  std::vector<std::string> functions(std::uintptr_t address) const;
+  /// "pc 0x1a2b make(Mistake)+0x1c (main.cpp:37), called from main (main.cpp:90)": the innermost of
+  /// `calls` that lies in the program, and those of the program that led there. "…, in arm
+  /// (main.cpp:12), called from make (…" where one was inlined. Without lines where it was built
+  /// without debug information; empty if no call lies in it.
+  std::string path(const std::vector<std::uintptr_t>& calls) const;
 
  private:
+  /// A line of the source, and the function that it stands in.
+  struct Line {
+    std::string function, place;
+  };
   std::string look_up(std::uintptr_t address) const;
+  std::vector<Line> lines(std::uintptr_t address) const;
 
   std::string file_;
   std::uintptr_t base_ = 0;
   mutable std::map<std::uintptr_t, std::string> texts_;
+  mutable backtrace_state* debug_ = nullptr;  ///< debug information of the process; never freed
 };
 
 /// Of the calls that are under way, the innermost first: addresses inside the calling instructions.

@@ -2,6 +2,7 @@
 
 #include <ps/gic/gic.h>
 
+#include <vp/clock_scheduler.h>
 #include <vp/report.h>
 
 #include <algorithm>
@@ -139,7 +140,8 @@ std::uint32_t InterruptLogic::highest_pending() const {
 Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
     : sc_module(name),
       cpu_interface("cpu_interface", gic::cpu_interface_registers, options(8), &scheduler),
-      distributor("distributor", gic::distributor_registers, options(12), &scheduler) {
+      distributor("distributor", gic::distributor_registers, options(12), &scheduler),
+      scheduler_(scheduler) {
   wire_cpu_interface();
   wire_distributor();
 }
@@ -168,14 +170,24 @@ void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
   if (id == f2p_listener) {
     risen = set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
   } else {
-    logic_.set_wire(id, wires_.at(id)->get());
+    set_level(id, wires_.at(id)->get());
   }
   if (risen || !idle_) update_lines();
 }
 
 void Gic::set_wire(std::uint32_t id, bool level) {
-  logic_.set_wire(id, level);
+  set_level(id, level);
   update_lines();
+}
+
+void Gic::set_level(std::uint32_t id, bool level) {
+  if (level && !logic_.wire[id]) risen_ps_[id] = scheduler_.now_ps();
+  logic_.set_wire(id, level);
+}
+
+Gic::Request Gic::request() const {
+  const std::uint32_t id = logic_.signalled().id;
+  return {id, id < gic::id_count ? risen_ps_[id] : 0};
 }
 
 // True if an input has risen.
@@ -183,7 +195,7 @@ bool Gic::set_f2p(std::uint32_t levels) {
   const bool risen = (levels & ~f2p_levels_) != 0;
   for (std::uint32_t changed = levels ^ f2p_levels_; changed != 0; changed &= changed - 1) {
     const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
-    logic_.set_wire(gic::irq_f2p_id(bit), (levels >> bit & 1) != 0);
+    set_level(gic::irq_f2p_id(bit), (levels >> bit & 1) != 0);
   }
   f2p_levels_ = levels;
   return risen;
@@ -337,7 +349,11 @@ void Gic::raise_software_interrupt(std::uint32_t word) {
       (word & gic::icdsgir::CPUTargetList) >> gic::icdsgir::CPUTargetList_shift;
   const bool here = filter == gic::icdsgir::filter_self ||
                     (filter == gic::icdsgir::filter_list && (list & this_cpu) != 0);
-  if (here) logic_.latched.set(word & gic::icdsgir::SGIINTID, true);
+  if (here) {
+    const std::uint32_t id = word & gic::icdsgir::SGIINTID;
+    logic_.latched.set(id, true);
+    risen_ps_[id] = scheduler_.now_ps();
+  }
   update_outputs();
 }
 

@@ -134,6 +134,14 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
 
   const InterruptLogic& logic() const { return logic_; }
 
+  /// The interrupt that is signalled to the CPU, and when its line rose last or software raised it;
+  /// `id` is gic::spurious_id if there is none.
+  struct Request {
+    std::uint32_t id = gic::spurious_id;
+    std::uint64_t since_ps = 0;
+  };
+  Request request() const;
+
  private:
   void end_of_elaboration() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
@@ -148,12 +156,15 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   void raise_software_interrupt(std::uint32_t word);
 
   bool set_f2p(std::uint32_t levels);
+  void set_level(std::uint32_t id, bool level);
   void update_outputs();
   void update_lines();
 
+  vp::ClockScheduler& scheduler_;
   InterruptLogic logic_;
-  std::uint32_t acknowledgeable_ = gic::spurious_id;  ///< what ICCIAR would return
-  bool idle_ = false;                                 ///< nothing is forwarded to the CPU interface
+  std::array<std::uint64_t, gic::id_count> risen_ps_{};  ///< when a line rose last
+  std::uint32_t acknowledgeable_ = gic::spurious_id;     ///< what ICCIAR would return
+  bool idle_ = false;  ///< nothing is forwarded to the CPU interface
   std::uint32_t f2p_levels_ = 0;
   std::map<std::uint32_t, vp::Signal<bool>*> wires_;
 };

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace ps {
@@ -94,7 +95,16 @@ std::optional<std::uint32_t> DmaAllocator::allocate(std::size_t size, std::size_
   const std::uint64_t end = start + round_up(std::max<std::uint64_t>(size, 1), cache_line);
   if (end > end_) return std::nullopt;
   next_ = end;
+  buffers_.push_back({start, start + size});
   return static_cast<std::uint32_t>(start);
+}
+
+std::optional<DmaAllocator::Buffer> DmaAllocator::buffer_at(std::uint64_t address) const {
+  const auto after =
+      std::upper_bound(buffers_.begin(), buffers_.end(), address,
+                       [](std::uint64_t a, const Buffer& buffer) { return a < buffer.first; });
+  if (after == buffers_.begin() || address >= std::prev(after)->end) return std::nullopt;
+  return *std::prev(after);
 }
 
 Ddr::Ddr(sc_core::sc_module_name name)

@@ -54,7 +54,17 @@ class DmaAllocator {
   /// Empty if the range is used up or the alignment is no power of two.
   std::optional<std::uint32_t> allocate(std::size_t size, std::size_t alignment);
   /// All of it is free again.
-  void reset() { next_ = first_; }
+  void reset() {
+    next_ = first_;
+    buffers_.clear();
+  }
+
+  /// A buffer as it was asked for: [first, end).
+  struct Buffer {
+    std::uint64_t first, end;
+  };
+  /// The buffer that `address` lies in, if it lies in one.
+  std::optional<Buffer> buffer_at(std::uint64_t address) const;
 
   std::uint64_t first() const { return first_; }
   std::uint64_t end() const { return end_; }
@@ -64,6 +74,7 @@ class DmaAllocator {
   std::uint64_t first_;
   std::uint64_t end_;
   std::uint64_t next_;
+  std::vector<Buffer> buffers_;  ///< by address
 };
 
 /// The DDR memory: host memory at the same numeric addresses as on the chip, so that a pointer of

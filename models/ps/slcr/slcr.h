@@ -93,6 +93,8 @@ class Slcr : public sc_core::sc_module {
 
   /// What the registers give FCLK_CLK`number`, throttle aside, Hz.
   std::uint64_t programmed_fclk_hz(unsigned number) const;
+  /// The highest clock that the chip gives to the PL: software that asks for more is warned of.
+  void limit_fclk(std::uint64_t hz) { highest_fclk_hz_ = hz; }
 
   /// CPU clocks of the ratio that CLK_621_TRUE selects, Hz.
   struct CpuClocks {
@@ -124,6 +126,7 @@ class Slcr : public sc_core::sc_module {
   void lock_written(std::uint32_t word, std::uint32_t key, bool lock);
 
   void pll_written(Pll& pll);
+  void fclk_written(unsigned number);
   double output_hz(const Pll& pll) const;
   std::uint32_t pll_status() const;
   double peripheral_source_hz(std::uint32_t select) const;
@@ -149,6 +152,7 @@ class Slcr : public sc_core::sc_module {
   std::deque<Fclk> fclk_;
   std::array<vp::Clock*, 2> uart_ref_{};
   vp::Clock* cpu_ = nullptr;
+  std::uint64_t highest_fclk_hz_ = ~std::uint64_t{0};
   double cpu_source_hz_ = 0.0;
   bool dci_reset_ = false;      ///< RESET of DDRIOB_DCI_CTRL as it was
   bool dci_was_reset_ = false;  ///< it has fallen since power-on

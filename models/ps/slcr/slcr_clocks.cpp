@@ -215,9 +215,27 @@ void Slcr::wire_clocks() {
   on_write(slcr::UART_CLK_CTRL, [this] { update_uarts(); });
   for (unsigned n = 0; n < slcr::fclk_count; ++n) {
     const std::uint32_t at = n * slcr::fclk_stride;
-    on_write(slcr::FPGA0_CLK_CTRL + at, [this, n] { fclk_[n].divide(fclk_source_hz(n)); });
+    on_write(slcr::FPGA0_CLK_CTRL + at, [this, n] { fclk_written(n); });
     on_write(slcr::FPGA0_THR_CTRL + at, [this, n] { fclk_[n].throttle_written(); });
     on_write(slcr::FPGA0_THR_CNT + at, [this, n] { fclk_[n].throttle_written(); });
+  }
+}
+
+void Slcr::fclk_written(unsigned number) {
+  const double source_hz = fclk_source_hz(number);
+  Fclk& fclk = fclk_[number];
+  fclk.divide(source_hz);
+  if (!fclk.driven()) return;
+  const std::uint64_t hertz = fclk.programmed_hz(source_hz);
+  const std::string clock = "FCLK_CLK" + std::to_string(number);
+  if (hertz > highest_fclk_hz_) {
+    vp::warn(*this, "/markervp/slcr/fclk_too_fast",
+             clock + " is set to " + std::to_string(hertz) +
+                 " Hz, more than the chip gives to the PL (" + std::to_string(highest_fclk_hz_) +
+                 " Hz): divide by more");
+  } else if (hertz == 0) {
+    vp::warn(*this, "/markervp/slcr/fclk_without_source",
+             clock + " has a PLL as its source that is off: the clock stands");
   }
 }
 

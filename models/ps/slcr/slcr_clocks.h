@@ -64,6 +64,8 @@ class Fclk : public sc_core::sc_module {
 
   /// The clock of the simulation that follows. May stay away: the registers work alone.
   void drive(vp::Clock& clock, double source_hz);
+  /// The simulation has this clock.
+  bool driven() const { return clock_ != nullptr; }
   /// Software wrote FPGAn_CLK_CTRL.
   void divide(double source_hz);
   /// A PLL may have changed. 0: stopped.

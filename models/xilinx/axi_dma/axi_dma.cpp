@@ -6,6 +6,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <xilinx/common/estimate.h>
 
 namespace xilinx {
@@ -177,6 +178,15 @@ bool AxiDma::watched() const {
 
 void AxiDma::warn(const char* id, const std::string& message) const {
   vp::warn(*this, id, message);
+}
+
+void AxiDma::check_buffer(const std::string& who, std::uint32_t address,
+                          std::uint32_t bytes) const {
+  if (!buffer_check_) return;
+  const std::string mistake = buffer_check_(address, bytes);
+  if (mistake.empty()) return;
+  warn("/markervp/axi_dma/past_buffer", who + " transfer of " + std::to_string(bytes) +
+                                            " bytes at " + vp::hex(address) + " " + mistake);
 }
 
 // A register behind status AND enable.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include <axi_dma_registers.h>
@@ -61,6 +63,11 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   /// The engine that moves descriptors. Throws std::logic_error if the build does not have it.
   ScatterGather& scatter_gather();
 
+  /// Asked of each transfer and descriptor: the mistake in where it goes, as a message continues
+  /// ("leaves its buffer …"); "" if there is none. Null: nobody is asked.
+  using BufferCheck = std::function<std::string(std::uint32_t address, std::uint32_t bytes)>;
+  void check_buffers(BufferCheck check) { buffer_check_ = std::move(check); }
+
   /// Words moved between memory and the core so far.
   std::uint64_t beats() const;
   /// All bursts contend with those of other masters on the same path.
@@ -91,6 +98,8 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   bool stopped() const override { return stopped_; }
   bool watched() const override;
   void warn(const char* id, const std::string& message) const override;
+  void check_buffer(const std::string& who, std::uint32_t address,
+                    std::uint32_t bytes) const override;
 
   void build_channels();
   void build_scatter_gather();
@@ -102,6 +111,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;
   std::unique_ptr<ScatterGather> scatter_gather_;
+  BufferCheck buffer_check_;
   std::vector<Interrupt> interrupts_;  ///< of the channels that are built
   std::uint64_t planned_ = 0;  ///< the next edge that runs, unless a signal wakes it earlier
   bool stopped_ = false;

@@ -226,6 +226,7 @@ void DmaChannel::length_written(std::uint32_t word) {
     accepted_at_ = now();
     sampled_address_ = address;
     dmasr.clear_bits(dmasr::Idle);
+    core_.check_buffer(name_, address, length);
     if (transfer_listener_) transfer_listener_(true);
     core_.plan_edge(std::max(accepted_at_ + 1, starts_at()));
   }
@@ -508,6 +509,7 @@ void DmaChannel::begin_descriptor(const Descriptor& next, std::uint64_t cycle) {
     if (transfer_listener_) transfer_listener_(true);
   }
   const Segment segment = segment_of(next);
+  core_.check_buffer(name_, segment.address, segment.bytes);
   if (segment.bytes == 0) {
     fail(cycle + core_.timing().completion_latency, dmasr::DMAIntErr);
   } else {

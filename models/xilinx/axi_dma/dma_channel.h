@@ -139,6 +139,9 @@ class DmaChannel {
     /// Somebody watches every edge.
     virtual bool watched() const = 0;
     virtual void warn(const char* id, const std::string& message) const = 0;
+    /// `who` is about to move so many bytes: warns if they lie in no memory made for it.
+    virtual void check_buffer(const std::string& who, std::uint32_t address,
+                              std::uint32_t bytes) const = 0;
   };
 
   struct Offsets {

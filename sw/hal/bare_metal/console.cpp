@@ -99,3 +99,9 @@ void print_hexadecimal(std::uint32_t value) {
 }
 
 }  // namespace chip
+
+extern "C" void hal_warn(const char* text) {
+  chip::print("warning: ");
+  chip::print(text);
+  chip::print("\n");
+}

@@ -142,7 +142,10 @@ u32 XAxiDma_SimpleTransfer(XAxiDma* InstancePtr, UINTPTR BuffAddr, u32 Length, i
     return XST_INVALID_PARAM;
   }
   if (InstancePtr->HasSg) return XST_FAILURE;
-  if (!(read(ring, MM2S_DMASR) & (dmasr::Halted | dmasr::Idle))) return XST_FAILURE;
+  if (!(read(ring, MM2S_DMASR) & (dmasr::Halted | dmasr::Idle))) {
+    hal_warn("XAxiDma_SimpleTransfer while the channel is busy: nothing is transferred");
+    return XST_FAILURE;
+  }
   write(ring, MM2S_SA, static_cast<std::uint32_t>(BuffAddr));
   set_control(ring, dmacr::RS, true);
   write(ring, MM2S_LENGTH, Length);
@@ -318,7 +321,12 @@ int XAxiDma_BdRingClone(XAxiDma_BdRing* RingPtr, XAxiDma_Bd* SrcBdPtr) {
 
 int XAxiDma_BdRingAlloc(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd** BdSetPtr) {
   if (NumBd <= 0) return XST_INVALID_PARAM;
-  if (RingPtr->FreeCnt < NumBd) return XST_FAILURE;
+  if (RingPtr->FreeCnt < NumBd) {
+    hal_warn(
+        "XAxiDma_BdRingAlloc: the descriptor ring has no room for so many; give those that are "
+        "done back with XAxiDma_BdRingFree, or create a longer ring");
+    return XST_FAILURE;
+  }
   *BdSetPtr = RingPtr->FreeHead;
   RingPtr->FreeHead = behind(*RingPtr, RingPtr->FreeHead, NumBd);
   RingPtr->FreeCnt -= NumBd;

@@ -66,6 +66,10 @@ void hal_console_write(const char* text, size_t length) {
   std::fwrite(text, 1, length, stdout);
 }
 
+void hal_warn(const char* text) {
+  std::fprintf(stderr, "warning: %s\n", text);
+}
+
 const hal_frame* hal_frame_next(void) {
   return nullptr;
 }

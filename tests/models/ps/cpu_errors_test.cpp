@@ -129,22 +129,28 @@ BOOST_AUTO_TEST_CASE(a_program_that_catches_everything_does_not_catch_this) {
 
 BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) {
   const Settings settings{"cpu.timeout=1 us"};
-  const std::string tail =
-      "no end within 1 us of simulated time since the last image (cpu.timeout), at ";
-  const std::vector<std::function<void()>> loops{
-      [] { hal_work(step, 3); },
-      [] { hal_read32(device_address); },
-      [] { hal_poll_until_changed(device_address, 0, 10, 0xFFFF'FFFF); },
-      [] { hal_barrier(); },
+  const std::string head =
+      "no end within 1 us of simulated time since the last image (cpu.timeout)";
+  struct Loop {
+    std::function<void()> body;
+    std::string hint;
   };
-  for (const auto& loop : loops) {
+  const std::vector<Loop> loops{
+      {[] { hal_work(step, 3); }, ""},
+      {[] { hal_read32(device_address); },
+       "; the last register that it read was 0x40000000: 0x00000000"},
+      {[] { hal_poll_until_changed(device_address, 0, 10, 0xFFFF'FFFF); },
+       "; it polls for a change of any bit of 0x40000000: 0x00000000"},
+      {[] { hal_barrier(); }, ""},
+  };
+  for (const auto& [loop, hint] : loops) {
     Bench b(settings);
     b.device.delay_ps = 40'000;
     const std::string error = failure_of(b, [&] {
       while (true) loop();
       return 0;
     });
-    BOOST_TEST(error == tail + "1 us of program 'bench'");
+    BOOST_TEST(error == head + hint + ", at 1 us of program 'bench'");
     BOOST_TEST(b.cpu.end_ps() == 1'000'000u);
   }
   Bench b(settings);
@@ -227,6 +233,60 @@ BOOST_AUTO_TEST_CASE(an_interrupt_that_nobody_acknowledges) {
     return 0;
   });
   BOOST_TEST(reports.count("/markervp/cpu/not_acknowledged") == 1u);
+}
+
+// Each asks again after the handler has begun.
+BOOST_AUTO_TEST_CASE(interrupts_that_overrun_the_handler) {
+  Bench b({"cpu.timeout=1 ms"});
+  vp::ReportRouter reports;
+  std::ostringstream text;
+  reports.redirect(text);
+  b.cpu.describe_requests([&b] { return ps::Cpu::Request{"a tick", now_ps()}; });
+  b.set_n_irq_at(5'000, false);
+  failure_of(b, [] {
+    hal_interrupt_connect([](void*) {}, nullptr);
+    hal_interrupt_enable(true);
+    while (true) hal_work(step, 10);
+    return 0;
+  });
+  BOOST_TEST(reports.count("/markervp/cpu/not_acknowledged") == 0u);
+  BOOST_TEST(reports.count("/markervp/cpu/overrun") == 1u);
+  BOOST_TEST(text.str().find("with the next one pending (a tick)") != std::string::npos,
+             text.str());
+}
+
+BOOST_AUTO_TEST_CASE(an_endless_poll_names_its_register) {
+  Bench b({"cpu.timeout=1 ms"});
+  b.cpu.describe_registers([](std::uint32_t address, std::uint32_t) {
+    return address == device_address ? "device.STATUS" : "";
+  });
+  const std::string error = failure_of(b, [] {
+    while (!hal_poll_until_changed(device_address, 0, 10, 100).changed) continue;
+    return 0;
+  });
+  BOOST_TEST(error.find("; it polls for a change of any bit of device.STATUS, at 1 ms") !=
+                 std::string::npos,
+             error);
+}
+
+BOOST_AUTO_TEST_CASE(a_sleep_while_interrupts_are_unmasked) {
+  for (const bool unmasked : {false, true}) {
+    Bench b;
+    vp::ReportRouter reports;
+    std::ostringstream ignored;
+    reports.redirect(ignored);
+    b.set_n_irq_at(5'000, false);
+    static bool enable;
+    enable = unmasked;
+    b.device.written = [&b](std::uint32_t) { b.n_irq = true; };
+    b.run([] {
+      hal_interrupt_connect([](void*) { hal_write32(device_address, 1); }, nullptr);
+      hal_interrupt_enable(enable);
+      hal_wait_for_interrupt();
+      return 0;
+    });
+    BOOST_TEST(reports.count("/markervp/cpu/sleeps_unmasked") == (unmasked ? 1u : 0u));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(an_exception_of_the_program) {

@@ -21,6 +21,21 @@ BOOST_AUTO_TEST_CASE(alignment) {
   BOOST_TEST(!memory.allocate(4, std::size_t{1} << 63));
 }
 
+BOOST_AUTO_TEST_CASE(the_buffer_at_an_address) {
+  ps::DmaAllocator memory(0x1000, 0x2000);
+  BOOST_TEST(!memory.buffer_at(0x1000));
+  memory.allocate(33, 1);
+  memory.allocate(4, 1);
+  BOOST_TEST(!memory.buffer_at(0xFFF));
+  BOOST_TEST(memory.buffer_at(0x1000)->end == 0x1021u);
+  BOOST_TEST(memory.buffer_at(0x1020)->first == 0x1000u);
+  BOOST_TEST(!memory.buffer_at(0x1021));
+  BOOST_TEST(memory.buffer_at(0x1043)->first == 0x1040u);
+  BOOST_TEST(!memory.buffer_at(0x1044));
+  memory.reset();
+  BOOST_TEST(!memory.buffer_at(0x1000));
+}
+
 BOOST_AUTO_TEST_CASE(exhaustion_and_reset) {
   ps::DmaAllocator memory(0x1000, 0x1100);
   BOOST_TEST(!memory.allocate(0x101, 4));

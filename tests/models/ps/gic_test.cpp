@@ -169,6 +169,32 @@ BOOST_AUTO_TEST_CASE(an_edge_is_latched_until_acknowledged) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(the_request_and_since_when) {
+  GicBench b;
+  b.run([&] {
+    set_up(61);
+    BOOST_TEST(b.gic.request().id == 1023u);
+    hal_work(step, 100);
+    hal_barrier();
+    const std::uint64_t risen = now_ps();
+    b.irq_f2p = 1;
+    hal_work(step, 100);
+    hal_barrier();
+    BOOST_TEST(b.gic.request().id == 61u);
+    BOOST_TEST(b.gic.request().since_ps == risen);
+    b.irq_f2p = 0;
+    BOOST_TEST(b.gic.request().id == 1023u);
+    b.irq_f2p = 1;
+    BOOST_TEST(b.gic.request().since_ps == now_ps());
+    hal_write32(icd + gic::ICDISER(0), 1u << 5);
+    hal_write32(icd + gic::ICDIPR(1), 0x10u << 8);
+    hal_write32(icd + gic::ICDSGIR, 2u << 24 | 5u);
+    BOOST_TEST(b.gic.request().id == 5u);
+    BOOST_TEST(b.gic.request().since_ps == now_ps());
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_CASE(an_edge_before_the_enable_is_not_lost) {
   GicBench b;
   b.run([&] {

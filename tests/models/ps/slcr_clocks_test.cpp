@@ -338,4 +338,35 @@ BOOST_AUTO_TEST_CASE(without_boot_code_the_clocks_are_those_of_the_silicon) {
   BOOST_TEST(b.uart_ref.frequency_hz() == 13'756'614u);
 }
 
+BOOST_AUTO_TEST_CASE(a_clock_that_is_too_fast_or_has_no_source) {
+  SlcrBench b;
+  b.slcr.limit_fclk(250'000'000);
+  b.run([] {
+    hal_write32(slcr_at + slcr::SLCR_UNLOCK, slcr::unlock_key);
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL, divide(4, 1));                          // 250 MHz
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL + 3 * slcr::fclk_stride, divide(1, 1));  // nobody's
+    return 0;
+  });
+  BOOST_TEST(b.warnings("/markervp/slcr/fclk_too_fast") == 0u);
+  SlcrBench fast;
+  fast.slcr.limit_fclk(250'000'000);
+  fast.run([] {
+    hal_write32(slcr_at + slcr::SLCR_UNLOCK, slcr::unlock_key);
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL, divide(3, 1));
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL, divide(0, 3));
+    return 0;
+  });
+  BOOST_TEST(fast.warnings("/markervp/slcr/fclk_too_fast") == 2u);
+  BOOST_TEST(fast.text.str().find("FCLK_CLK0 is set to 333333333 Hz") != std::string::npos,
+             fast.text.str());
+  SlcrBench off;
+  off.run([] {
+    hal_write32(slcr_at + slcr::SLCR_UNLOCK, slcr::unlock_key);
+    hal_write32(slcr_at + slcr::IO_PLL_CTRL, slcr::pll_ctrl::PLL_PWRDWN);
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL, divide(10, 1));
+    return 0;
+  });
+  BOOST_TEST(off.warnings("/markervp/slcr/fclk_without_source") == 1u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

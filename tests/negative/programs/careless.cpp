@@ -4,6 +4,8 @@
 #include <axi_gpio_registers.h>
 #include <drivers/gic.h>
 #include <drivers/platform_addresses.h>
+#include <drivers/slcr.h>
+#include <drivers/timers.h>
 #include <hal/hal.h>
 #include <marker/result.h>
 
@@ -27,9 +29,14 @@ enum class Mistake {
   works_on_old_data,
   works_on_new_data,
   publishes_old_data,
+  acknowledges_late,
+  ticks_too_fast,
+  sleeps_unmasked,
+  transfers_too_much,
+  clocks_too_fast,
 };
 const hal_option_info options[] = {
-    {"mistake", "", 0, 0, 10, "what the program does wrong"},
+    {"mistake", "", 0, 0, 15, "what the program does wrong"},
     {"upload", "", 0, 0, 1, "0: the test bench puts images into the image store"}};
 
 Mistake mistake;
@@ -58,9 +65,37 @@ const volatile std::uint32_t* words() {
   return static_cast<const volatile std::uint32_t*>(buffer.data);
 }
 
+constexpr unsigned many = 1'500;
+unsigned calls;
+drivers::PrivateTimer timer;
+
 void on_packet(void*) {
+  if (mistake == Mistake::acknowledges_late && ++calls < many) return;
   hal_write32(dma(axi_dma::S2MM_DMASR), axi_dma::dmasr::IOC_Irq);
   came = true;
+}
+
+// The next tick is there before it returns.
+void on_tick(void*) {
+  timer.acknowledge();
+  if (++calls == many) timer.stop();
+  for (int i = 0; i < 10; ++i) sink = hal_read32(control());
+}
+
+void tick() {
+  constexpr std::uint32_t private_timer_interrupt = 29;
+  gic.connect(private_timer_interrupt, drivers::Trigger::rising_edge, &on_tick, nullptr);
+  timer.initialise({1, true, true});
+  timer.start(10);
+  while (calls < many) hal_barrier();
+}
+
+void clock_faster() {
+  drivers::Slcr slcr;
+  slcr.initialise({});
+  const std::uint32_t before = slcr.pl_clock(1);
+  slcr.set_pl_clock(1, 500'000'000);
+  slcr.set_pl_clock(1, before);
 }
 
 // One packet of the binary image; the rest of it is dropped.
@@ -69,11 +104,14 @@ void arm() {
     static_cast<std::uint32_t*>(buffer.data)[i] = pattern;
   }
   hal_cache_flush(buffer.data, buffer.size);
-  const bool interrupt = mistake == Mistake::waits_for_handler;
+  const bool interrupt = mistake == Mistake::waits_for_handler ||
+                         mistake == Mistake::acknowledges_late ||
+                         mistake == Mistake::sleeps_unmasked;
   hal_write32(dma(axi_dma::S2MM_DMACR),
               axi_dma::dmacr::RS | (interrupt ? axi_dma::dmacr::IOC_IrqEn : 0));
   hal_write32(dma(axi_dma::S2MM_DA), buffer.bus_address);
-  hal_write32(dma(axi_dma::S2MM_LENGTH), packet_bytes);
+  hal_write32(dma(axi_dma::S2MM_LENGTH),
+              packet_bytes + (mistake == Mistake::transfers_too_much ? 4 : 0));
 }
 
 __attribute__((noinline)) void look_at_all_words() {
@@ -92,6 +130,12 @@ __attribute__((noinline)) void take_packet() {
       break;
     case Mistake::waits_for_handler:
       while (!came) continue;
+      break;
+    case Mistake::acknowledges_late:
+      while (!came) hal_barrier();
+      break;
+    case Mistake::sleeps_unmasked:
+      hal_wait_for_interrupt();
       break;
     default:
       while ((hal_read32(dma(axi_dma::S2MM_DMASR)) & axi_dma::dmasr::Idle) == 0) continue;
@@ -121,6 +165,8 @@ void process() {
   take_packet();
   take_words();
   if (mistake == Mistake::polls_after_end) hal_poll_until_changed(features(), end_word, 8, 1'000);
+  if (mistake == Mistake::ticks_too_fast) tick();
+  if (mistake == Mistake::clocks_too_fast) clock_faster();
   if (mistake == Mistake::reads_after_end) {
     for (int i = 0; i < 3; ++i) hal_read32(features());
   }
@@ -135,6 +181,7 @@ int run() {
   hal_interrupt_enable(true);
   while (const hal_frame* frame = hal_frame_next()) {
     came = false;
+    calls = 0;
     process();
     marker::clear(result);
     result.frame = frame->index;

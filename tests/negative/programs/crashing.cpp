@@ -98,7 +98,6 @@ __attribute__((noinline)) void publish_nothing() {
 
 void await_timer(hal_interrupt_handler handler) {
   hal_interrupt_connect(handler, nullptr);
-  hal_interrupt_enable(true);
   // Bit 0 enables the interface and the distributor, and interrupt 27 is that of the global timer.
   hal_write32(0xF8F0'0104, 0xFF);
   hal_write32(0xF8F0'0100, 1);
@@ -108,6 +107,7 @@ void await_timer(hal_interrupt_handler handler) {
   hal_write32(0xF8F0'0214, 0);
   hal_write32(0xF8F0'0208, 7);
   hal_wait_for_interrupt();
+  hal_interrupt_enable(true);
 }
 
 __attribute__((noinline)) void fault_in_handler() {

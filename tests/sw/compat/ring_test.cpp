@@ -120,6 +120,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_handed_over) {
   create(tx, 4);
   XAxiDma_Bd* more = nullptr;
   BOOST_CHECK_EQUAL(XAxiDma_BdRingAlloc(tx, 5, &more), XST_FAILURE);
+  BOOST_REQUIRE_EQUAL(fake_hal::state().warnings.size(), 1u);
+  BOOST_TEST(fake_hal::state().warnings.front().find("no room") != std::string::npos);
   XAxiDma_Bd* const packet = allocate(tx, 2);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 2, packet + 1), XST_DMA_SG_LIST_ERROR);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 1, packet), XST_FAILURE);  // a packet without its end

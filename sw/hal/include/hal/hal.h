@@ -98,6 +98,10 @@ void hal_wait_for_interrupt(void);
 /** Writes text to the console. */
 void hal_console_write(const char* text, size_t length);
 
+/** Tells of a mistake that a driver noticed in the program's call. The platform warns of it, with
+ * the line of the call; the chip prints it. */
+void hal_warn(const char* text);
+
 /** One image for the program to work on, already in its memory (thesis 4.5.1.1: "preloaded at a
  * specific address"). */
 typedef struct hal_frame {
@@ -167,8 +171,8 @@ void hal_function_leave(void);
  * configuration, by its name. */
 typedef struct hal_option_info {
   const char* name;
-  const char* unit; /**< "px", "m" … or ""; or the names of its values: "none|grid", then the value is
-                       the place of one of them, from 0 */
+  const char* unit; /**< "px", "m" … or ""; or the names of its values: "none|grid", then the value
+                       is the place of one of them, from 0 */
   double default_value, minimum, maximum;
   const char* documentation; /**< one line with its source */
 } hal_option_info;
