@@ -194,6 +194,10 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
                   "write which registers and bits the program used")
       ->type_name("FILE");
   command
+      .add_option("--software-profile", target.software_profile,
+                  "write where the program's time goes, for speedscope.app; and onto the page")
+      ->type_name("FILE");
+  command
       .add_option("--control", target.control,
                   "let a test lead the run through this socket (docs/software.md)")
       ->type_name("DESCRIPTOR");

@@ -46,6 +46,7 @@ struct RunOptions : PlatformOptions {
   std::optional<std::string> log_bus;
   std::vector<std::string> log_bus_filter;
   std::optional<std::string> register_coverage;
+  std::optional<std::string> software_profile;
   std::optional<int> control;  ///< socket of a test that leads the run
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;

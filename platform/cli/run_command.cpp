@@ -141,6 +141,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   result.timeline_frames = options.timeline_frames;
   if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
   result.register_coverage = options.register_coverage;
+  result.software_profile = options.software_profile;
   if (options.control && !host::is_socket(*options.control)) {
     throw vp::InputError("--control " + std::to_string(*options.control) +
                          ": no socket is open under this number: python/markervp.py opens one");
@@ -178,8 +179,8 @@ void check_trace(const RunOptions& options) {
 /// The files that a run writes beside its folder.
 std::vector<std::string> other_outputs(const RunOptions& options) {
   std::vector<std::string> files;
-  for (const auto& file :
-       {options.trace, options.timeline, options.log_bus, options.register_coverage}) {
+  for (const auto& file : {options.trace, options.timeline, options.log_bus,
+                           options.register_coverage, options.software_profile}) {
     if (file) files.push_back(*file);
   }
   return files;
@@ -273,6 +274,8 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
   }
   if (!views.page) return false;
   if (!timeline.empty()) views.page->add_member("timeline", report::page_json(timeline));
+  const std::string profile = simulation.software_profile();
+  if (!profile.empty()) views.page->add_member("profile", profile);
   return attempt([&] {
     views.folder.add(page::report_name);
     page::write_report(views.folder.path(), views.page->json(views.configuration.parameters()));

@@ -6,6 +6,7 @@
 #include <vp/systemc_pins.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
+#include <zynq/profiler.h>
 #include <numeric>
 #include <ostream>
 #include <utility>
@@ -130,6 +131,12 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   const Debugged debugged(*zynq_);
   std::optional<vp::OutputFile> coverage;
   if (options_.register_coverage) coverage.emplace(*options_.register_coverage);
+  std::optional<vp::OutputFile> profile_file;
+  std::optional<Profiler> profiler;
+  if (options_.software_profile) {
+    profile_file.emplace(*options_.software_profile);
+    profiler.emplace(*zynq_);
+  }
   std::optional<BusLog> log;
   if (options_.bus_log) log.emplace(*options_.bus_log, *zynq_);
   std::exception_ptr error = simulate(std::move(next), std::move(done));
@@ -138,6 +145,12 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
     if (log) log->close();
     if (coverage) coverage->write(register_coverage(*zynq_));
     if (coverage) coverage->commit();
+    if (profiler) {
+      const double nj_per_cycle = power_->table().value("ps.core_cycle").nominal;
+      software_profile_ = profiler->page_json(nj_per_cycle);
+      profile_file->write(profiler->speedscope(nj_per_cycle));
+      profile_file->commit();
+    }
   } catch (const vp::OutputError&) {
     if (!error) error = std::current_exception();
   }

@@ -34,6 +34,7 @@ struct SimulationOptions {
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
   std::optional<std::string> register_coverage = {};  ///< file: which registers the program used
+  std::optional<std::string> software_profile = {};   ///< file: where the program's time goes
   std::optional<int> control = {};                    ///< socket of a test that leads the run
   std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
 };
@@ -69,6 +70,8 @@ class Simulation {
 
   /// Of the first frames, as many as asked for.
   report::Timeline timeline() const;
+  /// Profiler::page_json() of the run; "" if no profile was asked for.
+  const std::string& software_profile() const { return software_profile_; }
 
   /// There is a trace of the run: one was asked for, and its window or trigger kept something.
   bool wrote_trace() const { return wrote_trace_; }
@@ -104,6 +107,7 @@ class Simulation {
   std::unique_ptr<TimelineRecorder> recorder_;
   std::unique_ptr<RemoteControl> control_;
   bool wrote_trace_ = false;
+  std::string software_profile_;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };
 

@@ -255,6 +255,20 @@ test("the timeline is moved by keyboard, and has its numbers as a table", () => 
   assert.match(await figure.locator("table").textContent(), /Sensor input/);
 }));
 
+test("the flame graph names what took most, counts recursion once, and grows by a click", () => open("run", async (page) => {
+  const section = page.locator("#profile");
+  assert.match(await section.textContent(), /12\.00 µs in interrupt handlers/);
+  const figure = section.locator("figure", { has: page.locator('.chart-area[aria-label^="Flame graph"]') });
+  await figure.locator(".chart-area").click({ position: { x: 60, y: 52 } });
+  await section.getByRole("button", { name: "Whole program" }).press("Enter");
+  await section.getByLabel("What the flame graph shows").selectOption({ label: "Energy" });
+  await figure.getByRole("button", { name: "Table", exact: true }).press("Enter");
+  const row = figure.locator("table tbody tr", { hasText: "filter(int)" });
+  assert.equal(await row.count(), 1);
+  assert.deepEqual((await row.locator("td").allTextContents()).slice(0, 2), ["550.5", "550.5"]);
+  assert.match(await section.locator("#latency, table", { hasText: "private_timer" }).last().textContent(), /812.5/);
+}));
+
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
   const button = page.locator("#points tbody button").nth(4);
   await button.click();

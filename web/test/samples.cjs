@@ -65,8 +65,17 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
   };
   const view = { width: 640, height: 480, camera: { fx: 381.36, fy: 381.36, cx: 320, cy: 240 }, png,
     corners: Array.from({ length: 40 }, () => [Math.floor(640 * random()), Math.floor(480 * random()), Math.floor(4 * random())]), blobs: [[300, 200, 362, 262]], candidates: [[[300, 200], [360, 202], [358, 262], [298, 260]]] };
-  return { result, extras: { frames: Object.fromEntries(list.slice(0, 3).map((f) => [f.index, view])), timeline: timeline(list[0].time_us),
+  return { result, extras: { frames: Object.fromEntries(list.slice(0, 3).map((f) => [f.index, view])), timeline: timeline(list[0].time_us), profile: profile(),
     parameters: [["fidelity", "tlm", "decision", "how the logic is modelled"], ["pl.width", "640 px", "published", "width of a frame"], ["ps.fclk_clk1.frequency", "50 MHz", "published", "pixel clock"], ["ps.cpu_clk.frequency", "666.666667 MHz", "published", "clock of the cores"]] } };
+}
+
+function profile() {
+  return {
+    functions: [["program", 0, 2, 0, 0, 1.5, 0, 1000, 0.4], ["run()", 0, 4, 10, 0, 2, 900, 8000, 3.3], ["filter(int)", 1, 10, 400, 100, 0.5, 0, 333667, 138.5],
+      ["filter(int)", 2, 5, 40, 10, 0, 0, 33333, 13.8], ["wait() const", 1, 3, 0, 0, 30, 0, 20000, 8.3], ["interrupt handlers", 0, 6, 0, 0, 12, 0, 8000, 3.3]],
+    named: [["filter", 15, 540.5, 550.5]], handlers: 12,
+    interrupts: [{ name: "29 ps.private_timer.irq", count: 4, mean: 0.3, worst: 0.6, worst_at: 812.5, counts: [0, 0, 0, 0, 0, 0, 0, 2, 1, 1] }],
+  };
 }
 
 function timeline(times) {

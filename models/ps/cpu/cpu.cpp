@@ -119,6 +119,7 @@ void Cpu::run() {
 }
 
 void Cpu::end(State state) {
+  if (moment_listener_) moment_listener_(Moment::call_over);
   scheduler_.rejoin();
   state_ = state;
   end_ps_ = now_ps();
@@ -176,6 +177,15 @@ std::vector<WorkCount> Cpu::work() const {
                       static_cast<double>(work.stall_fs) / fs_per_ns});
   }
   return counts;
+}
+
+Cpu::Counted Cpu::counted() const {
+  Counted sum;
+  for (const Work& work : work_) {
+    sum.cycles += work.cycles * work.count;
+    sum.stall_fs += work.stall_fs * work.count;
+  }
+  return sum;
 }
 
 void Cpu::nothing_runs(const char* call) {

@@ -131,6 +131,20 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// find out what it reads. Null: nobody is.
   using LoopListener = std::function<void(MemoryWatch& memory)>;
   void on_loop(LoopListener listener) { loop_listener_ = std::move(listener); }
+  /// Points in the program's course at which a profiler looks at it, called on its stack.
+  enum class Moment {
+    call_over,       ///< a call of the HAL is over, or the program is
+    handler_begins,  ///< an interrupt was taken: what follows is the handler's
+    handler_over,
+  };
+  /// Null: nobody is told.
+  using MomentListener = std::function<void(Moment)>;
+  void on_moment(MomentListener listener) { moment_listener_ = std::move(listener); }
+  /// When all that the program has done so far will be over, in ps: its own time, of which the
+  /// simulation may be behind. In a handler that of the handler.
+  std::uint64_t program_time_ps() const { return reached_ps() + local_time_.ps_after(0); }
+  /// The loaded program's code; null if it is part of the process.
+  const CodeLocator* code() const { return code_ ? &*code_ : nullptr; }
   /// Where the program is, as messages end: ", at 320 ns in function 'f' of program 'p', pc …".
   std::string where() const;
   /// "pc …" as CodeLocator::path() has it, while the program or a HAL call of it is under way;
@@ -161,6 +175,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   const sc_core::sc_event& ended() const { return ended_; }
 
   std::vector<WorkCount> work() const;
+  /// The cost of all work that was counted so far.
+  struct Counted {
+    LocalTime::Wide cycles = 0;  ///< in 2^-20 cycles
+    LocalTime::Wide stall_fs = 0;
+  };
+  Counted counted() const;
   /// Reads among `polls` that were not made, for performance reports.
   std::uint64_t skipped_polls() const { return skipped_polls_; }
   const Activity& activity() const { return activity_; }
@@ -298,6 +318,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::string cost_profile_;
   CacheListener cache_listener_;
   LoopListener loop_listener_;
+  MomentListener moment_listener_;
   bool pause_at_end_ = true;
   bool poll_elision_ = true;
 
@@ -367,11 +388,13 @@ auto Cpu::guarded(Call call) {
   try {
     if constexpr (std::is_void_v<decltype(call())>) {
       call();
+      if (moment_listener_) moment_listener_(Moment::call_over);
       running_ = this;
       ProgramWatch::leave_hal();
       return;
     } else {
       auto result = call();
+      if (moment_listener_) moment_listener_(Moment::call_over);
       running_ = this;
       ProgramWatch::leave_hal();
       return result;

@@ -330,12 +330,14 @@ void Cpu::run_handler() {
 
   running_ = this;
   spend_cycles(interrupt_entry);
+  if (moment_listener_) moment_listener_(Moment::handler_begins);
   call_handler();
   if (open_functions_ != open_before_handler_) {
     misuse("the interrupt handler returned without leaving its function");
   }
   spend_cycles(interrupt_exit);
   catch_up();
+  if (moment_listener_) moment_listener_(Moment::handler_over);
 
   open_before_handler_ = 0;
   activity_.leave_handler();

@@ -5,6 +5,7 @@ import { frameView } from "./frame_view.js";
 import { guidance } from "./guidance.js";
 import { handshakes } from "./handshakes.js";
 import { power } from "./power.js";
+import { profile } from "./profile.js";
 import { resources } from "./resources.js";
 import { overTime } from "./over_time.js";
 import { configuration, frameTable, provenance } from "./tables.js";
@@ -27,6 +28,6 @@ export function runPage(result, extras) {
   run.overTime = () => overTime(run);
   return {
     title: title(run), subtitle: subtitle(run),
-    sections: [verdict(run), guidance(run), frameView(run), timing(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
+    sections: [verdict(run), guidance(run), frameView(run), timing(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
   };
 }
