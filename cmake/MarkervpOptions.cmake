@@ -15,10 +15,11 @@ endif()
 option(MARKERVP_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)
 option(MARKERVP_WERROR "Treat warnings as errors" OFF)
 
-# Several sources are compiled as one: a clean build takes a third of the time. What goes onto the chip (sw/) and what has the
-# names of registers in its scope (models/xilinx) is compiled file by file.
+# Several sources are compiled as one: a clean build takes a third of the time. What goes onto the chip (sw/) is compiled file by
+# file.
 option(MARKERVP_UNITY "Compile several sources at a time" ON)
 set(CMAKE_UNITY_BUILD ${MARKERVP_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
 
 add_compile_options(-Wall -Wextra -ffp-contract=off)
 # Nobody replaces a function of ours at load time: the compiler may inline across them in spite of -fPIC.

@@ -15,7 +15,6 @@ namespace {
 
 using namespace axi_dma;
 
-constexpr std::uint64_t word_bytes = 4;
 constexpr std::uint32_t reset_pin = 1;  // what a listener is told of, besides streams (0)
 
 vp::RegisterBankOptions bank_options() {

@@ -10,7 +10,6 @@ using namespace axi_dma;
 
 /// Descriptors that are read ahead (HDL of v7.1).
 constexpr std::size_t queue_size = 4;
-constexpr unsigned word_bytes = 4;
 /// Two registers between the count and the status bit (HDL of v7.1).
 constexpr std::uint64_t timer_registers = 2;
 

@@ -11,8 +11,6 @@ namespace xilinx {
 
 namespace {
 
-constexpr unsigned word_bytes = 4;
-
 bool allows(const tlm::tlm_dmi& dmi, tlm::tlm_command command) {
   return command == tlm::TLM_READ_COMMAND ? dmi.is_read_allowed() : dmi.is_write_allowed();
 }

@@ -19,6 +19,14 @@
 
 namespace xilinx {
 
+/// Bytes of a word: streams and memory maps are 32 bits wide.
+constexpr unsigned word_bytes = 4;
+/// FIFO of the DataMover in bursts: its address pipeline of 4 + 2, rounded up to a power of two
+/// (HDL of v5.1).
+constexpr unsigned fifo_bursts = 8;
+/// Commands that the DataMover holds (HDL of v5.1).
+constexpr unsigned command_queue = 4;
+
 /// A memory path that several masters share: read and write data channel, each busy until a clock
 /// cycle. Contention is arithmetic: a burst starts when it wants to or when the channel is free,
 /// whichever is later.

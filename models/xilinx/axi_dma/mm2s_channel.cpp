@@ -10,23 +10,17 @@ namespace {
 
 using namespace axi_dma;
 
-constexpr unsigned word_bytes = 4;
 /// Address pipeline of the DataMover: bursts requested ahead (HDL of v5.1).
 constexpr unsigned outstanding_bursts = 4;
-/// FIFO of the DataMover in bursts: pipeline + 2, rounded up to a power of two (HDL of v5.1).
-constexpr unsigned fifo_bursts = 8;
 
-/// Commands that the DataMover holds (HDL of v5.1).
-constexpr unsigned command_queue = 4;
-
-constexpr DmaChannel::Offsets offsets{MM2S_DMACR, MM2S_DMASR,  MM2S_CURDESC, MM2S_TAILDESC,
-                                      MM2S_SA,    MM2S_SA_MSB, MM2S_LENGTH};
+constexpr DmaChannel::Offsets mm2s_offsets{MM2S_DMACR, MM2S_DMASR,  MM2S_CURDESC, MM2S_TAILDESC,
+                                           MM2S_SA,    MM2S_SA_MSB, MM2S_LENGTH};
 
 }  // namespace
 
 Mm2sChannel::Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
                          std::uint32_t burst_beats)
-    : DmaChannel(core, bank, offsets, "MM2S", false),
+    : DmaChannel(core, bank, mm2s_offsets, "MM2S", false),
       m_axi("m_axi_mm2s", owner.clock().scheduler()),
       m_axis("m_axis_mm2s", owner),
       burst_size_(burst_beats * word_bytes),

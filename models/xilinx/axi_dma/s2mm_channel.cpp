@@ -10,22 +10,16 @@ namespace {
 
 using namespace axi_dma;
 
-constexpr unsigned word_bytes = 4;
 constexpr std::uint8_t all_bytes = 0xF;
-/// FIFO of the DataMover in bursts (HDL of v5.1, as for reads).
-constexpr unsigned fifo_bursts = 8;
 
-/// Commands that the DataMover holds (HDL of v5.1).
-constexpr unsigned command_queue = 4;
-
-constexpr DmaChannel::Offsets offsets{S2MM_DMACR, S2MM_DMASR,  S2MM_CURDESC, S2MM_TAILDESC,
-                                      S2MM_DA,    S2MM_DA_MSB, S2MM_LENGTH};
+constexpr DmaChannel::Offsets s2mm_offsets{S2MM_DMACR, S2MM_DMASR,  S2MM_CURDESC, S2MM_TAILDESC,
+                                           S2MM_DA,    S2MM_DA_MSB, S2MM_LENGTH};
 
 }  // namespace
 
 S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
                          std::uint32_t burst_beats)
-    : DmaChannel(core, bank, offsets, "S2MM", true),
+    : DmaChannel(core, bank, s2mm_offsets, "S2MM", true),
       m_axi("m_axi_s2mm", owner.clock().scheduler()),
       s_axis("s_axis_s2mm", owner),
       burst_size_(burst_beats * word_bytes),

@@ -43,7 +43,6 @@ double block_ram_36(std::uint64_t depth, std::uint32_t width, bool parity) {
 
 namespace {
 
-constexpr std::uint32_t word_bytes = 4;
 constexpr std::uint32_t largest_depth = 1u << 20;  // words: 4 MiB, more than any Zynq-7000 has
 
 }  // namespace

@@ -90,6 +90,8 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
   void refuse_write(std::uint32_t address);
   std::uint8_t refuse_read(std::uint32_t address);
 
+  static constexpr std::uint32_t word_bytes = 4;  ///< of port A
+
   std::vector<std::uint8_t> bytes_;
   Reader* reader_ = nullptr;
   Writer* writer_ = nullptr;
