@@ -179,16 +179,28 @@ class Counts {
   std::vector<Count> list_;
 };
 
+/// How well a pose is known: covariance of a small turn about the camera's axes, rad, followed by
+/// its translation, m; 6 × 6, row by row.
+using PoseCovariance = std::array<double, 36>;
+
 /// A marker that the software identified.
 struct FoundMarker {
   int id = 0;
   int rotation = 0;                      ///< quarter turns clockwise from upright, 0 to 3
   std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
-  bool has_pose = true;                  ///< false: the corners admit no pose
+  bool has_pose = true;  ///< false: the corners admit none, or it is one of a board's
   Pose pose;
   // Of the pose, where the program tells them.
   std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
   std::optional<std::uint32_t> iterations;
+  std::optional<PoseCovariance> covariance;
+};
+
+/// The pose of several markers with known places to each other.
+struct FoundBoard {
+  std::uint32_t markers = 0;  ///< of which the pose was made
+  Pose pose;
+  PoseCovariance covariance{};
 };
 
 /// What a picture shows besides the marker. Not part of result.json.
@@ -220,6 +232,7 @@ struct FrameReport {
   std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
   Counts counts;
   std::vector<FoundMarker> markers;
+  std::optional<FoundBoard> board;   ///< where the program looks for one, and sees it
   std::optional<GroundTruth> truth;  ///< of the scene's marker, where known
   std::vector<StageTime> times;      ///< in the order of the flow; "frame" and "upload" among them
   std::uint64_t start_ps = 0;  ///< simulated time at which work on the frame began, upload done

@@ -1,13 +1,13 @@
-#include <charconv>
+#include <report/result_json.h>
 
 #include <fcntl.h>
-#include <report/result_json.h>
 #include <report/summary.h>
 #include <vp/text.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 
@@ -84,6 +84,32 @@ Json to_json(const Pose& pose) {
 
 namespace {
 
+/// To six digits: the smallest of them are 10⁻¹² times the largest.
+double six_digits(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 5);
+  double result = 0;
+  std::from_chars(text, end.ptr, result);
+  return result;
+}
+
+Json covariance_json(const PoseCovariance& covariance) {
+  Json rows = Json::array();
+  for (std::size_t row = 0; row < 6; ++row) {
+    Json values = Json::array();
+    for (std::size_t column = 0; column < 6; ++column)
+      values.push_back(six_digits(covariance[row * 6 + column]));
+    rows.push_back(values);
+  }
+  return rows;
+}
+
+Json board_json(const FoundBoard& board) {
+  return {{"markers", board.markers},
+          {"pose", to_json(board.pose)},
+          {"covariance", covariance_json(board.covariance)}};
+}
+
 Json error_json(const FoundMarker& found, const GroundTruth& truth) {
   const MarkerError error = measure_error(found, truth);
   Json json;
@@ -103,6 +129,7 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
     json["pose"] = to_json(found.pose);
     if (found.reprojection_px) json["reprojection_px"] = rounded(*found.reprojection_px, px_places);
     if (found.iterations) json["iterations"] = *found.iterations;
+    if (found.covariance) json["covariance"] = covariance_json(*found.covariance);
   }
   if (const GroundTruth* truth = truth_of(frame, found)) {
     json["truth"]["corners_px"] = to_json(truth->corners_px);
@@ -138,6 +165,7 @@ Json to_json(const FrameReport& frame) {
   json["markers"] = Json::array();
   for (const FoundMarker& found : frame.markers)
     json["markers"].push_back(marker_json(frame, found));
+  if (frame.board) json["board"] = board_json(*frame.board);
   json["time_us"] = Json::object();
   for (const StageTime& time : frame.times) {
     json["time_us"][time.name] = rounded(static_cast<double>(time.ps) / ps_per_us, us_places);

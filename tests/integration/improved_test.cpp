@@ -2,6 +2,7 @@
 // about what it lost.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -259,6 +260,44 @@ BOOST_AUTO_TEST_CASE(the_poses_of_the_thesis_at_any_blur) {
     BOOST_TEST(mean_error(result, "rotation_deg") < 0.1, "blur " << blur);
     for (const Json& frame : result["frames"]) BOOST_TEST(latency_us(frame) < 1000);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_says_how_well_it_is_known) {
+  const Json marker = run_of({"z2.0"})["frames"][0]["markers"][0];
+  const Json& covariance = marker["covariance"];
+  BOOST_REQUIRE(covariance.size() == 6u);
+  for (int i = 0; i < 6; ++i) {
+    BOOST_TEST(double(covariance[i][i]) > 0);
+    for (int k = 0; k < i; ++k) BOOST_TEST(covariance[i][k] == covariance[k][i]);
+  }
+  // Depth is known worst; the error is within four standard deviations.
+  const double depth_mm = 1000 * std::sqrt(double(covariance[5][5]));
+  BOOST_TEST(depth_mm > 1000 * std::sqrt(double(covariance[3][3])));
+  BOOST_TEST(double(marker["error"]["translation_mm"]) < 4 * depth_mm);
+}
+
+// Eight markers of 60 px, 60 px apart, seen from the front: one pose, of the first one's corner.
+BOOST_AUTO_TEST_CASE(a_board_has_one_pose) {
+  const kit::TemporaryFolder folder;
+  Arguments board{picture_in(folder, "board", [](int x, int y) {
+    const int u = x - 80, v = y - 120;
+    if (u < 0 || u >= 480 || v < 0 || v >= 240) return 220;
+    return grey_of_marker(u / 120 + v / 120 * 4, u % 120, v % 120, 60);
+  })};
+  for (const char* setting : {"sw.board=grid", "sw.board_columns=4", "sw.board_rows=2",
+                              "sw.marker_side=0.1 m", "sw.board_gap=0.1 m"})
+    board = with(board, setting);
+  BOOST_TEST(difference(board) == "");
+  const Json frame = run_of(board)["frames"][0];
+  BOOST_TEST(frame["markers"].size() == 8u);
+  for (const Json& marker : frame["markers"]) BOOST_TEST(!marker.contains("pose"));
+  BOOST_TEST(frame["board"]["markers"] == 8);
+  const Json& place = frame["board"]["pose"]["translation_m"];
+  const double metres = 0.1 / 60, depth = 381.36 * metres;
+  BOOST_TEST(std::abs(double(place[0]) - (80 - 320) * metres) < 1e-4);
+  BOOST_TEST(std::abs(double(place[1]) - (120 - 240) * metres) < 1e-4);
+  BOOST_TEST(std::abs(double(place[2]) - depth) < 1e-3);
+  BOOST_TEST(!run_of({"demo"})["frames"][0].contains("board"));
 }
 
 // What issue and docs promise of it: all of the thesis' 41 poses and 15 squares in time, the wait

@@ -11,6 +11,11 @@ namespace platform {
 
 namespace {
 
+Pose pose_of(const marker::BoardPose& pose) {
+  return {Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(pose.rotation.data()),
+          Eigen::Vector3d::Map(pose.translation.data())};
+}
+
 report::FoundMarker found_marker(const marker::Detection& detection) {
   const marker::DetectedMarker& m = detection.marker;
   report::FoundMarker found;
@@ -18,9 +23,8 @@ report::FoundMarker found_marker(const marker::Detection& detection) {
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.fit.image[i].x, m.fit.image[i].y};
   found.has_pose = detection.pose.valid;
   if (!found.has_pose) return found;
-  const marker::BoardPose& pose = detection.pose.best;
-  found.pose.rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(pose.rotation.data());
-  found.pose.translation = Eigen::Vector3d::Map(pose.translation.data());
+  found.pose = pose_of(detection.pose.best);
+  found.covariance = detection.pose.best.covariance;
   return found;
 }
 
@@ -84,6 +88,10 @@ void ImprovedDesign::fill_in(report::FrameReport& frame, std::uint64_t now_ps) c
   }
   for (std::uint32_t i = 0; i < result_.found.count; ++i)
     frame.markers.push_back(found_marker(result_.found.markers[i]));
+  const marker::BoardPoses& board = result_.found.board;
+  if (board.valid) {
+    frame.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance};
+  }
   frame.end_ps = now_ps;
 }
 

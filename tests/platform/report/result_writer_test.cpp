@@ -60,6 +60,24 @@ BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
              (Keys{"frames", "delivered", "detected", "fps", "latency_us"}));
 }
 
+// Where the program tells them.
+BOOST_AUTO_TEST_CASE(covariance_and_board) {
+  platform::report::FrameReport frame = found_frame("z1.0");
+  platform::report::PoseCovariance covariance{};
+  covariance[1] = -1.23456789e-9;
+  covariance[35] = 0.25;
+  frame.markers[0].covariance = covariance;
+  frame.board = {7, frame.markers[0].pose, covariance};
+  const Json written_frame = written({frame})["frames"][0];
+  const Json& rows = written_frame["markers"][0]["covariance"];
+  BOOST_REQUIRE(rows.size() == 6u);
+  BOOST_TEST(rows[0] == Json({0.0, -1.23457e-9, 0.0, 0.0, 0.0, 0.0}));
+  BOOST_TEST(rows[5][5] == 0.25);
+  BOOST_TEST(written_frame["board"]["markers"] == 7);
+  BOOST_TEST(written_frame["board"]["pose"] == written_frame["markers"][0]["pose"]);
+  BOOST_TEST(written_frame["board"]["covariance"] == rows);
+}
+
 BOOST_AUTO_TEST_CASE(values_and_errors) {
   const Json json = written({found_frame("z1.0")});
   const Json& marker = json["frames"][0]["markers"][0];
