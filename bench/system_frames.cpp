@@ -2,15 +2,23 @@
 // and result file.
 //   --mode=upload   software uploads each image by DMA, as the thesis' system does (the usual one)
 //   --mode=preload  the test bench puts it into the image memory
+//   --mode=alone    the RTL that --set=pl.fidelity.<ip>=FILE names, without platform, on what stood
+//   at its pins in a frame of `preload`
 // Options such as --set=fidelity=clocked choose the platform.
+#include <dlfcn.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 
 #include <run/simulation.h>
 #include <vp/configuration.h>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "frame_benchmark.h"
 #include "images.h"
+#include "rtl/recorder.h"
 
 namespace {
 
@@ -29,16 +37,20 @@ vp::Configuration configuration_of(const bench::Arguments& arguments) {
   return configuration;
 }
 
+InputFrame frame_of(const std::string& image, platform::input::ImageSize size) {
+  InputFrame frame;
+  frame.name = image;
+  frame.image = {size.width, size.height, bench::make_image(image)};
+  frame.camera = platform::Camera::for_resolution(size.width, size.height);
+  return frame;
+}
+
 /// Frames for the simulation, and the timer: it runs from the first frame after the warm-up to the
 /// one that is no longer given.
 class Frames {
  public:
   Frames(benchmark::State& state, const std::string& image, platform::input::ImageSize size)
-      : state_(state) {
-    frame_.name = image;
-    frame_.image = {size.width, size.height, bench::make_image(image)};
-    frame_.camera = platform::Camera::for_resolution(size.width, size.height);
-  }
+      : state_(state), frame_(frame_of(image, size)) {}
 
   const InputFrame* next() {
     if (given_++ < bench::warm_up_frames) return &frame_;
@@ -60,7 +72,7 @@ class Frames {
 
  private:
   benchmark::State& state_;
-  InputFrame frame_;
+  const InputFrame frame_;
   int given_ = 0, taken_ = 0;
   std::uint64_t warm_ps_ = 0;  ///< simulated end of the warm-up
   FrameReport last_;
@@ -72,7 +84,98 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
+/// The settings with the recorder in the place of the RTL that it is to watch.
+bench::Arguments with_recorder(bench::Arguments arguments) {
+  arguments.mode = "preload";
+  for (std::string& setting : arguments.settings) {
+    const std::size_t equals = setting.find('=');
+    if (setting.rfind("pl.fidelity.", 0) != 0 || setting.find(".so", equals) == std::string::npos)
+      continue;
+    ::setenv("BENCH_RTL", setting.c_str() + equals + 1, 1);
+    setting.replace(equals + 1, std::string::npos, BENCH_RECORDER);
+    return arguments;
+  }
+  throw std::invalid_argument("--mode=alone: --set=pl.fidelity.<ip>=FILE.so says which RTL");
+}
+
+bench::Recording& recording() {
+  void* library = ::dlopen(BENCH_RECORDER, RTLD_NOW | RTLD_LOCAL);
+  void* symbol = library ? ::dlsym(library, "bench_recording") : nullptr;
+  if (!symbol) throw std::runtime_error(::dlerror());
+  return *reinterpret_cast<bench::Recording* (*)()>(symbol)();
+}
+
+/// Plays recorded evaluations to RTL of its own: what any driver of Verilated RTL does.
+class Replay {
+ public:
+  explicit Replay(const bench::Recording& recording)
+      : recording_(recording), model_(recording.rtl->create("alone"), recording.rtl->destroy) {
+    for (const bench::Recording::Input& input : recording.inputs) {
+      pins_.push_back({recording.rtl->pin(model_.get(), input.port), input.bytes});
+      bytes_ += input.bytes;
+    }
+  }
+
+  void play(std::size_t begin, std::size_t end) {
+    const unsigned char* from = recording_.stimulus.data() + begin * bytes_;
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const Pin& pin : pins_) {
+        copy(pin, from);
+        from += pin.bytes;
+      }
+      recording_.rtl->eval(model_.get());
+    }
+  }
+
+ private:
+  struct Pin {
+    void* place;
+    std::size_t bytes;
+  };
+  static void copy(const Pin& pin, const unsigned char* from) {
+    switch (pin.bytes) {
+      case 1:
+        std::memcpy(pin.place, from, 1);
+        break;
+      case 2:
+        std::memcpy(pin.place, from, 2);
+        break;
+      case 4:
+        std::memcpy(pin.place, from, 4);
+        break;
+      default:
+        std::memcpy(pin.place, from, 8);
+    }
+  }
+
+  const bench::Recording& recording_;
+  const std::unique_ptr<void, void (*)(void*)> model_;
+  std::vector<Pin> pins_;
+  std::size_t bytes_ = 0;
+};
+
+void measure_alone(benchmark::State& state, const bench::Arguments& arguments) {
+  vp::Configuration configuration = configuration_of(with_recorder(arguments));
+  const vp::Configuration::Scope scope(configuration);
+  Simulation simulation({BENCH_PROGRAM});
+  configuration.check_unused();
+  const InputFrame frame = frame_of(arguments.image, simulation.image_size());
+  bench::Recording& noted = recording();
+  int given = 0;
+  std::size_t begin = 0;
+  const auto next = [&]() -> const InputFrame* {
+    if (given == bench::warm_up_frames) begin = noted.evaluations;
+    return given++ <= bench::warm_up_frames ? &frame : nullptr;
+  };
+  simulation.run(next, [](FrameReport&&) { return true; });
+  Replay replay(noted);
+  replay.play(0, begin);
+  for (auto _ : state) replay.play(begin, noted.evaluations);
+  state.counters["evaluations"] = static_cast<double>(noted.evaluations - begin);
+}
+
 void measure(benchmark::State& state, const bench::Arguments& arguments) {
+  if (arguments.mode == "alone") return measure_alone(state, arguments);
   vp::Configuration configuration = configuration_of(arguments);
   const vp::Configuration::Scope scope(configuration);
   Simulation simulation({BENCH_PROGRAM});

@@ -148,6 +148,18 @@ void add_systems(List& list, const ProgramOptions& options, const std::string& i
   }
 }
 
+/// Each detector as RTL among models of whole frames, next to that RTL without the platform.
+void add_rtl(List& list, const ProgramOptions& options, const std::string& image) {
+  for (const std::string& ip : rtl_ips()) {
+    const std::string object = options.folder + "/bench_rtl_" + ip + ".so";
+    std::vector<std::string> settings{"fidelity=tlm", "pl.fidelity." + ip + "=" + object};
+    if (ip == "global_threshold") settings.push_back("pl.fidelity.blob_detection=clocked");
+    constexpr const char* executable = "bench_system_frames";
+    list.add_frames({("mixed_" + ip).c_str(), executable, "preload", 5}, image, settings);
+    list.add_frames({("alone_" + ip).c_str(), executable, "alone", 5}, image, settings);
+  }
+}
+
 }  // namespace
 
 std::vector<Program> programs(const ProgramOptions& options) {
@@ -155,6 +167,7 @@ std::vector<Program> programs(const ProgramOptions& options) {
   for (const std::string& image : options.images) {
     for (const FrameProgram& program : detectors) list.add_frames(program, image);
     add_systems(list, options, image);
+    if (options.parts) add_rtl(list, options, image);
   }
   for (const auto& [name, mode] : vcd_modes) {
     list.add_benchmark(name, "bench_vcd_writing", {"--frames=8", std::string("--mode=") + mode});

@@ -142,11 +142,18 @@ std::optional<double> growth(const Round& round, const std::string& image) {
 
 }  // namespace
 
+const std::vector<std::string>& rtl_ips() {
+  static const std::vector<std::string> ips{"corner_detection", "global_threshold",
+                                            "blob_detection", "clock_crossing",
+                                            "feature_packaging"};
+  return ips;
+}
+
 std::vector<Figure> figures(const std::string& fidelity) {
   const auto higher = Figure::Better::higher, lower = Figure::Better::lower;
   constexpr auto none = std::nullopt;
   const std::string system = fidelity + ", whole system";
-  return {
+  std::vector<Figure> all{
       {"clocked, ports observable, against Verilator, thesis structure", 5, 8, "×", higher,
        faster("clocked", "thesis")},
       {"clocked, ports observable, against Verilator, lean structure", 2.5, 4, "×", higher,
@@ -189,6 +196,12 @@ std::vector<Figure> figures(const std::string& fidelity) {
        memory("memory_long")},
       {"what it grew since frame 100", 1, none, "MB", lower, growth},
   };
+  for (const std::string& ip : rtl_ips()) {
+    all.push_back({"tlm, whole system, image preloaded, with `" + ip +
+                       "` in RTL, time against that RTL alone in Verilator",
+                   1.2, none, "×", lower, faster("alone_" + ip, "mixed_" + ip)});
+  }
+  return all;
 }
 
 std::optional<double> reached(const Figure& figure, const std::vector<Round>& rounds,

@@ -47,6 +47,9 @@ struct Figure {
   }
 };
 
+/// IP whose RTL is measured in the platform and alone.
+const std::vector<std::string>& rtl_ips();
+
 /// All of them, in the order of the table. `fidelity` of the whole system, for the titles.
 std::vector<Figure> figures(const std::string& fidelity);
 

@@ -89,6 +89,7 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
     before_.push_back(pin(input.name, input.bits, false));
   for (const IpPorts::Output& output : ports_.outputs)
     after_.push_back(pin(output.name, output.bits, true));
+  driven_.resize(after_.size());
   for (const IpPorts::MemoryOutput& output : ports_.memory_outputs)
     memory_outputs_.push_back(pin(output.name, output.bits, true));
   for (const IpPorts::Input& input : ports_.memory_inputs)
@@ -247,25 +248,6 @@ void* RtlPins::pin(const std::string& name, unsigned bits, bool output) {
 
 void RtlPins::refuse(const std::string& place, const std::string& why) const {
   throw vp::InputError("RTL '" + file_ + "' does not fit " + ip_ + ": " + place + ": " + why);
-}
-
-void RtlPins::store(void* place, unsigned bits, std::uint64_t value) {
-  if (bits <= 8) {
-    *static_cast<std::uint8_t*>(place) = static_cast<std::uint8_t>(value);
-  } else if (bits <= 16) {
-    *static_cast<std::uint16_t*>(place) = static_cast<std::uint16_t>(value);
-  } else if (bits <= 32) {
-    *static_cast<std::uint32_t*>(place) = static_cast<std::uint32_t>(value);
-  } else {
-    *static_cast<std::uint64_t*>(place) = value;
-  }
-}
-
-std::uint64_t RtlPins::load(const void* place, unsigned bits) {
-  if (bits <= 8) return *static_cast<const std::uint8_t*>(place);
-  if (bits <= 16) return *static_cast<const std::uint16_t*>(place);
-  if (bits <= 32) return *static_cast<const std::uint32_t*>(place);
-  return *static_cast<const std::uint64_t*>(place);
 }
 
 }  // namespace pl

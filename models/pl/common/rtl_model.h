@@ -138,9 +138,14 @@ class RtlPins {
     take_inputs();
     rtl_.eval(model_.get());
   }
-  /// The ports follow the outputs of the RTL.
+  /// The ports follow the outputs of the RTL: those that changed are written.
   void drive() {
-    for (std::size_t i = 0; i < after_.size(); ++i) ports_.outputs[i].write(value(i));
+    for (std::size_t i = 0; i < after_.size(); ++i) {
+      const std::uint64_t now = value(i);
+      if (driven_[i] == now) continue;
+      driven_[i] = now;
+      ports_.outputs[i].write(now);
+    }
   }
 
   /// Those that the RTL has, with its widths.
@@ -154,8 +159,24 @@ class RtlPins {
   const std::string& file() const { return file_; }
 
  private:
-  static void store(void* place, unsigned bits, std::uint64_t value);
-  static std::uint64_t load(const void* place, unsigned bits);
+  /// As rtl_interface.h says.
+  static void store(void* place, unsigned bits, std::uint64_t value) {
+    if (bits <= 8) {
+      *static_cast<std::uint8_t*>(place) = static_cast<std::uint8_t>(value);
+    } else if (bits <= 16) {
+      *static_cast<std::uint16_t*>(place) = static_cast<std::uint16_t>(value);
+    } else if (bits <= 32) {
+      *static_cast<std::uint32_t*>(place) = static_cast<std::uint32_t>(value);
+    } else {
+      *static_cast<std::uint64_t*>(place) = value;
+    }
+  }
+  static std::uint64_t load(const void* place, unsigned bits) {
+    if (bits <= 8) return *static_cast<const std::uint8_t*>(place);
+    if (bits <= 16) return *static_cast<const std::uint16_t*>(place);
+    if (bits <= 32) return *static_cast<const std::uint32_t*>(place);
+    return *static_cast<const std::uint64_t*>(place);
+  }
   void take_inputs() {
     for (std::size_t i = 0; i < before_.size(); ++i)
       store(before_[i], ports_.inputs[i].bits, ports_.inputs[i].read());
@@ -177,6 +198,7 @@ class RtlPins {
   std::uint8_t* clk_ = nullptr;
   std::vector<bool> connected_;  ///< by the number of the port
   std::vector<void*> before_, after_, memory_outputs_, memory_inputs_;
+  std::vector<std::optional<std::uint64_t>> driven_;  ///< what the ports have; none: nobody wrote
 };
 
 /// An IP as RTL.
