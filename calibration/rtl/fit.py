@@ -189,8 +189,8 @@ def markdown(errors):
 def figures_markdown(path):
     with open(path, encoding="utf-8") as file:
         entries = json.load(file)["entries"]
-    lines = ["| IP | LUT | as memory | to let through | FF | CARRY4 | RAMB18 | RAMB36 | DSP | Longest path | Fmax, MHz |",
-             "|---|---:|---:|---:|---:|---:|---:|---:|---:|---|---:|"]
+    lines = ["| IP | LUT | pairs | as memory | to let through | FF | CARRY4 | RAMB18 | RAMB36 | DSP | Longest path | Fmax, MHz |",
+             "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|---:|"]
     for e in entries:
         parameters = "".join(f" {name}={value}" for name, value in e["parameters"].items())
         where, fmax = "none from register to register", ""
@@ -198,7 +198,7 @@ def figures_markdown(path):
             p, f = e["longest_path"], e["fmax_mhz"]
             where = f"{p['levels']} cells of {p['cells_ns']:.2f} ns, {p['nets']} nets, fan-out {p['fan_out']}"
             fmax = f"{f['nominal']:.0f} ({f['low']:.0f} to {f['high']:.0f})"
-        counts = (e["lut"], e["lut_memory"] or "–", e["lut_through"] or "–", e["ff"], e["carry4"], e["ramb18"] or "–", e["ramb36"] or "–",
+        counts = (e["lut"], e["lut_pairs"] or "–", e["lut_memory"] or "–", e["lut_through"] or "–", e["ff"], e["carry4"], e["ramb18"] or "–", e["ramb36"] or "–",
                   e["dsp"] or "–")
         lines.append(f"| `{e['ip']}`{parameters} | {' | '.join(map(str, counts))} | {where} | {fmax} |")
     return "\n".join(lines)

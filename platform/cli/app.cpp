@@ -270,6 +270,7 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
       ->type_name("NAME=NUMBER")
       ->expected(1)
       ->take_all();
+  synth->add_flag("--no-dsp", options.no_dsp, "build multiplications from LUT");
   synth->add_option("-o,--output", options.output, "the figures as JSON")->type_name("FILE");
 }
 

@@ -64,6 +64,7 @@ struct RtlSynthOptions {
   std::vector<std::string> ips;  ///< none: all
   std::vector<std::string> parameters;
   std::optional<std::string> rtl, top;  ///< a folder of the user's, and the module in it
+  bool no_dsp = false;                  ///< multiplications from LUT
   std::optional<std::string> output;
 };
 

@@ -64,7 +64,7 @@ std::string name_of(const Figures& figures) {
   return name;
 }
 
-constexpr const char* row = "{:<34} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
+constexpr const char* row = "{:<34} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
 
 void print_row(const Figures& figures, const synthesis::PathTiming& timing, std::ostream& out) {
   const synthesis::Cells& c = figures.netlist.cells;
@@ -75,8 +75,8 @@ void print_row(const Figures& figures, const synthesis::PathTiming& timing, std:
                        range.low, range.high, path->cells_ns, path->nets, path->fan_out, path->from,
                        path->to);
   }
-  out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_memory, c.lut_through, c.ff,
-                     c.carry4, c.ramb18, c.ramb36, c.dsp, fmax)
+  out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_pairs, c.lut_memory,
+                     c.lut_through, c.ff, c.carry4, c.ramb18, c.ramb36, c.dsp, fmax)
       << std::flush;
 }
 
@@ -113,12 +113,13 @@ std::vector<Figures> synthesise_all(const std::vector<Design>& designs,
 int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out) {
   const std::string tool = synthesis::yosys_version();
   const synthesis::PathTiming timing = synthesis::PathTiming::installed();
-  const std::vector<Design> designs = designs_of(options);
+  std::vector<Design> designs = designs_of(options);
+  for (Design& design : designs) design.dsp = !options.no_dsp;
   std::optional<vp::OutputFile> file;
   if (options.output) file.emplace(*options.output);
   out << tool << ", 7 series, speed grade -1, not routed\n"
-      << fmt::format(fmt::runtime(row), "module", "LUT", "LUTRAM", "through", "FF", "CARRY4",
-                     "RAMB18", "RAMB36", "DSP", "Fmax, longest path");
+      << fmt::format(fmt::runtime(row), "module", "LUT", "pairs", "LUTRAM", "through", "FF",
+                     "CARRY4", "RAMB18", "RAMB36", "DSP", "Fmax, longest path");
   const std::vector<Figures> figures = synthesise_all(designs, timing, out);
   if (file) {
     file->write(synthesis::to_json(figures, tool, timing));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
@@ -75,6 +76,74 @@ void count(const std::string& type, Cells& cells) {
       break;
   }
 }
+
+// ---- two LUT in one
+
+/// Joins LUT that share most inputs, larger ones first: not the most pairs that there are, but
+/// about those that a placer finds near each other.
+class LutPairs {
+ public:
+  explicit LutPairs(const Json& cells) {
+    std::map<unsigned, unsigned> before_inverter;
+    for (const auto& [name, cell] : cells.items()) {
+      const Json& ports = cell.at("connections");
+      if (kind_of(cell.at("type")) == Kind::inverter && ports.at("I")[0].is_number())
+        before_inverter[ports.at("O")[0]] = ports.at("I")[0];
+    }
+    for (const auto& [name, cell] : cells.items()) {
+      if (kind_of(cell.at("type")) != Kind::lut) continue;
+      std::set<unsigned> inputs;
+      for (const auto& [port, value] : cell.at("connections").items()) {
+        if (port == "O" || !value[0].is_number()) continue;
+        const auto found = before_inverter.find(value[0]);
+        inputs.insert(found == before_inverter.end() ? value[0].get<unsigned>() : found->second);
+      }
+      if (inputs.size() <= most_inputs) luts_.push_back(std::move(inputs));
+    }
+    std::stable_sort(luts_.begin(), luts_.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    for (std::size_t i = 0; i < luts_.size(); ++i) {
+      for (const unsigned input : luts_[i]) readers_[input].push_back(i);
+    }
+  }
+
+  std::uint32_t count() const {
+    std::vector<bool> taken(luts_.size());
+    std::uint32_t pairs = 0;
+    for (std::size_t i = 0; i < luts_.size(); ++i) {
+      if (taken[i]) continue;
+      const std::optional<std::size_t> partner = best_partner(i, taken);
+      if (!partner) continue;
+      taken[i] = taken[*partner] = true;
+      ++pairs;
+    }
+    return pairs;
+  }
+
+ private:
+  static constexpr std::size_t most_inputs = 5;
+
+  std::optional<std::size_t> best_partner(std::size_t i, const std::vector<bool>& taken) const {
+    std::optional<std::size_t> best;
+    std::size_t most_shared = 0;
+    for (const unsigned input : luts_[i]) {
+      for (const std::size_t j : readers_.at(input)) {
+        if (j == i || taken[j]) continue;
+        const auto shared = static_cast<std::size_t>(
+            std::count_if(luts_[j].begin(), luts_[j].end(),
+                          [&](unsigned bit) { return luts_[i].count(bit) != 0; }));
+        if (luts_[i].size() + luts_[j].size() - shared > most_inputs) continue;
+        if (shared < most_shared || (shared == most_shared && best && *best <= j)) continue;
+        best = j;
+        most_shared = shared;
+      }
+    }
+    return best;
+  }
+
+  std::vector<std::set<unsigned>> luts_;  ///< the inputs of each, largest first
+  std::unordered_map<unsigned, std::vector<std::size_t>> readers_;
+};
 
 // ---- the graph of what waits for what
 
@@ -486,6 +555,7 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
   Netlist netlist;
   for (const auto& [name, cell] : module.at("cells").items()) count(cell.at("type"), netlist.cells);
   const Graph graph(module, timing);
+  netlist.cells.lut_pairs = LutPairs(module.at("cells")).count();
   netlist.cells.lut_through = graph.luts_to_let_through();
   const std::vector<unsigned> order = graph.in_order();
   // A path's nets are judged by their number and by the largest fan-out. So the longest path is

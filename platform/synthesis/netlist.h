@@ -10,9 +10,12 @@
 /// What Yosys makes of RTL for the 7 series: `synth_xilinx -flatten -abc9`, then `write_json`.
 namespace platform::synthesis {
 
-/// Primitives as Yosys counts them: it packs neither two small LUT into one nor LUT1 away.
+/// Primitives as Yosys counts them.
 struct Cells {
-  std::uint32_t lut = 0;         ///< without those that are memory
+  std::uint32_t lut = 0;  ///< without those that are memory
+  /// Pairs of them that share inputs and have five at most together: they fit into one LUT6_2, as
+  /// Vivado packs them and Yosys does not.
+  std::uint32_t lut_pairs = 0;
   std::uint32_t lut_memory = 0;  ///< distributed memory and shift registers
   /// That nothing but let a signal through, to a carry chain: it has no other entrance. Yosys does
   /// not count them.

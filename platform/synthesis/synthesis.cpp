@@ -77,6 +77,7 @@ std::string script_of(const Design& design, const Scratch& scratch) {
   script += "\ntee -q -o " + (scratch / "proc.txt").string() + " proc";
   script += "\ntee -q -o " + (scratch / "check.txt").string() + " check";
   script += "\nsynth_xilinx -family xc7 -flatten -abc9 -top " + design.top;
+  if (!design.dsp) script += " -nodsp";
   script += "\nwrite_json " + (scratch / "netlist.json").string() + "\n";
   return script;
 }
@@ -268,6 +269,7 @@ std::string to_json(const std::vector<Figures>& figures, const std::string& tool
     Json entry{{"ip", f.ip},
                {"parameters", f.parameters},
                {"lut", cells.lut},
+               {"lut_pairs", cells.lut_pairs},
                {"lut_memory", cells.lut_memory},
                {"lut_through", cells.lut_through},
                {"ff", cells.ff},

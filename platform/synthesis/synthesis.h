@@ -21,6 +21,7 @@ struct Design {
   std::string top;
   std::vector<std::filesystem::path> sources;  ///< .v and .sv
   Parameters parameters;
+  bool dsp = true;  ///< multiplications may become DSP48E1; else all of them are LUT
 };
 
 struct Figures {

@@ -1,4 +1,4 @@
-"""calibration/rtl/fit.py: one vote a repository, errors of what was left out, and that another model is noticed."""
+"""calibration/rtl: one vote a repository, errors of what was left out, and that another model or document is noticed."""
 
 import importlib.util
 import io
@@ -13,15 +13,23 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PATHS = str(ROOT / "tests/data/rtl/paths.csv")
 MODEL = ROOT / "data/rtl/xc7.json"
 FIGURES = str(ROOT / "data/rtl/synthesis.json")
-
-spec = importlib.util.spec_from_file_location("rtl_fit", ROOT / "calibration/rtl/fit.py")  # calibration/fit.py is another
-nets = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(nets)
+MODULES = str(ROOT / "tests/data/rtl/modules.csv")
 
 
-def run(*arguments):
+def load(name, file):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "calibration/rtl" / file)  # calibration/fit.py is another
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+nets = load("rtl_fit", "fit.py")
+counts = load("rtl_modules", "modules.py")
+
+
+def run(*arguments, program=nets):
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as errors:
-        return nets.main(list(arguments)), errors.getvalue()
+        return program.main(list(arguments)), errors.getvalue()
 
 
 def path(repository, count, fan_out, requested_ns=10.0, factor=1.0, cells_ns=2.0, levels=3):
@@ -90,6 +98,41 @@ class Nets(unittest.TestCase):
     def test_an_old_document_is_noticed(self):
         self.assertEqual(run("--documented", PATHS, FIGURES, str(ROOT / "docs/rtl.md"))[0], 0)
         code, errors = run("--documented", PATHS, FIGURES, str(ROOT / "docs/traces.md"))
+        self.assertEqual(code, 1)
+        self.assertIn("is old", errors)
+
+
+def module(repository, vivado, ours, scope="whole design", pairs=0):
+    row = {"repository": repository, "module": "m", "scope": scope, "vivado_lut": vivado, "vivado_ff": vivado, "vivado_bram": 0,
+           "lut": ours + pairs, "pairs": pairs, "through": 0, "memory": 0, "ff": ours, "bram": 0}
+    return counts.Module({name: str(value) for name, value in row.items()})
+
+
+class Counts(unittest.TestCase):
+    def test_a_common_factor_is_the_bias_and_no_error(self):
+        errors = counts.Errors("lut", counts.judged([module("a", 100, 150, pairs=20), module("b", 200, 300), module("c", 10, 15)]))
+        self.assertAlmostEqual(errors.bias, 1.5)
+        self.assertAlmostEqual(errors.mean, 0)
+        self.assertAlmostEqual(errors.left_out, 0)
+
+    def test_a_repository_has_one_vote_and_does_not_judge_itself(self):
+        errors = counts.Errors("ff", counts.judged([module("a", 100, 200), module("a", 100, 200), module("b", 100, 100), module("c", 100, 100)]))
+        self.assertAlmostEqual(errors.bias, 2 ** (1 / 3))
+        self.assertAlmostEqual(errors.left_out, (1 + 2 * (1 - 2 ** -0.5)) / 3)
+
+    def test_instances_of_a_design_are_judged_by_their_sum(self):
+        parts = counts.judged([module("a", 100, 50, "instance"), module("a", 50, 100, "instance"), module("b", 100, 100)])
+        self.assertEqual([(part.vivado["lut"], part.ours["lut"]) for part in parts], [(100, 100), (150, 150)])
+
+    def test_what_nobody_has_says_nothing(self):
+        with_memory = module("a", 1, 1)
+        with_memory.vivado["bram"] = with_memory.ours["bram"] = 2
+        errors = counts.Errors("bram", [with_memory, module("b", 1, 1)])
+        self.assertEqual((errors.repositories, errors.left_out), (1, None))
+
+    def test_the_document_has_the_tables(self):
+        self.assertEqual(run("--documented", MODULES, str(ROOT / "docs/rtl.md"), program=counts)[0], 0)
+        code, errors = run("--documented", MODULES, str(ROOT / "docs/traces.md"), program=counts)
         self.assertEqual(code, 1)
         self.assertIn("is old", errors)
 

@@ -226,4 +226,20 @@ BOOST_AUTO_TEST_CASE(what_verilator_refuses_is_told_when_it_is_configured) {
           {"there is no file", "missing_too.sv"});
 }
 
+BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {
+  const std::string folder = installed.beside("vhdl_source");
+  std::filesystem::create_directory(folder);
+  kit::write_file(folder + "/bad.vhd",
+                  "library ieee;\nuse ieee.std_logic_1164.all;\nentity bad is\n"
+                  "  port (clk : in std_logc);\nend;\narchitecture rtl of bad is\nbegin\nend;\n");
+  kit::write_file(folder + "/CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+                  "find_package(markervp REQUIRED COMPONENTS rtl)\n"
+                  "markervp_add_rtl(bad IP corner_detection TOP bad SOURCES bad.vhd)\n");
+  const kit::Outcome outcome = installed.configure(folder, "vhdl");
+  BOOST_TEST(outcome.exit_code != 0);
+  for (const char* part : {"bad.vhd:4", "std_logc", "GHDL cannot synthesise 'bad'", "mend"})
+    BOOST_TEST(contains(outcome.err, part), outcome.err);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

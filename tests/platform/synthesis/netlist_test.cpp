@@ -111,6 +111,29 @@ BOOST_AUTO_TEST_CASE(a_register_enters_a_carry_chain_through_a_lut_that_nobody_w
   BOOST_TEST(netlist.cells.lut_through == 2u);
 }
 
+// Three of one and two inputs go into one with their neighbours; that of six fills a LUT.
+BOOST_AUTO_TEST_CASE(lut_that_share_inputs_are_pairs) {
+  Module module;
+  module.flip_flop(30, 2);
+  module.add("LUT2", {{"I0", {2}}, {"I1", {3}}}, {{"O", {10}}});
+  module.add("LUT3", {{"I0", {3}}, {"I1", {4}}, {"I2", {5}}}, {{"O", {11}}});
+  module.add("LUT4", {{"I0", {2}}, {"I1", {3}}, {"I2", {4}}, {"I3", {5}}}, {{"O", {12}}});
+  module.add("LUT6", {{"I0", {2}}, {"I1", {3}}, {"I2", {4}}, {"I3", {5}}, {"I4", {6}}, {"I5", {7}}},
+             {{"O", {13}}});
+  module.add("LUT2", {{"I0", {8}}, {"I1", {9}}}, {{"O", {14}}});  // shares nothing
+  Cells cells = module.read().cells;
+  BOOST_TEST(cells.lut == 5u);
+  BOOST_TEST(cells.lut_pairs == 1u);
+  module.add("INV", {{"I", {2}}}, {{"O", {15}}});  // goes into the LUT: its input is 2
+  module.add("LUT2", {{"I0", {15}}, {"I1", {3}}}, {{"O", {16}}});
+  cells = module.read().cells;
+  BOOST_TEST(cells.lut_pairs == 2u);
+  Module wide;  // four inputs each, six together
+  wide.add("LUT4", {{"I0", {2}}, {"I1", {3}}, {"I2", {4}}, {"I3", {5}}}, {{"O", {10}}});
+  wide.add("LUT4", {{"I0", {4}}, {"I1", {5}}, {"I2", {6}}, {"I3", {7}}}, {{"O", {11}}});
+  BOOST_TEST(wide.read().cells.lut_pairs == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(sum_bits_depend_on_lower_bits_only) {
   Module module;
   module.flip_flop(20, 2);  // its own sum: S and O of bit 0
