@@ -13,6 +13,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// That of the thesis.
+const char* const camera =
+    "image_width: 640\nimage_height: 480\ncamera_name: thesis\n"
+    "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [381.36, 0, 319.5, 0, 381.36, 239.5, 0, 0, 1]\n"
+    "distortion_model: plumb_bob\n"
+    "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n";
+
 struct Rtl {
   std::string file(const std::string& ip) const {
     installed.build(installed / "share/markervp/platform/rtl", "my_rtl");
@@ -80,12 +87,6 @@ const std::string inputs =
     "input logic clk,\ninput logic ena,\ninput logic rst,\ninput logic [7:0] pixel,\n"
     "input logic [9:0] x,\ninput logic [8:0] y,\n";
 const std::string outputs = "output logic corner_out,\noutput logic [31:0] corner_data";
-/// The thesis' own.
-const char* const camera =
-    "image_width: 640\nimage_height: 480\ncamera_name: thesis\n"
-    "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [381.36, 0, 319.5, 0, 381.36, 239.5, 0, 0, 1]\n"
-    "distortion_model: plumb_bob\n"
-    "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n";
 const std::string nothing =
     "assign corner_out = &{1'b0, clk, ena, rst, pixel, x, y};\n"
     "assign corner_data = 0;";
