@@ -48,6 +48,9 @@ markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
+markervp_export(host COMPONENT models)
+markervp_export(device COMPONENT models ROOT platform)
+markervp_export(processing_system COMPONENT models ROOT platform)
 # For designs: headers only. The code is in the executable.
 add_library(markervp_design INTERFACE)
 target_link_libraries(markervp_design INTERFACE markervp_systemc markervp_eigen)
@@ -120,8 +123,9 @@ foreach(component programs models designs)
     FILE markervp_${component}.cmake)
 endforeach()
 set(MARKERVP_RTL_FOLDER "${data_folder}/rtl")
+set(MARKERVP_DEVICE_FOLDER "${CMAKE_INSTALL_LIBDIR}/markervp/devices")
 configure_package_config_file(cmake/markervpConfig.cmake.in "${PROJECT_BINARY_DIR}/package/markervpConfig.cmake"
-  INSTALL_DESTINATION "${package_folder}" PATH_VARS MARKERVP_RTL_FOLDER MARKERVP_PYTHON_FOLDER)
+  INSTALL_DESTINATION "${package_folder}" PATH_VARS MARKERVP_DEVICE_FOLDER MARKERVP_RTL_FOLDER MARKERVP_PYTHON_FOLDER)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/markervpConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(FILES

@@ -15,11 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path& first_folder() {
+  static fs::path folder;
+  return folder;
+}
+
 std::vector<Device> installed_devices() {
   std::vector<Device> all;
   std::string searched;
-  for (const std::string& library : host::library_folders()) {
-    const fs::path folder = fs::path(library) / "devices";
+  std::vector<fs::path> folders;
+  if (!first_folder().empty()) folders.push_back(first_folder());
+  for (const std::string& library : host::library_folders())
+    folders.push_back(fs::path(library) / "devices");
+  for (const fs::path& folder : folders) {
     if (searched.empty()) searched = folder.string();
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -38,6 +46,11 @@ std::vector<Device> installed_devices() {
 }
 
 }  // namespace
+
+bool look_in(const fs::path& folder) {
+  first_folder() = folder;
+  return true;
+}
 
 const char* to_string(Confidence confidence) {
   switch (confidence) {

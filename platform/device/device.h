@@ -78,6 +78,14 @@ const std::vector<FigureInfo>& figures();
 /// anything that is unknown, missing, of another type or out of range.
 std::vector<Device> read_devices(const std::filesystem::path& file);
 
+/// devices() looks in `folder` first. Before it is called for the first time. Returns true.
+bool look_in(const std::filesystem::path& folder);
+
+#ifdef MARKERVP_DEVICES
+/// Where the package has them, for an executable that stands elsewhere.
+inline const bool looks_in_package = look_in(MARKERVP_DEVICES);
+#endif
+
 /// All that are installed, by name. Throws vp::InputError as read_devices(), and if there are none.
 const std::vector<Device>& devices();
 

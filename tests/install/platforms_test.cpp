@@ -7,12 +7,13 @@ using namespace install_test;
 
 BOOST_AUTO_TEST_SUITE(platforms)
 
-BOOST_AUTO_TEST_CASE(a_dma_and_a_gpio_on_a_platform_of_their_own) {
+BOOST_AUTO_TEST_CASE(a_processing_system_with_logic_of_ones_own) {
   const Installation& installed = Installation::get();
   installed.build(installed / "share/markervp/platform", "platform");
   const kit::Outcome outcome = installed.run(installed.beside("platform/loopback"), {});
   BOOST_TEST(outcome.exit_code == 0);
-  BOOST_TEST(contains(outcome.out, "copied 1024 bytes in "), outcome.out);
+  BOOST_TEST(contains(outcome.out, "three packets of 1024 bytes out and back in "), outcome.out);
+  BOOST_TEST(contains(outcome.out, "256 words came to the sink\n"), outcome.out);
   BOOST_TEST(contains(outcome.out, "passed\n"), outcome.out);
   BOOST_TEST(!contains(outcome.err, "failed"), outcome.err);
 }

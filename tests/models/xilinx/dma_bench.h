@@ -19,7 +19,7 @@
 #include <xilinx/axi_dma/axi_dma.h>
 #include "bus_master.h"
 #include "memory_target.h"
-#include "stream_ends.h"
+#include <vp/stream_ends.h>
 
 namespace kit {
 
@@ -117,8 +117,8 @@ struct DmaBench : Simulation {
   MemoryTarget broken{"broken", 0x1000};
   MemoryTarget extra{"extra", 0x1000};  ///< behind the memory; answers SLVERR
   vp::AxiStream mm2s_link{"mm2s_link"}, s2mm_link{"s2mm_link"};
-  StreamSink sink{"sink", clock};
-  StreamSource source{"source", clock};
+  vp::StreamSink sink{"sink", clock};
+  vp::StreamSource source{"source", clock};
   BurstLog mm2s_bursts, s2mm_bursts, sg_bursts;
   std::ostringstream text;
   vp::ReportRouter reports;

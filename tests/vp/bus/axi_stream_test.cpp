@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include <simulation.h>
-#include <stream_ends.h>
+#include <vp/stream_ends.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
@@ -19,8 +19,8 @@ struct Bench : kit::Simulation {
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clock{"clock", scheduler, 100'000'000};
   vp::AxiStream link{"link"};
-  kit::StreamSource source{"source", clock};
-  kit::StreamSink sink{"sink", clock};
+  vp::StreamSource source{"source", clock};
+  vp::StreamSink sink{"sink", clock};
 };
 
 /// The same with the modules made in the other order: the scheduler has to break the ring
@@ -32,8 +32,8 @@ struct ReverseBench : kit::Simulation {
   }
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clock{"clock", scheduler, 100'000'000};
-  kit::StreamSink sink{"sink", clock};
-  kit::StreamSource source{"source", clock};
+  vp::StreamSink sink{"sink", clock};
+  vp::StreamSource source{"source", clock};
   vp::AxiStream link{"link"};
 };
 
@@ -86,8 +86,8 @@ BOOST_FIXTURE_TEST_CASE(a_sleeping_slave_still_counts_stalls, Bench) {
 }
 
 BOOST_FIXTURE_TEST_CASE(a_link_has_one_end_of_each_kind, Bench) {
-  kit::StreamSource other_source("other_source", clock);
-  kit::StreamSink other_sink("other_sink", clock);
+  vp::StreamSource other_source("other_source", clock);
+  vp::StreamSink other_sink("other_sink", clock);
   BOOST_CHECK_THROW(other_source.m_axis(link), std::logic_error);
   BOOST_CHECK_THROW(other_sink.s_axis(link), std::logic_error);
 }

@@ -8,20 +8,22 @@
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 
-namespace kit {
+namespace vp {
 
-/// Sends the beats it is given, one a clock.
-class StreamSource : public vp::Clocked {
+/// The master of a stream in a test bench: sends the beats it is given, one a clock.
+class StreamSource : public Clocked {
  public:
-  StreamSource(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {}
+  StreamSource(sc_core::sc_module_name name, Clock& clock) : Clocked(name, clock) {}
 
-  vp::AxiStreamMaster m_axis{"m_axis", *this};
-  unsigned sent = 0;
+  AxiStreamMaster m_axis{"m_axis", *this};
+  unsigned sent = 0;  ///< beats that passed
 
+  /// Queues a beat.
   void send(std::uint32_t data, bool last, std::uint8_t keep = 0xF) {
     queue_.push_back({data, last, keep});
     if (!awake()) wake();
   }
+  /// Forgets those that were not offered yet.
   void drop() { queue_.clear(); }
 
  private:
@@ -45,10 +47,11 @@ class StreamSource : public vp::Clocked {
   std::deque<Beat> queue_;
 };
 
-/// Takes beats and notes when.
-class StreamSink : public vp::Clocked {
+/// The slave of a stream in a test bench: takes beats, and keeps them with the cycle on which each
+/// passed.
+class StreamSink : public Clocked {
  public:
-  StreamSink(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {
+  StreamSink(sc_core::sc_module_name name, Clock& clock) : Clocked(name, clock) {
     wake_on(s_axis.tvalid);
   }
 
@@ -59,7 +62,7 @@ class StreamSink : public vp::Clocked {
     std::uint8_t keep;
   };
 
-  vp::AxiStreamSlave s_axis{"s_axis", *this};
+  AxiStreamSlave s_axis{"s_axis", *this};
   std::vector<Beat> beats;
   /// What tready becomes on an edge.
   std::function<bool(std::uint64_t)> ready_on = [](std::uint64_t) { return true; };
@@ -83,4 +86,4 @@ class StreamSink : public vp::Clocked {
   }
 };
 
-}  // namespace kit
+}  // namespace vp
