@@ -1,6 +1,7 @@
 #include <zynq/software_watch.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include <axi_dma_registers.h>
@@ -41,7 +42,7 @@ void CacheContract::Watch::direct(vp::MmLink&, tlm::tlm_command command, std::ui
   if (command == tlm::TLM_READ_COMMAND) {
     contract_.device_reads(address, bytes);
   } else {
-    contract_.mark(address, bytes, current | written);
+    contract_.device_wrote(address, bytes);
   }
 }
 
@@ -52,13 +53,19 @@ CacheContract::CacheContract(Zynq& zynq)
   }
   zynq.ps.cpu.on_cache_call(
       [this](ps::Cpu::CacheCall call, std::uintptr_t address, std::size_t bytes) {
-        mark(address, bytes, call == ps::Cpu::CacheCall::flush ? current : invalidated);
+        if (call == ps::Cpu::CacheCall::flush) {
+          flushed(address, bytes);
+        } else {
+          mark(address, bytes, invalidated);
+        }
       });
+  zynq.on_poke([this](std::uint32_t address) { placed(address, sizeof address); });
   check_transfers();
 }
 
 CacheContract::~CacheContract() {
   zynq_.ps.cpu.on_cache_call(nullptr);
+  zynq_.on_poke(nullptr);
   for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(nullptr);
 }
 
@@ -75,30 +82,80 @@ void CacheContract::check_transfers() {
   for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(check);
 }
 
-void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned marks) {
-  if (bytes == 0 || address < first_ || address >= end_) return;
+bool CacheContract::watches(std::uint64_t address, std::uint64_t bytes) const {
+  return bytes != 0 && address >= first_ && address < end_;
+}
+
+void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned marks,
+                         unsigned cleared) {
+  if (!watches(address, bytes)) return;
   const std::uint64_t from = (address - first_) / line;
   const std::uint64_t to = (std::min(address + bytes, end_) - 1 - first_) / line;
-  if (lines_.size() <= to) lines_.resize(to + 1);
+  if (lines_.size() <= to) {
+    lines_.resize(to + 1);
+    memory_.resize((to + 1) * line);
+  }
   const auto bits = static_cast<unsigned char>(marks);
+  const auto kept = static_cast<unsigned char>(~cleared);
   unsigned char* const lines = lines_.data();
-  for (std::uint64_t i = from; i <= to; ++i) lines[i] = static_cast<unsigned char>(lines[i] | bits);
+  for (std::uint64_t i = from; i <= to; ++i)
+    lines[i] = static_cast<unsigned char>((lines[i] & kept) | bits);
+}
+
+// Whole lines leave the cache.
+void CacheContract::flushed(std::uint64_t address, std::uint64_t bytes) {
+  if (!watches(address, bytes)) return;
+  mark(address, bytes, current, given);
+  const std::uint64_t from = address / line * line;
+  copy(from, (address + bytes + line - 1) / line * line - from);
+}
+
+void CacheContract::device_wrote(std::uint64_t address, std::uint64_t bytes) {
+  if (!watches(address, bytes)) return;
+  mark(address, bytes, current | written);
+  copy(address, bytes);
+}
+
+// From what the program sees to what lies behind the caches.
+void CacheContract::copy(std::uint64_t address, std::uint64_t bytes) {
+  bytes = std::min(address + bytes, end_) - address;
+  std::memcpy(memory_.data() + (address - first_),
+              zynq_.ps.ddr.at(static_cast<std::uint32_t>(address), bytes), bytes);
+}
+
+// The first address whose byte a device does not see as the program does.
+std::optional<std::uint64_t> CacheContract::first_stale(std::uint64_t address,
+                                                        std::uint64_t bytes) const {
+  const std::uint64_t end = std::min(address + bytes, end_);
+  for (std::uint64_t at = address; at < end;) {
+    const std::uint64_t number = (at - first_) / line;
+    const std::uint64_t next = std::min(end, first_ + (number + 1) * line);
+    const unsigned marks = number < lines_.size() ? lines_[number] : 0u;
+    if ((marks & current) == 0) return at;
+    if ((marks & given) == 0) {
+      const unsigned char* const seen = memory_.data() + (at - first_);
+      const unsigned char* const wrote = zynq_.ps.ddr.at(static_cast<std::uint32_t>(at), next - at);
+      const auto* const here = std::mismatch(seen, seen + (next - at), wrote).first;
+      if (here != seen + (next - at)) return at + static_cast<std::uint64_t>(here - seen);
+    }
+    at = next;
+  }
+  return std::nullopt;
 }
 
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
-  if (warned_of_read_ || bytes == 0 || address < first_ || address >= end_) return;
-  const std::uint64_t to = (std::min(address + bytes, end_) - 1 - first_) / line;
-  const std::uint64_t known = lines_.size();
-  const unsigned char* const lines = lines_.data();
-  for (std::uint64_t i = (address - first_) / line; i <= to; ++i) {
-    if (i < known && (lines[i] & current) != 0) continue;
-    warned_of_read_ = true;
-    vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_flushed",
-             "a DMA reads " + vp::hex(first_ + i * line) +
-                 ", which the program never flushed: it works here, and fails on the chip; call "
-                 "hal_cache_flush() before the transfer");
-    return;
-  }
+  if (warned_of_read_ || !watches(address, bytes)) return;
+  const std::optional<std::uint64_t> stale = first_stale(address, bytes);
+  if (!stale) return;
+  warned_of_read_ = true;
+  const std::uint64_t number = (*stale - first_) / line;
+  const bool once = number < lines_.size() && (lines_[number] & current) != 0;
+  vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_flushed",
+           "a DMA reads " + vp::hex(*stale) +
+               (once ? ", which the program wrote after it was flushed"
+                     : ", which the program never flushed") +
+               ": it works here, and fails on the chip; call hal_cache_flush() " +
+               (once ? "between the last write and the transfer" : "before the transfer"));
 }
 
 void CacheContract::published() {

@@ -98,7 +98,9 @@ std::optional<std::uint32_t> Zynq::peek(std::uint32_t address) {
 }
 
 bool Zynq::poke(std::uint32_t address, std::uint32_t word) {
-  return look(tlm::TLM_WRITE_COMMAND, address, word);
+  const bool answered = look(tlm::TLM_WRITE_COMMAND, address, word);
+  if (answered && poke_listener_) poke_listener_(address);
+  return answered;
 }
 
 std::string Zynq::device_at(std::uint32_t address) const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <systemc>
+#include <utility>
 
 #include <vp/clock_scheduler.h>
 #include <vp/parameter.h>
@@ -41,6 +43,10 @@ struct Zynq {
   std::optional<std::uint32_t> peek(std::uint32_t address);
   /// Puts a word there, without the effects of a write. False: nothing answers there.
   bool poke(std::uint32_t address, std::uint32_t word);
+  /// Told of each word that poke() put somewhere. Null: nobody is.
+  void on_poke(std::function<void(std::uint32_t address)> listener) {
+    poke_listener_ = std::move(listener);
+  }
 
   /// What the processor finds at an address; of several the nearest to the device. "" for nothing.
   std::string device_at(std::uint32_t address) const;
@@ -50,6 +56,7 @@ struct Zynq {
   bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
 
   std::unique_ptr<Design> design_;
+  std::function<void(std::uint32_t)> poke_listener_;
 };
 
 }  // namespace platform

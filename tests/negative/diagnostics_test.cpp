@@ -2,6 +2,8 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include <vp/text.h>
+
 #include "command_line.h"
 
 using namespace negative;
@@ -143,6 +145,35 @@ BOOST_AUTO_TEST_CASE(a_clock_that_the_chip_does_not_give) {
        {"FCLK_CLK1 is set to 500000000 Hz", "(250000000 Hz)", "[/markervp/slcr/fclk_too_fast] at ",
         "set_pl_clock", "called from clock_faster (", "careless.cpp:"}) {
     BOOST_TEST(contains(run(15).err, part), run(15).err);
+  }
+}
+
+// Eight mistakes in eight lines each: all are found, at the very byte, and nothing else is.
+BOOST_AUTO_TEST_CASE(flushes_that_are_missing_early_or_misplaced) {
+  const auto errors = [this](int mistake, unsigned line) {
+    const kit::Outcome outcome =
+        start({"run", "z1.0", "--no-pictures", "--no-report", "--program", MARKERVP_CACHES, "--set",
+               "ps.cpu.timeout=5 ms", "--set", "sw.mistake=" + std::to_string(mistake), "--set",
+               "sw.line=" + std::to_string(line)});
+    BOOST_TEST(outcome.exit_code == 0, outcome.err);
+    return outcome.err;
+  };
+  constexpr std::uint32_t buffer = 0x1004'B000;  // behind the image
+  constexpr int never = 8;
+  for (int mistake = 1; mistake <= never; ++mistake) {
+    for (const unsigned line : {0u, 1u, 3u, 4u, 15u, 16u, 30u, 31u}) {
+      const std::string err = errors(mistake, line);
+      const std::uint32_t byte = mistake == never ? 0 : 31;
+      const std::string what =
+          "a DMA reads " + vp::hex(buffer + 32 * line + byte) +
+          (mistake == never ? ", which the program never flushed"
+                            : ", which the program wrote after it was flushed");
+      BOOST_TEST(contains(err, what), "mistake " << mistake << ", line " << line << ": " << err);
+      BOOST_TEST(contains(err, "caches.cpp:"), err);
+    }
+  }
+  for (const int right : {0, 9, 10, 11}) {
+    for (const unsigned line : {0u, 15u, 31u}) BOOST_TEST(errors(right, line) == "");
   }
 }
 
