@@ -11,13 +11,6 @@ using namespace install_test;
 
 namespace {
 
-/// The thesis' own.
-const char* const camera =
-    "image_width: 640\nimage_height: 480\ncamera_name: thesis\n"
-    "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [381.36, 0, 319.5, 0, 381.36, 239.5, 0, 0, 1]\n"
-    "distortion_model: plumb_bob\n"
-    "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n";
-
 using Json = nlohmann::ordered_json;
 
 /// That of the thesis.
