@@ -13,6 +13,7 @@ The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a marker
 here: every figure comes from result.json or a sweep's files.
 """
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -77,17 +78,28 @@ class Sweep:
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
-        self.manifest = json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
-        texts = {*self._words, *self.manifest["swept"]}
-        with open(self.folder / "sweep.csv", newline="", encoding="utf-8") as file:
-            self.points = [{name: value if name in texts else float(value) if value else None
-                            for name, value in row.items()} for row in csv.DictReader(file)]
+        with open(self.folder / "points.csv", newline="", encoding="utf-8") as file:
+            self._texts = {*self._words, *next(csv.reader(file))}
+        self._count = self.sql("select count(*) from points")[0][0]
+
+    @functools.cached_property
+    def manifest(self):
+        """What manifest.json says of the sweep and its points, computed or not."""
+        return json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
+
+    @functools.cached_property
+    def points(self):
+        return list(self)
 
     def __len__(self):
-        return len(self.points)
+        return self._count
 
     def __iter__(self):
-        return iter(self.points)
+        """One point after another: a million of them do not fit into memory at once."""
+        with open(self.folder / "sweep.csv", newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                yield {name: value if name in self._texts else float(value) if value else None
+                       for name, value in row.items()}
 
     def __repr__(self):
         return f"markervp.read_sweep({str(self.folder)!r})"
@@ -102,7 +114,7 @@ class Sweep:
         _call(arguments)
         with open(self.folder / "pareto.csv", newline="", encoding="utf-8") as file:
             best = {row["key"] for row in csv.DictReader(file) if row["front"] == "1"}
-        return [point for point in self.points if point["key"] in best]
+        return [point for point in self if point["key"] in best]
 
     def frame(self):
         """The points as a pandas.DataFrame, by key."""

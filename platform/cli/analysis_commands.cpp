@@ -22,27 +22,26 @@ namespace platform::cli {
 
 namespace {
 
-/// The results of a sweep's folder, which must exist.
-sweep::Results results_of(const std::string& folder, std::ostream& err) {
+/// The results of a sweep's folder, which must exist, with the figures that are asked for.
+sweep::Results results_of(const std::string& folder, const std::vector<vp::Expression>& figures,
+                          std::ostream& err) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
     throw vp::InputError("there is no folder '" + folder + "': run a sweep first");
   if (!std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored))
     throw vp::InputError("'" + folder + "' is no folder of a sweep: it has no manifest.json");
   const sweep::Store store(folder);
-  sweep::Results results = sweep::read_results(store, store.read_manifest());
+  sweep::Results results =
+      sweep::read_results(std::make_shared<sweep::RunLogs>(store), store.read_manifest(), figures);
   if (results.missing != 0)
     err << "markervp: warning: " << report::counted(results.missing, "point") << " not computed yet"
         << std::endl;
   return results;
 }
 
-/// Those that were asked for, else the study's.
-std::vector<sweep::Objective> objectives_of(const std::vector<std::string>& asked,
-                                            const sweep::Results& results) {
-  std::vector<sweep::Objective> objectives;
-  for (const std::string& text : asked) objectives.emplace_back(text, "--objective");
-  if (asked.empty()) objectives = sweep::objectives_of(results);
+/// The study's objectives that some point has a value of.
+std::vector<sweep::Objective> known_objectives(const sweep::Results& results) {
+  std::vector<sweep::Objective> objectives = sweep::objectives_of(results);
   if (objectives.empty() && results.failed() != results.rows.size())
     throw vp::InputError(
         "no point has a value of the study's objectives (" +
@@ -62,10 +61,19 @@ int list_metrics(const MetricsOptions& options, std::ostream& out) {
 }
 
 int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err) {
-  sweep::Results results = results_of(options.folder, err);
+  std::vector<sweep::Objective> objectives;
+  std::vector<vp::Expression> constraints, figures;
   for (const std::string& text : options.constraints)
-    results.constraints.emplace_back(text, "--constraint");
-  const std::vector<sweep::Objective> objectives = objectives_of(options.objectives, results);
+    constraints.emplace_back(text, "--constraint");
+  figures = constraints;
+  for (const std::string& text : options.objectives) {
+    objectives.emplace_back(text, "--objective");
+    figures.push_back(objectives.back().figure());
+  }
+  sweep::Results results = results_of(options.folder, figures, err);
+  for (vp::Expression& constraint : constraints)
+    results.constraints.push_back(std::move(constraint));
+  if (objectives.empty()) objectives = known_objectives(results);
   for (const sweep::Objective& objective : objectives)
     sweep::check_names(results, objective.figure());
   for (const vp::Expression& constraint : results.constraints)
@@ -78,7 +86,7 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   const std::string csv = (folder / "pareto.csv").string();
   const std::string svg = (folder / "pareto.svg").string();
   std::string wrote = csv;
-  vp::write_file_durably(csv, sweep::pareto_csv(results, objectives, pareto));
+  sweep::write_pareto_csv(csv, results, objectives, pareto);
   const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
   if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
   if (!problem) wrote += ", " + svg;
@@ -96,11 +104,11 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
         "sensitivity: name the folder of a sweep, or one of its points with --at "
         "out/NAME/points/KEY.json");
   if (options.at) return find_step_effects(options, out, err);
-  const sweep::Results results = results_of(options.folder, err);
   std::vector<vp::Expression> figures;
   for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
+  const sweep::Results results = results_of(options.folder, figures, err);
   if (figures.empty()) {
-    for (const sweep::Objective& objective : objectives_of({}, results))
+    for (const sweep::Objective& objective : known_objectives(results))
       figures.push_back(objective.figure());
   }
   std::string csv;
@@ -145,7 +153,9 @@ int make_report(const ReportOptions& options, std::ostream& out) {
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored)) {
       const sweep::Store store(folder);
-      sweep::write_page(sweep::read_results(store, store.read_manifest()), folder);
+      sweep::write_page(sweep::read_results(std::make_shared<sweep::RunLogs>(store),
+                                            store.read_manifest(), sweep::page_figures()),
+                        folder);
     } else {
       page::write_report(folder);
     }

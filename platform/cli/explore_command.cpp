@@ -49,6 +49,7 @@ class Generations {
               std::ostream& err)
       : options_(options),
         store_(store),
+        logs_(store),
         space_(space),
         err_(err),
         bar_(space.manifest().name, space.spec().search.points) {}
@@ -56,16 +57,18 @@ class Generations {
   std::map<std::size_t, sweep::Outcome> compute(const std::vector<std::size_t>& positions) {
     const sweep::Manifest& manifest = space_.manifest();
     if (positions.empty() || host::InterruptGuard::noted()) return {};
-    Before before =
-        look_for_results(store_, manifest, positions.front(), options_.retry_failed, err_);
-    before_ += before.outcomes.size();
+    const std::vector<std::size_t> pending =
+        pending_points(store_, logs_, manifest, positions.front(), options_.retry_failed, err_);
+    before_ += positions.size() - pending.size();
     keep_manifest();
     const auto progress = [&](std::uint64_t points) { bar_.update(positions.front() + points); };
-    sweep::Tally tally = cli::compute(options_, store_, manifest, before.pending, progress, err_);
-    computed_ += tally.computed;
-    std::map<std::size_t, sweep::Outcome> outcomes = std::move(before.outcomes);
-    outcomes.merge(tally.outcomes);
-    for (const std::size_t position : positions) add_told_elsewhere(position, outcomes);
+    computed_ += cli::compute(options_, store_, manifest, pending, progress, err_).computed;
+    logs_.refresh();
+    std::map<std::size_t, sweep::Outcome> outcomes;
+    for (const std::size_t position : positions) {
+      if (auto outcome = logs_.outcome(manifest.points[position].key))
+        outcomes.emplace(position, *std::move(outcome));
+    }
     return outcomes;
   }
 
@@ -79,13 +82,6 @@ class Generations {
   std::uint64_t before() const { return before_; }
 
  private:
-  /// What other nodes compute tell their files.
-  void add_told_elsewhere(std::size_t position, std::map<std::size_t, sweep::Outcome>& outcomes) {
-    const std::string& key = space_.manifest().points[position].key;
-    if (outcomes.count(position) == 0 && store_.has(key))
-      outcomes.emplace(position, sweep::outcome_of(store_.read(key, false)));
-  }
-
   /// Nodes of a cluster read it; here it says what stands in the folder, if the process is killed.
   void keep_manifest() {
     const HostClock::time_point now = HostClock::now();
@@ -96,6 +92,7 @@ class Generations {
 
   const ExploreOptions& options_;
   sweep::Store& store_;
+  sweep::RunLogs logs_;
   sweep::Space& space_;
   std::ostream& err_;
   vp::Progress bar_;
@@ -106,9 +103,8 @@ class Generations {
 /// What the search did, as the text of its results.
 std::string search_text(const explore::Explorer& explorer, explore::End end) {
   const explore::Front& front = explorer.front();
-  std::string text = "The search looked at " +
-                     std::to_string(explorer.results().rows.size()) + " of " +
-                     size_text(explorer.space()) + " and ended: " + to_string(end) + ".";
+  std::string text = "The search looked at " + std::to_string(explorer.results().rows.size()) +
+                     " of " + size_text(explorer.space()) + " and ended: " + to_string(end) + ".";
   if (front.size() != 0) {
     text += " Its front has " + report::counted(front.size(), "point") +
             (explorer.goal().objectives.size() < 2
@@ -153,7 +149,9 @@ int explore_points(const ExploreOptions& options, std::ostream& out, std::ostrea
   generations.reset();  // and its bar
   sweep::Results results = explorer.results();
   results.manifest = space.manifest();
-  write_results(options, store, results, computed, before, out);
+  sweep::RunLogs logs(store);
+  logs.complete(space.manifest());
+  write_results(options, store, logs, results, computed, before, out);
   if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted: the same command goes on" << std::endl;
     return interrupted;

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <ostream>
 #include <utility>
 
@@ -41,29 +41,26 @@ sweep::Spec spec_of(const sweep::Manifest& manifest) {
   return spec;
 }
 
-/// The points of the space's manifest, computed where they are not there.
-sweep::Results computed(sweep::Store& store, const sweep::Manifest& manifest, std::ostream& err) {
-  const host::InterruptGuard guard;
-  const Before before = look_for_results(store, manifest, 0, false, err);
-  vp::Progress bar("steps", before.pending.size());
-  const sweep::Tally tally = compute(
-      {}, store, manifest, before.pending, [&](std::uint64_t points) { bar.update(points); }, err);
-  std::map<std::size_t, sweep::Outcome> known = before.outcomes;
-  known.insert(tally.outcomes.begin(), tally.outcomes.end());
-  return sweep::read_results(store, manifest, known);
-}
-
-std::vector<vp::Expression> figures_of(const SensitivityOptions& options,
-                                       const sweep::Results& results) {
+std::vector<vp::Expression> figures_of(const SensitivityOptions& options) {
   std::vector<vp::Expression> figures;
-  for (const std::string& text : options.figures) {
-    figures.emplace_back(text, "--figure");
-    sweep::check_names(results, figures.back());
-  }
+  for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
   if (options.figures.empty()) {
     for (const char* name : usual_figures) figures.emplace_back(name, name);
   }
   return figures;
+}
+
+/// The points of a manifest, computed where they are not there.
+sweep::Results computed(sweep::Store& store, const std::shared_ptr<sweep::RunLogs>& logs,
+                        const sweep::Manifest& manifest, const std::vector<vp::Expression>& figures,
+                        std::ostream& err) {
+  const host::InterruptGuard guard;
+  const std::vector<std::size_t> pending = pending_points(store, *logs, manifest, 0, false, err);
+  vp::Progress bar("steps", pending.size());
+  compute(
+      {}, store, manifest, pending, [&](std::uint64_t points) { bar.update(points); }, err);
+  logs->complete(manifest);
+  return sweep::read_results(logs, sweep::Manifest(manifest), figures);
 }
 
 }  // namespace
@@ -73,7 +70,7 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
   sweep::read_point(*options.at);  // says what is wrong with the file
   sweep::Store store(folder.empty() ? "." : folder.string());
   store.lock();
-  const sweep::Manifest manifest = store.read_manifest();
+  sweep::Manifest manifest = store.read_manifest();
   const sweep::Assignment at = point_in(manifest, *options.at);
   const sweep::Platform platform = sweep_platform();
   sweep::Space space(spec_of(manifest), platform);
@@ -81,18 +78,23 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
   space.manifest().points.push_back(space.point(at));
   for (const explore::Step& step : steps)
     space.manifest().points.push_back(space.point(step.point));
-  const sweep::Results results = computed(store, space.manifest(), err);
+  const auto logs = std::make_shared<sweep::RunLogs>(store);
+  const std::vector<vp::Expression> figures = figures_of(options);
+  const sweep::Results results = computed(store, logs, space.manifest(), figures, err);
   if (results.missing != 0) {
     err << "markervp: interrupted: the same command goes on" << std::endl;
     return interrupted;
   }
-  const explore::StepEffects effects =
-      explore::effects_of(steps, results, figures_of(options, results));
+  if (!options.figures.empty()) {
+    for (const vp::Expression& figure : figures) sweep::check_names(results, figure);
+  }
+  const explore::StepEffects effects = explore::effects_of(steps, results, figures);
   out << explore::effects_table(effects) << "\n";
   const std::string csv = store.path("steps.csv");
   vp::write_file_durably(csv, explore::effects_csv(effects));
-  const bool page = sweep::write_page(sweep::read_results(store, manifest), store.folder(),
-                                      explore::effects_json(effects, results.rows.front().key));
+  const bool page =
+      sweep::write_page(sweep::read_results(logs, std::move(manifest), sweep::page_figures()),
+                        store.folder(), explore::effects_json(effects, results.rows.front().key));
   out << "wrote " << csv << (page ? ", report.html" : "") << std::endl;
   return done;
 }

@@ -63,10 +63,8 @@ void show_points(const sweep::Manifest& manifest, std::ostream& out) {
   for (std::size_t i = 0; i < std::min(shown_points, manifest.points.size()); ++i) {
     std::vector<std::string> row;
     for (const std::string& path : manifest.swept) {
-      const auto& swept = manifest.points[i].swept;
-      const auto found = std::find_if(swept.begin(), swept.end(),
-                                      [&](const auto& value) { return value.first == path; });
-      row.push_back(found == swept.end() ? "-" : found->second);
+      const std::string* value = find(manifest.points[i].swept, path);
+      row.push_back(value == nullptr ? "-" : *value);
     }
     row.push_back(manifest.points[i].key);
     table.add(row);
@@ -125,13 +123,12 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
         << version << ") stay as they are and count for nothing here" << std::endl;
 }
 
-/// The point's result if it has one that counts. One that does not goes.
-std::optional<sweep::Outcome> outcome_before(const sweep::Store& store, const std::string& key,
-                                             bool retry_failed, std::ostream& err) {
+/// What there is of a point that no log knows. A file that is not whole goes.
+std::optional<sweep::Outcome> outcome_of_file(const sweep::Store& store, const std::string& key,
+                                              std::ostream& err) {
   if (!store.has(key)) return std::nullopt;
   try {
-    sweep::Outcome outcome = sweep::outcome_of(store.read(key));
-    if (!outcome.failed || !retry_failed) return outcome;
+    return sweep::outcome_of(store.read(key));
   } catch (const sweep::HalfPoint&) {
     err << "markervp: warning: '" << store.point_path(key)
         << "' is not whole, as a power failure leaves it: the point is computed again" << std::endl;
@@ -143,21 +140,24 @@ std::optional<sweep::Outcome> outcome_before(const sweep::Store& store, const st
 
 }  // namespace
 
-Before look_for_results(const sweep::Store& store, const sweep::Manifest& manifest,
-                        std::size_t first, bool retry_failed, std::ostream& err) {
-  Before before;
-  sweep::Metrics names;
+std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLogs& logs,
+                                        const sweep::Manifest& manifest, std::size_t first,
+                                        bool retry_failed, std::ostream& err) {
+  sweep::RunLog log(store);
+  std::vector<std::size_t> pending;
   for (std::size_t i = first; i < manifest.points.size(); ++i) {
-    auto outcome = outcome_before(store, manifest.points[i].key, retry_failed, err);
-    if (!outcome) {
-      before.pending.push_back(i);
-      continue;
+    const std::string& key = manifest.points[i].key;
+    std::optional<sweep::Outcome> outcome = logs.logged(key);
+    if (!outcome && (outcome = outcome_of_file(store, key, err))) log.add_untold(key, *outcome);
+    if (outcome && outcome->failed && retry_failed) {
+      std::error_code ignored;
+      fs::remove(store.point_path(key), ignored);
+      outcome.reset();
     }
-    outcome->metrics.share_names(names);
-    names = outcome->metrics;
-    before.outcomes.emplace(i, *std::move(outcome));
+    if (!outcome) pending.push_back(i);
   }
-  return before;
+  logs.refresh();
+  return pending;
 }
 
 namespace {
@@ -192,11 +192,10 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
 }
 
 void write_results(const SweepOptions& options, const sweep::Store& store,
-                   const sweep::Results& results, std::uint64_t computed, std::uint64_t before,
-                   std::ostream& out) {
-  vp::write_file_durably(store.path("sweep.csv"), sweep::results_csv(results));
-  sweep::write_database(store.path("sweep.sqlite"), results,
-                        sweep::complete_runs(store, results.manifest));
+                   const sweep::RunLogs& logs, const sweep::Results& results,
+                   std::uint64_t computed, std::uint64_t before, std::ostream& out) {
+  sweep::write_csv(store.path("sweep.csv"), results);
+  sweep::write_database(store.path("sweep.sqlite"), results, logs);
   const bool page = !options.no_report && sweep::write_page(results, store.folder());
   out << sweep::sweep_text(results) << "\n"
       << report::counted(results.rows.size(), "point") << ": " << computed << " computed now, "
@@ -221,19 +220,20 @@ int code_of_failures(const SweepOptions& options, const sweep::Results& results,
 namespace {
 
 int conclude(const SweepOptions& options, const sweep::Store& store,
-             const sweep::Manifest& manifest, Before&& before, sweep::Tally&& tally,
-             std::ostream& out, std::ostream& err) {
-  std::map<std::size_t, sweep::Outcome> known = std::move(before.outcomes);
-  known.merge(tally.outcomes);
-  const sweep::Results results = sweep::read_results(store, manifest, known);
-  write_results(options, store, results, tally.computed,
-                manifest.points.size() - before.pending.size(), out);
+             std::shared_ptr<sweep::RunLogs> logs, sweep::Manifest&& manifest,
+             const sweep::Tally& tally, std::uint64_t before, std::ostream& out,
+             std::ostream& err) {
+  const std::size_t points = manifest.points.size();
+  logs->complete(manifest);
+  const sweep::Results results =
+      sweep::read_results(logs, std::move(manifest), sweep::page_figures());
+  write_results(options, store, *logs, results, tally.computed, before, out);
   if (results.failed() != results.rows.size())
-    warn(sweep::missing_figures(manifest, results.metric_names()), err);
+    warn(sweep::missing_figures(results.manifest, results.metric_names()), err);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
-        << report::counted(manifest.points.size(), "point")
-        << " are missing; the same command goes on" << std::endl;
+        << report::counted(points, "point") << " are missing; the same command goes on"
+        << std::endl;
     return interrupted;
   }
   return code_of_failures(options, results, err);
@@ -257,16 +257,19 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
     throw vp::InputError("sweep: name a YAML file, or a study that 'markervp sweep --list' shows");
   const sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
   const sweep::Platform platform = sweep_platform();
-  const sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
+  sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
   if (options.dry_run) return dry_run(options, manifest, platform, out);
   try {
     sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();
-    Before before = look_for_results(store, manifest, 0, options.retry_failed, err);
+    const auto logs = std::make_shared<sweep::RunLogs>(store);
+    const std::vector<std::size_t> pending =
+        pending_points(store, *logs, manifest, 0, options.retry_failed, err);
     mention_others(store, manifest, err);
     store.write_manifest(manifest);
-    sweep::Tally tally = compute_all(options, store, manifest, before.pending, err);
-    return conclude(options, store, manifest, std::move(before), std::move(tally), out, err);
+    const sweep::Tally tally = compute_all(options, store, manifest, pending, err);
+    const std::size_t before = manifest.points.size() - pending.size();
+    return conclude(options, store, logs, std::move(manifest), tally, before, out, err);
   } catch (const vp::OutputError& error) {
     throw vp::OutputError(std::string(error.what()) +
                           "; what was computed is kept: run the sweep again");

@@ -179,7 +179,7 @@ bool Explorer::take(const Genome& genome, const Goal& goal) {
   const sweep::Assignment found = assignment(genome);
   if (broken_conditions(found, goal) > 0) return false;
   std::string name;
-  for (const auto& [path, value] : found) name += value + '\n';
+  for (const auto& [path, value] : found) name += value.text() + '\n';
   if (!offered_.insert(name).second) return false;
   sweep::PlannedPoint point = space_.point(found);
   // Different values may be the same point: clocks are those that a chip has.

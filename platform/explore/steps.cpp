@@ -12,13 +12,6 @@ namespace platform::explore {
 
 namespace {
 
-const std::string* find(const sweep::Assignment& point, const std::string& path) {
-  for (const auto& [name, value] : point) {
-    if (name == path) return &value;
-  }
-  return nullptr;
-}
-
 /// The values of a group one step away from the point's.
 std::vector<sweep::Assignment> neighbours(const sweep::AxisGroup& group,
                                           const sweep::Assignment& at) {
@@ -59,10 +52,10 @@ Step step_to(const sweep::Assignment& at, const sweep::Assignment& values) {
   step.point = at;
   std::vector<std::string> paths, from, to;
   for (const auto& [path, value] : values) {
-    paths.push_back(path);
-    to.push_back(value);
+    paths.push_back(path.text());
+    to.push_back(value.text());
     for (auto& [name, now] : step.point) {
-      if (name == path) from.push_back(std::exchange(now, value));
+      if (name == path) from.push_back(std::exchange(now, value).text());
     }
   }
   step.path = vp::join(paths, "+");

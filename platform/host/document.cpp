@@ -20,7 +20,7 @@ namespace {
 
 }  // namespace
 
-void check_json_size(std::string_view text, const std::string& what) {
+void check_json_size(std::string_view text, const std::string& what, std::size_t most_values) {
   std::size_t depth = 0, values = 1;
   bool in_text = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -42,7 +42,7 @@ void check_json_size(std::string_view text, const std::string& what) {
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }
-    if (values > most_json_values)
+    if (values > most_values)
       fail(text, i, what, "more than 20 million values: compute fewer frames or points at a time");
   }
 }

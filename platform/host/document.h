@@ -26,20 +26,23 @@ constexpr std::size_t deepest_json = 64;
 constexpr std::size_t most_json_values = 20'000'000;
 
 /// Throws vp::InputError "what, line 3, column 7: …" where lists and objects go deeper than
-/// `deepest_json`, or values are more than `most_json_values`. nlohmann's trees are copied and
+/// `deepest_json`, or values are more than `most_values`. nlohmann's trees are copied and
 /// written recursively, and end the program if memory runs out while they are taken down.
-void check_json_size(std::string_view text, const std::string& what);
+void check_json_size(std::string_view text, const std::string& what,
+                     std::size_t most_values = most_json_values);
 
 /// Throws vp::InputError "what, line 3, column 7: this is not JSON …"; `byte` counts from 1.
 [[noreturn]] void fail_no_json(std::string_view text, std::size_t byte, const std::string& what);
 
 /// The tree of a text that anybody may have written; `what` names it in messages: "result 'x'".
-/// Throws vp::InputError.
+/// `keep` may take values out of the tree as they are read (nlohmann's parser_callback_t); then
+/// there may be any number of them. Throws vp::InputError.
 template <class Json = nlohmann::json>
-Json parse_json(std::string_view text, const std::string& what) {
-  check_json_size(text, what);
+Json parse_json(std::string_view text, const std::string& what,
+                const typename Json::parser_callback_t& keep = nullptr) {
+  check_json_size(text, what, keep ? text.size() : most_json_values);
   try {
-    return Json::parse(text);
+    return Json::parse(text, keep);
   } catch (const typename Json::parse_error& error) {
     fail_no_json(text, error.byte, what);
   } catch (const typename Json::out_of_range&) {

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <vp/file.h>
 
@@ -19,22 +22,48 @@ namespace {
 
 constexpr const char* tables = R"(
 CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE points(key TEXT PRIMARY KEY, position INTEGER UNIQUE, status TEXT, exit_code INTEGER,
-                    signal INTEGER, message TEXT, program TEXT, inputs TEXT, feasible TEXT);
-CREATE TABLE parameters(key TEXT REFERENCES points, path TEXT, value TEXT, number REAL,
+CREATE TABLE points(key TEXT UNIQUE, position INTEGER PRIMARY KEY, status TEXT, exit_code INTEGER,
+                    signal INTEGER, message TEXT, program TEXT, inputs TEXT, feasible TEXT,
+                    has_metrics INTEGER);
+CREATE TABLE parameters(key TEXT REFERENCES points(key), path TEXT, value TEXT, number REAL,
                         PRIMARY KEY(key, path)) WITHOUT ROWID;
 CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE metric_names(id INTEGER PRIMARY KEY, name TEXT UNIQUE);
-CREATE TABLE metric_values(position INTEGER REFERENCES points(position),
-                           metric INTEGER REFERENCES metric_names, value REAL);
-CREATE VIEW metrics AS SELECT key, name, value FROM metric_values
-  JOIN metric_names ON metric_names.id = metric JOIN points USING(position);
-CREATE TABLE runs(key TEXT REFERENCES points, engine TEXT, host TEXT, date TEXT, attempt INTEGER,
-                  wall_s REAL, cpu_s REAL);
+CREATE TABLE metric_names(id INTEGER PRIMARY KEY, name TEXT UNIQUE, value REAL);
+CREATE TABLE runs(key TEXT REFERENCES points(key), engine TEXT, host TEXT, date TEXT,
+                  attempt INTEGER, wall_s REAL, cpu_s REAL);
 )";
 
-/// Metrics that go into their table with one statement.
-constexpr int rows_together = 16;
+/// Values of a row of metric_values: a row for each would take ten times as long, and four times
+/// the room.
+constexpr std::size_t row_values = 16;
+
+/// "v0", …
+std::string value_column(std::size_t i) {
+  return "v" + std::to_string(i);
+}
+
+/// The metrics that differ, and the view of them all.
+std::string metric_tables() {
+  std::string columns, choice;
+  for (std::size_t i = 0; i < row_values; ++i) {
+    columns += ", " + value_column(i) + " REAL";
+    choice += " WHEN " + std::to_string(i) + " THEN " + value_column(i);
+  }
+  const std::string values = std::to_string(row_values);
+  return "CREATE TABLE metric_values(position INTEGER REFERENCES points, part INTEGER" + columns +
+         ", PRIMARY KEY(position, part)) WITHOUT ROWID;"
+         "CREATE VIEW metrics AS"
+         " SELECT key, name, value FROM metric_names JOIN points"
+         " WHERE value IS NOT NULL AND has_metrics"
+         " UNION ALL SELECT key, name, number FROM"
+         " (SELECT position, name, CASE id % " +
+         values + choice +
+         " END AS number FROM metric_names"
+         " JOIN metric_values ON part = id / " +
+         values +
+         " WHERE metric_names.value IS NULL)"
+         " JOIN points USING(position) WHERE number IS NOT NULL;";
+}
 
 class Database {
  public:
@@ -68,17 +97,14 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// INSERT with the values of a row, or of some rows together: that costs less for each.
+/// INSERT with the values of a row.
 class Insert {
  public:
-  /// Texts of rows that go together must live as long as it takes to give all of them.
-  Insert(const Database& database, const std::string& table, int columns, int rows = 1)
-      : database_(database), places_(columns * rows) {
-    std::string row = "(?";
-    for (int i = 1; i < columns; ++i) row += ",?";
-    row += ")";
-    std::string sql = "INSERT INTO " + table + " VALUES" + row;
-    for (int i = 1; i < rows; ++i) sql += "," + row;
+  Insert(const Database& database, const std::string& table, std::size_t columns)
+      : database_(database) {
+    std::string sql = "INSERT INTO " + table + " VALUES(?";
+    for (std::size_t i = 1; i < columns; ++i) sql += ",?";
+    sql += ")";
     sqlite3_stmt* statement = nullptr;
     database_.check(sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr));
     statement_.reset(statement);
@@ -86,8 +112,16 @@ class Insert {
 
   template <class... Values>
   void row(const Values&... values) {
-    (bind(++bound_, values), ...);
-    if (bound_ < places_) return;
+    (add(values), ...);
+    end_row();
+  }
+
+  /// A row value by value.
+  template <class Value>
+  void add(const Value& value) {
+    bind(++bound_, value);
+  }
+  void end_row() {
     bound_ = 0;
     database_.check(sqlite3_step(statement_.get()));
     database_.check(sqlite3_reset(statement_.get()));
@@ -116,32 +150,54 @@ class Insert {
   }
 
   const Database& database_;
-  int places_;     ///< for values
-  int bound_ = 0;  ///< of them
+  int bound_ = 0;  ///< values of the row
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
 /// Parameters that do not have one value everywhere, and those that are swept.
-std::set<std::string> varying(const Results& results) {
-  std::set<std::string> paths(results.manifest.swept.begin(), results.manifest.swept.end());
-  if (results.rows.empty()) return paths;
-  const ResultRow& first = results.rows.front();
-  for (const ResultRow& row : results.rows) {
-    const auto compare = [&](const std::map<std::string, std::string>& candidates) {
-      for (const auto& [path, unused] : candidates) {
+class Varying {
+ public:
+  explicit Varying(const Results& results)
+      : paths_(results.manifest.swept.begin(), results.manifest.swept.end()) {
+    for (const ResultRow& row : results.rows) compare(row, results.rows.front());
+  }
+
+  std::set<std::string> take() { return std::move(paths_); }
+
+ private:
+  using Values = std::map<std::string, std::string>;
+
+  void compare(const ResultRow& row, const ResultRow& first) {
+    for (const Assignment* changes : {&row.changes, &first.changes}) {
+      for (const auto& [path, unused] : *changes) {
         const std::string* here = row.parameter(path);
         const std::string* there = first.parameter(path);
-        if (!here || !there || *here != *there) paths.insert(path);
+        if (!here || !there || *here != *there) paths_.insert(path);
       }
-    };
-    compare(row.changes);
-    compare(first.changes);
-    if (row.base == first.base) continue;
-    compare(*row.base);
-    compare(*first.base);
+    }
+    if (row.base == first.base) return;
+    for (const std::string& path : differences(*row.base, first)) {
+      if (find(row.changes, path) == nullptr) paths_.insert(path);
+    }
   }
-  return paths;
-}
+
+  /// Found once for all points of a family.
+  const std::vector<std::string>& differences(const Values& base, const ResultRow& first) {
+    const auto [known, is_new] = differences_.try_emplace(&base);
+    if (!is_new) return known->second;
+    for (const auto& [path, value] : base) {
+      const std::string* there = first.parameter(path);
+      if (!there || *there != value) known->second.push_back(path);
+    }
+    for (const auto& [path, unused] : *first.base) {
+      if (base.count(path) == 0) known->second.push_back(path);
+    }
+    return known->second;
+  }
+
+  std::set<std::string> paths_;
+  std::map<const Values*, std::vector<std::string>> differences_;
+};
 
 /// In the order of the tables' keys: a table then grows at its end only.
 std::vector<std::size_t> by_key(const Results& results) {
@@ -153,20 +209,30 @@ std::vector<std::size_t> by_key(const Results& results) {
   return order;
 }
 
+/// A parameter's value in base units, if it has some; found once for each text.
+class Numbers {
+ public:
+  std::optional<double> of(const std::string& path, const std::string& text) {
+    const auto [known, is_new] = numbers_.try_emplace({path, text});
+    if (!is_new) return known->second;
+    const ParameterKind kind = kind_of({path, text, text, "", {}, ""});
+    if (kind.kind == ParameterKind::Kind::quantity) known->second = number_of(kind, text);
+    return known->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::optional<double>> numbers_;
+};
+
 void add_parameters(const Database& database, const Results& results) {
-  const std::set<std::string> differing = varying(results);
+  const std::set<std::string> differing = Varying(results).take();
   Insert parameters(database, "parameters", 4);
+  Numbers numbers;
   for (const std::size_t position : by_key(results)) {
     const ResultRow& row = results.rows[position];
     for (const std::string& path : differing) {
       const std::string text = row.value(path);
-      if (text.empty()) continue;
-      const ParameterKind kind = kind_of({path, text, text, "", {}, ""});
-      if (kind.kind == ParameterKind::Kind::quantity) {
-        parameters.row(row.key, path, text, number_of(kind, text));
-      } else {
-        parameters.row(row.key, path, text, nullptr);
-      }
+      if (!text.empty()) parameters.row(row.key, path, text, numbers.of(path, text));
     }
   }
   Insert constants(database, "constants", 2);
@@ -177,63 +243,135 @@ void add_parameters(const Database& database, const Results& results) {
   }
 }
 
-void add_points(const Database& database, const Results& results) {
-  Insert points(database, "points", 9);
-  for (const std::size_t position : by_key(results)) {
+/// `measured` says which points have metrics.
+void add_points(const Database& database, const Results& results,
+                const std::vector<bool>& measured) {
+  Insert points(database, "points", 10);
+  for (std::size_t position = 0; position < results.rows.size(); ++position) {
     const ResultRow& row = results.rows[position];
-    const std::string status = row.failed ? "failed" : "done";
-    points.row(row.key, static_cast<std::int64_t>(position), status,
-               std::int64_t{row.failed ? row.failure.exit_code : 0},
-               std::int64_t{row.failure.signal}, row.failure.message, row.program, row.inputs,
-               std::string(to_string(results.feasible(row))));
+    points.row(
+        row.key, static_cast<std::int64_t>(position), std::string(row.failed ? "failed" : "done"),
+        std::int64_t{row.failed ? row.failure.exit_code : 0}, std::int64_t{row.failure.signal},
+        row.failure.message, row.program.text(), row.inputs.text(),
+        std::string(to_string(results.feasible(row))), std::int64_t{measured[position] ? 1 : 0});
   }
 }
 
-void add_metrics(const Database& database, const Results& results) {
-  const std::vector<std::string> names = results.metric_names();
-  Insert ids(database, "metric_names", 2);
-  for (std::size_t id = 0; id < names.size(); ++id)
-    ids.row(static_cast<std::int64_t>(id), names[id]);
-  Insert one(database, "metric_values", 3);
-  Insert some(database, "metric_values", 3, rows_together);
-  for (std::size_t position = 0; position < results.rows.size(); ++position) {
-    const Metrics& metrics = results.rows[position].metrics;
-    // Both are sorted.
-    auto id = names.begin();
-    const std::size_t count = metrics.names().size();
-    for (std::size_t i = 0; i < count; ++i, ++id) {
-      while (*id != metrics.names()[i]) ++id;
-      Insert& values = i < count - count % rows_together ? some : one;
-      values.row(static_cast<std::int64_t>(position), std::int64_t{id - names.begin()},
-                 metrics.values()[i]);
+/// The metrics of all points, and what they share.
+class MetricTables {
+ public:
+  explicit MetricTables(const Results& results)
+      : results_(results), names_(results.metric_names()), selection_(names_) {
+    find_shared();
+  }
+
+  /// Which points have metrics.
+  const std::vector<bool>& measured() const { return measured_; }
+
+  void write(const Database& database) {
+    Insert ids(database, "metric_names", 3);
+    std::vector<std::size_t> differing;  // places in names_, by id
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (!shared_[i]) differing.push_back(i);
+    }
+    std::size_t id = 0, next = differing.size();
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      ids.row(static_cast<std::int64_t>(shared_[i] ? next++ : id++), names_[i], shared_[i]);
+    Insert values(database, "metric_values", 2 + row_values);
+    for (std::size_t position = 0; position < results_.rows.size(); ++position)
+      add_values(values, position, differing);
+  }
+
+ private:
+  /// The value that a metric has in all points that have metrics.
+  void find_shared() {
+    shared_.resize(names_.size());
+    bool first = true;
+    for (const ResultRow& row : results_.rows) {
+      const Metrics metrics = results_.metrics_of(row);
+      measured_.push_back(!metrics.empty());
+      if (metrics.empty()) continue;
+      const std::vector<std::size_t>& places = selection_.places_in(metrics);
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        const bool has_it = places[i] < metrics.values().size();
+        if (first && has_it) shared_[i] = metrics.values()[places[i]];
+        if (shared_[i] && (!has_it || *shared_[i] != metrics.values()[places[i]]))
+          shared_[i].reset();
+      }
+      first = false;
     }
   }
-}
 
-void add_runs(const Database& database, const Results& results,
-              const std::vector<RunEntry>& entries) {
-  std::set<std::string> keys;
-  for (const ResultRow& row : results.rows) keys.insert(row.key);
+  void add_values(Insert& values, std::size_t position, const std::vector<std::size_t>& differing) {
+    if (!measured_[position]) return;
+    const Metrics metrics = results_.metrics_of(results_.rows[position]);
+    const std::vector<std::size_t>& places = selection_.places_in(metrics);
+    for (std::size_t first = 0; first < differing.size(); first += row_values) {
+      values.add(static_cast<std::int64_t>(position));
+      values.add(static_cast<std::int64_t>(first / row_values));
+      for (std::size_t i = first; i < first + row_values; ++i) {
+        const std::size_t place =
+            i < differing.size() ? places[differing[i]] : metrics.values().size();
+        if (place < metrics.values().size()) {
+          values.add(metrics.values()[place]);
+        } else {
+          values.add(nullptr);
+        }
+      }
+      values.end_row();
+    }
+  }
+
+  const Results& results_;
+  std::vector<std::string> names_;
+  Selection selection_;
+  std::vector<bool> measured_;
+  std::vector<std::optional<double>> shared_;  ///< of the names
+};
+
+/// The computations of the sweep's points. Of those that nobody told of, one where nobody told of
+/// any.
+void add_runs(const Database& database, const Results& results, const RunLogs& logs) {
+  const std::vector<std::size_t> order = by_key(results);
+  std::vector<bool> told(order.size());
+  const auto place_of = [&](const std::string& key) {
+    const auto found = std::lower_bound(
+        order.begin(), order.end(), key,
+        [&](std::size_t row, const std::string& wanted) { return results.rows[row].key < wanted; });
+    const bool is_here = found != order.end() && results.rows[*found].key == key;
+    return is_here ? static_cast<std::size_t>(found - order.begin()) : order.size();
+  };
   Insert runs(database, "runs", 7);
-  for (const RunEntry& run : entries) {
-    if (keys.count(run.key) != 0)
-      runs.row(run.key, run.engine, run.host, run.date, std::int64_t{run.attempt}, run.wall_s,
-               run.cpu_s);
+  const auto add = [&](const RunEntry& run) {
+    runs.row(run.key, run.engine, run.host, run.date, std::int64_t{run.attempt}, run.wall_s,
+             run.cpu_s);
+  };
+  logs.visit([&](const RunEntry& run) {
+    const std::size_t place = place_of(run.key);
+    if (place == order.size() || !run.told()) return;
+    told[place] = true;
+    add(run);
+  });
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    if (told[place]) continue;
+    RunEntry untold;
+    untold.key = results.rows[order[place]].key;
+    add(untold);
   }
 }
 
 }  // namespace
 
-void write_database(const std::string& path, const Results& results,
-                    const std::vector<RunEntry>& runs) {
+void write_database(const std::string& path, const Results& results, const RunLogs& runs) {
   vp::OutputFile file(path, vp::OutputFile::By::name);
   {
     Database database(file.part());
     // It appears under its name when it is whole: no journal is needed.
     database.execute(
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = EXCLUSIVE;"
-        "PRAGMA page_size = 16384; BEGIN");
+        "PRAGMA page_size = 16384; PRAGMA cache_size = -65536; BEGIN");
     database.execute(tables);
+    database.execute(metric_tables().c_str());
     {
       Insert facts(database, "sweep", 2);
       const Manifest& manifest = results.manifest;
@@ -242,8 +380,9 @@ void write_database(const std::string& path, const Results& results,
       facts.row(std::string("file"), manifest.source);
       facts.row(std::string("markervp"), manifest.program.dump());
     }
-    add_points(database, results);
-    add_metrics(database, results);
+    MetricTables metrics(results);
+    add_points(database, results, metrics.measured());
+    metrics.write(database);
     add_parameters(database, results);
     add_runs(database, results, runs);
     database.execute("COMMIT");

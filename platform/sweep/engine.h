@@ -33,11 +33,10 @@ struct PointResult {
 /// run`, and says on `err` what went wrong; may throw what that throws.
 using RunPoint = std::function<int(const PointRun& run, PointResult& result, std::ostream& err)>;
 
-/// How a sweep went.
+/// How a sweep went; the logs of its folder have the outcomes.
 struct Tally {
   std::uint64_t computed = 0;  ///< done now
   bool interrupted = false;
-  std::map<std::size_t, Outcome> outcomes;  ///< of those computed here, by position
 };
 
 /// Called when points were completed: how many of those asked for.

@@ -14,6 +14,7 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
+#include <sweep/run_log.h>
 #include <sweep/store.h>
 #include <sweep/worker.h>
 #include <vp/file.h>
@@ -180,11 +181,8 @@ class Pool {
   void done(const PointMessage& message) {
     const std::size_t position = list_.positions[message.item];
     log_.add(list_.manifest.points[position].key, message.wall_s, message.cpu_s,
-             attempts_[message.item]);
-    Outcome& outcome = tally_.outcomes[position];
-    outcome = {message.failed, message.failure, message.metrics, message.complaints};
-    outcome.metrics.share_names(names_);
-    names_ = outcome.metrics;
+             attempts_[message.item], message);
+    names_ = message.metrics;
     ++tally_.computed;
     step(message.item);
   }

@@ -224,7 +224,7 @@ class Cluster {
     const std::string folder = submission_folder(store_, number);
     host::prepare_output_folder(folder);
     vp::write_file_durably(folder + "/tasks.json", chunks.dump());
-    vp::write_file_durably(folder + "/manifest.json", to_json(manifest_).dump());
+    write_manifest(folder + "/manifest.json", manifest_);
     const std::string executable = fs::read_symlink("/proc/self/exe").string();
     const std::string job = submit({"markervp-" + options_.name, fs::current_path().string(),
                                     fs::absolute(folder).string() + "/task-%a.log",
@@ -296,8 +296,7 @@ int run_slurm_task(
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
     const RunPoint& run, std::uint32_t points_a_process) {
   const std::string folder = submission_folder(store, submission);
-  const Manifest manifest =
-      manifest_from(read_json(folder + "/manifest.json"), folder + "/manifest.json");
+  const Manifest manifest = read_manifest(folder + "/manifest.json");
   const Json chunks = read_json(folder + "/tasks.json");
   if (!chunks.is_array() || task >= chunks.size())
     throw vp::InputError("submission " + std::to_string(submission) + " has no task " +

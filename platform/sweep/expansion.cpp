@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include <scene/portable_math.h>
@@ -109,6 +110,18 @@ Trajectory TrajectorySampler::next() {
     trajectory.steps.push_back({dimension, step});
   }
   return trajectory;
+}
+
+Word::Word(const std::string& text) {
+  static std::unordered_set<std::string> words;
+  text_ = &*words.insert(text).first;
+}
+
+const std::string* find(const Assignment& values, const std::string& path) {
+  for (const auto& [name, value] : values) {
+    if (name == path) return &value.text();
+  }
+  return nullptr;
 }
 
 namespace {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <host/document.h>
 #include <sweep/identity.h>
+#include <sweep/point.h>
 #include <vp/error.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 
@@ -54,14 +57,27 @@ InputChoice input_from(const Json& json) {
   return input;
 }
 
+Json assignment_json(const Assignment& values) {
+  Json json = Json::object();
+  for (const auto& [path, value] : values) json[path.text()] = value.text();
+  return json;
+}
+
+Assignment assignment_from(const Json& json) {
+  Assignment values;
+  values.reserve(json.size());
+  for (const auto& [path, value] : json.items())
+    values.emplace_back(path, value.get_ref<const std::string&>());
+  return values;
+}
+
 Json point_json(const PlannedPoint& point) {
   Json json;
   json["key"] = point.key;
   json["family"] = point.family;
   json["inputs"] = point.input_set;
-  json["changes"] = point.changes;
-  json["swept"] = Json::object();
-  for (const auto& [path, value] : point.swept) json["swept"][path] = value;
+  json["changes"] = assignment_json(point.changes);
+  json["swept"] = assignment_json(point.swept);
   return json;
 }
 
@@ -70,9 +86,8 @@ PlannedPoint point_from(const Json& json) {
   point.key = json.at("key").get<std::string>();
   point.family = json.at("family").get<std::size_t>();
   point.input_set = json.at("inputs").get<std::size_t>();
-  point.changes = json.at("changes").get<std::map<std::string, std::string>>();
-  for (const auto& [path, value] : json.at("swept").items())
-    point.swept.emplace_back(path, value.get<std::string>());
+  point.changes = assignment_from(json.at("changes"));
+  point.swept = assignment_from(json.at("swept"));
   return point;
 }
 
@@ -115,23 +130,58 @@ std::map<std::string, std::string> Manifest::settings(const PlannedPoint& point)
   return set;
 }
 
-// The configuration is most of it, and goes into words without a tree of values.
 std::string Manifest::identity(const PlannedPoint& point) const {
-  std::string text = "{\"markervp\":" + program.dump();
-  text += ",\"tables\":" + tables.dump();
-  text += ",\"contents\":" + families[point.family].contents.dump();
-  text += ",\"inputs\":" + input_sets[point.input_set].contents.dump();
-  text += ",\"fit\":" + optional_text(input.fit).dump();
-  text += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
-  text += ",\"repeat\":" + std::to_string(input.repeat);
-  text += ",\"configuration\":";
+  return Identities(*this).of(point);
+}
+
+namespace {
+
+std::string line_of(const std::string& path, const std::string& value) {
+  std::string line;
+  append_text(line, path);
+  line += ':';
+  append_text(line, value);
+  return line;
+}
+
+}  // namespace
+
+void Identities::begin(std::size_t family, std::size_t input_set) {
+  const Family& of_point = manifest_.families[family];
+  const InputChoice& input = manifest_.input;
+  head_ = "{\"markervp\":" + manifest_.program.dump();
+  head_ += ",\"tables\":" + manifest_.tables.dump();
+  head_ += ",\"contents\":" + of_point.contents.dump();
+  head_ += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
+  head_ += ",\"fit\":" + optional_text(input.fit).dump();
+  head_ += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
+  head_ += ",\"repeat\":" + std::to_string(input.repeat);
+  head_ += ",\"configuration\":";
+  lines_.clear();
+  for (const auto& [path, value] : of_point.configuration)
+    lines_.emplace_back(path, line_of(path, value));
+  last_ = {family, input_set};
+}
+
+// The configuration is most of it, and goes into words without a tree of values.
+std::string Identities::of(const PlannedPoint& point) {
+  if (last_ != std::pair(point.family, point.input_set)) begin(point.family, point.input_set);
+  std::string text = head_;
   char before = '{';
-  visit_configuration(point, [&](const std::string& path, const std::string& value) {
+  const auto add = [&](const std::string& line) {
     text += std::exchange(before, ',');
-    append_text(text, path);
-    text += ':';
-    append_text(text, value);
-  });
+    text += line;
+  };
+  auto change = point.changes.begin();  // both are sorted
+  const auto end = point.changes.end();
+  for (const auto& [path, line] : lines_) {
+    for (; change != end && change->first.text() < path; ++change)
+      add(line_of(change->first, change->second));
+    const bool changed = change != end && change->first == path;
+    add(changed ? line_of(path, change->second) : line);
+    if (changed) ++change;
+  }
+  for (; change != end; ++change) add(line_of(change->first, change->second));
   text += before == '{' ? "{}}" : "}}";
   return text;
 }
@@ -140,7 +190,10 @@ std::string key_of(std::string_view identity) {
   return content_hash(identity).substr(0, key_digits);
 }
 
-Json to_json(const Manifest& manifest) {
+namespace {
+
+/// All but the points.
+Json facts_json(const Manifest& manifest) {
   Json json;
   json[mark] = schema;
   json["name"] = manifest.name;
@@ -168,56 +221,101 @@ Json to_json(const Manifest& manifest) {
     json["input_sets"].push_back({{"inputs", set.inputs},
                                   {"contents", set.contents},
                                   {"size", {set.size.width, set.size.height}}});
-  json["points"] = Json::array();
-  for (const PlannedPoint& point : manifest.points) json["points"].push_back(point_json(point));
   json["effects"] = Json::array();
   for (const KeyedEffect& effect : manifest.effects)
     json["effects"].push_back({effect.from, effect.to, effect.path, effect.delta});
   return json;
 }
 
-Manifest manifest_from(const Json& json, const std::string& origin) {
+/// Takes the points out of the document while it is read: their trees would fill the memory.
+class PointTaker {
+ public:
+  explicit PointTaker(std::vector<PlannedPoint>& points) : points_(points) {}
+
+  bool operator()(int depth, Json::parse_event_t event, Json& value) {
+    constexpr int member = 1, item = 2;
+    if (event == Json::parse_event_t::key && depth == member) in_points_ = value == "points";
+    if (event != Json::parse_event_t::object_end || depth != item || !in_points_) return true;
+    try {
+      points_.push_back(point_from(value));
+    } catch (const Json::exception&) {
+      throw Json::other_error::create(599, "no point", nullptr);  // not the parser's own
+    }
+    return false;
+  }
+
+ private:
+  std::vector<PlannedPoint>& points_;
+  bool in_points_ = false;
+};
+
+Manifest facts_from(const Json& json, const std::string& origin) {
+  Manifest manifest;
+  if (json.at(mark) != schema) {
+    throw vp::InputError("'" + origin + "' has version " + json.at(mark).dump() +
+                         ", this program reads version " + std::to_string(schema) +
+                         ": run the sweep again");
+  }
+  manifest.name = json.at("name").get<std::string>();
+  manifest.title = json.at("title").get<std::string>();
+  manifest.text = json.at("text").get<std::string>();
+  manifest.source = json.at("source").get<std::string>();
+  manifest.program = json.at("program");
+  manifest.tables = json.at("tables");
+  manifest.input = input_from(json.at("input"));
+  manifest.sampling = json.at("sampling").get<std::string>();
+  manifest.swept = json.at("swept").get<std::vector<std::string>>();
+  manifest.job = json.value("job", "");
+  manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
+  manifest.objectives = json.at("objectives").get<std::vector<std::string>>();
+  manifest.constraints = json.value("constraints", std::vector<std::string>());
+  for (const Json& family : json.at("families")) {
+    manifest.families.push_back(
+        {family.at("program").get<std::string>(),
+         family.at("configuration").get<std::map<std::string, std::string>>(),
+         family.at("defaults").get<std::map<std::string, std::string>>(), family.at("contents")});
+  }
+  for (const Json& set : json.at("input_sets")) {
+    const Json size = set.value("size", Json{0, 0});  // not in files of earlier versions
+    manifest.input_sets.push_back({set.at("inputs").get<std::vector<std::string>>(),
+                                   set.at("contents"),
+                                   {size.at(0).get<int>(), size.at(1).get<int>()}});
+  }
+  for (const Json& effect : json.at("effects")) {
+    manifest.effects.push_back({effect.at(0).get<std::string>(), effect.at(1).get<std::string>(),
+                                effect.at(2).get<std::string>(), effect.at(3).get<double>()});
+  }
+  return manifest;
+}
+
+}  // namespace
+
+void write_manifest(const std::string& path, const Manifest& manifest) {
+  vp::OutputFile file(path);
+  std::string facts = facts_json(manifest).dump(1);
+  facts.erase(facts.rfind("\n}"));
+  file.write(facts + ",\n \"points\": [");
+  const char* before = "\n  ";
+  for (const PlannedPoint& point : manifest.points) {
+    file.write(before + json_text(point_json(point)));
+    before = ",\n  ";
+  }
+  file.write("\n ]\n}\n");
+  file.commit_durably();
+}
+
+Manifest read_manifest(const std::string& file) {
   try {
-    Manifest manifest;
-    if (json.at(mark) != schema) {
-      throw vp::InputError("'" + origin + "' has version " + json.at(mark).dump() +
-                           ", this program reads version " + std::to_string(schema) +
-                           ": run the sweep again");
-    }
-    manifest.name = json.at("name").get<std::string>();
-    manifest.title = json.at("title").get<std::string>();
-    manifest.text = json.at("text").get<std::string>();
-    manifest.source = json.at("source").get<std::string>();
-    manifest.program = json.at("program");
-    manifest.tables = json.at("tables");
-    manifest.input = input_from(json.at("input"));
-    manifest.sampling = json.at("sampling").get<std::string>();
-    manifest.swept = json.at("swept").get<std::vector<std::string>>();
-    manifest.job = json.value("job", "");
-    manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
-    manifest.objectives = json.at("objectives").get<std::vector<std::string>>();
-    manifest.constraints = json.value("constraints", std::vector<std::string>());
-    for (const Json& family : json.at("families")) {
-      manifest.families.push_back(
-          {family.at("program").get<std::string>(),
-           family.at("configuration").get<std::map<std::string, std::string>>(),
-           family.at("defaults").get<std::map<std::string, std::string>>(), family.at("contents")});
-    }
-    for (const Json& set : json.at("input_sets")) {
-      const Json size = set.value("size", Json{0, 0});  // not in files of earlier versions
-      manifest.input_sets.push_back({set.at("inputs").get<std::vector<std::string>>(),
-                                     set.at("contents"),
-                                     {size.at(0).get<int>(), size.at(1).get<int>()}});
-    }
-    for (const Json& point : json.at("points")) manifest.points.push_back(point_from(point));
-    for (const Json& effect : json.at("effects")) {
-      manifest.effects.push_back({effect.at(0).get<std::string>(), effect.at(1).get<std::string>(),
-                                  effect.at(2).get<std::string>(), effect.at(3).get<double>()});
-    }
+    const std::string text = vp::read_text(file, "manifest", host::largest_result);
+    std::vector<PlannedPoint> points;
+    const Json facts = host::parse_json<Json>(text, "manifest '" + file + "'", PointTaker(points));
+    Manifest manifest = facts_from(facts, file);
+    if (!facts.at("points").empty()) throw Json::other_error::create(599, "no point", nullptr);
+    manifest.points = std::move(points);
     check_indices(manifest);
     return manifest;
   } catch (const Json::exception&) {
-    throw vp::InputError("'" + origin + "' is no manifest of a sweep, or is damaged");
+    throw vp::InputError("'" + file + "' is no manifest of a sweep, or is damaged");
   }
 }
 

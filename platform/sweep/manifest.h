@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <input/image_file.h>
@@ -45,8 +46,8 @@ struct PlannedPoint {
   std::string key;  ///< hash of what decides its result
   std::size_t family = 0;
   std::size_t input_set = 0;
-  std::map<std::string, std::string> changes;  ///< to the family's configuration
-  Assignment swept;                            ///< as the sweep's file has it
+  Assignment changes;  ///< to the family's configuration, sorted by path
+  Assignment swept;    ///< as the sweep's file has it
 };
 
 /// A step of a sensitivity analysis, by the keys of its points.
@@ -91,21 +92,40 @@ void Manifest::visit_configuration(const PlannedPoint& point, const Visit& visit
   // Both are sorted.
   auto change = point.changes.begin();
   for (const auto& [path, value] : families[point.family].configuration) {
-    for (; change != point.changes.end() && change->first < path; ++change)
+    for (; change != point.changes.end() && change->first.text() < path; ++change)
       visit(change->first, change->second);
     const bool changed = change != point.changes.end() && change->first == path;
-    visit(path, changed ? change->second : value);
+    visit(path, changed ? change->second.text() : value);
     if (changed) ++change;
   }
   for (; change != point.changes.end(); ++change) visit(change->first, change->second);
 }
 
+/// Manifest::identity() of one point after another: those of the family and inputs of the one
+/// before take little more than their text.
+class Identities {
+ public:
+  explicit Identities(const Manifest& manifest) : manifest_(manifest) {}
+
+  std::string of(const PlannedPoint& point);
+
+ private:
+  void begin(std::size_t family, std::size_t input_set);
+
+  const Manifest& manifest_;
+  std::optional<std::pair<std::size_t, std::size_t>> last_;  ///< family and inputs
+  std::string head_;                                         ///< all before the configuration
+  /// Its lines, by path.
+  std::vector<std::pair<std::string, std::string>> lines_;
+};
+
 /// The hash of an identity.
 std::string key_of(std::string_view identity);
 
-Json to_json(const Manifest& manifest);
-/// Throws vp::InputError if it is no manifest of this version; `origin` names it.
-Manifest manifest_from(const Json& json, const std::string& origin);
+/// As JSON, a line for each point. Throws vp::OutputError.
+void write_manifest(const std::string& file, const Manifest& manifest);
+/// Throws vp::InputError if it is no manifest of this version.
+Manifest read_manifest(const std::string& file);
 
 const char* to_string(Sampling::Method method);
 

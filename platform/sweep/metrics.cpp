@@ -215,6 +215,35 @@ Metrics metrics_of(const Json& result) {
   return Metrics(std::move(figures));
 }
 
+const Selection::Picked& Selection::picked_from(const Metrics& all) {
+  const auto [known, is_new] = picked_.try_emplace(all.shared_names().get());
+  Picked& picked = known->second;
+  if (!is_new) return picked;
+  Metrics::Names names;
+  for (const std::string& name : wanted_) {
+    picked.places.push_back(all.place_of(name));
+    if (picked.places.back() != all.values().size()) names.push_back(name);
+  }
+  picked.all = all.shared_names();
+  picked.names = std::make_shared<const Metrics::Names>(std::move(names));
+  return picked;
+}
+
+Metrics Selection::Picked::of(const Metrics& figures) const {
+  std::vector<double> values;
+  values.reserve(names->size());
+  for (const std::size_t place : places) {
+    if (place < figures.values().size()) values.push_back(figures.values()[place]);
+  }
+  return {names, std::move(values)};
+}
+
+Metrics::Names Selection::seen() const {
+  std::set<std::string> names;
+  for (const auto& [unused, picked] : picked_) names.insert(picked.all->begin(), picked.all->end());
+  return {names.begin(), names.end()};
+}
+
 Metrics MetricsReader::read(const Json& result) {
   std::vector<double> values(before_.values().size());  // fewer than paths if some share a name
   std::size_t count = 0;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +83,33 @@ class Metrics {
 /// above one of which only a lower bound is known. Of the verdict "verdict.feasible" and
 /// "verdict.<part>.holds": 1 for yes, 0 for no, 0.5 for unknown.
 Metrics metrics_of(const Json& result);
+
+/// Figures of some names among those of points: found once for points that share names.
+class Selection {
+ public:
+  /// `wanted` are sorted.
+  explicit Selection(Metrics::Names wanted) : wanted_(std::move(wanted)) {}
+
+  /// The wanted ones among a point's.
+  Metrics of(const Metrics& all) { return picked_from(all).of(all); }
+  /// Where the values of all wanted ones stand; all.values().size() for what the point lacks.
+  const std::vector<std::size_t>& places_in(const Metrics& all) { return picked_from(all).places; }
+  /// Sorted names of all figures that were seen.
+  Metrics::Names seen() const;
+
+ private:
+  struct Picked {
+    std::shared_ptr<const Metrics::Names> all, names;  ///< before and after
+    std::vector<std::size_t> places;
+
+    Metrics of(const Metrics& figures) const;
+  };
+
+  const Picked& picked_from(const Metrics& all);
+
+  Metrics::Names wanted_;
+  std::map<const Metrics::Names*, Picked> picked_;  ///< by `all`
+};
 
 /// metrics_of() of one result after another: those of the same shape as the one before cost no new
 /// names.

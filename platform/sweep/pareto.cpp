@@ -9,9 +9,10 @@
 #include <host/process.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
-#include <sweep/results.h>
 #include <sweep/report.h>
+#include <sweep/results.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
@@ -154,6 +155,7 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   std::vector<const vp::Expression*> expressions;
   for (const Objective& objective : objectives) expressions.push_back(&objective.figure());
   for (const vp::Expression& constraint : results.constraints) expressions.push_back(&constraint);
+  pareto.points.reserve(results.rows.size());
   for (const ResultRow& row : results.rows) {
     if (row.failed) continue;
     RankedPoint point;
@@ -168,11 +170,14 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   for (RankedPoint& point : pareto.points) {
     if (point.feasible != report::Holds::yes || point.figures.empty()) continue;
     ranked.push_back(&point);
-    figures.push_back(point.figures);
+    figures.push_back(std::move(point.figures));
   }
   const std::vector<bool> maximise = directions(objectives);
   const std::vector<std::size_t> front = fronts(figures, maximise);
-  for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->front = front[i];
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    ranked[i]->front = front[i];
+    ranked[i]->figures = std::move(figures[i]);
+  }
   pareto.knee = knee_of(pareto.points, maximise);
   return pareto;
 }
@@ -290,23 +295,25 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
   return table.text();
 }
 
-std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
-                       const Pareto& pareto) {
+void write_pareto_csv(const std::string& path, const Results& results,
+                      const std::vector<Objective>& objectives, const Pareto& pareto) {
+  vp::OutputFile file(path);
   std::vector<std::string> head{"key", "front", "knee", "feasible"};
-  for (const std::string& path : results.manifest.swept) head.push_back(path);
+  for (const std::string& swept : results.manifest.swept) head.push_back(swept);
   for (const Objective& objective : objectives)
     head.push_back((objective.maximise() ? "max " : "min ") + objective.figure().text());
-  std::string text = csv_line(head);
+  file.write(csv_line(head));
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     const RankedPoint& point = pareto.points[i];
     std::vector<std::string> fields{point.row->key, std::to_string(point.front),
                                     pareto.knee == i ? "1" : "0", to_string(point.feasible)};
-    for (const std::string& path : results.manifest.swept) fields.push_back(point.row->value(path));
+    for (const std::string& swept : results.manifest.swept)
+      fields.push_back(point.row->value(swept));
     for (const double figure : point.figures) fields.push_back(csv_number(figure));
     fields.resize(head.size());
-    text += csv_line(fields);
+    file.write(csv_line(fields));
   }
-  return text;
+  file.commit_durably();
 }
 
 namespace {
@@ -318,17 +325,25 @@ std::string axis_label(const Objective& objective) {
          (objective.maximise() ? "  (more is better)" : "  (less is better)");
 }
 
+/// Points of a kind that are drawn: more only make a picture that no viewer opens.
+constexpr std::size_t most_drawn = 20'000;
+
 /// Points for which `wanted` holds, as a data block of gnuplot.
 template <class Wanted>
-std::string block(const std::string& name, const Pareto& pareto, const Wanted& wanted) {
+std::string block(const std::string& name, const Pareto& pareto, const Wanted& wanted,
+                  bool whole = false) {
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     if (!pareto.points[i].figures.empty() && wanted(i))
       points.emplace_back(pareto.points[i].figures[0], pareto.points[i].figures[1]);
   }
   std::sort(points.begin(), points.end());
+  const std::size_t drawn = whole ? points.size() : std::min(points.size(), most_drawn);
   std::string text = "$" + name + " << EOD\n";
-  for (const auto& [x, y] : points) text += csv_number(x) + " " + csv_number(y) + "\n";
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const auto& [x, y] = points[i * points.size() / drawn];
+    text += csv_number(x) + " " + csv_number(y) + "\n";
+  }
   // A block must not be empty: not a number is not drawn.
   if (points.empty()) text += "NaN NaN\n";
   return text + "EOD\n";
@@ -349,7 +364,8 @@ std::optional<std::string> plot_pareto(const std::string& file, const Results& r
          << block("unknown", pareto,
                   [&](std::size_t i) { return points[i].feasible == report::Holds::unknown; })
          << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
-         << block("front", pareto, [&](std::size_t i) { return points[i].front == 1; })
+         << block(
+                "front", pareto, [&](std::size_t i) { return points[i].front == 1; }, true)
          << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
          << host::gnuplot_quoted(results.manifest.title.empty() ? results.manifest.name
                                                                 : results.manifest.title)

@@ -73,10 +73,12 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto);
 /// All points: key, front, knee, feasible (yes, no or unknown), swept parameters, objectives.
-std::string pareto_csv(const Results& results, const std::vector<Objective>& objectives,
-                       const Pareto& pareto);
+/// Throws vp::OutputError.
+void write_pareto_csv(const std::string& path, const Results& results,
+                      const std::vector<Objective>& objectives, const Pareto& pareto);
 
-/// Draws the first two objectives as an SVG picture with gnuplot. Returns why not, if it cannot.
+/// Draws the first two objectives as an SVG picture with gnuplot: the whole first front, and of
+/// more than 20 000 others of a kind every so many. Returns why not, if it cannot.
 std::optional<std::string> plot_pareto(const std::string& file, const Results& results,
                                        const std::vector<Objective>& objectives,
                                        const Pareto& pareto);

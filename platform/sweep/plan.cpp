@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <sweep/axes.h>
@@ -97,13 +98,6 @@ bool is_special(const std::string& path) {
   return is_program(path) || path == "inputs";
 }
 
-const std::string* find(const Assignment& point, const std::string& path) {
-  for (const auto& [name, value] : point) {
-    if (name == path) return &value;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 class Planner {
@@ -113,11 +107,11 @@ class Planner {
 
   Manifest plan() {
     const double count = prepare();
-    const Expansion expansion = expand(
+    Expansion expansion = expand(
         spec_, groups_, [this](const Assignment& point) { return allowed(point); },
         options_.limit.value_or(static_cast<std::uint64_t>(most_points)));
     describe(static_cast<double>(expansion.points.size()) < count);
-    add_points(expansion);
+    add_points(std::move(expansion));
     return std::move(manifest_);
   }
 
@@ -306,43 +300,49 @@ class Planner {
     manifest_.objectives = spec_.objectives;
   }
 
-  void add_points(const Expansion& expansion) {
-    std::vector<std::string> keys;
-    std::set<std::string> seen;
-    for (const Assignment& assignment : expansion.points) {
-      PlannedPoint point = planned(assignment);
-      keys.push_back(point.key);
-      if (seen.insert(point.key).second) manifest_.points.push_back(std::move(point));
+  void add_points(Expansion&& expansion) {
+    std::vector<std::size_t> positions;  // of the expansion's points
+    std::unordered_map<std::string, std::size_t> seen;
+    manifest_.points.reserve(expansion.points.size());
+    for (Assignment& assignment : expansion.points) {
+      PlannedPoint point = planned(std::move(assignment));
+      const auto [known, is_new] = seen.emplace(point.key, manifest_.points.size());
+      positions.push_back(known->second);
+      if (is_new) manifest_.points.push_back(std::move(point));
     }
-    for (const Effect& effect : expansion.effects) {
-      manifest_.effects.push_back({keys[effect.from], keys[effect.to], effect.path, effect.delta});
-    }
+    const auto key = [&](std::size_t i) { return manifest_.points[positions[i]].key; };
+    for (const Effect& effect : expansion.effects)
+      manifest_.effects.push_back({key(effect.from), key(effect.to), effect.path, effect.delta});
   }
 
-  PlannedPoint planned(const Assignment& assignment) {
+  PlannedPoint planned(Assignment assignment) {
     PlannedPoint point;
-    point.swept = assignment;
+    point.swept = std::move(assignment);
     Build build{spec_.program, spec_.set};
-    for (const auto& [path, value] : assignment) {
+    for (const auto& [path, value] : point.swept) {
       if (is_program(path)) build.program = value;
       if (is_special(path)) continue;
       if (influential_.count(path) != 0) {
-        build.settings[path] = value;
+        build.settings[path.text()] = value;
       } else {
-        point.changes[path] = value;
+        point.changes.emplace_back(path, value);
       }
     }
     const BuiltFamily& family = family_of(build);
     point.family = family.index;
-    const std::string* label = find(assignment, "inputs");
+    const std::string* label = find(point.swept, "inputs");
     point.input_set = input_set_of(label != nullptr ? *label : "", family.size);
-    for (auto change = point.changes.begin(); change != point.changes.end();) {
-      const auto& configuration = manifest_.families[point.family].configuration;
-      const auto found = configuration.find(change->first);
-      const bool same = found != configuration.end() && found->second == change->second;
-      change = same ? point.changes.erase(change) : std::next(change);
-    }
-    point.key = key_of(manifest_.identity(point));
+    const auto& configuration = manifest_.families[point.family].configuration;
+    const auto is_none = [&](const auto& change) {
+      const auto found = configuration.find(change.first);
+      return found != configuration.end() && change.second == found->second;
+    };
+    Assignment& changes = point.changes;
+    changes.erase(std::remove_if(changes.begin(), changes.end(), is_none), changes.end());
+    changes.shrink_to_fit();
+    std::sort(changes.begin(), changes.end(),
+              [](const auto& a, const auto& b) { return a.first.text() < b.first.text(); });
+    point.key = key_of(identities_.of(point));
     return point;
   }
 
@@ -402,6 +402,7 @@ class Planner {
   std::map<std::pair<std::string, std::map<std::string, std::string>>, BuiltFamily> families_;
   std::map<std::tuple<std::string, int, int>, std::size_t> input_sets_;
   Manifest manifest_;
+  Identities identities_{manifest_};
 };
 
 std::uint64_t Refusals::points() const {

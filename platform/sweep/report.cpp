@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -234,16 +235,17 @@ class PointLines {
     if (columns_.size() > most_figures) columns_.resize(most_figures);
   }
 
-  /// Each point with a word or more on it, under this heading.
-  using Points = std::vector<std::pair<const ResultRow*, std::string>>;
-  std::string text(const Points& points, const std::string& heading) {
+  /// Each point with what `words` say of it, under this heading.
+  using Points = std::vector<const ResultRow*>;
+  using Words = std::function<std::string(const ResultRow&)>;
+  std::string text(const Points& points, const std::string& heading, const Words& words) {
     std::vector<std::string> names = paths_;
     for (const Column& column : columns_) names.push_back(column.text);
     std::vector<std::string> head = short_names(names);
     head.push_back(heading);
     TextTable table(head);
     const std::size_t shown = std::min(left_, points.size());
-    for (std::size_t i = 0; i < shown; ++i) table.add(line(*points[i].first, points[i].second));
+    for (std::size_t i = 0; i < shown; ++i) table.add(line(*points[i], words(*points[i])));
     left_ -= shown;
     std::string text = shown == 0 ? "" : table.text();
     if (points.size() > shown)
@@ -273,17 +275,21 @@ std::string ranked_text(const Results& results, const std::vector<Objective>& ob
                         PointLines& lines) {
   const Pareto pareto = rank(results, objectives);
   PointLines::Points good, bad;
+  std::map<const ResultRow*, std::string> words;
   for (const std::size_t i : best_first(pareto, objectives)) {
     const RankedPoint& point = pareto.points[i];
-    if (point.feasible == report::Holds::yes) {
-      good.emplace_back(point.row, pareto.knee == i ? "knee" : point.front == 1 ? "front" : "");
-    } else {
-      bad.emplace_back(point.row, vp::join(results.reasons(*point.row), "; "));
-    }
+    (point.feasible == report::Holds::yes ? good : bad).push_back(point.row);
+    if (point.front == 1) words[point.row] = pareto.knee == i ? "knee" : "front";
   }
-  std::string text = lines.text(good, "");
+  std::string text = lines.text(good, "", [&](const ResultRow& row) {
+    const auto found = words.find(&row);
+    return found == words.end() ? "" : found->second;
+  });
   if (good.empty()) text = why_no_point(results) + "\n";
-  if (!bad.empty()) text += "\nNot feasible:\n\n" + lines.text(bad, "why");
+  if (!bad.empty())
+    text += "\nNot feasible:\n\n" + lines.text(bad, "why", [&](const ResultRow& row) {
+      return vp::join(results.reasons(row), "; ");
+    });
   return text;
 }
 
@@ -291,14 +297,14 @@ std::string ranked_text(const Results& results, const std::vector<Objective>& ob
 std::string failures_text(const Results& results, PointLines& lines) {
   std::map<std::string, PointLines::Points> reasons;
   for (const ResultRow& row : results.rows) {
-    if (row.failed) reasons[row.failure.message].emplace_back(&row, "");
+    if (row.failed) reasons[row.failure.message].push_back(&row);
   }
   std::string text;
   std::size_t printed = 0;
   for (const auto& [reason, points] : reasons) {
     if (printed++ == most_reasons) return text + "\nand other reasons: see sweep.csv\n";
     text += "\n" + report::counted(points.size(), "point") + " failed: " + reason + "\n\n" +
-            lines.text(points, "");
+            lines.text(points, "", [](const ResultRow&) { return ""; });
   }
   return text;
 }
@@ -353,23 +359,20 @@ Json point_json(const Results& results, const ResultRow& row, const std::vector<
   return json;
 }
 
-/// The front of each point that has one.
-std::map<const ResultRow*, std::size_t> fronts_of(const Results& results,
-                                                  const std::vector<Objective>& objectives) {
-  std::map<const ResultRow*, std::size_t> found;
-  for (const RankedPoint& point : rank(results, objectives).points) found[point.row] = point.front;
+/// The front of each row; 0 for none.
+std::vector<std::size_t> fronts_of(const Results& results,
+                                   const std::vector<Objective>& objectives) {
+  std::vector<std::size_t> found(results.rows.size(), 0);
+  for (const RankedPoint& point : rank(results, objectives).points)
+    found[static_cast<std::size_t>(point.row - results.rows.data())] = point.front;
   return found;
 }
 
 /// The rows that the page has room for: all of the first front, and of the others every so many.
-std::vector<const ResultRow*> page_rows(const Results& results,
-                                        const std::map<const ResultRow*, std::size_t>& fronts) {
-  std::vector<const ResultRow*> best, others;
-  for (const ResultRow& row : results.rows) {
-    const auto ranked = fronts.find(&row);
-    (ranked != fronts.end() && ranked->second == 1 ? best : others).push_back(&row);
-  }
-  const auto thin_out = [](std::vector<const ResultRow*>& rows, std::size_t most) {
+std::vector<std::size_t> page_rows(const std::vector<std::size_t>& fronts) {
+  std::vector<std::size_t> best, others;
+  for (std::size_t i = 0; i < fronts.size(); ++i) (fronts[i] == 1 ? best : others).push_back(i);
+  const auto thin_out = [](std::vector<std::size_t>& rows, std::size_t most) {
     const std::size_t all = rows.size();
     if (all <= most) return;
     for (std::size_t i = 0; i < most; ++i) rows[i] = rows[i * all / most];
@@ -377,7 +380,7 @@ std::vector<const ResultRow*> page_rows(const Results& results,
   };
   thin_out(best, most_page_points);
   thin_out(others, most_page_points - best.size());
-  std::vector<const ResultRow*> rows(best);
+  std::vector<std::size_t> rows(best);
   rows.insert(rows.end(), others.begin(), others.end());
   std::sort(rows.begin(), rows.end());  // as the sweep has them
   return rows;
@@ -416,17 +419,22 @@ std::string page_block(const Results& results, const std::string& folder, const 
   for (const Column& column : columns)
     json["metrics"].push_back({{"path", column.text}, {"unit", unit_of_metric(column.text)}});
   if (!steps.is_null()) json["steps"] = steps;
-  const std::map<const ResultRow*, std::size_t> fronts = fronts_of(results, objectives);
+  const std::vector<std::size_t> fronts = fronts_of(results, objectives);
   std::string points;
-  for (const ResultRow* row : page_rows(results, fronts)) {
-    Json point = point_json(results, *row, columns);
-    const auto ranked = fronts.find(row);
-    point["front"] = ranked == fronts.end() ? 0 : ranked->second;
+  for (const std::size_t i : page_rows(fronts)) {
+    Json point = point_json(results, results.rows[i], columns);
+    point["front"] = fronts[i];
     points += (points.empty() ? "" : ",") + json_text(point);
   }
   std::string text = json_text(json);
   text.back() = ',';
   return text + "\"points\":[" + points + "]}";
+}
+
+std::vector<vp::Expression> page_figures() {
+  std::vector<vp::Expression> figures;
+  for (const char* name : usual_figures) figures.emplace_back(name, name);
+  return figures;
 }
 
 bool write_page(const Results& results, const std::string& folder, const Json& steps) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -6,28 +7,35 @@
 
 #include <report/console.h>
 #include <sweep/metrics.h>
-#include <sweep/results.h>
+#include <sweep/pareto.h>
 #include <sweep/report.h>
+#include <sweep/results.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform::sweep {
 
 namespace {
 
-/// `outcome(position)` says what there is of a point, or nothing.
-template <class OutcomeAt>
-Results results_of(Manifest&& manifest, const OutcomeAt& outcome) {
-  Results results(manifest);
-  results.rows.reserve(manifest.points.size());
-  for (std::size_t i = 0; i < manifest.points.size(); ++i) {
-    if (std::optional<Outcome> found = outcome(i))
-      results.add(manifest, manifest.points[i], *std::move(found));
-    else
-      ++results.missing;
-  }
-  results.manifest = std::move(manifest);
-  return results;
+std::string holds_name(const std::string& part) {
+  return "verdict." + part + ".holds";
+}
+
+/// The figures that rows have: of what the sweep asks for, and of `more`.
+Metrics::Names figures_of(const Manifest& manifest, const std::vector<vp::Expression>& more) {
+  std::set<std::string> names;
+  const auto add = [&](const vp::Expression& expression) {
+    names.insert(expression.names().begin(), expression.names().end());
+  };
+  for (const char* part : report::verdict_parts) names.insert(holds_name(part));
+  for (const char* text : usual_objectives) add(Objective(text, manifest.name).figure());
+  for (const std::string& text : manifest.objectives) add(Objective(text, manifest.name).figure());
+  for (const std::string& text : manifest.constraints) add(vp::Expression(text, manifest.name));
+  if (!manifest.job.empty()) add(vp::Expression(manifest.job, manifest.name));
+  names.insert(manifest.metrics.begin(), manifest.metrics.end());
+  for (const vp::Expression& expression : more) add(expression);
+  return {names.begin(), names.end()};
 }
 
 bool has(const ResultRow& row, const std::string& name) {
@@ -37,19 +45,18 @@ bool has(const ResultRow& row, const std::string& name) {
 }  // namespace
 
 const std::string* ResultRow::parameter(const std::string& path) const {
-  const auto changed = changes.find(path);
-  if (changed != changes.end()) return &changed->second;
+  if (const std::string* changed = find(changes, path)) return changed;
   if (!base) return nullptr;
   const auto found = base->find(path);
   return found == base->end() ? nullptr : &found->second;
 }
 
 std::string ResultRow::value(const std::string& path) const {
-  for (const auto& [name, text] : swept) {
-    if (name == path) return text;
-  }
+  if (const std::string* text = find(swept, path)) return *text;
   if (const std::string* text = parameter(path)) return *text;
-  return path == "inputs" ? inputs : path == "system" || path == "program" ? program : "";
+  return path == "inputs"                        ? inputs.text()
+         : path == "system" || path == "program" ? program.text()
+                                                 : "";
 }
 
 Results::Results(const Manifest& asked) {
@@ -57,17 +64,17 @@ Results::Results(const Manifest& asked) {
   for (const std::string& text : asked.constraints) constraints.emplace_back(text, asked.name);
 }
 
-void Results::add(const Manifest& from, const PlannedPoint& point, Outcome outcome) {
+void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
   while (bases_.size() < from.families.size())
     bases_.push_back(std::make_shared<const std::map<std::string, std::string>>(
         from.families[bases_.size()].configuration));
   ResultRow row;
   static_cast<Outcome&>(row) = std::move(outcome);
   if (!rows.empty()) row.metrics.share_names(rows.back().metrics);
-  row.key = point.key;
-  row.swept = point.swept;
+  row.key = std::move(point.key);
+  row.swept = std::move(point.swept);
   row.base = bases_[point.family];
-  row.changes = point.changes;
+  row.changes = std::move(point.changes);
   row.program = from.families[point.family].contents.value("program", "");
   row.inputs = vp::join(from.input_sets[point.input_set].inputs, "+");
   rows.push_back(std::move(row));
@@ -83,7 +90,7 @@ report::Holds Results::holds(const ResultRow& row, const std::string& part) cons
     const auto lookup = [&](const std::string& name) { return value_in(row, name); };
     return !missing_in(row, *job) && job->holds(lookup) ? report::Holds::yes : report::Holds::no;
   }
-  const double* found = row.metrics.find("verdict." + part + ".holds");
+  const double* found = row.metrics.find(holds_name(part));
   if (!found || (*found > 0 && *found < 1)) return report::Holds::unknown;
   return *found == 0 ? report::Holds::no : report::Holds::yes;
 }
@@ -120,7 +127,12 @@ std::vector<std::string> Results::reasons(const ResultRow& row) const {
   return reasons;
 }
 
+Metrics Results::metrics_of(const ResultRow& row) const {
+  return logs_ ? logs_->metrics(row.key) : row.metrics;
+}
+
 std::vector<std::string> Results::metric_names() const {
+  if (logs_) return names_;
   std::set<std::string> names;
   const Metrics* before = nullptr;
   for (const ResultRow& row : rows) {
@@ -159,23 +171,29 @@ std::vector<std::pair<std::string, std::string>> complaints_of(const Json& outco
   return complaints;
 }
 
-Results read_results(const Store& store, Manifest manifest) {
-  return results_of(std::move(manifest), [&](std::size_t position) -> std::optional<Outcome> {
-    const std::string& key = manifest.points[position].key;
-    if (!store.has(key)) return std::nullopt;
-    return outcome_of(store.read(key));
-  });
-}
-
-Results read_results(const Store& store, Manifest manifest,
-                     const std::map<std::size_t, Outcome>& known) {
-  return results_of(std::move(manifest), [&](std::size_t position) -> std::optional<Outcome> {
-    const auto found = known.find(position);
-    if (found != known.end()) return found->second;
-    const std::string& key = manifest.points[position].key;
-    if (!store.has(key)) return std::nullopt;
-    return outcome_of(store.read(key, false));
-  });
+Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+                     const std::vector<vp::Expression>& more) {
+  Results results(manifest);
+  results.rows.reserve(manifest.points.size());
+  Selection selection(figures_of(manifest, more));
+  Metrics before;
+  for (PlannedPoint& point : manifest.points) {
+    std::optional<Outcome> outcome = logs->outcome(point.key);
+    if (!outcome) {
+      ++results.missing;
+      continue;
+    }
+    Metrics& metrics = outcome->metrics;
+    metrics.share_names(before);
+    before = metrics;
+    metrics = selection.of(metrics);
+    results.add(manifest, std::move(point), *std::move(outcome));
+  }
+  manifest.points.clear();
+  results.manifest = std::move(manifest);
+  results.logs_ = std::move(logs);
+  results.names_ = selection.seen();
+  return results;
 }
 
 void check_names(const Results& results, const vp::Expression& expression) {
@@ -218,29 +236,48 @@ std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expr
   return static_cast<double>(value.number);
 }
 
-std::string results_csv(const Results& results) {
-  const std::vector<std::string> metrics = results.chosen_metrics();
-  std::vector<std::string> head{"key", "status", "message", "feasible"};
-  head.insert(head.end(), results.manifest.swept.begin(), results.manifest.swept.end());
-  head.insert(head.end(), metrics.begin(), metrics.end());
-  std::string text = csv_line(head);
-  std::vector<std::size_t> places;  // of the metrics in a row's values
-  const Metrics* before = nullptr;
-  for (const ResultRow& row : results.rows) {
-    if (!before || !row.metrics.shares_names(*before)) {
-      places.clear();
-      for (const std::string& name : metrics) places.push_back(row.metrics.place_of(name));
-    }
-    before = &row.metrics;
-    std::vector<std::string> fields{row.key, row.failed ? "failed" : "done", row.failure.message,
-                                    to_string(results.feasible(row))};
-    for (const std::string& path : results.manifest.swept) fields.push_back(row.value(path));
-    const std::vector<double>& values = row.metrics.values();
-    for (const std::size_t place : places)
-      fields.push_back(place < values.size() ? csv_number(values[place]) : "");
-    text += csv_line(fields);
+namespace {
+
+/// A column of numbers as texts. Many figures are those of the row before.
+class NumberColumn {
+ public:
+  const std::string& text(double value) {
+    if (std::memcmp(&value, &value_, sizeof value) != 0 || text_.empty()) text_ = csv_number(value);
+    value_ = value;
+    return text_;
   }
-  return text;
+
+ private:
+  double value_ = 0;
+  std::string text_;
+};
+
+}  // namespace
+
+void write_csv(const std::string& path, const Results& results) {
+  vp::OutputFile file(path);
+  const std::vector<std::string> metrics = results.chosen_metrics();
+  std::vector<std::string> fields{"key", "status", "message", "feasible"};
+  fields.insert(fields.end(), results.manifest.swept.begin(), results.manifest.swept.end());
+  fields.insert(fields.end(), metrics.begin(), metrics.end());
+  file.write(csv_line(fields));
+  std::vector<NumberColumn> columns(metrics.size());
+  Selection selection(metrics);
+  for (const ResultRow& row : results.rows) {
+    const Metrics figures = results.metrics_of(row);
+    const std::vector<std::size_t>& places = selection.places_in(figures);
+    fields = {row.key, row.failed ? "failed" : "done", row.failure.message,
+              to_string(results.feasible(row))};
+    for (const std::string& swept : results.manifest.swept) fields.push_back(row.value(swept));
+    std::string line = csv_line(fields);
+    line.pop_back();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      line += ',';
+      if (places[i] < figures.values().size()) line += columns[i].text(figures.values()[places[i]]);
+    }
+    file.write(line += '\n');
+  }
+  file.commit_durably();
 }
 
 std::string verdicts_text(const Results& results) {

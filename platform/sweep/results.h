@@ -9,7 +9,7 @@
 #include <report/verdict.h>
 #include <sweep/axes.h>
 #include <sweep/point.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 #include <vp/expression.h>
 
 namespace platform::sweep {
@@ -21,9 +21,9 @@ struct ResultRow : Outcome {
   /// The effective configuration: these values, and changes to them. Points of a family share the
   /// first.
   std::shared_ptr<const std::map<std::string, std::string>> base;
-  std::map<std::string, std::string> changes;
-  std::string program;
-  std::string inputs;
+  Assignment changes;
+  Word program;
+  Word inputs;
 
   /// The text of a parameter of the effective configuration; null if there is none.
   const std::string* parameter(const std::string& path) const;
@@ -42,8 +42,8 @@ struct Results {
   Results() = default;
   /// What a sweep asks of its points, without any.
   explicit Results(const Manifest& asked);
-  /// A point of `points`, which the same manifest has.
-  void add(const Manifest& manifest, const PlannedPoint& point, Outcome outcome);
+  /// A point, which the same manifest has or had.
+  void add(const Manifest& manifest, PlannedPoint point, Outcome outcome);
 
   std::uint64_t failed() const;
   /// Whether a part (report::verdict_parts) of the verdict on the point holds.
@@ -54,23 +54,28 @@ struct Results {
   report::Holds feasible(const ResultRow& row) const;
   /// Why it failed or is not feasible; empty if it is.
   std::vector<std::string> reasons(const ResultRow& row) const;
+  /// All metrics of a point, of which its row may have some only.
+  Metrics metrics_of(const ResultRow& row) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
   /// Those that the sweep asks for; all if it does not.
   std::vector<std::string> chosen_metrics() const;
 
  private:
+  friend Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+                              const std::vector<vp::Expression>& more);
+
   /// The configurations of the families, which their points share.
   std::vector<std::shared_ptr<const std::map<std::string, std::string>>> bases_;
+  std::shared_ptr<const RunLogs> logs_;  ///< which have all metrics; null: the rows have
+  std::vector<std::string> names_;       ///< of all metrics in them
 };
 
-/// Reads the points of the folder's last sweep. Throws vp::InputError for a damaged one.
-Results read_results(const Store& store, Manifest manifest);
-
-/// Those of a sweep that was just computed: `known` has what is known of points by their position;
-/// the files of the others were verified before.
-Results read_results(const Store& store, Manifest manifest,
-                     const std::map<std::size_t, Outcome>& known);
+/// Reads the results of a manifest's points, which become the rows. Of a million points not all
+/// figures fit into memory: rows have those that the sweep asks for, and that `more` is made of.
+/// Throws vp::InputError for a damaged point.
+Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+                     const std::vector<vp::Expression>& more = {});
 
 /// Throws vp::InputError for a name in `expression` that no point has a value of, with the nearest.
 void check_names(const Results& results, const vp::Expression& expression);
@@ -85,8 +90,9 @@ vp::ExpressionValue value_in(const ResultRow& row, const std::string& name);
 /// it divides by zero.
 std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expression);
 
-/// One line a point: key, status, message, the swept parameters, the metrics.
-std::string results_csv(const Results& results);
+/// One line a point: key, status, message, the swept parameters, the metrics. Throws
+/// vp::OutputError.
+void write_csv(const std::string& path, const Results& results);
 
 /// How many points are feasible, and how many fail each part of the verdict: "3 of 12 points
 /// feasible, 2 did not run, 7 miss timing".

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include <sweep/results.h>
 #include <sweep/report.h>
+#include <sweep/results.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -20,6 +20,7 @@ class Analysis {
  public:
   Analysis(const Results& results, const vp::Expression& figure, bool all)
       : results_(results), figure_(figure), all_(all) {
+    if (results.manifest.effects.empty()) return;
     for (const ResultRow& row : results.rows) rows_[row.key] = &row;
   }
 
@@ -146,7 +147,7 @@ class Analysis {
 
   static std::string swept_text(const ResultRow& row) {
     std::vector<std::string> values;
-    for (const auto& [path, value] : row.swept) values.push_back(value);
+    for (const auto& [path, value] : row.swept) values.push_back(value.text());
     return vp::join(values, " / ");
   }
 

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include <host/process.h>
+#include <sweep/bytes.h>
 #include <sweep/worker.h>
 #include <vp/file.h>
 
@@ -45,59 +45,13 @@ std::optional<std::size_t> WorkQueue::held(std::uint32_t slot) const {
   return item - 1;
 }
 
-namespace {
-
-template <class Number>
-void put(std::string& bytes, Number value) {
-  static_assert(std::is_arithmetic_v<Number>);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-void put_text(std::string& bytes, std::string_view text) {
-  put(bytes, std::uint64_t{text.size()});
-  bytes += text;
-}
-
-/// Takes values off the front of bytes that are all there.
-class Taker {
- public:
-  explicit Taker(std::string_view bytes) : rest_(bytes) {}
-
-  template <class Number>
-  Number take() {
-    Number value{};
-    std::memcpy(&value, rest_.data(), sizeof value);
-    rest_.remove_prefix(sizeof value);
-    return value;
-  }
-  std::string take_text() {
-    const auto size = take<std::uint64_t>();
-    std::string text(rest_.substr(0, size));
-    rest_.remove_prefix(size);
-    return text;
-  }
-
- private:
-  std::string_view rest_;
-};
-
-}  // namespace
-
 std::string MessageWriter::bytes(const PointMessage& message) {
   std::string body;
   put(body, static_cast<std::uint8_t>(message.kind));
   put(body, message.item);
   put(body, message.wall_s);
   put(body, message.cpu_s);
-  put(body, message.failed);
-  put(body, message.failure.exit_code);
-  put(body, message.failure.signal);
-  put_text(body, message.failure.message);
-  put(body, std::uint64_t{message.complaints.size()});
-  for (const auto& [part, why] : message.complaints) {
-    put_text(body, part);
-    put_text(body, why);
-  }
+  put_facts(body, message);
   const Metrics& metrics = message.metrics;
   const bool same = metrics.shares_names(before_) || metrics.names() == before_.names();
   put(body, same);
@@ -123,14 +77,7 @@ std::optional<PointMessage> MessageReader::next() {
   message.item = taker.take<std::uint64_t>();
   message.wall_s = taker.take<double>();
   message.cpu_s = taker.take<double>();
-  message.failed = taker.take<bool>();
-  message.failure.exit_code = taker.take<int>();
-  message.failure.signal = taker.take<int>();
-  message.failure.message = taker.take_text();
-  for (auto left = taker.take<std::uint64_t>(); left != 0; --left) {
-    std::string part = taker.take_text();
-    message.complaints.emplace_back(std::move(part), taker.take_text());
-  }
+  take_facts(taker, message);
   const bool same = taker.take<bool>();
   const auto count = taker.take<std::uint64_t>();
   std::shared_ptr<const Metrics::Names> names = before_.shared_names();

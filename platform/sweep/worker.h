@@ -54,7 +54,7 @@ class WorkQueue {
 };
 
 /// What a process that computes points tells of one of them.
-struct PointMessage {
+struct PointMessage : Outcome {
   enum class Kind : std::uint8_t {
     computed,     ///< its file is written
     there,        ///< its file was there: somebody else's, or an earlier attempt's
@@ -66,10 +66,6 @@ struct PointMessage {
   std::uint64_t item = 0;  ///< of the engine's list
   double wall_s = 0;
   double cpu_s = 0;  ///< of the run itself
-  bool failed = false;
-  Failure failure;
-  Metrics metrics;
-  std::vector<std::pair<std::string, std::string>> complaints;  ///< as Outcome has them
 };
 
 /// Names go over the pipe when they differ from those of the message before.

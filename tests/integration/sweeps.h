@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include <sweep/run_log.h>
+
 #include "executable.h"
 
 namespace sweep_test {
@@ -71,11 +73,8 @@ class Sweeps : public kit::TemporaryFolder {
   /// Times that points were computed, by key.
   std::map<std::string, int> computations(const std::string& folder) const {
     std::map<std::string, int> counts;
-    for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/runs"))) {
-      std::ifstream lines(entry.path());
-      for (std::string line; std::getline(lines, line);)
-        ++counts[Json::parse(line)["key"].get<std::string>()];
-    }
+    const platform::sweep::RunLogs logs{platform::sweep::Store(*this / folder)};
+    logs.visit([&](const platform::sweep::RunEntry& entry) { ++counts[entry.key]; });
     return counts;
   }
   std::string a_point(const std::string& folder) const {

@@ -48,15 +48,17 @@ wait "$sweep" || fail "the sweep on the cluster"
 
 diff -r local/points cluster/points || fail "points differ from those of the local engine"
 cmp local/sweep.csv cluster/sweep.csv || fail "sweep.csv differs"
+# runs FOLDER COLUMNS: what the database says of who computed what.
+runs() { sqlite3 "$1/sweep.sqlite" "select $2 from runs"; }
 # each_once FOLDER POINTS
 each_once() {
   local computed different
-  computed=$(cat "$1"/runs/*.jsonl | wc -l)
-  different=$(cat "$1"/runs/*.jsonl | sed 's/.*"key":"\([0-9a-f]*\)".*/\1/' | sort -u | wc -l)
+  computed=$(runs "$1" "count(*)")
+  different=$(runs "$1" "count(distinct key)")
   [ "$different" = "$2" ] && [ "$computed" = "$2" ] || fail "$1: $computed computations of $different points, not $2"
 }
 each_once cluster 60
-grep -q '"engine":"slurm"' cluster/runs/*.jsonl || fail "nothing was computed on the cluster"
+runs cluster engine | grep -q slurm || fail "nothing was computed on the cluster"
 "$markervp" sweep s.yaml --output cluster --engine slurm >again.log 2>&1 || fail "the sweep again"
 grep -q '0 computed now, 60 there before' again.log || fail "points were computed again"
 
@@ -65,8 +67,8 @@ scontrol update NodeName=n1 State=RESUME || true
 "$markervp" sweep s.yaml --limit 12 --output measured --engine slurm >measured.log 2>&1 || fail "the sweep without --chunk"
 each_once measured 12
 for point in measured/points/*.json; do cmp "$point" "local/points/${point##*/}" || fail "points differ"; done
-grep -q '"engine":"local"' measured/runs/*.jsonl || fail "the first point was not measured here"
-grep -q '"engine":"slurm"' measured/runs/*.jsonl || fail "nothing but the first point was computed"
+runs measured engine | grep -q local || fail "the first point was not measured here"
+runs measured engine | grep -q slurm || fail "nothing but the first point was computed"
 
 # The terminal is gone, the job goes on: the same command waits for it.
 "$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >left.log 2>&1 &
@@ -94,6 +96,6 @@ grep -q 'The search looked at 24 of 2760 points' searched.log || fail "the searc
 diff -r found/points searched/points || fail "the search on the cluster computed other points"
 cmp found/sweep.csv searched/sweep.csv || fail "sweep.csv of the searches differs"
 each_once searched 24
-grep -q '"engine":"slurm"' searched/runs/*.jsonl || fail "nothing of the search was computed on the cluster"
+runs searched engine | grep -q slurm || fail "nothing of the search was computed on the cluster"
 
-echo "60 points, each once, on $(cat cluster/runs/*.jsonl | sed 's/.*"host":"\([^"]*\)".*/\1/' | sort -u | tr '\n' ' ')"
+echo "60 points, each once, on $(runs cluster 'distinct host' | sort | tr '\n' ' ')"

@@ -12,6 +12,7 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
+#include <sweep/run_log.h>
 #include <sweep/store.h>
 
 #include "sweep_kit.h"
@@ -92,8 +93,17 @@ class Platform : public kit::TemporaryFolder {
     result["summary"]["number"] = number;
     store().write(done_record(manifest_, manifest_.points[number], std::move(result)));
   }
+  /// What the logs say of a point.
+  Outcome outcome(int number) const { return RunLogs(store()).logged(key(number)).value(); }
+  /// All computations that the logs know.
+  std::vector<RunEntry> entries() const {
+    std::vector<RunEntry> entries;
+    RunLogs(store()).visit([&](const RunEntry& entry) { entries.push_back(entry); });
+    return entries;
+  }
   std::vector<RunEntry> complete_runs() const {
-    return platform::sweep::complete_runs(store(), manifest_);
+    RunLogs(store()).complete(manifest_);
+    return entries();
   }
   std::string files() const {
     std::string all;
@@ -123,9 +133,8 @@ BOOST_AUTO_TEST_CASE(a_process_computes_some_points) {
   const Tally tally = platform.compute({1, "local", 4});
   BOOST_TEST(tally.computed == 10u);
   BOOST_TEST(platform.processes() == 3u);
-  BOOST_TEST(tally.outcomes.size() == 10u);
-  BOOST_TEST(*tally.outcomes.at(7).metrics.find("summary.number") == 7);
-  BOOST_TEST(read_runs(platform.store()).size() == 10u);
+  BOOST_TEST(*platform.outcome(7).metrics.find("summary.number") == 7);
+  BOOST_TEST(platform.entries().size() == 10u);
 }
 
 BOOST_AUTO_TEST_CASE(files_do_not_depend_on_who_computed_them) {
@@ -151,7 +160,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {
   // That which crashed, one for its second attempt, one for the rest.
   BOOST_TEST(platform.processes() == 3u);
   BOOST_TEST(!platform.record(2).failed());
-  const std::vector<RunEntry> entries = read_runs(platform.store());
+  const std::vector<RunEntry> entries = platform.entries();
   BOOST_TEST(std::count_if(entries.begin(), entries.end(),
                            [](const RunEntry& entry) { return entry.attempt == 2; }) == 1);
 }
@@ -167,7 +176,7 @@ BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_c
   BOOST_TEST(tally.computed == 3u);
   BOOST_TEST(platform.attempts("1") == 1);
   BOOST_TEST(platform.record(1).outcome.at("result").at("summary").at("number") == 1);
-  BOOST_TEST(read_runs(platform.store()).size() == 2u);
+  BOOST_TEST(platform.entries().size() == 2u);
   const std::vector<RunEntry> entries = platform.complete_runs();
   BOOST_TEST(entries.size() == 3u);
   for (const RunEntry& entry : entries)
@@ -212,7 +221,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
   };
   const Tally tally = platform.compute({2, "local", 64}, crashes);
   BOOST_TEST(tally.computed == 3u);
-  BOOST_TEST(tally.outcomes.at(1).failed);
+  BOOST_TEST(platform.outcome(1).failed);
   BOOST_TEST(platform.attempts("1") == 2);
   const PointRecord record = platform.record(1);
   BOOST_TEST(record.failed());
@@ -249,8 +258,8 @@ BOOST_AUTO_TEST_CASE(nothing_follows_a_run_that_failed_in_its_process) {
   BOOST_TEST(platform.processes() == 2u);
   BOOST_TEST(platform.attempts("1") == 1);
   BOOST_TEST(platform.record(1).outcome.at("failure").at("message") == "it does not fit");
-  BOOST_TEST(tally.outcomes.at(1).failure.message == "it does not fit");
-  BOOST_TEST(tally.outcomes.at(1).failure.exit_code == 2);
+  BOOST_TEST(platform.outcome(1).failure.message == "it does not fit");
+  BOOST_TEST(platform.outcome(1).failure.exit_code == 2);
 }
 
 BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {
@@ -264,8 +273,9 @@ BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {
     result.result["summary"]["number"] = 0;
     return 0;
   };
-  const Tally other = run_local(wrong.store(), manifest, {0}, {1, "local", 64}, run, nullptr);
-  BOOST_TEST(contains(other.outcomes.at(0).failure.message, "another value than planned: a"));
+  run_local(wrong.store(), manifest, {0}, {1, "local", 64}, run, nullptr);
+  BOOST_TEST(contains(RunLogs(wrong.store()).logged(manifest.points[0].key).value().failure.message,
+                      "another value than planned: a"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

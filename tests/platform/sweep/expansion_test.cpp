@@ -86,8 +86,8 @@ BOOST_AUTO_TEST_CASE(a_grid_is_every_combination) {
   BOOST_TEST(point_count(Spec{}, groups) == 6);
   const Expansion all = expand(Spec{}, groups, everything, 100);
   BOOST_REQUIRE(all.points.size() == 6u);
-  BOOST_TEST(all.points[1][0].second == "1");
-  BOOST_TEST(all.points[1][1].second == "4");
+  BOOST_TEST(all.points[1][0].second.text() == "1");
+  BOOST_TEST(all.points[1][1].second.text() == "4");
   BOOST_TEST(expand(Spec{}, groups, everything, 4).points.size() == 4u);
 }
 
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(morris_moves_one_axis_at_a_time) {
     const std::size_t moved = effect.path == "a" ? 0 : 1;
     const Assignment& from = result.points[effect.from];
     const Assignment& to = result.points[effect.to];
-    BOOST_TEST(from[1 - moved].second == to[1 - moved].second);
+    BOOST_TEST(from[1 - moved].second.text() == to[1 - moved].second.text());
     const double step = (std::stod(to[moved].second) - std::stod(from[moved].second)) / 3;
     BOOST_TEST(std::fabs(step - effect.delta) < 1e-9);
     BOOST_TEST(std::fabs(std::fabs(step) - 2.0 / 3) < 1e-9);

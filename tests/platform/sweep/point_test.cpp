@@ -78,9 +78,25 @@ BOOST_AUTO_TEST_CASE(only_what_is_no_default_is_set) {
 
 BOOST_AUTO_TEST_CASE(a_manifest_reads_back) {
   const Manifest manifest = one_point();
-  const Manifest again = manifest_from(to_json(manifest), "m");
-  BOOST_TEST(to_json(again).dump() == to_json(manifest).dump());
-  BOOST_TEST(contains(complaint([] { manifest_from(Json::object(), "m"); }), "no manifest"));
+  const kit::TemporaryFolder folder;
+  const std::string file = folder / "manifest.json", other = folder / "again.json";
+  write_manifest(file, manifest);
+  const Manifest again = read_manifest(file);
+  write_manifest(other, again);
+  BOOST_TEST(kit::read_file(other) == kit::read_file(file));
+  BOOST_TEST(again.points.size() == 1u);
+  BOOST_TEST((again.points[0].swept == manifest.points[0].swept));
+  BOOST_TEST(Json::parse(kit::read_file(file))["points"][0]["key"] == again.points[0].key);
+  const auto damaged = [&](const std::string& from, const std::string& to) {
+    std::string text = kit::read_file(other);
+    kit::write_file(file, text.replace(text.find(from), from.size(), to));
+    return complaint([&] { read_manifest(file); });
+  };
+  BOOST_TEST(contains(damaged("\"family\":0", "\"family\":7"), "no manifest"));
+  BOOST_TEST(contains(damaged("\"key\"", "\"kez\""), "no manifest"));
+  BOOST_TEST(contains(damaged("\"points\": [", "\"points\": [7,"), "no manifest"));
+  kit::write_file(file, "{}");
+  BOOST_TEST(contains(complaint([&] { read_manifest(file); }), "no manifest"));
 }
 
 BOOST_AUTO_TEST_CASE(a_point_reads_back_without_provenance) {
