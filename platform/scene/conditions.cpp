@@ -56,7 +56,15 @@ class Conditions {
         {"light", &Conditions::set_light},
         {"squares", &Conditions::set_squares},
         {"markers", &Conditions::set_markers},
-        {"id", &Conditions::set_id}};
+        {"id", &Conditions::set_id},
+        {"velocity_x", &Conditions::set_velocity<0>},
+        {"velocity_y", &Conditions::set_velocity<1>},
+        {"velocity_z", &Conditions::set_velocity<2>},
+        {"spin", &Conditions::set_spin},
+        {"time", &Conditions::set_time},
+        {"exposure", &Conditions::set_exposure},
+        {"readout", &Conditions::set_readout},
+        {"vignetting", &Conditions::set_vignetting}};
     return all;
   }
 
@@ -108,6 +116,22 @@ class Conditions {
     all_markers_ = true;
   }
   void set_id(const std::string& text) { scene_.marker_id = whole(text, 0, dictionary_size - 1); }
+
+  static double seconds(const std::string& text) {
+    constexpr double s_per_ps = 1e-12;
+    return number(text, vp::Unit::time) * s_per_ps;
+  }
+  template <int axis>
+  void set_velocity(const std::string& text) {
+    scene_.motion.velocity[axis] = number(text, vp::Unit::none);
+  }
+  void set_spin(const std::string& text) {
+    scene_.motion.spin_deg_per_s = number(text, vp::Unit::none);
+  }
+  void set_time(const std::string& text) { scene_.time_s = seconds(text); }
+  void set_exposure(const std::string& text) { scene_.shutter.exposure_s = seconds(text); }
+  void set_readout(const std::string& text) { scene_.shutter.readout_s = seconds(text); }
+  void set_vignetting(const std::string& text) { scene_.vignetting = number(text, vp::Unit::none); }
 
   Scene& scene_;
   bool placed_ = false, all_markers_ = false;

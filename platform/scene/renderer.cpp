@@ -221,16 +221,21 @@ constexpr double full_scale = 255.0;
 /// A marker has 6x6 cells; the outer ring is black.
 constexpr int cells_per_side = 6;
 
-/// Paints surfaces in the order room, borders, black squares, white cells. Squares do not hide one
-/// another, so what each adds to a pixel is its brightness minus what it covers, times the covered
-/// area.
+struct Rows {
+  int begin, end;
+};
+
+/// Paints surfaces into some rows of the picture, in the order room, borders, black squares, white
+/// cells. Squares do not hide one another, so what each adds to a pixel is its brightness minus
+/// what it covers, times the covered area.
 class Painter {
  public:
-  explicit Painter(const Scene& scene)
+  Painter(const Scene& scene, Rows rows)
       : scene_(scene),
+        rows_(rows),
         width_(scene.camera.width),
         faces_(room_regions(scene)),
-        light_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(scene.camera.height)),
+        light_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(rows.end - rows.begin)),
         face_(light_.size(), mixed) {}
 
   std::vector<double> paint() {
@@ -244,7 +249,7 @@ class Painter {
   static constexpr std::uint8_t mixed = std::numeric_limits<std::uint8_t>::max();
 
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+    return static_cast<std::size_t>(y - rows_.begin) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
   }
 
@@ -259,7 +264,7 @@ class Painter {
         edge(x, y, piece);
       }
     };
-    for (int y = 0; y < scene_.camera.height; ++y) {
+    for (int y = rows_.begin; y < rows_.end; ++y) {
       const PixelSpan touched = touched_pixels(region, y, width_);
       const PixelSpan inside = inner_pixels(region, y, width_);
       if (inside.first == inside.last) {
@@ -341,6 +346,7 @@ class Painter {
   }
 
   const Scene& scene_;
+  Rows rows_;
   int width_;
   std::array<RoomFace, room_faces> faces_;
   std::vector<double> light_;
@@ -349,12 +355,76 @@ class Painter {
 
 }  // namespace
 
+namespace {
+
+/// The farthest that a corner of the marker comes while a row gathers light, px.
+double farthest_px(const Scene& scene) {
+  const double half_s = scene.shutter.exposure_s / 2;
+  const auto begin = project_marker(scene.camera, pose_at(scene, scene.time_s - half_s)),
+             end = project_marker(scene.camera, pose_at(scene, scene.time_s + half_s));
+  double farthest = 0;
+  for (std::size_t i = 0; i < begin.size(); ++i)
+    farthest = std::max(farthest, std::hypot(end[i].x - begin[i].x, end[i].y - begin[i].y));
+  return farthest;
+}
+
+/// Adds the mean over the exposure of these rows, whose middle is at `time_s`.
+void expose(const Scene& scene, Rows rows, double time_s, int moments,
+            std::vector<double>& picture) {
+  Scene still = scene;
+  for (int moment = 0; moment < moments; ++moment) {
+    const double share = (moment + 0.5) / moments - 0.5;
+    still.pose = pose_at(scene, time_s + share * scene.shutter.exposure_s);
+    const std::vector<double> light = Painter(still, rows).paint();
+    double* to = picture.data() + static_cast<std::ptrdiff_t>(rows.begin) * scene.camera.width;
+    for (const double value : light) *to++ += value / moments;
+  }
+}
+
+/// Of a scene that moves: each row, or all of them at once, at its own times.
+std::vector<double> moving_light(const Scene& scene) {
+  constexpr double moments_a_px = 4;
+  constexpr int most_moments = 64;
+  const int moments = static_cast<int>(
+      std::clamp(std::ceil(moments_a_px * farthest_px(scene)), 1.0, double{most_moments}));
+  const int height = scene.camera.height;
+  std::vector<double> picture(static_cast<std::size_t>(scene.camera.width) *
+                              static_cast<std::size_t>(height));
+  if (scene.shutter.readout_s == 0) {
+    expose(scene, {0, height}, scene.time_s, moments, picture);
+    return picture;
+  }
+  for (int y = 0; y < height; ++y)
+    expose(scene, {y, y + 1}, exposure_time(scene, y + 0.5), moments, picture);
+  return picture;
+}
+
+/// Less light towards the corners, with the square of the distance from the optical axis.
+void darken(const Scene& scene, std::vector<double>& picture) {
+  const Camera& camera = scene.camera;
+  const double far_x = std::max(camera.cx, camera.width - camera.cx),
+               far_y = std::max(camera.cy, camera.height - camera.cy);
+  const double missing = scene.vignetting / (far_x * far_x + far_y * far_y);
+  double* pixel = picture.data();
+  for (int y = 0; y < camera.height; ++y) {
+    const double dy = y + 0.5 - camera.cy;
+    for (int x = 0; x < camera.width; ++x) {
+      const double dx = x + 0.5 - camera.cx;
+      *pixel++ *= 1 - missing * (dx * dx + dy * dy);
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<double> render_light(const Scene& scene) {
   validate(scene);
-  std::vector<double> light = Painter(scene).paint();
+  std::vector<double> light =
+      scene.motion.any() ? moving_light(scene) : Painter(scene, {0, scene.camera.height}).paint();
   if (scene.blur_sigma_px >= smallest_blur_px) {
     gaussian_blur(light, scene.camera.width, scene.camera.height, scene.blur_sigma_px);
   }
+  if (scene.vignetting > 0) darken(scene, light);
   return light;
 }
 

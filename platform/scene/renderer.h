@@ -81,8 +81,9 @@ constexpr std::size_t room_faces = 5;
 std::array<RoomFace, room_faces> room_regions(const Scene& scene);
 
 /// The picture before noise and rounding: one brightness a pixel, fraction of full scale, row by
-/// row. The mean over the pixel's square is exact (analytic coverage), then blurred as the lens
-/// does. Throws vp::InputError like validate().
+/// row. The mean over the pixel's square is exact (analytic coverage); that over the exposure of a
+/// scene that moves is taken at four moments a pixel of motion, 64 at most; then comes the lens
+/// with its blur and vignetting. Throws vp::InputError like validate().
 std::vector<double> render_light(const Scene& scene);
 
 /// The picture that the camera delivers: light plus noise, times 255, rounded and saturated. Equal

@@ -49,12 +49,23 @@ void require_range(const Scene& scene, const char* what, double value, double hi
   }
 }
 
-void validate_room(const Scene& scene) {
+constexpr double longest_shutter_s = 10;
+
+void validate_shutter(const Scene& scene) {
+  require_range(scene, "exposure", scene.shutter.exposure_s, longest_shutter_s, " s");
+  require_range(scene, "readout", scene.shutter.readout_s, longest_shutter_s, " s");
+  if (!(scene.motion.velocity.allFinite() && std::isfinite(scene.motion.spin_deg_per_s) &&
+        std::isfinite(scene.time_s))) {
+    refuse(scene, "motion or time is no number");
+  }
+}
+
+void validate_room(const Scene& scene, const Pose& pose) {
   const Room& room = scene.room;
   if (!(room.wall_w > 0 && room.floor_v > room.ceiling_v && room.side_u > 0)) {
     refuse(scene, "the room is turned inside out: give wall > 0, floor below ceiling, side > 0");
   }
-  const Eigen::Vector3d camera = camera_position(scene.pose);
+  const Eigen::Vector3d camera = camera_position(pose);
   if (!(camera.z() < 0)) {
     refuse(scene, "the camera sees the marker's back: turn the marker towards the camera");
   }
@@ -97,10 +108,15 @@ void validate_squares(const Scene& scene) {
 
 void validate(const Scene& scene) {
   validate(scene.camera);
-  validate(scene.pose);
   marker_word(scene.marker_id);
-  project_marker(scene.camera, scene.pose);
-  validate_room(scene);
+  validate_shutter(scene);
+  const double half_s = (scene.shutter.readout_s + scene.shutter.exposure_s) / 2;
+  for (const double time_s : {scene.time_s - half_s, scene.time_s + half_s}) {
+    const Pose pose = pose_at(scene, time_s);
+    validate(pose);
+    project_marker(scene.camera, pose);
+    validate_room(scene, pose);
+  }
   validate_squares(scene);
   const Brightness& light = scene.brightness;
   require_range(scene, "brightness of black", light.black, 1, "");
@@ -110,12 +126,36 @@ void validate(const Scene& scene) {
   require_range(scene, "brightness of the ceiling", light.ceiling, 1, "");
   require_range(scene, "brightness of the side walls", light.side_walls, 1, "");
   require_range(scene, "noise", scene.noise_sigma, 1, "");
+  require_range(scene, "vignetting", scene.vignetting, 1, "");
   require_range(scene, "blur", scene.blur_sigma_px, largest_blur_px, " px");
+}
+
+Pose pose_at(const Scene& scene, double time_s) {
+  if (!scene.motion.any() || time_s == 0) return scene.pose;
+  const Eigen::Vector3d centre = transform(scene.pose, {marker_side_m / 2, marker_side_m / 2, 0}) +
+                                 scene.motion.velocity * time_s;
+  return pose_from_centre(rotation_z(scene.motion.spin_deg_per_s * time_s) * scene.pose.rotation,
+                          centre);
+}
+
+double exposure_time(const Scene& scene, double y_px) {
+  return scene.time_s + scene.shutter.readout_s * (y_px / scene.camera.height - 0.5);
 }
 
 GroundTruth ground_truth(const Scene& scene) {
   validate(scene);
-  return {scene.marker_id, project_marker(scene.camera, scene.pose), scene.pose};
+  const Pose pose = pose_at(scene, scene.time_s);
+  GroundTruth truth{scene.marker_id, project_marker(scene.camera, pose), pose};
+  if (!scene.motion.any() || scene.shutter.readout_s == 0) return truth;
+  // A corner's row decides when it is seen, and when decides the row: a few rounds settle it, since
+  // no row is passed as fast as rows are read.
+  constexpr int rounds = 20;
+  for (std::size_t i = 0; i < truth.corners_px.size(); ++i) {
+    PixelPoint& corner = truth.corners_px[i];
+    for (int round = 0; round < rounds; ++round)
+      corner = project_marker(scene.camera, pose_at(scene, exposure_time(scene, corner.y)))[i];
+  }
+  return truth;
 }
 
 namespace {

@@ -55,11 +55,29 @@ struct Square {
   std::uint16_t word = plain_square_word;  ///< its 4x4 cells, 1 = black; all ones: a plain square
 };
 
+/// How marker and room move as the camera sees them, evenly.
+struct Motion {
+  Eigen::Vector3d velocity{0, 0, 0};  ///< of the marker's centre, m/s
+  double spin_deg_per_s = 0;  ///< about that centre and the camera's axis, positive from x to y
+
+  bool any() const { return spin_deg_per_s != 0 || !velocity.isZero(0); }
+};
+
+/// When the sensor gathers light. A row gathers for `exposure_s`; with a rolling shutter rows begin
+/// one after the other, the last one `readout_s` · (1 - 1 / rows) later than the first.
+struct Shutter {
+  double exposure_s = 0;
+  double readout_s = 0;  ///< 0: a global shutter
+};
+
 /// Everything that decides a picture. Two equal scenes render to equal bytes on any host.
 struct Scene {
   std::string name;  ///< for messages and reports
   Camera camera;
-  Pose pose;          ///< of the marker
+  Pose pose;          ///< of the marker, at time 0
+  Motion motion;      ///< from then on
+  double time_s = 0;  ///< of the picture: the middle of the exposure of its middle row
+  Shutter shutter;
   int marker_id = 0;  ///< DICT_4X4_250
   std::vector<Square> squares;
   Brightness brightness;
@@ -67,20 +85,29 @@ struct Scene {
   double noise_sigma =
       0.007;  ///< deviation of the Gaussian noise, fraction of full scale (table 5.1)
   double blur_sigma_px = 0;  ///< deviation of the lens blur, px; 0: none
+  double vignetting = 0;     ///< share of the light that is missing in the farthest corner
   std::uint64_t seed = 0;    ///< of the noise
 };
 
 /// What a perfect detector would find.
 struct GroundTruth {
   int marker_id = 0;
-  std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
-  Pose pose;
+  /// Clockwise from the marker's own top left, each where it is in the middle of the exposure of
+  /// its row.
+  std::array<PixelPoint, 4> corners_px;
+  Pose pose;  ///< at the picture's time
 };
+
+/// The marker's pose at a time, s.
+Pose pose_at(const Scene& scene, double time_s);
+
+/// The middle of the exposure at this height in the picture, px, s.
+double exposure_time(const Scene& scene, double y_px);
 
 /// Throws vp::InputError if the scene cannot be rendered: camera or pose invalid, a marker corner
 /// not in front of the camera, the camera behind the marker or outside the room, an unknown ID,
-/// overlapping squares, a level outside 0 to 1, a noise outside 0 to 1 or a blur outside 0 to 100
-/// px.
+/// overlapping squares, a level, noise or vignetting outside 0 to 1, a blur outside 0 to 100 px, a
+/// negative exposure, or a motion that makes it so while the picture is taken.
 void validate(const Scene& scene);
 
 /// Corners may lie outside the picture. Throws vp::InputError like validate().

@@ -111,6 +111,11 @@ Json scene_json(const Scene& scene) {
   json["brightness"] = {light.black, light.border,  light.wall,
                         light.floor, light.ceiling, light.side_walls};
   json["room"] = {scene.room.wall_w, scene.room.floor_v, scene.room.ceiling_v, scene.room.side_u};
+  const Motion& motion = scene.motion;
+  json["motion"] = {motion.velocity.x(), motion.velocity.y(), motion.velocity.z(),
+                    motion.spin_deg_per_s, scene.time_s};
+  json["shutter"] = {scene.shutter.exposure_s, scene.shutter.readout_s};
+  json["vignetting"] = scene.vignetting;
   json["noise"] = scene.noise_sigma;
   json["blur"] = scene.blur_sigma_px;
   json["seed"] = scene.seed;
