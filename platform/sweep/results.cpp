@@ -189,7 +189,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
     metrics = selection.of(metrics);
     results.add(manifest, std::move(point), *std::move(outcome));
   }
-  manifest.points.clear();
+  std::vector<PlannedPoint>().swap(manifest.points);  // and its room
   results.manifest = std::move(manifest);
   results.logs_ = std::move(logs);
   results.names_ = selection.seen();
