@@ -2,7 +2,6 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <page/page_file.h>
 #include <page/report_page.h>
 #include <report/console.h>
 #include <sweep/compare.h>

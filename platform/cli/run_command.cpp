@@ -6,7 +6,6 @@
 #include <cli/program.h>
 #include <host/output_folder.h>
 #include <host/process.h>
-#include <page/page_file.h>
 #include <page/report_page.h>
 #include <report/console.h>
 #include <report/result_json.h>

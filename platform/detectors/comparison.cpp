@@ -1,11 +1,16 @@
 #include <detectors/comparison.h>
 
+#include <detectors/peers.h>
 #include <fmt/format.h>
+#include <host/process.h>
 #include <report/console.h>
 #include <vp/text.h>
 
 #include <algorithm>
 #include <cmath>
+
+#define MARKERVP_TEXT_OF(name) #name
+#define MARKERVP_TEXT(name) MARKERVP_TEXT_OF(name)
 
 namespace platform::detectors {
 
@@ -318,6 +323,13 @@ Json to_json(const Comparison& comparison) {
   for (const Comparison::LeftOut& left_out : comparison.left_out)
     json["left_out"].push_back({{"design", left_out.design}, {"why", left_out.why}});
   return json;
+}
+
+std::vector<std::unique_ptr<Peer>> make_peers(const MarkerSet& markers) {
+  const auto entry = reinterpret_cast<decltype(&MARKERVP_PEERS_ENTRY)>(
+      host::load_plugin(host::library_folders(), "libmarkervp_peers.so",
+                        MARKERVP_TEXT(MARKERVP_PEERS_ENTRY), "there is nothing to compare with"));
+  return entry()->peers(markers);
 }
 
 }  // namespace platform::detectors

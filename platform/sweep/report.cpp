@@ -1,6 +1,5 @@
 #include <sweep/report.h>
 
-#include <page/page_file.h>
 #include <page/report_page.h>
 #include <report/console.h>
 #include <sweep/metrics.h>

@@ -15,11 +15,11 @@
 #include <hal/hal.h>
 #include <ps/cpu/cpu_time.h>
 #include <ps/cpu/program.h>
+#include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
 #include <vp/router.h>
-#include <vp/stream_ends.h>
 #include <vp/unit.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/concat/concat.h>

@@ -19,7 +19,6 @@
 #include <xilinx/axi_dma/axi_dma.h>
 #include "bus_master.h"
 #include "memory_target.h"
-#include <vp/stream_ends.h>
 
 namespace kit {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <page/page_file.h>
+#include <page/report_page.h>
 
 #include "cli_kit.h"
 

@@ -2,7 +2,6 @@
 #include <stdexcept>
 
 #include <simulation.h>
-#include <vp/stream_ends.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
