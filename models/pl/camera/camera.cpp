@@ -18,10 +18,10 @@ class CameraClocked final : public Camera {
   void edge() override;
   void send_pixel();
 
-  std::uint32_t blanking_ = 0;  ///< clocks until the first pixel leaves
+  std::uint64_t blanking_ = 0;  ///< clocks until the first pixel leaves, exposure and all
   std::uint16_t column_ = 0, row_ = 0;
   bool running_ = false;
-  vp::Probe<std::uint32_t> blanking_probe_{"blanking", blanking_, 20};
+  vp::Probe<std::uint64_t> blanking_probe_{"blanking", blanking_, 32};
 };
 
 void CameraClocked::edge() {
@@ -39,7 +39,7 @@ void CameraClocked::edge() {
     running_ = true;
     column_ = row_ = 0;
   }
-  if (starts) blanking_ = frame_blanking;
+  if (starts) blanking_ = clocks_to_frame();
   if (blanking_ == 0 && !running_ && !frame_ena.written()) sleep();
 }
 
@@ -76,7 +76,7 @@ void CameraTlm::edge() {
   }
   if (cycle == begin_) begin_frame(cycle);
   frame_ena = under_way && cycle > begin_;
-  if (starts) begin_ = cycle + frame_blanking;
+  if (starts) begin_ = cycle + clocks_to_frame();
   if (begin_ == vp::Clock::never) return;
   for (const std::uint64_t next : {begin_, begin_ + 1, begin_ + geometry_.pixels() + 1}) {
     if (next > cycle) return wake_at(next);
@@ -133,7 +133,13 @@ bool Camera::triggered(bool under_way) {
   }
   frame_number = number;
   exposed_ = scene_;
+  exposed_ps_ = clock().time_of(clock().cycle());
   return true;
+}
+
+std::uint64_t Camera::clocks_to_frame() const {
+  const std::uint64_t end_of_exposure = clock().cycle_at_or_after(exposed_ps_ + exposure);
+  return end_of_exposure - clock().cycle() + frame_blanking;
 }
 
 void Camera::begin_frame(std::uint64_t cycle) {

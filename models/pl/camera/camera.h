@@ -13,7 +13,8 @@
 namespace pl {
 
 /// A triggered sensor with a global shutter, behind a parallel port: a rise of `ena` exposes what
-/// it sees, `frame_blanking` clocks later its pixels come, one a clock, line by line.
+/// it sees for `exposure`; `frame_blanking` clocks later its pixels come, one a clock, line by
+/// line.
 ///
 /// The sensor stands outside of the chip: its image needs no memory there, and the test bench says
 /// what it sees. In the chip is the port, which drops triggers that come too early, and counts
@@ -21,6 +22,7 @@ namespace pl {
 class Camera : public vp::Clocked, public vp::Ip {
  public:
   static Models<Camera>& models();
+  static constexpr std::uint64_t longest_exposure = 1'000'000'000'000;  ///< ps
 
   vp::In<bool> ena{"ena", this};  ///< a rise triggers
   vp::In<bool> rst{"rst", this};  ///< cuts the frame
@@ -39,16 +41,23 @@ class Camera : public vp::Clocked, public vp::Ip {
   // Whole frames.
   GreyFrames frames{"frames", clock()};
 
-  vp::Parameter<std::uint32_t> frame_blanking{
-      "frame_blanking",
-      64,
-      vp::Unit::cycles,
-      {GreyFrames::drain_clocks, 1'000'000},
+  vp::Parameter<std::uint64_t> exposure{
+      "exposure",
+      0,
+      vp::Unit::time,
+      {0, longest_exposure},
       vp::Source::decision,
-      "from the trigger to the frame's first pixel: exposure and the sensor's blanking"};
+      "for which the sensor gathers light after the trigger; how much a motion blurs the image is "
+      "the scene's exposure"};
+  vp::Parameter<std::uint32_t> frame_blanking{
+      "frame_blanking",     64,
+      vp::Unit::cycles,     {GreyFrames::drain_clocks, 1'000'000},
+      vp::Source::decision, "from the end of the exposure to the frame's first pixel"};
 
   /// What the sensor sees from now on: a frame's pixels, row by row.
   void show(const std::vector<std::uint8_t>& pixels);
+  /// Middle of the last frame's exposure, ps.
+  std::uint64_t mid_exposure_ps() const { return exposed_ps_ + exposure / 2; }
 
  protected:
   using Image = std::shared_ptr<const std::vector<std::uint8_t>>;
@@ -57,6 +66,8 @@ class Camera : public vp::Clocked, public vp::Ip {
 
   /// Looks at trigger and resets. True: a frame is exposed.
   bool triggered(bool under_way);
+  /// From the trigger, at this edge, to the one behind which the first pixel leaves: clocks.
+  std::uint64_t clocks_to_frame() const;
   /// The first pixel leaves on the edge after `cycle`.
   void begin_frame(std::uint64_t cycle);
   const std::vector<std::uint8_t>& frame() const { return *frame_; }
@@ -66,8 +77,9 @@ class Camera : public vp::Clocked, public vp::Ip {
  private:
   vp::IpEstimate own_estimate() const override;
 
-  Image scene_, exposed_;  ///< what the sensor sees, and what it saw at the trigger
-  Image frame_, before_;   ///< in the channel, and the frame that left it last
+  Image scene_, exposed_;         ///< what the sensor sees, and what it saw at the trigger
+  Image frame_, before_;          ///< in the channel, and the frame that left it last
+  std::uint64_t exposed_ps_ = 0;  ///< when the last exposure began
   bool ena_before_ = false;
   std::uint32_t triggers_ = 0;
 };

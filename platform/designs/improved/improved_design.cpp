@@ -70,7 +70,7 @@ void ImprovedDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
   }
   if (signal.bits() != 0) return;
   const std::uint32_t number = camera.frame_number;
-  sent_[number % sent_.size()] = {number, ports_.scheduler.now_ps()};
+  sent_[number % sent_.size()] = {number, camera.mid_exposure_ps(), ports_.scheduler.now_ps()};
 }
 
 bool ImprovedDesign::report(const Publication& publication, report::FrameReport& frame) {
@@ -132,8 +132,10 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
     shown.why = why;
     return shown;
   };
-  report::StageTime capture = between("capture", frame.start_ps, sent.end_ps, "frame",
-                                      "one pixel a clock, so it lasts as long as the image does");
+  report::StageTime capture =
+      between("capture", frame.start_ps, sent.end_ps, "frame",
+              camera.exposure == 0 ? "one pixel a clock, so it lasts as long as the image does"
+                                   : "the exposure (pl.camera.exposure), then one pixel a clock");
   capture.clock = "ps.fclk_clk0";
   frame.times.insert(
       frame.times.begin(),
@@ -141,6 +143,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
                         "the last blobs and their DMA, the trigger of the next frame, and what the "
                         "software still had to do for the one before")});
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
+  frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, "", ""));
 }
 
 ImprovedDesign::Dropped ImprovedDesign::counters() const {

@@ -38,6 +38,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   /// A frame that left the camera.
   struct Sent {
     std::uint32_t number = 0;
+    std::uint64_t mid_exposure_ps = 0;
     std::uint64_t end_ps = 0;  ///< of its last pixel; 0: no such frame
   };
   /// What the logic dropped: triggers, pictures, the rest of pictures, packets.

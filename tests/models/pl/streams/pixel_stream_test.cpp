@@ -203,6 +203,27 @@ BOOST_DATA_TEST_CASE(triggers_within_a_frame_are_dropped_and_counted, data::make
   });
 }
 
+// An exposure that ends between two edges: the blanking begins with the next.
+BOOST_DATA_TEST_CASE(the_frame_comes_after_its_exposure, data::make(both), tlm) {
+  PixelBench b(fidelity(tlm), {"camera.exposure=1234567 ps"});
+  b.run([&] {
+    b.camera.show(image_of(2));
+    b.pixels.arm(0, frame_bytes);
+    b.at(b.clk.cycle() + 20);
+    const std::uint64_t begin = b.trigger();
+    const std::uint64_t middle = b.clk.time_of(begin) + 1'234'567 / 2;
+    b.at(begin + 124 + blanking);
+    BOOST_TEST(b.camera.mid_exposure_ps() == middle);
+    BOOST_TEST(!b.camera.frame_ena.get());
+    b.trigger();  // neither exposure nor frame is disturbed
+    b.at(begin + 124 + blanking + 1);
+    BOOST_TEST(b.camera.frame_ena.get());
+    b.at(begin + 124 + blanking + 1 + frame_bytes);
+    BOOST_TEST(!b.camera.frame_ena.get());
+    BOOST_TEST(b.camera.dropped_triggers.get() == 1u);
+  });
+}
+
 BOOST_DATA_TEST_CASE(the_trigger_exposes_what_is_seen_then, data::make(both), tlm) {
   PixelBench b(fidelity(tlm));
   b.run([&] {
@@ -235,7 +256,8 @@ struct Seen {
 
 // Triggers, resets of either side, transfers armed early, late, too short or not at all.
 Seen random_run(bool tlm, std::uint64_t seed) {
-  PixelBench b(fidelity(tlm), {"pixel_stream.fifo_depth=4"});
+  PixelBench b(fidelity(tlm), {"pixel_stream.fifo_depth=4",
+                               "camera.exposure=" + std::to_string(seed % 3 * 777) + " ns"});
   Seen seen;
   const auto note = [&] {
     b.stream.settle();
