@@ -4,7 +4,6 @@
 #include <string>
 
 #include <sweep/manifest.h>
-#include <sweep/run_log.h>
 #include <sweep/store.h>
 
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <cli/commands.h>
-#include <cli/sweep_platform.h>
+#include <cli/sweep_command.h>
 #include <sweep/engine.h>
 #include <sweep/store.h>
 #include <vp/ip.h>

@@ -1,5 +1,5 @@
 #include <cli/commands.h>
-#include <cli/sweep_platform.h>
+#include <cli/sweep_command.h>
 #include <designs/designs.h>
 #include <detectors/comparison.h>
 #include <host/output_folder.h>
@@ -73,8 +73,7 @@ class Comparer {
   ConfigurationOptions configuration_of(const std::string& design) const {
     ConfigurationOptions configuration = options_.configuration;
     auto& assignments = configuration.assignments;  // the user's own ones win
-    assignments.insert(assignments.begin(),
-                       {"profile=" + options_.profile, "power.mode=activity"});
+    assignments.insert(assignments.begin(), {"profile=" + options_.profile, "power.mode=activity"});
     configuration.design = design;
     return configuration;
   }

@@ -1,5 +1,5 @@
 #include <cli/commands.h>
-#include <cli/sweep_platform.h>
+#include <cli/sweep_command.h>
 #include <designs/designs.h>
 #include <fmt/format.h>
 #include <input/frame_source.h>

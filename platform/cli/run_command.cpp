@@ -9,7 +9,7 @@
 #include <page/report_page.h>
 #include <report/console.h>
 #include <report/result_json.h>
-#include <sweep/identity.h>
+#include <sweep/manifest.h>
 #include <sweep/point.h>
 #include <vp/error.h>
 #include <vp/file.h>

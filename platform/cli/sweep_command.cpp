@@ -13,11 +13,9 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/sweep_command.h>
-#include <cli/sweep_platform.h>
 #include <designs/designs.h>
 #include <host/process.h>
 #include <report/console.h>
-#include <sweep/database.h>
 #include <sweep/engine.h>
 #include <sweep/metrics.h>
 #include <sweep/report.h>

@@ -1,4 +1,4 @@
-#include <cli/sweep_platform.h>
+#include <cli/sweep_command.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>

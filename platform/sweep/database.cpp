@@ -1,4 +1,4 @@
-#include <sweep/database.h>
+#include <sweep/results.h>
 
 #include <sqlite3.h>
 #include <unistd.h>

@@ -14,7 +14,6 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
-#include <sweep/run_log.h>
 #include <sweep/store.h>
 #include <sweep/worker.h>
 #include <vp/file.h>

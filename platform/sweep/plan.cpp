@@ -11,7 +11,7 @@
 
 #include <sweep/axes.h>
 #include <sweep/expansion.h>
-#include <sweep/identity.h>
+#include <sweep/manifest.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/plan.h>

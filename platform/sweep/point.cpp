@@ -1,7 +1,7 @@
 #include <utility>
 
 #include <host/document.h>
-#include <sweep/identity.h>
+#include <sweep/manifest.h>
 #include <sweep/point.h>
 #include <sweep/worker.h>
 #include <vp/error.h>

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include <sweep/metrics.h>
 #include <sweep/results.h>
 
 namespace platform::sweep {
@@ -44,7 +46,7 @@ std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 ///
 /// Of more than 20 000 points it has the first front and every so many of the others. "metrics" of
 /// a point that failed are those until then. `steps` is what one step of each parameter is worth at
-/// a point (explore::effects_json), or null.
+/// a point (sweep::effects_json), or null.
 std::string page_block(const Results& results, const std::string& folder,
                        const Json& steps = nullptr);
 
@@ -53,5 +55,18 @@ std::vector<vp::Expression> page_figures();
 
 /// Writes report.html of a sweep into its folder. False if the program was built without the page.
 bool write_page(const Results& results, const std::string& folder, const Json& steps = nullptr);
+
+/// A run to compare: a result.json, or a point of a sweep.
+struct Comparable {
+  std::string name;
+  std::map<std::string, std::string> configuration;  ///< and system, inputs, profile
+  Metrics metrics;
+};
+
+/// Reads a result.json, a folder with one, or a point's file. Throws vp::InputError.
+Comparable read_comparable(const std::string& path);
+
+/// Configuration and metrics in which the two differ, as tables; says so if they differ in nothing.
+std::string compare(const Comparable& a, const Comparable& b);
 
 }  // namespace platform::sweep

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <sweep/run_log.h>
+#include <sweep/store.h>
 
 #include "executable.h"
 

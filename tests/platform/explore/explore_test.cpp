@@ -1,5 +1,4 @@
 #include <explore/explore.h>
-#include <explore/relaxation.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -7,11 +6,11 @@
 #include <sweep/metrics.h>
 #include <vp/error.h>
 
-#include "explore_kit.h"
+#include "number_space.h"
 
 using namespace platform;
 using namespace platform::explore;
-using namespace explore_test;
+using namespace space_test;
 
 namespace {
 

@@ -12,7 +12,6 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
-#include <sweep/run_log.h>
 #include <sweep/store.h>
 
 #include "sweep_kit.h"

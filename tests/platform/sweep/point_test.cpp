@@ -1,4 +1,4 @@
-#include <sweep/identity.h>
+#include <sweep/manifest.h>
 #include <sweep/metrics.h>
 #include <sweep/point.h>
 #include <sweep/report.h>

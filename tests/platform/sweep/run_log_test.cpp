@@ -7,9 +7,8 @@
 #include <sstream>
 
 #include <report/verdict.h>
-#include <sweep/database.h>
 #include <sweep/results.h>
-#include <sweep/run_log.h>
+#include <sweep/store.h>
 
 #include "child_process.h"
 #include "sweep_kit.h"

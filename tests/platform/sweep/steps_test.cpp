@@ -1,11 +1,11 @@
-#include <explore/steps.h>
+#include <sweep/sensitivity.h>
 
 #include <boost/test/unit_test.hpp>
 
-#include "explore_kit.h"
+#include "number_space.h"
 
-using namespace platform::explore;
-using namespace explore_test;
+using namespace platform::sweep;
+using namespace space_test;
 
 namespace {
 
@@ -17,28 +17,28 @@ std::vector<std::string> texts(const std::vector<Step>& steps) {
 }
 
 struct Point {
-  Point(const std::string& yaml, sweep::Assignment at)
+  Point(const std::string& yaml, Assignment at)
       : platform(numbers()),
-        space(sweep::parse_spec(yaml, "study.yaml"), platform),
+        space(parse_spec(yaml, "study.yaml"), platform),
         base(std::move(at)),
         steps(steps_from(space, base)) {}
 
   StepEffects effects(const std::vector<std::string>& figures) {
-    sweep::Results results;
+    Results results;
     add(results, base);
     for (const Step& step : steps) add(results, step.point);
     std::vector<vp::Expression> expressions;
     for (const std::string& figure : figures) expressions.emplace_back(figure, "here");
     return effects_of(steps, results, expressions);
   }
-  void add(sweep::Results& results, const sweep::Assignment& point) {
-    const sweep::PlannedPoint planned = space.point(point);
+  void add(Results& results, const Assignment& point) {
+    const PlannedPoint planned = space.point(point);
     results.add(space.manifest(), planned, outcome_of(planned));
   }
 
-  sweep::Platform platform;
-  sweep::Space space;
-  sweep::Assignment base;
+  Platform platform;
+  Space space;
+  Assignment base;
   std::vector<Step> steps;
 };
 
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(the_strongest_step_is_first) {
   BOOST_TEST(table.find("+10") != std::string::npos, table);
   const std::string csv = effects_csv(effects);
   BOOST_TEST(csv.find("summary.fps.mean,50,b,500,400,-0.5,\n") != std::string::npos, csv);
-  const sweep::Json json = effects_json(effects, "key");
+  const Json json = effects_json(effects, "key");
   BOOST_TEST(json["figures"][0]["base"] == 50);
   BOOST_TEST(json["rows"][0]["changes"][1].is_null());
   BOOST_TEST(json["rows"][3]["to"] == "600");

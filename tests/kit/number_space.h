@@ -8,7 +8,7 @@
 #include <sweep/plan.h>
 #include <sweep/results.h>
 
-namespace explore_test {
+namespace space_test {
 
 namespace report = platform::report;
 namespace sweep = platform::sweep;
@@ -52,4 +52,4 @@ inline sweep::Outcome outcome_of(const sweep::PlannedPoint& point) {
   return outcome;
 }
 
-}  // namespace explore_test
+}  // namespace space_test
