@@ -6,6 +6,11 @@
 #include <sweep/manifest.h>
 #include <sweep/store.h>
 
+/// libsystemc refers to it.
+extern "C" int sc_main(int, char**) {
+  return 1;
+}
+
 namespace {
 
 using namespace platform::sweep;
