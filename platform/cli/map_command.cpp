@@ -129,6 +129,11 @@ constexpr Block ps_blocks[] = {
 /// Those where no device of the map is.
 std::string blocks_without_model(const HardwareMap& map) {
   std::string text =
+      "\nEach core finds an interrupt controller's CPU interface, a private timer and a watchdog "
+      "of its "
+      "own at these addresses, and in the\ndistributor the registers of interrupts 0 to 31; the "
+      "global "
+      "timer's comparator is that of core 0.\n"
       "\n## Blocks of the PS without a model\n\nTheir registers are not there: an access is a data "
       "abort, which ends the program with their address.\nThe DDR works without its controller, "
       "and "

@@ -64,7 +64,8 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   folder_.restore();
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
   zynq_ =
-      std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm);
+      std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm,
+                             program_->may_start_core() ? 2 : 1);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   reports_.set_place_source([this] { return zynq_->ps.cpu.program_counter(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(

@@ -101,7 +101,7 @@ BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
   const auto watch = [this](vp::MmLink& link, const char* name, bool transactions) {
     observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
   };
-  watch(zynq.ps.cpu.m_axi, "cpu", true);
+  for (ps::Cpu* core : zynq.ps.cpus()) watch(core->m_axi, core->basename(), true);
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watch(port->link, port->get_parent_object()->basename(), false);
   }
@@ -220,7 +220,8 @@ class BusTrace::Bursts final : public vp::MmObserver {
 };
 
 BusTrace::BusTrace(Zynq& zynq) : names_(hardware_map(zynq)) {
-  observers_.push_back(std::make_unique<Accesses>(names_, zynq.ps.cpu.m_axi));
+  for (ps::Cpu* core : zynq.ps.cpus())
+    observers_.push_back(std::make_unique<Accesses>(names_, core->m_axi));
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     observers_.push_back(std::make_unique<Bursts>(port->link));
   }

@@ -75,13 +75,18 @@ PowerStates::PowerStates(Zynq& zynq)
                           vp::PiecewiseConstant(frame_runs() ? hz(clock) : 0),
                           clock.frequency_hz()});
   }
-  zynq.ps.cpu.asleep.attach(*this);
+  for (ps::Cpu* core : zynq.ps.cpus()) core->asleep.attach(*this);
   if (busy_) busy_->attach(*this);
 }
 
 PowerStates::~PowerStates() {
-  zynq_.ps.cpu.asleep.detach(*this);
+  for (ps::Cpu* core : zynq_.ps.cpus()) core->asleep.detach(*this);
   if (busy_) busy_->detach(*this);
+}
+
+unsigned PowerStates::awake_cores() const {
+  const auto* second = zynq_.ps.second_core();
+  return (zynq_.ps.cpu.asleep ? 0u : 1u) + (second && !second->cpu.asleep ? 1u : 0u);
 }
 
 std::uint64_t PowerStates::fastest_hz(const vp::Clock& clock) const {
@@ -95,11 +100,11 @@ const PowerStates::PlClock& PowerStates::pl_clock(const vp::Clock& clock) const 
   throw std::logic_error(std::string(clock.name()) + " is no clock that the PS makes for the PL");
 }
 
-// The processor falls asleep and wakes with every burst of an upload: nothing else is looked at.
+// A core falls asleep and wakes with every burst of an upload: nothing else is looked at.
 void PowerStates::on_change(vp::SignalBase& signal, std::uint32_t) {
-  if (&signal != &zynq_.ps.cpu.asleep) return update();
+  if (&signal == busy_) return update();
   const std::uint64_t now = zynq_.scheduler.now_ps();
-  cpu_awake_hz.set(now, awake() ? hz(zynq_.ps.cpu_clk.clk) : 0);
+  cpu_awake_hz.set(now, awake_cores() * hz(zynq_.ps.cpu_clk.clk));
   if (observer_) observer_->states_changed(now);
 }
 
@@ -108,7 +113,7 @@ void PowerStates::update() {
   const double cpu = hz(zynq_.ps.cpu_clk.clk);
   fastest_cpu_hz_ = std::max(fastest_cpu_hz_, zynq_.ps.cpu_clk.clk.frequency_hz());
   cpu_hz.set(now, cpu);
-  cpu_awake_hz.set(now, awake() ? cpu : 0);
+  cpu_awake_hz.set(now, awake_cores() * cpu);
   for (PlClock& pl : pl_clocks_) {
     pl.hz.set(now, hz(*pl.clock));
     pl.frame_hz.set(now, frame_runs() ? hz(*pl.clock) : 0);
@@ -220,8 +225,8 @@ class Builder {
         &states_.always);
   }
 
-  // Vendor: both cores are busy half of the time. Activity: core 0 is busy while the program does
-  // not wait for an interrupt, core 1 sleeps in WFE.
+  // Vendor: both cores are busy half of the time. Activity: a core is busy while its program does
+  // not wait for an interrupt or an event; core 1 sleeps in WFE until it is started.
   void add_cores() {
     const Band cycle = table_.value("ps.core_cycle") * nano;
     if (by_activity_) {
@@ -261,10 +266,11 @@ class Builder {
   }
 
   /// What cache misses moved.
-  static double missed_bytes(const Zynq& zynq, double stall_ns_per_line) {
+  static double missed_bytes(Zynq& zynq, double stall_ns_per_line) {
     double stalls_ns = 0;
-    for (const ps::WorkCount& work : zynq.ps.cpu.work()) {
-      stalls_ns += work.stall_ns * static_cast<double>(work.count);
+    for (const ps::Cpu* core : zynq.ps.cpus()) {
+      for (const ps::WorkCount& work : core->work())
+        stalls_ns += work.stall_ns * static_cast<double>(work.count);
     }
     const double lines = stall_ns_per_line > 0 ? stalls_ns / stall_ns_per_line : 0;
     return lines * line_bytes;

@@ -74,13 +74,14 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
 
   vp::PiecewiseConstant always{1};
   vp::PiecewiseConstant cpu_hz;
-  vp::PiecewiseConstant cpu_awake_hz;  ///< 0 while core 0 waits for an interrupt
+  vp::PiecewiseConstant cpu_awake_hz;  ///< times the number of cores that are awake
 
   /// The highest frequency that the clock of the cores, or one of the PL, had.
   std::uint64_t fastest_hz(const vp::Clock& clock) const;
   /// Throws std::logic_error for one that the PS does not make.
   const PlClock& pl_clock(const vp::Clock& clock) const;
-  bool awake() const { return !zynq_.ps.cpu.asleep; }
+  /// Of the processor, those that do not wait for an interrupt or an event.
+  unsigned awake_cores() const;
   bool frame_runs() const { return !busy_ || *busy_; }
   /// At most one.
   void set_observer(Observer* observer) { observer_ = observer; }

@@ -69,7 +69,7 @@ device::ClockPlanner planner_of(const Chip& chip, const ps::Slcr& slcr) {
 }  // namespace
 
 ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
-                                   const Chip& chip)
+                                   const Chip& chip, std::uint32_t usual_cores)
     : sc_module(name),
       fclk_clk0("fclk_clk0", scheduler, 100'000'000, vp::Source::published,
                 "system clock of the PL (thesis table 4.2)"),
@@ -85,6 +85,9 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       ethernet("ethernet", true, vp::Source::published,
                "whether the I/O PLL feeds Ethernet, which must have 125 MHz: binds the frequencies "
                "that the PL's clocks can have (ZedBoard: true)"),
+      cores("cores", usual_cores, vp::Unit::none, {1, 2}, vp::Source::published,
+            "Cortex-A9 cores that are modelled: the second one does nothing until software starts "
+            "it"),
       cpu("cpu", cpu_clk.clk),
       interconnect("interconnect"),
       private_bus("private_bus", cpu_clk.clk, ps::private_bus_times),
@@ -118,6 +121,50 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   cpu.connect(ddr.dma_memory());
   cpu.set_poll_elision(poll_elision);
   cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
+  if (cores == 1) return;
+  const vp::HierarchyScope scope(*this);
+  second_core_ = std::make_unique<SecondCore>(*this, cpu_clk.clk);
+}
+
+ProcessingSystem::~ProcessingSystem() = default;
+
+std::vector<ps::Cpu*> ProcessingSystem::cpus() {
+  std::vector<ps::Cpu*> all{&cpu};
+  if (second_core_) all.push_back(&second_core_->cpu);
+  return all;
+}
+
+ProcessingSystem::SecondCore::SecondCore(ProcessingSystem& ps, vp::Clock& clock)
+    : gic("gic1", ps.gic),
+      private_timer("private_timer1", clock),
+      private_bus("private_bus1", clock, ps::private_bus_times),
+      interconnect("interconnect1"),
+      cpu("cpu1", clock, ps.cpu) {
+  using Addresses = vp::Router::Addresses;
+  cpu.m_axi.socket.bind(interconnect.socket);
+  for (const vp::Router::Region& region : ps.interconnect.regions()) {
+    const bool own = region.base == ps::private_bus_base;
+    auto& socket = interconnect.map(region.name, region.base, region.size, Addresses::absolute);
+    if (own) {
+      socket.bind(private_bus.socket);
+    } else {
+      socket.bind(ps.interconnect.socket);
+    }
+  }
+  vp::Router& devices = private_bus.devices;
+  devices.map("gic_cpu_interface", gic::cpu_interface_base, private_device_size)
+      .bind(gic.cpu_interface.socket);
+  devices.map("global_timer", global_timer::base, private_device_size, Addresses::absolute)
+      .bind(ps.private_bus.devices.socket);
+  devices.map("private_timer", private_timer::base, private_device_size)
+      .bind(private_timer.registers.socket);
+  devices.map("gic_distributor", gic::distributor_base, device_size).bind(gic.distributor.socket);
+
+  gic.connect(gic::private_timer_id, private_timer.irq);
+  gic.connect(gic::watchdog_id, private_timer.watchdog_irq);
+  cpu.n_irq(gic.n_irq);
+  gic.on_software_interrupt([this] { cpu.software_interrupt_raised(); });
+  ps.gic.on_software_interrupt([&ps] { ps.cpu.software_interrupt_raised(); });
 }
 
 void ProcessingSystem::map_private_bus() {

@@ -56,13 +56,16 @@ class ClockSource : public sc_core::sc_module {
   std::uint64_t start_hz_;
 };
 
-/// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): one
-/// Cortex-A9 with its private devices, DDR and on-chip memory, UARTs, the GP0 and HP0 ports, and
-/// the clocks of the PL, which follow the SLCR.
+/// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): the
+/// Cortex-A9 cores with their private devices, DDR and on-chip memory, UARTs, the GP0 and HP0
+/// ports, and the clocks of the PL, which follow the SLCR.
 class ProcessingSystem : public sc_core::sc_module {
  public:
-  /// `chip` must outlive it. Throws vp::InputError for a crystal that the device does not take.
-  ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, const Chip& chip);
+  /// `chip` must outlive it. `usual_cores`: if the user says nothing else. Throws vp::InputError
+  /// for a crystal that the device does not take.
+  ProcessingSystem(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, const Chip& chip,
+                   std::uint32_t usual_cores = 1);
+  ~ProcessingSystem() override;
 
   ClockSource fclk_clk0;
   ClockSource fclk_clk1;
@@ -72,6 +75,7 @@ class ProcessingSystem : public sc_core::sc_module {
 
   vp::Parameter<bool> poll_elision;
   vp::Parameter<bool> ethernet;
+  vp::Parameter<std::uint32_t> cores;
   ps::Cpu cpu;
   vp::Router interconnect;
   ps::RegisterBus private_bus;
@@ -89,6 +93,23 @@ class ProcessingSystem : public sc_core::sc_module {
   vp::Router s_axi_hp0;
 
   vp::Signal<bool>& fclk_reset0_n;  ///< to the PL
+
+  /// The second core with what belongs to it alone; its accesses to all else go the way of the
+  /// first core's.
+  struct SecondCore {
+    SecondCore(ProcessingSystem& ps, vp::Clock& clock);
+
+    ps::Gic gic;
+    ps::PrivateTimer private_timer;
+    ps::RegisterBus private_bus;
+    vp::Router interconnect;
+    ps::Cpu cpu;
+  };
+  /// Null if `cores` is 1.
+  SecondCore* second_core() { return second_core_.get(); }
+  const SecondCore* second_core() const { return second_core_.get(); }
+  /// The cores that are modelled, by number.
+  std::vector<ps::Cpu*> cpus();
 
   /// FCLK_CLK`number` of the PL. 2 and 3 are made when a design first asks for them, before
   /// start_clocks(). Throws std::out_of_range beyond 3, std::logic_error for one that comes too
@@ -125,6 +146,7 @@ class ProcessingSystem : public sc_core::sc_module {
   std::string device_at(std::uint32_t address) const;
 
   std::vector<Interrupt> interrupts_;
+  std::unique_ptr<SecondCore> second_core_;
   vp::ClockScheduler& scheduler_;
   std::unique_ptr<ClockSource> fclk_clk2_, fclk_clk3_;
   const Chip& chip_;

@@ -25,51 +25,62 @@ double us(std::uint64_t ps) {
 }  // namespace
 
 Profiler::Profiler(Zynq& zynq) : zynq_(zynq), functions_{{"program", program, {}}} {
-  zynq.ps.cpu.on_moment([this](ps::Cpu::Moment moment) { at(moment); });
+  for (ps::Cpu* core : zynq.ps.cpus()) {
+    const bool first = core->number() == 0;
+    Course& course =
+        courses_.emplace_back(Course{*core,
+                                     first ? zynq.ps.gic : zynq.ps.second_core()->gic,
+                                     first ? program : called(program, core->basename()),
+                                     {},
+                                     {},
+                                     {}});
+    core->on_moment([this, &course](ps::Cpu::Moment moment) { at(course, moment); });
+  }
 }
 
 Profiler::~Profiler() {
-  zynq_.ps.cpu.on_moment(nullptr);
+  for (Course& course : courses_) course.cpu.on_moment(nullptr);
 }
 
-Profiler::Mark Profiler::mark() const {
-  const ps::Cpu& cpu = zynq_.ps.cpu;
+Profiler::Mark Profiler::mark(const Course& course) {
+  const ps::Cpu& cpu = course.cpu;
   return {cpu.program_time_ps(), cpu.activity().idle_ps(), cpu.counted()};
 }
 
-void Profiler::at(ps::Cpu::Moment moment) {
+void Profiler::at(Course& course, ps::Cpu::Moment moment) {
   switch (moment) {
     case ps::Cpu::Moment::call_over: {
-      const std::size_t function = under_way();
+      const std::size_t function = under_way(course);
       ++functions_[function].self.calls;
-      assign(function);
+      assign(course, function);
       break;
     }
     case ps::Cpu::Moment::handler_begins:
-      begin_handler();
+      begin_handler(course);
       break;
     case ps::Cpu::Moment::handler_over:
-      end_handler();
+      end_handler(course);
       break;
   }
 }
 
 // What passed since the last moment. Work is counted before its time passes, but its time is the
 // program's from then on; what is neither work nor sleep was spent waiting.
-void Profiler::assign(std::size_t function) {
-  const Mark now = mark();
+void Profiler::assign(Course& course, std::size_t function) {
+  const Mark now = mark(course);
   const auto hertz = static_cast<double>(zynq_.ps.cpu_clk.clk.frequency_hz());
-  const auto cycles = static_cast<double>(now.counted.cycles - last_.counted.cycles) /
+  const auto cycles = static_cast<double>(now.counted.cycles - course.last.counted.cycles) /
                       static_cast<double>(ps::LocalTime::one_cycle);
-  const auto stall_fs = static_cast<std::uint64_t>(now.counted.stall_fs - last_.counted.stall_fs);
-  std::uint64_t left = now.time_ps - std::min(last_.time_ps, now.time_ps);
+  const auto stall_fs =
+      static_cast<std::uint64_t>(now.counted.stall_fs - course.last.counted.stall_fs);
+  std::uint64_t left = now.time_ps - std::min(course.last.time_ps, now.time_ps);
   const auto take = [&left](std::uint64_t& to, std::uint64_t ps) {
     ps = std::min(ps, left);
     to += ps;
     left -= ps;
   };
   Cost& self = functions_[function].self;
-  const std::uint64_t asleep_ps = now.idle_ps - last_.idle_ps;
+  const std::uint64_t asleep_ps = now.idle_ps - course.last.idle_ps;
   const std::uint64_t awake_ps = left - std::min(asleep_ps, left);
   self.cycles += static_cast<double>(awake_ps) * hertz / ps_per_second;
   take(self.asleep_ps, asleep_ps);
@@ -78,40 +89,42 @@ void Profiler::assign(std::size_t function) {
     take(self.work_ps, static_cast<std::uint64_t>(std::llround(cycles / hertz * ps_per_second)));
   }
   self.waiting_ps += left;
-  last_ = now;
+  course.last = now;
 }
 
 // What it interrupted goes on later, and is assigned then, without the handler.
-void Profiler::begin_handler() {
-  interrupted_ = last_;
-  handler_began_ = last_ = mark();
-  handler_began_.time_ps = last_.time_ps = zynq_.scheduler.now_ps();
+void Profiler::begin_handler(Course& course) {
+  course.interrupted = course.last;
+  course.handler_began = course.last = mark(course);
+  course.handler_began.time_ps = course.last.time_ps = zynq_.scheduler.now_ps();
   const std::vector<std::uintptr_t> calls = ps::return_addresses();
   const auto first = std::find_if(calls.begin(), calls.end(),
                                   [this](std::uintptr_t call) { return !names(call).empty(); });
-  depth_below_ = static_cast<std::size_t>(calls.end() - first);
-  in_handler_ = true;
-  note_latency();
-  assign(called(program, handlers));
+  course.depth_below = static_cast<std::size_t>(calls.end() - first);
+  course.in_handler = true;
+  note_latency(course);
+  assign(course, called(course.root, handlers));
 }
 
-void Profiler::end_handler() {
-  assign(called(program, handlers));
-  handler_ps_ += last_.time_ps - handler_began_.time_ps;
-  const auto pass_over = [this](auto member) {
-    interrupted_.*member += last_.*member - handler_began_.*member;
+void Profiler::end_handler(Course& course) {
+  assign(course, called(course.root, handlers));
+  handler_ps_ += course.last.time_ps - course.handler_began.time_ps;
+  const auto pass_over = [&course](auto member) {
+    course.interrupted.*member += course.last.*member - course.handler_began.*member;
   };
   pass_over(&Mark::time_ps);
   pass_over(&Mark::idle_ps);
-  interrupted_.counted.cycles += last_.counted.cycles - handler_began_.counted.cycles;
-  interrupted_.counted.stall_fs += last_.counted.stall_fs - handler_began_.counted.stall_fs;
-  last_ = interrupted_;
-  in_handler_ = false;
+  course.interrupted.counted.cycles +=
+      course.last.counted.cycles - course.handler_began.counted.cycles;
+  course.interrupted.counted.stall_fs +=
+      course.last.counted.stall_fs - course.handler_began.counted.stall_fs;
+  course.last = course.interrupted;
+  course.in_handler = false;
 }
 
-void Profiler::note_latency() {
-  const ps::Gic::Request request = zynq_.ps.gic.request();
-  const std::uint64_t now_ps = zynq_.ps.cpu.program_time_ps();
+void Profiler::note_latency(const Course& course) {
+  const ps::Gic::Request request = course.gic.request();
+  const std::uint64_t now_ps = course.cpu.program_time_ps();
   Latency& latency = latencies_[request.id];
   const std::uint64_t waited_ps = now_ps - std::min(request.since_ps, now_ps);
   ++latency.count;
@@ -127,10 +140,10 @@ void Profiler::note_latency() {
 }
 
 // The functions of the program on the stack, from the outermost in.
-std::size_t Profiler::under_way() {
+std::size_t Profiler::under_way(const Course& course) {
   std::vector<std::uintptr_t> calls = ps::return_addresses();
-  if (in_handler_) calls.resize(calls.size() - std::min(calls.size(), depth_below_));
-  std::size_t function = in_handler_ ? called(program, handlers) : program;
+  if (course.in_handler) calls.resize(calls.size() - std::min(calls.size(), course.depth_below));
+  std::size_t function = course.in_handler ? called(course.root, handlers) : course.root;
   for (auto call = calls.rbegin(); call != calls.rend(); ++call) {
     const std::vector<std::string>& inlined = names(*call);
     for (auto name = inlined.rbegin(); name != inlined.rend(); ++name)

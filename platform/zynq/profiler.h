@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -44,7 +45,8 @@ class Profiler {
     std::size_t caller;  ///< index; the first one, the whole program, is its own
     Cost self;
   };
-  /// Callers stand before those that they call; in the order of their first call.
+  /// Callers stand before those that they call; in the order of their first call. What the second
+  /// core does is called by "cpu1", which the program calls: its time comes on top.
   const std::vector<Function>& functions() const { return functions_; }
 
   /// How long an interrupt waited: from when its line rose, or software raised it, to the first
@@ -77,13 +79,24 @@ class Profiler {
     std::uint64_t idle_ps = 0;
     ps::Cpu::Counted counted;
   };
-  Mark mark() const;
-  void at(ps::Cpu::Moment moment);
-  void assign(std::size_t function);
-  void begin_handler();
-  void end_handler();
-  void note_latency();
-  std::size_t under_way();
+  /// What a core is at.
+  struct Course {
+    ps::Cpu& cpu;
+    const ps::Gic& gic;
+    std::size_t root;  ///< function
+    Mark last;         ///< all before is assigned
+    Mark interrupted;  ///< `last` of what the handler interrupted
+    Mark handler_began;
+    bool in_handler = false;
+    std::size_t depth_below = 0;  ///< addresses on the stack of what the handler interrupted
+  };
+  static Mark mark(const Course& course);
+  void at(Course& course, ps::Cpu::Moment moment);
+  void assign(Course& course, std::size_t function);
+  void begin_handler(Course& course);
+  void end_handler(Course& course);
+  void note_latency(const Course& course);
+  std::size_t under_way(const Course& course);
   std::size_t called(std::size_t caller, const std::string& name);
   const std::vector<std::string>& names(std::uintptr_t address);
 
@@ -96,11 +109,7 @@ class Profiler {
       names_;  ///< empty: not the program's
   std::map<std::uint32_t, Latency> latencies_;
   std::uint64_t handler_ps_ = 0;
-  Mark last_;         ///< all before is assigned
-  Mark interrupted_;  ///< `last_` of what the handler interrupted
-  Mark handler_began_;
-  bool in_handler_ = false;
-  std::size_t depth_below_ = 0;  ///< addresses on the stack of what the handler interrupted
+  std::deque<Course> courses_;
 };
 
 }  // namespace platform

@@ -77,6 +77,13 @@ void TimelineRecorder::add_tracks() {
   stages_ = add_track("PS", "PS stage");
   functions_ = add_track("PS", "PS function");
   watch(zynq_.ps.cpu.function, functions_);
+  if (auto* second = zynq_.ps.second_core()) {
+    ps::Cpu& cpu1 = second->cpu;
+    watch(cpu1.in_handler, add_track("Interrupts", "Handler, cpu1", "handler"));
+    watch(cpu1.asleep, add_track("PS", "cpu1", "awake", true));
+    second_functions_ = add_track("PS", "cpu1 function");
+    watch(cpu1.function, *second_functions_);
+  }
 }
 
 std::size_t TimelineRecorder::add_track(const char* group, const std::string& name,
@@ -132,7 +139,7 @@ void TimelineRecorder::on_change(vp::SignalBase& signal, std::uint32_t id) {
     return;
   }
   end(id);
-  if (id == functions_) {
+  if (id == functions_ || id == second_functions_) {
     const auto& known = zynq_.ps.cpu.activity().functions();
     if (value != 0 && value <= known.size()) begin(id, known[value - 1].name);
   } else if ((value != 0) != tracks_[id].active_low) {

@@ -99,6 +99,7 @@ class TimelineRecorder : private vp::SignalListener {
   report::Timeline timeline_;
   std::vector<Track> tracks_;  ///< as in timeline_
   std::size_t frame_ = 0, first_engine_ = 0, first_channel_ = 0, stages_ = 0, functions_ = 0;
+  std::optional<std::size_t> second_functions_;
   std::vector<Burst> bursts_;  ///< of the peaks
   std::optional<HandshakeRecorder> handshake_;
   std::vector<vp::SignalBase*> watched_;

@@ -40,36 +40,40 @@ void check_that_parts_are_reached(const PlPorts& ports, const sc_core::sc_module
 
 }  // namespace
 
-Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise)
+Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual_cores)
     : fidelity("fidelity", otherwise,
                {{"tlm", pl::Fidelity::tlm}, {"clocked", pl::Fidelity::clocked}},
                vp::Source::decision,
                "how the programmable logic is modelled, if pl.fidelity names nothing else for an "
                "IP: whole frames, or clock by clock; the results are the same"),
+      ps("ps", scheduler, chip, usual_cores),
       design_(design.make("pl", ports)) {
   ports.tie_off();
   check_that_parts_are_inside();
   check_that_parts_are_reached(ports, pl());
   ps.start_clocks();
   scheduler.set_batch(true);
-  ps.cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
-  ps.cpu.describe_registers([this](std::uint32_t address, std::uint32_t value) {
-    return register_text(hardware_map(*this), address, value);
-  });
-  ps.cpu.describe_requests([this] {
-    const ps::Gic::Request request = ps.gic.request();
-    return ps::Cpu::Request{request_text(request), request.since_ps};
-  });
+  for (ps::Cpu* core : ps.cpus()) {
+    const ps::Gic& gic = core->number() == 0 ? ps.gic : ps.second_core()->gic;
+    core->name_devices([this](std::uint32_t address) { return device_at(address); });
+    core->describe_registers([this](std::uint32_t address, std::uint32_t value) {
+      return register_text(hardware_map(*this), address, value);
+    });
+    core->describe_requests([this, &gic] {
+      const ps::Gic::Request request = gic.request();
+      return ps::Cpu::Request{request_text(gic, request), request.since_ps};
+    });
+  }
 }
 
-std::string Zynq::request_text(const ps::Gic::Request& request) {
+std::string Zynq::request_text(const ps::Gic& gic, const ps::Gic::Request& request) {
   if (request.id >= gic::id_count) return {};
   std::string text = "interrupt " + std::to_string(request.id);
   for (const auto& interrupt : hardware_map(*this).interrupts) {
     if (interrupt.id == request.id) text += ", " + interrupt.source;
   }
-  const bool edge = ps.gic.logic().edge[request.id];
-  const bool held = ps.gic.logic().wire[request.id];
+  const bool edge = gic.logic().edge[request.id];
+  const bool held = gic.logic().wire[request.id];
   return text +
          (edge   ? ", an edge at "
           : held ? ", a level held since "

@@ -17,14 +17,15 @@ namespace platform {
 
 /// A Zynq-7000 with a design in its programmable logic: everything that is simulated.
 struct Zynq {
-  /// `otherwise`: the fidelity if none is configured. Throws vp::InputError for a design that
-  /// cannot be built.
-  explicit Zynq(const DesignInfo& design, pl::Fidelity otherwise = pl::Fidelity::tlm);
+  /// `otherwise` and `usual_cores`: the fidelity, and how many cores the processor has, if the
+  /// configuration says nothing else. Throws vp::InputError for a design that cannot be built.
+  explicit Zynq(const DesignInfo& design, pl::Fidelity otherwise = pl::Fidelity::tlm,
+                std::uint32_t usual_cores = 1);
 
   vp::Parameter<pl::Fidelity> fidelity;
   Chip chip;
   vp::ClockScheduler scheduler{"scheduler"};
-  ProcessingSystem ps{"ps", scheduler, chip};
+  ProcessingSystem ps;
   PlPorts ports{ps, scheduler, fidelity};
 
   /// The module of the design.
@@ -52,7 +53,7 @@ struct Zynq {
   std::string device_at(std::uint32_t address) const;
 
  private:
-  std::string request_text(const ps::Gic::Request& request);
+  std::string request_text(const ps::Gic& gic, const ps::Gic::Request& request);
   bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
 
   std::unique_ptr<Design> design_;

@@ -40,7 +40,20 @@ void Gic::initialise() {
     hal_write32(distributor(gic::ICDICER(n)), 0xFFFF'FFFFu);
   }
   hal_write32(distributor(gic::ICDDCR), gic::icddcr::EnableS);
+  open_cpu_interface();
+}
 
+void Gic::initialise_second() {
+  handlers_ = {};
+  unhandled_ = 0;
+  for (unsigned n = 0; n < gic::first_spi / 4; ++n) {
+    hal_write32(distributor(gic::ICDIPR(n)), in_all_bytes(default_priority));
+  }
+  hal_write32(distributor(gic::ICDICER(0)), 0xFFFF'FFFFu);
+  open_cpu_interface();
+}
+
+void Gic::open_cpu_interface() {
   hal_write32(cpu_interface(gic::ICCPMR), priority_mask);
   hal_write32(cpu_interface(gic::ICCICR),
               gic::iccicr::EnableS | gic::iccicr::EnableNS | gic::iccicr::AckCtl);
@@ -53,6 +66,12 @@ bool Gic::connect(std::uint32_t id, Trigger trigger, hal_interrupt_handler handl
   if (id >= gic::first_spi) set_trigger(id, trigger);
   hal_write32(distributor(gic::ICDISER(id / 32)), 1u << id % 32);
   return true;
+}
+
+void Gic::raise(std::uint32_t id, std::uint32_t cpus) {
+  hal_barrier();
+  hal_write32(distributor(gic::ICDSGIR),
+              cpus << gic::icdsgir::CPUTargetList_shift | (id & gic::icdsgir::SGIINTID));
 }
 
 void Gic::disconnect(std::uint32_t id) {

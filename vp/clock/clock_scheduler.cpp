@@ -9,6 +9,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include <cxxabi.h>
+
 namespace vp {
 
 namespace {
@@ -54,6 +56,26 @@ class ConsumerFirstOrder {
   const std::vector<std::vector<Clocked*>>& producers_;
   std::vector<bool> visited_;
   std::vector<Clocked*> order_;
+};
+
+/// Exceptions that a process is handling while it waits. The C++ runtime keeps them for a thread of
+/// the host, of which all processes are part.
+class ExceptionsInFlight {
+ public:
+  ExceptionsInFlight() { std::swap(*current(), own_); }
+  ~ExceptionsInFlight() { std::swap(*current(), own_); }
+  ExceptionsInFlight(const ExceptionsInFlight&) = delete;
+  ExceptionsInFlight& operator=(const ExceptionsInFlight&) = delete;
+
+ private:
+  /// Itanium C++ ABI, 2.2.2.
+  struct Globals {
+    void* caught = nullptr;
+    unsigned uncaught = 0;
+  };
+  static Globals* current() { return reinterpret_cast<Globals*>(abi::__cxa_get_globals()); }
+
+  Globals own_;
 };
 
 }  // namespace
@@ -174,6 +196,7 @@ bool ClockScheduler::run_ahead_until(std::uint64_t ps, Condition condition, cons
 
 void ClockScheduler::wait_in_kernel(std::uint64_t ps, Condition condition, const void* context) {
   plan_wake_up();
+  const ExceptionsInFlight exceptions;
   if (!condition) {
     sc_core::wait(from_ps(ps));
   } else {
@@ -182,6 +205,14 @@ void ClockScheduler::wait_in_kernel(std::uint64_t ps, Condition condition, const
     sc_core::wait(from_ps(ps), condition_met_);
     waiting_.erase(std::find(waiting_.begin(), waiting_.end(), waiter));
   }
+  synchronise();
+  if (last_.valid() && last_ == sc_core::sc_get_current_process_handle()) let_others_go_first();
+}
+
+// An edge of this time wakes a process one delta cycle later.
+void ClockScheduler::let_others_go_first() {
+  rejoin();
+  for (unsigned delta = 0; delta < 2; ++delta) sc_core::wait(sc_core::SC_ZERO_TIME);
   synchronise();
 }
 

@@ -1,3 +1,4 @@
+#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr vp::Range<std::uint32_t> cycles_range{0, 1'000'000};
 constexpr double fs_per_ns = 1e6;
+/// The first core's time-out ends what the second one does for too long.
+constexpr std::uint64_t longest_run_ps = 1'000'000_s;
 
 const char* answer_text(tlm::tlm_response_status status) {
   switch (status) {
@@ -35,9 +38,8 @@ const char* answer_text(tlm::tlm_response_status status) {
 
 Cpu* Cpu::running_ = nullptr;
 
-Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
-    : sc_module(name),
-      stack_size("stack_size", 8_MiB, vp::Unit::bytes, {64_KiB, 1_GiB}, vp::Source::decision,
+Cpu::Settings::Settings()
+    : stack_size("stack_size", 8_MiB, vp::Unit::bytes, {64_KiB, 1_GiB}, vp::Source::decision,
                  "stack of the program"),
       quantum("quantum", 100_us, vp::Unit::time, {0, 1000_s}, vp::Source::decision,
               "how far the program may run ahead of the simulation; no result depends on it"),
@@ -60,13 +62,29 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock)
       cache_call_cycles("cache_call_cycles", 60, vp::Unit::cycles, cycles_range,
                         vp::Source::assumed, "a cache operation before its first line"),
       cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
-                        vp::Source::assumed, "a line of 32 bytes in both cache levels"),
+                        vp::Source::assumed, "a line of 32 bytes in both cache levels") {}
+
+Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock) : Cpu(name, clock, nullptr) {}
+
+Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu& first) : Cpu(name, clock, &first) {}
+
+Cpu::~Cpu() = default;
+
+Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu* first)
+    : sc_module(name),
+      asleep("asleep", 1, first != nullptr),
+      own_settings_(first ? nullptr : std::make_unique<Settings>()),
+      settings_(first ? first->settings_ : *own_settings_),
+      cores_(first ? first->cores_ : std::make_shared<Cores>()),
+      number_(static_cast<unsigned>(cores_->all.size())),
       clock_(clock),
       scheduler_(clock.scheduler()),
-      trap_(static_cast<std::size_t>(stack_size) + FaultTrap::gap) {
+      poll_elision_(first == nullptr),
+      trap_(static_cast<std::size_t>(settings_.stack_size) + FaultTrap::gap) {
   SC_HAS_PROCESS(Cpu);
   SC_THREAD(run);
-  set_stack_size(static_cast<std::size_t>(stack_size) + FaultTrap::gap);
+  cores_->all.push_back(this);
+  set_stack_size(static_cast<std::size_t>(settings_.stack_size) + FaultTrap::gap);
   payload_.set_data_ptr(data_);
   payload_.set_data_length(sizeof data_);
   payload_.set_streaming_width(sizeof data_);
@@ -86,10 +104,14 @@ void Cpu::load(Program& program, const CostTable& costs) {
   program_ = &program;
   if (!program.path().empty()) code_.emplace(&description);
   cost_profile_ = costs.profile();
+  if (number_ != 0) return;
+  for (Cpu* core : cores_->all) {
+    if (core != this) core->load(program, costs);
+  }
 }
 
 void Cpu::end_of_elaboration() {
-  scheduler_.set_lookahead(quantum);
+  if (number_ == 0) scheduler_.set_lookahead(settings_.quantum);
   if (n_irq.bound()) n_irq.signal()->attach(*this);
   for (vp::Clock* clock : scheduler_.clocks()) clock->add_listener(*this);
 }
@@ -97,12 +119,17 @@ void Cpu::end_of_elaboration() {
 void Cpu::run() {
   if (!program_) return;
   std::optional<std::string> thrown;
+  if (number_ != 0) await_start();
   state_ = State::running;
   running_ = this;
   try {
-    program_->reset();
+    if (number_ == 0) program_->reset();
     activity_.start(program_->description());
-    deadline_ps_ = now_ps() + timeout;
+    if (number_ != 0) {
+      activity_.idle(now_ps());
+      if (moment_listener_) moment_listener_(Moment::call_over);
+    }
+    deadline_ps_ = now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps);
     follow_clock();
     start_ahead();
     exit_code_ = call_program();
@@ -115,7 +142,13 @@ void Cpu::run() {
     thrown = "";
   }
   if (thrown) break_off("the program threw an exception" + *thrown);
-  end(State::finished);
+  if (number_ == 0) return end(State::finished);
+  sleep_for_good();
+}
+
+void Cpu::take_turn() {
+  running_ = this;
+  trap_.resume();
 }
 
 void Cpu::end(State state) {
@@ -126,9 +159,18 @@ void Cpu::end(State state) {
   running_ = nullptr;
   ProgramWatch::end();
   memory_watch_.lift();
-  console.flush();
+  cores_->all.front()->console.flush();
+  for (Cpu* core : cores_->all) {
+    if (core != this) core->freeze();
+  }
   ended_.notify(sc_core::SC_ZERO_TIME);
   if (pause_at_end_) sc_core::sc_pause();
+}
+
+// The run ends with another core.
+void Cpu::freeze() {
+  trap_.abandon();
+  if (asleep && state_ == State::running) activity_.idle(now_ps() - dozes_since_ps_);
 }
 
 // The thread never comes back: nothing of the program is unwound.
@@ -158,11 +200,14 @@ std::string Cpu::where() const {
   }
   if (in_handler_now_) text += " in the interrupt handler";
   const std::string place = program_counter();
+  if (number_ != 0) text += std::string(" on ") + basename();
   return text + " of program '" + description.name + "'" + (place.empty() ? "" : ", ") + place;
 }
 
 void Cpu::check() const {
-  if (error_) std::rethrow_exception(error_);
+  for (const Cpu* core : cores_->all) {
+    if (core->error_) std::rethrow_exception(core->error_);
+  }
   if (state_ == State::running && !interrupted()) {
     throw vp::ProtocolError("nothing is left to happen, but the program has not ended" + where());
   }

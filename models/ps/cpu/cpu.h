@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <systemc>
@@ -53,9 +54,9 @@ class TestBench {
 };
 
 class DmaAllocator;
+struct Cores;
 
-/// A processor without instruction set: one thread that runs a program natively and gives it the
-/// HAL.
+/// A core without instruction set: one thread that runs a program natively and gives it the HAL.
 ///
 /// The program's own statements take no time; the work it counts does, through the cost table, and
 /// so does what the HAL does for it. The processor may be ahead of the simulation, but catches up
@@ -67,9 +68,18 @@ class DmaAllocator;
 /// program is frozen where it stands: its stack is never unwound, no destructor runs and no
 /// exception passes its code, as on a chip that hangs in an abort handler. The simulation goes on
 /// without it, or pauses. A fault of the program (segmentation fault, abort, …) ends it so, too.
+///
+/// A second core runs a function of the same program once the first has started it. What both do
+/// at the same simulated time the first one does first, unless the second one woke it then. While
+/// the second is awake nobody runs ahead of the simulation. A program's own accesses to memory
+/// happen up to 10 us before the time of its work, whatever `quantum` is; those through the HAL
+/// (locks, words, events) at their time. The run ends with the first core's program.
 class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::ClockListener {
  public:
   Cpu(sc_core::sc_module_name name, vp::Clock& clock);
+  /// The second core, beside `first`, whose settings and program it shares.
+  Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu& first);
+  ~Cpu() override;
   const char* kind() const override { return "ps::Cpu"; }
 
   vp::MmLink m_axi{"m_axi"};    ///< bind m_axi.socket to the interconnect
@@ -77,31 +87,40 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   vp::Signal<std::uint32_t> function{
       "function"};  ///< annotated function that runs, its number + 1; 0 none
   vp::Signal<bool> in_handler{"in_handler"};     ///< from interrupt entry to exit
-  vp::Signal<bool> asleep{"asleep"};             ///< waits for an interrupt
+  vp::Signal<bool> asleep{"asleep"};             ///< waits for an interrupt or an event
   vp::Signal<std::uint32_t> frame{"frame"};      ///< images that the program took
   vp::Signal<std::uint32_t> results{"results"};  ///< results that it delivered
   // For traces: names of the annotated function, and of the handler while it runs.
   vp::TextSignal function_name{"function_name", [this] { return name_of_function(); }, {&function}};
   vp::TextSignal handler_name{"handler_name", [this] { return name_of_handler(); }, {&in_handler}};
 
-  vp::Parameter<std::uint64_t> stack_size;
-  vp::Parameter<std::uint64_t> quantum;
-  vp::Parameter<std::uint64_t> timeout;
-  vp::Parameter<std::uint64_t> host_timeout;
-  vp::Parameter<std::uint64_t> loop_blocks;
-  vp::Parameter<std::uint32_t> interrupt_entry;
-  vp::Parameter<std::uint32_t> interrupt_exit;
-  vp::Parameter<std::uint32_t> barrier_cycles;
-  vp::Parameter<std::uint32_t> cache_call_cycles;
-  vp::Parameter<std::uint32_t> cache_line_cycles;
+  struct Settings {
+    Settings();
+
+    vp::Parameter<std::uint64_t> stack_size;
+    vp::Parameter<std::uint64_t> quantum;
+    vp::Parameter<std::uint64_t> timeout;
+    vp::Parameter<std::uint64_t> host_timeout;
+    vp::Parameter<std::uint64_t> loop_blocks;
+    vp::Parameter<std::uint32_t> interrupt_entry;
+    vp::Parameter<std::uint32_t> interrupt_exit;
+    vp::Parameter<std::uint32_t> barrier_cycles;
+    vp::Parameter<std::uint32_t> cache_call_cycles;
+    vp::Parameter<std::uint32_t> cache_line_cycles;
+  };
+  /// Of all cores.
+  const Settings& settings() const { return settings_; }
 
   vp::Counter interrupts{"interrupts", "interrupts taken"};
   vp::Counter polls{"polls", "reads made by hal_poll_until_changed"};
   vp::Counter barriers{"barriers", "barriers and cache operations"};
   vp::Counter cache_lines{"cache_lines", "cache lines flushed or invalidated"};
 
-  // What stands around the processor: to be set before the simulation starts. What is passed must
-  // outlive it.
+  /// 0: the first core.
+  unsigned number() const { return number_; }
+
+  // What stands around the processor: to be set before the simulation starts, at the first core.
+  // What is passed must outlive it.
   /// Throws vp::InputError if `costs` lacks a unit of work of the program.
   void load(Program& program, const CostTable& costs);
   void connect(TestBench& bench) { bench_ = &bench; }
@@ -124,11 +143,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     describe_request_ = std::move(describe);
   }
   enum class CacheCall { flush, invalidate };
-  /// Told of each cache operation of the program, when it is over. Null: nobody is.
+  /// Told of each cache operation of the program, on whatever core, when it is over. Null: nobody
+  /// is.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
   void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
-  /// Told of a loop without HAL call, each time that time has jumped for it; `memory` is there to
-  /// find out what it reads. Null: nobody is.
+  /// Told of a loop without HAL call on this core, each time that time has jumped for it; `memory`
+  /// is there to find out what it reads. Null: nobody is.
   using LoopListener = std::function<void(MemoryWatch& memory)>;
   void on_loop(LoopListener listener) { loop_listener_ = std::move(listener); }
   /// Points in the program's course at which a profiler looks at it, called on its stack.
@@ -137,7 +157,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     handler_begins,  ///< an interrupt was taken: what follows is the handler's
     handler_over,
   };
-  /// Null: nobody is told.
+  /// For each core its own. Null: nobody is told.
   using MomentListener = std::function<void(Moment)>;
   void on_moment(MomentListener listener) { moment_listener_ = std::move(listener); }
   /// When all that the program has done so far will be over, in ps: its own time, of which the
@@ -184,6 +204,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// Reads among `polls` that were not made, for performance reports.
   std::uint64_t skipped_polls() const { return skipped_polls_; }
   const Activity& activity() const { return activity_; }
+  /// Software on this core raised an interrupt: the handler sees what was done before.
+  void software_interrupt_raised();
   const std::string& cost_profile() const { return cost_profile_; }
 
   /// The processor whose program runs, for the HAL. Throws vp::ProtocolError if none does.
@@ -216,6 +238,18 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void enter_function(std::uint32_t number);
   void leave_function();
 
+  // The HAL between two cores: cpu_cores.cpp
+  void start_core(unsigned number, void (*entry)(void));
+  void wait_for_event();
+  void send_event();
+  std::uint32_t load_acquire(const volatile std::uint32_t* word);
+  void store_release(volatile std::uint32_t* word, std::uint32_t value);
+  std::uint32_t load_exclusive(const volatile std::uint32_t* word);
+  bool store_exclusive(volatile std::uint32_t* word, std::uint32_t value);
+  void acquire(hal_lock& lock);
+  void release(hal_lock& lock);
+  void access_shared(bool write, const volatile void* data, std::size_t size);
+
   // What a program does without the HAL: cpu_program.cpp
   /// It ran `loop_blocks` basic blocks without HAL call or annotation, `before` times already: lets
   /// time pass, and interrupts come.
@@ -237,10 +271,13 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     std::optional<vp::RegisterRoute::Access> on_its_way;
   };
 
+  Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu* first);
   void end_of_elaboration() override;
   std::string name_of_function() const;
   std::string name_of_handler() const;
   int call_program();
+  void go_on();
+  void take_turn();
   [[noreturn]] void report(const Fault& fault);
   void call_handler();
   void check_acknowledged();
@@ -290,6 +327,21 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void run_handler();
   void sleep();
   void sleep_until(std::uint64_t ps);
+  void doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition);
+
+  // Two cores: cpu_cores.cpp
+  void await_start();
+  void sleep_for_good();
+  bool beside_other() const;
+  bool has_woken() const { return event_ || interrupt_due(); }
+  bool is_deaf() const;
+  void doze_until_event();
+  void check_deadlock();
+  std::string doing() const;
+  std::string doing_elsewhere() const;
+  void check_word(const char* call, const volatile std::uint32_t* word);
+  void put(volatile std::uint32_t* word, std::uint32_t value);
+  void handler_begins();
 
   std::uint32_t access(bool read, std::uint32_t address, std::uint32_t value);
   /// An access that left at `start_ps`. `transfer` brings it to the device and gives the answer.
@@ -306,7 +358,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   [[noreturn]] void misuse(const std::string& problem);
   [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
+  void freeze();
 
+  std::unique_ptr<Settings> own_settings_;  ///< of the first core
+  const Settings& settings_;
+  std::shared_ptr<Cores> cores_;
+  const unsigned number_;
   vp::Clock& clock_;
   vp::ClockScheduler& scheduler_;
   Program* program_ = nullptr;
@@ -341,6 +398,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
   std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
   std::uint64_t deadline_ps_ = 0;
+  std::uint64_t dozes_since_ps_ = 0;
   unsigned unacknowledged_ = 0;                ///< handlers in a row that left a request pending
   std::uint64_t first_unacknowledged_ps_ = 0;  ///< when the first of them returned
   bool slept_unmasked_ = false;
@@ -349,6 +407,17 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void* handler_context_ = nullptr;
   bool masked_ = true;
   bool in_handler_now_ = false;
+
+  void (*entry_)(void) = nullptr;  ///< of the second core
+  sc_core::sc_event start_;
+  bool event_ = false;  ///< the event register
+  bool awaits_event_ = false;
+  const hal_lock* awaited_lock_ = nullptr;
+  /// The exclusive monitor: what load_exclusive() saw last; null when it is open.
+  struct Monitor {
+    const volatile std::uint32_t* word = nullptr;
+    std::uint32_t value = 0;
+  } monitor_;
 
   vp::RegisterRoutes routes_{m_axi};
   PollSkip* skip_ = nullptr;  ///< while it runs
@@ -382,6 +451,12 @@ void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Trans
   access_end_ps_ = answer.ps;
 }
 
+// The program's code goes on, after a call in which the other core's may have run.
+inline void Cpu::go_on() {
+  if (running_ != this) take_turn();
+  ProgramWatch::leave_hal();
+}
+
 template <class Call>
 auto Cpu::guarded(Call call) {
   ProgramWatch::enter_hal();
@@ -389,14 +464,12 @@ auto Cpu::guarded(Call call) {
     if constexpr (std::is_void_v<decltype(call())>) {
       call();
       if (moment_listener_) moment_listener_(Moment::call_over);
-      running_ = this;
-      ProgramWatch::leave_hal();
+      go_on();
       return;
     } else {
       auto result = call();
       if (moment_listener_) moment_listener_(Moment::call_over);
-      running_ = this;
-      ProgramWatch::leave_hal();
+      go_on();
       return result;
     }
   } catch (const sc_core::sc_unwind_exception&) {

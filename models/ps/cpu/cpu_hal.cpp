@@ -2,6 +2,7 @@
 // they do, but for those that only make time pass (cpu_time.cpp).
 #include <hal/hal.h>
 
+#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/program_watch.h>
 #include <ps/memory/memory.h>
@@ -19,7 +20,7 @@ void Cpu::write32(std::uint32_t address, std::uint32_t value) {
 
 void Cpu::barrier() {
   ++barriers;
-  spend_cycles(barrier_cycles);
+  spend_cycles(settings_.barrier_cycles);
   catch_up();
 }
 
@@ -29,15 +30,17 @@ void Cpu::maintain_cache(CacheCall call, const void* data, std::size_t size) {
   const auto end = (reinterpret_cast<std::uintptr_t>(data) + size + line - 1) / line;
   const std::uint64_t lines = size == 0 ? 0 : end - first;
   cache_lines.add(lines);
-  spend_cycles(cache_call_cycles + cache_line_cycles * lines);
+  spend_cycles(settings_.cache_call_cycles + settings_.cache_line_cycles * lines);
   barrier();
-  if (cache_listener_) cache_listener_(call, reinterpret_cast<std::uintptr_t>(data), size);
+  const CacheListener& listener = cores_->all.front()->cache_listener_;
+  if (listener) listener(call, reinterpret_cast<std::uintptr_t>(data), size);
 }
 
 hal_dma_buffer Cpu::allocate_dma(std::size_t size, std::size_t alignment) {
   hal_dma_buffer buffer{nullptr, 0, size};
-  if (!dma_memory_) return buffer;
-  if (const auto address = dma_memory_->allocate(size, alignment)) {
+  DmaAllocator* const memory = cores_->all.front()->dma_memory_;
+  if (!memory) return buffer;
+  if (const auto address = memory->allocate(size, alignment)) {
     buffer.bus_address = *address;
     buffer.data = reinterpret_cast<void*>(std::uintptr_t{*address});
   }
@@ -61,7 +64,7 @@ bool Cpu::enable_interrupt(bool enable) {
 void Cpu::write_console(const char* text, std::size_t length) {
   look_at(text, length);
   catch_up();
-  console.write(text, length);
+  cores_->all.front()->console.write(text, length);
 }
 
 // What came before the call comes first.
@@ -71,19 +74,21 @@ void Cpu::warn(const char* text) {
 }
 
 const hal_frame* Cpu::next_frame() {
+  if (number_ != 0) misuse("hal_frame_next(): images go to the first core");
   catch_up();
   if (bench_) sleep_until(bench_->next_frame_ps(now_ps()));
   const hal_frame* next = bench_ ? bench_->next_frame(now_ps()) : nullptr;
   scheduler_.forget_horizon();
   if (next) {
     frame = frame + 1;
-    deadline_ps_ = now_ps() + timeout;
+    deadline_ps_ = now_ps() + settings_.timeout;
     start_ahead();
   }
   return next;
 }
 
 void Cpu::publish(std::uint32_t kind, const void* data, std::size_t size) {
+  if (number_ != 0) misuse("hal_publish(): results come from the first core");
   look_at(data, size);
   catch_up();
   if (!bench_ || bench_->publish(kind, data, size, now_ps())) results = results + 1;
@@ -96,11 +101,13 @@ double Cpu::option(std::uint32_t option) {
     misuse("hal_option(" + std::to_string(option) + "): no such option");
   }
   const hal_option_info& info = program.options[option];
-  return bench_ ? bench_->option(option, info) : info.default_value;
+  TestBench* const bench = cores_->all.front()->bench_;
+  return bench ? bench->option(option, info) : info.default_value;
 }
 
 std::uint32_t Cpu::xparameter(const char* name, std::uint32_t built_in) {
-  return bench_ ? bench_->xparameter(name).value_or(built_in) : built_in;
+  TestBench* const bench = cores_->all.front()->bench_;
+  return bench ? bench->xparameter(name).value_or(built_in) : built_in;
 }
 
 std::string Cpu::name_of_function() const {
@@ -174,6 +181,55 @@ bool hal_interrupt_enable(bool enable) {
 
 void hal_wait_for_interrupt(void) {
   on_cpu("hal_wait_for_interrupt", [](ps::Cpu& cpu) { cpu.wait_for_interrupt(); });
+}
+
+unsigned hal_cpu_number(void) {
+  return on_cpu("hal_cpu_number", [](ps::Cpu& cpu) { return cpu.number(); });
+}
+
+void hal_cpu_start(unsigned cpu, void (*entry)(void)) {
+  on_cpu("hal_cpu_start", [&](ps::Cpu& self) { self.start_core(cpu, entry); });
+}
+
+void hal_wait_for_event(void) {
+  on_cpu("hal_wait_for_event", [](ps::Cpu& cpu) { cpu.wait_for_event(); });
+}
+
+void hal_send_event(void) {
+  on_cpu("hal_send_event", [](ps::Cpu& cpu) { cpu.send_event(); });
+}
+
+uint32_t hal_load_acquire(const volatile uint32_t* word) {
+  return on_cpu("hal_load_acquire", [&](ps::Cpu& cpu) { return cpu.load_acquire(word); });
+}
+
+void hal_store_release(volatile uint32_t* word, uint32_t value) {
+  on_cpu("hal_store_release", [&](ps::Cpu& cpu) { cpu.store_release(word, value); });
+}
+
+uint32_t hal_load_exclusive(const volatile uint32_t* word) {
+  return on_cpu("hal_load_exclusive", [&](ps::Cpu& cpu) { return cpu.load_exclusive(word); });
+}
+
+bool hal_store_exclusive(volatile uint32_t* word, uint32_t value) {
+  return on_cpu("hal_store_exclusive",
+                [&](ps::Cpu& cpu) { return cpu.store_exclusive(word, value); });
+}
+
+void hal_lock_acquire(hal_lock* lock) {
+  on_cpu("hal_lock_acquire", [&](ps::Cpu& cpu) { cpu.acquire(*lock); });
+}
+
+void hal_lock_release(hal_lock* lock) {
+  on_cpu("hal_lock_release", [&](ps::Cpu& cpu) { cpu.release(*lock); });
+}
+
+void hal_shared_read(const volatile void* data, size_t size) {
+  on_cpu("hal_shared_read", [&](ps::Cpu& cpu) { cpu.access_shared(false, data, size); });
+}
+
+void hal_shared_write(volatile void* data, size_t size) {
+  on_cpu("hal_shared_write", [&](ps::Cpu& cpu) { cpu.access_shared(true, data, size); });
 }
 
 void hal_console_write(const char* text, size_t length) {

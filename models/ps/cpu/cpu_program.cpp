@@ -11,6 +11,8 @@ namespace {
 /// The first jump of time for a loop without HAL call; each further one is twice as long.
 constexpr std::uint64_t first_jump_ps = 10'000;
 constexpr unsigned most_doublings = 40;
+/// 10 us: it may wait for what the other core writes.
+constexpr unsigned most_beside_other = 10;
 /// Handlers in a row after which an interrupt looks as if nobody acknowledged it (decision).
 constexpr unsigned many_handlers = 1'000;
 constexpr std::uint64_t ps_per_ns = 1'000;
@@ -25,15 +27,22 @@ volatile unsigned ProgramWatch::suspicions_ = 0;
 
 int Cpu::call_program() {
   struct Call {
-    hal_program const* program;
+    int (*program)(void);
+    void (*entry)(void);
     int result;
-  } call{&program_->description(), 0};
-  const HostLimit limit{host_timeout / ps_per_ns, &Cpu::progress, this};
-  ProgramWatch::start(loop_blocks);
+  } call{program_->description().entry, entry_, 0};
+  // The first core's looks after both.
+  const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
+                        this};
+  ProgramWatch::start(settings_.loop_blocks);
   const Fault* fault = trap_.call(
       [](void* context) {
         Call& call = *static_cast<Call*>(context);
-        call.result = call.program->entry();
+        if (call.entry) {
+          call.entry();
+        } else {
+          call.result = call.program();
+        }
       },
       &call, limit);
   ProgramWatch::end();
@@ -71,11 +80,12 @@ void Cpu::report(const Fault& fault) {
   } else if (fault.kind == Fault::Kind::forbidden) {
     text += ", which would end or double the whole platform: leave it out";
   } else if (fault.kind == Fault::Kind::host_time) {
-    text += ", for " + vp::format_time(host_timeout) + " now (" + host_timeout.name() +
+    text += ", for " + vp::format_time(settings_.host_timeout) + " now (" +
+            settings_.host_timeout.name() +
             "): access a register, wait for an interrupt, or count work";
   } else if (fault.stack_overflow) {
-    text += ": its " + std::to_string(stack_size / 1024) + " KiB are used up (" +
-            stack_size.name() + ")";
+    text += ": its " + std::to_string(settings_.stack_size / 1024) + " KiB are used up (" +
+            settings_.stack_size.name() + ")";
   } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
     const std::string device = device_at(static_cast<std::uint32_t>(fault.address));
     if (!device.empty()) {
@@ -144,7 +154,7 @@ void Cpu::notice_loop(unsigned before) {
   const std::uint64_t taken = interrupts;
   catch_up();
   if (interrupts == taken) {
-    pass(first_jump_ps << std::min(before, most_doublings));
+    pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
     catch_up();
   }
   if (loop_listener_) loop_listener_(memory_watch_);

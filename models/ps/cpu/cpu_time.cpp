@@ -116,6 +116,9 @@ const WorkCost& CostTable::at(const std::string& work, const std::string& progra
 namespace {
 
 constexpr std::size_t longest_timeline = 4096;
+/// How far a core runs ahead of its work beside the other one, which sees its memory: what the
+/// program does may depend on it, so it is no quantum.
+constexpr std::uint64_t ahead_of_other_ps = 10'000'000;
 /// Deeper than any stack (decision).
 constexpr std::size_t most_open_functions = 1'000'000;
 
@@ -159,7 +162,8 @@ bool Cpu::far_ahead() {
   if (ahead_limit_fs_ == 0) {
     const std::uint64_t reached = reached_ps();
     const std::uint64_t left = deadline_ps_ > reached ? deadline_ps_ - reached : 0;
-    ahead_limit_fs_ = std::min<std::uint64_t>(left, quantum) * LocalTime::fs_per_ps;
+    const std::uint64_t most = beside_other() ? ahead_of_other_ps : settings_.quantum.get();
+    ahead_limit_fs_ = std::min(left, most) * LocalTime::fs_per_ps;
   }
   return ahead_fs_ >= ahead_limit_fs_;
 }
@@ -297,8 +301,9 @@ std::uint64_t Cpu::pass(std::uint64_t ps) {
 }
 
 void Cpu::time_out(const char* what, const std::string& hint) {
-  fail(std::string(what) + " within " + vp::format_time(timeout) +
-       " of simulated time since the last image (" + timeout.name() + ")" + hint);
+  fail(std::string(what) + " within " + vp::format_time(settings_.timeout) +
+       " of simulated time since the last image (" + settings_.timeout.name() + ")" + hint +
+       doing_elsewhere());
 }
 
 // What a program that does not end was likely waiting for.
@@ -328,14 +333,15 @@ void Cpu::run_handler() {
   activity_.enter_handler();
   open_before_handler_ = open_functions_;
 
-  running_ = this;
-  spend_cycles(interrupt_entry);
+  if (running_ != this) take_turn();
+  handler_begins();
+  spend_cycles(settings_.interrupt_entry);
   if (moment_listener_) moment_listener_(Moment::handler_begins);
   call_handler();
   if (open_functions_ != open_before_handler_) {
     misuse("the interrupt handler returned without leaving its function");
   }
-  spend_cycles(interrupt_exit);
+  spend_cycles(settings_.interrupt_exit);
   catch_up();
   if (moment_listener_) moment_listener_(Moment::handler_over);
 
@@ -344,6 +350,8 @@ void Cpu::run_handler() {
   in_handler = false;
   in_handler_now_ = false;
   masked_ = false;
+  event_ = true;
+  monitor_ = {};
   check_acknowledged();
 }
 
@@ -360,12 +368,23 @@ void Cpu::wait_for_interrupt() {
   take_interrupts();
 }
 
-void Cpu::sleep() {
-  const std::uint64_t start = now_ps();
+// While the second core is awake nobody runs ahead, so that what happens at one time happens in
+// one order.
+void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) {
+  const std::uint64_t start = dozes_since_ps_ = now_ps();
   asleep = true;
-  scheduler_.pass_from(start, std::max(deadline_ps_, start), irq_is_low, this);
+  if (number_ != 0) scheduler_.set_lookahead(settings_.quantum);
+  scheduler_.pass_from(start, until_ps, condition, this);
+  if (number_ != 0) {
+    scheduler_.set_lookahead(0);
+    scheduler_.let_others_go_first();
+  }
   asleep = false;
   activity_.idle(now_ps() - start);
+}
+
+void Cpu::sleep() {
+  doze(std::max(deadline_ps_, now_ps()), irq_is_low);
   if (!interrupt_pending()) {
     time_out("it waits for an interrupt, and none came");
   }
@@ -375,12 +394,8 @@ void Cpu::sleep() {
 // does not count.
 void Cpu::sleep_until(std::uint64_t ps) {
   while (now_ps() < ps) {
-    const std::uint64_t start = now_ps();
-    deadline_ps_ = ps + timeout;
-    asleep = true;
-    scheduler_.pass_from(start, ps, interruptible() ? irq_is_low : nullptr, this);
-    asleep = false;
-    activity_.idle(now_ps() - start);
+    deadline_ps_ = ps + settings_.timeout;
+    doze(ps, interruptible() ? irq_is_low : nullptr);
     take_interrupts();
   }
 }

@@ -134,9 +134,9 @@ void Fault::add_callers() {
 }
 
 FaultTrap* FaultTrap::active_ = nullptr;
+FaultTrap::Changed FaultTrap::changed_;
 
-FaultTrap::FaultTrap(std::size_t stack_size)
-    : stack_size_(stack_size), signal_stack_(new char[signal_stack_size]) {}
+FaultTrap::FaultTrap(std::size_t stack_size) : stack_size_(stack_size) {}
 
 FaultTrap::~FaultTrap() {
   disarm();
@@ -157,7 +157,8 @@ const Fault* FaultTrap::call(void (*code)(void* context), void* context, const H
   landed_ = false;
   fault_ = Fault();
   arm();
-  watch_.arm(limit, &FaultTrap::leave_from_signal);
+  watched_ = limit.ns != 0;
+  if (watched_) watch_.arm(limit, &FaultTrap::leave_from_signal);
   if (sigsetjmp(landing_, 1) == 0) {
     try {
       call_below(code, context);
@@ -179,31 +180,36 @@ const Fault* FaultTrap::call(void (*code)(void* context), void* context, const H
 }
 
 void FaultTrap::arm() {
+  armed_ = true;
+  active_ = this;
+  if (changed_.traps++ != 0) return;
   void* first[1];
   backtrace(first, 1);  // loads what it needs now, not in the signal handler
+  changed_.signal_stack.reset(new char[signal_stack_size]);
   stack_t stack{};
-  stack.ss_sp = signal_stack_.get();
+  stack.ss_sp = changed_.signal_stack.get();
   stack.ss_size = signal_stack_size;
-  sigaltstack(&stack, &old_stack_);
+  sigaltstack(&stack, &changed_.old_stack);
   struct sigaction action {};
   action.sa_sigaction = &FaultTrap::on_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &action, &old_actions_[i]);
-  old_terminate_ = std::set_terminate(&FaultTrap::on_terminate);
-  thread_ = pthread_self();
-  active_ = this;
-  armed_ = true;
+  for (std::size_t i = 0; i < signal_count; ++i)
+    sigaction(signals[i], &action, &changed_.old_actions[i]);
+  changed_.old_terminate = std::set_terminate(&FaultTrap::on_terminate);
+  changed_.thread = pthread_self();
 }
 
 void FaultTrap::disarm() {
   if (!armed_) return;
   armed_ = false;
-  watch_.disarm();
+  if (watched_) watch_.disarm();
+  if (--changed_.traps != 0) return;
   active_ = nullptr;
-  std::set_terminate(old_terminate_);
-  for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &old_actions_[i], nullptr);
-  sigaltstack(&old_stack_, nullptr);
+  std::set_terminate(changed_.old_terminate);
+  for (std::size_t i = 0; i < signal_count; ++i)
+    sigaction(signals[i], &changed_.old_actions[i], nullptr);
+  sigaltstack(&changed_.old_stack, nullptr);
 }
 
 bool FaultTrap::is_stack_overflow(std::uintptr_t address) const {
@@ -214,7 +220,7 @@ bool FaultTrap::is_stack_overflow(std::uintptr_t address) const {
 // The signal comes again, to whom it belongs.
 void FaultTrap::give_back(int signal) {
   for (std::size_t i = 0; i < signal_count; ++i) {
-    if (signals[i] == signal) sigaction(signal, &old_actions_[i], nullptr);
+    if (signals[i] == signal) sigaction(signal, &changed_.old_actions[i], nullptr);
   }
 }
 
@@ -255,7 +261,7 @@ void FaultTrap::land() {
 }
 
 bool FaultTrap::can_leave() {
-  return active_ && ProgramWatch::runs && pthread_equal(active_->thread_, pthread_self()) != 0;
+  return active_ && ProgramWatch::runs && pthread_equal(changed_.thread, pthread_self()) != 0;
 }
 
 // A fault while it is being recorded comes from a stack that the program destroyed: it lands, too.

@@ -50,9 +50,9 @@ struct Fault {
 /// Runs code of a program; a fault in it ends that code, not the process. Nothing is unwound.
 ///
 /// Only faults while ProgramWatch::runs are the program's; others end the process as they always
-/// did. Calls of exit() and its relatives are faults, too: see fault_trap.cpp. One in a process at
-/// a time. It changes the actions of the signals and the alternative stack of the thread while
-/// call() runs.
+/// did. Calls of exit() and its relatives are faults, too: see fault_trap.cpp. Several may run code
+/// by turns, each on a stack of its own, in one thread. The actions of the signals and the
+/// alternative stack of the thread are changed while any call() runs.
 class FaultTrap {
  public:
   /// The thread that will call() needs that much more stack than the program: what a program
@@ -65,8 +65,13 @@ class FaultTrap {
   FaultTrap(const FaultTrap&) = delete;
   FaultTrap& operator=(const FaultTrap&) = delete;
 
-  /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Exceptions pass.
+  /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Exceptions pass. A
+  /// limit of 0 ns is none.
   const Fault* call(void (*code)(void* context), void* context, const HostLimit& limit);
+  /// The code that runs now is that of its call().
+  void resume() { active_ = this; }
+  /// The code of its call() never goes on.
+  void abandon() { disarm(); }
 
   /// The program's code runs in this thread: it can be left.
   static bool can_leave();
@@ -85,23 +90,29 @@ class FaultTrap {
   static void on_signal(int signal, siginfo_t* info, void* context);
   static void on_terminate();
   static void leave_from_signal(const void* context);
-  void give_back(int signal);
+  static void give_back(int signal);
   [[noreturn]] void land();
   bool is_stack_overflow(std::uintptr_t address) const;
 
   std::size_t stack_size_;
   std::uintptr_t stack_top_ = 0;
-  std::unique_ptr<char[]> signal_stack_;
-  stack_t old_stack_{};
-  struct sigaction old_actions_[signal_count] = {};
   HostWatch watch_;
-  pthread_t thread_{};
-  std::terminate_handler old_terminate_ = nullptr;
+  bool watched_ = false;
   bool armed_ = false;
   bool landed_ = false;
   sigjmp_buf landing_;
   Fault fault_;
 
+  /// What is changed in the process while traps are armed, and what was there before.
+  struct Changed {
+    unsigned traps = 0;
+    std::unique_ptr<char[]> signal_stack;
+    stack_t old_stack{};
+    struct sigaction old_actions[signal_count] = {};
+    std::terminate_handler old_terminate = nullptr;
+    pthread_t thread{};
+  };
+  static Changed changed_;
   static FaultTrap* active_;
 };
 

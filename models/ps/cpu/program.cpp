@@ -350,6 +350,40 @@ void check_file(const std::string& path) {
   throw vp::InputError("cannot load program '" + path + "': the file is truncated");
 }
 
+/// Does the loader look for `symbol` elsewhere when it loads the file?
+bool needs_symbol(const std::string& path, const char* symbol) {
+  std::ifstream stream(path, std::ios::binary);
+  const auto header = elf_header(stream);
+  if (!header) return false;
+  const auto section = [&](unsigned number) {
+    Elf64_Shdr shown{};
+    stream.seekg(static_cast<std::streamoff>(header->e_shoff + number * sizeof shown));
+    stream.read(reinterpret_cast<char*>(&shown), sizeof shown);
+    return shown;
+  };
+  const auto bytes = [&](const Elf64_Shdr& of) {
+    std::vector<char> read(of.sh_size);
+    stream.seekg(static_cast<std::streamoff>(of.sh_offset));
+    stream.read(read.data(), static_cast<std::streamsize>(read.size()));
+    return read;
+  };
+  for (unsigned i = 0; i < header->e_shnum && stream; ++i) {
+    const Elf64_Shdr table = section(i);
+    if (table.sh_type != SHT_DYNSYM) continue;
+    const std::vector<char> symbols = bytes(table), names = bytes(section(table.sh_link));
+    for (std::size_t at = 0; stream && at + sizeof(Elf64_Sym) <= symbols.size();
+         at += sizeof(Elf64_Sym)) {
+      Elf64_Sym entry{};
+      std::memcpy(&entry, symbols.data() + at, sizeof entry);
+      if (entry.st_shndx == SHN_UNDEF && entry.st_name < names.size() &&
+          std::strncmp(names.data() + entry.st_name, symbol, names.size() - entry.st_name) == 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 class LinkedProgram : public Program {
  public:
   explicit LinkedProgram(const hal_program& description) : Program(description, {}) {}
@@ -416,6 +450,7 @@ class LoadedProgram : public Program {
                 std::string path)
       : Program(description, std::move(path)), object_(std::move(object)) {}
   void reset() override { object_->restore(); }
+  bool may_start_core() const override { return needs_symbol(path(), "hal_cpu_start"); }
 
  private:
   std::shared_ptr<SharedObject> object_;

@@ -30,6 +30,9 @@ class Program {
   /// Absolute path of the plug-in; empty if linked.
   const std::string& path() const { return path_; }
 
+  /// May it start the second core? It refers to hal_cpu_start(); nobody knows of a linked one.
+  virtual bool may_start_core() const { return false; }
+
   /// Makes its static variables what they were after loading: before each run. Variables inside
   /// functions are fresh too. What a static object holds on the heap is not reset; programs for the
   /// chip have no such objects.

@@ -151,6 +151,8 @@ class CodeLocator {
   explicit CodeLocator(const void* inside);
 
   bool contains(std::uintptr_t address) const;
+  /// Where `address`, which it contains, stands in the file.
+  std::uintptr_t place(std::uintptr_t address) const { return address - base_; }
   /// "0x1a2b make(Mistake)+0x1c": the place in the file, as addr2line takes it, and the function
   /// around it. Only the place if the file was stripped. Looked up in the file once: a trace asks
   /// at each interrupt.

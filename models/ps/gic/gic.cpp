@@ -33,7 +33,10 @@ vp::RegisterBankOptions options(unsigned address_bits) {
   return options;
 }
 
-constexpr std::uint32_t this_cpu = 1;
+/// Of ICDIPTR and ICDSGIR.
+constexpr std::uint32_t target_bit(unsigned cpu) {
+  return 1u << cpu;
+}
 
 }  // namespace
 
@@ -44,6 +47,19 @@ InterruptLogic::InterruptLogic() {
     edge.set(id, by_software || (ppi_edges >> (2 * (id - gic::sgi_count)) & 2) != 0);
     targeted.set(id, true);
   }
+}
+
+void InterruptLogic::share(const InterruptLogic& other) {
+  for (unsigned n = gic::first_spi / 32; n < gic::bit_registers; ++n) {
+    for (Bits InterruptLogic::*bits :
+         {&InterruptLogic::non_secure, &InterruptLogic::enabled, &InterruptLogic::edge,
+          &InterruptLogic::latched, &InterruptLogic::active, &InterruptLogic::wire}) {
+      (this->*bits).word(n) = (other.*bits).word(n);
+    }
+  }
+  std::copy(other.priority.begin() + gic::first_spi, other.priority.end(),
+            priority.begin() + gic::first_spi);
+  icddcr = other.icddcr;
 }
 
 void InterruptLogic::set_wire(std::uint32_t id, bool level) {
@@ -72,7 +88,7 @@ std::uint32_t InterruptLogic::candidate() const {
 std::uint16_t InterruptLogic::first_active() const {
   std::uint32_t found = gic::spurious_id;
   for (unsigned n = 0; n < gic::bit_registers; ++n) {
-    for (std::uint32_t word = active.word(n); word != 0; word &= word - 1) {
+    for (std::uint32_t word = own.word(n); word != 0; word &= word - 1) {
       const std::uint32_t id = 32 * n + static_cast<std::uint32_t>(__builtin_ctz(word));
       if (found == gic::spurious_id || priority[id] < priority[found]) found = id;
     }
@@ -83,7 +99,7 @@ std::uint16_t InterruptLogic::first_active() const {
 std::uint32_t InterruptLogic::running_priority() const {
   std::uint32_t running = idle_priority;
   for (unsigned n = 0; n < gic::bit_registers; ++n) {
-    for_each_id(n, active.word(n), [&](std::uint32_t id) {
+    for_each_id(n, own.word(n), [&](std::uint32_t id) {
       running = std::min<std::uint32_t>(running, priority[id]);
     });
   }
@@ -112,7 +128,9 @@ InterruptLogic::Line InterruptLogic::line_of(std::uint32_t id) const {
 std::uint32_t InterruptLogic::as_seen(std::uint32_t id) const {
   if (id == gic::spurious_id) return id;
   const bool hidden = non_secure[id] && (iccicr & gic::iccicr::AckCtl) == 0;
-  return hidden ? gic::non_secure_id : id;
+  if (hidden) return gic::non_secure_id;
+  if (id >= gic::sgi_count || sources[id] == 0) return id;
+  return id | static_cast<std::uint32_t>(__builtin_ctz(sources[id])) << gic::icciar::CPUID_shift;
 }
 
 InterruptLogic::Signalled InterruptLogic::signalled() const {
@@ -121,15 +139,25 @@ InterruptLogic::Signalled InterruptLogic::signalled() const {
   return {line, line == Line::none ? gic::spurious_id : as_seen(id)};
 }
 
-void InterruptLogic::acknowledge(std::uint32_t id) {
+void InterruptLogic::raise(std::uint32_t id, unsigned source) {
+  latched.set(id, true);
+  sources[id] = static_cast<std::uint8_t>(sources[id] | target_bit(source));
+}
+
+// Of a software interrupt that both CPUs raised, the other one's stays pending.
+void InterruptLogic::acknowledge(std::uint32_t word) {
+  const std::uint32_t id = word & gic::icciar::ACKINTID;
   if (id >= gic::id_count) return;
-  latched.set(id, false);
+  if (id < gic::sgi_count) sources[id] = static_cast<std::uint8_t>(sources[id] & (sources[id] - 1));
+  latched.set(id, id < gic::sgi_count && sources[id] != 0);
   active.set(id, true);
+  own.set(id, true);
 }
 
 bool InterruptLogic::end(std::uint32_t id) {
-  if (id >= gic::id_count || !active[id]) return false;
+  if (id >= gic::id_count || !own[id]) return false;
   active.set(id, false);
+  own.set(id, false);
   return true;
 }
 
@@ -137,10 +165,18 @@ std::uint32_t InterruptLogic::highest_pending() const {
   return as_seen(candidate());
 }
 
-Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
+Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler) : Gic(name, scheduler, 0) {}
+
+Gic::Gic(sc_core::sc_module_name name, Gic& first) : Gic(name, first.scheduler_, 1) {
+  other_ = &first;
+  first.other_ = this;
+}
+
+Gic::Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, unsigned number)
     : sc_module(name),
       cpu_interface("cpu_interface", gic::cpu_interface_registers, options(8), &scheduler),
       distributor("distributor", gic::distributor_registers, options(12), &scheduler),
+      number_(number),
       scheduler_(scheduler) {
   wire_cpu_interface();
   wire_distributor();
@@ -162,7 +198,9 @@ void Gic::end_of_elaboration() {
     irq_f2p.signal()->attach(*this, f2p_listener);
     set_f2p(static_cast<std::uint16_t>(irq_f2p.read()));
   }
-  update_outputs();
+  update_lines();
+  // CPU 0 has the shared inputs.
+  if (other_) (number_ == 0 ? *this : *other_).update_other();
 }
 
 void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
@@ -173,11 +211,13 @@ void Gic::on_change(vp::SignalBase&, std::uint32_t id) {
     set_level(id, wires_.at(id)->get());
   }
   if (risen || !idle_) update_lines();
+  if (other_) update_other();
 }
 
 void Gic::set_wire(std::uint32_t id, bool level) {
   set_level(id, level);
   update_lines();
+  if (other_) update_other();
 }
 
 void Gic::set_level(std::uint32_t id, bool level) {
@@ -186,8 +226,10 @@ void Gic::set_level(std::uint32_t id, bool level) {
 }
 
 Gic::Request Gic::request() const {
-  const std::uint32_t id = logic_.signalled().id;
-  return {id, id < gic::id_count ? risen_ps_[id] : 0};
+  const std::uint32_t id = logic_.signalled().word & gic::icciar::ACKINTID;
+  if (id >= gic::id_count) return {id, 0};
+  const Gic& wired = other_ && number_ != 0 && id >= gic::first_spi ? *other_ : *this;
+  return {id, wired.risen_ps_[id]};
 }
 
 // True if an input has risen.
@@ -205,6 +247,17 @@ bool Gic::set_f2p(std::uint32_t levels) {
 void Gic::update_outputs() {
   update_lines();
   active = logic_.first_active();
+  if (other_) update_other();
+}
+
+void Gic::update_other() {
+  other_->logic_.share(logic_);
+  other_->update_lines();
+}
+
+// A register whose word is shared was written here.
+void Gic::show_shared(std::uint32_t offset) {
+  if (other_) other_->distributor[offset] = distributor[offset].value();
 }
 
 // No interrupt became active or ended.
@@ -212,7 +265,7 @@ void Gic::update_lines() {
   InterruptLogic::Signalled signalled;
   idle_ = !logic_.any_waiting();
   if (!idle_) signalled = logic_.signalled();
-  acknowledgeable_ = signalled.id;
+  acknowledgeable_ = signalled.word;
   n_irq = signalled.line != InterruptLogic::Line::irq;
   n_fiq = signalled.line != InterruptLogic::Line::fiq;
 }
@@ -241,9 +294,9 @@ void Gic::wire_cpu_interface() {
 
   vp::Register& icciar = cpu_interface[gic::ICCIAR];
   icciar.computed_by([this] { return acknowledgeable_; });
-  icciar.after_read([this](std::uint32_t id) {
-    logic_.acknowledge(id);
-    ++(id < gic::id_count ? acknowledged : spurious);
+  icciar.after_read([this](std::uint32_t word) {
+    logic_.acknowledge(word);
+    ++((word & gic::icciar::ACKINTID) < gic::id_count ? acknowledged : spurious);
     update_outputs();
   });
   cpu_interface[gic::ICCEOIR].after_write([this](std::uint32_t word) { end_of_interrupt(word); });
@@ -266,11 +319,16 @@ void Gic::wire_distributor() {
   vp::Register& icddcr = distributor[gic::ICDDCR];
   icddcr.after_write([this, &icddcr](std::uint32_t) {
     logic_.icddcr = icddcr.value();
+    show_shared(gic::ICDDCR);
     update_outputs();
   });
   for (unsigned n = 0; n < gic::bit_registers; ++n) wire_bit_registers(n);
   for (unsigned n = 0; n < gic::byte_registers; ++n) wire_priorities(n);
   for (unsigned n = gic::first_spi / 4; n < gic::byte_registers; ++n) wire_targets(n);
+  for (unsigned n = 0; n < gic::first_spi / 4; ++n) {
+    vp::Register& icdiptr = distributor[gic::ICDIPTR(n)];
+    icdiptr = icdiptr.reset_value() << number_;
+  }
   for (unsigned n = gic::first_spi / 16; n < gic::sense_registers; ++n) wire_sensitivities(n);
   // Whatever their sensitivity, enabled or not.
   distributor[gic::PPI_STATUS].computed_by(
@@ -317,6 +375,7 @@ void Gic::wire_priorities(unsigned n) {
     for (unsigned i = 0; i < 4; ++i) {
       logic_.priority[4 * n + i] = static_cast<std::uint8_t>(icdipr >> (8 * i));
     }
+    if (4 * n >= gic::first_spi) show_shared(gic::ICDIPR(n));
     update_outputs();
   });
 }
@@ -325,8 +384,13 @@ void Gic::wire_targets(unsigned n) {
   vp::Register& icdiptr = distributor[gic::ICDIPTR(n)];
   icdiptr.after_write([this, &icdiptr, n](std::uint32_t) {
     for (unsigned i = 0; i < 4; ++i) {
-      logic_.targeted.set(4 * n + i, (icdiptr >> (8 * i) & this_cpu) != 0);
+      for (Gic* view : {this, other_}) {
+        if (!view) continue;
+        const bool here = (icdiptr >> (8 * i) & target_bit(view->number_)) != 0;
+        view->logic_.targeted.set(4 * n + i, here);
+      }
     }
+    show_shared(gic::ICDIPTR(n));
     update_outputs();
   });
 }
@@ -338,6 +402,7 @@ void Gic::wire_sensitivities(unsigned n) {
       const std::uint32_t sense = icdicfr >> (2 * i) & 3;
       logic_.edge.set(16 * n + i, sense == gic::icdicfr::rising_edge);
     }
+    show_shared(gic::ICDICFR(n));
     update_outputs();
   });
 }
@@ -347,12 +412,17 @@ void Gic::raise_software_interrupt(std::uint32_t word) {
       (word & gic::icdsgir::TargetListFilter) >> gic::icdsgir::TargetListFilter_shift;
   const std::uint32_t list =
       (word & gic::icdsgir::CPUTargetList) >> gic::icdsgir::CPUTargetList_shift;
-  const bool here = filter == gic::icdsgir::filter_self ||
-                    (filter == gic::icdsgir::filter_list && (list & this_cpu) != 0);
-  if (here) {
-    const std::uint32_t id = word & gic::icdsgir::SGIINTID;
-    logic_.latched.set(id, true);
-    risen_ps_[id] = scheduler_.now_ps();
+  const std::uint32_t id = word & gic::icdsgir::SGIINTID;
+  if (software_interrupt_listener_) software_interrupt_listener_();
+  for (Gic* view : {this, other_}) {
+    if (!view) continue;
+    const bool goes_there = filter == gic::icdsgir::filter_self ? view == this
+                            : filter == gic::icdsgir::filter_others
+                                ? view != this
+                                : (list & target_bit(view->number_)) != 0;
+    if (!goes_there) continue;
+    view->logic_.raise(id, number_);
+    view->risen_ps_[id] = scheduler_.now_ps();
   }
   update_outputs();
 }

@@ -6,8 +6,10 @@
 #include <vp/signal.h>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <systemc>
+#include <utility>
 
 namespace vp {
 class ClockScheduler;
@@ -16,12 +18,16 @@ class ClockScheduler;
 namespace ps {
 
 /// What the interrupt controller decides, without registers and time: which interrupt is pending,
-/// active, and signalled to the CPU (ARM Generic Interrupt Controller architecture 1.0, chapter 3;
-/// one CPU in secure state).
+/// active, and signalled to one CPU (ARM Generic Interrupt Controller architecture 1.0, chapter 3;
+/// in secure state).
 class InterruptLogic {
  public:
   /// The state after reset.
   InterruptLogic();
+
+  /// Takes over what all CPUs share from the logic of another one: shared interrupts, but for
+  /// whom they go to.
+  void share(const InterruptLogic& other);
 
   /// A bit for each interrupt, as the distributor's registers show them.
   class Bits {
@@ -43,11 +49,14 @@ class InterruptLogic {
   Bits non_secure;
   Bits enabled;
   Bits edge;
-  Bits latched;  ///< pending by an edge, a software interrupt or ICDISPR
-  Bits active;
+  Bits latched;   ///< pending by an edge, a software interrupt or ICDISPR
+  Bits active;    ///< at whichever CPU
+  Bits own;       ///< active, and acknowledged by this CPU
   Bits wire;      ///< levels of the inputs
   Bits targeted;  ///< goes to this CPU
   std::array<std::uint8_t, gic::id_count> priority{};
+  /// Software interrupts: a bit for each CPU that raised it, and was not acknowledged.
+  std::array<std::uint8_t, gic::sgi_count> sources{};
 
   /// Interrupts 32 · n … that are pending.
   std::uint32_t pending(unsigned n) const {
@@ -74,23 +83,27 @@ class InterruptLogic {
   enum class Line { none, irq, fiq };
   struct Signalled {
     Line line = Line::none;
-    std::uint32_t id = gic::spurious_id;  ///< what ICCIAR would return: the signalled interrupt;
-                                          ///< 1023 if none, 1022 if it is non-secure and AckCtl 0
+    /// What ICCIAR would return: the signalled interrupt, with the CPU that raised it by software;
+    /// 1023 if none, 1022 if it is non-secure and AckCtl 0.
+    std::uint32_t word = gic::spurious_id;
   };
   /// Nothing, unless any_waiting().
   Signalled signalled() const;
 
-  /// ICCIAR returned `id`: that interrupt becomes active.
-  void acknowledge(std::uint32_t id);
-  /// Writes ICCEOIR. False if the interrupt was not active (a mistake of the software; nothing
-  /// happens).
+  /// CPU number `source` raised software interrupt `id`.
+  void raise(std::uint32_t id, unsigned source);
+  /// ICCIAR returned `word`: that interrupt becomes active.
+  void acknowledge(std::uint32_t word);
+  /// Writes ICCEOIR. False if the interrupt was not active at this CPU (a mistake of the software;
+  /// nothing happens).
   bool end(std::uint32_t id);
   /// ICCHPIR: like ICCIAR, without effects, and whatever the priorities of mask and running
   /// interrupt.
   std::uint32_t highest_pending() const;
-  /// The most urgent interrupt that is active, of equal ones the lowest; 1023 if none is.
+  /// The most urgent interrupt that is active at this CPU, of equal ones the lowest; 1023 if none
+  /// is.
   std::uint16_t first_active() const;
-  /// ICCRPR: priority of the most urgent active interrupt, 0xFF if idle.
+  /// ICCRPR: priority of that one, 0xFF if idle.
   std::uint32_t running_priority() const;
 
  private:
@@ -104,12 +117,17 @@ class InterruptLogic {
   std::uint32_t as_seen(std::uint32_t id) const;
 };
 
-/// The interrupt controller of the Cortex-A9 MPCore for CPU 0: registers of distributor and CPU
-/// interface around InterruptLogic. Combinational: an input that rises lowers nIRQ at the same
-/// time.
+/// The interrupt controller of the Cortex-A9 MPCore as one CPU sees it: registers of distributor
+/// and CPU interface around InterruptLogic. Combinational: an input that rises lowers nIRQ at the
+/// same time.
+///
+/// CPU 0 has all inputs. That of CPU 1 stands beside it, has the private inputs of its own, and
+/// shares the rest.
 class Gic : public sc_core::sc_module, public vp::SignalListener {
  public:
   Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
+  /// As CPU 1 sees that of CPU 0.
+  Gic(sc_core::sc_module_name name, Gic& first);
   const char* kind() const override { return "ps::Gic"; }
 
   vp::RegisterBank cpu_interface;  ///< at 0xF8F0_0100
@@ -132,6 +150,11 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   /// Sets the level at interrupt `id` from outside, until the signal wired to it changes next.
   void set_wire(std::uint32_t id, bool level);
 
+  /// Told when software on this CPU raises an interrupt. Null: nobody is.
+  void on_software_interrupt(std::function<void()> listener) {
+    software_interrupt_listener_ = std::move(listener);
+  }
+
   const InterruptLogic& logic() const { return logic_; }
 
   /// The interrupt that is signalled to the CPU, and when its line rose last or software raised it;
@@ -143,6 +166,7 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   Request request() const;
 
  private:
+  Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, unsigned number);
   void end_of_elaboration() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
 
@@ -159,7 +183,12 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   void set_level(std::uint32_t id, bool level);
   void update_outputs();
   void update_lines();
+  void show_shared(std::uint32_t offset);
+  void update_other();
 
+  const unsigned number_;  ///< of the CPU
+  Gic* other_ = nullptr;   ///< that of the other CPU
+  std::function<void()> software_interrupt_listener_;
   vp::ClockScheduler& scheduler_;
   InterruptLogic logic_;
   std::array<std::uint64_t, gic::id_count> risen_ps_{};  ///< when a line rose last

@@ -48,7 +48,8 @@ void describe_data_abort() {
     chip::print_hexadecimal(address);
   }
   chip::print(": ");
-  const bool is_guard = address >= CHIP_STACK_GUARD && address < CHIP_STACK_FIRST;
+  const bool is_guard = (address >= CHIP_STACK_GUARD && address < CHIP_STACK_FIRST) ||
+                        (address >= CHIP_SECOND_STACK_GUARD && address < CHIP_SECOND_STACK_FIRST);
   chip::print(has_address(status) && is_guard ? "stack overflow" : reason(status));
   chip::print(", status ");
   chip::print_hexadecimal(status);
@@ -105,8 +106,11 @@ namespace {
 
 constexpr std::uint32_t irq_masked = 1u << 7;  ///< CPSR.I
 
-hal_interrupt_handler handler = nullptr;
-void* handler_context = nullptr;
+/// Of each core.
+struct {
+  hal_interrupt_handler handler;
+  void* context;
+} connected[2];
 
 std::uint32_t program_status() {
   std::uint32_t status = 0;
@@ -120,13 +124,13 @@ extern "C" {
 
 /// Called by the vector.
 void chip_interrupt() {
-  if (handler != nullptr) handler(handler_context);
+  const auto& own = connected[hal_cpu_number()];
+  if (own.handler != nullptr) own.handler(own.context);
 }
 
 void hal_interrupt_connect(hal_interrupt_handler new_handler, void* context) {
   const bool was_enabled = hal_interrupt_enable(false);
-  handler = new_handler;
-  handler_context = context;
+  connected[hal_cpu_number()] = {new_handler, context};
   hal_interrupt_enable(was_enabled);
 }
 

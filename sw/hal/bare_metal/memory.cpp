@@ -1,4 +1,4 @@
-// Translation and caches on, once, before the program starts.
+// Translation and caches on, once on each core, before the program starts there.
 #include <array>
 #include <cstdint>
 
@@ -50,6 +50,7 @@ constexpr void map(TranslationTable& table, std::uint64_t first, std::uint64_t e
 constexpr TranslationTable make_translation_table(bool cached_dma) {
   TranslationTable table{};
   map(table, CHIP_DDR_FIRST, CHIP_PROGRAM_END, section::cached);
+  map(table, CHIP_SECOND_STACK_FIRST, CHIP_SECOND_STACK_END, section::cached_data);
   map(table, CHIP_STACK_FIRST, CHIP_STACK_END, section::cached_data);
   map(table, CHIP_DMA_FIRST, CHIP_DDR_END,
       cached_dma ? section::cached_data : section::uncached_data);
@@ -112,11 +113,14 @@ void enable_l2() {
   barrier();
 }
 
-/// The CPU takes part in coherency: shareable memory is cached only then (Cortex-A9 TRM 2.4).
-void join_coherency() {
+void enable_scu() {
   device_register(scu_invalidate) = 0xFFFF;
   device_register(scu_control) = device_register(scu_control) | 1u;
   barrier();
+}
+
+/// The CPU takes part in coherency: shareable memory is cached only then (Cortex-A9 TRM 2.4).
+void join_coherency() {
   std::uint32_t auxiliary = 0;
   asm volatile("mrc p15, 0, %0, c1, c0, 1" : "=r"(auxiliary));
   auxiliary |= 1u << 6 | 1u << 0;  // SMP, and maintenance is broadcast
@@ -141,8 +145,19 @@ void enable_translation() {
 }  // namespace
 }  // namespace chip
 
-extern "C" void chip_enable_memory() {
+extern "C" {
+
+void chip_enable_memory() {
+  chip::enable_scu();
   chip::join_coherency();
   chip::enable_l2();
   chip::enable_translation();
 }
+
+/// On the second core: what both share is on.
+void chip_join_memory() {
+  chip::join_coherency();
+  chip::enable_translation();
+}
+
+}  // extern "C"

@@ -7,7 +7,9 @@
  *
  *   program       code, data, small stacks of the exceptions
  *   stack guard   1 MiB that faults when touched
- *   stack         of the program, growing down; as large as the one of the virtual platform
+ *   second stack  of what the second core runs
+ *   stack guard   another one
+ *   stack         of the program, growing down; both are as large as on the virtual platform
  *   DMA memory    what hal_dma_allocate() hands out; from the same address on as on the platform
  */
 
@@ -24,7 +26,10 @@
 #define CHIP_STACK_END CHIP_DMA_FIRST
 #define CHIP_STACK_FIRST 0x0F800000
 #define CHIP_STACK_GUARD 0x0F700000
-#define CHIP_PROGRAM_END CHIP_STACK_GUARD
+#define CHIP_SECOND_STACK_END CHIP_STACK_GUARD
+#define CHIP_SECOND_STACK_FIRST 0x0EF00000
+#define CHIP_SECOND_STACK_GUARD 0x0EE00000
+#define CHIP_PROGRAM_END CHIP_SECOND_STACK_GUARD
 
 /* Stacks of the exceptions, in bytes. Handlers of interrupts run on the first. */
 #define CHIP_IRQ_STACK 0x10000

@@ -27,16 +27,8 @@ chip_vectors:
   b interrupt
   b fast_interrupt
 
-  .text
-  .global chip_start
-  .type chip_start, %function
-chip_start:
-  cpsid aif
-  mrc p15, 0, r0, c0, c0, 5   // MPIDR: the second CPU sleeps for good
-  ands r0, r0, #3
-  bne park
-
   // Whatever ran before: caches, translation and branch prediction off, low vectors, ARM exceptions.
+  .macro quiet_core
   mrc p15, 0, r0, c1, c0, 0   // SCTLR
   bic r0, r0, #0x0005         // C, M
   bic r0, r0, #0x3800         // V, I, Z
@@ -50,11 +42,13 @@ chip_start:
   bl invalidate_l1_data
   dsb
   isb
-
   ldr r0, =chip_vectors
   mcr p15, 0, r0, c12, c0, 0  // VBAR
-  ldr r0, =chip_irq_stack_end
-  ldr r1, =chip_fault_stack_end
+  .endm
+
+  .macro set_stacks irq, fault, program
+  ldr r0, =\irq
+  ldr r1, =\fault
   cps #mode_irq
   mov sp, r0
   cps #mode_fiq
@@ -66,9 +60,11 @@ chip_start:
   cps #mode_svc
   mov sp, r1
   cps #mode_system
-  ldr sp, =chip_stack_end
+  ldr sp, =\program
+  .endm
 
   // VFP and NEON: access, on, round to nearest, no flush to zero, no default NaN.
+  .macro enable_vfp
   mrc p15, 0, r0, c1, c0, 2   // CPACR
   orr r0, r0, #(0xF << 20)
   mcr p15, 0, r0, c1, c0, 2
@@ -77,6 +73,19 @@ chip_start:
   vmsr fpexc, r0
   mov r0, #0
   vmsr fpscr, r0
+  .endm
+
+  .text
+  .global chip_start
+  .type chip_start, %function
+chip_start:
+  cpsid aif
+  mrc p15, 0, r0, c0, c0, 5   // MPIDR
+  ands r0, r0, #3
+  bne park
+  quiet_core
+  set_stacks chip_irq_stack_end, chip_fault_stack_end, chip_stack_end
+  enable_vfp
 
   ldr r0, =chip_bss_begin
   ldr r1, =chip_bss_end
@@ -94,9 +103,30 @@ chip_start:
   bl chip_main
   b .
 
+// The second core, where a loader started both: waits as the boot ROM lets it (UG585 6.1.10), for
+// the entry that hal_cpu_start() writes.
 park:
+  ldr r1, =0xFFFFFFF0
+  ldr r2, =chip_second_start
+1:
   wfe
-  b park
+  ldr r0, [r1]
+  cmp r0, r2
+  bne 1b
+
+  .global chip_second_start
+  .type chip_second_start, %function
+chip_second_start:
+  cpsid aif
+  quiet_core
+  set_stacks chip_second_irq_stack_end, chip_second_fault_stack_end, chip_second_stack_end
+  enable_vfp
+  bl chip_join_memory
+  cpsie a
+  bl chip_second_main
+2:
+  wfe
+  b 2b
 
 // 32 KiB in 4 ways of 256 lines of 32 bytes. Nothing is written back: the loader did that.
 invalidate_l1_data:

@@ -62,6 +62,40 @@ void hal_wait_for_interrupt(void) {
   refuse("hal_wait_for_interrupt");
 }
 
+unsigned hal_cpu_number(void) {
+  return 0;
+}
+
+void hal_cpu_start(unsigned, void (*)(void)) {
+  refuse("hal_cpu_start");
+}
+
+void hal_wait_for_event(void) {
+  refuse("hal_wait_for_event");
+}
+
+void hal_send_event(void) {}
+
+uint32_t hal_load_acquire(const volatile uint32_t* word) {
+  return *word;
+}
+
+void hal_store_release(volatile uint32_t* word, uint32_t value) {
+  *word = value;
+}
+
+uint32_t hal_load_exclusive(const volatile uint32_t* word) {
+  return *word;
+}
+
+bool hal_store_exclusive(volatile uint32_t* word, uint32_t value) {
+  *word = value;
+  return true;
+}
+
+void hal_lock_acquire(hal_lock*) {}
+void hal_lock_release(hal_lock*) {}
+
 void hal_console_write(const char* text, size_t length) {
   std::fwrite(text, 1, length, stdout);
 }

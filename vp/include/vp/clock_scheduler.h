@@ -92,6 +92,12 @@ class ClockScheduler : public sc_core::sc_module {
   /// Lets SystemC's time catch up with now_ps().
   void rejoin();
 
+  /// Of processes that pass_until() brings to the same time, the one that calls goes on last.
+  void come_last() { last_ = sc_core::sc_get_current_process_handle(); }
+  /// For that process: all others that are due now have their turn, and those that a clock edge of
+  /// this time wakes.
+  void let_others_go_first();
+
   /// Notifies `event` at the instant being run (which may lie ahead of the simulation time).
   void notify(sc_core::sc_event& event);
 
@@ -187,6 +193,7 @@ class ClockScheduler : public sc_core::sc_module {
   std::uint64_t horizon_ps_ = 0;          ///< no SystemC event lies before or at it; 0 unknown
   sc_dt::uint64 horizon_delta_ = 0;       ///< when that was found out
   std::uint64_t clock_changes_ = 0;
+  sc_core::sc_process_handle last_;  ///< comes last
   bool running_ = false;
   bool keeps_pace_ = false;  ///< foreign processes may do anything at any time: nothing runs ahead
   bool batch_ = false;

@@ -92,6 +92,56 @@ bool hal_interrupt_enable(bool enable);
  * unmasked. */
 void hal_wait_for_interrupt(void);
 
+/* ---- The second core
+ * --------------------------------------------------------------------------------------------------
+ */
+
+/** The core that calls: 0, or 1 on the second one. Each has its own interrupt handler, IRQ mask,
+ * CPU interface, private timer and watchdog. */
+unsigned hal_cpu_number(void);
+
+/**
+ * Starts core `cpu`, which is 1, with `entry`, on a stack of its own and with IRQ masked: writes
+ * the entry to 0xFFFFFFF0, where the boot code looks for it, and sends an event (UG585 6.1.10).
+ * When `entry` returns, the core sleeps for good. Once in a run. Images and results belong to core
+ * 0.
+ */
+void hal_cpu_start(unsigned cpu, void (*entry)(void));
+
+/** Sleeps until an event is sent or an unmasked interrupt comes (WFE); returns at once if there was
+ * one since the last call. Look again at what it waits for: it may return early. */
+void hal_wait_for_event(void);
+
+/** Sends an event to both cores, behind all that was written before (DSB, SEV). */
+void hal_send_event(void);
+
+/** Reads a word that the other core writes; what that did before hal_store_release() is seen behind
+ * it (a load, then DMB). */
+uint32_t hal_load_acquire(const volatile uint32_t* word);
+
+/** Writes a word that the other core reads, behind all that was written before (DMB, then a store).
+ */
+void hal_store_release(volatile uint32_t* word, uint32_t value);
+
+/** hal_load_acquire() that opens the core's exclusive monitor (LDREX). */
+uint32_t hal_load_exclusive(const volatile uint32_t* word);
+
+/** hal_store_release() if nobody wrote to the word since this core's hal_load_exclusive() (STREX).
+ * False: it was not written, load it again. */
+bool hal_store_exclusive(volatile uint32_t* word, uint32_t value);
+
+/** A spin lock between the cores. Not for a handler that may interrupt who holds it. */
+typedef struct hal_lock {
+  volatile uint32_t taken; /**< 0 at first */
+  const char* name;        /**< for messages; may be NULL */
+} hal_lock;
+
+/** Waits until the lock is free, asleep between events, and takes it. */
+void hal_lock_acquire(hal_lock* lock);
+
+/** Gives it back and sends an event. */
+void hal_lock_release(hal_lock* lock);
+
 /* ---- Console and test bench
  * -------------------------------------------------------------------------------------- */
 
@@ -153,6 +203,8 @@ uint32_t hal_xpar(const char* name, uint32_t built_in);
 #define hal_work(item, count) ((void)0)
 #define hal_function_enter(function) ((void)0)
 #define hal_function_leave() ((void)0)
+#define hal_shared_read(data, size) ((void)(data), (void)(size))
+#define hal_shared_write(data, size) ((void)(data), (void)(size))
 #else
 /** The program did `count` units of work number `item` (its place in hal_program.work): time
  * passes. */
@@ -161,6 +213,11 @@ void hal_work(uint32_t item, uint64_t count);
  * They nest. */
 void hal_function_enter(uint32_t function);
 void hal_function_leave(void);
+/** The program reads, or writes, `size` bytes that both cores use. The platform warns where nothing
+ * orders it against an access of the other core that is told of, too: no lock, no word that one
+ * releases and the other acquires, no event, no software interrupt. Takes no time. */
+void hal_shared_read(const volatile void* data, size_t size);
+void hal_shared_write(volatile void* data, size_t size);
 #endif
 
 /* ---- The program
