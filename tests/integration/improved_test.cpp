@@ -99,6 +99,7 @@ BOOST_AUTO_TEST_CASE(both_fidelities_are_equal) {
   BOOST_TEST(difference(scenes) == "");
   BOOST_TEST(difference(with(scenes, "sw.overlap=0")) == "");
   BOOST_TEST(difference(with(scenes, "pl.threshold_rule=global")) == "");
+  BOOST_TEST(difference(with(scenes, "pl.threshold_rule=local")) == "");
 }
 
 BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_at_other_clocks_and_sizes) {

@@ -24,6 +24,11 @@ xilinx::AxiGpioBuild control_outputs() {
   return build;
 }
 
+const pl::Models<pl::GlobalThreshold>& thresholds(const std::string& rule) {
+  if (rule == "otsu") return pl::OtsuThreshold::models();
+  return rule == "local" ? pl::LocalThreshold::models() : pl::GlobalThreshold::models();
+}
+
 }  // namespace
 
 ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity otherwise,
@@ -38,9 +43,7 @@ ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity ot
 ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::Fidelity otherwise,
                              const pl::Geometry& usual)
     : sc_module(name),
-      fidelity("fidelity", otherwise,
-               threshold_rule.get() == "otsu" ? pl::OtsuThreshold::models()
-                                              : pl::GlobalThreshold::models()),
+      fidelity("fidelity", otherwise, thresholds(threshold_rule.get())),
       width("width", usual.width, vp::Unit::pixels, vp::Source::decision, "width of a frame"),
       height("height", usual.height, vp::Unit::pixels, vp::Source::decision, "height of a frame"),
       burst_words("burst_words", usual.burst_words, vp::Unit::none,

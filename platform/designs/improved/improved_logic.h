@@ -13,6 +13,7 @@
 #include <pl/common/geometry.h>
 #include <pl/control_block/control_block.h>
 #include <pl/global_threshold/global_threshold.h>
+#include <pl/local_threshold/local_threshold.h>
 #include <pl/otsu_threshold/otsu_threshold.h>
 #include <pl/pixel_stream/pixel_stream.h>
 #include <vp/axi_stream.h>
@@ -54,11 +55,12 @@ class ImprovedLogic : public sc_core::sc_module {
   vp::Parameter<std::string> threshold_rule{
       "threshold_rule",
       "otsu",
-      {"otsu", "global"},
+      {"otsu", "global", "local"},
       vp::Source::decision,
-      "how the threshold of the next frame follows from a frame's histogram: Otsu's least "
-      "variance, "
-      "or midway between the peaks of its halves (thesis 4.3.5)"};
+      "otsu, global: how the threshold of the next frame follows from a frame's histogram, with "
+      "Otsu's least variance, or midway between the peaks of its halves (thesis 4.3.5); local: "
+      "what "
+      "is darker than its surroundings is dark"};
   ImprovedFidelity fidelity;
   vp::Parameter<std::uint32_t> width, height;
   vp::Parameter<std::uint32_t> burst_words;

@@ -1,17 +1,16 @@
 // Otsu's threshold against its definition in floating point, and both models against each other.
 #include <pl/otsu_threshold/otsu_threshold.h>
-#include <simulation.h>
-#include <vp/clock_scheduler.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <map>
 #include <memory>
 
-#include "pipeline.h"
+#include "threshold_bench.h"
 
 using harness::Image;
 using harness::Random;
+using harness::Script;
+using harness::ThresholdBench;
 
 namespace {
 
@@ -39,63 +38,6 @@ pl::Histogram bumps(Random& random, unsigned count) {
   }
   return histogram;
 }
-
-struct Script {
-  std::map<std::uint64_t, Image> frames;  ///< by the edge on which the first pixel leaves
-  std::map<std::uint64_t, int> loads;     ///< wr_thresh from this edge on; -1: no more
-  std::map<std::uint64_t, bool> rst, por;
-  std::uint64_t end = 0;
-};
-
-class Source final : public vp::Clocked {
- public:
-  Source(sc_core::sc_module_name name, vp::Clock& clk, const Script& script,
-         const pl::Geometry& geometry)
-      : Clocked(name, clk), script_(script), geometry_(geometry) {}
-
-  vp::Signal<bool> rst{"rst"}, por{"por"}, frame_ena{"frame_ena"}, wr_thresh{"wr_thresh"};
-  vp::Signal<std::uint8_t> threshold{"threshold"}, pixel{"pixel"};
-  vp::Signal<std::uint16_t> x{"x"}, y{"y"};
-  pl::GreyFrames frames{"frames", clock()};
-
- private:
-  void edge() override {
-    const std::uint64_t cycle = clock().cycle();
-    if (const auto at = script_.frames.find(cycle); at != script_.frames.end()) {
-      image_ = at->second;
-      next_ = 0;
-      running_ = true;
-      frames.announce();
-      frames.begin(image_.data(), geometry_.pixels(), cycle);
-    }
-    if (const auto at = script_.loads.find(cycle); at != script_.loads.end()) {
-      wr_thresh = at->second >= 0;
-      if (at->second >= 0) threshold = static_cast<std::uint8_t>(at->second);
-    }
-    set(rst, script_.rst);
-    set(por, script_.por);
-    frame_ena = running_;
-    if (!running_) return;
-    pixel = image_[next_];
-    x = static_cast<std::uint16_t>(next_ % geometry_.width);
-    y = static_cast<std::uint16_t>(next_ / geometry_.width);
-    running_ = ++next_ < geometry_.pixels();
-  }
-  void set(vp::Signal<bool>& signal, const std::map<std::uint64_t, bool>& changes) {
-    const auto at = changes.find(clock().cycle());
-    if (at == changes.end()) return;
-    signal = at->second;
-    if (!at->second) return;
-    running_ = false;
-    frames.cut();
-  }
-
-  const Script& script_;
-  const pl::Geometry geometry_;
-  Image image_;
-  std::uint32_t next_ = 0;
-  bool running_ = false;
-};
 
 /// Changes of the threshold, and words, with their edges.
 using Log = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
@@ -126,25 +68,9 @@ struct Outcome {
 };
 
 Outcome run(const std::string& model, const pl::Geometry& geometry, const Script& script) {
-  kit::Simulation simulation;
-  vp::ClockScheduler scheduler{"scheduler"};
-  vp::Clock clk{"clk", scheduler, 125'000'000};
-  Source source{"source", clk, script, geometry};
-  std::unique_ptr<pl::GlobalThreshold> ip;
-  for (const auto& candidate : pl::OtsuThreshold::models().list()) {
-    if (candidate.name == model) ip = candidate.make("otsu_threshold", {clk, geometry});
-  }
-  ip->por(source.por);
-  ip->rst(source.rst);
-  ip->frame_ena(source.frame_ena);
-  ip->wr_thresh(source.wr_thresh);
-  ip->threshold(source.threshold);
-  ip->pixel(source.pixel);
-  ip->x(source.x);
-  ip->y(source.y);
-  if (model == "tlm") ip->frames(source.frames);
-  Monitor monitor{"monitor", clk, *ip};
-  sc_core::sc_start(vp::from_ps(clk.time_of(script.end) + 1));
+  ThresholdBench b(pl::OtsuThreshold::models(), model, geometry, script);
+  Monitor monitor{"monitor", b.clk, *b.ip};
+  b.run();
   return {monitor.words, monitor.thresholds};
 }
 

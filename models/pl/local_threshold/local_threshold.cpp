@@ -1,0 +1,257 @@
+#include <pl/local_threshold/local_threshold.h>
+
+#include <algorithm>
+#include <string>
+
+#include <marker_logic.h>
+#include <pl/common/estimate.h>
+#include <vp/error.h>
+#include <vp/report.h>
+
+namespace pl {
+
+LocalThresholdCore::LocalThresholdCore(const Geometry& geometry, std::uint32_t radius)
+    : geometry_(geometry),
+      radius_(radius),
+      window_(2 * radius + 1),
+      rows_(window_ * geometry.width),
+      column_sum_(geometry.width) {}
+
+void LocalThresholdCore::begin(const LocalRule& rule) {
+  rule_ = rule;
+  std::fill(rows_.begin(), rows_.end(), std::uint8_t{0});
+  std::fill(column_sum_.begin(), column_sum_.end(), 0);
+  position_ = 0;
+}
+
+void LocalThresholdCore::push(std::uint8_t pixel) {
+  const std::uint32_t column = position_ % geometry_.width;
+  std::uint8_t& place = stored(column, position_ / geometry_.width);
+  column_sum_[column] += std::uint32_t{pixel} - place;
+  place = pixel;
+  leave();
+}
+
+// A row of zeros behind the last one takes the oldest row out of the sums, as any other does.
+void LocalThresholdCore::push_nothing() {
+  push(0);
+}
+
+void LocalThresholdCore::leave() {
+  const std::uint32_t entered = position_++;
+  if (entered < lag()) return;
+  const std::uint32_t leaving = entered - lag();
+  const std::uint32_t column = leaving % geometry_.width, row = leaving / geometry_.width;
+  slide(column);
+  const auto reach = [this](std::uint32_t middle, std::uint32_t size) {
+    return std::min(middle + radius_, size - 1) - (std::max(middle, radius_) - radius_) + 1;
+  };
+  dark_ = rule_.dark(stored(column, row), sum_,
+                     reach(column, geometry_.width) * reach(row, geometry_.height));
+}
+
+// The window moves to the right, or to the beginning of the next row.
+void LocalThresholdCore::slide(std::uint32_t column) {
+  if (column == 0) {
+    sum_ = 0;
+    for (std::uint32_t c = 0; c < radius_; ++c) sum_ += column_sum_[c];
+  }
+  if (column + radius_ < geometry_.width) sum_ += column_sum_[column + radius_];
+  if (column > radius_) sum_ -= column_sum_[column - radius_ - 1];
+}
+
+void find_dark(const std::uint8_t* image, const Geometry& geometry, const LocalRule& rule,
+               std::vector<std::uint32_t>& words) {
+  const std::uint32_t width = geometry.width, height = geometry.height, radius = rule.radius;
+  words.assign(geometry.pixels() / 32, 0);
+  std::vector<std::uint32_t> columns(width);
+  const auto add_row = [&](std::uint32_t row, std::uint32_t sign) {
+    const std::uint8_t* pixels = image + std::size_t{row} * width;
+    for (std::uint32_t x = 0; x < width; ++x) columns[x] += sign * pixels[x];
+  };
+  for (std::uint32_t row = 0; row < radius; ++row) add_row(row, 1);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    if (y + radius < height) add_row(y + radius, 1);
+    if (y > radius) add_row(y - radius - 1, ~0u);
+    const std::uint32_t rows =
+        std::min(y + radius, height - 1) - (std::max(y, radius) - radius) + 1;
+    std::uint32_t sum = 0;
+    for (std::uint32_t x = 0; x < radius; ++x) sum += columns[x];
+    for (std::uint32_t x = 0; x < width; ++x) {
+      if (x + radius < width) sum += columns[x + radius];
+      if (x > radius) sum -= columns[x - radius - 1];
+      const std::uint32_t across =
+          std::min(x + radius, width - 1) - (std::max(x, radius) - radius) + 1;
+      const std::uint32_t place = y * width + x;
+      words[place / 32] |= std::uint32_t{rule.dark(image[place], sum, rows * across)} << place % 32;
+    }
+  }
+}
+
+namespace {
+
+class LocalThresholdClocked final : public LocalThreshold {
+ public:
+  LocalThresholdClocked(sc_core::sc_module_name name, const Site& site)
+      : LocalThreshold(name, site), core_(geometry_, radius) {}
+
+ private:
+  void edge() override;
+  void begin();
+  void move_pipeline();
+
+  LocalThresholdCore core_;
+  std::uint64_t taken_ = 0;     ///< clocks since the frame began: pixels, then nothing
+  bool running_ = false;        ///< a frame goes in, or leaves
+  std::uint32_t pipeline_ = 0;  ///< of the last clocks, whether a dark pixel left the window
+};
+
+void LocalThresholdClocked::edge() {
+  if (resets()) {
+    running_ = false;
+    return sleep();
+  }
+  const std::uint64_t pixels = geometry_.pixels();
+  if (taken_ == pixels + lag()) running_ = false;
+  if (frame_ena && (!running_ || taken_ >= pixels)) begin();
+  if (running_ && !frame_ena && taken_ < pixels) refuse(cut);
+  if (running_) move_pipeline();
+  binary_ena = running_ && taken_ > lag();
+  if (!running_) sleep();
+}
+
+void LocalThresholdClocked::begin() {
+  if (running_) refuse(too_early);
+  running_ = true;
+  taken_ = 0;
+  core_.begin(rule());
+}
+
+void LocalThresholdClocked::move_pipeline() {
+  if (taken_ < geometry_.pixels()) {
+    core_.push(pixel);
+  } else {
+    core_.push_nothing();
+  }
+  pipeline_ = pipeline_ << 1 | std::uint32_t{core_.dark()};
+  if (taken_ >= lag()) {
+    const auto place = static_cast<std::uint32_t>(taken_ - lag());
+    binary_out = (pipeline_ >> pipeline_clocks & 1) != 0;
+    binary_x = static_cast<std::uint16_t>(place % geometry_.width);
+    binary_y = static_cast<std::uint16_t>(place / geometry_.width);
+  }
+  ++taken_;
+}
+
+/// A frame's binary image when the frame begins; it leaves later, as a whole.
+class LocalThresholdTlm final : public LocalThreshold, private FrameListener {
+ public:
+  LocalThresholdTlm(sc_core::sc_module_name name, const Site& site) : LocalThreshold(name, site) {}
+
+ private:
+  void end_of_elaboration() override {
+    LocalThreshold::end_of_elaboration();
+    frames.channel().add_listener(*this);
+  }
+  void edge() override;
+  void begin(std::uint64_t cycle);
+  void pixels_changed(std::uint32_t first, std::uint32_t count) override;
+
+  std::uint64_t first_cycle_ = vp::Clock::never;  ///< edge that takes the frame's first pixel
+  bool taking_ = false;                           ///< pixels go in
+  LocalRule rule_;
+  std::vector<std::uint32_t> words_;
+};
+
+void LocalThresholdTlm::edge() {
+  sleep();
+  if (resets()) {
+    binary_frames.cut();
+    first_cycle_ = vp::Clock::never;
+    taking_ = false;
+    return wake_at(vp::Clock::never);
+  }
+  const std::uint64_t cycle = clock().cycle();
+  if (frame_ena && !taking_) begin(cycle);
+  if (!frame_ena && taking_ && cycle < first_cycle_ + geometry_.pixels()) refuse(cut);
+  taking_ = frame_ena;
+  if (first_cycle_ == vp::Clock::never) return wake_at(vp::Clock::never);
+  const std::uint64_t leaves = first_cycle_ + lag(), left = leaves + geometry_.pixels();
+  binary_ena = leaves <= cycle && cycle < left;
+  wake_at(cycle < leaves ? leaves : cycle < left ? left : vp::Clock::never);
+}
+
+void LocalThresholdTlm::begin(std::uint64_t cycle) {
+  if (first_cycle_ != vp::Clock::never && cycle < first_cycle_ + geometry_.pixels() + lag())
+    refuse(too_early);
+  first_cycle_ = cycle;
+  rule_ = rule();
+  binary_frames.announce();
+  find_dark(frames->data(), geometry_, rule_, words_);
+  binary_frames.begin(words_.data(), static_cast<std::uint32_t>(words_.size()), cycle + lag());
+}
+
+void LocalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
+  // A pixel of a frame that begins here only in the next clocks is not known yet.
+  if (!taking_ || first_cycle_ + first <= clock().cycle()) return;
+  find_dark(frames->data(), geometry_, rule_, words_);
+  const std::uint32_t before = radius * geometry_.width + radius;
+  const std::uint32_t from = std::max(first, before) - before;
+  binary_frames.change(from, geometry_.pixels() - from);
+}
+
+}  // namespace
+
+Models<GlobalThreshold>& LocalThreshold::models() {
+  static Models<GlobalThreshold> models{
+      "local_threshold",
+      {model<GlobalThreshold, LocalThresholdClocked>("clocked", by_pixel, by_pixel),
+       model<GlobalThreshold, LocalThresholdTlm>("tlm", by_frame, by_frame)}};
+  return models;
+}
+
+// The next frame may come at once behind the lag, and the window turns into the next row while the
+// last one leaves: it must be narrower than both.
+LocalThreshold::LocalThreshold(sc_core::sc_module_name name, const Site& site)
+    : GlobalThreshold(name, site) {
+  wake_on(threshold);
+  const std::uint32_t window = 2 * radius + 1, least = std::min(geometry_.width, geometry_.height);
+  if (window < least) return;
+  throw vp::InputError(std::string(radius.name()) + ": a window of " + std::to_string(window) +
+                       " px does not fit into frames of " + std::to_string(geometry_.width) + "x" +
+                       std::to_string(geometry_.height) + ": " + std::to_string((least - 2) / 2) +
+                       " px at most");
+}
+
+bool LocalThreshold::resets() {
+  if (por) level_ = 0;
+  const bool reset = por || rst;
+  if (!reset && wr_thresh) level_ = threshold;
+  active_threshold = level_;
+  if (reset) binary_ena = false;
+  return reset;
+}
+
+void LocalThreshold::refuse(const std::string& why) const {
+  vp::error(*this, "/markervp/local_threshold/frame",
+            why + ": a frame takes " + std::to_string(geometry_.pixels() + lag()) + " clocks here");
+}
+
+// Line buffers in block memory; a column's sum is kept once for its way in, and once in a shift
+// register until the window has passed.
+vp::IpEstimate LocalThreshold::own_estimate() const {
+  const std::uint32_t window = 2 * radius + 1;
+  const std::uint32_t sum_bits = 8 + marker_logic::bits_for(window + 1, 1);
+  vp::IpEstimate e =
+      small_ip("local_threshold", 180 + 2 * sum_bits * (window / 32 + 1), 260, 100 * mhz);
+  e.bram36 = xilinx::block_ram_36(window * geometry_.width, 8) +
+             xilinx::block_ram_36(geometry_.width, sum_bits);
+  e.dsp = 2;
+  e.source = "derived from the model's registers";
+  e.fmax_high_hz = 0;
+  e.fmax_origin = vp::FmaxOrigin::estimated;
+  e.fmax_documentation = "two additions and a product, a register behind each";
+  return e;
+}
+
+}  // namespace pl
