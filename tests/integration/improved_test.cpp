@@ -350,4 +350,51 @@ BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {
     BOOST_TEST(overlap["frames"][i]["markers"] == serial["frames"][i]["markers"]);
 }
 
+// Both cores find what one finds, and are ready before the next frame where one is not.
+BOOST_AUTO_TEST_CASE(two_cores_read_the_markers_of_a_frame) {
+  const Arguments fifteen{"z2.5@markers=15", "--repeat", "6"};
+  const Json one = run_of(fifteen), both = run_of(with(fifteen, "sw.second_core=1"));
+  BOOST_TEST(one["frames"][5]["markers"].size() == 15u);
+  for (const char* key : {"markers", "counts", "warnings"}) {
+    for (std::size_t i = 0; i < 6; ++i)
+      BOOST_TEST(one["frames"][i].value(key, Json()) == both["frames"][i].value(key, Json()));
+  }
+  const auto frames_a_second = [](const Json& result) {
+    return double(result["summary"]["fps"]["max"]);
+  };
+  BOOST_TEST(frames_a_second(one) < 240);
+  BOOST_TEST(frames_a_second(both) > 320);
+  BOOST_TEST(latency_us(both["frames"][5]) < 0.6 * latency_us(one["frames"][5]));
+}
+
+BOOST_AUTO_TEST_CASE(two_cores_are_the_same_at_both_fidelities_and_with_a_board) {
+  const Arguments both = with({"z2.0@markers=10", "demo", "squares15"}, "sw.second_core=1");
+  BOOST_TEST(difference(both) == "");
+  BOOST_TEST(difference(with(both, "ps.cpu.quantum=0 s")) == "");
+  const Arguments board = with(with({"z2.0@markers=10"}, "sw.board=grid"), "sw.board_columns=5");
+  const Json alone = run_of(board), shared = run_of(with(board, "sw.second_core=1"));
+  BOOST_TEST(alone["frames"][0]["markers"] == shared["frames"][0]["markers"]);
+  BOOST_TEST(alone["frames"][0]["board"] == shared["frames"][0]["board"]);
+}
+
+// As many markers as there is room for are those that one core keeps.
+BOOST_AUTO_TEST_CASE(two_cores_keep_as_many_markers_as_one) {
+  const kit::TemporaryFolder folder;
+  const Arguments files{picture_in(folder, "300", [](int x, int y) {
+    return grey_of_marker(y / 32 * 20 + x / 32, x % 32 - 4, y % 32 - 4, 24);
+  })};
+  const Json one = run_of(files), both = run_of(with(files, "sw.second_core=1"));
+  BOOST_TEST(one["frames"][0]["markers"].size() == 256u);
+  BOOST_TEST(one["frames"][0]["markers"] == both["frames"][0]["markers"]);
+  BOOST_TEST(one["frames"][0]["counts"] == both["frames"][0]["counts"]);
+}
+
+BOOST_AUTO_TEST_CASE(the_second_core_has_to_be_there) {
+  const Workplace place;
+  const kit::Outcome refused = place.run(
+      {"demo", "--design", "improved", "--set", "sw.second_core=1", "--set", "ps.cores=1"});
+  BOOST_TEST(refused.exit_code == 3);
+  BOOST_TEST(refused.err.find("set ps.cores to 2") != std::string::npos, refused.err);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -47,6 +47,7 @@ int Application::run() {
 bool Application::initialise() {
   options_ = read_options();
   detector_.open(*options_.dictionary, options_.detector);
+  if (options_.second_core) both_cores_.start(*options_.dictionary, options_.detector);
   next_slot_ = 0;
   knows_camera_frame_ = false;
   if (capture_.initialise()) return true;
@@ -142,9 +143,15 @@ void Application::find_markers(const Slot& slot) {
   result_.threshold = slot.trailer[blob_stream::threshold];
   marker::DetectionTimes& times = result_.times;
   times.detection.start = capture_.now();
-  detector_.find_markers(picture, slot.blobs, result_.found);
+  if (options_.second_core) {
+    both_cores_.find(picture, slot.blobs, result_.found);
+  } else {
+    detector_.find_markers(picture, slot.blobs, result_.found);
+  }
   times.detection.end = times.pose.start = capture_.now();
-  detector_.find_poses(camera, result_.found);
+  if (!options_.second_core || options_.detector.board.kind != marker::Board::Kind::none) {
+    detector_.find_poses(camera, result_.found);
+  }
   times.pose.end = times.frame.end = capture_.now();
 }
 

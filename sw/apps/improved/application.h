@@ -1,5 +1,6 @@
 #pragma once
 
+#include <apps/improved/both_cores.h>
 #include <apps/improved/capture.h>
 #include <apps/improved/options.h>
 #include <hal/hal.h>
@@ -47,6 +48,7 @@ class Application {
   bool knows_camera_frame_;     ///< after a frame that went wrong nobody knows
   std::uint32_t camera_frame_;  ///< the number of the last one
   marker::MarkerDetector detector_;
+  BothCores both_cores_;
   marker::DetectionResult result_;
 };
 

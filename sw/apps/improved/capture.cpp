@@ -14,8 +14,8 @@ namespace control = marker_logic::control;
 
 constexpr std::size_t cache_line = 32;
 
-/// All of a buffer leaves the caches once, so that later only what is read needs to: nothing that the
-/// program wrote there before may come over what a DMA engine writes.
+/// All of a buffer leaves the caches once, so that later only what is read needs to: nothing that
+/// the program wrote there before may come over what a DMA engine writes.
 bool reserve_buffer(hal_dma_buffer& buffer, std::uint32_t bytes) {
   if (buffer.data != nullptr && buffer.size >= bytes) return true;
   buffer = hal_dma_allocate(bytes, cache_line);

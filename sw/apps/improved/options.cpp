@@ -57,6 +57,7 @@ Options read_options() {
   options.p2 = value(Option::lens_p2);
   options.k3 = value(Option::lens_k3);
   options.overlap = is_on(Option::overlap);
+  options.second_core = is_on(Option::second_core);
   options.timeout = value(Option::timeout);
   return options;
 }

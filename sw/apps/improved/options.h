@@ -34,6 +34,8 @@
   X(lens_k3, "", 0, -10000, 10000, "radial")                                                  \
   X(overlap, "", 1, 0, 1,                                                                     \
     "1: the logic takes the next frame while the software works on the last; 0: one by one")  \
+  X(second_core, "", 0, 0, 1,                                                                 \
+    "1: both cores read the markers of a frame; poses are part of their detection then")      \
   X(timeout, "ms", 100, 0.1, 1000000,                                                         \
     "longest time from the trigger to a frame in memory "                                     \
     "(decision)")
@@ -46,6 +48,7 @@ struct Options {
   marker::DetectorOptions detector;
   double k1, k2, p1, p2, k3;
   bool overlap;
+  bool second_core;
   double timeout;
 };
 
