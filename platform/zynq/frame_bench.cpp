@@ -13,12 +13,7 @@ namespace platform {
 
 FrameBench::FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
                        const vp::ReportRouter& reports)
-    : zynq_(zynq),
-      cache_contract_(zynq),
-      spin_watch_(zynq),
-      camera_(camera),
-      options_(options),
-      reports_(reports) {
+    : zynq_(zynq), cache_contract_(zynq), camera_(camera), options_(options), reports_(reports) {
   const input::ImageSize size = zynq_.design().frame_size();
   const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   const auto address = zynq_.ps.ddr.dma_memory().allocate(pixels, 4096);
@@ -72,7 +67,7 @@ std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
 // Of a program that does not upload its images: in the image store, or before the camera.
 void FrameBench::place(const input::InputFrame& frame) {
   if (!options_.uploads()) zynq_.design().show_image(frame.image);
-  std::memcpy(zynq_.ps.ddr.at(frame_.bus_address, frame.image.pixels.size()),
+  std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, frame.image.pixels.size()),
               frame.image.pixels.data(), frame.image.pixels.size());
   cache_contract_.placed(frame_.bus_address, frame.image.pixels.size());
   frame_.index = images_ - 1;
@@ -84,7 +79,6 @@ void FrameBench::place(const input::InputFrame& frame) {
 
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
                          std::uint64_t now_ps) {
-  cache_contract_.published();
   zynq_.settle();
   report::FrameReport report;
   if (!zynq_.design().report({kind, data, size, now_ps}, report)) {
@@ -93,7 +87,6 @@ bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
         "marker headers of this version" +
         zynq_.ps.cpu.where());
   }
-  spin_watch_.finish();
   take_new_warnings(report.warnings);
   const bool delivered = report.delivered();
   ++published_;
@@ -146,7 +139,6 @@ void FrameBench::take_new_warnings(std::vector<std::string>& list) {
 std::vector<std::string> FrameBench::finish() {
   if (waiting_) hand_over(waiting_->end_ps);
   zynq_.design().finish();
-  spin_watch_.finish();
   std::vector<std::string> list;
   take_new_warnings(list);
   return list;

@@ -63,7 +63,6 @@ class FrameBench : public ps::TestBench {
 
   Zynq& zynq_;
   CacheContract cache_contract_;
-  SpinWatch spin_watch_;
   const CameraTiming& camera_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;

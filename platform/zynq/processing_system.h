@@ -74,6 +74,7 @@ class ProcessingSystem : public sc_core::sc_module {
   vp::Clock uart1_ref_clk;
 
   vp::Parameter<bool> poll_elision;
+  vp::Parameter<std::uint32_t> cache_guard_steps;
   vp::Parameter<bool> ethernet;
   vp::Parameter<std::uint32_t> cores;
   ps::Cpu cpu;

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <string>
 
-#include <axi_dma_registers.h>
 #include <vp/ip.h>
 #include <vp/report.h>
 #include <vp/text.h>
+#include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_dma/dma_channel.h>
 
 namespace platform {
@@ -15,14 +15,6 @@ namespace platform {
 namespace {
 
 constexpr std::uint64_t line = ps::DmaAllocator::cache_line;
-
-/// std::any_of without an early end: nearly always there is none, and so it is vectorised.
-template <class Predicate>
-bool any_of_all(const std::vector<unsigned char>& values, Predicate predicate) {
-  unsigned char any = 0;
-  for (const unsigned char value : values) any |= static_cast<unsigned char>(predicate(value));
-  return any != 0;
-}
 
 }  // namespace
 
@@ -47,7 +39,13 @@ void CacheContract::Watch::direct(vp::MmLink&, tlm::tlm_command command, std::ui
 }
 
 CacheContract::CacheContract(Zynq& zynq)
-    : zynq_(zynq), first_(zynq.ps.ddr.dma_memory().first()), end_(zynq.ps.ddr.dma_memory().end()) {
+    : zynq_(zynq),
+      first_(ps::Ddr::base),
+      end_(zynq.ps.ddr.dma_memory().end()),
+      lines_((end_ - first_) / line),
+      memory_(end_ - first_),
+      guard_(first_, end_, zynq.ps.cache_guard_steps,
+             [this](std::uintptr_t address) { program_reads(address); }) {
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watches_.emplace_back(*this, port->link);
   }
@@ -56,7 +54,7 @@ CacheContract::CacheContract(Zynq& zynq)
         if (call == ps::Cpu::CacheCall::flush) {
           flushed(address, bytes);
         } else {
-          mark(address, bytes, invalidated);
+          invalidate(address, bytes);
         }
       });
   zynq.on_poke([this](std::uint32_t address) { placed(address, sizeof address); });
@@ -69,10 +67,12 @@ CacheContract::~CacheContract() {
   for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(nullptr);
 }
 
-// What is not of hal_dma_allocate() is the program's own affair.
+// What is not of hal_dma_allocate() may end where the program likes.
 void CacheContract::check_transfers() {
   const ps::DmaAllocator& memory = zynq_.ps.ddr.dma_memory();
-  const auto check = [&memory](std::uint64_t address, std::uint64_t bytes) -> std::string {
+  const auto check = [this, &memory](const std::string& who, std::uint64_t address,
+                                     std::uint64_t bytes) -> std::string {
+    if (who == "S2MM") device_will_write(address, bytes);
     const auto buffer = memory.buffer_at(address);
     if (!buffer || address + bytes <= buffer->end) return {};
     return "leaves its buffer, " + std::to_string(buffer->end - buffer->first) + " bytes at " +
@@ -86,20 +86,19 @@ bool CacheContract::watches(std::uint64_t address, std::uint64_t bytes) const {
   return bytes != 0 && address >= first_ && address < end_;
 }
 
+unsigned char& CacheContract::marks_at(std::uint64_t address) {
+  return lines_[(address - first_) / line];
+}
+
 void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned marks,
                          unsigned cleared) {
   if (!watches(address, bytes)) return;
-  const std::uint64_t from = (address - first_) / line;
-  const std::uint64_t to = (std::min(address + bytes, end_) - 1 - first_) / line;
-  if (lines_.size() <= to) {
-    lines_.resize(to + 1);
-    memory_.resize((to + 1) * line);
-  }
   const auto bits = static_cast<unsigned char>(marks);
   const auto kept = static_cast<unsigned char>(~cleared);
-  unsigned char* const lines = lines_.data();
-  for (std::uint64_t i = from; i <= to; ++i)
-    lines[i] = static_cast<unsigned char>((lines[i] & kept) | bits);
+  unsigned char* const from = &marks_at(address);
+  unsigned char* const last = &marks_at(std::min(address + bytes, end_) - 1);
+  for (unsigned char* at = from; at <= last; ++at)
+    *at = static_cast<unsigned char>((*at & kept) | bits);
 }
 
 // Whole lines leave the cache.
@@ -110,46 +109,89 @@ void CacheContract::flushed(std::uint64_t address, std::uint64_t bytes) {
   copy(from, (address + bytes + line - 1) / line * line - from);
 }
 
+// The HAL flushes lines that are named in part before it drops them.
+void CacheContract::invalidate(std::uint64_t address, std::uint64_t bytes) {
+  if (!watches(address, bytes)) return;
+  const std::uint64_t end = std::min(address + bytes, end_);
+  const std::uint64_t whole = (address + line - 1) / line * line, whole_end = end / line * line;
+  if (whole != address) flushed(address, 1);
+  if (whole_end != end) flushed(end - 1, 1);
+  mark(address, bytes, invalidated, dropped);
+  guard_.release(address, bytes);
+  for (std::uint64_t at = whole; at < whole_end; at = (at / line + 1) * line) {
+    const std::optional<std::uint64_t> lost = first_dirty(at, whole_end - at, given);
+    if (!lost) return;
+    at = *lost;
+    mark(at, 1, dropped);
+    guard_.guard(at, 1);
+  }
+}
+
 void CacheContract::device_wrote(std::uint64_t address, std::uint64_t bytes) {
   if (!watches(address, bytes)) return;
-  mark(address, bytes, current | written);
+  mark(address, bytes, current, dropped);
   copy(address, bytes);
+  guard_.guard(address, bytes);
 }
 
 // From what the program sees to what lies behind the caches.
 void CacheContract::copy(std::uint64_t address, std::uint64_t bytes) {
   bytes = std::min(address + bytes, end_) - address;
   std::memcpy(memory_.data() + (address - first_),
-              zynq_.ps.ddr.at(static_cast<std::uint32_t>(address), bytes), bytes);
+              zynq_.ps.ddr.behind(static_cast<std::uint32_t>(address), bytes), bytes);
 }
 
-// The first address whose byte a device does not see as the program does.
-std::optional<std::uint64_t> CacheContract::first_stale(std::uint64_t address,
-                                                        std::uint64_t bytes) const {
+// The first address whose byte a device does not see as the program does, in a line without one of
+// the marks `but`. Nearly always there is none: large pieces are compared first.
+std::optional<std::uint64_t> CacheContract::first_dirty(std::uint64_t address, std::uint64_t bytes,
+                                                        unsigned but) {
+  constexpr std::uint64_t piece = 128 * line;
   const std::uint64_t end = std::min(address + bytes, end_);
-  for (std::uint64_t at = address; at < end;) {
-    const std::uint64_t number = (at - first_) / line;
-    const std::uint64_t next = std::min(end, first_ + (number + 1) * line);
-    const unsigned marks = number < lines_.size() ? lines_[number] : 0u;
-    if ((marks & current) == 0) return at;
-    if ((marks & given) == 0) {
-      const unsigned char* const seen = memory_.data() + (at - first_);
-      const unsigned char* const wrote = zynq_.ps.ddr.at(static_cast<std::uint32_t>(at), next - at);
-      const auto* const here = std::mismatch(seen, seen + (next - at), wrote).first;
-      if (here != seen + (next - at)) return at + static_cast<std::uint64_t>(here - seen);
-    }
-    at = next;
+  const unsigned char* const seen = memory_.data() - first_;
+  const unsigned char* const wrote =
+      zynq_.ps.ddr.behind(static_cast<std::uint32_t>(first_)) - first_;
+  const auto next_after = [end](std::uint64_t at, std::uint64_t size) {
+    return std::min(end, (at / size + 1) * size);
+  };
+  const auto equal = [seen, wrote](std::uint64_t at, std::uint64_t until) {
+    return std::memcmp(seen + at, wrote + at, until - at) == 0;
+  };
+  const auto first_in_lines = [&](std::uint64_t at, std::uint64_t until) {
+    while (at < until && ((marks_at(at) & but) != 0 || equal(at, next_after(at, line))))
+      at = next_after(at, line);
+    while (at < until && seen[at] == wrote[at]) ++at;
+    return at;
+  };
+  for (std::uint64_t at = address, until = 0; at < end; at = until) {
+    until = next_after(at, piece);
+    if (equal(at, until)) continue;
+    const std::uint64_t first = first_in_lines(at, until);
+    if (first < until) return first;
   }
   return std::nullopt;
 }
 
+// The first that was never flushed, or was written since.
+std::optional<std::uint64_t> CacheContract::first_unflushed(std::uint64_t address,
+                                                            std::uint64_t bytes) {
+  const std::uint64_t end = std::min(address + bytes, end_);
+  const unsigned char* const from = &marks_at(address);
+  const unsigned char* const last = &marks_at(end - 1);
+  const auto* const never =
+      std::find_if(from, last + 1, [](unsigned char marks) { return (marks & current) == 0; });
+  const std::uint64_t flushed_end =
+      never > last ? end : std::max(address, (address / line + (never - from)) * line);
+  const auto dirty = first_dirty(address, flushed_end - address, given);
+  if (dirty || never > last) return dirty;
+  return flushed_end;
+}
+
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
   if (warned_of_read_ || !watches(address, bytes)) return;
-  const std::optional<std::uint64_t> stale = first_stale(address, bytes);
+  const std::optional<std::uint64_t> stale = first_unflushed(address, bytes);
   if (!stale) return;
   warned_of_read_ = true;
-  const std::uint64_t number = (*stale - first_) / line;
-  const bool once = number < lines_.size() && (lines_[number] & current) != 0;
+  const bool once = (marks_at(*stale) & current) != 0;
   vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_flushed",
            "a DMA reads " + vp::hex(*stale) +
                (once ? ", which the program wrote after it was flushed"
@@ -158,111 +200,38 @@ void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
                (once ? "between the last write and the transfer" : "before the transfer"));
 }
 
-void CacheContract::published() {
-  if (warned_of_write_) return;
-  const auto stale = [](unsigned char marks) {
-    return (marks & (written | invalidated)) == written;
-  };
-  if (!any_of_all(lines_, stale)) return;
-  for (std::uint64_t i = 0; i < lines_.size(); ++i) {
-    if (!stale(lines_[i])) continue;
-    warned_of_write_ = true;
-    vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
-             "a DMA wrote " + vp::hex(first_ + i * line) +
-                 ", which the program never invalidated before it published a result: it works "
-                 "here, and fails on the chip; call hal_cache_invalidate() after the transfer");
+// Whoever shares a line with the buffer is written back with it.
+void CacheContract::device_will_write(std::uint64_t address, std::uint64_t bytes) {
+  if (warned_of_write_ || !watches(address, bytes)) return;
+  const std::uint64_t from = address / line * line;
+  const std::uint64_t end = (address + bytes + line - 1) / line * line;
+  const std::optional<std::uint64_t> dirty = first_dirty(from, end - from, given | dropped);
+  if (!dirty) return;
+  warned_of_write_ = true;
+  vp::warn(zynq_.ps.cpu, "/markervp/cpu/written_over",
+           "a DMA is about to write the cache line of " + vp::hex(*dirty) +
+               ", which the program wrote and has not flushed: it works here; on the chip the "
+               "cache writes it back at any time, over what the DMA wrote; call hal_cache_flush() "
+               "before the transfer, and keep other data out of the buffer's cache lines");
+}
+
+// In a signal handler, between two instructions of the program.
+void CacheContract::program_reads(std::uint64_t address) {
+  guard_.stop();
+  const unsigned marks = marks_at(address);
+  if ((marks & dropped) != 0) {
+    vp::warn(zynq_.ps.cpu, "/markervp/cpu/dropped",
+             "the program reads " + vp::hex(address) +
+                 ", which it wrote and then invalidated without a flush: it works here, and the "
+                 "chip has dropped what was written; invalidate only what a device wrote");
     return;
   }
-}
-
-SpinWatch::SpinWatch(Zynq& zynq) : zynq_(zynq) {
-  for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq.pl())) {
-    if (!dma->include_s2mm) continue;
-    writers_.push_back({dma, {}, {}, {}});
-    dma->s2mm().m_axi.link.add_observer(*this);
-  }
-  zynq.ps.cpu.on_loop([this](ps::MemoryWatch& memory) { loop_noticed(memory); });
-}
-
-SpinWatch::~SpinWatch() {
-  zynq_.ps.cpu.on_loop(nullptr);
-  for (const Writer& writer : writers_) writer.dma->s2mm().m_axi.link.remove_observer(*this);
-}
-
-void SpinWatch::after(vp::MmLink& link, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
-  if (!payload.is_response_ok()) return;
-  direct(link, payload.get_command(), payload.get_address(), payload.get_data_length());
-}
-
-// Packets that follow each other in memory are one buffer; of others the last counts.
-void SpinWatch::direct(vp::MmLink& link, tlm::tlm_command, std::uint64_t address,
-                       std::uint64_t bytes) {
-  forget_what_was_made_visible();
-  for (Writer& writer : writers_) {
-    if (&writer.dma->s2mm().m_axi.link != &link) continue;
-    const bool follows = !writer.written.empty() && address == writer.written.end;
-    if (!follows) writer.written.first = address;
-    writer.written.end = address + bytes;
-  }
-}
-
-void SpinWatch::forget_what_was_made_visible() {
-  if (barriers_ == zynq_.ps.cpu.barriers) return;
-  barriers_ = zynq_.ps.cpu.barriers;
-  for (Writer& writer : writers_) writer.written = {};
-}
-
-void SpinWatch::loop_noticed(ps::MemoryWatch& memory) {
-  look_at();
-  if (warned_) return;
-  forget_what_was_made_visible();
-  where_ = zynq_.ps.cpu.where();
-  memory_ = &memory;
-  std::vector<ps::MemoryWatch::Range> ranges;
-  for (Writer& writer : writers_) {
-    writer.watched_armed = armed(*writer.dma);
-    writer.watched_written = clipped(writer.written.first, writer.written.end);
-    for (const Buffer& buffer : {writer.watched_written, writer.watched_armed}) {
-      if (!buffer.empty()) ranges.emplace_back(buffer.first, buffer.end);
-    }
-  }
-  memory.watch(std::move(ranges));
-}
-
-void SpinWatch::look_at() {
-  if (warned_ || !memory_ || !memory_->touched()) return;
-  const std::uint64_t address = *memory_->touched();
-  for (const Writer& writer : writers_) {
-    const bool is_armed = writer.watched_armed.has(address);
-    if (!is_armed && !writer.watched_written.has(address)) continue;
-    warned_ = true;
-    const std::string dma = writer.dma->basename();
-    vp::warn(zynq_.ps.cpu, "/markervp/cpu/spins_on_memory",
-             "a loop without HAL call reads " + vp::hex(address) + ", a DMA buffer that " + dma +
-                 (is_armed ? " is about to write" : " wrote, and nothing made it visible") +
-                 ": it works here, and may never end on the chip; call hal_cache_invalidate() "
-                 "(hal_barrier(), if DMA memory is not cached) before each look" +
-                 where_);
-    return;
-  }
-}
-
-// A transfer has been asked for and is not complete: PG021, DMASR.Idle.
-SpinWatch::Buffer SpinWatch::armed(xilinx::AxiDma& dma) const {
-  const auto value = [&dma](std::uint32_t offset) { return dma.s_axi_lite.peek(offset); };
-  const bool runs = (value(axi_dma::S2MM_DMACR) & axi_dma::dmacr::RS) != 0;
-  const std::uint32_t status = value(axi_dma::S2MM_DMASR);
-  if (!runs || (status & (axi_dma::dmasr::Idle | axi_dma::dmasr::Halted)) != 0) return {};
-  const std::uint64_t first = value(axi_dma::S2MM_DA);
-  return clipped(first, first + value(axi_dma::S2MM_LENGTH));
-}
-
-// The part in DMA memory that was given out: an address there is a pointer.
-SpinWatch::Buffer SpinWatch::clipped(std::uint64_t first, std::uint64_t end) const {
-  const ps::DmaAllocator& memory = zynq_.ps.ddr.dma_memory();
-  first = std::max(first, memory.first());
-  end = std::min(end, memory.first() + memory.used());
-  return first < end ? Buffer{first, end} : Buffer{};
+  const bool early = (marks & invalidated) != 0;
+  vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
+           "the program reads " + vp::hex(address) + ", which a DMA wrote " +
+               (early ? "after the program invalidated it" : "and the program never invalidated") +
+               ": it works here, and fails on the chip; call hal_cache_invalidate() between the "
+               "transfer and the first read");
 }
 
 }  // namespace platform

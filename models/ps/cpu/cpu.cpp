@@ -158,7 +158,7 @@ void Cpu::end(State state) {
   end_ps_ = now_ps();
   running_ = nullptr;
   ProgramWatch::end();
-  memory_watch_.lift();
+  LineGuard::program_is_over();
   cores_->all.front()->console.flush();
   for (Cpu* core : cores_->all) {
     if (core != this) core->freeze();

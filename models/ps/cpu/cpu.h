@@ -147,10 +147,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// is.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
   void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
-  /// Told of a loop without HAL call on this core, each time that time has jumped for it; `memory`
-  /// is there to find out what it reads. Null: nobody is.
-  using LoopListener = std::function<void(MemoryWatch& memory)>;
-  void on_loop(LoopListener listener) { loop_listener_ = std::move(listener); }
   /// Points in the program's course at which a profiler looks at it, called on its stack.
   enum class Moment {
     call_over,       ///< a call of the HAL is over, or the program is
@@ -374,7 +370,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::function<Request()> describe_request_;
   std::string cost_profile_;
   CacheListener cache_listener_;
-  LoopListener loop_listener_;
   MomentListener moment_listener_;
   bool pause_at_end_ = true;
   bool poll_elision_ = true;
@@ -431,7 +426,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   } last_look_;
 
   FaultTrap trap_;
-  MemoryWatch memory_watch_;
   std::optional<CodeLocator> code_;          ///< of a plug-in
   std::vector<std::uintptr_t> fault_calls_;  ///< under way in the fault that ended it
 

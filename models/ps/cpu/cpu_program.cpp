@@ -46,7 +46,7 @@ int Cpu::call_program() {
       },
       &call, limit);
   ProgramWatch::end();
-  memory_watch_.lift();
+  if (number_ == 0) LineGuard::program_is_over();
   if (fault) report(*fault);
   if (in_handler_now_)
     break_off("the interrupt handler never returned: do not leave it by longjmp()");
@@ -150,14 +150,12 @@ void Cpu::look_at(const void* data, std::size_t size) const {
 
 // An interrupt ends the jump: the program may have waited for what its handler does.
 void Cpu::notice_loop(unsigned before) {
-  memory_watch_.lift();
   const std::uint64_t taken = interrupts;
   catch_up();
   if (interrupts == taken) {
     pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
     catch_up();
   }
-  if (loop_listener_) loop_listener_(memory_watch_);
 }
 
 std::string Cpu::program_counter() const {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <ps/cpu/fault_trap.h>
+#include <ps/cpu/line_guard.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/text.h>
 #include <cstdlib>
@@ -229,11 +230,8 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   FaultTrap& trap = *active_;
   Fault& fault = trap.fault_;
   const bool sent = info->si_code <= 0;
-  if (signal == SIGSEGV && !sent &&
-      MemoryWatch::on_fault(reinterpret_cast<std::uintptr_t>(info->si_addr),
-                            ProgramWatch::runs && ProgramWatch::suspicions() != 0)) {
-    return;
-  }
+  const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  if (signal == SIGSEGV && !sent && LineGuard::on_fault(address, context)) return;
   const bool by_others = sent && info->si_pid != getpid();
   if (trap.landed_ || !can_leave() || by_others) {
     trap.give_back(signal);
@@ -245,7 +243,7 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   fault.signal = signal;
   fault.code = info->si_code;
   fault.access = access_of(signal, context);
-  fault.address = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  fault.address = address;
   fault.address_known = info->si_code > 0 && info->si_code != SI_KERNEL;
   fault.stack_overflow = signal != SIGILL && signal != SIGFPE && signal != SIGABRT &&
                          fault.address_known && trap.is_stack_overflow(fault.address);

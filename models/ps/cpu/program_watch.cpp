@@ -10,10 +10,9 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <elf.h>
-#include <execinfo.h>
-#include <sys/mman.h>
 #include <ucontext.h>
 #include <unistd.h>
+#include <unwind.h>
 
 extern "C" void __sanitizer_cov_trace_pc(void);
 
@@ -83,53 +82,6 @@ void HostWatch::count(std::uint64_t spent_ns) {
   if (spent_ns_ >= limit_.ns && ProgramWatch::stop == ProgramWatch::Stop::none) {
     ProgramWatch::stop_program(ProgramWatch::Stop::host_time);
   }
-}
-
-}  // namespace ps
-namespace ps {
-
-MemoryWatch* MemoryWatch::active_ = nullptr;
-
-void MemoryWatch::watch(std::vector<Range> ranges) {
-  lift();
-  touched_.reset();
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  for (Range& range : ranges) {
-    range.first -= range.first % page;
-    range.second = (range.second + page - 1) / page * page;
-  }
-  pages_ = std::move(ranges);
-  if (pages_.empty()) return;
-  active_ = this;
-  watching_ = true;
-  protect(PROT_NONE);
-}
-
-void MemoryWatch::lift() {
-  if (!watching_) return;
-  watching_ = false;
-  active_ = nullptr;
-  protect(PROT_READ | PROT_WRITE);
-}
-
-void MemoryWatch::protect(int access) const {
-  for (const Range& range : pages_) {
-    mprotect(reinterpret_cast<void*>(range.first), range.second - range.first, access);
-  }
-}
-
-// What follows the loop, and the simulator itself (a DMA's write), end the watch, too, but are
-// nobody's mistake.
-bool MemoryWatch::on_fault(std::uintptr_t address, bool by_loop) {
-  MemoryWatch* watch = active_;
-  if (!watch) return false;
-  for (const Range& range : watch->pages_) {
-    if (address < range.first || address >= range.second) continue;
-    watch->lift();
-    if (by_loop) watch->touched_ = address;
-    return true;
-  }
-  return false;
 }
 
 namespace {
@@ -276,14 +228,19 @@ std::string CodeLocator::path(const std::vector<std::uintptr_t>& calls) const {
   return levels > most ? text + ", …" : text;
 }
 
+// What a signal interrupted stands at its instruction; who called, behind it.
 std::vector<std::uintptr_t> return_addresses() {
-  constexpr int most = 128;
-  void* frames[most];
-  const int count = backtrace(frames, most);
   std::vector<std::uintptr_t> addresses;
-  for (int i = 0; i < count; ++i) {
-    addresses.push_back(reinterpret_cast<std::uintptr_t>(frames[i]) - 1);
-  }
+  const auto take = [](_Unwind_Context* frame, void* list) {
+    constexpr std::size_t most = 128;
+    auto& found = *static_cast<std::vector<std::uintptr_t>*>(list);
+    int at_instruction = 0;
+    const std::uintptr_t address = _Unwind_GetIPInfo(frame, &at_instruction);
+    if (address == 0) return _URC_END_OF_STACK;
+    found.push_back(at_instruction != 0 ? address : address - 1);
+    return found.size() < most ? _URC_NO_REASON : _URC_END_OF_STACK;
+  };
+  _Unwind_Backtrace(take, &addresses);
   return addresses;
 }
 

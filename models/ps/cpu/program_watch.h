@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include <ps/cpu/line_guard.h>
 #include <vp/host_ticks.h>
 
 struct backtrace_state;
@@ -30,6 +30,7 @@ struct ProgramWatch {
   static void leave_hal() {
     blocks_left = blocks_limit;
     suspicions_ = 0;
+    LineGuard::program_runs();
     runs = true;
   }
   /// The program's code is about to run; `blocks` without HAL call are a suspicion.
@@ -61,7 +62,10 @@ struct ProgramWatch {
   /// The program's code runs in this scope, inside a HAL call: a handler, or a look at its memory.
   class ProgramCode {
    public:
-    ProgramCode() { runs = true; }
+    ProgramCode() {
+      LineGuard::program_runs();
+      runs = true;
+    }
     ~ProgramCode() { runs = false; }
     ProgramCode(const ProgramCode&) = delete;
     ProgramCode& operator=(const ProgramCode&) = delete;
@@ -108,40 +112,6 @@ class HostWatch : private vp::HostTicks::Listener {
   std::uint64_t spent_ns_ = 0;  ///< since the last progress
   std::uint64_t progress_ = 0;
   bool told_ = false;  ///< the program was to stop at the last tick
-};
-
-/// Notices that a loop without HAL call accesses some memory, by taking the access rights of its
-/// pages away until then. Costs nothing while it watches nothing.
-///
-/// The fault goes through FaultTrap, so it works while a program runs. One in a process at a time.
-class MemoryWatch {
- public:
-  MemoryWatch() = default;
-  ~MemoryWatch() { lift(); }
-  MemoryWatch(const MemoryWatch&) = delete;
-  MemoryWatch& operator=(const MemoryWatch&) = delete;
-
-  /// Addresses [first, end), of memory that may be read and written.
-  using Range = std::pair<std::uintptr_t, std::uintptr_t>;
-  /// Watches these and nothing else, until one of their pages is accessed. Forgets touched().
-  void watch(std::vector<Range> ranges);
-  /// Watches nothing any more.
-  void lift();
-  /// The address that the loop accessed since watch().
-  std::optional<std::uintptr_t> touched() const { return touched_; }
-
-  /// A segmentation fault at `address`: true if it was for the watch only, and the access will
-  /// succeed now. For the signal handler.
-  static bool on_fault(std::uintptr_t address, bool by_loop);
-
- private:
-  void protect(int access) const;
-
-  std::vector<Range> pages_;
-  bool watching_ = false;
-  std::optional<std::uintptr_t> touched_;
-
-  static MemoryWatch* active_;
 };
 
 /// The program that contains an address of code: a shared object, as it is mapped.

@@ -62,10 +62,17 @@ FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::ui
     : size_(size) {
   void* wanted = reinterpret_cast<void*>(first);
   void* got = mmap(wanted, size, PROT_READ | PROT_WRITE,
-                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+                   MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
   if (got == wanted) {
+    // From a length of 0 mremap() makes a second mapping of the same pages: mremap(2).
+    void* second = mremap(got, 0, size, MREMAP_MAYMOVE);
     data_ = static_cast<unsigned char*>(got);
-    return;
+    second_view_ = static_cast<unsigned char*>(second);
+    if (second != MAP_FAILED) return;
+    const std::string reason = std::strerror(errno);
+    munmap(got, size);
+    throw vp::InputError(what + ": the host has no room for a second view of " +
+                         std::to_string(size) + " bytes (" + reason + "): choose a smaller size");
   }
   const std::string reason = got == MAP_FAILED ? std::strerror(errno) : "address not granted";
   if (got != MAP_FAILED) munmap(got, size);
@@ -80,10 +87,11 @@ FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::ui
 
 FixedMapping::~FixedMapping() {
   munmap(data_, size_);
+  munmap(second_view_, size_);
 }
 
 void FixedMapping::clear() {
-  madvise(data_, size_, MADV_DONTNEED);
+  madvise(second_view_, size_, MADV_REMOVE);
 }
 
 std::optional<std::uint32_t> DmaAllocator::allocate(std::size_t size, std::size_t alignment) {
@@ -116,11 +124,15 @@ Ddr::Ddr(sc_core::sc_module_name name)
                vp::Source::decision, "first address of the DMA buffers"),
       memory_(std::string(this->name()) + " (DDR)", base, checked_size(this->name(), size)),
       dma_memory_(checked_dma_base(this->name(), dma_base, base + size), base + size) {
-  show(memory_.data(), base, size);
+  show(memory_.second_view(), base, size);
 }
 
 unsigned char* Ddr::at(std::uint32_t address, std::uint64_t bytes) const {
-  if (contains(address, bytes)) return memory_.data() + (address - base);
+  return memory_.data() + (behind(address, bytes) - memory_.second_view());
+}
+
+unsigned char* Ddr::behind(std::uint32_t address, std::uint64_t bytes) const {
+  if (contains(address, bytes)) return memory_.second_view() + (address - base);
   throw vp::ProtocolError(std::to_string(bytes) + " bytes at " + vp::hex(address) +
                           " are not in the DDR (" + vp::hex(base) + " to " + vp::hex(end() - 1) +
                           ")");

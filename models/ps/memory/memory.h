@@ -1,11 +1,15 @@
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <systemc>
 #include <tlm>
+#include <type_traits>
 #include <vector>
 
 #include <vp/counter.h>
@@ -18,8 +22,8 @@ class Clock;
 
 namespace ps {
 
-/// Zeroed host memory at chosen host addresses, for as long as the object lives. Pages take memory
-/// when first touched.
+/// Zeroed host memory at chosen host addresses, for as long as the object lives, and a second view
+/// of it elsewhere. Pages take memory when first touched.
 class FixedMapping {
  public:
   /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
@@ -30,13 +34,43 @@ class FixedMapping {
   FixedMapping& operator=(const FixedMapping&) = delete;
 
   unsigned char* data() const { return data_; }
+  /// The same bytes at other addresses: there they stay accessible when somebody takes the access
+  /// rights of pages of data() away (ps::LineGuard).
+  unsigned char* second_view() const { return second_view_; }
   std::uint64_t size() const { return size_; }
   /// Gives all pages back: the memory reads 0 again.
   void clear();
 
  private:
   unsigned char* data_;
+  unsigned char* second_view_;
   std::uint64_t size_;
+};
+
+/// `count` zeroed values, of which those take memory that were touched, page by page.
+template <class T>
+class SparseArray {
+  static_assert(std::is_trivially_copyable_v<T>, "its bytes are zero at the start");
+
+ public:
+  explicit SparseArray(std::size_t count) : bytes_(count * sizeof(T)) {
+    void* const got = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (got == MAP_FAILED) throw std::bad_alloc();
+    data_ = static_cast<T*>(got);
+  }
+  ~SparseArray() { munmap(data_, bytes_); }
+  SparseArray(const SparseArray&) = delete;
+  SparseArray& operator=(const SparseArray&) = delete;
+
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+
+ private:
+  std::size_t bytes_;
+  T* data_;
 };
 
 /// Hands out memory for DMA buffers from one range of bus addresses, front to back; nothing is
@@ -103,6 +137,8 @@ class Ddr : public vp::MemoryTarget {
   using MemoryTarget::end;
   /// Host pointer of a bus address; the same number. Throws vp::ProtocolError if it is outside.
   unsigned char* at(std::uint32_t address, std::uint64_t bytes = 1) const;
+  /// The same byte for who is not the program: devices and the test bench.
+  unsigned char* behind(std::uint32_t address, std::uint64_t bytes = 1) const;
   /// Counts one transaction that went through direct access.
   void account(tlm::tlm_command command, std::uint64_t bytes);
 

@@ -182,7 +182,7 @@ void AxiDma::warn(const char* id, const std::string& message) const {
 void AxiDma::check_buffer(const std::string& who, std::uint32_t address,
                           std::uint32_t bytes) const {
   if (!buffer_check_) return;
-  const std::string mistake = buffer_check_(address, bytes);
+  const std::string mistake = buffer_check_(who, address, bytes);
   if (mistake.empty()) return;
   warn("/markervp/axi_dma/past_buffer", who + " transfer of " + std::to_string(bytes) +
                                             " bytes at " + vp::hex(address) + " " + mistake);

@@ -63,9 +63,11 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   /// The engine that moves descriptors. Throws std::logic_error if the build does not have it.
   ScatterGather& scatter_gather();
 
-  /// Asked of each transfer and descriptor: the mistake in where it goes, as a message continues
-  /// ("leaves its buffer …"); "" if there is none. Null: nobody is asked.
-  using BufferCheck = std::function<std::string(std::uint32_t address, std::uint32_t bytes)>;
+  /// Asked of each transfer and descriptor before it begins: the mistake in where it goes, as a
+  /// message continues ("leaves its buffer …"); "" if there is none. `who`: "MM2S", "S2MM" …. Null:
+  /// nobody is asked.
+  using BufferCheck = std::function<std::string(const std::string& who, std::uint32_t address,
+                                                std::uint32_t bytes)>;
   void check_buffers(BufferCheck check) { buffer_check_ = std::move(check); }
 
   /// Words moved between memory and the core so far.

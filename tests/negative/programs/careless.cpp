@@ -34,9 +34,10 @@ enum class Mistake {
   sleeps_unmasked,
   transfers_too_much,
   clocks_too_fast,
+  spins_with_invalidation,
 };
 const hal_option_info options[] = {
-    {"mistake", "", 0, 0, 15, "what the program does wrong"},
+    {"mistake", "", 0, 0, 16, "what the program does wrong"},
     {"upload", "", 0, 0, 1, "0: the test bench puts images into the image store"}};
 
 Mistake mistake;
@@ -128,6 +129,10 @@ __attribute__((noinline)) void take_packet() {
     case Mistake::spins_with_barrier:
       while (words()[packet_bytes / 4 - 1] == pattern) hal_barrier();
       break;
+    case Mistake::spins_with_invalidation:
+      while (words()[packet_bytes / 4 - 1] == pattern)
+        hal_cache_invalidate(buffer.data, buffer.size);
+      break;
     case Mistake::waits_for_handler:
       while (!came) continue;
       break;
@@ -142,7 +147,8 @@ __attribute__((noinline)) void take_packet() {
   }
   if (mistake == Mistake::works_on_old_data) look_at_all_words();
   if (mistake != Mistake::publishes_old_data) hal_cache_invalidate(buffer.data, buffer.size);
-  if (mistake == Mistake::works_on_new_data) look_at_all_words();
+  if (mistake == Mistake::works_on_new_data || mistake == Mistake::publishes_old_data)
+    look_at_all_words();
 }
 
 void take_words() {

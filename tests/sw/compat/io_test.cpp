@@ -86,8 +86,9 @@ BOOST_AUTO_TEST_CASE(cache_ranges) {
   Xil_DCacheInvalidateRange(address + 32, 32);
   BOOST_REQUIRE_EQUAL(state().flushed.size(), 1);
   BOOST_CHECK(state().flushed[0].first == buffer && state().flushed[0].second == 64);
-  BOOST_REQUIRE_EQUAL(state().invalidated.size(), 1);
-  BOOST_CHECK(state().invalidated[0].first == buffer + 32 && state().invalidated[0].second == 32);
+  BOOST_REQUIRE_EQUAL(state().invalidated.size(), 2);
+  BOOST_CHECK(state().invalidated[0].first == buffer && state().invalidated[0].second == 64);
+  BOOST_CHECK(state().invalidated[1].first == buffer + 32 && state().invalidated[1].second == 32);
 }
 
 BOOST_AUTO_TEST_CASE(only_irq_has_a_handler) {

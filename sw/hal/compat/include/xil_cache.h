@@ -12,6 +12,7 @@ extern "C" {
 
 static inline void Xil_DCacheFlushRange(INTPTR adr, u32 len) {
   hal_cache_flush((const void*)adr, len);
+  hal_cache_invalidate((void*)adr, len); /* as the vendor's does: cleans and invalidates */
 }
 
 static inline void Xil_DCacheInvalidateRange(INTPTR adr, u32 len) {

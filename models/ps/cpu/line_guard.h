@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+
+#include <ps/memory/memory.h>
+
+namespace ps {
+
+/// Notices that the program reads a guarded cache line, at the very instruction.
+///
+/// The pages of guarded lines lose their access rights. An access faults: a read of a guarded line
+/// is told, a write takes its line out. What lies beside guarded lines in their page may be
+/// accessed: the page is opened for that one instruction (the processor's trap flag, x86-64). That
+/// takes some 20 us, so it is done `steps` times in a run at most. Who does it more often releases
+/// buffers in parts: what was guarded with such a page is left alone from then on.
+///
+/// Whoever is not the program uses another view of the memory, or takes the guard of the page away.
+/// The faults come through FaultTrap: it works while a program runs. One in a process at a time.
+class LineGuard {
+ public:
+  static constexpr std::uintptr_t line = DmaAllocator::cache_line;
+
+  /// Told of a read at `address`. The program stands at the instruction and goes on with it.
+  using Listener = std::function<void(std::uintptr_t address)>;
+
+  /// For memory in [first, end), whole pages. Guards nothing with 0 steps, nor under a debugger,
+  /// which would stop at each fault, nor where pages have not 4096 bytes.
+  LineGuard(std::uintptr_t first, std::uintptr_t end, unsigned steps, Listener listener);
+  ~LineGuard();
+  LineGuard(const LineGuard&) = delete;
+  LineGuard& operator=(const LineGuard&) = delete;
+
+  /// All lines of [address, address + bytes), which begins in the memory, once the program runs
+  /// again.
+  void guard(std::uintptr_t address, std::size_t bytes);
+  void release(std::uintptr_t address, std::size_t bytes);
+  /// Guards nothing any more, now and later.
+  void stop();
+
+  /// A segmentation fault at `address`: true if it was for the guard only, and the instruction is
+  /// to be tried again. For the signal handler; `context` is a ucontext_t.
+  static bool on_fault(std::uintptr_t address, void* context);
+  /// The program is about to run.
+  static void program_runs() {
+    if (pending_) active_->close();
+  }
+  /// No program runs any more that could fault.
+  static void program_is_over();
+
+ private:
+  static constexpr std::uintptr_t page = 4096;
+  static constexpr unsigned lines_per_page = page / line;
+  static constexpr unsigned bits = 64;
+  struct Page {
+    std::array<std::uint64_t, lines_per_page / bits> guarded;
+    std::uint32_t closed;  ///< in which go; 0: it is open
+    bool left_alone;
+
+    bool empty() const { return (guarded[0] | guarded[1]) == 0; }
+    bool has(unsigned number) const { return (guarded[number / bits] >> number % bits & 1) != 0; }
+    /// Lines [from, to).
+    void set(unsigned from, unsigned to, bool value);
+  };
+
+  /// Pages that a device writes one after the other, closed up to `closed_to`.
+  struct Range {
+    std::uint32_t closing;
+    std::size_t closed_to, to;
+  };
+
+  template <class Action>
+  void for_each_page(std::uintptr_t address, std::size_t bytes, Action action);
+  bool fault(std::uintptr_t address, void* context);
+  void step(std::size_t number, void* context);
+  void end_step(void* context);
+  void close();
+  void open(std::size_t number);
+  void leave_alone_all_closed_with(std::size_t number);
+  void allow(std::size_t from, std::size_t to, bool access) const;
+  static void on_trap(int signal, siginfo_t* info, void* context);
+
+  std::uintptr_t first_;
+  std::uintptr_t end_;
+  Listener listener_;
+  bool stopped_ = false;
+  unsigned steps_left_;
+  SparseArray<Page> pages_;
+  std::size_t used_ = 0;  ///< pages up to the last that was guarded
+  std::uint32_t closings_ = 0;
+  std::deque<Range> ranges_;  ///< that were guarded last: those of the devices that write
+  /// Opened for the instruction at which the program stands. One may access that many pages.
+  std::array<std::size_t, 4> stepping_{};
+  std::size_t stepping_count_ = 0;
+  bool trap_is_set_ = false;
+  struct sigaction old_trap_ {};
+
+  static LineGuard* active_;
+  static bool pending_;  ///< the active one has pages to close
+};
+
+}  // namespace ps
