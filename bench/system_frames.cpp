@@ -1,7 +1,8 @@
 // The whole system with its PS software: the loop of `markervp run` without input files, pictures
 // and result file.
 //   --mode=upload   software uploads each image by DMA, as the thesis' system does (the usual one)
-//   --mode=preload  the test bench puts it into the image memory
+//   --mode=preload  the test bench puts it into the image memory; it is the camera of a design that
+//   has one
 //   --mode=alone    the RTL that --set=pl.fidelity.<ip>=FILE names, without platform, on what stood
 //   at its pins in a frame of `preload`
 // Options such as --set=fidelity=clocked choose the platform.
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "frame_benchmark.h"
@@ -30,7 +32,7 @@ vp::Configuration configuration_of(const bench::Arguments& arguments) {
   vp::Configuration configuration;
   for (const std::string& setting : arguments.settings) configuration.set(setting);
   if (arguments.mode == "preload") {
-    configuration.set("sw.upload", "0");
+    if (!configuration.find("design")) configuration.set("sw.upload", "0");
   } else if (!arguments.mode.empty() && arguments.mode != "upload") {
     throw std::invalid_argument("no mode '" + arguments.mode + "'");
   }
@@ -157,28 +159,28 @@ class Replay {
 void measure_alone(benchmark::State& state, const bench::Arguments& arguments) {
   vp::Configuration configuration = configuration_of(with_recorder(arguments));
   const vp::Configuration::Scope scope(configuration);
-  Simulation simulation({BENCH_PROGRAM});
+  Simulation simulation(platform::SimulationOptions{});
   configuration.check_unused();
   const InputFrame frame = frame_of(arguments.image, simulation.image_size());
   bench::Recording& noted = recording();
   int given = 0;
-  std::size_t begin = 0;
+  std::size_t begin = 0, end = 0;
   const auto next = [&]() -> const InputFrame* {
-    if (given == bench::warm_up_frames) begin = noted.evaluations;
+    begin = std::exchange(end, noted.evaluations);  // from one image to the next
     return given++ <= bench::warm_up_frames ? &frame : nullptr;
   };
   simulation.run(next, [](FrameReport&&) { return true; });
   Replay replay(noted);
   replay.play(0, begin);
-  for (auto _ : state) replay.play(begin, noted.evaluations);
-  state.counters["evaluations"] = static_cast<double>(noted.evaluations - begin);
+  for (auto _ : state) replay.play(begin, end);
+  state.counters["evaluations"] = static_cast<double>(end - begin);
 }
 
 void measure(benchmark::State& state, const bench::Arguments& arguments) {
   if (arguments.mode == "alone") return measure_alone(state, arguments);
   vp::Configuration configuration = configuration_of(arguments);
   const vp::Configuration::Scope scope(configuration);
-  Simulation simulation({BENCH_PROGRAM});
+  Simulation simulation(platform::SimulationOptions{});
   configuration.check_unused();
   Frames frames(state, arguments.image, simulation.image_size());
   simulation.run([&] { return frames.next(); },

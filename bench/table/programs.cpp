@@ -148,13 +148,14 @@ void add_systems(List& list, const ProgramOptions& options, const std::string& i
   }
 }
 
-/// Each detector as RTL among models of whole frames, next to that RTL without the platform.
+/// Each IP as RTL in the platform, next to the platform with its model and to that RTL alone.
 void add_rtl(List& list, const ProgramOptions& options, const std::string& image) {
-  for (const std::string& ip : rtl_ips()) {
-    const std::string object = options.folder + "/bench_rtl_" + ip + ".so";
-    std::vector<std::string> settings{"fidelity=tlm", "pl.fidelity." + ip + "=" + object};
-    if (ip == "global_threshold") settings.push_back("pl.fidelity.blob_detection=clocked");
+  for (const auto& [ip, around] : rtl_ips()) {
+    std::vector<std::string> settings{"fidelity=tlm"};
+    settings.insert(settings.end(), around.begin(), around.end());
     constexpr const char* executable = "bench_system_frames";
+    list.add_frames({("modelled_" + ip).c_str(), executable, "preload", 5}, image, settings);
+    settings.push_back("pl.fidelity." + ip + "=" + options.folder + "/bench_rtl_" + ip + ".so");
     list.add_frames({("mixed_" + ip).c_str(), executable, "preload", 5}, image, settings);
     list.add_frames({("alone_" + ip).c_str(), executable, "alone", 5}, image, settings);
   }

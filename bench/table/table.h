@@ -47,8 +47,12 @@ struct Figure {
   }
 };
 
-/// IP whose RTL is measured in the platform and alone.
-const std::vector<std::string>& rtl_ips();
+/// An IP whose RTL is measured in the platform and alone.
+struct RtlIp {
+  std::string name;
+  std::vector<std::string> settings;  ///< of the platform around it, at the transaction level
+};
+const std::vector<RtlIp>& rtl_ips();
 
 /// All of them, in the order of the table. `fidelity` of the whole system, for the titles.
 std::vector<Figure> figures(const std::string& fidelity);

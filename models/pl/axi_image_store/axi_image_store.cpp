@@ -81,6 +81,7 @@ void AxiImageStore::connect(IpPorts& ports) {
                           {"bram_we", 1, take_enable, [passes]() -> std::optional<std::uint64_t> {
                              return passes() ? 1 : 0;
                            }}};
+  ports.others_stand_still = [passes] { return !passes(); };  // each beat that passes is written
   ports.parameter("ADDRESS_BITS", "pl.width", address.width());
 }
 

@@ -35,6 +35,7 @@ void ClockCrossing::connect(IpPorts& ports) {
   ports.output("binary_toggle", binary.toggle);
   ports.output("binary_word", binary.word);
   ports.report(crossing_overflow);
+  ports.others_stand_still = [this] { return corner.idle() && blob.idle() && binary.idle(); };
 }
 
 void ClockCrossing::cross_to(const vp::Clock& system_clk) {

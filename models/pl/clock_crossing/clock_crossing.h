@@ -29,10 +29,12 @@ class CrossingRegister : public sc_core::sc_module {
   void set_seen(const vp::Signal<bool>& seen) { seen_ = &seen; }
   /// Where edges of both clocks coincide, the system side has sampled already.
   bool seen() const { return seen_->written(); }
+  /// Nothing is on its way.
+  bool idle() const { return seen() == toggle.written(); }
 
   /// Puts a word in, on a pixel-clock edge. False: it replaced one that was not seen.
   bool send(std::uint32_t first, std::uint32_t second = 0) {
-    const bool was_seen = seen() == toggle.written();
+    const bool was_seen = idle();
     word = first;
     second_word = second;
     if (was_seen) toggle = !toggle.get();

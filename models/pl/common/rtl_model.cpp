@@ -79,7 +79,8 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
       ports_(std::move(ports)),
       rtl_(open(file)),
       model_(rtl_.create(instance.c_str()), rtl_.destroy),
-      connected_(rtl_.port_count) {
+      connected_(rtl_.port_count),
+      rest_(rtl_.state_bytes) {
   if (rtl_.ip != ip)
     refuse(rtl_.place, std::string("it was built as ") + rtl_.ip + "; set pl.fidelity." + rtl_.ip);
   leave_out_what_it_lacks();
@@ -102,6 +103,8 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
     }
   }
   reset();
+  for (std::size_t i = 0; i < before_.size(); ++i)
+    taken_.push_back(load(before_[i], ports_.inputs[i].bits));
 }
 
 // As a system reset does before time 0, after which models begin: all other inputs are 0.
@@ -152,6 +155,22 @@ void RtlPins::ask_memory() {
   for (std::size_t i = 0; i < memory_outputs_.size(); ++i) {
     if (ports_.memory_outputs[i].take) ports_.memory_outputs[i].take(memory_value(i));
   }
+}
+
+void RtlAlarm::arm() {
+  if (armed_) return;
+  for (const IpPorts::Input& input : ports_.inputs) {
+    if (input.port) input.port->signal()->attach(*this);
+  }
+  armed_ = true;
+}
+
+void RtlAlarm::disarm() {
+  if (!armed_) return;
+  for (const IpPorts::Input& input : ports_.inputs) {
+    if (input.port) input.port->signal()->detach(*this);
+  }
+  armed_ = false;
 }
 
 PortTaps::PortTaps(const IpPorts& ports, vp::Clocked& owner) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <pl/common/fidelity.h>
 #include <pl/common/rtl_interface.h>
 #include <vp/axi_stream.h>
+#include <vp/clock.h>
 #include <vp/file.h>
 #include <vp/signal.h>
 
@@ -94,6 +96,9 @@ class IpPorts {
   std::vector<MemoryOutput> memory_outputs;
   std::vector<Input> memory_inputs;  ///< what the memory shows behind the edge
   bool combinational = false;        ///< outputs follow inputs within the clock
+  /// Whether pins that are no ports of the model stand still until one of its ports changes; null:
+  /// there are none.
+  std::function<bool()> others_stand_still;
   /// What the IP does besides on each edge while RTL stands in its place; null: nothing.
   std::function<void()> before_edge, behind_edge;
 
@@ -111,6 +116,38 @@ class IpPorts {
 
 /// Adds the pins of a stream's master.
 void add_stream(IpPorts& ports, vp::AxiStreamMaster& m);
+
+/// Finds out when RTL has come to rest: a clock with the same inputs has left its whole state as it
+/// was, so all further ones will. It takes a copy of the state, less often the larger it is and the
+/// longer the RTL works on by itself.
+class RtlRest {
+ public:
+  explicit RtlRest(std::size_t state_bytes) : state_(state_bytes), look_at_(first_look()) {}
+
+  void inputs_changed() {
+    same_ = 0;
+    look_at_ = first_look();
+  }
+  /// Behind each clock: whether reached() is to be asked.
+  bool due() { return ++same_ >= look_at_; }
+  /// Whether the next clock would change nothing.
+  bool reached(const void* state) {
+    if (same_ == look_at_) {
+      std::memcpy(state_.data(), state, state_.size());
+      return false;
+    }
+    look_at_ *= 2;
+    return std::memcmp(state_.data(), state, state_.size()) == 0;
+  }
+
+ private:
+  /// A copy takes less than the clocks before it.
+  std::uint64_t first_look() const { return 2 + state_.size() / 256; }
+
+  std::vector<unsigned char> state_;
+  std::uint64_t same_ = 0;  ///< clocks since an input changed
+  std::uint64_t look_at_;
+};
 
 /// The pins of a Verilated module, connected with the ports of the IP in whose place it stands.
 class RtlPins {
@@ -137,6 +174,15 @@ class RtlPins {
   void settle() {
     take_inputs();
     rtl_.eval(model_.get());
+  }
+  /// Behind an edge: further ones would change nothing until an input changes.
+  bool at_rest() {
+    if (rtl_.state_bytes == 0 || !rest_.due()) return false;
+    if (ports_.others_stand_still && !ports_.others_stand_still()) {
+      rest_.inputs_changed();
+      return false;
+    }
+    return rest_.reached(rtl_.state(model_.get()));
   }
   /// The ports follow the outputs of the RTL: those that changed are written.
   void drive() {
@@ -178,8 +224,13 @@ class RtlPins {
     return *static_cast<const std::uint64_t*>(place);
   }
   void take_inputs() {
-    for (std::size_t i = 0; i < before_.size(); ++i)
-      store(before_[i], ports_.inputs[i].bits, ports_.inputs[i].read());
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      const std::uint64_t now = ports_.inputs[i].read();
+      if (taken_[i] == now) continue;
+      taken_[i] = now;
+      store(before_[i], ports_.inputs[i].bits, now);
+      rest_.inputs_changed();
+    }
   }
   void ask_memory();
   void reset();
@@ -198,7 +249,25 @@ class RtlPins {
   std::uint8_t* clk_ = nullptr;
   std::vector<bool> connected_;  ///< by the number of the port
   std::vector<void*> before_, after_, memory_outputs_, memory_inputs_;
+  std::vector<std::uint64_t> taken_;                  ///< what the inputs have
   std::vector<std::optional<std::uint64_t>> driven_;  ///< what the ports have; none: nobody wrote
+  RtlRest rest_;
+};
+
+/// Wakes RTL that is at rest when one of its inputs changes. It listens only while it is armed: the
+/// pixels of a frame tell nobody.
+class RtlAlarm final : public vp::SignalListener {
+ public:
+  RtlAlarm(vp::Clocked& sleeper, const IpPorts& ports) : sleeper_(sleeper), ports_(ports) {}
+  void arm();
+  void disarm();
+
+ private:
+  void on_change(vp::SignalBase&, std::uint32_t) override { sleeper_.wake(); }
+
+  vp::Clocked& sleeper_;
+  const IpPorts& ports_;
+  bool armed_ = false;
 };
 
 /// An IP as RTL.
@@ -214,12 +283,16 @@ class RtlModel final : public Ip {
     this->connect(ports);
     return ports;
   }
-  // Nobody knows what its registers wait for: it never sleeps.
+  // Nobody knows what its registers wait for: it sleeps while its whole state stands still.
   void edge() override {
+    alarm_.disarm();
     if (pins_.ports().before_edge) pins_.ports().before_edge();
     pins_.clock_edge();
     pins_.drive();
     if (pins_.ports().behind_edge) pins_.ports().behind_edge();
+    if (!pins_.at_rest()) return;
+    alarm_.arm();
+    this->sleep();
   }
   void on_change(vp::SignalBase& signal, std::uint32_t id) override {
     Ip::on_change(signal, id);
@@ -229,6 +302,7 @@ class RtlModel final : public Ip {
   }
 
   RtlPins pins_;
+  RtlAlarm alarm_{*this, pins_.ports()};
 };
 
 /// Looks at the ports of a model before each edge, as whoever is bound to them does.

@@ -1,5 +1,6 @@
 // A shared object with the interface of Verilated RTL that is none: its registers are those of the
-// model's core, for noise of 64 x 32 pixels. THRESHOLD, and DELAY in clocks, plant bugs.
+// model's core, for noise of 64 x 32 pixels. THRESHOLD, and DELAY in clocks, plant bugs; without
+// STATE it does not show what its evaluations depend on.
 #include <pl/common/rtl_interface.h>
 #include <pl/corner_detection/core.h>
 
@@ -16,39 +17,52 @@ struct Pins {
 
 class CornerObject {
  public:
-  Pins pins{};
+  struct Output {
+    std::uint32_t valid, word;
+  };
+  struct State {
+    Pins pins;
+    std::uint64_t core;  ///< stands for it: how often it changed
+    std::array<Output, pl::CornerCore::latency + 1 + DELAY> pipeline;
+    std::uint8_t clk_before;
+  };
+
+  static std::uint64_t evaluations;  ///< of all objects
+  State state{};
 
   void eval() {
-    if (pins.clk && !clk_before_) edge();
-    clk_before_ = pins.clk;
+    ++evaluations;
+    if (state.pins.clk && !state.clk_before) edge();
+    state.clk_before = state.pins.clk;
   }
 
  private:
-  struct Output {
-    std::uint8_t valid = 0;
-    std::uint32_t word = 0;
-  };
-
   void edge() {
-    std::memmove(&pipeline_[1], &pipeline_[0], (pipeline_.size() - 1) * sizeof pipeline_[0]);
-    pipeline_[0] = {};
-    pl::Corner corner;
+    Pins& pins = state.pins;
+    auto& pipeline = state.pipeline;
+    std::memmove(&pipeline[1], &pipeline[0], (pipeline.size() - 1) * sizeof pipeline[0]);
+    pipeline[0] = {};
     if (pins.rst) {
       core_.reset();
-      pipeline_ = {};
-    } else if (pins.ena && core_.push(pins.pixel, pins.x, pins.y, corner)) {
-      pipeline_[0] = {
-          1, geometry_.words().corner(corner.strength, corner.direction, corner.x, corner.y)};
+      state.core = 0;
+      pipeline = {};
+    } else if (pins.ena) {
+      pl::Corner corner;
+      ++state.core;
+      if (core_.push(pins.pixel, pins.x, pins.y, corner)) {
+        pipeline[0] = {
+            1, geometry_.words().corner(corner.strength, corner.direction, corner.x, corner.y)};
+      }
     }
-    pins.corner_out = pipeline_.back().valid;
-    pins.corner_data = pipeline_.back().word;  // nothing while corner_out is low: not the model's
+    pins.corner_out = static_cast<std::uint8_t>(pipeline.back().valid);
+    pins.corner_data = pipeline.back().word;  // nothing while corner_out is low: not the model's
   }
 
   pl::Geometry geometry_{64, 32};
   pl::CornerCore core_{geometry_, THRESHOLD};
-  std::array<Output, pl::CornerCore::latency + 1 + DELAY> pipeline_{};
-  std::uint8_t clk_before_ = 0;
 };
+
+std::uint64_t CornerObject::evaluations = 0;
 
 CornerObject& of(void* model) {
   return *static_cast<CornerObject*>(model);
@@ -62,7 +76,7 @@ const RtlPort ports[] = {
 };
 
 void* pin(void* model, std::uint32_t port) {
-  Pins& pins = of(model).pins;
+  Pins& pins = of(model).state.pins;
   void* const places[] = {&pins.clk, &pins.ena, &pins.rst,        &pins.pixel,
                           &pins.x,   &pins.y,   &pins.corner_out, &pins.corner_data};
   return places[port];
@@ -79,10 +93,16 @@ const RtlDescriptor descriptor = {RTL_INTERFACE,
                                   [](const char*) -> void* { return new CornerObject; },
                                   [](void* model) { delete &of(model); },
                                   [](void* model) { of(model).eval(); },
-                                  pin};
+                                  pin,
+                                  STATE ? sizeof(CornerObject::State) : 0,
+                                  [](void* model) -> const void* { return &of(model).state; }};
 
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const RtlDescriptor* markervp_rtl(void) {
   return &descriptor;
+}
+
+extern "C" __attribute__((visibility("default"))) std::uint64_t evaluations(void) {
+  return CornerObject::evaluations;
 }
