@@ -125,6 +125,40 @@ void hal_console_write(const char* text, std::size_t length) {
   state().console.append(text, length);
 }
 
+// One core, which nobody disturbs.
+unsigned hal_cpu_number(void) {
+  return 0;
+}
+
+void hal_cpu_start(unsigned, void (*)(void)) {
+  throw std::logic_error("there is no second core");
+}
+
+void hal_wait_for_event(void) {
+  throw std::logic_error("nobody sends an event");
+}
+
+void hal_send_event(void) {}
+
+std::uint32_t hal_load_acquire(const volatile std::uint32_t* word) {
+  return *word;
+}
+
+void hal_store_release(volatile std::uint32_t* word, std::uint32_t value) {
+  *word = value;
+}
+
+void hal_lock_acquire(hal_lock* lock) {
+  lock->taken = 1;
+}
+
+void hal_lock_release(hal_lock* lock) {
+  lock->taken = 0;
+}
+
+void hal_shared_read(const volatile void*, size_t) {}
+void hal_shared_write(volatile void*, size_t) {}
+
 void hal_warn(const char* text) {
   state().warnings.emplace_back(text);
 }
