@@ -149,9 +149,10 @@ SimulationOptions simulation_options(const RunOptions& options) {
   return result;
 }
 
-input::InputOptions input_options(const RunOptions& options, input::ImageSize size) {
+input::InputOptions input_options(const RunOptions& options, const Simulation& simulation) {
   input::InputOptions result;
-  result.size = size;
+  result.size = simulation.image_size();
+  result.corrects_lens = simulation.corrects_lens();
   if (options.fit) result.fit = *options.fit == "crop" ? input::Fit::crop : input::Fit::scale;
   if (options.camera) result.camera = input::read_camera_file(*options.camera);
   result.repeat = options.repeat;
@@ -361,7 +362,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   if (!memory) asked.console = &out;
   const std::unique_ptr<Simulation> simulation = build(configuration, asked);
   const auto source =
-      input::open_inputs(options.inputs, input_options(options, simulation->image_size()));
+      input::open_inputs(options.inputs, input_options(options, *simulation));
   FrameRunner runner(*source);
   check_outputs_differ(options);
   check_trace(options);

@@ -77,11 +77,12 @@ class OpenCvPeer : public Peer {
     std::vector<cv::Point2d> points;
     for (const PixelPoint& corner : corners_px) points.emplace_back(corner.x, corner.y);
     const cv::Matx33d intrinsic(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+    const std::vector<double> lens(camera.distortion.begin(), camera.distortion.end());
     cv::Vec3d turn, shift;
-    if (!cv::solvePnP(corners, points, intrinsic, cv::noArray(), turn, shift, false,
+    if (!cv::solvePnP(corners, points, intrinsic, lens, turn, shift, false,
                       cv::SOLVEPNP_IPPE))
       return std::nullopt;
-    cv::solvePnPRefineLM(corners, points, intrinsic, cv::noArray(), turn, shift);
+    cv::solvePnPRefineLM(corners, points, intrinsic, lens, turn, shift);
     cv::Matx33d rotation;
     cv::Rodrigues(turn, rotation);
     Pose found;

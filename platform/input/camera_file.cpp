@@ -384,12 +384,27 @@ Camera camera_for(const CalibratedCamera& calibrated, ImageSize size) {
   }
   camera.width = size.width;
   camera.height = size.height;
+  const std::size_t known = std::min(calibrated.distortion.size(), camera.distortion.size());
+  std::copy_n(calibrated.distortion.begin(), known, camera.distortion.begin());
   return camera;
 }
 
+namespace {
+
+bool has_distortion(const CalibratedCamera& calibrated, std::size_t from) {
+  const std::vector<double>& all = calibrated.distortion;
+  return from < all.size() && std::any_of(all.begin() + static_cast<std::ptrdiff_t>(from),
+                                          all.end(), [](double value) { return value != 0; });
+}
+
+}  // namespace
+
 bool has_distortion(const CalibratedCamera& calibrated) {
-  return std::any_of(calibrated.distortion.begin(), calibrated.distortion.end(),
-                     [](double value) { return value != 0; });
+  return has_distortion(calibrated, 0);
+}
+
+bool has_more_distortion(const CalibratedCamera& calibrated) {
+  return has_distortion(calibrated, calibrated.camera.distortion.size());
 }
 
 }  // namespace platform::input

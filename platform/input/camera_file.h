@@ -40,4 +40,7 @@ Camera camera_for(const CalibratedCamera& calibrated, ImageSize size);
 /// True if the lens bends the image.
 bool has_distortion(const CalibratedCamera& calibrated);
 
+/// True if it takes more than Camera::distortion to say how.
+bool has_more_distortion(const CalibratedCamera& calibrated);
+
 }  // namespace platform::input

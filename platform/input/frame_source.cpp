@@ -84,7 +84,8 @@ Camera fit_camera(const Camera& camera, ImageSize target, Fit fit) {
           camera.fx * sx,
           camera.fy * sy,
           (camera.cx - part.x) * sx,
-          (camera.cy - part.y) * sy};
+          (camera.cy - part.y) * sy,
+          camera.distortion};
 }
 
 Camera camera_of(const InputOptions& options, ImageSize size) {
@@ -239,6 +240,13 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 namespace {
 
+/// The camera that draws scenes: it has no lens.
+Camera scene_camera(const InputOptions& options) {
+  Camera camera = camera_of(options, options.size);
+  camera.distortion = {};
+  return camera;
+}
+
 std::deque<InputFrame>& kept() {
   static std::deque<InputFrame> frames;
   return frames;
@@ -262,7 +270,7 @@ void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& opt
   const std::vector<std::string> asked = inputs.empty() ? std::vector<std::string>{"demo"} : inputs;
   for (const InputItem& item : list_inputs(asked, options)) {
     if (item.kind != InputItem::Kind::scene) continue;
-    const Camera camera = camera_of(options, options.size);
+    const Camera camera = scene_camera(options);
     if (kept_scene(item.source, camera) != nullptr) continue;
     if (kept_bytes() >= most_bytes) return;
     const Scene scene = make_scene(item.source, camera);
@@ -326,10 +334,16 @@ class ListedFrames : public FrameSource {
     if (pictures && !options_.camera) {
       warn("no --camera: poses assume the thesis' camera (focal length 381.36 px at 640 px width)");
     }
-    if (pictures && options_.camera && has_distortion(*options_.camera)) {
-      warn("camera file '" + options_.camera->name +
-           "' has lens distortion, which the system does not correct: poses are off towards the "
-           "edges");
+    if (!pictures || !options_.camera || !has_distortion(*options_.camera)) return;
+    const std::string file = "camera file '" + options_.camera->name + "' has ";
+    if (!options_.corrects_lens) {
+      warn(file +
+           "lens distortion, which this design does not correct: poses are off towards the "
+           "edges; markervp designs says which do");
+    } else if (has_more_distortion(*options_.camera)) {
+      warn(file +
+           "more than five coefficients of lens distortion, of which k1, k2, p1, p2, k3 are "
+           "corrected: poses are off towards the edges");
     }
   }
 
@@ -369,7 +383,7 @@ class ListedFrames : public FrameSource {
   }
 
   InputFrame scene_frame(const InputItem& item) {
-    const Camera camera = camera_of(options_, options_.size);
+    const Camera camera = scene_camera(options_);
     if (const InputFrame* kept = kept_scene(item.source, camera)) return *kept;
     const Scene scene = make_scene(item.source, camera);
     return {item.name, render(scene), camera, ground_truth(scene)};

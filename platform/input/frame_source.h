@@ -40,6 +40,7 @@ struct InputOptions {
   Fit fit = Fit::none;       ///< for images and videos of another size
   std::optional<CalibratedCamera>
       camera;                          ///< of images, videos and scenes; none: the thesis' camera
+  bool corrects_lens = false;          ///< the program frees what it sees from the lens
   std::uint64_t repeat = 1;            ///< times that the whole list of inputs runs
   std::optional<std::uint64_t> limit;  ///< frames at most
 };

@@ -50,6 +50,7 @@ class Simulation {
 
   /// The resolution that the platform is built for.
   input::ImageSize image_size() const;
+  bool corrects_lens() const { return design_->corrects_lens; }
   /// What runs; the configuration is left to the caller.
   report::RunFacts facts() const;
 

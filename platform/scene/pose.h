@@ -24,6 +24,8 @@ struct Camera {
   double fy = 381.36;  ///< focal length, px
   double cx = 320.0;   ///< principal point, px
   double cy = 240.0;   ///< principal point, px
+  /// How the lens bends its pictures: OpenCV's k1, k2, p1, p2, k3. Scenes are drawn without it.
+  std::array<double, 5> distortion{};
 
   /// The thesis' camera with `width` x `height` pixels over the same horizontal field of view: the
   /// focal length grows with the width, pixels stay square, the principal point is the centre.

@@ -178,6 +178,7 @@ struct DesignInfo {
   /// them:
   /// {"power.ddr.width", "16"}.
   std::vector<std::pair<std::string, std::string>> defaults = {};
+  bool corrects_lens = false;  ///< its programs free what they see from the lens (hal_frame)
 };
 
 }  // namespace platform

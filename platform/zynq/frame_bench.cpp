@@ -75,6 +75,7 @@ void FrameBench::place(const input::InputFrame& frame) {
   frame_.fy = frame.camera.fy;
   frame_.cx = frame.camera.cx;
   frame_.cy = frame.camera.cy;
+  std::copy(frame.camera.distortion.begin(), frame.camera.distortion.end(), frame_.distortion);
 }
 
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,

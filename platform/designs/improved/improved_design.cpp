@@ -210,7 +210,9 @@ const DesignInfo& improved_design() {
       [](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
         return std::make_unique<ImprovedDesign>(name, ports,
                                                 ImprovedDesign::usual_geometry(640, 480));
-      }};
+      },
+      {},
+      true};
   return info;
 }
 
@@ -267,7 +269,9 @@ const DesignInfo& hd_design() {
                                [](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
                                  return std::make_unique<ImprovedDesign>(
                                      name, ports, ImprovedDesign::usual_geometry(1280, 720));
-                               }};
+                               },
+                               {},
+                               true};
   return info;
 }
 
@@ -284,7 +288,8 @@ const DesignInfo& eco_design() {
                                 {"ps.cpu_clk.frequency", "333.333333 MHz"},
                                 {"power.ddr.width", "16"},
                                 {"power.ddr.frequency", "400 MHz"},
-                                {"power.ddr.voltage", "1.35 V"}}};
+                                {"power.ddr.voltage", "1.35 V"}},
+                               true};
   return info;
 }
 

@@ -134,9 +134,10 @@ void Application::process(Slot& slot) {
 void Application::find_markers(const Slot& slot) {
   const hal_frame& frame = slot.frame;
   const marker::Camera camera{frame.fx, frame.fy, frame.cx, frame.cy};
+  const double(&lens)[5] = frame.distortion;
   const marker::CameraFrame picture{
       {static_cast<const std::uint8_t*>(slot.buffers.picture.data), frame.width, frame.height},
-      {camera, options_.k1, options_.k2, options_.p1, options_.p2, options_.k3},
+      {camera, lens[0], lens[1], lens[2], lens[3], lens[4]},
       true};
   result_.camera_frame = slot.trailer[blob_stream::frame_number];
   result_.lost_in_logic = slot.trailer[blob_stream::lost];

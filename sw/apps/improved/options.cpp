@@ -51,11 +51,6 @@ Options read_options() {
   options.detector.minimum_side = whole(Option::minimum_side);
   options.detector.detection.white_border = whole(Option::white_border);
   options.detector.board = read_board();
-  options.k1 = value(Option::lens_k1);
-  options.k2 = value(Option::lens_k2);
-  options.p1 = value(Option::lens_p1);
-  options.p2 = value(Option::lens_p2);
-  options.k3 = value(Option::lens_k3);
   options.overlap = is_on(Option::overlap);
   options.second_core = is_on(Option::second_core);
   options.timeout = value(Option::timeout);

@@ -27,11 +27,6 @@
   X(minimum_side, "px", 9, 4, 1000,                                                           \
     "blobs whose box is smaller are not looked at: six cells of the least size (decision)")   \
   X(white_border, "", 0, 0, 32, "so many cells of a marker's border may be white (decision)") \
-  X(lens_k1, "", 0, -100, 100, "distortion of the lens: radial (OpenCV's five coefficients)") \
-  X(lens_k2, "", 0, -1000, 1000, "radial")                                                    \
-  X(lens_p1, "", 0, -10, 10, "tangential")                                                    \
-  X(lens_p2, "", 0, -10, 10, "tangential")                                                    \
-  X(lens_k3, "", 0, -10000, 10000, "radial")                                                  \
   X(overlap, "", 1, 0, 1,                                                                     \
     "1: the logic takes the next frame while the software works on the last; 0: one by one")  \
   X(second_core, "", 0, 0, 1,                                                                 \
@@ -46,7 +41,6 @@ namespace improved {
 struct Options {
   const marker::Dictionary* dictionary;
   marker::DetectorOptions detector;
-  double k1, k2, p1, p2, k3;
   bool overlap;
   bool second_core;
   double timeout;

@@ -97,11 +97,13 @@ class PgmReader {
 void set_camera(hal_frame& frame) {
 #ifdef CHIP_CAMERA
   const double camera[] = {CHIP_CAMERA};
-  static_assert(sizeof camera == 4 * sizeof(double), "MARKERVP_CHIP_CAMERA is fx,fy,cx,cy");
+  constexpr std::size_t given = sizeof camera / sizeof *camera;
+  static_assert(given == 4 || given == 9, "MARKERVP_CHIP_CAMERA is fx,fy,cx,cy[,k1,k2,p1,p2,k3]");
   frame.fx = camera[0];
   frame.fy = camera[1];
   frame.cx = camera[2];
   frame.cy = camera[3];
+  for (std::size_t i = 4; i < given; ++i) frame.distortion[i - 4] = camera[i];
 #else
   frame.fx = frame.fy = standard_focal_length * (frame.width / standard_width);
   frame.cx = frame.width / 2.0;

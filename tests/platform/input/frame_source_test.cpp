@@ -179,6 +179,16 @@ BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
   BOOST_TEST(scene.truth->corners_px[0].x == 33.0, "the axis passes through the marker's corner");
   BOOST_TEST_REQUIRE(source->warnings().size() == 1u);
   BOOST_TEST(contains(source->warnings()[0], "lens distortion"));
+  BOOST_TEST(scene.camera.distortion[0] == 0, "scenes are drawn without a lens");
+  options.corrects_lens = true;
+  const auto corrected = open_inputs({folder / "p.png"}, options);
+  BOOST_TEST(corrected->next()->camera.distortion[0] == 0.1);
+  BOOST_TEST(corrected->warnings().empty());
+  options.camera->distortion = {0.1, 0, 0, 0, 0, 0.01};
+  const auto rational = open_inputs({folder / "p.png"}, options);
+  rational->next();
+  BOOST_TEST_REQUIRE(rational->warnings().size() == 1u);
+  BOOST_TEST(contains(rational->warnings()[0], "more than five coefficients"));
   options.camera->camera.width = 65;
   CHECK_REFUSED(open_inputs({folder / "p.png"}, options), "is for images of 65x32 px, not 64x32");
   CHECK_REFUSED(open_inputs({"z1.0"}, options), "is for images of 65x32 px, not 64x32");

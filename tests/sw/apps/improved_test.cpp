@@ -102,19 +102,15 @@ BOOST_AUTO_TEST_CASE(option_table_is_sound) {
   BOOST_TEST(improved::option_table[0].unit == dictionaries);
 }
 
-BOOST_AUTO_TEST_CASE(options_make_board_lens_and_dictionary) {
+BOOST_AUTO_TEST_CASE(options_make_board_and_dictionary) {
   set("dictionary", 16);
   set("board", 2);
   set("board_columns", 5);
   set("board_rows", 7);
   set("board_square", 0.04);
   set("marker_side", 0.03);
-  set("lens_k1", -0.3);
-  set("lens_p2", 0.001);
   const improved::Options options = improved::read_options();
   BOOST_TEST(options.dictionary->name == std::string("apriltag_36h11"));
-  BOOST_TEST(options.k1 == -0.3);
-  BOOST_TEST(options.p2 == 0.001);
   marker::Places places{};
   BOOST_TEST(options.detector.board.find(0, places));
   BOOST_TEST(places[0][1] == 0.005, boost::test_tools::tolerance(1e-12));

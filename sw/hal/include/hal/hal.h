@@ -162,6 +162,7 @@ typedef struct hal_frame {
   uint32_t bus_address;  /**< of `pixels` */
   double fx, fy;         /**< focal lengths of the camera in pixels */
   double cx, cy;         /**< principal point in pixels; the centre of pixel (0, 0) is (0.5, 0.5) */
+  double distortion[5];  /**< of the lens: OpenCV's k1, k2, p1, p2, k3; 0 each: it bends nothing */
 } hal_frame;
 
 /** The next image, when the camera has it; NULL: the run is over. Valid until the next call. */
