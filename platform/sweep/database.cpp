@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -209,30 +210,34 @@ std::vector<std::size_t> by_key(const Results& results) {
   return order;
 }
 
-/// A parameter's value in base units, if it has some; found once for each text.
-class Numbers {
+/// A parameter's values, with their numbers in base units if they have some, each found once.
+class ParameterColumn {
  public:
-  std::optional<double> of(const std::string& path, const std::string& text) {
-    const auto [known, is_new] = numbers_.try_emplace({path, text});
+  explicit ParameterColumn(std::string path) : path_(std::move(path)) {}
+
+  const std::string& path() const { return path_; }
+  std::optional<double> number(const std::string& text) {
+    const auto [known, is_new] = numbers_.try_emplace(text);
     if (!is_new) return known->second;
-    const ParameterKind kind = kind_of({path, text, text, "", {}, ""});
+    const ParameterKind kind = kind_of({path_, text, text, "", {}, ""});
     if (kind.kind == ParameterKind::Kind::quantity) known->second = number_of(kind, text);
     return known->second;
   }
 
  private:
-  std::map<std::pair<std::string, std::string>, std::optional<double>> numbers_;
+  std::string path_;
+  std::unordered_map<std::string, std::optional<double>> numbers_;
 };
 
 void add_parameters(const Database& database, const Results& results) {
   const std::set<std::string> differing = Varying(results).take();
+  std::vector<ParameterColumn> columns(differing.begin(), differing.end());
   Insert parameters(database, "parameters", 4);
-  Numbers numbers;
   for (const std::size_t position : by_key(results)) {
     const ResultRow& row = results.rows[position];
-    for (const std::string& path : differing) {
-      const std::string text = row.value(path);
-      if (!text.empty()) parameters.row(row.key, path, text, numbers.of(path, text));
+    for (ParameterColumn& column : columns) {
+      const std::string text = row.value(column.path());
+      if (!text.empty()) parameters.row(row.key, column.path(), text, column.number(text));
     }
   }
   Insert constants(database, "constants", 2);

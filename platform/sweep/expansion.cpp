@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <unordered_set>
@@ -113,7 +114,9 @@ Trajectory TrajectorySampler::next() {
 }
 
 Word::Word(const std::string& text) {
+  static std::mutex mutex;  // tables are written by two threads
   static std::unordered_set<std::string> words;
+  const std::lock_guard<std::mutex> lock(mutex);
   text_ = &*words.insert(text).first;
 }
 

@@ -155,27 +155,31 @@ std::string line_of(const std::string& path, const std::string& value) {
 
 }  // namespace
 
-void Identities::begin(std::size_t family, std::size_t input_set) {
+const Identities::Shared& Identities::shared_by(std::size_t family, std::size_t input_set) {
+  constexpr std::size_t most_kept = 1000;  // 20 MB
+  if (shared_.size() == most_kept) shared_.clear();
+  const auto [known, is_new] = shared_.try_emplace({family, input_set});
+  Shared& shared = known->second;
+  if (!is_new) return shared;
   const Family& of_point = manifest_.families[family];
   const InputChoice& input = manifest_.input;
-  head_ = "{\"markervp\":" + manifest_.program.dump();
-  head_ += ",\"tables\":" + manifest_.tables.dump();
-  head_ += ",\"contents\":" + of_point.contents.dump();
-  head_ += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
-  head_ += ",\"fit\":" + optional_text(input.fit).dump();
-  head_ += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
-  head_ += ",\"repeat\":" + std::to_string(input.repeat);
-  head_ += ",\"configuration\":";
-  lines_.clear();
+  shared.head = "{\"markervp\":" + manifest_.program.dump();
+  shared.head += ",\"tables\":" + manifest_.tables.dump();
+  shared.head += ",\"contents\":" + of_point.contents.dump();
+  shared.head += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
+  shared.head += ",\"fit\":" + optional_text(input.fit).dump();
+  shared.head += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
+  shared.head += ",\"repeat\":" + std::to_string(input.repeat);
+  shared.head += ",\"configuration\":";
   for (const auto& [path, value] : of_point.configuration)
-    lines_.emplace_back(path, line_of(path, value));
-  last_ = {family, input_set};
+    shared.lines.emplace_back(path, line_of(path, value));
+  return shared;
 }
 
 // The configuration is most of it, and goes into words without a tree of values.
 std::string Identities::of(const PlannedPoint& point) {
-  if (last_ != std::pair(point.family, point.input_set)) begin(point.family, point.input_set);
-  std::string text = head_;
+  const Shared& shared = shared_by(point.family, point.input_set);
+  std::string text = shared.head;
   char before = '{';
   const auto add = [&](const std::string& line) {
     text += std::exchange(before, ',');
@@ -183,7 +187,7 @@ std::string Identities::of(const PlannedPoint& point) {
   };
   auto change = point.changes.begin();  // both are sorted
   const auto end = point.changes.end();
-  for (const auto& [path, line] : lines_) {
+  for (const auto& [path, line] : shared.lines) {
     for (; change != end && change->first.text() < path; ++change)
       add(line_of(change->first, change->second));
     const bool changed = change != end && change->first == path;

@@ -110,13 +110,16 @@ class Identities {
   std::string of(const PlannedPoint& point);
 
  private:
-  void begin(std::size_t family, std::size_t input_set);
+  /// What points of one family and with the same inputs share, in words.
+  struct Shared {
+    std::string head;                                        ///< all before the configuration
+    std::vector<std::pair<std::string, std::string>> lines;  ///< of that, by path
+  };
+
+  const Shared& shared_by(std::size_t family, std::size_t input_set);
 
   const Manifest& manifest_;
-  std::optional<std::pair<std::size_t, std::size_t>> last_;  ///< family and inputs
-  std::string head_;                                         ///< all before the configuration
-  /// Its lines, by path.
-  std::vector<std::pair<std::string, std::string>> lines_;
+  std::map<std::pair<std::size_t, std::size_t>, Shared> shared_;  ///< by family and inputs
 };
 
 /// The hash of an identity.

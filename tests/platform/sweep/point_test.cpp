@@ -70,6 +70,21 @@ BOOST_AUTO_TEST_CASE(an_identity_has_the_changed_configuration_sorted) {
   BOOST_TEST(Json::parse(manifest.identity(point)).at("configuration") == Json::object());
 }
 
+BOOST_AUTO_TEST_CASE(points_of_families_in_turn_have_the_identities_that_they_have_alone) {
+  Manifest manifest = one_point();
+  constexpr std::size_t families = 1200;  // more than Identities keeps in words
+  for (std::size_t i = 1; i < families; ++i) {
+    manifest.families.push_back(manifest.families[0]);
+    manifest.families[i].configuration["b"] = std::to_string(i + 2);
+  }
+  Identities identities(manifest);
+  PlannedPoint point = manifest.points[0];
+  for (int round = 0; round < 2; ++round) {
+    for (point.family = 0; point.family < families; ++point.family)
+      BOOST_REQUIRE(identities.of(point) == manifest.identity(point));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(only_what_is_no_default_is_set) {
   const Manifest manifest = one_point();
   const std::map<std::string, std::string> expected{{"a", "5"}, {"b", "2"}};
