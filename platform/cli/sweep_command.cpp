@@ -186,7 +186,8 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
   }
   warm_up(manifest, pending);
   const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
-                                  points_a_process(manifest, options.isolate)};
+                                  points_a_process(manifest, options.isolate),
+                                  [&](const std::string& text) { warn({text}, err); }};
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 

@@ -37,6 +37,11 @@ class Conditions {
       int id = scene_.marker_id;
       for (Square& square : scene_.squares) square.word = marker_word(++id % dictionary_size);
     }
+    if (scene_.motion.any() && !lasts_) {
+      throw vp::InputError("scene '" + scene_.name +
+                           "': its motion shows in no picture: name the exposure, readout or time "
+                           "that it lasts (as in 'z1.0@velocity_x=1,exposure=5ms')");
+    }
     if (!placed_) return;
     scene_.pose = pose_from_centre(rotation_x(pitch_) * (rotation_y(yaw_) * rotation_z(roll_)),
                                    {0, 0, distance_});
@@ -117,8 +122,10 @@ class Conditions {
   }
   void set_id(const std::string& text) { scene_.marker_id = whole(text, 0, dictionary_size - 1); }
 
-  static double seconds(const std::string& text) {
+  /// Of a time for which things move.
+  double seconds(const std::string& text) {
     constexpr double s_per_ps = 1e-12;
+    lasts_ = true;
     return number(text, vp::Unit::time) * s_per_ps;
   }
   template <int axis>
@@ -134,7 +141,7 @@ class Conditions {
   void set_vignetting(const std::string& text) { scene_.vignetting = number(text, vp::Unit::none); }
 
   Scene& scene_;
-  bool placed_ = false, all_markers_ = false;
+  bool placed_ = false, all_markers_ = false, lasts_ = false;
   double distance_ = 1;
   double pitch_ = 0, yaw_ = 0, roll_ = 0;
 };

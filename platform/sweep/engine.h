@@ -51,6 +51,8 @@ struct LocalOptions {
   std::uint32_t jobs = 1;
   std::string name = "local";  ///< stands in the records of runs
   std::uint32_t points_a_process = usual_points_a_process;
+  /// Gets told, in a sentence, of a process that died, as soon as it did; may be empty.
+  std::function<void(const std::string& text)> warn = {};
 };
 
 /// Computes the points at these positions of the manifest in `jobs` processes at a time, which take

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <deque>
 #include <list>
@@ -200,11 +201,25 @@ class Pool {
     if (!item) item = running.only;
     queue_.release(running.slot);
     if (item && !told_[*item]) {
-      if (!tally_.interrupted) again_or_failed(*item, failure_of(end));
+      if (tally_.interrupted) return;
+      const Failure failure = failure_of(end);
+      tell_of_death(*item, failure);
+      again_or_failed(*item, failure);
     } else if (end.exit_code != host::done && ++useless_ == most_useless) {
       throw std::runtime_error("the processes of the sweep end before they begin: " +
                                failure_of(end).message);
     }
+  }
+
+  void tell_of_death(std::size_t item, const Failure& failure) const {
+    if (!options_.warn) return;
+    const std::string& key = list_.manifest.points[list_.positions[item]].key;
+    std::string text = failure.message + ", at point " + key + ": ";
+    text += attempts_[item] < most_attempts
+                ? "it is computed once more, and nothing else is lost"
+                : "for the second time, so the point has failed ('--retry-failed' tries it again)";
+    if (failure.signal == SIGKILL) text += "; if memory was short, take fewer processes (--jobs)";
+    options_.warn(text);
   }
 
   void again_or_failed(std::size_t item, const Failure& failure) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <thread>
@@ -153,6 +154,31 @@ std::vector<std::size_t> missing(const Store& store, const Manifest& manifest,
   return result;
 }
 
+/// What a task needs of the manifest, with the points at these positions: a task does not read a
+/// million points for a thousand of them.
+Manifest part_of(const Manifest& whole, const std::vector<std::size_t>& positions) {
+  Manifest part;
+  part.name = whole.name;
+  part.program = whole.program;
+  part.tables = whole.tables;
+  part.input = whole.input;
+  std::map<std::size_t, std::size_t> families, input_sets;  // their numbers in the part
+  for (const std::size_t position : positions) {
+    PlannedPoint& point = part.points.emplace_back(whole.points[position]);
+    const auto [family, is_new_family] = families.emplace(point.family, part.families.size());
+    if (is_new_family) part.families.push_back(whole.families[point.family]);
+    point.family = family->second;
+    const auto [inputs, are_new] = input_sets.emplace(point.input_set, part.input_sets.size());
+    if (are_new) part.input_sets.push_back(whole.input_sets[point.input_set]);
+    point.input_set = inputs->second;
+  }
+  return part;
+}
+
+std::string task_file(const std::string& submission, std::size_t task) {
+  return submission + "/task-" + std::to_string(task) + ".json";
+}
+
 class Cluster {
  public:
   Cluster(const Store& store, const Manifest& manifest, const SlurmOptions& options,
@@ -210,33 +236,30 @@ class Cluster {
 
   std::string submit_chunks(const std::vector<std::size_t>& wanted) {
     const std::size_t least = (wanted.size() + largest_ - 1) / largest_;
-    const std::size_t size = std::max<std::size_t>(chunk_, least);
-    Json chunks = Json::array();
-    for (std::size_t i = 0; i < wanted.size(); i += size) {
-      Json keys = Json::array();
-      for (std::size_t j = i; j < std::min(i + size, wanted.size()); ++j)
-        keys.push_back(manifest_.points[wanted[j]].key);
-      chunks.push_back(keys);
-    }
+    const auto size = static_cast<std::ptrdiff_t>(std::max<std::size_t>(chunk_, least));
     std::uint32_t number = 1;
     std::error_code ignored;
     while (fs::exists(submission_folder(store_, number), ignored)) ++number;
     const std::string folder = submission_folder(store_, number);
     host::prepare_output_folder(folder);
-    vp::write_file_durably(folder + "/tasks.json", chunks.dump());
-    write_manifest(folder + "/manifest.json", manifest_);
+    std::uint32_t tasks = 0;
+    for (auto first = wanted.begin(); first != wanted.end(); ++tasks) {
+      const auto last = first + std::min(size, wanted.end() - first);
+      write_manifest(task_file(folder, tasks), part_of(manifest_, {first, last}));
+      first = last;
+    }
     const std::string executable = fs::read_symlink("/proc/self/exe").string();
-    const std::string job = submit({"markervp-" + options_.name, fs::current_path().string(),
-                                    fs::absolute(folder).string() + "/task-%a.log",
-                                    static_cast<std::uint32_t>(chunks.size()), options_.at_once,
-                                    "exec " + host::shell_quoted(executable) + " sweep-worker " +
-                                        host::shell_quoted(fs::absolute(store_.folder()).string()) +
-                                        " " + std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
-                                        std::to_string(options_.points_a_process),
-                                    options_.options});
+    const std::string job =
+        submit({"markervp-" + options_.name, fs::current_path().string(),
+                fs::absolute(folder).string() + "/task-%a.log", tasks, options_.at_once,
+                "exec " + host::shell_quoted(executable) + " sweep-worker " +
+                    host::shell_quoted(fs::absolute(store_.folder()).string()) + " " +
+                    std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
+                    std::to_string(options_.points_a_process),
+                options_.options});
     vp::write_file_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
-    err_ << "markervp: job " << job << ": " << chunks.size() << " tasks of " << size
-         << " points; logs in " << folder << std::endl;
+    err_ << "markervp: job " << job << ": " << tasks << " tasks of " << size << " points; logs in "
+         << folder << std::endl;
     logs_ = folder;
     return job;
   }
@@ -295,16 +318,14 @@ int run_slurm_task(
     const Store& store, std::uint32_t submission, std::uint32_t task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
     const RunPoint& run, std::uint32_t points_a_process) {
-  const std::string folder = submission_folder(store, submission);
-  const Manifest manifest = read_manifest(folder + "/manifest.json");
-  const Json chunks = read_json(folder + "/tasks.json");
-  if (!chunks.is_array() || task >= chunks.size())
+  const std::string file = task_file(submission_folder(store, submission), task);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
     throw vp::InputError("submission " + std::to_string(submission) + " has no task " +
                          std::to_string(task));
-  std::map<std::string, std::size_t> position_of;
-  for (std::size_t i = 0; i < manifest.points.size(); ++i) position_of[manifest.points[i].key] = i;
-  std::vector<std::size_t> positions;
-  for (const Json& key : chunks[task]) positions.push_back(position_of.at(key.get<std::string>()));
+  const Manifest manifest = read_manifest(file);
+  std::vector<std::size_t> positions(manifest.points.size());
+  std::iota(positions.begin(), positions.end(), std::size_t{0});
   positions = missing(store, manifest, positions);
   warm(manifest, positions);
   const Tally tally =

@@ -58,6 +58,7 @@ each_once() {
   [ "$different" = "$2" ] && [ "$computed" = "$2" ] || fail "$1: $computed computations of $different points, not $2"
 }
 each_once cluster 60
+[ "$(grep -c '"key"' cluster/slurm/1/task-0.json)" = 5 ] || fail "a task reads other points than its own"
 runs cluster engine | grep -q slurm || fail "nothing was computed on the cluster"
 "$markervp" sweep s.yaml --output cluster --engine slurm >again.log 2>&1 || fail "the sweep again"
 grep -q '0 computed now, 60 there before' again.log || fail "points were computed again"

@@ -147,11 +147,17 @@ BOOST_AUTO_TEST_CASE(files_do_not_depend_on_who_computed_them) {
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {
   Platform platform(6);
-  const Tally tally =
-      platform.compute({1, "local", 64}, [](int number, int attempt, std::ostream&) {
-        if (number == 2 && attempt == 1) crash();
-        return 0;
-      });
+  LocalOptions options{1, "local", 64};
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& text) { warnings.push_back(text); };
+  const Tally tally = platform.compute(options, [](int number, int attempt, std::ostream&) {
+    if (number == 2 && attempt == 1) crash();
+    return 0;
+  });
+  BOOST_TEST_REQUIRE(warnings.size() == 1u);
+  BOOST_TEST(warnings[0] == "the process was ended by a signal: Segmentation fault, at point " +
+                                platform.key(2) +
+                                ": it is computed once more, and nothing else is lost");
   BOOST_TEST(tally.computed == 6u);
   BOOST_TEST(platform.attempts("1") == 1);
   BOOST_TEST(platform.attempts("2") == 2);
@@ -215,18 +221,24 @@ BOOST_AUTO_TEST_CASE(a_process_whose_sweep_was_killed_ends_in_the_middle_of_its_
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
   Platform platform(3);
   const Platform::Mischief crashes = [](int number, int, std::ostream&) {
-    if (number == 1) crash();
+    if (number == 1) ::raise(SIGKILL);
     return 0;
   };
-  const Tally tally = platform.compute({2, "local", 64}, crashes);
+  LocalOptions options{2, "local", 64};
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& text) { warnings.push_back(text); };
+  const Tally tally = platform.compute(options, crashes);
+  BOOST_TEST_REQUIRE(warnings.size() == 2u);
+  BOOST_TEST(contains(warnings[1], "for the second time, so the point has failed"));
+  BOOST_TEST(contains(warnings[1], "take fewer processes (--jobs)"));
   BOOST_TEST(tally.computed == 3u);
   BOOST_TEST(platform.outcome(1).failed);
   BOOST_TEST(platform.attempts("1") == 2);
   const PointRecord record = platform.record(1);
   BOOST_TEST(record.failed());
   const Json& failure = record.outcome.at("failure");
-  BOOST_TEST(failure.at("signal") == SIGSEGV);
-  BOOST_TEST(contains(failure.at("message").get<std::string>(), "Segmentation fault"));
+  BOOST_TEST(failure.at("signal") == SIGKILL);
+  BOOST_TEST(contains(failure.at("message").get<std::string>(), "Killed"));
   BOOST_TEST(!platform.record(0).failed());
   BOOST_TEST(!platform.record(2).failed());
   // Which is a result: it stays.
