@@ -369,7 +369,11 @@ CalibratedCamera read_camera_file(const std::string& path) {
   }
   const auto* distortion =
       first_of(values, {"distortioncoefficients", "distcoeffs", "distortion", "d"});
-  if (distortion != nullptr) result.distortion = *distortion;
+  if (distortion == nullptr) return result;
+  if (!std::all_of(distortion->begin(), distortion->end(),
+                   [](double v) { return std::isfinite(v); }))
+    refuse(path, "has lens distortion that is not a number: calibrate anew, or leave it out");
+  result.distortion = *distortion;
   return result;
 }
 
@@ -401,6 +405,29 @@ bool has_distortion(const CalibratedCamera& calibrated, std::size_t from) {
 
 bool has_distortion(const CalibratedCamera& calibrated) {
   return has_distortion(calibrated, 0);
+}
+
+std::optional<double> lens_reach_px(const CalibratedCamera& calibrated, ImageSize usual) {
+  const Camera& known = calibrated.camera;
+  const Camera camera =
+      camera_for(calibrated, calibrated.has_size ? ImageSize{known.width, known.height} : usual);
+  const auto [k1, k2, p1, p2, k3] = camera.distortion;
+  double corner = 0;
+  for (const double x : {0, camera.width}) {
+    for (const double y : {0, camera.height}) {
+      corner =
+          std::max(corner, std::hypot((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy));
+    }
+  }
+  double seen = 0;
+  for (int step = 1; seen < corner; ++step) {
+    constexpr double step_size = 1e-3;
+    const double r = step * step_size, r2 = r * r;
+    const double next = r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3)));
+    if (!(next > seen)) return seen * std::min(camera.fx, camera.fy);
+    seen = next;
+  }
+  return std::nullopt;
 }
 
 bool has_more_distortion(const CalibratedCamera& calibrated) {

@@ -40,6 +40,11 @@ Camera camera_for(const CalibratedCamera& calibrated, ImageSize size);
 /// True if the lens bends the image.
 bool has_distortion(const CalibratedCamera& calibrated);
 
+/// Where the lens's model folds back: px from the principal point, beyond which no ray leads to a
+/// pixel. None if it does not within the picture, which is of the `usual` size if the file does not
+/// say. Radial part only.
+std::optional<double> lens_reach_px(const CalibratedCamera& calibrated, ImageSize usual);
+
 /// True if it takes more than Camera::distortion to say how.
 bool has_more_distortion(const CalibratedCamera& calibrated);
 

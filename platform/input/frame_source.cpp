@@ -339,7 +339,11 @@ class ListedFrames : public FrameSource {
     if (!options_.corrects_lens) {
       warn(file +
            "lens distortion, which this design does not correct: poses are off towards the "
-           "edges; markervp designs says which do");
+           "edges");
+    } else if (const auto reach = lens_reach_px(*options_.camera, options_.size)) {
+      warn(file + "lens distortion that folds back: no marker is found beyond " +
+           std::to_string(static_cast<int>(*reach)) +
+           " px from the middle; calibrate with points up to the corners");
     } else if (has_more_distortion(*options_.camera)) {
       warn(file +
            "more than five coefficients of lens distortion, of which k1, k2, p1, p2, k3 are "

@@ -109,6 +109,12 @@ BOOST_AUTO_TEST_CASE(other_spellings) {
   check_camera(read_camera_file(folder / "old.yml"));
 }
 
+BOOST_AUTO_TEST_CASE(distortion_must_be_numbers) {
+  const TemporaryFolder folder;
+  CHECK_REFUSED(read(folder, "K: [[500, 0, 320], [0, 510, 240], [0, 0, 1]]\nD: [0, .nan, 0, 0]\n"),
+                "lens distortion that is not a number");
+}
+
 BOOST_AUTO_TEST_CASE(the_size_must_be_the_images) {
   const TemporaryFolder folder;
   const CalibratedCamera calibrated = read(folder, ros);

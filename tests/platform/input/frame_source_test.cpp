@@ -184,6 +184,10 @@ BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
   const auto corrected = open_inputs({folder / "p.png"}, options);
   BOOST_TEST(corrected->next()->camera.distortion[0] == 0.1);
   BOOST_TEST(corrected->warnings().empty());
+  // r (1 - r^2) is greatest at r = 0.577, and 0.385 there; the corners are at 0.74.
+  options.camera->distortion = {-1};
+  BOOST_TEST(contains(open_inputs({folder / "p.png"}, options)->warnings()[0],
+                      "folds back: no marker is found beyond 19 px from the middle"));
   options.camera->distortion = {0.1, 0, 0, 0, 0, 0.01};
   const auto rational = open_inputs({folder / "p.png"}, options);
   rational->next();
