@@ -222,6 +222,40 @@ BOOST_FIXTURE_TEST_CASE(invalidations_that_are_missing_early_or_misplaced, Cache
   BOOST_TEST(errors(first, 5, {"--set", "ps.cache_guard_steps=0"}) == "");
 }
 
+// Races are told once, with both places; what both cores wait for, by name.
+BOOST_AUTO_TEST_CASE(two_cores_err_together) {
+  const auto errors = [this](int mistake, int exit_code, const Words& more = {}) {
+    const kit::Outcome outcome = run(mistake, more, MARKERVP_CORES);
+    BOOST_TEST(outcome.exit_code == exit_code, outcome.err);
+    return outcome.err;
+  };
+  BOOST_TEST(errors(0, 0) == "");
+  for (const int race : {1, 2}) {
+    const std::string err = errors(race, 0);
+    for (const char* part :
+         {"warning: ps.cpu", " writes 4 bytes, some of which ps.cpu", " wrote at ", "(pc 0x",
+          "cores.cpp:", ", and nothing orders the two", "[/markervp/cpu/race] at ", ", pc 0x"}) {
+      BOOST_TEST(contains(err, part), err);
+    }
+    BOOST_TEST(std::count(err.begin(), err.end(), '\n') == 1, err);
+    const auto last = err.rfind("cores.cpp:");
+    BOOST_TEST(err.find("cores.cpp:") < last, err);
+    BOOST_TEST(errors(race, 0, {"--set", "ps.cpu.quantum=0 s"}) == err);
+    BOOST_TEST(errors(race, 0, {"--fidelity", "clocked"}) == err);
+  }
+  const std::string deadlock = errors(3, 3);
+  BOOST_TEST(contains(deadlock, "deadlock: ps.cpu waits for lock 'second', which ps.cpu1 has held"),
+             deadlock);
+  BOOST_TEST(contains(deadlock, ", ps.cpu1 waits for lock 'first', which ps.cpu has held since "),
+             deadlock);
+  BOOST_TEST(contains(deadlock, "take_both"), deadlock);
+  BOOST_TEST(contains(errors(4, 3), "hal_cpu_start(1): the core was started already: ps.cpu1 "));
+  const std::string fault = errors(5, 3);
+  BOOST_TEST(contains(fault, "segmentation fault: write to 0x00000010"), fault);
+  BOOST_TEST(contains(fault, " on cpu1 of program 'cores', pc 0x"), fault);
+  BOOST_TEST(contains(fault, "second()+"), fault);
+}
+
 BOOST_AUTO_TEST_CASE(a_warning_leads_to_the_line) {
   const std::string err = run(14).err;
   BOOST_TEST(contains(err, "[/markervp/axi_dma/past_buffer] at "), err);

@@ -301,7 +301,9 @@ void Cpu::access_shared(bool write, const volatile void* data, std::size_t size)
     });
     return own == calls.end() ? 0 : *own;
   };
-  if (!cores_->told_races.emplace(innermost(race->calls), innermost(now.calls)).second) return;
+  if (!cores_->told_races.insert(std::minmax({innermost(race->calls), innermost(now.calls)}))
+           .second)
+    return;
   vp::warn(*this, "/markervp/cpu/race",
            std::string(name()) + (write ? " writes " : " reads ") + std::to_string(size) +
                " bytes, some of which " + cores_->all[race->core]->name() +

@@ -159,7 +159,7 @@ void Cpu::notice_loop(unsigned before) {
 }
 
 std::string Cpu::program_counter() const {
-  if (!code_ || running_ != this) return {};
+  if (!code_ || !running_) return {};
   return code_->path(fault_calls_.empty() ? return_addresses() : fault_calls_);
 }
 
