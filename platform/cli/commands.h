@@ -43,11 +43,15 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments, st
 struct MemoryRun {
   report::ResultDocument result;
   std::map<std::string, std::string> configuration;  ///< effective
+  std::vector<std::string> history;                  ///< if asked for
 };
 
 /// run() without files and console: no pictures, page, trace. `result` is filled when run() would
 /// have written result.json, also if this throws.
 int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& err);
+
+/// Makes a run again, without its files, and prints who accessed a register last, from which line.
+int tell_history(const HistoryOptions& options, std::ostream& out);
 
 /// Lists scenes, or writes their images and what is in them.
 int list_scenes(const ScenesOptions& options, std::ostream& out);

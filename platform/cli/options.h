@@ -23,6 +23,15 @@ struct PlatformOptions {
   std::optional<std::string> program;
 };
 
+/// `markervp history`.
+struct HistoryOptions {
+  std::string folder;  ///< of the run
+  std::string at;      ///< register or address
+  std::optional<std::string> before;
+  std::size_t count = 5;
+  bool writes_only = false;
+};
+
 /// `markervp run`.
 struct RunOptions : PlatformOptions {
   std::vector<std::string> inputs;
@@ -55,6 +64,7 @@ struct RunOptions : PlatformOptions {
   bool no_pictures = false;
   bool no_report = false;
   bool quiet = false;
+  std::optional<HistoryOptions> history;  ///< what a second run is to find out
   /// Counts frames that are done, in memory that another process may watch; null: nobody does.
   std::atomic<std::uint64_t>* frames_done = nullptr;
 };
@@ -252,6 +262,7 @@ struct CompareDetectorsOptions {
 /// Everything the user typed.
 struct CommandLine {
   RunOptions run;
+  HistoryOptions history;
   RtlOptions rtl;
   ScenesOptions scenes;
   DesignsOptions designs;
@@ -279,6 +290,9 @@ struct TimeWindow {
   std::uint64_t from_ps = 0;
   std::uint64_t to_ps = UINT64_MAX;
 };
+
+/// Reads "15.2ms", ps. Throws vp::InputError that names `option`.
+std::uint64_t parse_moment(const std::string& text, const std::string& option);
 
 /// Reads "6ms:7ms", "6 ms : 7.5 ms", ":100us" (from the start) or "2ms:" (to the end).
 /// Throws vp::InputError, naming `option`, if it is malformed or ends before it begins.

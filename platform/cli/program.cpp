@@ -3,6 +3,7 @@
 #include <cli/app.h>
 #include <cli/commands.h>
 #include <host/process.h>
+#include <vp/error.h>
 #include <CLI/CLI.hpp>
 
 #include <ostream>
@@ -45,6 +46,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
                 const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "run") return run(line.run, arguments, out, err);
+  if (command == "history") return tell_history(line.history, out);
   if (command == "scenes") return list_scenes(line.scenes, out);
   if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, out);
@@ -92,6 +94,15 @@ std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+void parse_again(const std::vector<std::string>& arguments, CommandLine& line) {
+  try {
+    make_app(line)->parse(for_parser(arguments));
+  } catch (const CLI::ParseError& error) {
+    throw vp::InputError(std::string("the run's command line is none of this version: ") +
+                         error.what());
+  }
+}
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CommandLine line;

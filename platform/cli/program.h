@@ -15,6 +15,9 @@ namespace platform::cli {
 /// code.
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
 
+/// Parses the arguments of a run that was made before. Throws vp::InputError if they are none.
+void parse_again(const std::vector<std::string>& arguments, CommandLine& line);
+
 /// "0.1.0".
 std::string program_version();
 /// The state of the sources as git described it when the build was configured; may be empty.

@@ -4,6 +4,7 @@
 #include <cli/frame_runner.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <host/document.h>
 #include <host/output_folder.h>
 #include <host/process.h>
 #include <page/report_page.h>
@@ -125,6 +126,15 @@ vp::TraceOptions trace_options(const RunOptions& options) {
   return trace;
 }
 
+BusHistoryOptions history_options(const HistoryOptions& options) {
+  BusHistoryOptions result;
+  result.at = options.at;
+  result.count = options.count;
+  result.writes_only = options.writes_only;
+  if (options.before) result.before_ps = parse_moment(*options.before, "--before");
+  return result;
+}
+
 SimulationOptions simulation_options(const RunOptions& options) {
   const bool traces = options.trace_window || !options.trace_filter.empty() ||
                       options.trace_clocks || options.trace_trigger;
@@ -139,6 +149,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   }
   result.timeline_frames = options.timeline_frames;
   if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
+  if (options.history) result.history = history_options(*options.history);
   result.register_coverage = options.register_coverage;
   result.software_profile = options.software_profile;
   if (options.control && !host::is_socket(*options.control)) {
@@ -404,6 +415,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   result.finish(facts, origin, warnings);
   if (memory) {
     memory->configuration = configuration.values();
+    memory->history = simulation->history();
     return verdict(options, runner, facts, warnings.size(), runner.error(), err);
   }
   std::exception_ptr error = runner.error();
@@ -428,6 +440,46 @@ int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& er
   silent.no_pictures = silent.no_report = silent.quiet = true;
   std::ostringstream unread;
   return run_into(&result, silent, {}, unread, err);
+}
+
+// What a run writes beside its folder, and who leads it, is left out.
+int tell_history(const HistoryOptions& options, std::ostream& out) {
+  const fs::path file = fs::path(options.folder) / "result.json";
+  const report::Json result = host::read_json<report::Json>(file, "result", host::largest_result);
+  std::vector<std::string> arguments;
+  try {
+    result.at("provenance").at("command_line").get_to(arguments);
+  } catch (const report::Json::exception&) {
+  }
+  if (arguments.empty() || arguments.front() != "run")
+    throw vp::InputError("'" + file.string() + "' is not of 'markervp run'");
+  CommandLine line;
+  parse_again(arguments, line);
+  RunOptions& run = line.run;
+  if (run.control) throw vp::InputError("a test led this run: make it again with that test");
+  run.trace.reset();
+  run.trace_trigger.reset();
+  run.trace_window.reset();
+  run.trace_filter.clear();
+  run.trace_clocks = false;
+  run.log_bus.reset();
+  run.log_bus_filter.clear();
+  run.timeline.reset();
+  run.register_coverage.reset();
+  run.software_profile.reset();
+  run.history = options;
+  MemoryRun again;
+  std::ostringstream told_before;
+  try {
+    run_in_memory(run, again, told_before);
+  } catch (const vp::ProtocolError&) {  // as the run ended that is asked about
+  }
+  if (again.history.empty()) {
+    out << "no " << (options.writes_only ? "write" : "access") << " of " << options.at
+        << (options.before ? " before " + *options.before : "") << "\n";
+  }
+  for (const std::string& text : again.history) out << text << "\n";
+  return done;
 }
 
 }  // namespace platform::cli

@@ -22,11 +22,12 @@ namespace {
 /// What the user wrote, and where.
 struct Written {
   std::string text, option;
+  const char* example = "6ms:7ms";
 };
 
 [[noreturn]] void refuse(const Written& written, const std::string& problem) {
-  throw vp::InputError(written.option + " '" + written.text + "' " + problem +
-                       ": write it like 6ms:7ms");
+  throw vp::InputError(written.option + " '" + written.text + "' " + problem + ": write it like " +
+                       written.example);
 }
 
 std::optional<std::uint64_t> parse_time(const std::string& part, const Written& written) {
@@ -54,6 +55,13 @@ TimeWindow parse_trace_window(const std::string& text, const std::string& option
   window.to_ps = parse_time(parts[1], written).value_or(window.to_ps);
   if (window.to_ps <= window.from_ps) refuse(written, "ends before it begins");
   return window;
+}
+
+std::uint64_t parse_moment(const std::string& text, const std::string& option) {
+  const Written written{text, option, "15.2ms"};
+  const std::optional<std::uint64_t> ps = parse_time(text, written);
+  if (!ps) refuse(written, "is no time");
+  return *ps;
 }
 
 namespace {

@@ -140,7 +140,10 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   }
   std::optional<BusLog> log;
   if (options_.bus_log) log.emplace(*options_.bus_log, *zynq_);
+  std::optional<BusHistory> history;
+  if (options_.history) history.emplace(*options_.history, *zynq_);
   std::exception_ptr error = simulate(std::move(next), std::move(done));
+  if (history) history_ = history->lines();
   // However the run ended.
   try {
     if (log) log->close();
@@ -156,6 +159,13 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
     if (!error) error = std::current_exception();
   }
   if (error) std::rethrow_exception(error);
+}
+
+// Then the program ends where it is.
+void Simulation::run_until(std::uint64_t ps) {
+  const std::uint64_t most = sc_core::sc_max_time().value();
+  if (ps < most) sc_core::sc_start(sc_core::sc_time::from_value(ps));
+  if (ps < most && zynq_->ps.cpu.state() == ps::Cpu::State::running) interrupt();
 }
 
 std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::FrameDone done) {
@@ -182,6 +192,7 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
   std::exception_ptr error;
   try {
     vp::settle_foreign_modules();
+    if (options_.history) run_until(options_.history->before_ps);
     sc_core::sc_start();
     if (control_) control_->finish();
     zynq_->ps.cpu.check();

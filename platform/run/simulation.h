@@ -33,6 +33,7 @@ struct SimulationOptions {
   std::optional<vp::TraceOptions> trace = {};  ///< waveforms to record
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
+  std::optional<BusHistoryOptions> history = {};      ///< the run ends when its time is over
   std::optional<std::string> register_coverage = {};  ///< file: which registers the program used
   std::optional<std::string> software_profile = {};   ///< file: where the program's time goes
   std::optional<int> control = {};                    ///< socket of a test that leads the run
@@ -74,6 +75,9 @@ class Simulation {
   /// Profiler::page_json() of the run; "" if no profile was asked for.
   const std::string& software_profile() const { return software_profile_; }
 
+  /// BusHistory::lines() of the run.
+  const std::vector<std::string>& history() const { return history_; }
+
   /// There is a trace of the run: one was asked for, and its window or trigger kept something.
   bool wrote_trace() const { return wrote_trace_; }
 
@@ -87,6 +91,7 @@ class Simulation {
  private:
   void choose_design();
   void connect_consoles();
+  void run_until(std::uint64_t ps);
   /// The error that ended it; null for none.
   std::exception_ptr simulate(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
@@ -109,6 +114,7 @@ class Simulation {
   std::unique_ptr<RemoteControl> control_;
   bool wrote_trace_ = false;
   std::string software_profile_;
+  std::vector<std::string> history_;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };
 

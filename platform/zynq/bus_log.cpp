@@ -45,6 +45,37 @@ std::vector<std::string> DeviceNames::names() const {
   return names;
 }
 
+std::uint32_t DeviceNames::address_of(const std::string& name) const {
+  if (const auto plain = vp::Decimal::parse(name)) {
+    const auto whole = plain->whole();
+    if (whole && *whole >= 0 && *whole <= 0xFFFF'FFFF) return static_cast<std::uint32_t>(*whole);
+  }
+  const std::size_t dot = name.find('.');
+  const std::size_t plus = name.find('+');
+  const std::string device_name = name.substr(0, std::min(dot, plus));
+  const report::HardwareMap::Device* device = find(device_name);
+  if (!device)
+    throw vp::InputError("no device '" + vp::excerpt(device_name) + "': choose " +
+                         vp::one_of(names()));
+  if (plus != std::string::npos) {
+    const auto offset = vp::Decimal::parse(name.substr(plus + 1));
+    const auto whole = offset ? offset->whole() : std::nullopt;
+    if (whole && *whole >= 0 && static_cast<std::uint64_t>(*whole) < device->size)
+      return static_cast<std::uint32_t>(device->base + static_cast<std::uint64_t>(*whole));
+    throw vp::InputError("'" + name + "' is not in " + device_name);
+  }
+  std::vector<std::string> registers;
+  for (const report::HardwareMap::Register& r : device->registers) {
+    if (dot != std::string::npos && r.name == name.substr(dot + 1))
+      return static_cast<std::uint32_t>(device->base + r.offset);
+    registers.push_back(r.name);
+  }
+  if (registers.empty() && dot == std::string::npos)
+    return static_cast<std::uint32_t>(device->base);
+  throw vp::InputError("no register '" + name + "': " + device_name + " has " +
+                       vp::one_of(registers));
+}
+
 namespace {
 
 /// The number of all of `text`, decimal or hexadecimal; false if it is none.
@@ -73,33 +104,37 @@ std::string value_of(const tlm::tlm_generic_payload& payload) {
 
 }  // namespace
 
-BusLog::Observer::Observer(BusLog& log, vp::MmLink& link, std::string name, bool transactions)
-    : log_(log), link_(link), name_(std::move(name)), transactions_(transactions) {
+std::string BusAccess::text(const DeviceNames& names) const {
+  const std::string name = names.text(address);
+  return vp::format_time(ps) + "  " + initiator + "  " + (read ? "read " : "write") + "  " +
+         vp::hex(address) + "  " + (name.empty() ? "-" : name) + "  " + value + "  " + answer;
+}
+
+BusWatch::Observer::Observer(BusWatch& watch, vp::MmLink& link, std::string name, bool is_processor)
+    : watch_(watch), link_(link), name_(std::move(name)), is_processor_(is_processor) {
   link_.add_observer(*this);
 }
 
-void BusLog::Observer::before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) {
-  start_ps_ = log_.zynq_.scheduler.now_ps() + vp::to_ps(delay);
+void BusWatch::Observer::before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) {
+  start_ps_ = watch_.zynq_.scheduler.now_ps() + vp::to_ps(delay);
 }
 
-void BusLog::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
-  if (!log_.wanted(payload.get_address(), payload.get_data_length())) return;
-  log_.write(start_ps_, name_, payload.is_read(), payload.get_address(), value_of(payload),
-             answer_of(payload));
+void BusWatch::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+  if (!watch_.wanted(payload.get_address(), payload.get_data_length())) return;
+  watch_.note({start_ps_, name_, is_processor_, payload.is_read(), payload.get_address(),
+               value_of(payload), answer_of(payload)});
 }
 
-void BusLog::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
-                              std::uint64_t bytes) {
-  if (!log_.wanted(address, bytes)) return;
-  log_.write(log_.zynq_.scheduler.now_ps(), name_, command == tlm::TLM_READ_COMMAND, address,
-             std::to_string(bytes) + " bytes", "OK");
+void BusWatch::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
+                                std::uint64_t bytes) {
+  if (!watch_.wanted(address, bytes)) return;
+  watch_.note({watch_.zynq_.scheduler.now_ps(), name_, is_processor_,
+               command == tlm::TLM_READ_COMMAND, address, std::to_string(bytes) + " bytes", "OK"});
 }
 
-BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
-    : zynq_(zynq), names_(hardware_map(zynq)), file_(options.file) {
-  for (const std::string& word : options.filter) ranges_.push_back(parse(word));
-  const auto watch = [this](vp::MmLink& link, const char* name, bool transactions) {
-    observers_.push_back(std::make_unique<Observer>(*this, link, name, transactions));
+BusWatch::BusWatch(Zynq& zynq) : zynq_(zynq), names_(hardware_map(zynq)) {
+  const auto watch = [this](vp::MmLink& link, const char* name, bool is_processor) {
+    observers_.push_back(std::make_unique<Observer>(*this, link, name, is_processor));
   };
   for (ps::Cpu* core : zynq.ps.cpus()) watch(core->m_axi, core->basename(), true);
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
@@ -107,10 +142,27 @@ BusLog::BusLog(const BusLogOptions& options, Zynq& zynq)
   }
 }
 
-BusLog::~BusLog() = default;
+BusWatch::~BusWatch() = default;
 
-BusLog::Range BusLog::parse(const std::string& word) const {
-  if (const auto* device = names_.find(word))
+bool BusWatch::wanted(std::uint64_t address, std::uint64_t bytes) const {
+  return ranges_.empty() || std::any_of(ranges_.begin(), ranges_.end(), [&](const Range& range) {
+           return address <= range.last &&
+                  address + std::max<std::uint64_t>(bytes, 1) > range.first;
+         });
+}
+
+BusLog::BusLog(const BusLogOptions& options, Zynq& zynq) : BusWatch(zynq), file_(options.file) {
+  std::vector<Range> ranges;
+  for (const std::string& word : options.filter) ranges.push_back(parse(word));
+  watch_only(std::move(ranges));
+}
+
+void BusLog::note(const BusAccess& access) {
+  file_.write(access.text(names()) + "\n");
+}
+
+BusWatch::Range BusLog::parse(const std::string& word) const {
+  if (const auto* device = names().find(word))
     return {device->base, device->base + device->size - 1};
   Range range{};
   const std::size_t colon = word.find(':');
@@ -124,22 +176,46 @@ BusLog::Range BusLog::parse(const std::string& word) const {
   throw vp::InputError("--log-bus-filter '" + word +
                        "': neither an address (0x41200000), a range of them "
                        "(0x41200000:0x4120FFFF), nor a device: " +
-                       vp::one_of(names_.names()));
+                       vp::one_of(names().names()));
 }
 
-bool BusLog::wanted(std::uint64_t address, std::uint64_t bytes) const {
-  return ranges_.empty() || std::any_of(ranges_.begin(), ranges_.end(), [&](const Range& range) {
-           return address <= range.last &&
-                  address + std::max<std::uint64_t>(bytes, 1) > range.first;
-         });
+BusHistory::BusHistory(const BusHistoryOptions& options, Zynq& zynq)
+    : BusWatch(zynq), options_(options) {
+  const std::uint32_t address = names().address_of(options.at);
+  watch_only({{address, address}});
 }
 
-void BusLog::write(std::uint64_t ps, const std::string& initiator, bool read, std::uint64_t address,
-                   const std::string& value, const std::string& answer) {
-  const std::string name = names_.text(address);
-  file_.write(vp::format_time(ps) + "  " + initiator + "  " + (read ? "read " : "write") + "  " +
-              vp::hex(address) + "  " + (name.empty() ? "-" : name) + "  " + value + "  " + answer +
-              "\n");
+void BusHistory::note(const BusAccess& access) {
+  if (access.ps >= options_.before_ps || (options_.writes_only && access.read)) return;
+  Entry* const last = entries_.empty() ? nullptr : &entries_.back();
+  const bool same = last && last->last.initiator == access.initiator &&
+                    last->last.read == access.read && last->last.value == access.value;
+  // A poll reads thousands of times, and looking at the stack takes longer than all the rest.
+  const bool polls = same && access.read;
+  std::vector<std::uintptr_t> calls;
+  if (access.by_processor && !polls) calls = ps::return_addresses();
+  if (same && (polls || last->calls == calls)) {
+    last->last.ps = access.ps;
+    ++last->times;
+    return;
+  }
+  if (entries_.size() == options_.count) entries_.pop_front();
+  entries_.push_back({access, access.ps, 1, std::move(calls)});
+}
+
+std::vector<std::string> BusHistory::lines() const {
+  std::vector<std::string> lines;
+  const ps::CodeLocator* const code = zynq().ps.cpu.code();
+  for (const Entry& entry : entries_) {
+    std::string line = entry.last.text(names());
+    if (entry.times > 1) {
+      line += "  (" + std::to_string(entry.times) + " times since " +
+              vp::format_time(entry.first_ps) + ")";
+    }
+    const std::string place = code ? code->path(entry.calls) : std::string();
+    lines.push_back(line + (place.empty() ? "" : "  ") + place);
+  }
+  return lines;
 }
 
 /// Single accesses of the processor.

@@ -252,7 +252,7 @@ Json RemoteControl::wait_for(const Json& command) {
                              !dynamic_cast<vp::SignalBase*>(sc_core::sc_find_object(name.c_str()));
     Condition::Source source{};
     if (is_register) {
-      source.address = address_of(name);
+      source.address = DeviceNames(hardware_map(zynq_)).address_of(name);
       condition->polled = true;
     } else {
       source.signal = &signal_named(name);
@@ -294,39 +294,6 @@ Json RemoteControl::wait_for_text(const Json& command) {
   return {{"met", std::exchange(met_, false)}};
 }
 
-std::uint32_t RemoteControl::address_of(const std::string& name) const {
-  if (const auto plain = vp::Decimal::parse(name)) {
-    const auto whole = plain->whole();
-    if (whole && *whole >= 0 && *whole <= 0xFFFF'FFFF) return static_cast<std::uint32_t>(*whole);
-  }
-  const std::size_t dot = name.find('.');
-  const std::size_t plus = name.find('+');
-  const std::string device_name = name.substr(0, std::min(dot, plus));
-  const report::HardwareMap map = hardware_map(zynq_);
-  const DeviceNames names(map);
-  const report::HardwareMap::Device* device = names.find(device_name);
-  if (!device)
-    throw vp::InputError("no device '" + vp::excerpt(device_name) + "': choose " +
-                         vp::one_of(names.names()));
-  if (plus != std::string::npos) {
-    const auto offset = vp::Decimal::parse(name.substr(plus + 1));
-    const auto whole = offset ? offset->whole() : std::nullopt;
-    if (whole && *whole >= 0 && static_cast<std::uint64_t>(*whole) < device->size)
-      return static_cast<std::uint32_t>(device->base + static_cast<std::uint64_t>(*whole));
-    throw vp::InputError("'" + name + "' is not in " + device_name);
-  }
-  std::vector<std::string> registers;
-  for (const report::HardwareMap::Register& r : device->registers) {
-    if (dot != std::string::npos && r.name == name.substr(dot + 1))
-      return static_cast<std::uint32_t>(device->base + r.offset);
-    registers.push_back(r.name);
-  }
-  if (registers.empty() && dot == std::string::npos)
-    return static_cast<std::uint32_t>(device->base);
-  throw vp::InputError("no register '" + name + "': " + device_name + " has " +
-                       vp::one_of(registers));
-}
-
 std::uint32_t RemoteControl::word_at(std::uint32_t address) {
   zynq_.settle();
   const std::optional<std::uint32_t> word = zynq_.peek(address);
@@ -335,7 +302,7 @@ std::uint32_t RemoteControl::word_at(std::uint32_t address) {
 }
 
 Json RemoteControl::read(const Json& command) {
-  const std::uint32_t first = address_of(text_of(command, "at"));
+  const std::uint32_t first = DeviceNames(hardware_map(zynq_)).address_of(text_of(command, "at"));
   const std::uint64_t count = number_of(command, "words", 1 << 20);
   Json words = Json::array();
   for (std::uint64_t i = 0; i < count; ++i)
@@ -344,7 +311,7 @@ Json RemoteControl::read(const Json& command) {
 }
 
 Json RemoteControl::write(const Json& command) {
-  const std::uint32_t address = address_of(text_of(command, "at"));
+  const std::uint32_t address = DeviceNames(hardware_map(zynq_)).address_of(text_of(command, "at"));
   const auto value = static_cast<std::uint32_t>(number_of(command, "value", 0xFFFF'FFFF));
   zynq_.settle();
   if (!zynq_.poke(address, value)) throw vp::InputError("nothing answers at " + vp::hex(address));

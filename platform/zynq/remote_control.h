@@ -50,7 +50,6 @@ class RemoteControl final : public sc_core::sc_module, private vp::SignalListene
   Json receive(const Json& command);
   Json interrupt(const Json& command);
 
-  std::uint32_t address_of(const std::string& name) const;
   std::uint32_t word_at(std::uint32_t address);
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void met();
