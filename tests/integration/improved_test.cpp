@@ -330,13 +330,25 @@ BOOST_AUTO_TEST_CASE(settings_of_a_design_are_defaults) {
 
 BOOST_AUTO_TEST_CASE(hd_is_the_same_in_another_size) {
   Json hd = run_of({"demo"}, 0, "hd"),
-       larger = run_of({"demo", "--set", "pl.width=1280 px", "--set", "pl.height=720 px"});
+       larger = run_of({"demo", "--set", "pl.width=1280 px", "--set", "pl.height=720 px", "--set",
+                        "ps.fclk_clk0.frequency=111.111111 MHz"});
   for (const char* key : {"configuration", "design", "provenance"}) {
     hd.erase(key);
     larger.erase(key);
   }
   BOOST_TEST(hd == larger);
   BOOST_TEST(hd["summary"]["detected"] == 1);
+}
+
+// Issue 17: 115 frames a second, with the timing of each IP met.
+BOOST_AUTO_TEST_CASE(hd_is_as_fast_as_pixels_come) {
+  const Json result = run_of({"z1.0", "--repeat", "10"}, 0, "hd");
+  BOOST_TEST(result["summary"]["detected"] == 10);
+  BOOST_TEST(sustained_fps(result) > 120);
+  BOOST_TEST(sustained_fps(result) < 111.2e6 / (1280 * 720), "one pixel a clock");
+  BOOST_TEST(result["timing"]["met"] == true);
+  const Json faster = run_of({"demo", "--set", "ps.fclk_clk0.frequency=125 MHz"}, 0, "hd");
+  BOOST_TEST(faster["timing"]["met"] == false);
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {

@@ -216,13 +216,25 @@ void check_rate(const Json& result) {
              boost::test_tools::tolerance(1e-6));
 }
 
-/// Of an IP that is known to work at the system clock of the thesis, and the factor of the grade.
+/// Up to which clock a part of -1 works that has no synthesised RTL: at the system clock of the
+/// thesis, the vendor's at the clock of AXI4-Lite in its guides; the control block has no register.
+double known_mhz(const std::string& module) {
+  if (module == "pl.control_block") return 464;
+  for (const char* part : {"axi_dma", "axi_gpio", "interconnect", "proc_sys_reset"}) {
+    if (module.find(part) != std::string::npos) return 120;
+  }
+  return 100;
+}
+
+/// Times the factor of the grade.
 void check_fmax(const Json& timing, const std::string& device) {
   const std::map<char, double> factor{{'1', 1.0}, {'2', 1.18}};
   for (const Json& module : timing["modules"]) {
     if (module["name"] == "pl.blob_detection" || module["name"] == "pl.corner_detection") continue;
     if (module["origin"] == "synthesised") continue;
-    BOOST_TEST(module["fmax_mhz"].get<double>() == 100 * factor.at(device.back()));
+    BOOST_TEST(
+        module["fmax_mhz"].get<double>() == known_mhz(module["name"]) * factor.at(device.back()),
+        boost::test_tools::tolerance(1e-9));
   }
 }
 

@@ -6,9 +6,13 @@ namespace pl {
 
 ControlBlock::ControlBlock(sc_core::sc_module_name name) : sc_module(name), Ip(nullptr) {}
 
-// With the frame status: a few gates and flags.
+// Wires and a gate. Their way is part of the paths of those that they lead to.
 vp::IpEstimate ControlBlock::own_estimate() const {
-  return rtl_ip("control_block");
+  vp::IpEstimate e = synthesised_ip("control_block");
+  e.fmax_hz = 464 * mhz;
+  e.fmax_origin = vp::FmaxOrigin::derived;
+  e.fmax_documentation = "has no register; what a clock buffer of -1 lets through (2.155 ns)";
+  return e;
 }
 
 void ControlBlock::end_of_elaboration() {

@@ -270,7 +270,7 @@ const DesignInfo& hd_design() {
                                  return std::make_unique<ImprovedDesign>(
                                      name, ports, ImprovedDesign::usual_geometry(1280, 720));
                                },
-                               {},
+                               {{"ps.fclk_clk0.frequency", "111.111111 MHz"}},
                                true};
   return info;
 }

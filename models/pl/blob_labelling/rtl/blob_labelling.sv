@@ -31,7 +31,8 @@ module blob_labelling #(
 );
   localparam int BITS = $clog2(LABELS);
   localparam int COLUMN = $clog2(WIDTH);
-  localparam int PLACE = $clog2(WIDTH / 2 + 4);  // of a run in the ring of runs
+  localparam int RUNS = 2 * (WIDTH / 4 + 2);  // places in the ring of runs
+  localparam int PLACE = $clog2(RUNS);
   localparam int KEYS = 8 * (((X_BITS > Y_BITS) ? X_BITS : Y_BITS) * 2 + 1);
   localparam logic [X_BITS-1:0] LAST = X_BITS'(WIDTH - 1);
   localparam logic [Y_BITS-1:0] BOTTOM = Y_BITS'(HEIGHT - 1);
@@ -46,7 +47,7 @@ module blob_labelling #(
   logic [X_BITS-1:0] flush_column;
   wire [X_BITS-1:0] next_column = flushing ? flush_column : x;
 
-  logic line[0:WIDTH-1];
+  (* ram_style = "block" *) logic line[0:WIDTH-1];
   logic line_above;
   always_ff @(posedge clk) begin
     if (step) line[COLUMN'(column)] <= dark;
@@ -227,6 +228,7 @@ module blob_labelling #(
 
   logic stored_right;
   run_ring #(
+      .RUNS (RUNS),
       .PLACE(PLACE),
       .BITS (BITS)
   ) ring (

@@ -5,7 +5,8 @@
 // once. `right` is written at two places at once: 0 for the new run, 1 for the one that it continues.
 // It is the difference of two memories, so that each has one port for writing.
 module run_ring #(
-    parameter int PLACE = 9,
+    parameter int RUNS = 324,  // even
+    parameter int PLACE = $clog2(RUNS),
     parameter int BITS = 9
 ) (
     input  logic             clk,
@@ -31,17 +32,17 @@ module run_ring #(
     output logic             stored_right,  // before what is written in this clock
     output logic             first_is_set   // in this clock `right` of the row's first run is written
 );
-  // Of a label's runs in this row.
-  (* ram_style = "distributed" *) logic [PLACE-1:0] first[0:(1<<BITS)-1];
+  // Of a label's runs in this row. In LUT both would be too many loads for their address, the label.
+  (* ram_style = "block" *) logic [PLACE-1:0] first[0:(1<<BITS)-1];
   (* ram_style = "distributed" *) logic [PLACE-1:0] last[0:(1<<BITS)-1];
 
   // What is to be written in the next clock: the run that ended, or that `inner` became part of `outer`.
   logic [PLACE-1:0] write;
   logic adds, adds_valid, adds_linked, sets, moves, moves_last;
   logic [PLACE-1:0] left_place;
-  logic [PLACE-1:0] not_mine, not_others;  // inverted, or Yosys takes them into the memory's ports
+  logic [PLACE-1:0] not_mine, not_set;  // inverted, or Yosys takes them into the memory's ports
   logic [BITS-1:0] first_label, last_label;
-  wire [PLACE-1:0] set_place = ~(moves ? not_others : not_mine);
+  wire [PLACE-1:0] set_place = ~not_set;
   wire [PLACE-1:0] last_place = moves ? ~not_mine : left_place;
 
   // The last run of a label may be written just now.
@@ -57,12 +58,12 @@ module run_ring #(
     moves_last  <= (finishes || joins_linked) && !rst;
     sets        <= ((finishes && linked) || joins_linked) && !rst;
     not_mine    <= ~last_mine;
-    not_others  <= ~last_others;
+    not_set     <= ~(joins_linked ? last_others : last_mine);
     left_place  <= meets ? first_mine : write;
     first_label <= label;
     last_label  <= meets ? outer : label;
     if (rst) write <= '0;
-    else if (finishes) write <= write + 1'b1;
+    else if (finishes) write <= write == PLACE'(RUNS - 1) ? '0 : write + 1'b1;
   end
 
   // The label of the row's first run, which is `alone` until another run gets it.
@@ -85,10 +86,10 @@ module run_ring #(
   localparam int RUN = BITS + 3;  // right, left, valid, label
   logic [2*RUN-1:0] found;
   for (genvar odd = 0; odd < 2; odd++) begin : g_half
-    logic [BITS:0] labels[0:(1<<(PLACE-1))-1];
-    logic lefts[0:(1<<(PLACE-1))-1];
-    logic right_new[0:(1<<(PLACE-1))-1];
-    logic right_set[0:(1<<(PLACE-1))-1];
+    logic [BITS:0] labels[0:RUNS/2-1];
+    logic lefts[0:RUNS/2-1];
+    logic right_new[0:RUNS/2-1];
+    logic right_set[0:RUNS/2-1];
     wire adds_here = left_place[0] == 1'(odd);
     wire sets_here = sets && set_place[0] == 1'(odd);
     wire [PLACE-2:0] added = left_place[PLACE-1:1];
@@ -100,7 +101,8 @@ module run_ring #(
       if (adds && adds_here) right_new[added] <= right_set[added];
       if (sets_here) right_set[set] <= !right_new[set];
       if (rst) place <= '0;
-      else if (take && next_is_odd == 1'(odd)) place <= place + 1'b1;
+      else if (take && next_is_odd == 1'(odd))
+        place <= place == (PLACE - 1)'(RUNS / 2 - 1) ? '0 : place + 1'b1;
     end
     wire right = (right_new[place] ^ right_set[place]) || (sets_here && set == place);
     assign found[odd*RUN+:RUN] = {right, lefts[place], labels[place]};
