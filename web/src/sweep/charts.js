@@ -147,6 +147,8 @@ export function heatMap(sweep, selection, open) {
     const place = (cell) => `${x.name} ${xs[cell.key[0]][1]}\n${y.name} ${ys[cell.key[1]][1]}\n`;
     const why = (cell) => (cell.points.length === 1 ? selection.why(cell.points[0]).map((reason) => "\n" + reason).join("") : "");
     const wide = Math.max(...ys.map((e) => e[1].length)) * 6.6 + 16;
+    // Of cells a few pixels high, whole outlines would hide the colours.
+    const outline = ys.length > 40 || xs.length > 100 ? 0.3 : 1;
     figure?.leave();
     figure = chart({
       name: "heat-map", title: `${sweep.label(z)} over two parameters`, height: Math.min(560, Math.max(260, ys.length * 26 + 126)), least: Math.min(900, xs.length * 54 + wide + 60), canvas: data.length > 900,
@@ -163,7 +165,7 @@ export function heatMap(sweep, selection, open) {
             text: [`${significant(most, 4)} ${z.unit}`, significant(least, 4)], textStyle: { color: c.soft }, inRange: { color: ramp() } },
           tooltip: { show: true, formatter: (p) => `${place(p.data.cell)}${p.seriesType === "custom" ? "no value" : `${z.name} ${significant(p.value[2], 4)} ${z.unit}`}${why(p.data.cell)}` },
           series: [{ type: "heatmap", label: { show: xs.length <= 12 && ys.length <= 24, formatter: (p) => significant(p.value[2], 4), fontSize: 11 },
-            data: data.map((cell) => ({ value: [...cell.key, cell.mean], cell, label: { color: cell.kept ? onRamp((cell.mean - least) / (most - least)) : c.soft }, itemStyle: { borderColor: cell.bad ? c.vermillion : c.page, borderWidth: 1, opacity: cell.kept ? 1 : 0.2 } })) },
+            data: data.map((cell) => ({ value: [...cell.key, cell.mean], cell, label: { color: cell.kept ? onRamp((cell.mean - least) / (most - least)) : c.soft }, itemStyle: { borderColor: cell.bad ? c.vermillion : c.page, borderWidth: outline, opacity: cell.kept ? 1 : 0.2 } })) },
           { type: "custom", data: failed.map((cell) => ({ value: cell.key, cell })), renderItem: (_, api) => {
             const [px, py] = api.coord([api.value(0), api.value(1)]);
             const [width, height] = api.size([1, 1]).map((size) => size - 2);
