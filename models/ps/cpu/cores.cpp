@@ -87,13 +87,13 @@ void Cpu::start_core(unsigned number, void (*entry)(void)) {
     misuse(call + "the platform has one core: set ps.cores to 2");
   }
   Cpu& core = *cores_->all[number];
-  if (cores_->started) misuse(call + "the core was started already: " + core.doing());
+  if (both_started_) misuse(call + "the core was started already: " + core.doing());
   // The loader puts a program elsewhere in each run; its place in the file stays.
   const auto address = reinterpret_cast<std::uintptr_t>(entry);
   const bool in_file = code_ && code_->contains(address);
   write32(start_address, static_cast<std::uint32_t>(in_file ? code_->place(address) : address));
   barrier();
-  cores_->started = true;
+  for (Cpu* each : cores_->all) each->both_started_ = true;
   cores_->races.release(number_, &start_key);
   core.entry_ = entry;
   scheduler_.notify(core.start_);
@@ -125,7 +125,7 @@ void Cpu::sleep_for_good() {
 
 // The other one may see, or change, what this one has in memory.
 bool Cpu::beside_other() const {
-  return cores_->started && cores_->all.back()->state_ != State::finished;
+  return both_started_ && cores_->all.back()->state_ != State::finished;
 }
 
 bool Cpu::is_deaf() const {
@@ -150,7 +150,7 @@ std::string Cpu::doing() const {
 std::string Cpu::doing_elsewhere() const {
   std::string text;
   for (const Cpu* core : cores_->all) {
-    if (core != this && cores_->started) text += "; " + core->doing();
+    if (core != this && both_started_) text += "; " + core->doing();
   }
   return text;
 }
@@ -202,11 +202,12 @@ void Cpu::send_event() {
 }
 
 void Cpu::software_interrupt_raised() {
-  if (cores_->started) cores_->races.release(number_, &software_interrupt_key);
+  if (both_started_) cores_->races.release(number_, &software_interrupt_key);
 }
 
+// What was done before a software interrupt was raised is seen by its handler.
 void Cpu::handler_begins() {
-  if (cores_->started) cores_->races.acquire(number_, &software_interrupt_key);
+  cores_->races.acquire(number_, &software_interrupt_key);
 }
 
 void Cpu::check_word(const char* call, const volatile std::uint32_t* word) {
@@ -286,7 +287,7 @@ void Cpu::release(hal_lock& lock) {
 }
 
 void Cpu::access_shared(bool write, const volatile void* data, std::size_t size) {
-  if (!cores_->started || size == 0) return;
+  if (!both_started_ || size == 0) return;
   const auto first = reinterpret_cast<std::uintptr_t>(data);
   const RaceDetector::Access now{number_, write, program_time_ps(), return_addresses()};
   const auto race = cores_->races.access(first, first + size, now);

@@ -58,7 +58,6 @@ class RaceDetector {
 /// What the cores of a processor share.
 struct Cores {
   std::vector<Cpu*> all;  ///< by number
-  bool started = false;   ///< the second one
   RaceDetector races;
   std::set<std::pair<std::uintptr_t, std::uintptr_t>> told_races;  ///< by calls
   /// A lock that is taken.

@@ -405,6 +405,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 
   void (*entry_)(void) = nullptr;  ///< of the second core
   sc_core::sc_event start_;
+  bool both_started_ = false;
   bool event_ = false;  ///< the event register
   bool awaits_event_ = false;
   const hal_lock* awaited_lock_ = nullptr;

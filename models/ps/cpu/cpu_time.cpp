@@ -334,7 +334,7 @@ void Cpu::run_handler() {
   open_before_handler_ = open_functions_;
 
   if (running_ != this) take_turn();
-  handler_begins();
+  if (both_started_) handler_begins();
   spend_cycles(settings_.interrupt_entry);
   if (moment_listener_) moment_listener_(Moment::handler_begins);
   call_handler();
