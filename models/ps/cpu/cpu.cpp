@@ -250,7 +250,7 @@ std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value)
   } else {
     transport(read, address, value);
   }
-  if (read) last_look_ = {address, value, Look::By::read};
+  if (read) last_look_.note_read(address, value);
   return value;
 }
 

@@ -424,6 +424,18 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   struct Look {
     std::uint32_t address = 0, value = 0;
     enum class By { nobody, read, poll } by = By::nobody;
+    std::uint64_t again = 0;    ///< reads of it, one after the other, since the first
+    std::uint32_t changed = 0;  ///< bits that differed between two of them
+
+    void note_read(std::uint32_t of, std::uint32_t saw) {
+      if (by != By::read || address != of) {
+        *this = {of, saw, By::read};
+        return;
+      }
+      ++again;
+      changed |= value ^ saw;
+      value = saw;
+    }
   } last_look_;
 
   FaultTrap trap_;

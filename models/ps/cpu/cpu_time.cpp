@@ -312,8 +312,12 @@ std::string Cpu::last_look() const {
   std::string text =
       describe_register_ ? describe_register_(last_look_.address, last_look_.value) : std::string();
   if (text.empty()) text = vp::hex(last_look_.address) + ": " + vp::hex(last_look_.value);
-  return last_look_.by == Look::By::poll ? "; it polls for a change of any bit of " + text
-                                         : "; the last register that it read was " + text;
+  if (last_look_.by == Look::By::poll) return "; it polls for a change of any bit of " + text;
+  text = "; the last register that it read was " + text;
+  if (last_look_.again == 0) return text;
+  return text + ", " + std::to_string(last_look_.again + 1) + " times in a row, of which " +
+         (last_look_.changed == 0 ? "no bit" : "only the bits " + vp::hex(last_look_.changed)) +
+         " changed";
 }
 
 bool Cpu::irq_is_low(const void* cpu) {

@@ -127,6 +127,20 @@ BOOST_AUTO_TEST_CASE(a_program_that_catches_everything_does_not_catch_this) {
   BOOST_TEST(!caught);
 }
 
+BOOST_AUTO_TEST_CASE(of_a_register_that_is_read_for_ever_the_bits_that_changed_are_told) {
+  Bench b({"cpu.timeout=1 us"});
+  b.device.delay_ps = 40'000;
+  b.device.value = [](std::uint64_t ps) { return ps > 500'000 ? 0x13u : 0x10u; };
+  const std::string error = failure_of(b, [] {
+    while (true) hal_read32(device_address);
+    return 0;
+  });
+  BOOST_TEST(
+      error.find("; the last register that it read was 0x40000000: 0x00000013, 25 times in a "
+                 "row, of which only the bits 0x00000003 changed, at 1 us") != error.npos,
+      error);
+}
+
 BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) {
   const Settings settings{"cpu.timeout=1 us"};
   const std::string head =
@@ -138,6 +152,10 @@ BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) 
   const std::vector<Loop> loops{
       {[] { hal_work(step, 3); }, ""},
       {[] { hal_read32(device_address); },
+       "; the last register that it read was 0x40000000: 0x00000000, 25 times in a row, of which "
+       "no "
+       "bit changed"},
+      {[] { hal_read32(device_address), hal_read32(device_address + 8); },
        "; the last register that it read was 0x40000000: 0x00000000"},
       {[] { hal_poll_until_changed(device_address, 0, 10, 0xFFFF'FFFF); },
        "; it polls for a change of any bit of 0x40000000: 0x00000000"},
