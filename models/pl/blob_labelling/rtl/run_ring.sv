@@ -33,7 +33,7 @@ module run_ring #(
     output logic             first_is_set   // in this clock `right` of the row's first run is written
 );
   // Of a label's runs in this row. In LUT both would be too many loads for their address, the label.
-  (* ram_style = "block" *) logic [PLACE-1:0] first[0:(1<<BITS)-1];
+  logic [PLACE-1:0] first[0:(1<<BITS)-1];
   (* ram_style = "distributed" *) logic [PLACE-1:0] last[0:(1<<BITS)-1];
 
   // What is to be written in the next clock: the run that ended, or that `inner` became part of `outer`.
