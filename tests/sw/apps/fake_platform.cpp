@@ -56,7 +56,7 @@ void FakePlatform::add_frame(std::uint32_t width, std::uint32_t height) {
   }
   s.frames.push_back({static_cast<std::uint32_t>(s.frames.size()), width, height,
                       static_cast<const std::uint8_t*>(buffer.data), buffer.bus_address, 381.36,
-                      381.36, width / 2.0, height / 2.0});
+                      381.36, width / 2.0, height / 2.0, {}});
 }
 
 void FakePlatform::connect(Engine& engine) {
