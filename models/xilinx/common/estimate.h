@@ -28,11 +28,11 @@ inline vp::IpEstimate axi_estimate(const char* kind, std::uint32_t lut, std::uin
   e.bram36 = bram36;
   e.uncertainty_percent = 40;
   e.source = "assumed from public utilisation reports of designs with this IP";
-  // Memory side and streams work at 150 MHz there; crossbars at 190 and more, speed grade -2
-  // (PG059).
+  // Memory side and streams work at 150 MHz there (PG022); crossbars at 190 and more, speed grade
+  // -2 (PG059).
   e.fmax_hz = 120'000'000;
   e.fmax_origin = vp::FmaxOrigin::derived;
-  e.fmax_documentation = "AXI4-Lite of such IP on Artix 7, the same fabric, -1 (PG021, PG067)";
+  e.fmax_documentation = "AXI4-Lite of such IP on Artix 7, the same fabric, -1 (PG022, PG067)";
   return e;
 }
 
