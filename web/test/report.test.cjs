@@ -270,6 +270,7 @@ test("the flame graph names what took most, counts recursion once, and grows by 
 }));
 
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
+  await scrollThrough(page);  // a chart that is drawn meanwhile moves the table from under the pointer
   const button = page.locator("#points tbody button").nth(4);
   await button.click();
   assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json' --output 'out/a sweep/reports/${await button.textContent()}cafe'`);
