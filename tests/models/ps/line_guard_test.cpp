@@ -106,8 +106,11 @@ BOOST_AUTO_TEST_CASE(an_instruction_may_need_two_pages) {
   guard.guard(first + line, line);
   guard.guard(first + page + line, line);
   run([&] {
-    const auto word = reinterpret_cast<const volatile std::uint32_t*>(first + page - 2);
-    BOOST_TEST(*word == 0u);
+    struct __attribute__((packed)) Anywhere {
+      std::uint32_t word;
+    };
+    const std::uint32_t word = reinterpret_cast<const volatile Anywhere*>(first + page - 2)->word;
+    BOOST_TEST(word == 0u);
     BOOST_TEST(told.empty());
     static_cast<void>(read(first + line));
     static_cast<void>(read(first + page + line));
