@@ -195,7 +195,7 @@ void LocalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
   // A pixel of a frame that begins here only in the next clocks is not known yet.
   if (!taking_ || first_cycle_ + first <= clock().cycle()) return;
   find_dark(frames->data(), geometry_, rule_, words_);
-  const std::uint32_t before = radius * geometry_.width + radius;
+  const auto before = static_cast<std::uint32_t>(lag() - pipeline_clocks);
   const std::uint32_t from = std::max(first, before) - before;
   binary_frames.change(from, geometry_.pixels() - from);
 }
@@ -248,7 +248,6 @@ vp::IpEstimate LocalThreshold::own_estimate() const {
              xilinx::block_ram_36(geometry_.width, sum_bits);
   e.dsp = 2;
   e.source = "derived from the model's registers";
-  e.fmax_high_hz = 0;
   e.fmax_origin = vp::FmaxOrigin::estimated;
   e.fmax_documentation = "two additions and a product, a register behind each";
   return e;

@@ -61,8 +61,8 @@ void find_dark(const std::uint8_t* image, const Geometry& geometry, const LocalR
                std::vector<std::uint32_t>& words);
 
 /// Local Threshold: in the place of Global Threshold, with its ports, for light that is uneven. The
-/// binary image leaves `lag()` clocks later than Global Threshold's; `thresh_out` stays low, as no
-/// packing of words has been given to it.
+/// binary image leaves `lag()` clocks later than Global Threshold's. It packs no words:
+/// `thresh_out` stays low.
 ///
 /// `wr_thresh` loads the level up to which a pixel is dark whatever lies around it, from the next
 /// frame on; 0 after a system reset. A frame that begins while the one before leaves, or ends
