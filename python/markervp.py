@@ -12,6 +12,7 @@
 The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a markervp.Error with its message. Nothing is computed
 here: every figure comes from result.json or a sweep's files.
 """
+import collections
 import csv
 import functools
 import json
@@ -23,7 +24,7 @@ import sqlite3
 import subprocess
 import tempfile
 
-__all__ = ["Error", "Run", "Session", "Sweep", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
+__all__ = ["Beat", "Error", "Run", "Session", "Sweep", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
 
 _points_failed = 4
 
@@ -197,6 +198,9 @@ def _time(value):
     return value if isinstance(value, str) else f"{round(value * 1e12)} ps"
 
 
+Beat = collections.namedtuple("Beat", "cycle data last keep")
+
+
 class Session:
     """A run that a test leads: it lets time pass or waits, reads and writes from outside, and looks at what came of it.
 
@@ -323,6 +327,16 @@ class Session:
     def uart(self, text, device="uart0"):
         """Types into an UART; characters come at its baud rate."""
         self._ask("receive", device=device, text=text)
+
+    def send(self, source, words, last=True):
+        """Gives words to a stream source of the design, "pl.source": one a clock from now on, after those that wait there.
+        TLAST comes with the last of them, unless `last` is False."""
+        self._ask("send", name=source, words=list(words), last=int(last))
+
+    def received(self, sink):
+        """The beats that came to a stream sink of the design, "pl.sink", since the last call, each a Beat: the number of its
+        clock edge, data, TLAST and TKEEP."""
+        return [Beat(*beat) for beat in self._ask("received", name=sink)["beats"]]
 
     def finish(self):
         """Lets the program run to its end. Returns the Run; an Error if it failed."""

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <sys/socket.h>
+#include <vp/axi_stream.h>
 #include <vp/expression.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -49,23 +50,38 @@ std::uint64_t time_of(const Json& command, const char* key) {
   return static_cast<std::uint64_t>(*ps);
 }
 
-void collect_signals(const std::vector<sc_core::sc_object*>& objects,
-                     std::vector<std::string>& names) {
+template <class T>
+void collect(const std::vector<sc_core::sc_object*>& objects, std::vector<std::string>& names) {
   for (const sc_core::sc_object* object : objects) {
-    if (dynamic_cast<const vp::SignalBase*>(object)) names.emplace_back(object->name());
-    collect_signals(object->get_child_objects(), names);
+    if (dynamic_cast<const T*>(object)) names.emplace_back(object->name());
+    collect<T>(object->get_child_objects(), names);
   }
+}
+
+template <class T>
+std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  collect<T>(sc_core::sc_get_top_level_objects(), names);
+  return names;
 }
 
 vp::SignalBase& signal_named(const std::string& name) {
   if (auto* signal = dynamic_cast<vp::SignalBase*>(sc_core::sc_find_object(name.c_str())))
     return *signal;
-  std::vector<std::string> names;
-  collect_signals(sc_core::sc_get_top_level_objects(), names);
-  const std::string near = vp::nearest_match(name, names);
+  const std::string near = vp::nearest_match(name, names_of<vp::SignalBase>());
   throw vp::InputError("no signal '" + name + "'" +
                        (near.empty() ? ": a trace with --trace-level everything shows their names"
                                      : ": did you mean '" + near + "'?"));
+}
+
+/// An end of a stream that the design leaves to the test; `what` is it in words.
+template <class T>
+T& stream_end_named(const std::string& name, const std::string& what) {
+  if (auto* end = dynamic_cast<T*>(sc_core::sc_find_object(name.c_str()))) return *end;
+  const std::vector<std::string> names = names_of<T>();
+  std::string choice = names.empty() ? ": this design has none" : ": choose ";
+  for (const std::string& one : names) choice += (&one == &names.front() ? "" : ", ") + one;
+  throw vp::InputError("no " + what + " '" + vp::excerpt(name) + "'" + choice);
 }
 
 long double number_in(const vp::SignalBase& signal) {
@@ -208,6 +224,7 @@ Json RemoteControl::obey(const Json& command) {
     finished_ = what == "finish";
     if (finished_) return Json::object();
     if (what == "read") return read(command);
+    if (what == "received") return received(command);
     if (what == "signal")
       return Json{
           {"value", static_cast<double>(number_in(signal_named(text_of(command, "name"))))}};
@@ -229,9 +246,10 @@ Json RemoteControl::obey_in_time(const std::string& what, const Json& command) {
   if (what == "drive") return drive(command);
   if (what == "receive") return receive(command);
   if (what == "interrupt") return interrupt(command);
+  if (what == "send") return send(command);
   throw vp::InputError("no command '" + vp::excerpt(what) +
                        "': there are run, wait, wait_text, read, signal, write, drive, receive, "
-                       "interrupt and finish");
+                       "interrupt, send, received and finish");
 }
 
 /// Lets simulated time pass, less if what the test waits for comes.
@@ -343,6 +361,31 @@ Json RemoteControl::interrupt(const Json& command) {
   if (id < 32) throw vp::InputError("interrupts with a wire from outside are 32 to 95");
   zynq_.ps.gic.set_wire(id, number_of(command, "level", 1) != 0);
   return Json::object();
+}
+
+// All words are looked at before the first one goes.
+Json RemoteControl::send(const Json& command) {
+  auto& source = stream_end_named<vp::StreamSource>(text_of(command, "name"), "stream source");
+  const auto words = command.find("words");
+  const auto is_word = [](const Json& word) {
+    return word.is_number_unsigned() && word.get<std::uint64_t>() <= 0xFFFF'FFFF;
+  };
+  if (words == command.end() || !words->is_array() || words->empty() ||
+      !std::all_of(words->begin(), words->end(), is_word))
+    throw vp::InputError("needs 'words', whole numbers up to 4294967295, one at least");
+  const bool last = number_of(command, "last", 1) != 0;
+  for (std::size_t i = 0; i < words->size(); ++i)
+    source.send((*words)[i].get<std::uint32_t>(), last && i + 1 == words->size());
+  return Json::object();
+}
+
+Json RemoteControl::received(const Json& command) {
+  auto& sink = stream_end_named<vp::StreamSink>(text_of(command, "name"), "stream sink");
+  Json beats = Json::array();
+  for (const vp::StreamSink::Beat& beat : sink.beats)
+    beats.push_back({beat.cycle, beat.data, beat.last, beat.keep});
+  sink.beats.clear();
+  return {{"beats", beats}};
 }
 
 }  // namespace platform

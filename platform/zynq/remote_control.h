@@ -49,6 +49,8 @@ class RemoteControl final : public sc_core::sc_module, private vp::SignalListene
   Json drive(const Json& command);
   Json receive(const Json& command);
   Json interrupt(const Json& command);
+  Json send(const Json& command);
+  Json received(const Json& command);
 
   std::uint32_t word_at(std::uint32_t address);
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
