@@ -331,7 +331,11 @@ class Session:
     def send(self, source, words, last=True):
         """Gives words to a stream source of the design, "pl.source": one a clock from now on, after those that wait there.
         TLAST comes with the last of them, unless `last` is False."""
-        self._ask("send", name=source, words=list(words), last=int(last))
+        words = list(words)
+        part = 1 << 16  # of what a command may hold; simulated time stands between two of them
+        for first in range(0, max(len(words), 1), part):
+            ends = first + part >= len(words)
+            self._ask("send", name=source, words=words[first:first + part], last=int(last and ends))
 
     def received(self, sink):
         """The beats that came to a stream sink of the design, "pl.sink", since the last call, each a Beat: the number of its

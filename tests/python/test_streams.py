@@ -40,6 +40,24 @@ def test_a_packet_in_two_parts_is_one(board):
     board.finish()
 
 
+def test_a_picture_goes_at_once(board, monkeypatch):
+    parts, ask = [], board._ask
+
+    def watch(command, **values):
+        parts.append(values)
+        return ask(command, **values)
+
+    monkeypatch.setattr(board, "_ask", watch)
+    picture = [0xFFFF_FFFF - i for i in range(640 * 480)]  # longer than the longest command
+    before = board.time
+    board.send("pl.source", picture)
+    assert board.time == before
+    assert [word for part in parts for word in part["words"]] == picture
+    assert [part["last"] for part in parts] == [0] * (len(parts) - 1) + [1]
+    board.run("1 us")
+    assert not board.ended
+
+
 def test_the_same_words_come_back_on_the_same_edges(start):
     def lead():
         board = start(options=["--design", str(DESIGN), "--no-report"])
