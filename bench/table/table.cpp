@@ -166,6 +166,8 @@ const std::vector<RtlIp>& rtl_ips() {
       {"feature_packaging", {}},
       {"axi_threshold_bridge", {}},
       {"otsu_threshold", {improved, camera, "pl.fidelity.blob_labelling=clocked"}},
+      {"local_threshold",
+       {improved, camera, "pl.fidelity.blob_labelling=clocked", "pl.threshold_rule=local"}},
       {"blob_labelling", {improved, camera}},
       {"pixel_stream", {improved, camera}},
       {"blob_stream", {improved}}};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <host/document.h>
@@ -92,15 +93,21 @@ std::string parameters_of(const Design& design) {
   throw vp::InputError("'" + design.top + "'" + parameters_of(design) + ": " + why);
 }
 
+/// The modules that a text declares, or what else `what` says: an alternative of words.
+std::vector<std::string> declared_in(const std::string& text, const char* what = "module") {
+  const std::regex declaration("(^|\\n)\\s*(?:" + std::string(what) + ")\\s+(\\w+)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator m(text.begin(), text.end(), declaration), end; m != end; ++m)
+    names.push_back((*m)[2]);
+  return names;
+}
+
 /// The modules that the sources declare.
 std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
-  static const std::regex declaration(R"((^|\n)\s*module\s+(\w+))");
   std::vector<std::string> names;
   for (const fs::path& source : sources) {
-    const std::string text = vp::read_text(source, "source");
-    for (std::sregex_iterator m(text.begin(), text.end(), declaration), end; m != end; ++m) {
-      names.push_back((*m)[2]);
-    }
+    for (const std::string& name : declared_in(vp::read_text(source, "source")))
+      names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -179,6 +186,10 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"feature_packaging", {{"BUFFER_DEPTH", 256}}},
           {"frame_status", {}},
           {"global_threshold", {}},
+          {"local_threshold", {{"RADIUS", 1}}},
+          {"local_threshold", {{"RADIUS", 5}}},
+          {"local_threshold", {{"RADIUS", 15}}},
+          {"local_threshold", {{"RADIUS", 31}}},
           {"otsu_threshold", {}},
           {"pixel_stream", {{"FIFO_DEPTH", 64}}},
           {"pixel_stream", {{"FIFO_DEPTH", 512}}},
@@ -202,6 +213,30 @@ std::string yosys_version() {
   return name + " " + version;
 }
 
+std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::path>& sources) {
+  static const std::regex comment(R"(//[^\n]*|/\*[^]*?\*/)"), word(R"([A-Za-z_]\w*)");
+  std::map<std::string, std::size_t> declares;  // by name, the source
+  std::vector<std::string> texts;
+  for (const fs::path& source : sources) {
+    texts.push_back(std::regex_replace(vp::read_text(source, "source"), comment, " "));
+    for (const std::string& name : declared_in(texts.back(), "module|package|interface"))
+      declares.emplace(name, texts.size() - 1);
+  }
+  std::vector<std::string> open{top};
+  std::set<std::size_t> needed;
+  while (!open.empty()) {
+    const auto found = declares.find(open.back());
+    open.pop_back();
+    if (found == declares.end() || !needed.insert(found->second).second) continue;
+    const std::string& text = texts[found->second];
+    for (std::sregex_iterator m(text.begin(), text.end(), word), end; m != end; ++m)
+      open.push_back(m->str());
+  }
+  std::vector<fs::path> found;
+  for (const std::size_t i : needed) found.push_back(sources[i]);
+  return found;
+}
+
 std::vector<Design> own_designs(const std::vector<std::string>& only) {
   const std::vector<fs::path> sources = sources_in(rtl_folder());
   std::vector<std::string> names;
@@ -209,7 +244,7 @@ std::vector<Design> own_designs(const std::vector<std::string>& only) {
   for (const auto& [ip, parameters] : own_variants()) {
     if (std::find(names.begin(), names.end(), ip) == names.end()) names.push_back(ip);
     if (only.empty() || std::find(only.begin(), only.end(), ip) != only.end()) {
-      designs.push_back({ip, ip, sources, parameters});
+      designs.push_back({ip, ip, needed_by(ip, sources), parameters});
     }
   }
   for (const std::string& name : only) {

@@ -41,6 +41,13 @@ std::vector<Design> own_designs(const std::vector<std::string>& only);
 /// The .v and .sv files of a folder and of those below it. Throws vp::InputError if there is none.
 std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folder);
 
+/// Those of `sources` that `top` is made of: what declares it, and the modules, packages and
+/// interfaces whose names stand in what is needed. So an IP's figures do not depend on sources that
+/// it has nothing to do with: ties in Yosys' mapping fall by numbers that everything it reads
+/// shares.
+std::vector<std::filesystem::path> needed_by(const std::string& top,
+                                             const std::vector<std::filesystem::path>& sources);
+
 /// Flat, for the 7 series. Throws vp::InputError with file and line: what cannot be read or
 /// synthesised, a latch, a combinational loop, no module or parameter of that name.
 Figures synthesise(const Design& design, const PathTiming& timing);

@@ -139,6 +139,15 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_of_improved) {
   check_same(run("improved_all", all), models);
 }
 
+BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_local_threshold) {
+  const Words inputs = pictures({"--design", "improved", "--set", "pl.threshold_rule=local"});
+  const Json models = run("local", inputs);
+  BOOST_TEST(models["summary"]["detected"] >= 4);
+  const Words clocked = with(inputs, {"--fidelity", "clocked"});
+  check_same(run("local_clocked", clocked), models);
+  check_same(run("local_rtl", with(clocked, {"--set", setting("local_threshold")})), models);
+}
+
 // The detector behind the threshold takes pixels then: nobody needs to say so.
 BOOST_AUTO_TEST_CASE(a_check_chooses_models_that_go_with_the_rtl) {
   const kit::Outcome outcome =

@@ -131,6 +131,34 @@ BOOST_AUTO_TEST_CASE(a_folder_without_verilog_and_an_unknown_ip_are_refused) {
   BOOST_CHECK_THROW(sources_in(folder / "none"), vp::InputError);
 }
 
+// Names in comments are no need; a package, and what is instantiated by what is instantiated, are.
+BOOST_AUTO_TEST_CASE(only_the_sources_that_a_module_is_made_of_are_needed) {
+  const std::map<std::string, std::string> texts{
+      {"a_top.sv", "module top;\n  left l();  // as in other\nendmodule\n"},
+      {"b_left.sv", "module left;\n  import sizes::*;\n  leaf #(.N(N)) x();\nendmodule\n"},
+      {"c_leaf.sv", "/* not\n other */ module leaf #(parameter int N = 1)();\nendmodule\n"},
+      {"d_sizes.sv", "package sizes;\n  localparam int N = 2;\nendpackage\n"},
+      {"e_other.sv", "module other;\n  leaf x();\nendmodule\n"}};
+  for (const auto& [name, text] : texts) kit::write_file(folder / name, text);
+  const auto names = [&](const std::string& top) {
+    std::string joined;
+    for (const auto& source : needed_by(top, sources_in(folder.path())))
+      joined += source.filename().string() + " ";
+    return joined;
+  };
+  BOOST_TEST(names("top") == "a_top.sv b_left.sv c_leaf.sv d_sizes.sv ");
+  BOOST_TEST(names("other") == "c_leaf.sv e_other.sv ");
+  BOOST_TEST(names("none") == "");
+}
+
+BOOST_AUTO_TEST_CASE(an_ip_is_read_without_the_others) {
+  for (const Design& design : own_designs({"local_threshold"})) {
+    std::string joined;
+    for (const auto& source : design.sources) joined += source.filename().string() + " ";
+    BOOST_TEST(joined == "delay_line.sv local_threshold.sv ");
+  }
+}
+
 // The whole set takes minutes: platform_synthesis_figures, of ctest -C nightly.
 BOOST_AUTO_TEST_CASE(the_smallest_of_each_ip_is_what_is_committed) {
   using Json = nlohmann::ordered_json;

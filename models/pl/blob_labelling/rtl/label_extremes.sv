@@ -61,13 +61,14 @@ module label_extremes #(
   };
 
   // Commands on their way: behind the decision, behind the memory, at the comparison.
-  logic write_1, write_2, write_3, clear_1, clear_2, clear_3, load_1, load_2, load_3, holds_1, join_1, join_2;
+  logic write_1, write_2, write_3, clear_1, clear_2, clear_3, load_1, load_2, takes_3, holds_1, join_1, join_2;
   logic [BITS-1:0] label_1, label_2, label_3, held_1, other_1, other_2;
   logic [KEYS-1:0] run_1, run_2;
   always_ff @(posedge clk) begin
     {write_3, write_2, write_1} <= {write_2, write_1, write};
     {clear_3, clear_2, clear_1} <= {clear_2, clear_1, clear};
-    {load_3, load_2, load_1} <= {load_2, load_1 && !(holds_1 && other_1 == held_1), load};
+    takes_3 <= clear_2 || load_2;  // a register: every key waits for it
+    {load_2, load_1} <= {load_1 && !(holds_1 && other_1 == held_1), load};
     {holds_1, held_1} <= {holds, held};
     {join_2, join_1} <= {join_1, join_};
     {label_3, label_2, label_1} <= {label_2, label_1, write_label};
@@ -98,7 +99,7 @@ module label_extremes #(
     answer_recent <= write_3 && other_1 == label_3;
     load_recent <= write_3 && other_2 == label_3;
     recent <= joined;
-    current <= clear_3 || load_3 ? loaded : joined;
+    current <= takes_3 ? loaded : joined;
   end
   always_ff @(posedge clk) begin
     if (write_3) copy[label_3] <= joined;

@@ -46,8 +46,12 @@ module run_ring #(
   wire [PLACE-1:0] last_place = moves ? ~not_mine : left_place;
 
   // The last run of a label may be written just now.
-  wire [PLACE-1:0] last_mine = moves_last && last_label == inner ? last_place : last[inner];
-  wire [PLACE-1:0] last_others = moves_last && last_label == outer ? last_place : last[outer];
+  wire writes_mine = moves_last && last_label == inner;
+  wire writes_others = moves_last && last_label == outer;
+  wire [PLACE-1:0] last_mine = writes_mine ? last_place : last[inner];
+  wire from_place = meets ? writes_others : writes_mine;
+  wire from_mine = !meets && !writes_mine;
+  wire from_others = meets && !writes_others;
   wire [PLACE-1:0] first_mine = adds && !adds_linked && first_label == inner ? left_place : first[inner];
 
   always_ff @(posedge clk) begin
@@ -58,7 +62,9 @@ module run_ring #(
     moves_last  <= (finishes || joins_linked) && !rst;
     sets        <= ((finishes && linked) || joins_linked) && !rst;
     not_mine    <= ~last_mine;
-    not_set     <= ~(joins_linked ? last_others : last_mine);
+    // Of `meets`, for `joins_linked` comes late.
+    not_set     <= ~((from_place ? last_place : '0) | (from_mine ? last[inner] : '0)
+                     | (from_others ? last[outer] : '0));
     left_place  <= meets ? first_mine : write;
     first_label <= label;
     last_label  <= meets ? outer : label;

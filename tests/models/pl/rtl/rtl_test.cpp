@@ -91,6 +91,10 @@ const std::map<std::string, std::vector<Words>> improved = {
       {"WIDTH=1280", "HEIGHT=720"},
       {"WIDTH=2048", "HEIGHT=2048", "LABELS=2048", "MINIMUM_SIDE=2047"}}},
     {"otsu_threshold", {{}, {"WIDTH=32", "HEIGHT=16"}, {"WIDTH=2048", "HEIGHT=2048"}}},
+    {"local_threshold",
+     {{},
+      {"WIDTH=32", "HEIGHT=16", "RADIUS=1", "OFFSET=1"},
+      {"WIDTH=2048", "HEIGHT=2048", "RADIUS=31", "OFFSET=255"}}},
     {"pixel_stream",
      {{},
       {"WIDTH=32", "HEIGHT=16", "FIFO_DEPTH=2"},
@@ -143,6 +147,9 @@ BOOST_AUTO_TEST_CASE(memories_become_memories) {
   auto labelling = synthesise("blob_labelling");
   BOOST_TEST(labelling["RAMB18E1"] + 2 * labelling["RAMB36E1"] >= 10);
   BOOST_TEST(labelling["FDRE"] < 2500);
+  auto local = synthesise("local_threshold");
+  BOOST_TEST(local["RAMB18E1"] == 5);
+  BOOST_TEST(local["FDRE"] < 400);
   auto packaging = synthesise("feature_packaging");
   BOOST_TEST(packaging["FDRE"] < 300);
   auto bridge = synthesise("axi_threshold_bridge");
