@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <vp/error.h>
@@ -38,12 +39,15 @@ class Least {
   bool empty_ = true;
 };
 
-std::vector<unsigned> products(unsigned largest) {
+/// Of two numbers up to `largest`, ascending. Found once: each point of a sweep plans its clocks.
+const std::vector<unsigned>& products(unsigned largest) {
+  static std::map<unsigned, std::vector<unsigned>> known;
+  std::vector<unsigned>& found = known[largest];
+  if (!found.empty()) return found;
   std::vector<bool> is_product(largest * largest + 1);
   for (unsigned a = 1; a <= largest; ++a) {
     for (unsigned b = 1; b <= a; ++b) is_product[a * b] = true;
   }
-  std::vector<unsigned> found;
   for (unsigned n = 1; n < is_product.size(); ++n) {
     if (is_product[n]) found.push_back(n);
   }

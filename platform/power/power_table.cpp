@@ -3,6 +3,7 @@
 #include <host/document.h>
 #include <host/process.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace platform::power {
 
@@ -52,8 +54,8 @@ fs::path table_path(const std::string& name) {
 /// The file, with the errors that its reader finds.
 class Reader {
  public:
-  explicit Reader(fs::path path) : path_(std::move(path)) {
-    root_ = host::read_json<Json>(path_, "power table");
+  Reader(fs::path path, std::string_view contents) : path_(std::move(path)) {
+    root_ = host::parse_json<Json>(contents, "power table '" + path_.string() + "'");
     if (!root_.is_object()) refuse("it is not a JSON object");
     only(root_, {"version", "device", "name", "entries"}, "the table");
     if (member(root_, "version", "the table") != version) {
@@ -164,16 +166,20 @@ std::string shortest(double value) {
 }  // namespace
 
 PowerTable PowerTable::load(const std::string& name) {
-  const Reader reader(table_path(name));
-  std::map<std::string, Coefficient> found = reader.entries();
-  PowerTable table;
-  table.name_ = reader.name();
-  for (const KnownCoefficient& known : known_coefficients()) {
-    const auto entry = found.find(known.name);
-    if (entry == found.end()) reader.refuse(std::string("'") + known.name + "' is missing");
-    table.entries_.push_back(std::move(entry->second));
-  }
-  return table;
+  static host::KeptDocuments<PowerTable> read;
+  const fs::path path = table_path(name);
+  return *read.get(path, vp::read_text(path, "power table"), [&](const std::string& text) {
+    const Reader reader(path, text);
+    std::map<std::string, Coefficient> found = reader.entries();
+    PowerTable table;
+    table.name_ = reader.name();
+    for (const KnownCoefficient& known : known_coefficients()) {
+      const auto entry = found.find(known.name);
+      if (entry == found.end()) reader.refuse(std::string("'") + known.name + "' is missing");
+      table.entries_.push_back(std::move(entry->second));
+    }
+    return table;
+  });
 }
 
 const Coefficient& PowerTable::at(const std::string& name) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <pl/blob_labelling/core.h>
+#include <pl/blob_labelling/group_core.h>
 #include <pl/common/estimate.h>
 #include <pl/common/rtl_model.h>
 #include <vp/report.h>
@@ -19,7 +21,10 @@ Models<BlobLabelling>& BlobLabelling::models() {
 }
 
 BlobLabelling::BlobLabelling(sc_core::sc_module_name name, const Site& site)
-    : Clocked(name, site.clk), Ip(&site.clk), geometry_(site.geometry) {
+    : Clocked(name, site.clk),
+      Ip(&site.clk),
+      more_pixels("pixel", site.geometry.pixels_per_clock, this),
+      geometry_(site.geometry) {
   wake_on(ena);
   wake_on(rst);
 }
@@ -28,6 +33,7 @@ void BlobLabelling::connect(IpPorts& ports) {
   ports.input(ena);
   ports.input(rst);
   ports.input(pixel);
+  for (const vp::In<bool>& lane : more_pixels) ports.input(lane);
   ports.input(x, geometry_.words().x_bits());
   ports.input(y, geometry_.words().y_bits());
   ports.output(blob_out);
@@ -48,23 +54,46 @@ void BlobLabelling::refuse(const std::string& why) const {
   vp::error(*this, "/markervp/blob_labelling/frame", why);
 }
 
+std::string BlobLabelling::too_early() const {
+  return "a frame begins too early: " +
+         (geometry_.pixels_per_clock == 1
+              ? std::to_string(geometry_.width + 1) +
+                    " clocks must lie behind the last pixel of the one before"
+              : "the runs of the one before still wait for their turn");
+}
+
+namespace {
+
+std::unique_ptr<RunLabeller> make_core(const Geometry& geometry, std::uint32_t labels,
+                                       std::uint32_t minimum_side, std::uint32_t fifo_depth) {
+  if (geometry.pixels_per_clock == 1)
+    return std::make_unique<LabellingCore>(geometry, labels, minimum_side);
+  return std::make_unique<GroupLabellingCore>(geometry, labels, minimum_side, fifo_depth);
+}
+
+}  // namespace
+
+BlobLabellingClocked::BlobLabellingClocked(sc_core::sc_module_name name, const Site& site)
+    : BlobLabelling(name, site),
+      core_(make_core(geometry_, label_count, minimum_side, run_fifo_depth)) {}
+
 void BlobLabellingClocked::edge() {
   if (rst) return reset();
   const bool frame = ena;
   if (frame) check_place();
-  core_.clock(frame, pixel, x, y);
-  blob_out = core_.shows();
-  if (core_.shows()) show(core_.shown());
-  idle = core_.idle();
-  if (core_.overflow() != label_overflow) label_overflow = core_.overflow();
-  if (!frame && core_.quiescent()) sleep();
+  std::uint32_t dark = pixel;
+  for (std::uint32_t lane = 1; lane < geometry_.pixels_per_clock; ++lane)
+    dark |= std::uint32_t{more_pixels[lane - 1]} << lane;
+  core_->clock(frame, dark, x, y);
+  blob_out = core_->shows();
+  if (core_->shows()) show(core_->shown());
+  idle = core_->idle();
+  if (core_->overflow() != label_overflow) label_overflow = core_->overflow();
+  if (!frame && core_->quiescent()) sleep();
 }
 
 void BlobLabellingClocked::check_place() {
-  if (next_pixel_ == 0 && !core_.ready()) {
-    refuse("a frame begins too early: " + std::to_string(geometry_.width + 1) +
-           " clocks must lie behind the last pixel of the one before");
-  }
+  if (next_pixel_ == 0 && !core_->ready()) refuse(too_early());
   const std::uint32_t place = y * geometry_.width + x;
   if (x >= geometry_.width || place != next_pixel_) {
     refuse("pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") came, but (" +
@@ -72,11 +101,12 @@ void BlobLabellingClocked::check_place() {
            std::to_string(next_pixel_ / geometry_.width) +
            ") is the next one: frames are whole, unless rst cuts them");
   }
-  if (++next_pixel_ == geometry_.pixels()) next_pixel_ = 0;
+  next_pixel_ += geometry_.pixels_per_clock;
+  if (next_pixel_ == geometry_.pixels()) next_pixel_ = 0;
 }
 
 void BlobLabellingClocked::reset() {
-  core_.reset();
+  core_->reset();
   next_pixel_ = 0;
   blob_out = false;
   idle = true;
@@ -84,13 +114,30 @@ void BlobLabellingClocked::reset() {
   sleep();
 }
 
+// With several pixels a clock: the ends of runs and their FIFO, a bank for each that a clock may
+// bring, comparisons of places that lie a clock ahead of the decision, and a memory of the places.
 vp::IpEstimate BlobLabelling::own_estimate() const {
-  return synthesised_ip("blob_labelling", {{"LABELS", label_count}, {"WIDTH", geometry_.width}});
+  const std::uint32_t pixels = geometry_.pixels_per_clock;
+  if (pixels == 1)
+    return synthesised_ip("blob_labelling", {{"LABELS", label_count}, {"WIDTH", geometry_.width}});
+  const marker_logic::WordFormat place = geometry_.words();
+  const std::uint32_t run_bits = 2 * place.x_bits() + place.y_bits(), banks = pixels / 2 + 1;
+  const std::uint32_t key_bits = 8 * (2 * std::max(place.x_bits(), place.y_bits()) + 1);
+  const bool in_lut = run_fifo_depth <= deepest_in_lut;
+  const std::uint32_t fifo_lut = in_lut ? run_bits * banks * ((run_fifo_depth + 63) / 64) : 0;
+  vp::IpEstimate e = grouped_ip(
+      "blob_labelling", 2000 + geometry_.width / 4 + 40 * pixels + 100 + fifo_lut,
+      1800 + run_bits * (banks + 3) + 20 * pixels, 100 * mhz,
+      "places are compared a clock ahead, so that a decision is as long as with one pixel");
+  e.bram36 = 2 * xilinx::block_ram_36(label_count, key_bits) + 2 +
+             xilinx::block_ram_36(geometry_.width, 2 * place.x_bits()) +
+             banks * fifo_memory(run_fifo_depth, run_bits);
+  return e;
 }
 
 BlobLabellingTlm::BlobLabellingTlm(sc_core::sc_module_name name, const Site& site)
     : BlobLabelling(name, site),
-      frame_(geometry_, minimum_side),
+      frame_(geometry_, minimum_side, run_fifo_depth),
       queue_(label_count),
       queue_before_(queue_) {}
 
@@ -138,10 +185,7 @@ std::uint32_t BlobLabellingTlm::lost_until(std::uint64_t cycle) const {
 
 // Blobs of the frame before may still wait to be shown.
 void BlobLabellingTlm::begin(std::uint64_t cycle) {
-  if (begun_ && cycle < over()) {
-    refuse("a frame begins too early: " + std::to_string(geometry_.width + 1) +
-           " clocks must lie behind the last pixel of the one before");
-  }
+  if (begun_ && cycle < frame_.next_from()) refuse(too_early());
   blobs_.erase(blobs_.begin(), blobs_.begin() + static_cast<std::ptrdiff_t>(next_));
   next_ = 0;
   first_ = blobs_.size();
@@ -156,13 +200,13 @@ void BlobLabellingTlm::begin(std::uint64_t cycle) {
 void BlobLabellingTlm::find() {
   losses_.clear();
   frame_.find(frames->data(), begin_, queue_, blobs_, losses_);
-  idle_cycle_ = std::max(over() + 1, queue_.empty_from());
+  idle_cycle_ = std::max(frame_.done_from(), queue_.empty_from());
 }
 
 void BlobLabellingTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
   // A pixel of a frame that begins here only in the next clock is not known yet.
-  if (!begun_ || begin_ + first <= clock().cycle()) return;
-  changed_cycle_ = std::min(changed_cycle_, begin_ + first);
+  if (!begun_ || taken_at(first) <= clock().cycle()) return;
+  changed_cycle_ = std::min(changed_cycle_, taken_at(first));
   wake_at(next_change(clock().cycle()));
 }
 

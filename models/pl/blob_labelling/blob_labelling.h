@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include <pl/blob_labelling/core.h>
 #include <pl/blob_labelling/frame.h>
+#include <pl/blob_labelling/run_labeller.h>
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
+#include <pl/common/lanes.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -23,7 +26,12 @@ class IpPorts;
 /// `rst` cuts it, and the next one begins at least width + 1 clocks behind its last pixel; anything
 /// else ends the run with an error. A blob whose last run ends in column x of row y is shown 9
 /// clocks behind the edge that takes pixel (x, y + 1), if nothing else waits; at most one is shown
-/// in LabellingCore::clocks_per_blob clocks, in the order in which they are complete.
+/// in RunLabeller::clocks_per_blob clocks, in the order in which they are complete.
+///
+/// Where more than a pixel comes a clock, runs wait in a FIFO for their turn (GroupLabellingCore):
+/// the blob is shown 8 clocks behind the edge that takes the end of the first run beyond (x, y +
+/// 1), or of that row, if no other run waits, and the next frame begins when all runs had their
+/// turn.
 class BlobLabelling : public vp::Clocked, public vp::Ip {
  public:
   static Models<BlobLabelling>& models();
@@ -32,6 +40,7 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
   vp::In<bool> rst{"rst", this};
   // The image pixel by pixel.
   vp::In<bool> pixel{"pixel", this};  ///< 1 is dark
+  Lanes<vp::In<bool>> more_pixels;
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
   FrameIn<BinaryFrames> frames{"frames"};  ///< the image as a whole
@@ -43,8 +52,8 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
       vp::Signal<std::uint32_t>{"extreme_4"}, vp::Signal<std::uint32_t>{"extreme_5"},
       vp::Signal<std::uint32_t>{"extreme_6"}, vp::Signal<std::uint32_t>{"extreme_7"}};
   vp::Signal<bool> idle{"idle", 1, true};  ///< no frame, and every blob was shown
-  /// Dark pixels of runs that found no free label since the last reset; complete when `idle` rises,
-  /// and after settle().
+  /// Dark pixels of runs that found no free label, or no room in the FIFO of runs, since the last
+  /// reset; complete when `idle` rises, and after settle().
   vp::Signal<std::uint32_t> label_overflow{"label_overflow"};
 
   vp::Parameter<std::uint32_t> label_count{
@@ -55,6 +64,14 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
       vp::Source::decision,
       "labels, one of which means none: blobs in the row that is looked at and those that wait to "
       "be shown; 512 fill the depth of a block memory"};
+  vp::Parameter<std::uint32_t> run_fifo_depth{
+      "run_fifo_depth",
+      64,
+      vp::Unit::none,
+      {4, 4096},
+      vp::Source::decision,
+      "runs of dark pixels that wait where more than a pixel comes a clock: 64 fill the depth of a "
+      "memory in LUT"};
   vp::Parameter<std::uint32_t> minimum_side{
       "minimum_side",       10,
       vp::Unit::pixels,     {1, 2047},
@@ -72,6 +89,8 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
   void connect(IpPorts& ports);
   void show(const Extremes& extremes);
   [[noreturn]] void refuse(const std::string& why) const;
+  /// What must lie behind a frame's last pixel.
+  std::string too_early() const;
 
  private:
   vp::IpEstimate own_estimate() const override;
@@ -80,23 +99,22 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
 /// Blob Labelling clock by clock.
 class BlobLabellingClocked : public BlobLabelling {
  public:
-  BlobLabellingClocked(sc_core::sc_module_name name, const Site& site)
-      : BlobLabelling(name, site), core_(geometry_, label_count, minimum_side) {}
+  BlobLabellingClocked(sc_core::sc_module_name name, const Site& site);
 
  private:
   void edge() override;
   void reset();
   void check_place();
 
-  LabellingCore core_;
+  const std::unique_ptr<RunLabeller> core_;
   std::uint32_t next_pixel_ = 0;  ///< raster index of the frame's next one
-  vp::Probe<std::uint16_t> label_{"label", [this] { return core_.label(); }, 11};
+  vp::Probe<std::uint16_t> label_{"label", [this] { return core_->label(); }, 11};
   vp::Probe<std::uint16_t> free_labels_{
-      "free_labels", [this] { return static_cast<std::uint16_t>(core_.free_labels()); }, 12};
+      "free_labels", [this] { return static_cast<std::uint16_t>(core_->free_labels()); }, 12};
   vp::Probe<std::uint16_t> waiting_{
-      "waiting", [this] { return static_cast<std::uint16_t>(core_.waiting()); }, 12};
+      "waiting", [this] { return static_cast<std::uint16_t>(core_->waiting()); }, 12};
   vp::Probe<std::uint16_t> open_components_{
-      "open_components", [this] { return static_cast<std::uint16_t>(core_.open_components()); },
+      "open_components", [this] { return static_cast<std::uint16_t>(core_->open_components()); },
       11};
 };
 
@@ -119,8 +137,10 @@ class BlobLabellingTlm final : public BlobLabelling, private FrameListener {
   void emit(std::uint64_t cycle);
   std::uint64_t next_change(std::uint64_t cycle) const;
   std::uint32_t lost_until(std::uint64_t cycle) const;
-  /// The first edge that may take the next frame's first pixel.
-  std::uint64_t over() const { return begin_ + geometry_.pixels() + geometry_.width + 1; }
+  /// The edge that takes this pixel.
+  std::uint64_t taken_at(std::uint32_t pixel) const {
+    return begin_ + pixel / geometry_.pixels_per_clock;
+  }
 
   LabellingFrame frame_;
   LabelQueue queue_, queue_before_;     ///< after the frame; and before it, to find it again

@@ -86,7 +86,7 @@ class BlobStreamClocked : public BlobStream {
   bool dropping_ = false;  ///< the frame under way gets no packet
   bool mixed_ = false;     ///< another one began in it: its blobs are not the packet's
   std::uint32_t number_ = 0, threshold_ = 0, sent_ = 0, lost_ = 0, overflow_before_ = 0;
-  vp::Probe<std::uint32_t> sent_probe_{"sent", sent_, 12};
+  vp::Probe<std::uint32_t> sent_probe_{"sent", sent_, 13};
 };
 
 }  // namespace pl

@@ -44,10 +44,13 @@ void CameraClocked::edge() {
 }
 
 void CameraClocked::send_pixel() {
-  pixel = frame()[row_ * geometry_.width + column_];
+  const std::uint8_t* group = &frame()[row_ * geometry_.width + column_];
+  pixel = *group;
+  for (vp::Signal<std::uint8_t>& next : more_pixels) next = *++group;
   pixel_x = column_;
   pixel_y = row_;
-  if (++column_ == geometry_.width) {
+  column_ = static_cast<std::uint16_t>(column_ + geometry_.pixels_per_clock);
+  if (column_ == geometry_.width) {
     column_ = 0;
     running_ = ++row_ != geometry_.height;
   }
@@ -67,7 +70,7 @@ class CameraTlm final : public Camera {
 void CameraTlm::edge() {
   sleep();
   const std::uint64_t cycle = clock().cycle();
-  const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + geometry_.pixels();
+  const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + geometry_.clocks();
   const bool starts = triggered(under_way);
   if (rst) {
     begin_ = vp::Clock::never;
@@ -78,7 +81,7 @@ void CameraTlm::edge() {
   frame_ena = under_way && cycle > begin_;
   if (starts) begin_ = cycle + clocks_to_frame();
   if (begin_ == vp::Clock::never) return;
-  for (const std::uint64_t next : {begin_, begin_ + 1, begin_ + geometry_.pixels() + 1}) {
+  for (const std::uint64_t next : {begin_, begin_ + 1, begin_ + geometry_.clocks() + 1}) {
     if (next > cycle) return wake_at(next);
   }
 }
@@ -95,6 +98,7 @@ Models<Camera>& Camera::models() {
 Camera::Camera(sc_core::sc_module_name name, const Site& site)
     : Clocked(name, site.clk),
       Ip(&site.clk),
+      more_pixels("pixel", site.geometry.pixels_per_clock),
       pixel_x("pixel_x", site.geometry.words().x_bits()),
       pixel_y("pixel_y", site.geometry.words().y_bits()),
       geometry_(site.geometry),
@@ -146,12 +150,13 @@ void Camera::begin_frame(std::uint64_t cycle) {
   frames.announce();
   before_ = frame_;
   frame_ = exposed_;
-  frames.begin(frame_->data(), geometry_.pixels(), cycle + 1);
+  frames.begin(frame_->data(), geometry_.pixels(), cycle + 1, geometry_.pixels_per_clock);
 }
 
 // The trigger's edge detection, two counters of 32 bits, and a register for each pin of the port.
 vp::IpEstimate Camera::own_estimate() const {
-  vp::IpEstimate e = small_ip("sensor_input", 80, 110, 148 * mhz);
+  const auto more_pins = static_cast<std::uint32_t>(8 * more_pixels.size());
+  vp::IpEstimate e = small_ip("sensor_input", 80, 110 + more_pins, 148 * mhz);
   e.source = "derived from the model's registers";
   e.fmax_high_hz = 0;
   e.fmax_origin = vp::FmaxOrigin::estimated;

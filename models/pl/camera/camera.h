@@ -6,6 +6,7 @@
 
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
+#include <pl/common/lanes.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -13,8 +14,8 @@
 namespace pl {
 
 /// A triggered sensor with a global shutter, behind a parallel port: a rise of `ena` exposes what
-/// it sees for `exposure`; `frame_blanking` clocks later its pixels come, one a clock, line by
-/// line.
+/// it sees for `exposure`; `frame_blanking` clocks later its pixels come, line by line, as many a
+/// clock as the logic takes.
 ///
 /// The sensor stands outside of the chip: its image needs no memory there, and the test bench says
 /// what it sees. In the chip is the port, which drops triggers that come too early, and counts
@@ -36,6 +37,7 @@ class Camera : public vp::Clocked, public vp::Ip {
   vp::Signal<std::uint32_t> dropped_triggers{"dropped_triggers"};  ///< since the system reset
   // Pixel by pixel.
   vp::Signal<std::uint8_t> pixel{"pixel"};
+  Lanes<vp::Signal<std::uint8_t>> more_pixels;
   vp::Signal<std::uint16_t> pixel_x;
   vp::Signal<std::uint16_t> pixel_y;
   // Whole frames.

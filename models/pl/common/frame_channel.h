@@ -38,7 +38,7 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   /// Edges of `clk` behind its last pixel from which on a frame may be overwritten.
   static constexpr std::uint64_t drain_clocks = 8;
 
-  /// `clk`: a pixel leaves on each of its edges.
+  /// `clk`: on each of its edges leaves a pixel, or as many as begin() says.
   FrameChannel(const char* name, vp::Clock& clk) : sc_object(name), clock_(clk) {}
   const char* kind() const override { return "pl::FrameChannel"; }
 
@@ -55,7 +55,9 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   /// Its elements; 0 before the first frame.
   std::uint32_t size() const { return size_; }
   /// The edge on which the pixel of this raster index leaves.
-  std::uint64_t leaves_at(std::uint32_t pixel) const { return first_cycle_ + pixel; }
+  std::uint64_t leaves_at(std::uint32_t pixel) const {
+    return first_cycle_ + pixel / pixels_per_clock_;
+  }
   vp::Clock& clock() const { return clock_; }
   void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
@@ -69,10 +71,12 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
     for (FrameListener* listener : listeners_) listener->frame_begins();
   }
   /// The first pixel leaves on edge `first_cycle`.
-  void begin(const Element* data, std::uint32_t size, std::uint64_t first_cycle) {
+  void begin(const Element* data, std::uint32_t size, std::uint64_t first_cycle,
+             std::uint32_t pixels_per_clock = 1) {
     data_ = data;
     size_ = size;
     first_cycle_ = first_cycle;
+    pixels_per_clock_ = pixels_per_clock;
   }
   void change(std::uint32_t first, std::uint32_t count) {
     for (FrameListener* listener : listeners_) listener->pixels_changed(first, count);
@@ -86,6 +90,7 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   const Element* data_ = nullptr;
   std::uint32_t size_ = 0;
   std::uint64_t first_cycle_ = 0;
+  std::uint32_t pixels_per_clock_ = 1;
   bool taken_whole_ = false;
   std::vector<FrameListener*> listeners_;
 };

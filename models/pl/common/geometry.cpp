@@ -34,6 +34,10 @@ void check(const Geometry& g) {
                          ": the AXI DMA makes bursts of 2, 4, 8, 16, 32, 64, 128 or 256 words; " +
                          "the nearest is " + std::to_string(nearest_burst(g.burst_words)));
   }
+  if (g.pixels_per_clock != 1 && g.pixels_per_clock != 2 && g.pixels_per_clock != 4) {
+    throw vp::InputError("pl.pixels_per_clock is " + std::to_string(g.pixels_per_clock) +
+                         ": the logic takes 1, 2 or 4 pixels a clock, whole parts of a word");
+  }
   if (is_legal_size(g.width, g.height, g.burst_words)) return;
   const auto refuse = [&g](const std::string& why) {
     throw vp::InputError("frames of " + std::to_string(g.width) + "x" + std::to_string(g.height) +

@@ -12,14 +12,20 @@ struct Geometry {
   std::uint32_t width = 640;
   std::uint32_t height = 480;
   std::uint32_t burst_words = marker_logic::usual_burst_words;
+  /// Neighbours in a row that come on one edge; a row is a multiple of them.
+  std::uint32_t pixels_per_clock = 1;
 
   std::uint32_t pixels() const { return width * height; }
+  /// In which a row, and a frame, passes.
+  std::uint32_t clocks_per_row() const { return width / pixels_per_clock; }
+  std::uint32_t clocks() const { return pixels() / pixels_per_clock; }
   /// How features are packed.
   marker_logic::WordFormat words() const { return {width, height}; }
 };
 
-/// Refuses a size that feature words and DMA bursts cannot carry, and a burst that the DMA does not
-/// make (vp::InputError): see marker_logic::is_legal_size() and is_legal_burst().
+/// Refuses a size that feature words and DMA bursts cannot carry, a burst that the DMA does not
+/// make, and other pixels a clock than 1, 2 or 4 (vp::InputError): see
+/// marker_logic::is_legal_size() and is_legal_burst().
 void check(const Geometry& geometry);
 
 /// A word with the pixel clock at which it leaves its module: clock 0 is the edge that takes the

@@ -21,10 +21,12 @@ void GlobalThreshold::connect(IpPorts& ports) {
   ports.input(wr_thresh);
   ports.input(threshold);
   ports.input(pixel);
+  for (const vp::In<std::uint8_t>& lane : more_pixels) ports.input(lane);
   ports.input(x, geometry_.words().x_bits());
   ports.input(y, geometry_.words().y_bits());
   ports.output(binary_ena);
   ports.output(binary_out, &binary_ena);
+  for (vp::Signal<bool>& lane : more_binary) ports.output(lane, &binary_ena);
   ports.output(binary_x, &binary_ena);
   ports.output(binary_y, &binary_ena);
   ports.output(thresh_out);
@@ -43,7 +45,7 @@ void GlobalThresholdClocked::edge() {
   binary_ena = frame;
   thresh_out = false;
   const bool frame_ended = !frame && frame_before_;
-  if (frame) take_pixel();
+  if (frame) take_pixels();
   if (frame_ended) end_frame(clock().cycle());
   const std::uint64_t next = frame ? vp::Clock::never : pass_time(clock().cycle());
   if (wr_thresh) core_.set_threshold(threshold);  // wins over the frame's own
@@ -55,17 +57,23 @@ void GlobalThresholdClocked::edge() {
   frame_before_ = frame;
 }
 
-void GlobalThresholdClocked::take_pixel() {
-  const bool dark = core_.push(pixel);
-  const std::uint16_t column = x;
-  binary_out = dark;
-  binary_x = column;
+void GlobalThresholdClocked::take_pixels() {
+  const std::uint32_t column = x;
+  binary_out = take_pixel(pixel);
+  for (std::size_t lane = 0; lane < more_pixels.size(); ++lane)
+    more_binary[lane] = take_pixel(more_pixels[lane]);
+  binary_x = static_cast<std::uint16_t>(column);
   binary_y = y;
-  word_ = word_ >> 1 | std::uint32_t{dark} << 31;
-  if (column % 32 == 31) {
+  if ((column + geometry_.pixels_per_clock) % 32 == 0) {
     thresh_out = true;
     thresh_data = word_;
   }
+}
+
+bool GlobalThresholdClocked::take_pixel(std::uint8_t grey) {
+  const bool dark = core_.push(grey);
+  word_ = word_ >> 1 | std::uint32_t{dark} << 31;
+  return dark;
 }
 
 void GlobalThresholdClocked::reset() {
@@ -82,6 +90,10 @@ void GlobalThresholdClocked::reset() {
 // The histogram is cleared in one clock, so its 256 counters are registers, each as wide as the
 // number of pixels, read through a multiplexer.
 vp::IpEstimate GlobalThreshold::own_estimate() const {
+  if (const std::uint32_t more = geometry_.pixels_per_clock - 1; more > 0) {
+    return grouped_ip("global_threshold", 600 + 600 * more, 402 + 120 * more, 50 * mhz,
+                      "each pixel of a clock may be the peak that the next one is compared with");
+  }
   vp::IpEstimate e = rtl_ip("global_threshold");
   e.fmax_documentation = "runs comfortably at 100 MHz (thesis 4.6.1)";
   return e;
@@ -126,7 +138,8 @@ void GlobalThresholdTlm::begin(std::uint64_t cycle) {
   frame_.begin(frames->data());
   frame_.advance(geometry_.pixels());
   const std::vector<std::uint32_t>& words = frame_.words();
-  binary_frames.begin(words.data(), static_cast<std::uint32_t>(words.size()), cycle);
+  binary_frames.begin(words.data(), static_cast<std::uint32_t>(words.size()), cycle,
+                      geometry_.pixels_per_clock);
 }
 
 void GlobalThresholdTlm::end(std::uint64_t cycle) {
@@ -139,7 +152,7 @@ void GlobalThresholdTlm::load(std::uint64_t cycle) {
   if (frame_.threshold() == threshold) return;
   frame_.set_threshold(threshold);
   if (!running_) return;
-  const std::uint64_t next_pixel = cycle + 1 - first_cycle_;
+  const std::uint64_t next_pixel = (cycle + 1 - first_cycle_) * geometry_.pixels_per_clock;
   if (next_pixel >= geometry_.pixels()) return;
   const auto pixel = static_cast<std::uint32_t>(next_pixel);
   frame_.rewind(pixel);
@@ -149,7 +162,7 @@ void GlobalThresholdTlm::load(std::uint64_t cycle) {
 
 void GlobalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t count) {
   // A pixel of a frame that begins here only in the next clocks is not known yet.
-  if (!running_ || first_cycle_ + first <= clock().cycle()) return;
+  if (!running_ || binary_frames.leaves_at(first) <= clock().cycle()) return;
   frame_.refresh(first, count);
   binary_frames.change(first, count);
 }

@@ -4,6 +4,7 @@
 
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
+#include <pl/common/lanes.h>
 #include <pl/global_threshold/core.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -33,9 +34,11 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
 
   // The images pixel by pixel.
   vp::In<std::uint8_t> pixel{"pixel", this};
+  Lanes<vp::In<std::uint8_t>> more_pixels;
   vp::In<std::uint16_t> x{"x", this};
   vp::In<std::uint16_t> y{"y", this};
   vp::Signal<bool> binary_out{"binary_out"};  ///< 1 is dark
+  Lanes<vp::Signal<bool>> more_binary;
   vp::Signal<std::uint16_t> binary_x;
   vp::Signal<std::uint16_t> binary_y;
   // The images as a whole.
@@ -46,6 +49,8 @@ class GlobalThreshold : public vp::Clocked, public vp::Ip {
   GlobalThreshold(sc_core::sc_module_name name, const Site& site)
       : Clocked(name, site.clk),
         Ip(&site.clk),
+        more_pixels("pixel", site.geometry.pixels_per_clock, this),
+        more_binary("binary_out", site.geometry.pixels_per_clock),
         binary_x("binary_x", site.geometry.words().x_bits()),
         binary_y("binary_y", site.geometry.words().y_bits()),
         geometry_(site.geometry) {
@@ -85,7 +90,8 @@ class GlobalThresholdClocked : public GlobalThreshold {
  private:
   void edge() override;
   void reset();
-  void take_pixel();
+  void take_pixels();
+  bool take_pixel(std::uint8_t grey);
 
   bool frame_before_ = false;
   std::uint32_t word_ = 0;

@@ -5,6 +5,7 @@
 
 #include <marker_logic.h>
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <vp/error.h>
 #include <vp/report.h>
 
@@ -90,7 +91,7 @@ void find_dark(const std::uint8_t* image, const Geometry& geometry, const LocalR
 
 namespace {
 
-class LocalThresholdClocked final : public LocalThreshold {
+class LocalThresholdClocked : public LocalThreshold {
  public:
   LocalThresholdClocked(sc_core::sc_module_name name, const Site& site)
       : LocalThreshold(name, site), core_(geometry_, radius) {}
@@ -99,11 +100,12 @@ class LocalThresholdClocked final : public LocalThreshold {
   void edge() override;
   void begin();
   void move_pipeline();
+  void take_pixels();
 
   LocalThresholdCore core_;
   std::uint64_t taken_ = 0;     ///< clocks since the frame began: pixels, then nothing
   bool running_ = false;        ///< a frame goes in, or leaves
-  std::uint32_t pipeline_ = 0;  ///< of the last clocks, whether a dark pixel left the window
+  std::uint32_t pipeline_ = 0;  ///< whether the pixels that left the window last are dark
 };
 
 void LocalThresholdClocked::edge() {
@@ -111,10 +113,10 @@ void LocalThresholdClocked::edge() {
     running_ = false;
     return sleep();
   }
-  const std::uint64_t pixels = geometry_.pixels();
-  if (taken_ == pixels + lag()) running_ = false;
-  if (frame_ena && (!running_ || taken_ >= pixels)) begin();
-  if (running_ && !frame_ena && taken_ < pixels) refuse(cut);
+  const std::uint64_t frame = geometry_.clocks();
+  if (taken_ == frame + lag()) running_ = false;
+  if (frame_ena && (!running_ || taken_ >= frame)) begin();
+  if (running_ && !frame_ena && taken_ < frame) refuse(cut);
   if (running_) move_pipeline();
   binary_ena = running_ && taken_ > lag();
   if (!running_) sleep();
@@ -128,19 +130,29 @@ void LocalThresholdClocked::begin() {
 }
 
 void LocalThresholdClocked::move_pipeline() {
-  if (taken_ < geometry_.pixels()) {
-    core_.push(pixel);
-  } else {
-    core_.push_nothing();
-  }
-  pipeline_ = pipeline_ << 1 | std::uint32_t{core_.dark()};
+  take_pixels();
   if (taken_ >= lag()) {
-    const auto place = static_cast<std::uint32_t>(taken_ - lag());
-    binary_out = (pipeline_ >> pipeline_clocks & 1) != 0;
+    const std::uint32_t a_clock = geometry_.pixels_per_clock;
+    const auto place = static_cast<std::uint32_t>(taken_ - lag()) * a_clock;
+    const std::uint32_t leaving = pipeline_ >> pipeline_clocks * a_clock;  // the last one in bit 0
+    binary_out = (leaving >> (a_clock - 1) & 1) != 0;
+    for (std::uint32_t lane = 1; lane < a_clock; ++lane)
+      more_binary[lane - 1] = (leaving >> (a_clock - 1 - lane) & 1) != 0;
     binary_x = static_cast<std::uint16_t>(place % geometry_.width);
     binary_y = static_cast<std::uint16_t>(place / geometry_.width);
   }
   ++taken_;
+}
+
+void LocalThresholdClocked::take_pixels() {
+  for (std::uint32_t lane = 0; lane < geometry_.pixels_per_clock; ++lane) {
+    if (taken_ < geometry_.clocks()) {
+      core_.push(lane == 0 ? pixel : more_pixels[lane - 1]);
+    } else {
+      core_.push_nothing();
+    }
+    pipeline_ = pipeline_ << 1 | std::uint32_t{core_.dark()};
+  }
 }
 
 /// A frame's binary image when the frame begins; it leaves later, as a whole.
@@ -173,29 +185,30 @@ void LocalThresholdTlm::edge() {
   }
   const std::uint64_t cycle = clock().cycle();
   if (frame_ena && !taking_) begin(cycle);
-  if (!frame_ena && taking_ && cycle < first_cycle_ + geometry_.pixels()) refuse(cut);
+  if (!frame_ena && taking_ && cycle < first_cycle_ + geometry_.clocks()) refuse(cut);
   taking_ = frame_ena;
   if (first_cycle_ == vp::Clock::never) return wake_at(vp::Clock::never);
-  const std::uint64_t leaves = first_cycle_ + lag(), left = leaves + geometry_.pixels();
+  const std::uint64_t leaves = first_cycle_ + lag(), left = leaves + geometry_.clocks();
   binary_ena = leaves <= cycle && cycle < left;
   wake_at(cycle < leaves ? leaves : cycle < left ? left : vp::Clock::never);
 }
 
 void LocalThresholdTlm::begin(std::uint64_t cycle) {
-  if (first_cycle_ != vp::Clock::never && cycle < first_cycle_ + geometry_.pixels() + lag())
+  if (first_cycle_ != vp::Clock::never && cycle < first_cycle_ + geometry_.clocks() + lag())
     refuse(too_early);
   first_cycle_ = cycle;
   rule_ = rule();
   binary_frames.announce();
   find_dark(frames->data(), geometry_, rule_, words_);
-  binary_frames.begin(words_.data(), static_cast<std::uint32_t>(words_.size()), cycle + lag());
+  binary_frames.begin(words_.data(), static_cast<std::uint32_t>(words_.size()), cycle + lag(),
+                      geometry_.pixels_per_clock);
 }
 
 void LocalThresholdTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
   // A pixel of a frame that begins here only in the next clocks is not known yet.
-  if (!taking_ || first_cycle_ + first <= clock().cycle()) return;
+  if (!taking_ || first_cycle_ + first / geometry_.pixels_per_clock <= clock().cycle()) return;
   find_dark(frames->data(), geometry_, rule_, words_);
-  const auto before = static_cast<std::uint32_t>(lag() - pipeline_clocks);
+  const std::uint32_t before = LocalThresholdCore::lag(geometry_, radius);
   const std::uint32_t from = std::max(first, before) - before;
   binary_frames.change(from, geometry_.pixels() - from);
 }
@@ -206,16 +219,24 @@ Models<GlobalThreshold>& LocalThreshold::models() {
   static Models<GlobalThreshold> models{
       "local_threshold",
       {model<GlobalThreshold, LocalThresholdClocked>("clocked", by_pixel, by_pixel),
-       model<GlobalThreshold, LocalThresholdTlm>("tlm", by_frame, by_frame)}};
+       model<GlobalThreshold, LocalThresholdTlm>("tlm", by_frame, by_frame)},
+      rtl_model<GlobalThreshold, LocalThresholdClocked, LocalThreshold>()};
   return models;
 }
 
+void LocalThreshold::connect(IpPorts& ports) {
+  GlobalThreshold::connect(ports);
+  ports.parameter("RADIUS", radius.name(), radius);
+  ports.parameter("OFFSET", offset.name(), offset);
+}
+
 // The next frame may come at once behind the lag, and the window turns into the next row while the
-// last one leaves: it must be narrower than both.
+// last one leaves: it must be narrower than both, by the pixels that come beside the last one, too.
 LocalThreshold::LocalThreshold(sc_core::sc_module_name name, const Site& site)
     : GlobalThreshold(name, site) {
   wake_on(threshold);
-  const std::uint32_t window = 2 * radius + 1, least = std::min(geometry_.width, geometry_.height);
+  const std::uint32_t window = 2 * radius + 1, beside = geometry_.pixels_per_clock - 1,
+                      least = std::min(geometry_.width - beside, geometry_.height);
   if (window < least) return;
   throw vp::InputError(std::string(radius.name()) + ": a window of " + std::to_string(window) +
                        " px does not fit into frames of " + std::to_string(geometry_.width) + "x" +
@@ -234,22 +255,24 @@ bool LocalThreshold::resets() {
 
 void LocalThreshold::refuse(const std::string& why) const {
   vp::error(*this, "/markervp/local_threshold/frame",
-            why + ": a frame takes " + std::to_string(geometry_.pixels() + lag()) + " clocks here");
+            why + ": a frame takes " + std::to_string(geometry_.clocks() + lag()) + " clocks here");
 }
 
-// Line buffers in block memory; a column's sum is kept once for its way in, and once in a shift
-// register until the window has passed.
+// The pixels of the window's rows, before and behind its middle, and the sums of all columns, as
+// wide as what a clock brings; each pixel of it has sums and products of its own.
 vp::IpEstimate LocalThreshold::own_estimate() const {
-  const std::uint32_t window = 2 * radius + 1;
-  const std::uint32_t sum_bits = 8 + marker_logic::bits_for(window + 1, 1);
-  vp::IpEstimate e =
-      small_ip("local_threshold", 180 + 2 * sum_bits * (window / 32 + 1), 260, 100 * mhz);
-  e.bram36 = xilinx::block_ram_36(window * geometry_.width, 8) +
-             xilinx::block_ram_36(geometry_.width, sum_bits);
-  e.dsp = 2;
-  e.source = "derived from the model's registers";
-  e.fmax_origin = vp::FmaxOrigin::estimated;
-  e.fmax_documentation = "two additions and a product, a register behind each";
+  const std::uint32_t pixels = geometry_.pixels_per_clock;
+  vp::IpEstimate e = synthesised_ip("local_threshold", {{"RADIUS", radius}});
+  if (pixels > 1) {
+    e = grouped_ip("local_threshold", 320 * pixels, 310 * pixels, 100 * mhz,
+                   "sums and products of each pixel, a register behind each");
+    e.dsp = 2 * pixels;
+  }
+  const std::uint32_t window = 2 * radius + 1, row = geometry_.clocks_per_row();
+  const std::uint32_t lag = LocalThresholdCore::lag(geometry_, radius) / pixels;
+  e.bram36 = xilinx::block_ram_36(lag, 8 * pixels) +
+             xilinx::block_ram_36(window * row - lag, 8 * pixels) +
+             xilinx::block_ram_36(row, marker_logic::bits_for(255 * window + 1, 1) * pixels);
   return e;
 }
 

@@ -22,16 +22,20 @@ struct LocalRule {
   }
 };
 
-/// The rule as the hardware applies it: a pixel a clock goes into the line buffers, and the one in
-/// the middle of the window leaves.
+/// The rule as the hardware applies it, pixel by pixel: one goes into the line buffers, and the one
+/// in the middle of the window leaves.
 class LocalThresholdCore {
  public:
   explicit LocalThresholdCore(const Geometry& geometry, std::uint32_t radius);
 
   /// A new frame.
   void begin(const LocalRule& rule);
-  /// Pixels that go in before the first one comes out.
-  std::uint32_t lag() const { return radius_ * geometry_.width + radius_; }
+  /// Pixels that go in before the first one comes out: those of whole clocks.
+  std::uint32_t lag() const { return lag(geometry_, radius_); }
+  static std::uint32_t lag(const Geometry& geometry, std::uint32_t radius) {
+    const std::uint32_t a_clock = geometry.pixels_per_clock;
+    return (radius * geometry.width + radius + a_clock - 1) / a_clock * a_clock;
+  }
   /// Takes the next pixel of the frame.
   void push(std::uint8_t pixel);
   /// After the last one: what is in the line buffers moves on by a pixel.
@@ -92,9 +96,13 @@ class LocalThreshold : public GlobalThreshold {
  protected:
   LocalThreshold(sc_core::sc_module_name name, const Site& site);
 
+  /// All ports but the clock, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
   /// From the edge that takes a pixel to the one that lets it leave.
   std::uint64_t lag() const {
-    return std::uint64_t{radius} * geometry_.width + radius + pipeline_clocks;
+    return LocalThresholdCore::lag(geometry_, radius) / geometry_.pixels_per_clock +
+           pipeline_clocks;
   }
   /// Resets and loads on this edge. True: nothing else happens.
   bool resets();

@@ -40,6 +40,12 @@ void PixelStreamCore::cut() {
   ++cut_frames_;
 }
 
+void PixelStreamCore::take_back() {
+  words_ -= held();
+  fifo_.clear();
+  valid_ = false;
+}
+
 void PixelStreamCore::skip(std::uint32_t count) {
   words_ += count;
   passing_ = words_ != frame_words_;

@@ -35,10 +35,12 @@ class PixelStreamCore {
   std::uint32_t fifo_count() const { return static_cast<std::uint32_t>(fifo_.size()); }
   /// Words that the packet still waits for.
   std::uint32_t missing() const { return passing_ ? frame_words_ - words_ : 0; }
-  /// Nothing waits: words that come now pass through, one clock in the FIFO and one in the
-  /// register.
-  bool passes_through() const { return passing_ && !valid_ && fifo_.empty(); }
-  /// `count` words passed through; fewer than missing(), or all.
+  /// Words in FIFO and register.
+  std::uint32_t held() const { return fifo_count() + (valid_ ? 1 : 0); }
+  /// Those held are as if they had not come yet.
+  void take_back();
+  /// Nothing is held: `count` words passed through, one clock in the FIFO and one in the register;
+  /// fewer than missing(), or all.
   void skip(std::uint32_t count);
 
   std::uint32_t dropped_frames() const { return dropped_frames_; }

@@ -4,6 +4,7 @@
 
 #include <pl/common/fidelity.h>
 #include <pl/common/frame_channel.h>
+#include <pl/common/lanes.h>
 #include <pl/pixel_stream/core.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
@@ -29,6 +30,7 @@ class PixelStream : public vp::Clocked, public vp::Ip {
   vp::In<bool> rst{"rst", this};
   vp::In<bool> ena{"ena", this};  ///< the camera's frame_ena
   vp::In<std::uint8_t> pixel{"pixel", this};
+  Lanes<vp::In<std::uint8_t>> more_pixels;
   FrameIn<GreyFrames> frames{"frames"};  ///< in place of `pixel`
   vp::AxiStreamMaster m{"m", *this};
 
@@ -53,9 +55,9 @@ class PixelStream : public vp::Clocked, public vp::Ip {
   void drive();
 
   PixelStreamCore core_;
+  const Geometry geometry_;
 
  private:
-  const Geometry geometry_;
   vp::IpEstimate own_estimate() const override;
 
   vp::Probe<std::uint32_t> fifo_count_{"fifo_count", [this] { return core_.fifo_count(); }, 17};

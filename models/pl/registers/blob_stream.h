@@ -43,8 +43,9 @@ enum Trailer : std::uint32_t {
 };
 inline constexpr std::uint32_t trailer_words = 4;
 
-/// More blobs of a frame are dropped and counted as lost: the longest packet has a bound.
-inline constexpr std::uint32_t max_blobs = 4095;
+/// More blobs of a frame are dropped and counted as lost: the longest packet has a bound, what a
+/// LENGTH of 18 bits counts.
+inline constexpr std::uint32_t max_blobs = 8191;
 
 constexpr std::uint32_t packet_words(std::uint32_t blobs) {
   return blobs * words_per_blob + trailer_words;

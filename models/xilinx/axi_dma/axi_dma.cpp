@@ -50,7 +50,8 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                "build option Allow Unaligned Transfers, write channel (PG021)"),
       burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
                   "largest burst in words (thesis 4.4.2: 32)"),
-      s_axi_lite("s_axi_lite", registers, bank_options(), &aclk.scheduler()) {
+      s_axi_lite("s_axi_lite", registers, bank_options(), &aclk.scheduler()),
+      memory_words_(build.memory_words) {
   if (!include_mm2s && !include_s2mm) {
     throw vp::InputError(std::string(this->name()) +
                          ": include_mm2s and include_s2mm are both false: build one");
@@ -76,6 +77,11 @@ vp::IpEstimate AxiDma::own_estimate() const {
   vp::IpEstimate e =
       axi_estimate("axi_dma", 250 + 900 * channels + sg * (400 + 350 * channels),
                    300 + 1300 * channels + sg * (500 + 450 * channels), 1.0 * channels);
+  if (memory_words_ > 1) {  // registers and multiplexers for another word, no deeper a memory
+    e.lut += 250;
+    e.ff += 400;
+    e.uncertainty_percent = 50;
+  }
   e.active_clocks = [this] { return beats(); };
   return e;
 }
@@ -90,7 +96,7 @@ void AxiDma::build_channels() {
   DmaChannel::Core& core = *this;
   if (include_mm2s) {
     mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, burst_beats);
-    mm2s_->configure(length_width, mm2s_dre);
+    mm2s_->configure(length_width, mm2s_dre ? 1 : word_bytes);
     interrupts_.push_back({mm2s_.get(), &mm2s_introut});
   } else {
     for (const std::uint32_t offset :
@@ -100,8 +106,8 @@ void AxiDma::build_channels() {
     }
   }
   if (include_s2mm) {
-    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats);
-    s2mm_->configure(length_width, s2mm_dre);
+    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats, memory_words_);
+    s2mm_->configure(length_width, s2mm_dre ? 1 : word_bytes * memory_words_);
     interrupts_.push_back({s2mm_.get(), &s2mm_introut});
   } else {
     for (const std::uint32_t offset :

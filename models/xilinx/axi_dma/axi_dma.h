@@ -30,10 +30,14 @@ struct AxiDmaBuild {
   bool mm2s_dre = false;  ///< data realignment engine: unaligned addresses
   bool s2mm_dre = false;
   std::uint32_t burst_beats = 32;
+  /// Words that a clock writes to memory: Memory Map Data Width is 32 bits, or 64 behind a stream
+  /// of 32 (PG021).
+  std::uint32_t memory_words = 1;
 };
 
 /// AXI DMA v7.1 (PG021) in direct register mode or with scatter-gather, register-accurate, 32-bit
-/// memory and stream, one clock; without the control and status streams and several channels.
+/// memory and stream (or 64-bit memory behind S2MM), one clock; without the control and status
+/// streams and several channels.
 ///
 ///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
 ///   dma.s2mm().s_axis(link); with include_sg dma.scatter_gather().m_axi.link.socket.bind(...);
@@ -110,6 +114,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();
 
+  const std::uint32_t memory_words_;
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;
   std::unique_ptr<ScatterGather> scatter_gather_;

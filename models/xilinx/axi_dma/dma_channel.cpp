@@ -143,10 +143,10 @@ DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offset
 
 DmaChannel::~DmaChannel() = default;
 
-void DmaChannel::configure(std::uint32_t length_width, bool unaligned) {
+void DmaChannel::configure(std::uint32_t length_width, unsigned alignment) {
   length_width_ = length_width;
   length.set_writable((1u << length_width) - 1);
-  unaligned_ = unaligned;
+  alignment_ = alignment;
 }
 
 void DmaChannel::use(ScatterGather& engine) {
@@ -273,11 +273,12 @@ void DmaChannel::start(std::uint64_t cycle) {
 }
 
 std::uint32_t DmaChannel::aligned(std::uint32_t address) const {
-  if (unaligned_ || address % word_bytes == 0) return address;
-  core_.warn("/markervp/axi_dma/unaligned", name_ + " address " + vp::hex(address) +
-                                                " is not a multiple of 4 and this build has no "
-                                                "realignment engine: the low bits are dropped");
-  return address - address % word_bytes;
+  if (address % alignment_ == 0) return address;
+  core_.warn("/markervp/axi_dma/unaligned",
+             name_ + " address " + vp::hex(address) + " is not a multiple of " +
+                 std::to_string(alignment_) +
+                 " and this build has no realignment engine: the low bits are dropped");
+  return address - address % alignment_;
 }
 
 void DmaChannel::finish(std::uint64_t cycle, std::uint32_t status, bool ends_packet) {

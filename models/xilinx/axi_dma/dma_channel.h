@@ -171,8 +171,9 @@ class DmaChannel {
   vp::Register& address_msb;
   vp::Register& length;
 
-  /// Bits of LENGTH, and whether the address may be unaligned (data realignment engine).
-  void configure(std::uint32_t length_width, bool unaligned);
+  /// Bits of LENGTH, and of what the address must be a multiple: bytes, 1 with a data realignment
+  /// engine.
+  void configure(std::uint32_t length_width, unsigned alignment);
   /// Descriptors say what is to be moved, instead of the address and LENGTH registers. After
   /// configure().
   void use(ScatterGather& engine);
@@ -300,7 +301,7 @@ class DmaChannel {
   std::uint32_t control_ = 0;             ///< DMACR before the last write
   TransferListener transfer_listener_;
   const bool counts_at_rest_;
-  bool unaligned_ = false;
+  unsigned alignment_ = 1;
   std::uint32_t length_width_ = 0;
   Phase phase_ = Phase::idle;
   std::uint32_t requested_bytes_ = 0;

@@ -18,12 +18,13 @@ constexpr DmaChannel::Offsets s2mm_offsets{S2MM_DMACR, S2MM_DMASR,  S2MM_CURDESC
 }  // namespace
 
 S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
-                         std::uint32_t burst_beats)
+                         std::uint32_t burst_beats, std::uint32_t memory_words)
     : DmaChannel(core, bank, s2mm_offsets, "S2MM", true),
       m_axi("m_axi_s2mm", owner.clock().scheduler()),
       s_axis("s_axis_s2mm", owner),
       burst_size_(burst_beats * word_bytes),
-      fifo_beats_(fifo_bursts * burst_beats) {
+      fifo_beats_(fifo_bursts * burst_beats),
+      memory_words_(memory_words) {
   owner.wake_on(s_axis.tvalid);
   s_axis.accept_source();
 }
@@ -168,12 +169,13 @@ void S2mmChannel::close_burst(std::uint64_t cycle) {
   ++transfers_.back().bursts;
 }
 
-// Beats in the FIFO after edge `cycle`: those of the burst on the bus leave one by one.
+// Beats in the FIFO after edge `cycle`: those of the burst on the bus leave one by one, or as many
+// a clock as the memory is wide.
 unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
   unsigned written = 0;
   if (bus_ == Bus::busy && cycle > burst_start_) {
-    written =
-        static_cast<unsigned>(std::min<std::uint64_t>(cycle - burst_start_, bursts_.front().beats));
+    written = static_cast<unsigned>(
+        std::min<std::uint64_t>((cycle - burst_start_) * memory_words_, bursts_.front().beats));
   } else if (bus_ == Bus::answering) {
     written = bursts_.front().beats;
   }
@@ -201,7 +203,7 @@ void S2mmChannel::drive_bus(std::uint64_t cycle) {
 
 void S2mmChannel::start_burst(std::uint64_t cycle) {
   burst_start_ = std::max(cycle, m_axi.path().write_free);
-  burst_end_ = burst_start_ + bursts_.front().beats;
+  burst_end_ = burst_start_ + (bursts_.front().beats + memory_words_ - 1) / memory_words_;
   m_axi.path().write_free = burst_end_;
   bus_ = Bus::busy;
 }

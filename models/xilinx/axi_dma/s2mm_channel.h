@@ -15,7 +15,9 @@ namespace xilinx {
 /// TREADY is low without a transfer: data waits at the master, nothing is lost.
 class S2mmChannel : public DmaChannel {
  public:
-  S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats);
+  /// `memory_words`: that a clock writes to memory.
+  S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats,
+              std::uint32_t memory_words);
 
   MemoryPort m_axi;
   vp::AxiStreamSlave s_axis;
@@ -66,6 +68,7 @@ class S2mmChannel : public DmaChannel {
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_beats_;
+  const unsigned memory_words_;
   std::uint64_t write_address_ = 0;  ///< of the burst being collected
   std::uint32_t capacity_ = 0;       ///< LENGTH
   std::uint32_t received_ = 0;       ///< bytes taken that LENGTH has room for

@@ -18,6 +18,11 @@ Pose pose_of(const marker::BoardPose& pose) {
           Eigen::Vector3d::Map(pose.translation.data())};
 }
 
+std::optional<report::PoseMotion> motion_of(const marker::PoseMotion& motion) {
+  if (motion.frames == 0) return std::nullopt;
+  return report::PoseMotion{motion.frames, motion.velocity, motion.turn_rate};
+}
+
 report::FoundMarker found_marker(const marker::Detection& detection) {
   const marker::DetectedMarker& m = detection.marker;
   report::FoundMarker found;
@@ -27,6 +32,7 @@ report::FoundMarker found_marker(const marker::Detection& detection) {
   if (!found.has_pose) return found;
   found.pose = pose_of(detection.pose.best);
   found.covariance = detection.pose.best.covariance;
+  found.motion = motion_of(detection.motion);
   return found;
 }
 
@@ -92,7 +98,8 @@ void ImprovedDesign::fill_in(report::FrameReport& frame, std::uint64_t now_ps) c
     frame.markers.push_back(found_marker(result_.found.markers[i]));
   const marker::BoardPoses& board = result_.found.board;
   if (board.valid) {
-    frame.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance};
+    frame.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance,
+                   motion_of(result_.found.board_motion)};
   }
   frame.end_ps = now_ps;
 }
@@ -123,7 +130,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
   const Sent& sent = sent_[result_.camera_frame % sent_.size()];
   if (sent.number != result_.camera_frame || sent.end_ps < frame.start_ps) return;
   const auto between = [](const char* name, std::uint64_t from_ps, std::uint64_t to_ps,
-                          const char* part_of, const char* why) {
+                          const char* part_of, const std::string& why) {
     report::StageTime shown;
     shown.name = name;
     shown.ps = to_ps - std::min(from_ps, to_ps);
@@ -132,10 +139,13 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
     shown.why = why;
     return shown;
   };
+  const std::string rate = pixels_per_clock == 1
+                               ? std::string("one pixel a clock")
+                               : std::to_string(pixels_per_clock) + " pixels a clock";
   report::StageTime capture =
       between("capture", frame.start_ps, sent.end_ps, "frame",
-              camera.exposure == 0 ? "one pixel a clock, so it lasts as long as the image does"
-                                   : "the exposure (pl.camera.exposure), then one pixel a clock");
+              camera.exposure == 0 ? rate + ", so it lasts as long as the image does"
+                                   : "the exposure (pl.camera.exposure), then " + rate);
   capture.clock = "ps.fclk_clk0";
   frame.times.insert(
       frame.times.begin(),
@@ -158,6 +168,17 @@ void ImprovedDesign::note_dropped() {
   counted_ = now;
 }
 
+namespace {
+
+/// More than one pixel a clock brings another FIFO.
+std::string lost_in_logic_warning(std::uint32_t pixels_per_clock) {
+  return std::string("blobs dropped or dark pixels without label: pl.blob_labelling.label_count") +
+         (pixels_per_clock == 1 ? "" : ", pl.blob_labelling.run_fifo_depth") +
+         " or pl.blob_stream.fifo_depth is too small";
+}
+
+}  // namespace
+
 void ImprovedDesign::add_counts(report::FrameReport& frame) {
   const marker::Detections& found = result_.found;
   frame.counts.set("blobs", found.blobs.received);
@@ -168,9 +189,7 @@ void ImprovedDesign::add_counts(report::FrameReport& frame) {
     frame.counts.lose(name, count);
     if (count != 0) frame.warnings.push_back(std::to_string(count) + " " + warning);
   };
-  lose("lost_in_logic", result_.lost_in_logic,
-       "blobs dropped or dark pixels without label: pl.blob_labelling.label_count or "
-       "pl.blob_stream.fifo_depth is too small");
+  lose("lost_in_logic", result_.lost_in_logic, lost_in_logic_warning(pixels_per_clock));
   lose("lost_markers", found.blobs.lost, "markers without room in the software");
   lose("malformed", found.blobs.malformed, "blobs that cannot be: outside of the picture");
   lose("dropped_triggers", dropped[0], "triggers dropped: a frame was under way");

@@ -9,9 +9,11 @@ namespace platform {
 
 namespace {
 
-/// An engine that writes packets of up to `bytes` into the DDR.
-xilinx::AxiDmaBuild packet_writer(std::uint32_t bytes, std::uint32_t burst_words) {
+/// An engine that writes packets of up to `bytes` into the DDR, a word a clock or two.
+xilinx::AxiDmaBuild packet_writer(std::uint32_t bytes, std::uint32_t burst_words,
+                                  std::uint32_t words_per_clock = 1) {
   xilinx::AxiDmaBuild build;
+  build.memory_words = words_per_clock;
   build.include_mm2s = false;
   build.burst_beats = burst_words;
   build.length_width = marker_logic::bits_for(bytes + 1, 14);
@@ -22,6 +24,11 @@ xilinx::AxiGpioBuild control_outputs() {
   xilinx::AxiGpioBuild build;
   build.gpio.direction = xilinx::GpioDirection::all_outputs;
   return build;
+}
+
+/// A stream without a pause needs time for the gaps between bursts: 64 bits of memory a clock.
+std::uint32_t memory_words(const pl::Geometry& geometry) {
+  return geometry.pixels_per_clock < pl::PixelStream::pixels_per_word ? 1 : 2;
 }
 
 const pl::Models<pl::GlobalThreshold>& thresholds(const std::string& rule) {
@@ -59,7 +66,8 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
       axi_interconnect("axi_interconnect", clk),
       axi_mem_interconnect("axi_mem_interconnect", clk),
       axi_gpio_0("axi_gpio_0", clk, control_outputs()),
-      axi_dma_0("axi_dma_0", clk, packet_writer(geometry().pixels(), burst_words)),
+      axi_dma_0("axi_dma_0", clk,
+                packet_writer(geometry().pixels(), burst_words, memory_words(geometry()))),
       axi_dma_1("axi_dma_1", clk, packet_writer(::blob_stream::max_packet_bytes, burst_words)),
       concat("concat", 2) {
   control_block.set_logic_clock(clk);
@@ -83,11 +91,13 @@ void ImprovedLogic::connect_pixels() {
   camera.hold(blob_stream.busy);
   pixel_stream.ena(camera.frame_ena);
   pixel_stream.pixel(camera.pixel);
+  pixel_stream.more_pixels(camera.more_pixels);
   threshold.por(proc_sys_reset.peripheral_reset);
   threshold.wr_thresh(control_block.wr_thresh);
   threshold.threshold(control_block.threshold);
   threshold.frame_ena(camera.frame_ena);
   threshold.pixel(camera.pixel);
+  threshold.more_pixels(camera.more_pixels);
   threshold.x(camera.pixel_x);
   threshold.y(camera.pixel_y);
   if (!fidelity.camera.gives().frames) return;
@@ -98,6 +108,7 @@ void ImprovedLogic::connect_pixels() {
 void ImprovedLogic::connect_blobs() {
   blob_labelling.ena(threshold.binary_ena);
   blob_labelling.pixel(threshold.binary_out);
+  blob_labelling.more_pixels(threshold.more_binary);
   blob_labelling.x(threshold.binary_x);
   blob_labelling.y(threshold.binary_y);
   if (fidelity.threshold.gives().frames) {

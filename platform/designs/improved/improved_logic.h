@@ -64,7 +64,16 @@ class ImprovedLogic : public sc_core::sc_module {
   ImprovedFidelity fidelity;
   vp::Parameter<std::uint32_t> width, height;
   vp::Parameter<std::uint32_t> burst_words;
-  pl::Geometry geometry() const { return {width, height, burst_words}; }
+  vp::Parameter<std::uint32_t> pixels_per_clock{
+      "pixels_per_clock",
+      1,
+      vp::Unit::none,
+      {1, 4},
+      vp::Source::decision,
+      "neighbours in a row that camera, threshold and labelling take on one edge: 1, 2 or 4. With "
+      "4 "
+      "the stream of pictures is full, and its DMA writes 64 bits a clock"};
+  pl::Geometry geometry() const { return {width, height, burst_words, pixels_per_clock}; }
 
   /// Brings counters up to now, for whoever looks at them from outside.
   void settle_counters();
@@ -81,7 +90,8 @@ class ImprovedLogic : public sc_core::sc_module {
   /// whole bursts.
   struct SizeCheck {
     explicit SizeCheck(const pl::Geometry& geometry) {
-      pl::check({geometry.width, geometry.height, marker_logic::min_burst_words});
+      pl::check({geometry.width, geometry.height, marker_logic::min_burst_words,
+                 geometry.pixels_per_clock});
     }
   } size_check_{geometry()};
 

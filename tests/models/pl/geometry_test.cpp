@@ -156,6 +156,12 @@ BOOST_AUTO_TEST_CASE(bursts_that_cannot_be_built) {
   BOOST_TEST(refusal({32, 31, 2}) ==
              "frames of 32x31 px cannot be built: pl.width x pl.height must be a multiple of 64 "
              "(whole bursts of 2 words)");
+  for (std::uint32_t pixels : {1u, 2u, 4u}) BOOST_TEST(refusal({640, 480, 2, pixels}) == "");
+  for (std::uint32_t pixels : {0u, 3u, 8u}) {
+    BOOST_TEST(refusal({640, 480, 2, pixels}) ==
+               "pl.pixels_per_clock is " + std::to_string(pixels) +
+                   ": the logic takes 1, 2 or 4 pixels a clock, whole parts of a word");
+  }
   for (const auto& [words, nearest] : {std::pair<std::uint32_t, const char*>{3, "2"},
                                        {5, "4"},
                                        {24, "16"},

@@ -54,12 +54,18 @@ class Monitor final : public vp::Clocked {
       next_ = 0;
       return;
     }
-    const std::uint32_t place = next_++;
-    seen.edges.push_back(clock().cycle());
-    seen.dark.push_back(whole_ ? (ip_.binary_frames.data()[place / 32] >> place % 32 & 1) != 0
-                               : ip_.binary_out.get());
-    seen.level.push_back(level_);
+    for (std::size_t lane = 0; lane <= ip_.more_binary.size(); ++lane) {
+      const std::uint32_t place = next_++;
+      seen.edges.push_back(clock().cycle());
+      seen.dark.push_back(whole_ ? (ip_.binary_frames.data()[place / 32] >> place % 32 & 1) != 0
+                                 : pin(lane));
+      seen.level.push_back(level_);
+    }
   }
+  bool pin(std::size_t lane) const {
+    return lane == 0 ? ip_.binary_out.get() : ip_.more_binary[lane - 1].get();
+  }
+
   vp::In<bool> ena_{"ena", this};
   vp::In<std::uint8_t> level_{"level", this};
   pl::GlobalThreshold& ip_;
@@ -70,8 +76,11 @@ class Monitor final : public vp::Clocked {
 constexpr pl::Geometry size{64, 16};
 
 Seen run(const std::string& model, const Script& script,
-         const std::vector<std::string>& settings = {"local_threshold.radius=3px"}) {
-  ThresholdBench b(pl::LocalThreshold::models(), model, size, script, settings);
+         const std::vector<std::string>& settings = {"local_threshold.radius=3px"},
+         std::uint32_t pixels_per_clock = 1) {
+  pl::Geometry geometry = size;
+  geometry.pixels_per_clock = pixels_per_clock;
+  ThresholdBench b(pl::LocalThreshold::models(), model, geometry, script, settings);
   Monitor monitor{"monitor", b.clk, *b.ip, model == "tlm"};
   b.run();
   return monitor.seen;
@@ -147,27 +156,47 @@ BOOST_AUTO_TEST_CASE(the_image_leaves_at_these_clocks) {
   }
 }
 
+// Four pixels a clock: those that lag are made whole clocks.
+BOOST_AUTO_TEST_CASE(the_image_of_groups_leaves_at_these_clocks) {
+  Script script;
+  script.frames[10] = harness::noise(size.width, size.height, 5);
+  script.end = 3000;
+  for (const char* model : {"clocked", "tlm"}) {
+    const Seen seen = run(model, script, {"local_threshold.radius=3px"}, 4);
+    BOOST_REQUIRE_EQUAL(seen.edges.size(), size.pixels());
+    BOOST_TEST(seen.edges.front() == 11 + 3 * size.width / 4 + 1 + 3 + 1);
+    BOOST_TEST(seen.edges.back() == seen.edges.front() + size.pixels() / 4 - 1);
+    for (std::uint32_t i = 0; i < size.pixels(); ++i) {
+      const bool dark =
+          dark_by_definition(script.frames[10], size, {3, 10, 0}, static_cast<int>(i % size.width),
+                             static_cast<int>(i / size.width));
+      BOOST_REQUIRE_EQUAL(seen.dark[i], dark);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(frames_resets_and_loads_at_any_clock_are_equal_in_both_models) {
   Random random(2);
   std::size_t pixels = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 90; ++round) {
     Script script;
-    const std::uint32_t radius = 1 + random.below(6);
-    const std::uint64_t lag = std::uint64_t{radius} * size.width + radius + 3;
+    const std::uint32_t radius = 1 + random.below(6), group = 1u << round % 3;
+    const std::uint64_t lag = (std::uint64_t{radius} * size.width + radius + group - 1) / group + 3;
+    const std::uint32_t clocks = size.pixels() / group;
     std::uint64_t cycle = 3 + random.below(20);
     for (int frame = 0; frame < 6; ++frame) {
       script.frames[cycle] = harness::noise(size.width, size.height, random.below(1000));
       const std::uint64_t begin = cycle;
-      cycle += size.pixels() + lag + random.below(3) * random.below(300);
+      cycle += clocks + lag + random.below(3) * random.below(300);
       if (random.below(3) == 0) {
-        const std::uint64_t at = begin + random.below(size.pixels() + 500);
+        const std::uint64_t at = begin + random.below(clocks + 500);
         auto& reset = random.below(2) == 0 ? script.rst : script.por;
         reset[at] = true;
         reset[at + 2] = false;
         cycle = std::max(cycle, at + 20);
       }
       if (random.below(3) == 0) {
-        const std::uint64_t at = begin + random.below(size.pixels() + 400);
+        const std::uint64_t at = begin + random.below(clocks + 400);
         script.loads[at] = static_cast<int>(random.below(120));
         script.loads[at + 1 + random.below(20)] = -1;
       }
@@ -175,7 +204,8 @@ BOOST_AUTO_TEST_CASE(frames_resets_and_loads_at_any_clock_are_equal_in_both_mode
     script.end = cycle + 1000;
     const std::vector<std::string> settings{"local_threshold.radius=" + std::to_string(radius) +
                                             "px"};
-    const Seen clocked = run("clocked", script, settings), tlm = run("tlm", script, settings);
+    const Seen clocked = run("clocked", script, settings, group),
+               tlm = run("tlm", script, settings, group);
     BOOST_TEST((clocked == tlm), "round " << round);
     pixels += clocked.dark.size();
   }
@@ -210,6 +240,14 @@ BOOST_AUTO_TEST_CASE(a_window_larger_than_the_frame_is_refused) {
                  "7 px at most";
         });
   }
+  // What comes beside the last pixel of a row must not reach into the window.
+  pl::Geometry narrow{32, 64, 64, 4};
+  BOOST_CHECK_THROW(ThresholdBench(pl::LocalThreshold::models(), "clocked", narrow, none,
+                                   {"local_threshold.radius=14px"}),
+                    vp::InputError);
+  narrow.pixels_per_clock = 2;
+  ThresholdBench(pl::LocalThreshold::models(), "clocked", narrow, none,
+                 {"local_threshold.radius=14px"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -151,6 +151,17 @@ BOOST_AUTO_TEST_CASE(the_threshold_is_loaded_at_this_clock) {
   BOOST_TEST((check(size, script) == expected));
 }
 
+// Four pixels a clock: edges 11 to 138, and the edge behind them.
+BOOST_AUTO_TEST_CASE(the_threshold_of_groups_is_loaded_at_this_clock) {
+  Random random(2);
+  const pl::Geometry size{32, 16, 64, 4};
+  Script script;
+  script.frames[10] = two_levels(random, size, 40, 190);
+  script.end = 1000;
+  const Log expected{{1, 127}, {139 + 272 + 1, 118}};
+  BOOST_TEST((check(size, script) == expected));
+}
+
 // The second frame begins before the search has ended: its own pixels see the threshold of before.
 BOOST_AUTO_TEST_CASE(a_frame_that_begins_before_is_not_changed_within) {
   Random random(3);
@@ -167,23 +178,24 @@ BOOST_AUTO_TEST_CASE(a_frame_that_begins_before_is_not_changed_within) {
 
 BOOST_AUTO_TEST_CASE(frames_resets_and_loads_at_any_clock_are_equal_in_both_models) {
   Random random(4);
-  for (int round = 0; round < 60; ++round) {
-    const pl::Geometry size{32 * (1 + random.below(2)), 16};
+  const std::uint32_t groups[] = {1, 2, 4};
+  for (int round = 0; round < 90; ++round) {
+    const pl::Geometry size{32 * (1 + random.below(2)), 16, 64, groups[round % 3]};
     Script script;
     std::uint64_t cycle = 3 + random.below(20);
     for (int frame = 0; frame < 6; ++frame) {
       script.frames[cycle] = two_levels(random, size, random.below(120), 120 + random.below(120));
       const std::uint64_t begin = cycle;
-      cycle += size.pixels() + 9 + random.below(500);
+      cycle += size.clocks() + 9 + random.below(500);
       if (random.below(3) == 0) {
-        const std::uint64_t at = begin + random.below(size.pixels() + 300);
+        const std::uint64_t at = begin + random.below(size.clocks() + 300);
         auto& reset = random.below(2) == 0 ? script.rst : script.por;
         reset[at] = true;
         reset[at + 2] = false;
         cycle = std::max(cycle, at + 20);
       }
       if (random.below(3) == 0) {
-        const std::uint64_t at = begin + random.below(size.pixels() + 400);
+        const std::uint64_t at = begin + random.below(size.clocks() + 400);
         script.loads[at] = static_cast<int>(random.below(256));
         script.loads[at + 1 + random.below(20)] = -1;
       }

@@ -25,10 +25,14 @@ class Source final : public vp::Clocked {
  public:
   Source(sc_core::sc_module_name name, vp::Clock& clk, const Script& script,
          const pl::Geometry& geometry)
-      : Clocked(name, clk), script_(script), geometry_(geometry) {}
+      : Clocked(name, clk),
+        more_pixels("pixel", geometry.pixels_per_clock),
+        script_(script),
+        geometry_(geometry) {}
 
   vp::Signal<bool> rst{"rst"}, por{"por"}, frame_ena{"frame_ena"}, wr_thresh{"wr_thresh"};
   vp::Signal<std::uint8_t> threshold{"threshold"}, pixel{"pixel"};
+  pl::Lanes<vp::Signal<std::uint8_t>> more_pixels;
   vp::Signal<std::uint16_t> x{"x"}, y{"y"};
   pl::GreyFrames frames{"frames", clock()};
 
@@ -40,7 +44,7 @@ class Source final : public vp::Clocked {
       next_ = 0;
       running_ = true;
       frames.announce();
-      frames.begin(image_.data(), geometry_.pixels(), cycle);
+      frames.begin(image_.data(), geometry_.pixels(), cycle, geometry_.pixels_per_clock);
     }
     if (const auto at = script_.loads.find(cycle); at != script_.loads.end()) {
       wr_thresh = at->second >= 0;
@@ -51,9 +55,12 @@ class Source final : public vp::Clocked {
     frame_ena = running_;
     if (!running_) return;
     pixel = image_[next_];
+    for (std::size_t lane = 0; lane < more_pixels.size(); ++lane)
+      more_pixels[lane] = image_[next_ + 1 + lane];
     x = static_cast<std::uint16_t>(next_ % geometry_.width);
     y = static_cast<std::uint16_t>(next_ / geometry_.width);
-    running_ = ++next_ < geometry_.pixels();
+    next_ += geometry_.pixels_per_clock;
+    running_ = next_ < geometry_.pixels();
   }
   void set(vp::Signal<bool>& signal, const std::map<std::uint64_t, bool>& changes) {
     const auto at = changes.find(clock().cycle());
@@ -86,6 +93,7 @@ struct ThresholdBench : kit::Simulation {
     ip->wr_thresh(source.wr_thresh);
     ip->threshold(source.threshold);
     ip->pixel(source.pixel);
+    ip->more_pixels(source.more_pixels);
     ip->x(source.x);
     ip->y(source.y);
     if (model == "tlm") ip->frames(source.frames);

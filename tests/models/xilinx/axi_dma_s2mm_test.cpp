@@ -96,6 +96,46 @@ BOOST_FIXTURE_TEST_CASE(two_bursts_at_exact_times, S2mmBench) {
   expect_words(0, 64);
 }
 
+AxiDmaBuild wide_memory() {
+  AxiDmaBuild build;
+  build.memory_words = 2;
+  return build;
+}
+
+struct WideBench : S2mmBench {
+  WideBench() : S2mmBench(wide_memory()) {}
+};
+
+// Two words a clock: the first burst is written, and the gap is over, before the second is there.
+BOOST_FIXTURE_TEST_CASE(bursts_to_memory_of_64_bits_at_exact_times, WideBench) {
+  send_packet(64);
+  software.simulate([&] {
+    start_s2mm(memory_base, 256);
+    BOOST_TEST(wait_for(dmasr::IOC_Irq) == to_ready + 64 + write_latency + 16 + response);
+  });
+  expect_words(0, 64);
+}
+
+// An odd word takes a clock of its own.
+BOOST_FIXTURE_TEST_CASE(an_odd_word_to_memory_of_64_bits, WideBench) {
+  send_packet(5);
+  software.simulate([&] {
+    start_s2mm(memory_base, 20);
+    BOOST_TEST(wait_for(dmasr::IOC_Irq) == to_ready + 5 + write_latency + 3 + response);
+  });
+  expect_words(0, 5);
+}
+
+BOOST_FIXTURE_TEST_CASE(memory_of_64_bits_wants_addresses_of_8_bytes, WideBench) {
+  send_packet(32);
+  software.simulate([&] {
+    start_s2mm(memory_base + 0x84, 128);
+    wait_for(dmasr::IOC_Irq);
+  });
+  expect_words(0x80, 32);
+  BOOST_TEST(reports.count(sc_core::SC_WARNING) == 1u);
+}
+
 BOOST_FIXTURE_TEST_CASE(throughput_of_10000_bytes, S2mmBench) {
   std::uint64_t done = 0;
   send_packet(2500);

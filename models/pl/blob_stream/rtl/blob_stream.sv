@@ -31,7 +31,7 @@ module blob_stream #(
     output logic [31:0] dropped_blobs
 );
   localparam int BLOB_WORDS = 8;
-  localparam logic [11:0] MOST_BLOBS = 12'd4095;
+  localparam logic [12:0] MOST_BLOBS = 13'd8191;
   localparam int PLACE_BITS = $clog2(FIFO_DEPTH);
   localparam logic [PLACE_BITS-1:0] LAST_PLACE = PLACE_BITS'(FIFO_DEPTH - 1);
 
@@ -53,7 +53,7 @@ module blob_stream #(
   logic frame_before, dropping, mixed, full;
   logic [31:0] number, lost, overflow_before;
   logic [7:0] threshold_used;
-  logic [11:0] sent;
+  logic [12:0] sent;
   wire begins = frame_ena && !frame_before;
   wire under_way = busy && !packet_ends;
   wire takes = m_tready && !m_tvalid && !waits;
@@ -91,13 +91,13 @@ module blob_stream #(
       sends <= takes_blob || takes_trailer || !sender_free;
     end
     if (opens) begin
-      sent <= 12'(takes_blob);
+      sent <= 13'(takes_blob);
       full <= 1'b0;
       lost <= 32'(loses_blob);
     end else begin
       if (takes_blob) begin
         sent <= sent + 1'b1;
-        full <= sent == MOST_BLOBS - 12'd1;
+        full <= sent == MOST_BLOBS - 13'd1;
       end
       lost <= lost + (takes_trailer ? label_overflow - overflow_before : 32'(loses_blob));
     end
@@ -113,7 +113,7 @@ module blob_stream #(
   end
 
   logic [32*BLOB_WORDS-1:0] blob;
-  wire [127:0] trailer = {24'd0, threshold_used, lost, 20'd0, sent, number};
+  wire [127:0] trailer = {24'd0, threshold_used, lost, 19'd0, sent, number};
   wire [31:0] word = is_trailer ? trailer[32*place[1:0]+:32] : blob[32*place+:32];
   always_ff @(posedge clk)
     if (sender_free)

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <memory>
 
-#include "random_pictures.h"
+#include "core_bench.h"
 
 using harness::Random;
 using namespace labelling;
@@ -13,71 +14,27 @@ namespace {
 
 constexpr std::uint32_t plenty = 512;
 
-/// A core that is fed pixel by pixel, and what came out of it.
-struct Bench {
+class Bench final : public CoreBench {
+ public:
   explicit Bench(const pl::Geometry& g, std::uint32_t labels = plenty, std::uint32_t side = 0)
-      : geometry(g), core(g, labels, side) {}
+      : CoreBench(g, std::make_unique<pl::LabellingCore>(g, labels, side)) {}
 
-  void clock(bool ena, bool dark = false, std::uint32_t index = 0) {
-    core.clock(ena, dark, index % geometry.width, index / geometry.width);
-    ++clocks;
-    if (core.shows()) {
-      shown.push_back(core.shown());
-      shown_at.push_back(clocks);
-    }
-  }
-  /// Pixels of a frame, up to `count` of them.
-  void feed(const Binary& picture, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      clock(true, picture.pixels[i], i);
-      note_losses(picture, i);
-    }
-  }
-  void drain() {
-    do clock(false);
-    while (!core.idle());
-  }
-  std::vector<pl::Extremes> run(const Binary& picture) {
-    shown.clear();
-    shown_at.clear();
-    clocks = 0;
-    kept = picture;
-    feed(picture, picture.count());
-    for (std::uint32_t i = picture.count(); !core.ready() || !core.idle(); ++i) {
-      clock(false);
-      note_losses(picture, i);
-    }
-    std::vector<pl::Extremes> sorted = shown;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted;
-  }
-  /// A run that found no label is bright in `kept`. It was looked at in the clock that takes pixel
-  /// `now`: four pixels behind its last one, three at the end of a row.
-  void note_losses(const Binary& picture, std::uint32_t now) {
+ private:
+  /// A run that found no label was looked at in the clock that takes pixel `now`: four pixels
+  /// behind its last one, three at the end of a row.
+  void note_losses(std::uint32_t now) override {
     const std::uint32_t lost = core.overflow() - overflow;
     overflow += lost;
     if (lost == 0) return;
     const bool at_edge =
-        (now - 2) % picture.width == 0 && now - 3 < picture.count() && picture.pixels[now - 3] != 0;
+        (now - 2) % kept.width == 0 && now - 3 < kept.count() && kept.pixels[now - 3] != 0;
     const std::uint32_t end = at_edge ? now - 2 : now - 3;
     for (std::uint32_t i = end - lost; i < end; ++i) {
       BOOST_TEST(kept.pixels[i] == 1);
       kept.pixels[i] = 0;
     }
   }
-
-  pl::Geometry geometry;
-  pl::LabellingCore core;
-  std::vector<pl::Extremes> shown;
-  std::vector<std::uint64_t> shown_at;
-  std::uint64_t clocks = 0;
-  Binary kept;
-  std::uint32_t overflow = 0;
 };
-
-bool equal(const std::vector<pl::Extremes>& found, const std::vector<pl::Extremes>& expected) {
-  return found == expected;
-}
 
 }  // namespace
 
@@ -96,14 +53,7 @@ BOOST_AUTO_TEST_CASE(hard_shapes_give_what_a_flood_fill_gives) {
 // Every picture of five by four, four by five and seven by three pixels.
 BOOST_AUTO_TEST_CASE(every_small_picture_gives_what_a_flood_fill_gives) {
   for (const auto& [width, height] : {std::pair{5u, 4u}, {4u, 5u}, {7u, 3u}}) {
-    Bench bench(pl::Geometry{width, height});
-    Binary picture{width, height, std::vector<std::uint8_t>(width * height)};
-    std::uint32_t wrong = 0;
-    for (std::uint32_t pattern = 0; pattern < 1u << picture.count(); ++pattern) {
-      for (std::uint32_t i = 0; i < picture.count(); ++i) picture.pixels[i] = pattern >> i & 1;
-      wrong += !equal(bench.run(picture), flood_fill(picture));
-    }
-    BOOST_TEST(wrong == 0u);
+    Bench(pl::Geometry{width, height}).check_all_pictures();
   }
 }
 

@@ -36,12 +36,14 @@ struct Script {
 /// Gives frames pixel by pixel and as a whole.
 class Source final : public vp::Clocked {
  public:
-  Source(sc_core::sc_module_name name, vp::Clock& clk, const Script& script)
-      : Clocked(name, clk), script_(script) {}
+  Source(sc_core::sc_module_name name, vp::Clock& clk, const Script& script,
+         std::uint32_t pixels_per_clock)
+      : Clocked(name, clk), more("pixel", pixels_per_clock), script_(script) {}
 
   vp::Signal<bool> ena{"ena"};
   vp::Signal<bool> rst{"rst"};
   vp::Signal<bool> pixel{"pixel"};
+  pl::Lanes<vp::Signal<bool>> more;
   vp::Signal<std::uint16_t> x{"x"};
   vp::Signal<std::uint16_t> y{"y"};
   pl::BinaryFrames frames{"frames", clock()};
@@ -56,7 +58,8 @@ class Source final : public vp::Clocked {
       next_ = 0;
       running_ = true;
       frames.announce();
-      frames.begin(words_.data(), static_cast<std::uint32_t>(words_.size()), cycle);
+      frames.begin(words_.data(), static_cast<std::uint32_t>(words_.size()), cycle,
+                   pixels_per_clock());
     }
     if (const auto at = script_.resets.find(cycle); at != script_.resets.end()) {
       reset_left_ = at->second;
@@ -69,14 +72,18 @@ class Source final : public vp::Clocked {
     ena = running_;
     if (!running_) return;
     pixel = picture_.pixels[next_];
+    for (std::size_t lane = 0; lane < more.size(); ++lane)
+      more[lane] = picture_.pixels[next_ + 1 + lane];
     x = static_cast<std::uint16_t>(next_ % picture_.width);
     y = static_cast<std::uint16_t>(next_ / picture_.width);
-    running_ = ++next_ < picture_.count();
+    next_ += pixels_per_clock();
+    running_ = next_ < picture_.count();
   }
 
+  std::uint32_t pixels_per_clock() const { return static_cast<std::uint32_t>(more.size()) + 1; }
   void change(const Script::Change& change) {
     // Only of pixels that leave on later edges.
-    const std::uint32_t first = std::max(change.first, next_ + 1);
+    const std::uint32_t first = std::max(change.first, next_ + pixels_per_clock());
     const std::uint32_t end = std::min<std::uint32_t>(
         picture_.count(), change.first + static_cast<std::uint32_t>(change.pixels.size()));
     if (first >= end) return;
@@ -146,12 +153,23 @@ class Monitor final : public vp::Clocked {
   std::vector<std::unique_ptr<vp::In<std::uint32_t>>> points_;
 };
 
+/// Of runs: many of the pictures exceed it.
+constexpr std::uint32_t fifo_depth = 12;
+
+/// Clocks behind a frame's last pixel until the next may begin at any rate: those in the FIFO, and
+/// those of the row above, have had their turn twice.
+std::uint32_t gap(const pl::Geometry& g) {
+  return g.pixels_per_clock == 1 ? g.width + 1 : g.width + 3 * fifo_depth + 8;
+}
+
 struct Bench : kit::Simulation {
   Bench(const std::string& model, const pl::Geometry& geometry, std::uint32_t labels,
         std::uint32_t side, const Script& what)
       : settings({"blob_labelling.label_count=" + std::to_string(labels),
-                  "blob_labelling.minimum_side=" + std::to_string(side) + " px"}),
-        script(what) {
+                  "blob_labelling.minimum_side=" + std::to_string(side) + " px",
+                  "blob_labelling.run_fifo_depth=" + std::to_string(fifo_depth)}),
+        script(what),
+        source("source", clk, script, geometry.pixels_per_clock) {
     for (const auto& candidate : pl::BlobLabelling::models().list()) {
       if (candidate.name == model) ip = candidate.make("blob_labelling", {clk, geometry});
     }
@@ -164,6 +182,7 @@ struct Bench : kit::Simulation {
     ip->ena(source.ena);
     ip->rst(source.rst);
     ip->pixel(source.pixel);
+    ip->more_pixels(source.more);
     ip->x(source.x);
     ip->y(source.y);
     if (model == "tlm") ip->frames(source.frames);
@@ -177,7 +196,7 @@ struct Bench : kit::Simulation {
   Script script;
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clk{"clk", scheduler, 125'000'000};
-  Source source{"source", clk, script};
+  Source source;
   std::unique_ptr<pl::BlobLabelling> ip;
   std::unique_ptr<Monitor> monitor;
 };
@@ -222,17 +241,21 @@ Script::Change random_change(Random& random, const Binary& picture) {
 
 }  // namespace
 
+/// Pixels a clock.
+const std::uint32_t groups[] = {1, 2, 4};
+
 BOOST_AUTO_TEST_SUITE(labelling_ip)
 
 BOOST_AUTO_TEST_CASE(frames_in_a_row_are_equal_in_both_models) {
   Random random(1);
-  for (int round = 0; round < 40; ++round) {
-    const pl::Geometry size{32 * (1 + random.below(3)), 8 + random.below(24)};
+  for (int round = 0; round < 60; ++round) {
+    const pl::Geometry size{32 * (1 + random.below(3)), 8 + random.below(24), 64,
+                            groups[round % 3]};
     Script script;
     std::uint64_t cycle = 3 + random.below(50);
     for (int frame = 0; frame < 4; ++frame) {
       script.frames[cycle] = {random_picture(random, size.width, size.height)};
-      cycle += size.pixels() + size.width + 1 + random.below(2) * random.below(400);
+      cycle += size.clocks() + gap(size) + random.below(2) * random.below(400);
     }
     script.end = cycle + 3000;
     check(size, round % 3 == 0 ? 4 + random.below(30) : 512, 1 + random.below(6), script);
@@ -241,13 +264,13 @@ BOOST_AUTO_TEST_CASE(frames_in_a_row_are_equal_in_both_models) {
 
 BOOST_AUTO_TEST_CASE(resets_at_any_clock_are_equal_in_both_models) {
   Random random(2);
-  for (int round = 0; round < 60; ++round) {
-    const pl::Geometry size{64, 16};
+  for (int round = 0; round < 90; ++round) {
+    const pl::Geometry size{64, 16, 64, groups[round % 3]};
     Script script;
     std::uint64_t cycle = 3;
     for (int frame = 0; frame < 5; ++frame) {
       script.frames[cycle] = {random_picture(random, size.width, size.height)};
-      const std::uint32_t whole = size.pixels() + size.width + 1 + random.below(300);
+      const std::uint32_t whole = size.clocks() + gap(size) + random.below(300);
       if (random.below(2) == 0) {
         const std::uint64_t at = cycle + random.below(whole);
         const unsigned clocks = 1 + random.below(4);
@@ -264,16 +287,16 @@ BOOST_AUTO_TEST_CASE(resets_at_any_clock_are_equal_in_both_models) {
 
 BOOST_AUTO_TEST_CASE(pixels_that_change_before_they_come_are_equal_in_both_models) {
   Random random(3);
-  for (int round = 0; round < 60; ++round) {
-    const pl::Geometry size{64, 24};
+  for (int round = 0; round < 90; ++round) {
+    const pl::Geometry size{64, 24, 64, groups[round % 3]};
     Script script;
     std::uint64_t cycle = 3;
     for (int frame = 0; frame < 3; ++frame) {
       const Binary picture = random_picture(random, size.width, size.height);
       script.frames[cycle] = {picture};
       for (std::uint32_t changes = random.below(8); changes > 0; --changes)
-        script.changes[cycle + random.below(size.pixels())] = random_change(random, picture);
-      cycle += size.pixels() + size.width + 1 + random.below(200);
+        script.changes[cycle + random.below(size.clocks())] = random_change(random, picture);
+      cycle += size.clocks() + gap(size) + random.below(200);
     }
     script.end = cycle + 2500;
     check(size, 4 + random.below(200), 1 + random.below(4), script);
@@ -321,22 +344,25 @@ BOOST_AUTO_TEST_CASE(rtl_of_another_size_is_refused) {
   BOOST_CHECK_THROW(run("rtl", {32, 8}, 9, 2, script), vp::InputError);
   BOOST_CHECK_THROW(run("rtl", {32, 4}, 10, 2, script), vp::InputError);
 }
+
+BOOST_AUTO_TEST_CASE(rtl_of_one_pixel_a_clock_is_refused_where_more_come) {
+  BOOST_CHECK_EXCEPTION(run("rtl", {32, 4, 64, 2}, 9, 2, {}), vp::InputError,
+                        [](const vp::InputError& error) {
+                          return std::string(error.what()).find("pixel_1") != std::string::npos;
+                        });
+}
 #endif
 
-// A square of 20 px whose last run ends in (39, 24): pixel (39, 25) leaves the source on edge
-// 10 + 25 x 64 + 39 and is taken one edge later, the blob stands behind the ninth edge after
-// that.
-BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
-  const pl::Geometry size{64, 32};
+/// A square of 20 px whose last run ends in (39, 24) stands at the outputs behind edge `out`, and
+/// the frame is over behind edge `over`.
+void check_square(const pl::Geometry& size, std::uint64_t out, std::uint64_t over) {
   Binary picture{size.width, size.height, std::vector<std::uint8_t>(size.pixels())};
   for (std::uint32_t y = 5; y < 25; ++y) {
-    for (std::uint32_t x = 20; x < 40; ++x) picture.pixels[y * 64 + x] = 1;
+    for (std::uint32_t x = 20; x < 40; ++x) picture.pixels[y * size.width + x] = 1;
   }
   Script script;
   script.frames[10] = {picture};
-  script.end = 10 + size.pixels() + 500;
-  const std::uint64_t out = 10 + 25 * 64 + 39 + 1 + 9;
-  const std::uint64_t over = 11 + size.pixels() + size.width + 2;
+  script.end = 10 + size.clocks() + 500;
   using blob_stream::point;
   const std::vector<Seen> expected{{1, true, false, {}},
                                    {12, false, false, {}},
@@ -350,6 +376,39 @@ BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   for (const char* model : {"clocked", "tlm"})
     BOOST_TEST(run(model, size, 512, 10, script).seen == expected,
                boost::test_tools::per_element());
+}
+
+// Pixel (39, 25) leaves the source on edge 10 + 25 x 64 + 39 and is taken one edge later, the blob
+// stands behind the ninth edge after that.
+BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
+  check_square({64, 32}, 10 + 25 * 64 + 39 + 1 + 9, 11 + 32 * 64 + 64 + 2);
+}
+
+// With four pixels a clock. Row 25 has no run: its end, pixels (60..63, 25), is taken on edge
+// 10 + 26 x 16. Looked at one edge later, it lets the run above pass another one later, and six
+// stages later the blob is shown. The frame is over when its last row is and the bright row behind
+// it, a clock each.
+BOOST_AUTO_TEST_CASE(a_square_in_groups_is_shown_at_this_time) {
+  check_square({64, 32, 64, 4}, 10 + 26 * 16 + 2 + 6, 10 + 32 * 16 + 2 + 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_that_begins_while_runs_wait_is_refused) {
+  const pl::Geometry size{64, 16, 64, 4};
+  Binary cut = hard_shapes()[4];  // a run in every other column
+  cut.height = size.height;
+  cut.pixels.resize(cut.count());
+  for (const char* model : {"clocked", "tlm"}) {
+    Script script;
+    script.frames[5] = {cut};
+    script.frames[5 + size.clocks() + 3] = {cut};
+    script.end = 5000;
+    BOOST_CHECK_EXCEPTION(run(model, size, 512, 10, script), sc_core::sc_report,
+                          [](const sc_core::sc_report& error) {
+                            return std::string(error.get_msg()) ==
+                                   "blob_labelling: a frame begins too early: the runs of the one "
+                                   "before still wait for their turn";
+                          });
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_that_begins_too_early_is_refused) {

@@ -64,6 +64,12 @@ std::vector<std::uint32_t> Binary::words() const {
   return words;
 }
 
+std::uint32_t group_at(const Binary& picture, std::uint32_t first, std::uint32_t pixels) {
+  std::uint32_t group = 0;
+  for (std::uint32_t i = 0; i < pixels; ++i) group |= std::uint32_t{picture.pixels[first + i]} << i;
+  return group;
+}
+
 Binary drawn(const std::vector<std::string>& rows) {
   const auto width = static_cast<std::uint32_t>(rows.front().size());
   return draw(width, static_cast<std::uint32_t>(rows.size()),

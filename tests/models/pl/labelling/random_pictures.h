@@ -21,6 +21,8 @@ struct Binary {
   std::vector<std::uint32_t> words() const;
 };
 
+/// The `pixels` pixels from raster index `first` on, the first in bit 0.
+std::uint32_t group_at(const Binary& picture, std::uint32_t first, std::uint32_t pixels);
 /// Rows of text, '#' is dark.
 Binary drawn(const std::vector<std::string>& rows);
 /// Noise of some density, rows of dots that lines join, near-chessboards, nested arches or combs.

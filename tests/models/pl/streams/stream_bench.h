@@ -30,8 +30,9 @@ constexpr std::uint32_t memory_bytes = 0x10000;
 /// A DMA with a memory of its own, and software that arms it.
 class ArmedDma {
  public:
-  ArmedDma(const std::string& name, vp::Clock& clk)
-      : dma((name + "_dma").c_str(), clk, build()),
+  /// `memory_words`: that a clock writes.
+  ArmedDma(const std::string& name, vp::Clock& clk, std::uint32_t memory_words = 1)
+      : dma((name + "_dma").c_str(), clk, build(memory_words)),
         software((name + "_software").c_str()),
         router((name + "_router").c_str()),
         memory((name + "_memory").c_str(), memory_bytes),
@@ -58,18 +59,28 @@ class ArmedDma {
   vp::AxiStream link;
 
  private:
-  static xilinx::AxiDmaBuild build() {
+  static xilinx::AxiDmaBuild build(std::uint32_t memory_words) {
     xilinx::AxiDmaBuild build;
+    build.memory_words = memory_words;
     build.include_mm2s = false;
     build.burst_beats = 16;
     return build;
   }
 };
 
+/// The small frame, so many pixels a clock.
+inline pl::Geometry in_groups(std::uint32_t pixels_per_clock) {
+  pl::Geometry geometry = small_frame;
+  geometry.pixels_per_clock = pixels_per_clock;
+  return geometry;
+}
+
 /// Camera and pixel stream, and a DMA behind them. 100 MHz.
 struct PixelBench : kit::Simulation {
-  explicit PixelBench(pl::Fidelity fidelity, const std::vector<std::string>& assignments = {})
+  explicit PixelBench(pl::Fidelity fidelity, const std::vector<std::string>& assignments = {},
+                      std::uint32_t pixels_per_clock = 1)
       : settings(assignments),
+        geometry(in_groups(pixels_per_clock)),
         made_camera(make(pl::Camera::models(), fidelity)),
         made_stream(make(pl::PixelStream::models(), fidelity)) {
     reports.redirect(warnings);
@@ -80,6 +91,7 @@ struct PixelBench : kit::Simulation {
     stream.rst(rst);
     stream.ena(camera.frame_ena);
     stream.pixel(camera.pixel);
+    stream.more_pixels(camera.more_pixels);
     stream.frames(camera.frames);
     stream.m(pixels.link);
   }
@@ -87,7 +99,7 @@ struct PixelBench : kit::Simulation {
   template <class Ip>
   std::unique_ptr<Ip> make(const pl::Models<Ip>& models, pl::Fidelity fidelity) {
     const auto& model = models.list().at(fidelity == pl::Fidelity::clocked ? 0 : 1);
-    return model.make(models.ip().c_str(), {clk, small_frame});
+    return model.make(models.ip().c_str(), {clk, geometry});
   }
 
   /// Between edge `cycle` and the next one.
@@ -116,6 +128,7 @@ struct PixelBench : kit::Simulation {
   }
 
   harness::Settings settings;
+  const pl::Geometry geometry;
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clk{"clk", scheduler, 100'000'000};
   vp::Signal<bool> ena{"ena"}, rst{"rst"}, por{"por"}, hold{"hold"};
@@ -125,7 +138,7 @@ struct PixelBench : kit::Simulation {
   pl::PixelStream& stream = *made_stream;
   std::ostringstream warnings;  ///< of the DMA, about what software does wrong
   vp::ReportRouter reports;
-  ArmedDma pixels{"pixels", clk};
+  ArmedDma pixels{"pixels", clk, geometry.pixels_per_clock == 4 ? 2u : 1u};
 };
 
 }  // namespace streams
