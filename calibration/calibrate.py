@@ -48,6 +48,7 @@ KERNELS = {
                  "quads_fitted"],
     "code_reading": ["code_cells", "code_turns", "code_parts", "code_compares", "codes_read"],
     "board_pose": ["marker_weighings", "markers_weighted", "pose_steps", "board_poses"],
+    "pose_filter": ["poses_weighed", "poses_corrected", "poses_predicted", "tracks_begun"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }

@@ -3,6 +3,7 @@
 
 #include <marker/board_pose.h>
 #include <marker/marker_detector.h>
+#include <marker/pose_filter.h>
 
 #include <blob_stream.h>
 
@@ -189,6 +190,42 @@ void measure_board_pose(Random& random) {
         Checksum sum;
         sum.add(poses.best.rotation);
         sum.add(poses.best.translation);
+        return sum;
+      });
+}
+
+void measure_pose_filter(Random& random) {
+  // A marker that moves steadily, and now and then is somewhere else. Each frame's other pose is
+  // the likelier one in some.
+  struct Frame {
+    double time;
+    marker::BoardPoses poses;
+  };
+  std::vector<Frame> frames(2 + random.below(12));
+  const double speed = random.between(-1, 1);
+  double x = random.unit();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    x += 0.01 * speed;
+    if (random.below(5) == 0) x += 1;
+    marker::BoardPose pose{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {x + 0.001 * random.unit(), 0, 2}, {}, 2};
+    for (unsigned k = 0; k < 6; ++k) pose.covariance[7 * k] = 1e-6 * (1 + random.unit());
+    frames[i] = {0.01 * static_cast<double>(i), {true, pose, pose}};
+    if (random.below(3) == 0) frames[i].poses.best.translation[1] += 0.1 * random.unit();
+    if (random.below(3) == 0) frames[i].poses.other.chi_squared = 1e6;
+  }
+  marker::PoseTrack track{};
+  measure(
+      "pose_filter",
+      [&] {
+        for (Frame& frame : frames) track.follow(frame.poses, frame.time, {2, 10});
+      },
+      [&] {
+        Checksum sum;
+        for (const Frame& frame : frames) {
+          sum.add(frame.poses.best.rotation);
+          sum.add(frame.poses.best.translation);
+          sum.add(frame.poses.best.covariance);
+        }
         return sum;
       });
 }

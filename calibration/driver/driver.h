@@ -134,6 +134,7 @@ void measure_pose(Random& random);
 void measure_detector(Random& random, std::uint32_t width, std::uint32_t height, bool cold);
 /// And what follows, on random boards.
 void measure_board_pose(Random& random);
+void measure_pose_filter(Random& random);
 
 /// Measures what the software does for the hardware: feature words and interrupts.
 void measure_hardware(Random& random);

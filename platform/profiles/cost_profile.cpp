@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <host/document.h>
 #include <host/process.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +42,7 @@ const std::vector<Kernel>& kernels() {
       {"code_reading",
        {"codes_read", "code_cells", "code_cells_dma", "code_parts", "code_compares", "code_turns"}},
       {"board_pose", {"board_poses", "pose_steps", "markers_weighted", "marker_weighings"}},
+      {"pose_filter", {"tracks_begun", "poses_predicted", "poses_weighed", "poses_corrected"}},
       {"blob_detection",
        {"blob_frames", "blob_rows", "blob_pixels", "blob_dark", "blob_runs", "blob_rivals",
         "blob_labels", "blob_label_checks", "blobs_ended"}},
@@ -64,7 +67,7 @@ class ProfileFile {
   /// Throws vp::InputError if it cannot be read or is not a JSON object of this version.
   explicit ProfileFile(const std::filesystem::path& path);
 
-  const Json& root() const { return root_; }
+  const Json& root() const { return *root_; }
   const std::filesystem::path& path() const { return path_; }
 
   /// Throws vp::InputError: "profile FILE: problem".
@@ -82,7 +85,7 @@ class ProfileFile {
 
  private:
   std::filesystem::path path_;
-  Json root_;
+  std::shared_ptr<const Json> root_;
 };
 
 namespace {
@@ -97,9 +100,13 @@ std::string written(double value) {
 }  // namespace
 
 ProfileFile::ProfileFile(const std::filesystem::path& path) : path_(path) {
-  root_ = host::read_json(path, "profile");
-  if (!root_.is_object()) refuse("it is not a JSON object");
-  const Json& found = member(root_, "version", "the profile");
+  static host::KeptDocuments<Json> read;
+  const std::string what = "profile";
+  root_ = read.get(path, vp::read_text(path, what), [&](const std::string& text) {
+    return host::parse_json<Json>(text, what + " '" + path.string() + "'");
+  });
+  if (!root().is_object()) refuse("it is not a JSON object");
+  const Json& found = member(root(), "version", "the profile");
   if (found != version) {
     refuse("its version is " + found.dump() + ", this program reads version " +
            std::to_string(version) + ": make it anew with scripts/calibrate");

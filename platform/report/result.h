@@ -183,6 +183,13 @@ class Counts {
 /// its translation, m; 6 × 6, row by row.
 using PoseCovariance = std::array<double, 36>;
 
+/// How a pose moves along and about the camera's axes, where a filter follows it.
+struct PoseMotion {
+  std::uint32_t frames = 0;  ///< of which the pose is made; 1: it begins anew
+  std::array<double, 3> velocity_m_s{};
+  std::array<double, 3> turn_rate_rad_s{};
+};
+
 /// A marker that the software identified.
 struct FoundMarker {
   int id = 0;
@@ -194,6 +201,7 @@ struct FoundMarker {
   std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
   std::optional<std::uint32_t> iterations;
   std::optional<PoseCovariance> covariance;
+  std::optional<PoseMotion> motion = {};
 };
 
 /// The pose of several markers with known places to each other.
@@ -201,6 +209,7 @@ struct FoundBoard {
   std::uint32_t markers = 0;  ///< of which the pose was made
   Pose pose;
   PoseCovariance covariance{};
+  std::optional<PoseMotion> motion = {};
 };
 
 /// What a picture shows besides the marker. Not part of result.json.

@@ -104,10 +104,20 @@ Json covariance_json(const PoseCovariance& covariance) {
   return rows;
 }
 
+Json motion_json(const PoseMotion& motion) {
+  Json json = {{"frames", motion.frames}};
+  for (const double value : motion.velocity_m_s) json["velocity_m_s"].push_back(six_digits(value));
+  for (const double value : motion.turn_rate_rad_s)
+    json["turn_rate_rad_s"].push_back(six_digits(value));
+  return json;
+}
+
 Json board_json(const FoundBoard& board) {
-  return {{"markers", board.markers},
-          {"pose", to_json(board.pose)},
-          {"covariance", covariance_json(board.covariance)}};
+  Json json = {{"markers", board.markers},
+               {"pose", to_json(board.pose)},
+               {"covariance", covariance_json(board.covariance)}};
+  if (board.motion) json["motion"] = motion_json(*board.motion);
+  return json;
 }
 
 Json error_json(const FoundMarker& found, const GroundTruth& truth) {
@@ -130,6 +140,7 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
     if (found.reprojection_px) json["reprojection_px"] = rounded(*found.reprojection_px, px_places);
     if (found.iterations) json["iterations"] = *found.iterations;
     if (found.covariance) json["covariance"] = covariance_json(*found.covariance);
+    if (found.motion) json["motion"] = motion_json(*found.motion);
   }
   if (const GroundTruth* truth = truth_of(frame, found)) {
     json["truth"]["corners_px"] = to_json(truth->corners_px);

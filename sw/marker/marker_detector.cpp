@@ -138,6 +138,7 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
       Detection& detection = found.markers[found.count++];
       detection.marker = marker;
       detection.pose.valid = false;
+      detection.motion = {};
     }
   }
 }

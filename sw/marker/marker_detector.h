@@ -50,9 +50,17 @@ struct BlobCounts {
 /// More markers of a frame are counted as lost.
 inline constexpr std::uint32_t max_detections = 256;
 
+/// How a pose moves, along and about the camera's axes. A filter tells it (PoseFilter).
+struct PoseMotion {
+  std::uint32_t frames;             ///< that the pose is made of; 0: no filter
+  std::array<double, 3> velocity;   ///< m/s
+  std::array<double, 3> turn_rate;  ///< rad/s
+};
+
 struct Detection {
   DetectedMarker marker;
   BoardPoses pose;  ///< of the marker alone; not valid where a board is looked for
+  PoseMotion motion;
 };
 
 /// All that was found in a frame.
@@ -60,6 +68,7 @@ struct Detections {
   BlobCounts blobs;
   BoardPoses board;             ///< not valid: no board was asked for, or none is seen
   std::uint32_t board_markers;  ///< of which its pose was made
+  PoseMotion board_motion;
   std::uint32_t count;
   std::array<Detection, max_detections> markers;  ///< in the order of the blobs
 };
@@ -69,6 +78,7 @@ inline void clear(Detections& found) {
   found.blobs = {};
   found.board.valid = false;
   found.board_markers = found.count = 0;
+  found.board_motion = {};
 }
 
 /// From the blobs of a frame to its markers, and from those to poses.

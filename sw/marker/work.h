@@ -72,7 +72,11 @@
   X(markers_weighted, "what the corners of a marker weigh, from their covariance")            \
   X(marker_weighings, "a marker's corners weighed in such a step")                            \
   X(crossings_dma, "a crossing in memory that a DMA engine wrote: stalls")                    \
-  X(code_cells_dma, "a cell in such memory: stalls")
+  X(code_cells_dma, "a cell in such memory: stalls")                                          \
+  X(tracks_begun, "a pose that the filter sees for the first time, or anew")                  \
+  X(poses_predicted, "a pose led on to the time of a frame")                                  \
+  X(poses_weighed, "a pose of a frame held against it: the covariance's Cholesky factor")     \
+  X(poses_corrected, "a pose corrected by that of the frame")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.
@@ -91,7 +95,8 @@
   X(blob_detection)           \
   X(marker_detection)         \
   X(quad_fit)                 \
-  X(cell_reading)
+  X(cell_reading)             \
+  X(pose_filter)
 
 namespace marker {
 

@@ -67,6 +67,7 @@ BOOST_AUTO_TEST_CASE(covariance_and_board) {
   covariance[1] = -1.23456789e-9;
   covariance[35] = 0.25;
   frame.markers[0].covariance = covariance;
+  frame.markers[0].motion = platform::report::PoseMotion{12, {0.123456789, 0, -1}, {0, 2, 0}};
   frame.board = {7, frame.markers[0].pose, covariance};
   const Json written_frame = written({frame})["frames"][0];
   const Json& rows = written_frame["markers"][0]["covariance"];
@@ -76,6 +77,11 @@ BOOST_AUTO_TEST_CASE(covariance_and_board) {
   BOOST_TEST(written_frame["board"]["markers"] == 7);
   BOOST_TEST(written_frame["board"]["pose"] == written_frame["markers"][0]["pose"]);
   BOOST_TEST(written_frame["board"]["covariance"] == rows);
+  const Json motion = {{"frames", 12},
+                       {"velocity_m_s", {0.123457, 0.0, -1.0}},
+                       {"turn_rate_rad_s", {0.0, 2.0, 0.0}}};
+  BOOST_TEST(written_frame["markers"][0]["motion"] == motion);
+  BOOST_TEST(!written_frame["board"].contains("motion"));  // no filter: none
 }
 
 BOOST_AUTO_TEST_CASE(values_and_errors) {
