@@ -121,6 +121,17 @@ std::uint32_t Slcr::pl_clock(unsigned number) const {
   return rounded_hertz(source_millihertz(control), product);
 }
 
+std::uint32_t Slcr::cpu_clock() const {
+  // Source and divisor lie as in the registers of other clocks; the sources' numbers do not.
+  const std::uint32_t control = read(slcr::ARM_CLK_CTRL);
+  const std::uint32_t source = (control & slcr::clk_ctrl::SRCSEL) >> slcr::clk_ctrl::SRCSEL_shift;
+  const std::uint32_t pll_ctrl = source == slcr::cpu_source::ddr_pll  ? slcr::DDR_PLL_CTRL
+                                 : source == slcr::cpu_source::io_pll ? slcr::IO_PLL_CTRL
+                                                                      : slcr::ARM_PLL_CTRL;
+  return rounded_hertz(pll_millihertz(pll_ctrl),
+                       divisor(control, slcr::clk_ctrl::DIVISOR0, slcr::clk_ctrl::DIVISOR0_shift));
+}
+
 // A throttle of 1 clock that nobody starts: the way Linux gates these clocks.
 void Slcr::gate_pl_clock(unsigned number, bool stop) const {
   if (number >= pl_clock_count) return;

@@ -22,6 +22,8 @@ class Slcr {
   std::uint32_t set_pl_clock(unsigned number, std::uint32_t hertz) const;
   /// What the registers give FCLK_CLK`number`, Hz; 0 if its PLL is off, or no such clock.
   std::uint32_t pl_clock(unsigned number) const;
+  /// What the registers give the processors (CPU_6x4x), Hz; 0 if its PLL is off.
+  std::uint32_t cpu_clock() const;
   /// Stops FCLK_CLK`number`, or lets it run.
   void gate_pl_clock(unsigned number, bool stop) const;
 

@@ -50,6 +50,8 @@ class PrivateWatchdog {
 /// one-shot alarm.
 class GlobalTimer {
  public:
+  static constexpr std::uint32_t cycles_per_count = 2;  ///< of the CPU's clock
+
   /// Counts a second at the CPU clock that Vivado states, 666,666,687 Hz.
   static constexpr std::uint64_t counts_per_second = 333'333'343;
 

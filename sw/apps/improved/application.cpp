@@ -1,5 +1,6 @@
 #include <apps/common/message.h>
 #include <apps/improved/application.h>
+#include <drivers/slcr.h>
 #include <marker/work.h>
 
 #include <blob_stream.h>
@@ -48,11 +49,21 @@ bool Application::initialise() {
   options_ = read_options();
   detector_.open(*options_.dictionary, options_.detector);
   if (options_.second_core) both_cores_.start(*options_.dictionary, options_.detector);
+  if (options_.pose_filter) open_filter();
   next_slot_ = 0;
   knows_camera_frame_ = false;
   if (capture_.initialise()) return true;
   apps::Message().text("improved: a DMA engine does not leave reset").write();
   return false;
+}
+
+/// The filter's seconds are those of the clock that the processors have, whoever set it.
+void Application::open_filter() {
+  drivers::Slcr slcr;
+  slcr.initialise({});
+  seconds_per_count_ =
+      drivers::GlobalTimer::cycles_per_count / static_cast<double>(slcr.cpu_clock());
+  pose_filter_.open(options_.filter);
 }
 
 /// Takes the next image, if there is one, and lets the logic have it.
@@ -152,6 +163,9 @@ void Application::find_markers(const Slot& slot) {
   times.detection.end = times.pose.start = capture_.now();
   if (!options_.second_core || options_.detector.board.kind != marker::Board::Kind::none) {
     detector_.find_poses(camera, result_.found);
+  }
+  if (options_.pose_filter) {
+    pose_filter_.follow(result_.found, static_cast<double>(slot.started) * seconds_per_count_);
   }
   times.pose.end = times.frame.end = capture_.now();
 }

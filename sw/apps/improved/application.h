@@ -6,6 +6,7 @@
 #include <hal/hal.h>
 #include <marker/detection_result.h>
 #include <marker/marker_detector.h>
+#include <marker/pose_filter.h>
 
 #include <array>
 #include <cstdint>
@@ -33,6 +34,7 @@ class Application {
   };
 
   bool initialise();
+  void open_filter();
   bool begin_next();
   Status admit(const Slot& slot);
   void finish(Slot& slot);
@@ -48,6 +50,8 @@ class Application {
   bool knows_camera_frame_;     ///< after a frame that went wrong nobody knows
   std::uint32_t camera_frame_;  ///< the number of the last one
   marker::MarkerDetector detector_;
+  marker::PoseFilter pose_filter_;
+  double seconds_per_count_;  ///< of the global timer; with the filter only
   BothCores both_cores_;
   marker::DetectionResult result_;
 };

@@ -3,6 +3,7 @@
 #include <drivers/platform_addresses.h>
 #include <marker/work.h>
 
+#include <axi_dma_registers.h>
 #include <blob_stream.h>
 #include <marker_logic.h>
 
@@ -13,6 +14,9 @@ namespace addresses = drivers::addresses;
 namespace control = marker_logic::control;
 
 constexpr std::size_t cache_line = 32;
+
+/// A buffer each for the frame under way and the next.
+constexpr std::size_t ring_size = 2;
 
 /// All of a buffer leaves the caches once, so that later only what is read needs to: nothing that
 /// the program wrote there before may come over what a DMA engine writes.
@@ -55,9 +59,22 @@ bool Capture::initialise_dma() {
   using Channel = drivers::AxiDmaConfig::Channel;
   const bool picture = picture_dma_.initialise(
       {addresses::dma_image(), Channel::stream_to_memory, HAL_XPAR(AXI_DMA_0_SG_LENGTH_WIDTH)});
-  const bool packet = packet_dma_.initialise(
-      {addresses::dma_binary(), Channel::stream_to_memory, HAL_XPAR(AXI_DMA_1_SG_LENGTH_WIDTH)});
-  return picture && packet;
+  return picture && initialise_packet_dma();
+}
+
+bool Capture::initialise_packet_dma() {
+  const std::uint32_t base = addresses::dma_binary();
+  const unsigned length_bits = HAL_XPAR(AXI_DMA_1_SG_LENGTH_WIDTH);
+  has_ring_ = HAL_XPAR(AXI_DMA_1_INCLUDE_SG);
+  if (!has_ring_) {
+    return packet_dma_.initialise(
+        {base, drivers::AxiDmaConfig::Channel::stream_to_memory, length_bits});
+  }
+  if (descriptors_.data == nullptr) {
+    constexpr std::size_t bytes = axi_dma::descriptor::alignment;
+    descriptors_ = hal_dma_allocate(ring_size * bytes, bytes);
+  }
+  return packet_ring_.initialise({base, descriptors_, length_bits});
 }
 
 std::uint32_t Capture::max_picture_bytes() const {
@@ -80,7 +97,7 @@ bool Capture::start(const Buffers& buffers, std::uint32_t picture_bytes) {
   packet_status_ = 0;
   control_.write(0);
   if (!picture_dma_.start(buffers.picture.bus_address, picture_bytes) ||
-      !packet_dma_.start(buffers.packet.bus_address, blob_stream::max_packet_bytes)) {
+      !start_packet(buffers.packet.bus_address)) {
     return false;
   }
   started_ = timer_.now();
@@ -88,11 +105,21 @@ bool Capture::start(const Buffers& buffers, std::uint32_t picture_bytes) {
   return true;
 }
 
+bool Capture::start_packet(std::uint32_t address) {
+  return has_ring_ ? packet_ring_.give(address, blob_stream::max_packet_bytes)
+                   : packet_dma_.start(address, blob_stream::max_packet_bytes);
+}
+
+DmaStatus Capture::dma_status() const {
+  return {picture_dma_.status(), has_ring_ ? packet_ring_.status() : packet_dma_.status()};
+}
+
 void Capture::on_packet(void* self) {
   const marker::FunctionScope scope(marker::Function::dma_interrupt);
   marker::work(marker::Work::interrupts, 1);
   Capture& capture = *static_cast<Capture*>(self);
-  capture.packet_status_ = capture.packet_dma_.acknowledge();
+  capture.packet_status_ =
+      capture.has_ring_ ? capture.packet_ring_.acknowledge() : capture.packet_dma_.acknowledge();
 }
 
 void Capture::on_alarm(void* self) {
@@ -118,7 +145,15 @@ Status Capture::await_packet() {
     timer_.clear_alarm();
   }
   if (packet_status_ == 0) return Status::timeout;
-  return drivers::AxiDma::is_error(packet_status_) ? Status::packet_error : Status::ok;
+  if (drivers::AxiDma::is_error(packet_status_)) return Status::packet_error;
+  if (!has_ring_) {
+    packet_bytes_ = packet_dma_.received();
+    return Status::ok;
+  }
+  drivers::AxiDmaRing::Packet packet{};
+  if (!packet_ring_.take(packet) || !packet.whole) return Status::packet_error;
+  packet_bytes_ = packet.bytes;
+  return Status::ok;
 }
 
 /// The picture ends before the packet, but its last burst may still be on its way.

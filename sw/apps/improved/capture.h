@@ -1,6 +1,7 @@
 #pragma once
 
 #include <drivers/axi_dma.h>
+#include <drivers/axi_dma_ring.h>
 #include <drivers/axi_gpio.h>
 #include <drivers/gic.h>
 #include <drivers/timers.h>
@@ -27,7 +28,8 @@ struct DmaStatus {
 };
 
 /// The camera on the PL and the two DMA engines that bring its frames into memory. One frame at a
-/// time; its packet's interrupt says that it is there.
+/// time; its packet's interrupt says that it is there. Packets go through a ring of descriptors if
+/// their engine is built with scatter-gather.
 class Capture {
  public:
   /// Brings up all devices and unmasks interrupts. False if a DMA does not leave reset.
@@ -47,7 +49,7 @@ class Capture {
   Status await(std::uint64_t timeout);
 
   /// Of the packet that came.
-  std::uint32_t packet_bytes() const { return packet_dma_.received(); }
+  std::uint32_t packet_bytes() const { return packet_bytes_; }
 
   /// A frame that is in memory is wrong, as `status` says: the next start() begins afresh.
   Status distrust(Status status) {
@@ -59,13 +61,15 @@ class Capture {
   std::uint64_t now() const { return timer_.now(); }
 
   /// For messages.
-  DmaStatus dma_status() const { return {picture_dma_.status(), packet_dma_.status()}; }
+  DmaStatus dma_status() const;
 
  private:
   static void on_packet(void* self);
   static void on_alarm(void* self);
 
   bool initialise_dma();
+  bool initialise_packet_dma();
+  bool start_packet(std::uint32_t address);
   bool recover();
   Status await_packet();
   Status await_picture();
@@ -74,7 +78,10 @@ class Capture {
   drivers::GlobalTimer timer_;
   drivers::AxiGpio control_;
   drivers::AxiDma picture_dma_, packet_dma_;
-  std::uint32_t picture_bytes_;
+  drivers::AxiDmaRing packet_ring_;  ///< in the place of packet_dma_
+  bool has_ring_;
+  hal_dma_buffer descriptors_{};
+  std::uint32_t picture_bytes_, packet_bytes_;
   std::uint64_t started_, deadline_;
   bool recovery_due_;
   volatile std::uint32_t packet_status_;  ///< of the interrupt; 0: none yet

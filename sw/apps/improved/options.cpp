@@ -53,6 +53,8 @@ Options read_options() {
   options.detector.board = read_board();
   options.overlap = is_on(Option::overlap);
   options.second_core = is_on(Option::second_core);
+  options.pose_filter = is_on(Option::pose_filter);
+  options.filter = {value(Option::filter_acceleration), value(Option::filter_turn_acceleration)};
   options.timeout = value(Option::timeout);
   return options;
 }

@@ -4,6 +4,7 @@
 #include <marker/camera.h>
 #include <marker/code_book.h>
 #include <marker/marker_detector.h>
+#include <marker/pose_filter.h>
 
 #include <cstdint>
 
@@ -31,6 +32,11 @@
     "1: the logic takes the next frame while the software works on the last; 0: one by one")  \
   X(second_core, "", 0, 0, 1,                                                                 \
     "1: both cores read the markers of a frame; poses are part of their detection then")      \
+  X(pose_filter, "", 0, 0, 1,                                                                 \
+    "1: poses follow from those of the frames before, too (Kalman filter of steady motion)")  \
+  X(filter_acceleration, "", 2, 0.001, 10000,                                                 \
+    "m/s2, of the motion that the filter expects (assumed: a camera in the hand)")            \
+  X(filter_turn_acceleration, "", 10, 0.001, 100000, "rad/s2, of its turns (assumed)")        \
   X(timeout, "ms", 100, 0.1, 1000000,                                                         \
     "longest time from the trigger to a frame in memory "                                     \
     "(decision)")
@@ -43,6 +49,8 @@ struct Options {
   marker::DetectorOptions detector;
   bool overlap;
   bool second_core;
+  bool pose_filter;
+  marker::PoseFilterOptions filter;
   double timeout;
 };
 

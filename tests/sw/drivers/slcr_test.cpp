@@ -96,6 +96,21 @@ BOOST_AUTO_TEST_CASE(frequency_from_any_source) {
   BOOST_TEST(driver.pl_clock(0) == 33'333'333u);
 }
 
+BOOST_AUTO_TEST_CASE(frequency_of_the_processors) {
+  registers(slcr::ARM_CLK_CTRL) = 0x1F00'0200;
+  BOOST_TEST(driver.cpu_clock() == 666'666'667u);
+  registers(slcr::ARM_CLK_CTRL) = 0x1F00'0400;
+  BOOST_TEST(driver.cpu_clock() == 333'333'333u);
+  registers(slcr::ARM_CLK_CTRL) =
+      slcr::cpu_source::ddr_pll << slcr::clk_ctrl::SRCSEL_shift | divide(2, 0);
+  BOOST_TEST(driver.cpu_clock() == 533'333'333u);
+  registers(slcr::ARM_CLK_CTRL) =
+      slcr::cpu_source::io_pll << slcr::clk_ctrl::SRCSEL_shift | divide(2, 0);
+  BOOST_TEST(driver.cpu_clock() == 500'000'000u);
+  registers(slcr::IO_PLL_CTRL) |= slcr::pll_ctrl::PLL_PWRDWN;
+  BOOST_TEST(driver.cpu_clock() == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(refusals_change_nothing) {
   BOOST_TEST(driver.set_pl_clock(4, 50'000'000) == 0u);
   BOOST_TEST(driver.pl_clock(4) == 0u);
