@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <future>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <ostream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -94,21 +96,23 @@ void warn(const std::vector<std::string>& warnings, std::ostream& err) {
 /// Says what else is in the folder.
 void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, std::ostream& err) {
   std::vector<std::string> foreign;
-  std::vector<std::string> keys = store.keys(foreign);
+  const std::vector<std::string> keys = store.keys(foreign);
   if (!foreign.empty()) {
     err << "markervp: warning: '" << store.path("points") << "' has '" << foreign.front() << "'"
         << (foreign.size() > 1 ? " and others" : "") << ", which no sweep wrote: left alone"
         << std::endl;
   }
-  std::vector<std::string> planned;
+  std::vector<std::string_view> planned;
+  planned.reserve(manifest.points.size());
   for (const sweep::PlannedPoint& point : manifest.points) planned.push_back(point.key);
   std::sort(planned.begin(), planned.end());
+  std::vector<std::string> others;
+  std::set_difference(keys.begin(), keys.end(), planned.begin(), planned.end(),
+                      std::back_inserter(others));
   std::uint64_t older = 0;
   std::string version;
-  for (const std::string& key : keys) {
-    if (std::binary_search(planned.begin(), planned.end(), key) ||
-        store.looks_like_one_of(manifest.program, key))
-      continue;
+  for (const std::string& key : others) {
+    if (store.looks_like_one_of(manifest.program, key)) continue;
     try {
       const sweep::Json other = store.read(key).identity_json().at("markervp");
       ++older;
@@ -143,10 +147,11 @@ std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLog
                                         const sweep::Manifest& manifest, std::size_t first,
                                         bool retry_failed, std::ostream& err) {
   sweep::RunLog log(store);
+  sweep::RunLogs::Block block;
   std::vector<std::size_t> pending;
   for (std::size_t i = first; i < manifest.points.size(); ++i) {
     const std::string& key = manifest.points[i].key;
-    std::optional<sweep::Outcome> outcome = logs.logged(key);
+    std::optional<sweep::Outcome> outcome = logs.logged(key, sweep::RunLogs::Want::facts, block);
     if (!outcome && (outcome = outcome_of_file(store, key, err))) log.add_untold(key, *outcome);
     if (outcome && outcome->failed && retry_failed) {
       std::error_code ignored;
@@ -163,12 +168,10 @@ namespace {
 
 /// A PS program or a design of the user's own may leave anything behind in its process.
 std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
-  const bool own = std::any_of(
-      manifest.families.begin(), manifest.families.end(), [](const sweep::Family& family) {
-        const auto design = family.configuration.find("design");
-        return is_own_program(family.program) ||
-               (design != family.configuration.end() && is_design_file(design->second));
-      });
+  const bool own = std::any_of(manifest.families.begin(), manifest.families.end(),
+                               [](const sweep::Family& family) {
+                                 return runs_own_code(family.program, family.configuration);
+                               });
   return own || isolate ? 1 : sweep::usual_points_a_process;
 }
 
@@ -270,8 +273,10 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
     const auto logs = std::make_shared<sweep::RunLogs>(store);
     const std::vector<std::size_t> pending =
         pending_points(store, *logs, manifest, 0, options.retry_failed, err);
+    std::future<void> written =
+        std::async(std::launch::async, [&] { store.write_manifest(manifest); });
     mention_others(store, manifest, err);
-    store.write_manifest(manifest);
+    written.get();
     const sweep::Tally tally = compute_all(options, store, manifest, pending, err);
     const std::size_t before = manifest.points.size() - pending.size();
     return conclude(options, store, logs, std::move(manifest), tally, before, out, err);
@@ -281,11 +286,11 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
   }
 }
 
-int sweep_worker(const SweepWorkerOptions& options) {
+int sweep_worker(const SweepWorkerOptions& options, std::ostream& err) {
   const sweep::Store store(options.folder);
   const host::InterruptGuard guard;
   return sweep::run_slurm_task(store, options.submission, options.task, warm_up, run_point,
-                               options.points_a_process);
+                               options.points_a_process, err);
 }
 
 }  // namespace platform::cli

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <cli/options.h>
@@ -29,7 +31,11 @@ sweep::Elaborated elaborate(const ConfigurationOptions& options,
 sweep::Platform sweep_platform();
 /// The command line of `markervp run` that runs the point.
 RunOptions options_of(const sweep::PointRun& point);
-/// Runs it in this process, without files: a sweep::RunPoint.
+/// Whether PS program or design are the user's own, and so may leave anything behind.
+bool runs_own_code(const std::string& program,
+                   const std::map<std::string, std::string>& configuration);
+/// Runs it in this process, without files: a sweep::RunPoint. Programs that are installed stay
+/// loaded.
 int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err);
 
 /// Renders the scenes of the points before processes are forked.

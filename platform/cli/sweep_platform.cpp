@@ -9,6 +9,7 @@
 #include <designs/designs.h>
 #include <host/process.h>
 #include <input/frame_source.h>
+#include <ps/cpu/program.h>
 #include <run/simulation.h>
 #include <sweep/axes.h>
 #include <vp/error.h>
@@ -121,8 +122,16 @@ RunOptions options_of(const sweep::PointRun& point) {
   return options;
 }
 
+bool runs_own_code(const std::string& program,
+                   const std::map<std::string, std::string>& configuration) {
+  const auto design = configuration.find("design");
+  return is_own_program(program) ||
+         (design != configuration.end() && is_design_file(design->second));
+}
+
 int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err) {
   vp::begin_fresh_context();
+  if (!runs_own_code(point.program, point.settings)) ps::Program::keep_loaded();
   MemoryRun found;
   const auto hand_over = [&] {
     result.result = found.result.take();

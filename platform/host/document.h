@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,5 +58,31 @@ Json read_json(const std::filesystem::path& path, const std::string& what,
                std::uint64_t most = vp::largest_by_hand) {
   return parse_json<Json>(vp::read_text(path, what, most), what + " '" + path.string() + "'");
 }
+
+/// What was made of documents, kept as long as their text is the same: a process that computes many
+/// points reads the same tables for each.
+template <class Value>
+class KeptDocuments {
+ public:
+  /// What `make(text)` returned for this file when it had the same text; else what it returns now.
+  template <class Make>
+  std::shared_ptr<const Value> get(const std::filesystem::path& path, const std::string& text,
+                                   const Make& make) {
+    constexpr std::size_t most_kept = 16;
+    const auto known = kept_.find(path.string());
+    if (known != kept_.end() && known->second.text == text) return known->second.value;
+    auto value = std::make_shared<const Value>(make(text));
+    if (kept_.size() == most_kept) kept_.clear();
+    kept_.insert_or_assign(path.string(), Kept{text, value});
+    return value;
+  }
+
+ private:
+  struct Kept {
+    std::string text;
+    std::shared_ptr<const Value> value;
+  };
+  std::map<std::string, Kept> kept_;
+};
 
 }  // namespace platform::host

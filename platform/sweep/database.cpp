@@ -229,11 +229,13 @@ class ParameterColumn {
   std::unordered_map<std::string, std::optional<double>> numbers_;
 };
 
-void add_parameters(const Database& database, const Results& results) {
+/// `order`: by_key().
+void add_parameters(const Database& database, const Results& results,
+                    const std::vector<std::size_t>& order) {
   const std::set<std::string> differing = Varying(results).take();
   std::vector<ParameterColumn> columns(differing.begin(), differing.end());
   Insert parameters(database, "parameters", 4);
-  for (const std::size_t position : by_key(results)) {
+  for (const std::size_t position : order) {
     const ResultRow& row = results.rows[position];
     for (ParameterColumn& column : columns) {
       const std::string text = row.value(column.path());
@@ -293,7 +295,7 @@ class MetricTables {
     shared_.resize(names_.size());
     bool first = true;
     for (const ResultRow& row : results_.rows) {
-      const Metrics metrics = results_.metrics_of(row);
+      const Metrics metrics = results_.metrics_of(row, block_);
       measured_.push_back(!metrics.empty());
       if (metrics.empty()) continue;
       const std::vector<std::size_t>& places = selection_.places_in(metrics);
@@ -309,7 +311,7 @@ class MetricTables {
 
   void add_values(Insert& values, std::size_t position, const std::vector<std::size_t>& differing) {
     if (!measured_[position]) return;
-    const Metrics metrics = results_.metrics_of(results_.rows[position]);
+    const Metrics metrics = results_.metrics_of(results_.rows[position], block_);
     const std::vector<std::size_t>& places = selection_.places_in(metrics);
     for (std::size_t first = 0; first < differing.size(); first += row_values) {
       values.add(static_cast<std::int64_t>(position));
@@ -330,37 +332,57 @@ class MetricTables {
   const Results& results_;
   std::vector<std::string> names_;
   Selection selection_;
+  RunLogs::Block block_;
   std::vector<bool> measured_;
   std::vector<std::optional<double>> shared_;  ///< of the names
 };
 
-/// The computations of the sweep's points. Of those that nobody told of, one where nobody told of
-/// any.
-void add_runs(const Database& database, const Results& results, const RunLogs& logs) {
-  const std::vector<std::size_t> order = by_key(results);
-  std::vector<bool> told(order.size());
-  const auto place_of = [&](const std::string& key) {
+/// Finds the rows of keys, mostly asked for in the order of the rows.
+class RowFinder {
+ public:
+  /// `order`: by_key().
+  RowFinder(const Results& results, const std::vector<std::size_t>& order)
+      : results_(results), order_(order) {}
+
+  /// results.rows.size() for a key that no row has.
+  std::size_t row_of(const std::string& key) {
+    const std::vector<ResultRow>& rows = results_.rows;
+    if (next_ < rows.size() && rows[next_].key == key) return next_++;
     const auto found = std::lower_bound(
-        order.begin(), order.end(), key,
-        [&](std::size_t row, const std::string& wanted) { return results.rows[row].key < wanted; });
-    const bool is_here = found != order.end() && results.rows[*found].key == key;
-    return is_here ? static_cast<std::size_t>(found - order.begin()) : order.size();
-  };
+        order_.begin(), order_.end(), key,
+        [&](std::size_t row, const std::string& wanted) { return rows[row].key < wanted; });
+    if (found == order_.end() || rows[*found].key != key) return rows.size();
+    next_ = *found + 1;
+    return *found;
+  }
+
+ private:
+  const Results& results_;
+  const std::vector<std::size_t>& order_;
+  std::size_t next_ = 0;
+};
+
+/// The computations of the sweep's points. Of those that nobody told of, one where nobody told of
+/// any. `order`: by_key().
+void add_runs(const Database& database, const Results& results, const RunLogs& logs,
+              const std::vector<std::size_t>& order) {
+  std::vector<bool> told(results.rows.size());
+  RowFinder finder(results, order);
   Insert runs(database, "runs", 7);
   const auto add = [&](const RunEntry& run) {
     runs.row(run.key, run.engine, run.host, run.date, std::int64_t{run.attempt}, run.wall_s,
              run.cpu_s);
   };
   logs.visit([&](const RunEntry& run) {
-    const std::size_t place = place_of(run.key);
-    if (place == order.size() || !run.told()) return;
-    told[place] = true;
+    const std::size_t row = finder.row_of(run.key);
+    if (row == results.rows.size() || !run.told()) return;
+    told[row] = true;
     add(run);
   });
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    if (told[place]) continue;
+  for (const std::size_t row : order) {
+    if (told[row]) continue;
     RunEntry untold;
-    untold.key = results.rows[order[place]].key;
+    untold.key = results.rows[row].key;
     add(untold);
   }
 }
@@ -388,8 +410,9 @@ void write_database(const std::string& path, const Results& results, const RunLo
     MetricTables metrics(results);
     add_points(database, results, metrics.measured());
     metrics.write(database);
-    add_parameters(database, results);
-    add_runs(database, results, runs);
+    const std::vector<std::size_t> order = by_key(results);
+    add_parameters(database, results, order);
+    add_runs(database, results, runs, order);
     database.execute("COMMIT");
   }
   file.commit();

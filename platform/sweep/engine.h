@@ -83,10 +83,15 @@ Tally run_slurm(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const SlurmOptions& options,
                 const RunPoint& run, const OnProgress& progress, std::ostream& err);
 
-/// What a task does: its share of submission number `submission`. Returns the exit code.
+/// What a task does: its share of submission number `submission`. `err` is its log, and gets what
+/// LocalOptions::warn would. Returns the exit code.
 int run_slurm_task(
     const Store& store, std::uint32_t submission, std::uint32_t task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run, std::uint32_t points_a_process);
+    const RunPoint& run, std::uint32_t points_a_process, std::ostream& err);
+
+/// Says on `err` what the tasks warned of in their logs in the folder, twenty warnings at most, and
+/// which task each is of.
+void tell_warnings(const std::string& folder, std::ostream& err);
 
 }  // namespace platform::sweep

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <numeric>
 #include <ostream>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -175,6 +177,13 @@ Manifest part_of(const Manifest& whole, const std::vector<std::size_t>& position
   return part;
 }
 
+constexpr const char* warning_mark = "markervp: warning: ";
+
+/// For LocalOptions::warn.
+std::function<void(const std::string&)> warns_on(std::ostream& err) {
+  return [&err](const std::string& text) { err << warning_mark << text << std::endl; };
+}
+
 std::string task_file(const std::string& submission, std::size_t task) {
   return submission + "/task-" + std::to_string(task) + ".json";
 }
@@ -201,6 +210,7 @@ class Cluster {
       wanted = missing(store_, manifest_, positions);
       if (wanted.empty()) break;
       watch(submit_chunks(wanted), wanted);
+      tell_warnings(logs_, err_);
     }
     if (!tally_.interrupted) give_up(missing(store_, manifest_, positions));
     tally_.computed = total_ - missing(store_, manifest_, positions).size();
@@ -214,11 +224,13 @@ class Cluster {
   void wait_for_earlier(const std::vector<std::size_t>& positions) {
     std::error_code ignored;
     if (!fs::exists(job_file(), ignored)) return;
-    const std::string job = read_json(job_file()).value("job", "");
+    const Json earlier = read_json(job_file());
+    const std::string job = earlier.value("job", "");
     if (job.empty() || !JobWatch(job).active()) return;
     err_ << "markervp: job " << job << " of an earlier call is still in the queue: waiting for it"
          << std::endl;
     watch(job, positions);
+    tell_warnings(submission_folder(store_, earlier.value("submission", 0U)), err_);
   }
 
   /// Runs one point here to see how many make a task.
@@ -226,8 +238,9 @@ class Cluster {
     chunk_ = options_.chunk;
     if (chunk_ != 0) return;
     const HostClock::time_point begin = HostClock::now();
-    const Tally tally = run_local(store_, manifest_, {wanted.front()},
-                                  {1, "local", options_.points_a_process}, run_, nullptr);
+    const Tally tally =
+        run_local(store_, manifest_, {wanted.front()},
+                  {1, "local", options_.points_a_process, warns_on(err_)}, run_, nullptr);
     tally_.interrupted = tally.interrupted;
     const double seconds = std::chrono::duration<double>(HostClock::now() - begin).count();
     chunk_ = static_cast<std::uint32_t>(
@@ -314,10 +327,30 @@ Tally run_slurm(const Store& store, const Manifest& manifest,
   return Cluster(store, manifest, options, run, progress, err).compute(positions);
 }
 
+void tell_warnings(const std::string& folder, std::ostream& err) {
+  constexpr int most_told = 20;
+  std::error_code ignored;
+  std::set<fs::path> logs;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".log") logs.insert(entry.path());
+  }
+  int told = 0;
+  for (const fs::path& log : logs) {
+    std::ifstream lines(log);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind(warning_mark, 0) != 0) continue;
+      if (++told <= most_told) err << line << " (" << log.stem().string() << ")\n";
+    }
+  }
+  if (told > most_told)
+    err << warning_mark << told - most_told << " more in the logs in " << folder << "\n";
+  err << std::flush;
+}
+
 int run_slurm_task(
     const Store& store, std::uint32_t submission, std::uint32_t task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run, std::uint32_t points_a_process) {
+    const RunPoint& run, std::uint32_t points_a_process, std::ostream& err) {
   const std::string file = task_file(submission_folder(store, submission), task);
   std::error_code ignored;
   if (!fs::exists(file, ignored))
@@ -328,8 +361,8 @@ int run_slurm_task(
   std::iota(positions.begin(), positions.end(), std::size_t{0});
   positions = missing(store, manifest, positions);
   warm(manifest, positions);
-  const Tally tally =
-      run_local(store, manifest, positions, {1, "slurm", points_a_process}, run, nullptr);
+  const LocalOptions options{1, "slurm", points_a_process, warns_on(err)};
+  const Tally tally = run_local(store, manifest, positions, options, run, nullptr);
   return tally.interrupted ? host::interrupted : host::done;
 }
 

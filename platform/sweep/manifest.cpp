@@ -145,12 +145,11 @@ std::string Manifest::identity(const PlannedPoint& point) const {
 
 namespace {
 
-std::string line_of(const std::string& path, const std::string& value) {
-  std::string line;
-  append_text(line, path);
-  line += ':';
-  append_text(line, value);
-  return line;
+void add_line(std::string& json, const std::string& path, const std::string& value) {
+  append_text(json, path);
+  json += ':';
+  append_text(json, value);
+  json += ',';
 }
 
 }  // namespace
@@ -163,40 +162,41 @@ const Identities::Shared& Identities::shared_by(std::size_t family, std::size_t 
   if (!is_new) return shared;
   const Family& of_point = manifest_.families[family];
   const InputChoice& input = manifest_.input;
-  shared.head = "{\"markervp\":" + manifest_.program.dump();
-  shared.head += ",\"tables\":" + manifest_.tables.dump();
-  shared.head += ",\"contents\":" + of_point.contents.dump();
-  shared.head += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
-  shared.head += ",\"fit\":" + optional_text(input.fit).dump();
-  shared.head += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
-  shared.head += ",\"repeat\":" + std::to_string(input.repeat);
-  shared.head += ",\"configuration\":";
-  for (const auto& [path, value] : of_point.configuration)
-    shared.lines.emplace_back(path, line_of(path, value));
+  shared.text = "{\"markervp\":" + manifest_.program.dump();
+  shared.text += ",\"tables\":" + manifest_.tables.dump();
+  shared.text += ",\"contents\":" + of_point.contents.dump();
+  shared.text += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
+  shared.text += ",\"fit\":" + optional_text(input.fit).dump();
+  shared.text += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
+  shared.text += ",\"repeat\":" + std::to_string(input.repeat);
+  shared.text += ",\"configuration\":{";
+  for (const auto& [path, value] : of_point.configuration) {
+    const std::size_t begin = shared.text.size();
+    add_line(shared.text, path, value);
+    shared.lines.push_back({path, begin, shared.text.size()});
+  }
   return shared;
 }
 
-// The configuration is most of it, and goes into words without a tree of values.
+// Between the changes, which are sorted as the lines are, it is what the points share.
 std::string Identities::of(const PlannedPoint& point) {
   const Shared& shared = shared_by(point.family, point.input_set);
-  std::string text = shared.head;
-  char before = '{';
-  const auto add = [&](const std::string& line) {
-    text += std::exchange(before, ',');
-    text += line;
-  };
-  auto change = point.changes.begin();  // both are sorted
-  const auto end = point.changes.end();
-  for (const auto& [path, line] : shared.lines) {
-    for (; change != end && change->first.text() < path; ++change)
-      add(line_of(change->first, change->second));
-    const bool changed = change != end && change->first == path;
-    add(changed ? line_of(path, change->second) : line);
-    if (changed) ++change;
+  std::string text;
+  text.reserve(shared.text.size() + shared.text.size() / 8);
+  std::size_t copied = 0;
+  auto line = shared.lines.begin();
+  for (const auto& [path, value] : point.changes) {
+    line = std::lower_bound(line, shared.lines.end(), path.text(),
+                            [](const Shared::Line& a, const std::string& b) { return a.path < b; });
+    const bool is_there = line != shared.lines.end() && line->path == path.text();
+    const std::size_t place = line == shared.lines.end() ? shared.text.size() : line->begin;
+    text.append(shared.text, copied, place - copied);
+    add_line(text, path, value);
+    copied = is_there ? line->end : place;
   }
-  for (; change != end; ++change) add(line_of(change->first, change->second));
-  text += before == '{' ? "{}}" : "}}";
-  return text;
+  text.append(shared.text, copied);
+  if (text.back() == ',') text.pop_back();
+  return text += "}}";
 }
 
 std::string key_of(std::string_view identity) {

@@ -112,8 +112,12 @@ class Identities {
  private:
   /// What points of one family and with the same inputs share, in words.
   struct Shared {
-    std::string head;                                        ///< all before the configuration
-    std::vector<std::pair<std::string, std::string>> lines;  ///< of that, by path
+    struct Line {
+      std::string path;
+      std::size_t begin, end;  ///< in the text, the comma included
+    };
+    std::string text;         ///< up to the last line of the configuration
+    std::vector<Line> lines;  ///< by path
   };
 
   const Shared& shared_by(std::size_t family, std::size_t input_set);

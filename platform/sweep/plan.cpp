@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <set>
 #include <string>
+#include <thread>
 #include <unordered_map>
 #include <vector>
 
@@ -35,6 +37,26 @@ namespace {
 bool check_values(const AxisValues& axis, const std::vector<Base>& bases, const Platform& platform);
 
 using Kind = ParameterKind::Kind;
+
+/// Gives points of the manifest's families their keys. Of many points that is most of the planning,
+/// so each processor takes its share.
+void find_keys(const Manifest& manifest, std::vector<PlannedPoint>& points) {
+  constexpr std::size_t share_worth_a_thread = 1000;
+  const std::size_t shares =
+      std::max<std::size_t>(1, std::min<std::size_t>(std::thread::hardware_concurrency(),
+                                                     points.size() / share_worth_a_thread));
+  std::vector<std::future<void>> running;
+  for (std::size_t share = 0; share < shares; ++share) {
+    const auto find = [&, from = points.size() * share / shares,
+                       to = points.size() * (share + 1) / shares] {
+      Identities identities(manifest);
+      for (std::size_t i = from; i < to; ++i) points[i].key = key_of(identities.of(points[i]));
+    };
+    running.push_back(
+        std::async(share + 1 == shares ? std::launch::deferred : std::launch::async, find));
+  }
+  for (std::future<void>& found : running) found.get();
+}
 
 /// The smallest, the largest, and one that is not whole.
 std::vector<std::string> extremes(const std::vector<std::string>& values,
@@ -301,11 +323,15 @@ class Planner {
   }
 
   void add_points(Expansion&& expansion) {
+    std::vector<PlannedPoint> points;
+    points.reserve(expansion.points.size());
+    for (Assignment& assignment : expansion.points) points.push_back(placed(std::move(assignment)));
+    std::vector<Assignment>().swap(expansion.points);  // and its room
+    find_keys(manifest_, points);
     std::vector<std::size_t> positions;  // of the expansion's points
     std::unordered_map<std::string, std::size_t> seen;
-    manifest_.points.reserve(expansion.points.size());
-    for (Assignment& assignment : expansion.points) {
-      PlannedPoint point = planned(std::move(assignment));
+    manifest_.points.reserve(points.size());
+    for (PlannedPoint& point : points) {
       const auto [known, is_new] = seen.emplace(point.key, manifest_.points.size());
       positions.push_back(known->second);
       if (is_new) manifest_.points.push_back(std::move(point));
@@ -316,6 +342,13 @@ class Planner {
   }
 
   PlannedPoint planned(Assignment assignment) {
+    PlannedPoint point = placed(std::move(assignment));
+    point.key = key_of(identities_.of(point));
+    return point;
+  }
+
+  /// All but its key.
+  PlannedPoint placed(Assignment assignment) {
     PlannedPoint point;
     point.swept = std::move(assignment);
     Build build{spec_.program, spec_.set};
@@ -342,7 +375,6 @@ class Planner {
     changes.shrink_to_fit();
     std::sort(changes.begin(), changes.end(),
               [](const auto& a, const auto& b) { return a.first.text() < b.first.text(); });
-    point.key = key_of(identities_.of(point));
     return point;
   }
 

@@ -18,8 +18,15 @@ namespace platform::sweep {
 
 namespace {
 
-std::string holds_name(const std::string& part) {
-  return "verdict." + part + ".holds";
+/// "verdict.fits.holds"
+const std::string& holds_name(const std::string& part) {
+  static const std::map<std::string, std::string> names = [] {
+    std::map<std::string, std::string> of_parts;
+    for (const char* name : report::verdict_parts)
+      of_parts[name] = "verdict." + std::string(name) + ".holds";
+    return of_parts;
+  }();
+  return names.at(part);
 }
 
 /// The figures that rows have: of what the sweep asks for, and of `more`.
@@ -127,8 +134,8 @@ std::vector<std::string> Results::reasons(const ResultRow& row) const {
   return reasons;
 }
 
-Metrics Results::metrics_of(const ResultRow& row) const {
-  return logs_ ? logs_->metrics(row.key) : row.metrics;
+Metrics Results::metrics_of(const ResultRow& row, RunLogs::Block& block) const {
+  return logs_ ? logs_->metrics(row.key, block) : row.metrics;
 }
 
 std::vector<std::string> Results::metric_names() const {
@@ -177,8 +184,9 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
   results.rows.reserve(manifest.points.size());
   Selection selection(figures_of(manifest, more));
   Metrics before;
+  RunLogs::Block block;
   for (PlannedPoint& point : manifest.points) {
-    std::optional<Outcome> outcome = logs->outcome(point.key);
+    std::optional<Outcome> outcome = logs->outcome(point.key, block);
     if (!outcome) {
       ++results.missing;
       continue;
@@ -263,8 +271,9 @@ void write_csv(const std::string& path, const Results& results) {
   file.write(csv_line(fields));
   std::vector<NumberColumn> columns(metrics.size());
   Selection selection(metrics);
+  RunLogs::Block block;
   for (const ResultRow& row : results.rows) {
-    const Metrics figures = results.metrics_of(row);
+    const Metrics figures = results.metrics_of(row, block);
     const std::vector<std::size_t>& places = selection.places_in(figures);
     fields = {row.key, row.failed ? "failed" : "done", row.failure.message,
               to_string(results.feasible(row))};

@@ -55,7 +55,7 @@ struct Results {
   /// Why it failed or is not feasible; empty if it is.
   std::vector<std::string> reasons(const ResultRow& row) const;
   /// All metrics of a point, of which its row may have some only.
-  Metrics metrics_of(const ResultRow& row) const;
+  Metrics metrics_of(const ResultRow& row, RunLogs::Block& block) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
   /// Those that the sweep asks for; all if it does not.

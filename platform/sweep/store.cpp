@@ -389,7 +389,8 @@ struct RunLogs::File {
           break;
         }
         const std::string_view body = rest.substr(sizeof head, head.size);
-        if (check_of(body) != head.check) return from;
+        const bool was_read = from + sizeof head + head.size <= read;
+        if (!was_read && check_of(body) != head.check) return from;
         found(body, from + sizeof head);
         from += sizeof head + head.size;
         rest.remove_prefix(sizeof head + head.size);
@@ -459,36 +460,60 @@ void RunLogs::scan(std::uint32_t number) {
   });
 }
 
-std::optional<RunLogs::Record> RunLogs::record(const std::string& key) const {
+std::string_view RunLogs::Block::view(const File& file, std::uint64_t offset, std::size_t size) {
+  constexpr std::size_t together = 1 << 16;
+  const std::uint64_t end = offset_ + bytes_.size();
+  const bool follows = file_ == &file && offset_ <= offset && offset < end + together;
+  if (!follows || offset + size > end) {
+    bytes_ = file.bytes(offset, follows ? std::max(size, together) : size);
+    file_ = &file;
+    offset_ = offset;
+  }
+  return std::string_view(bytes_).substr(offset - offset_, size);
+}
+
+std::optional<RunLogs::Record> RunLogs::record(const std::string& key, Want want,
+                                               Block& block) const {
   const auto known = places_.find(std::hash<std::string>()(key));
   if (known == places_.end()) return std::nullopt;
   const Place& place = known->second;
   const File& file = *files_[place.file];
-  const std::string body = file.bytes(place.offset, place.size);
+  const std::string_view body = block.view(file, place.offset, place.size);
   if (body.size() != place.size) return std::nullopt;
   Taker taker(body);
   taker.take<std::uint8_t>();
   PointEntry entry = take_entry(taker);
   if (entry.key != key) return std::nullopt;
-  entry.outcome.metrics = file.take_metrics(taker);
+  if (want == Want::all) entry.outcome.metrics = file.take_metrics(taker);
   return Record{entry.mark, std::move(entry.outcome)};
 }
 
 std::optional<Outcome> RunLogs::logged(const std::string& key) const {
+  Block block;
+  return logged(key, Want::all, block);
+}
+
+std::optional<Outcome> RunLogs::logged(const std::string& key, Want want, Block& block) const {
   const std::optional<FileMark> mark = mark_of(store_.point_path(key));
   if (!mark) return std::nullopt;
-  std::optional<Record> found = record(key);
+  std::optional<Record> found = record(key, want, block);
   if (!found || !(found->mark == *mark)) return std::nullopt;
   return std::move(found->outcome);
 }
 
-Metrics RunLogs::metrics(const std::string& key) const {
-  if (std::optional<Record> found = record(key)) return std::move(found->outcome.metrics);
+Metrics RunLogs::metrics(const std::string& key, Block& block) const {
+  if (std::optional<Record> found = record(key, Want::all, block))
+    return std::move(found->outcome.metrics);
   return outcome_of(store_.read(key)).metrics;
 }
 
 std::optional<Outcome> RunLogs::outcome(const std::string& key) const {
-  if (std::optional<Outcome> found = logged(key)) return found;
+  Block block;
+  return outcome(key, block);
+}
+
+std::optional<Outcome> RunLogs::outcome(const std::string& key, Block& block) const {
+  if (std::optional<Outcome> found = logged(key, Want::all, block)) return found;
   if (!store_.has(key)) return std::nullopt;
   return outcome_of(store_.read(key));
 }

@@ -126,6 +126,8 @@ struct FileMark {
 /// What the logs of a folder say. Of a point they count as long as its file is as it was when it
 /// was logged, by size and time; else the file is read.
 class RunLogs {
+  struct File;
+
  public:
   explicit RunLogs(const Store& store);
   ~RunLogs();
@@ -135,13 +137,29 @@ class RunLogs {
   /// Reads what was logged since.
   void refresh();
 
+  /// Bytes of a log that were read together, since points that follow each other mostly stand so.
+  /// Who asks for one point after another keeps one, in one thread.
+  class Block {
+   private:
+    friend class RunLogs;
+    std::string_view view(const File& file, std::uint64_t offset, std::size_t size);
+
+    const File* file_ = nullptr;
+    std::uint64_t offset_ = 0;
+    std::string bytes_;
+  };
+
+  /// How much of an outcome: `facts` is all but the metrics, which take the longest.
+  enum class Want { facts, all };
   /// None: the logs do not know the point's file as it is.
+  std::optional<Outcome> logged(const std::string& key, Want want, Block& block) const;
   std::optional<Outcome> logged(const std::string& key) const;
   /// The metrics of a point that has an outcome(), whose file is not looked at again if a log has
   /// them.
-  Metrics metrics(const std::string& key) const;
+  Metrics metrics(const std::string& key, Block& block) const;
   /// From the logs or from the point's file; none: there is no such point. Throws vp::InputError
   /// for a file that is damaged or was changed.
+  std::optional<Outcome> outcome(const std::string& key, Block& block) const;
   std::optional<Outcome> outcome(const std::string& key) const;
 
   /// Logs the points at hand whose process was killed before it told. Throws vp::OutputError.
@@ -152,7 +170,6 @@ class RunLogs {
   void visit(const std::function<void(const RunEntry&)>& visit) const;
 
  private:
-  struct File;
   struct Record {
     FileMark mark;
     Outcome outcome;
@@ -166,7 +183,7 @@ class RunLogs {
 
   void scan(std::uint32_t number);
   /// The last one of a point.
-  std::optional<Record> record(const std::string& key) const;
+  std::optional<Record> record(const std::string& key, Want want, Block& block) const;
 
   Store store_;
   std::vector<std::unique_ptr<File>> files_;

@@ -66,26 +66,23 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, 
   BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
 }
 
-// What a process keeps from one point for the next must show nowhere.
-BOOST_FIXTURE_TEST_CASE(a_random_tenth_of_a_study_equals_runs_of_their_own, Sweeps) {
-  write("s.yaml",
-        "inputs: [demo, z1.0]\n"
-        "parameters:\n"
-        "  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 70 MHz}\n"
-        "  ps.cpu_clk.frequency: {start: 200 MHz, stop: 667 MHz}\n"
-        "  pl.blob_detection.label_count: [16, 32, 64, 128]\n"
-        "  pl.feature_packaging.buffer_depth: [16, 64, 100]\n"
-        "  sw.canonical_width: [18 px, 36 px, 60 px]\n"
-        "  sw.opt: [O0, O2]\n"
-        "sample: {method: sobol, points: 100}\n");
-  BOOST_TEST(run({"sweep", "s.yaml", "--no-report", "--jobs", "2"}).exit_code == 0);
-  std::vector<std::string> files;
-  for (const auto& [file, text] : points("out/s")) files.push_back(file);
-  BOOST_TEST_REQUIRE(files.size() > 90u);
-  std::shuffle(files.begin(), files.end(), std::minstd_rand(18));
-  files.resize(files.size() / 10);
-  for (const std::string& file : files) {
-    const std::string point = *this / ("out/s/points/" + file);
+/// Computes a study and, again, a tenth of its points, always the same, each as a run of its own.
+class Tenth : public Sweeps {
+ public:
+  void equals_runs_of_their_own(const std::string& yaml, std::size_t least_points) const {
+    write("s.yaml", yaml);
+    const kit::Outcome sweep = run({"sweep", "s.yaml", "--no-report", "--jobs", "2"});
+    BOOST_TEST(sweep.exit_code == 0, sweep.err);
+    std::vector<std::string> files;
+    for (const auto& [file, text] : points("out/s")) files.push_back(file);
+    BOOST_TEST_REQUIRE(files.size() >= least_points);
+    std::shuffle(files.begin(), files.end(), std::minstd_rand(18));
+    files.resize(files.size() / 10);
+    for (const std::string& file : files) equals_run_of_its_own(*this / ("out/s/points/" + file));
+  }
+
+ private:
+  void equals_run_of_its_own(const std::string& point) const {
     const kit::Outcome alone =
         run({"run", "--point", point, "--no-pictures", "--no-report", "-q", "-o", "alone"});
     BOOST_TEST(alone.exit_code == 0, alone.err);
@@ -93,8 +90,47 @@ BOOST_FIXTURE_TEST_CASE(a_random_tenth_of_a_study_equals_runs_of_their_own, Swee
     const Json record = Json::parse(kit::read_file(point));
     BOOST_TEST(result["configuration"].dump() == record["identity"]["configuration"].dump());
     for (const char* elsewhere : {"provenance", "configuration"}) result.erase(elsewhere);
-    BOOST_TEST(result.dump() == record["outcome"]["result"].dump(), file);
+    BOOST_TEST(result.dump() == record["outcome"]["result"].dump(), point);
   }
+};
+
+// What a process keeps from one point for the next must show nowhere.
+BOOST_FIXTURE_TEST_CASE(a_tenth_of_clocks_buffers_and_software_equals_runs_of_their_own, Tenth) {
+  equals_runs_of_their_own(
+      "inputs: [demo, z1.0]\n"
+      "parameters:\n"
+      "  ps.fclk_clk1.frequency: {start: 20 MHz, stop: 70 MHz}\n"
+      "  ps.cpu_clk.frequency: {start: 200 MHz, stop: 667 MHz}\n"
+      "  pl.blob_detection.label_count: [16, 32, 64, 128]\n"
+      "  pl.feature_packaging.buffer_depth: [16, 64, 100]\n"
+      "  sw.canonical_width: [18 px, 36 px, 60 px]\n"
+      "  sw.upload: [0, 1]\n"
+      "  sw.opt: [O0, O2]\n"
+      "sample: {method: sobol, points: 100}\n",
+      90);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_tenth_of_designs_devices_and_inputs_equals_runs_of_their_own, Tenth) {
+  equals_runs_of_their_own(
+      "parameters:\n"
+      "  design: [thesis, improved, ps-only]\n"
+      "  device: [xc7z010-1, xc7z020-1, xc7z020-3]\n"
+      "  profile: [thesis, a9-O2]\n"
+      "  power.mode: [activity, vivado-default]\n"
+      "  ps.cpu_clk.frequency: {start: 300 MHz, stop: 667 MHz}\n"
+      "  inputs: {plain: [demo], noisy: ['demo@noise=0.03,blur=1px'], near: [z1.0, squares]}\n"
+      "sample: {method: sobol, points: 60}\n",
+      50);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_tenth_of_a_study_over_scenes_equals_runs_of_their_own, Tenth) {
+  equals_runs_of_their_own(
+      "scenes: {base: front7, distance: [1 m, 2 m], noise: [0.007, 0.05]}\n"
+      "job: summary.frames > 0\n"
+      "parameters:\n"
+      "  sw.canonical_width: {start: 18 px, stop: 54 px, step: 9 px}\n"
+      "  pl.blob_detection.minimum_side: [8 px, 12 px, 16 px, 24 px]\n",
+      20);
 }
 
 BOOST_FIXTURE_TEST_CASE(equal_points_are_computed_once, Sweeps) {

@@ -84,4 +84,26 @@ BOOST_AUTO_TEST_CASE(a_file_is_named) {
       });
 }
 
+BOOST_AUTO_TEST_CASE(a_document_is_made_once_for_each_text) {
+  host::KeptDocuments<std::string> kept;
+  int made = 0;
+  const auto get = [&](const std::string& file, const std::string& text) {
+    return *kept.get(file, text, [&](const std::string& of) {
+      if (of == "bad") throw vp::InputError("it is bad");
+      ++made;
+      return "made of " + of;
+    });
+  };
+  BOOST_TEST(get("a", "1") == "made of 1");
+  BOOST_TEST(get("a", "1") == "made of 1");
+  BOOST_TEST(made == 1);
+  BOOST_TEST(get("b", "1") == "made of 1");
+  BOOST_TEST(get("a", "2") == "made of 2", "a file that was changed is read again");
+  BOOST_TEST(made == 3);
+  BOOST_CHECK_THROW(get("a", "bad"), vp::InputError);
+  BOOST_CHECK_THROW(get("a", "bad"), vp::InputError);
+  for (int i = 0; i < 100; ++i) get(std::to_string(i), "x");
+  BOOST_TEST(get("a", "1") == "made of 1");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

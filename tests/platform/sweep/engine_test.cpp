@@ -56,7 +56,22 @@ class Platform : public kit::TemporaryFolder {
   int more_figures = 0;  ///< of each result
 
   Tally compute(const LocalOptions& options, const Mischief& mischief = {}) {
-    const RunPoint run = [&](const PointRun& asked, PointResult& result, std::ostream& err) {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < manifest_.points.size(); ++i) all.push_back(i);
+    return run_local(store(), manifest_, all, options, run_with(mischief), nullptr);
+  }
+  /// All points as a task of Slurm; returns its log.
+  std::string compute_as_task(const Mischief& mischief) {
+    std::filesystem::create_directories(*this / "sweep/slurm/1");
+    write_manifest(*this / "sweep/slurm/1/task-0.json", manifest_);
+    std::ostringstream log;
+    const auto warm = [](const Manifest&, const std::vector<std::size_t>&) {};
+    BOOST_TEST(run_slurm_task(store(), 1, 0, warm, run_with(mischief), 64, log) == 0);
+    return log.str();
+  }
+
+  RunPoint run_with(const Mischief& mischief) {
+    return [this, mischief](const PointRun& asked, PointResult& result, std::ostream& err) {
       const std::string number = asked.settings.at("a");
       std::ofstream(*this / "runs", std::ios::app)
           << number + " " + std::to_string(::getpid()) + "\n"
@@ -68,9 +83,6 @@ class Platform : public kit::TemporaryFolder {
         result.result["summary"]["figure_" + std::to_string(i)] = i;
       return code;
     };
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < manifest_.points.size(); ++i) all.push_back(i);
-    return run_local(store(), manifest_, all, options, run, nullptr);
   }
 
   /// Runs of the point of this number.
@@ -143,6 +155,35 @@ BOOST_AUTO_TEST_CASE(files_do_not_depend_on_who_computed_them) {
   together.compute({3, "local", 64});
   BOOST_TEST(alone.processes() == 9u);
   BOOST_TEST(alone.files() == together.files());
+}
+
+BOOST_AUTO_TEST_CASE(a_task_of_slurm_tells_of_a_process_that_died_and_the_sweep_of_that) {
+  Platform quiet(3);
+  BOOST_TEST(quiet.compute_as_task([](int, int, std::ostream&) { return 0; }) == "");
+  Platform platform(3);
+  const std::string log = platform.compute_as_task([](int number, int attempt, std::ostream&) {
+    if (number == 2 && attempt == 1) crash();
+    return 0;
+  });
+  BOOST_TEST(log ==
+             "markervp: warning: the process was ended by a signal: Segmentation fault, at "
+             "point " +
+                 platform.key(2) + ": it is computed once more, and nothing else is lost\n");
+  const std::string folder = platform / "sweep/slurm/1";
+  const auto told = [&] {
+    std::ostringstream err;
+    tell_warnings(folder, err);
+    return err.str();
+  };
+  BOOST_TEST(told() == "", "no task has a log");
+  kit::write_file(folder + "/task-0.log", "slurmstepd: something\n");
+  BOOST_TEST(told() == "");
+  kit::write_file(folder + "/task-7.log", "first\n" + log);
+  BOOST_TEST(told() == log.substr(0, log.size() - 1) + " (task-7)\n");
+  std::string many;
+  for (int i = 0; i < 25; ++i) many += log;
+  kit::write_file(folder + "/task-7.log", many);
+  BOOST_TEST(contains(told(), "markervp: warning: 5 more in the logs in " + folder + "\n"));
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {

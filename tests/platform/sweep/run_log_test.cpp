@@ -135,6 +135,26 @@ BOOST_AUTO_TEST_CASE(a_log_says_what_the_points_files_say) {
   BOOST_TEST(!logs.logged("no such point").has_value());
 }
 
+BOOST_AUTO_TEST_CASE(points_are_found_in_any_order_with_one_block) {
+  constexpr int points = 400;  // some 100 kB of log, more than a block
+  const Folder folder(points, 100);
+  for (int log = 0; log < 2; ++log) {
+    RunLog half(folder.store(), "local");
+    for (int i = log; i < points; i += 2) half.add(folder.key(i), 0.5, 0.25, 1, folder.file(i));
+  }
+  const RunLogs logs(folder.store());
+  RunLogs::Block block;
+  const auto number = [&](int i) {
+    return *logs.metrics(folder.key(i), block).find("summary.number");
+  };
+  for (int i = 0; i < points; ++i) BOOST_TEST(number(i) == i);
+  for (int i = points; i-- > 0;) BOOST_TEST(number(i) == i);
+  for (int i = 0; i < points; ++i) BOOST_TEST(number(i * 37 % points) == i * 37 % points);
+  const auto facts = logs.logged(folder.key(3), RunLogs::Want::facts, block);
+  BOOST_TEST(facts.value().metrics.empty());
+  BOOST_TEST(!facts->failed);
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_was_changed_is_read_itself) {
   const Folder folder(2, 3);
   folder.log_all();
@@ -218,7 +238,9 @@ BOOST_AUTO_TEST_CASE(results_take_less_than_a_kilobyte_a_point) {
     const Results results = read_results(logs, std::move(manifest));
     BOOST_TEST(results.rows.size() == points);
     BOOST_TEST((heap() - before) / points < 1000u);
-    BOOST_TEST(*results.metrics_of(results.rows[1234]).find("more.figure_4") == 1234 * 0.1 + 4);
+    RunLogs::Block block;
+    BOOST_TEST(*results.metrics_of(results.rows[1234], block).find("more.figure_4") ==
+               1234 * 0.1 + 4);
   }
   BOOST_TEST(static_cast<double>(std::filesystem::file_size(folder.log_file())) / points < 450);
 }

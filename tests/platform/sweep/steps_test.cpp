@@ -104,4 +104,17 @@ BOOST_AUTO_TEST_CASE(the_strongest_step_is_first) {
   BOOST_TEST(json["rows"][3]["to"] == "600");
 }
 
+BOOST_AUTO_TEST_CASE(many_points_have_the_keys_that_each_has_alone) {
+  const Platform platform = numbers();
+  const std::string yaml =
+      "parameters: {a: {start: 0, stop: 999, step: 1}, b: [1, 2, 3], word: [plain, odd]}\n";
+  const Manifest manifest = plan(parse_spec(yaml, "study.yaml"), {}, platform);
+  BOOST_TEST(manifest.points.size() == 6000u);
+  Space space(parse_spec(yaml, "study.yaml"), platform);
+  for (const PlannedPoint& point : manifest.points) {
+    BOOST_REQUIRE(point.key == key_of(manifest.identity(point)));
+    BOOST_REQUIRE(point.key == space.point(point.swept).key);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
