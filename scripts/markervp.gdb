@@ -1,7 +1,9 @@
 # Commands for gdb on a PS program:
 #   gdb -x markervp.gdb --args markervp run --program my_program.so
-# The program is native code: breakpoints, stepping and variables are as everywhere. These three show the hardware. They
-# take no simulated time and change nothing.
+# or, at a moment of a run that was made:
+#   markervp debug out --at 15.2ms
+# The program is native code: breakpoints, stepping and variables are as everywhere. These show the hardware, and where the
+# program is. They take no simulated time and change nothing.
 
 # Programs are loaded when the run begins.
 set breakpoint pending on
@@ -32,4 +34,15 @@ define simtime
 end
 document simtime
 simtime: the simulation time, and the annotated function that runs.
+end
+
+define program
+  select-frame 0
+  while !((int (*)(unsigned long))markervp_is_program)((unsigned long)$pc)
+    up-silently
+  end
+  frame
+end
+document program
+program: goes up from where `markervp debug` stopped to the line of the program.
 end

@@ -54,11 +54,6 @@ any the demo scene runs. Results: result.json and an annotated picture per frame
 constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
 
-constexpr const char* history_examples =
-    R"(  markervp run demo --program mine.so
-  markervp history out --register axi_dma_0.MM2S_DMASR --before 15.2ms
-Runs are deterministic: it makes the run again, from the same folder, and writes nothing.)";
-
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
@@ -78,7 +73,6 @@ For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)"
 constexpr std::uint64_t most_frames = 1'000'000'000;
 constexpr std::uint32_t most_repetitions = 10'000;
 constexpr std::size_t most_clocks = 1'000;
-constexpr std::size_t most_accesses = 1'000'000;
 
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
@@ -207,6 +201,12 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
       .add_option("--control", target.control,
                   "let a test lead the run through this socket (docs/software.md)")
       ->type_name("DESCRIPTOR");
+  command
+      .add_option("--terminal", target.terminals,
+                  "make a terminal at the other end of uart0 or uart1, with a link to it")
+      ->type_name("UART[=LINK]")
+      ->expected(1)
+      ->take_all();
 }
 
 void add_run(CLI::App& app, RunOptions& target) {
@@ -220,24 +220,6 @@ void add_run(CLI::App& app, RunOptions& target) {
   add_trace_options(*command, target);
   add_debug_options(*command, target);
   command->footer(run_examples);
-}
-
-void add_history(CLI::App& app, HistoryOptions& target) {
-  CLI::App* command =
-      app.add_subcommand("history", "who read or wrote a register last in a run, from which line");
-  command->add_option("DIR", target.folder, "folder of the run")->type_name("")->required();
-  command
-      ->add_option("--register", target.at,
-                   "the register, or an address: axi_dma_0.MM2S_DMASR, ddr+0x100, 0x41200000")
-      ->type_name("NAME")
-      ->required();
-  command->add_option("--before", target.before, "before this time: 15.2ms (default: at the end)")
-      ->type_name("TIME");
-  command->add_option("--count", target.count, "so many accesses (default: 5)")
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, most_accesses).description(""));
-  command->add_flag("--writes", target.writes_only, "writes only");
-  command->footer(history_examples);
 }
 
 void add_rtl(CLI::App& app, RtlOptions& target) {
@@ -462,7 +444,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   app->set_help_flag("-h,--help", "print this help");
   app->require_subcommand(1);
   add_run(*app, target.run);
-  add_history(*app, target.history);
+  add_again(*app, target);
   add_scenes(*app, target.scenes);
   add_designs(*app, target.designs);
   add_config(*app, target.config);

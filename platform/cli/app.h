@@ -15,6 +15,9 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target);
 /// Adds those of architecture exploration: sweep, pareto, sensitivity, compare.
 void add_exploration(CLI::App& app, CommandLine& target);
 
+/// Adds those that make a run again to ask it something: history, debug.
+void add_again(CLI::App& app, CommandLine& target);
+
 /// One line on what was wrong with `arguments` (without the program's name), with the nearest match
 /// of a misspelled command or option.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error,

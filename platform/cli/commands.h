@@ -44,6 +44,8 @@ struct MemoryRun {
   report::ResultDocument result;
   std::map<std::string, std::string> configuration;  ///< effective
   std::vector<std::string> history;                  ///< if asked for
+  std::string missed_stop;          ///< why it did not stop where it was to; "" if it did
+  std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody
 };
 
 /// run() without files and console: no pictures, page, trace. `result` is filled when run() would
@@ -52,6 +54,10 @@ int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& er
 
 /// Makes a run again, without its files, and prints who accessed a register last, from which line.
 int tell_history(const HistoryOptions& options, std::ostream& out);
+
+/// Makes a run again, without its files, up to a moment, and goes on as gdb, which stands there in
+/// the PS program. Returns only if the moment does not come, or gdb cannot be started.
+int debug_run(const DebugOptions& options, std::ostream& out, std::ostream& err);
 
 /// Lists scenes, or writes their images and what is in them.
 int list_scenes(const ScenesOptions& options, std::ostream& out);
@@ -106,7 +112,7 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
 int explore_points(const ExploreOptions& options, std::ostream& out, std::ostream& err);
 
 /// Computes the points of one task of a sweep on a cluster.
-int sweep_worker(const SweepWorkerOptions& options);
+int sweep_worker(const SweepWorkerOptions& options, std::ostream& err);
 
 /// Lists what sweeps can be judged by.
 int list_metrics(const MetricsOptions& options, std::ostream& out);

@@ -32,6 +32,18 @@ struct HistoryOptions {
   bool writes_only = false;
 };
 
+/// `markervp debug`.
+struct DebugOptions {
+  std::string folder;  ///< of the run
+  // One of them, or none: where the program failed.
+  std::optional<std::string> at;           ///< time
+  std::optional<std::string> at_register;  ///< or address
+  std::optional<std::uint64_t> warning;    ///< its number
+  std::uint64_t access = 1;                ///< its number
+  bool writes_only = false;
+  std::vector<std::string> commands;  ///< for gdb, which then ends; none: it asks
+};
+
 /// `markervp run`.
 struct RunOptions : PlatformOptions {
   std::vector<std::string> inputs;
@@ -56,7 +68,8 @@ struct RunOptions : PlatformOptions {
   std::vector<std::string> log_bus_filter;
   std::optional<std::string> register_coverage;
   std::optional<std::string> software_profile;
-  std::optional<int> control;  ///< socket of a test that leads the run
+  std::optional<int> control;          ///< socket of a test that leads the run
+  std::vector<std::string> terminals;  ///< "uart1", "uart1=LINK"
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
   bool require_marker = false;
@@ -65,6 +78,7 @@ struct RunOptions : PlatformOptions {
   bool no_report = false;
   bool quiet = false;
   std::optional<HistoryOptions> history;  ///< what a second run is to find out
+  std::optional<DebugOptions> debug;      ///< where a second run is to stop
   /// Counts frames that are done, in memory that another process may watch; null: nobody does.
   std::atomic<std::uint64_t>* frames_done = nullptr;
 };
@@ -263,6 +277,7 @@ struct CompareDetectorsOptions {
 struct CommandLine {
   RunOptions run;
   HistoryOptions history;
+  DebugOptions debug;
   RtlOptions rtl;
   ScenesOptions scenes;
   DesignsOptions designs;

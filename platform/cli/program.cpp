@@ -47,6 +47,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "run") return run(line.run, arguments, out, err);
   if (command == "history") return tell_history(line.history, out);
+  if (command == "debug") return debug_run(line.debug, out, err);
   if (command == "scenes") return list_scenes(line.scenes, out);
   if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, out);
@@ -64,7 +65,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "trace") return ask_trace(line.trace, out);
   if (command == "explore") return explore_points(line.explore, out, err);
   if (command == "sweep") return sweep_points(line.sweep, out, err);
-  if (command == "sweep-worker") return sweep_worker(line.sweep_worker);
+  if (command == "sweep-worker") return sweep_worker(line.sweep_worker, err);
   if (command == "metrics") return list_metrics(line.metrics, out);
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);

@@ -4,7 +4,6 @@
 #include <cli/frame_runner.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <host/document.h>
 #include <host/output_folder.h>
 #include <host/process.h>
 #include <page/report_page.h>
@@ -135,6 +134,15 @@ BusHistoryOptions history_options(const HistoryOptions& options) {
   return result;
 }
 
+StopOptions stop_options(const DebugOptions& options) {
+  using When = StopOptions::When;
+  if (options.at) return {When::at_time, parse_moment(*options.at, "--at"), {}, false, 1};
+  if (options.at_register)
+    return {When::access, 0, *options.at_register, options.writes_only, options.access};
+  if (options.warning) return {When::warning, 0, {}, false, *options.warning};
+  return {When::failure, 0, {}, false, 1};
+}
+
 SimulationOptions simulation_options(const RunOptions& options) {
   const bool traces = options.trace_window || !options.trace_filter.empty() ||
                       options.trace_clocks || options.trace_trigger;
@@ -150,6 +158,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   result.timeline_frames = options.timeline_frames;
   if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
   if (options.history) result.history = history_options(*options.history);
+  if (options.debug) result.stop = stop_options(*options.debug);
   result.register_coverage = options.register_coverage;
   result.software_profile = options.software_profile;
   if (options.control && !host::is_socket(*options.control)) {
@@ -157,6 +166,14 @@ SimulationOptions simulation_options(const RunOptions& options) {
                          ": no socket is open under this number: python/markervp.py opens one");
   }
   result.control = options.control;
+  for (const std::string& text : options.terminals) {
+    const TerminalOptions terminal = TerminalOptions::parse(text);
+    for (const TerminalOptions& other : result.terminals) {
+      if (other.uart == terminal.uart)
+        throw vp::InputError("--terminal: " + terminal.uart + " is named twice");
+    }
+    result.terminals.push_back(terminal);
+  }
   return result;
 }
 
@@ -370,10 +387,9 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   SimulationOptions asked = simulation_options(options);
   const bool page = !options.no_report && !page::page_template().empty();
   if (!page && !options.timeline) asked.timeline_frames = 0;
-  if (!memory) asked.console = &out;
+  asked.console = memory ? memory->console : &out;
   const std::unique_ptr<Simulation> simulation = build(configuration, asked);
-  const auto source =
-      input::open_inputs(options.inputs, input_options(options, *simulation));
+  const auto source = input::open_inputs(options.inputs, input_options(options, *simulation));
   FrameRunner runner(*source);
   check_outputs_differ(options);
   check_trace(options);
@@ -416,6 +432,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   if (memory) {
     memory->configuration = configuration.values();
     memory->history = simulation->history();
+    memory->missed_stop = simulation->missed_stop();
     return verdict(options, runner, facts, warnings.size(), runner.error(), err);
   }
   std::exception_ptr error = runner.error();
@@ -440,46 +457,6 @@ int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& er
   silent.no_pictures = silent.no_report = silent.quiet = true;
   std::ostringstream unread;
   return run_into(&result, silent, {}, unread, err);
-}
-
-// What a run writes beside its folder, and who leads it, is left out.
-int tell_history(const HistoryOptions& options, std::ostream& out) {
-  const fs::path file = fs::path(options.folder) / "result.json";
-  const report::Json result = host::read_json<report::Json>(file, "result", host::largest_result);
-  std::vector<std::string> arguments;
-  try {
-    result.at("provenance").at("command_line").get_to(arguments);
-  } catch (const report::Json::exception&) {
-  }
-  if (arguments.empty() || arguments.front() != "run")
-    throw vp::InputError("'" + file.string() + "' is not of 'markervp run'");
-  CommandLine line;
-  parse_again(arguments, line);
-  RunOptions& run = line.run;
-  if (run.control) throw vp::InputError("a test led this run: make it again with that test");
-  run.trace.reset();
-  run.trace_trigger.reset();
-  run.trace_window.reset();
-  run.trace_filter.clear();
-  run.trace_clocks = false;
-  run.log_bus.reset();
-  run.log_bus_filter.clear();
-  run.timeline.reset();
-  run.register_coverage.reset();
-  run.software_profile.reset();
-  run.history = options;
-  MemoryRun again;
-  std::ostringstream told_before;
-  try {
-    run_in_memory(run, again, told_before);
-  } catch (const vp::ProtocolError&) {  // as the run ended that is asked about
-  }
-  if (again.history.empty()) {
-    out << "no " << (options.writes_only ? "write" : "access") << " of " << options.at
-        << (options.before ? " before " + *options.before : "") << "\n";
-  }
-  for (const std::string& text : again.history) out << text << "\n";
-  return done;
 }
 
 }  // namespace platform::cli

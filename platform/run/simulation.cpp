@@ -89,6 +89,11 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   zynq_->ps.cpu.connect(*bench_);
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);
+  for (const TerminalOptions& terminal : options.terminals) {
+    terminals_.push_back(
+        std::make_unique<Terminal>(("terminal_" + terminal.uart).c_str(), *zynq_, terminal));
+    if (options.console) *options.console << terminals_.back()->introduction() << std::endl;
+  }
   connect_consoles();
 }
 
@@ -142,8 +147,13 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   if (options_.bus_log) log.emplace(*options_.bus_log, *zynq_);
   std::optional<BusHistory> history;
   if (options_.history) history.emplace(*options_.history, *zynq_);
+  std::optional<StopPoint> stop;
+  if (options_.stop) {
+    stop.emplace(*options_.stop, *zynq_, reports_, stop_for_debugger);
+  }
   std::exception_ptr error = simulate(std::move(next), std::move(done));
   if (history) history_ = history->lines();
+  if (stop) missed_stop_ = stop->missed();
   // However the run ended.
   try {
     if (log) log->close();

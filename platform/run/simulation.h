@@ -21,6 +21,8 @@
 #include <zynq/parts.h>
 #include <zynq/remote_control.h>
 #include <zynq/software_options.h>
+#include <zynq/stop_point.h>
+#include <zynq/terminal.h>
 #include <zynq/timeline_recorder.h>
 #include <zynq/zynq.h>
 #include <zynq/zynq_power.h>
@@ -34,9 +36,11 @@ struct SimulationOptions {
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
   std::optional<BusHistoryOptions> history = {};      ///< the run ends when its time is over
+  std::optional<StopOptions> stop = {};               ///< the process stops there, for a debugger
   std::optional<std::string> register_coverage = {};  ///< file: which registers the program used
   std::optional<std::string> software_profile = {};   ///< file: where the program's time goes
   std::optional<int> control = {};                    ///< socket of a test that leads the run
+  std::vector<TerminalOptions> terminals = {};        ///< one for an UART
   std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
 };
 
@@ -77,6 +81,8 @@ class Simulation {
 
   /// BusHistory::lines() of the run.
   const std::vector<std::string>& history() const { return history_; }
+  /// StopPoint::missed() of the run.
+  const std::string& missed_stop() const { return missed_stop_; }
 
   /// There is a trace of the run: one was asked for, and its window or trigger kept something.
   bool wrote_trace() const { return wrote_trace_; }
@@ -112,9 +118,11 @@ class Simulation {
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;
   std::unique_ptr<RemoteControl> control_;
+  std::vector<std::unique_ptr<Terminal>> terminals_;
   bool wrote_trace_ = false;
   std::string software_profile_;
   std::vector<std::string> history_;
+  std::string missed_stop_;
   std::vector<std::string> late_warnings_;  ///< that no frame's report has
 };
 

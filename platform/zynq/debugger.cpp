@@ -1,16 +1,30 @@
 #include <zynq/debugger.h>
 
+#include <ps/cpu/line_guard.h>
+
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>
+#include <csignal>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 namespace platform {
 
 namespace {
 
 Zynq* debugged = nullptr;
+
+/// The program's innermost call that is under way was compiled without debug information.
+bool is_without_lines() {
+  const ps::CodeLocator* const code = debugged ? debugged->ps.cpu.code() : nullptr;
+  if (!code) return false;
+  for (const std::uintptr_t call : ps::return_addresses()) {
+    if (code->contains(call)) return !code->knows_line(call);
+  }
+  return false;
+}
 
 void print(const report::HardwareMap::Device& device) {
   for (const report::HardwareMap::Register& r : device.registers) {
@@ -30,6 +44,18 @@ Debugged::Debugged(Zynq& zynq) {
 
 Debugged::~Debugged() {
   debugged = nullptr;
+}
+
+// From here on no page is guarded: the debugger would stop at each fault.
+void stop_for_debugger(const std::string& what) {
+  ps::LineGuard::program_is_over();
+  std::cout << "stopped: " << what << "\n";
+  if (is_without_lines()) {
+    std::cout << "the program has no debug information there: compile it with -g, as "
+                 "markervp_add_program() does\n";
+  }
+  std::cout << std::flush;
+  markervp_stop();
 }
 
 }  // namespace platform
@@ -67,6 +93,16 @@ void markervp_time() {
     std::cout << ", in '" << cpu.activity().functions().at(function).name << "'";
   }
   std::cout << std::endl;
+}
+
+int markervp_is_program(const void* address) {
+  const ps::CodeLocator* const code = debugged ? debugged->ps.cpu.code() : nullptr;
+  return code && code->contains(reinterpret_cast<std::uintptr_t>(address)) ? 1 : 0;
+}
+
+__attribute__((noinline)) void markervp_stop() {
+  static bool waits = true;
+  if (std::exchange(waits, false)) std::raise(SIGSTOP);
 }
 
 }  // extern "C"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <zynq/zynq.h>
 
@@ -16,6 +17,11 @@ std::uint32_t markervp_peek(std::uint32_t address);
 void markervp_registers(const char* device);
 /// Prints the simulation time and the annotated function that runs.
 void markervp_time();
+/// 1 if the PS program's code is at `address`, otherwise 0.
+int markervp_is_program(const void* address);
+/// Called at each moment that the simulation was to stop for: the place of a breakpoint. The first
+/// time it stops the process until a debugger lets it go on.
+void markervp_stop();
 }
 
 namespace platform {
@@ -28,5 +34,8 @@ class Debugged {
   Debugged(const Debugged&) = delete;
   Debugged& operator=(const Debugged&) = delete;
 };
+
+/// Says what the simulation stops for (`markervp debug`), and calls markervp_stop().
+void stop_for_debugger(const std::string& what);
 
 }  // namespace platform

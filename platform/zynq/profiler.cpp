@@ -36,9 +36,11 @@ Profiler::Profiler(Zynq& zynq) : zynq_(zynq), functions_{{"program", program, {}
                                      {}});
     core->on_moment([this, &course](ps::Cpu::Moment moment) { at(course, moment); });
   }
+  ps::ProgramWatch::block_counts = &blocks_;
 }
 
 Profiler::~Profiler() {
+  ps::ProgramWatch::block_counts = nullptr;
   for (Course& course : courses_) course.cpu.on_moment(nullptr);
 }
 
@@ -165,6 +167,11 @@ const std::vector<std::string>& Profiler::names(std::uintptr_t address) {
   return known->second;
 }
 
+std::map<std::string, std::uint64_t> Profiler::calls() const {
+  const ps::CodeLocator* const code = zynq_.ps.cpu.code();
+  return code ? code->calls(blocks_) : std::map<std::string, std::uint64_t>();
+}
+
 namespace {
 
 /// One profile of a file for speedscope: a stack for each function, with what it weighs.
@@ -223,13 +230,16 @@ std::string Profiler::speedscope(double nj_per_cycle) const {
       time.add(leaf, us(ps));
     }
   }
+  Weights called("calls", "none");
+  for (const auto& [name, count] : calls())
+    called.add(Ordered::array({frame(name)}), static_cast<double>(count));
   Ordered file;
   file["$schema"] = "https://www.speedscope.app/file-format-schema.json";
   file["name"] = "PS program";
   file["exporter"] = "markervp";
   file["activeProfileIndex"] = 0;
   file["shared"] = {{"frames", std::move(frames)}};
-  file["profiles"] = Ordered::array({time.take(), cycles.take(), energy.take()});
+  file["profiles"] = Ordered::array({time.take(), cycles.take(), energy.take(), called.take()});
   return file.dump(-1, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
@@ -262,7 +272,10 @@ std::string Profiler::page_json(double nj_per_cycle) {
                           {"worst_at", us(latency.worst_at_ps)},
                           {"counts", std::move(counts)}});
   }
+  Ordered called = Ordered::object();
+  for (const auto& [name, count] : calls()) called[name] = count;
   const Ordered json = {{"functions", std::move(functions)},
+                        {"calls", std::move(called)},
                         {"named", std::move(named)},
                         {"handlers", us(handler_ps_)},
                         {"interrupts", std::move(interrupts)}};

@@ -30,7 +30,7 @@ class Profiler {
 
   /// What a function did itself, without those that it called.
   struct Cost {
-    std::uint64_t calls = 0;       ///< of the HAL
+    std::uint64_t calls = 0;       ///< of the HAL, by it
     std::uint64_t work_ps = 0;     ///< instructions of the work that it counted
     std::uint64_t stall_ps = 0;    ///< memory stalls of that work
     std::uint64_t waiting_ps = 0;  ///< for registers, barriers, caches; entry and exit of handlers
@@ -61,15 +61,19 @@ class Profiler {
   };
   /// By the number of the interrupt.
   const std::map<std::uint32_t, Latency>& latencies() const { return latencies_; }
+  /// How often each function of the program was called that has code of its own: was not inlined,
+  /// and comes from sources of markervp_add_program().
+  std::map<std::string, std::uint64_t> calls() const;
   /// In interrupt handlers, entry and exit included.
   std::uint64_t handler_ps() const { return handler_ps_; }
 
   // `nj_per_cycle`: what a core takes for a cycle awake.
-  /// For https://www.speedscope.app: time, cycles and energy, one profile each.
+  /// For https://www.speedscope.app: time, cycles, energy and calls, one profile each.
   std::string speedscope(double nj_per_cycle) const;
   /// For the page: {"functions": [[name, caller, calls, work us, stalls us, waiting us, asleep us,
-  /// cycles, uJ]…], "named": [[name, calls, self us, total us]…], "handlers": us, "interrupts":
-  /// [{"name", "count", "mean", "worst", "worst_at": us, "counts": […]}]}.
+  /// cycles, uJ]…], "calls": {name: calls…}, "named": [[name, calls, self us, total us]…],
+  /// "handlers": us, "interrupts": [{"name", "count", "mean", "worst", "worst_at": us, "counts":
+  /// […]}]}.
   std::string page_json(double nj_per_cycle);
 
  private:
@@ -110,6 +114,7 @@ class Profiler {
   std::map<std::uint32_t, Latency> latencies_;
   std::uint64_t handler_ps_ = 0;
   std::deque<Course> courses_;
+  ps::ProgramWatch::BlockCounts blocks_;
 };
 
 }  // namespace platform

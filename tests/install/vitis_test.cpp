@@ -77,6 +77,16 @@ BOOST_AUTO_TEST_CASE(a_main_that_fails) {
   BOOST_TEST(run("dma_simple_poll", scatter_gather).exit_code == 1);
 }
 
+// Its statements take time on the board, and none here unless they are to.
+BOOST_AUTO_TEST_CASE(a_main_that_waits_by_working) {
+  const kit::Outcome none = run("dma_hurried");
+  BOOST_TEST(none.exit_code == 1);
+  BOOST_TEST(contains(none.err, "XAxiDma_SimpleTransfer while the channel is busy"), none.err);
+  const kit::Outcome some = run("dma_hurried", {"--set", "ps.cpu.block_cycles=5 cycles"});
+  BOOST_TEST(some.exit_code == 0, some.err);
+  BOOST_TEST(contains(some.out, "Successfully ran AXI DMA interrupt Example"), some.out);
+}
+
 BOOST_AUTO_TEST_CASE(runs_are_alike) {
   run("dma_sg_interrupt", scatter_gather);
   const nlohmann::json first = result()["program_end"];

@@ -277,6 +277,43 @@ BOOST_AUTO_TEST_CASE(a_pose_says_how_well_it_is_known) {
   BOOST_TEST(double(marker["error"]["translation_mm"]) < 4 * depth_mm);
 }
 
+// A marker that moves steadily, a picture every 3.1 ms: what a frame says alone, and what it says
+// with those before it.
+BOOST_AUTO_TEST_CASE(poses_follow_a_motion) {
+  Arguments moving;
+  for (int i = 0; i < 60; ++i) {
+    moving.push_back(
+        "z3.0@velocity_x=0.3,velocity_z=-0.4,exposure=0s,time=" + std::to_string(3100 * i) + "us");
+  }
+  const Arguments followed = with(moving, "sw.pose_filter=1");
+  const Json alone = run_of(moving), together = run_of(followed);
+  const auto settled = [](const Json& result, const char* key) {
+    double sum = 0;
+    for (std::size_t i = 30; i < 60; ++i)
+      sum += double(result["frames"][i]["markers"][0]["error"][key]);
+    return sum / 30;
+  };
+  for (const char* key : {"translation_mm", "rotation_deg"})
+    BOOST_TEST(settled(together, key) < 0.65 * settled(alone, key), key);
+  BOOST_TEST(!alone["frames"][59]["markers"][0].contains("motion"));
+  BOOST_TEST(together["frames"][0]["markers"][0]["pose"] ==
+             alone["frames"][0]["markers"][0]["pose"]);
+  const Json& motion = together["frames"][59]["markers"][0]["motion"];
+  BOOST_TEST(motion["frames"] == 60);
+  // Frames follow each other a little faster than the pictures say: 324 a second.
+  BOOST_TEST(std::abs(double(motion["velocity_m_s"][0]) - 0.3) < 0.02);
+  BOOST_TEST(std::abs(double(motion["velocity_m_s"][2]) + 0.4) < 0.02);
+  // The poses are part of the time, and both fidelities agree in all of it.
+  BOOST_TEST(mean_us(together, "pose") > mean_us(alone, "pose") + 20);
+  BOOST_TEST(mean_us(together, "pose") < mean_us(alone, "pose") + 40);
+  const Arguments few(followed.begin(), followed.begin() + 3);
+  BOOST_TEST(difference(with(few, "sw.pose_filter=1")) == "");
+  // Seconds are those of the CPU's clock, whatever it is.
+  const Json slow = run_of(with(followed, "ps.cpu_clk.frequency=333.333333 MHz"));
+  BOOST_TEST(std::abs(double(slow["frames"][59]["markers"][0]["motion"]["velocity_m_s"][0]) - 0.3) <
+             0.02);
+}
+
 // Eight markers of 60 px, 60 px apart, seen from the front: one pose, of the first one's corner.
 BOOST_AUTO_TEST_CASE(a_board_has_one_pose) {
   const kit::TemporaryFolder folder;
@@ -351,6 +388,82 @@ BOOST_AUTO_TEST_CASE(hd_is_as_fast_as_pixels_come) {
   BOOST_TEST(faster["timing"]["met"] == false);
 }
 
+/// `arguments` with so many pixels a clock.
+Arguments in_groups(const Arguments& arguments, int pixels) {
+  return with(arguments, "pl.pixels_per_clock=" + std::to_string(pixels));
+}
+
+BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_with_more_than_a_pixel_a_clock) {
+  for (const int pixels : {2, 4}) {
+    BOOST_TEST(difference(in_groups(scenes, pixels)) == "");
+    BOOST_TEST(difference(with(in_groups(scenes, pixels), "pl.threshold_rule=global")) == "");
+    BOOST_TEST(difference(with(in_groups(scenes, pixels), "pl.threshold_rule=local")) == "");
+    BOOST_TEST(difference(with(in_groups({"demo"}, pixels), "pl.width=1280 px")) == "");
+  }
+}
+
+// The picture, the blobs and so the poses are those of one pixel a clock.
+BOOST_AUTO_TEST_CASE(more_pixels_a_clock_change_times_alone) {
+  const Json one = run_of(scenes);
+  for (const int pixels : {2, 4}) {
+    const Json more = run_of(in_groups(scenes, pixels));
+    for (std::size_t i = 0; i < one["frames"].size(); ++i) {
+      for (const char* key : {"markers", "counts"})
+        BOOST_TEST(more["frames"][i][key] == one["frames"][i][key]);
+    }
+  }
+}
+
+// Issue 17's aims: 1000 frames a second, 600 with ten markers, and 250 of 1280x720.
+BOOST_AUTO_TEST_CASE(four_pixels_a_clock_are_as_fast_as_they_come) {
+  const Json result = run_of(in_groups({"z1.0", "--repeat", "10"}, 4));
+  BOOST_TEST(result["summary"]["detected"] == 10);
+  BOOST_TEST(sustained_fps(result) > 1250);
+  BOOST_TEST(sustained_fps(result) < 4 * 100e6 / (640 * 480), "four pixels a clock");
+  BOOST_TEST(result["timing"]["met"] == true);
+  BOOST_TEST(result["resources"]["fits"] == true);
+  for (const Json& module : result["resources"]["modules"]) {
+    if (module["name"] != "pl.blob_labelling") continue;
+    BOOST_TEST(module["uncertainty_percent"] == 50, "no RTL has it");
+    BOOST_TEST(module["lut"] > 2180);
+  }
+  for (const Json& frame : result["frames"])
+    BOOST_TEST(frame["counts"]["cut_pictures"] == 0, "the memory keeps up with the stream");
+  const Json ten =
+      run_of(with(in_groups({"z2.0@markers=10", "--repeat", "10"}, 2), "sw.second_core=1"));
+  BOOST_TEST(sustained_fps(ten) > 600);
+  const Json hd = run_of(
+      with(in_groups({"z1.0", "--repeat", "10"}, 4), "ps.fclk_clk0.frequency=100 MHz"), 0, "hd");
+  BOOST_TEST(sustained_fps(hd) > 430);
+  BOOST_TEST(hd["timing"]["met"] == true);
+}
+
+// A run of one pixel in every other column needs more clocks than four pixels a clock leave.
+BOOST_AUTO_TEST_CASE(runs_that_come_too_fast_are_told) {
+  const kit::TemporaryFolder folder;
+  const Arguments stripes{
+      picture_in(folder, "stripes", [](int x, int y) { return (x + y / 2) % 2 * 255; })};
+  BOOST_TEST(difference(in_groups(stripes, 4)) == "");
+  const Json frame = run_of(in_groups(stripes, 4))["frames"][0];
+  BOOST_TEST(frame["counts"]["lost_in_logic"] > 100'000);
+  BOOST_TEST(frame["warnings"].dump().find("run_fifo_depth") != std::string::npos);
+  BOOST_TEST(run_of(stripes)["frames"][0]["counts"]["lost_in_logic"] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_numbers_of_pixels_a_clock_are_refused) {
+  const Workplace place;
+  const auto refusal = [&place](const char* design, const char* pixels) {
+    const kit::Outcome refused = place.run(
+        {"demo", "--design", design, "--set", std::string("pl.pixels_per_clock=") + pixels});
+    BOOST_TEST(refused.exit_code != 0);
+    return refused.err;
+  };
+  BOOST_TEST(refusal("improved", "3").find("takes 1, 2 or 4 pixels a clock") != std::string::npos);
+  BOOST_TEST(refusal("improved", "8").find("allowed is 1 to 4") != std::string::npos);
+  BOOST_TEST(refusal("improved", "0").find("allowed is 1 to 4") != std::string::npos);
+  BOOST_TEST(refusal("thesis", "2").find("unknown key 'pl.pixels_per_clock'") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {
   const Json overlap = run_of({"squares15", "--repeat", "10"});
   const Json serial = run_of({"squares15", "--repeat", "10", "--set", "sw.overlap=0"});
@@ -360,6 +473,43 @@ BOOST_AUTO_TEST_CASE(a_frame_overlaps_the_work_on_the_last) {
   BOOST_TEST(hidden_us > 0.8 * std::min(work_us, 3072.0));
   for (std::size_t i = 0; i < 10; ++i)
     BOOST_TEST(overlap["frames"][i]["markers"] == serial["frames"][i]["markers"]);
+}
+
+// The same packets, whether the program tells the engine of each or leaves it a ring of
+// descriptors.
+BOOST_AUTO_TEST_CASE(packets_through_a_ring_of_descriptors) {
+  const Arguments plain{"demo", "squares15", "z2.0@markers=10", "--repeat", "20"};
+  const Arguments ring = with(plain, "pl.axi_dma_1.include_sg=true");
+  const Json direct = run_of(plain), through = run_of(ring);
+  BOOST_TEST(through["frames"].size() == 60u);
+  for (std::size_t i = 0; i < 60; ++i) {
+    for (const char* key : {"markers", "counts", "warnings"})
+      BOOST_TEST(direct["frames"][i].value(key, Json()) == through["frames"][i].value(key, Json()));
+  }
+  const Arguments few = with({"demo", "squares15"}, "pl.axi_dma_1.include_sg=true");
+  BOOST_TEST(difference(few) == "");
+  BOOST_TEST(difference(with(few, "ps.fclk_clk0.frequency=25 MHz")) == "");
+}
+
+// More than 5000 features of one frame, 4 px each, and the next frame is under way meanwhile.
+BOOST_AUTO_TEST_CASE(five_thousand_features_of_a_frame_pass_whole) {
+  const kit::TemporaryFolder folder;
+  const Arguments dots =
+      with({picture_in(folder, "dots",
+                       [](int x, int y) { return x % 10 < 4 && y % 6 < 4 && x < 636 ? 20 : 220; }),
+            "--repeat", "3"},
+           "pl.blob_labelling.minimum_side=1 px");
+  for (const char* sg : {"false", "true"}) {
+    const Arguments built = with(dots, std::string("pl.axi_dma_1.include_sg=") + sg);
+    const Json result = run_of(built);
+    BOOST_REQUIRE(result["frames"].size() == 3u);
+    for (const Json& frame : result["frames"]) {
+      BOOST_TEST(frame["counts"]["blobs"] == 64 * 80);
+      BOOST_TEST(frame["counts"]["lost_in_logic"] == 0);
+      BOOST_TEST(!frame.contains("warnings"));
+    }
+    BOOST_TEST(difference(built) == "");
+  }
 }
 
 // Both cores find what one finds, and are ready before the next frame where one is not.

@@ -81,6 +81,18 @@ BOOST_AUTO_TEST_CASE(each_function_has_its_time) {
   BOOST_TEST(sum_below(stacks(file, 2), "/filter/compute") == 40e-6 * 666'666'667 * 0.415e-3, near);
 }
 
+BOOST_AUTO_TEST_CASE(calls_are_counted) {
+  const auto calls = stacks(Json::parse(write()), 3);
+  const std::map<std::string, double> expected{{"compute", 3}, {"filter", 1},      {"on_tick", 2},
+                                               {"rest", 1},    {"interrupted", 1}, {"run", 1}};
+  for (const auto& [name, count] : expected) {
+    BOOST_TEST_REQUIRE(calls.count(name) == 1u, name);
+    BOOST_TEST(calls.at(name) == count, name);
+  }
+  // With time of their own, too: what a loop of 64 blocks is counts no call.
+  BOOST_TEST((stacks(Json::parse(write({"--set", "ps.cpu.block_cycles=2 cycles"})), 3) == calls));
+}
+
 BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_is_computed) {
   const std::string once = write();
   BOOST_TEST(once == write());

@@ -140,9 +140,9 @@ void ReportRouter::route(const sc_core::sc_report& report) {
   ++by_severity_[report.get_severity()];
   const std::uint64_t repeats = ++by_id_[entry.id];
   print(report, entry, repeats);
-  if (report.get_severity() == sc_core::SC_WARNING && warnings_.size() < kept_limit) {
-    warnings_.push_back(std::move(entry));
-  }
+  if (report.get_severity() != sc_core::SC_WARNING) return;
+  if (warnings_.size() < kept_limit) warnings_.push_back(entry);
+  if (warning_listener_) warning_listener_(entry);
 }
 
 void ReportRouter::print(const sc_core::sc_report& report, const Warning& entry,

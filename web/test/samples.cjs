@@ -73,7 +73,7 @@ function profile() {
   return {
     functions: [["program", 0, 2, 0, 0, 1.5, 0, 1000, 0.4], ["run()", 0, 4, 10, 0, 2, 900, 8000, 3.3], ["filter(int)", 1, 10, 400, 100, 0.5, 0, 333667, 138.5],
       ["filter(int)", 2, 5, 40, 10, 0, 0, 33333, 13.8], ["wait() const", 1, 3, 0, 0, 30, 0, 20000, 8.3], ["interrupt handlers", 0, 6, 0, 0, 12, 0, 8000, 3.3]],
-    named: [["filter", 15, 540.5, 550.5]], handlers: 12,
+    calls: { "run()": 1, "filter(int)": 15 }, named: [["filter", 15, 540.5, 550.5]], handlers: 12,
     interrupts: [{ name: "29 ps.private_timer.irq", count: 4, mean: 0.3, worst: 0.6, worst_at: 812.5, counts: [0, 0, 0, 0, 0, 0, 0, 2, 1, 1] }],
   };
 }

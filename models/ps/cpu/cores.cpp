@@ -176,11 +176,12 @@ void Cpu::check_deadlock() {
 
 // Sleeps until an event, or an interrupt that may be taken.
 void Cpu::doze_until_event() {
-  if (!has_woken()) {
+  while (!has_woken()) {
     check_deadlock();
     doze(std::max(deadline_ps_, now_ps()),
          [](const void* cpu) { return static_cast<const Cpu*>(cpu)->has_woken(); });
-    if (!has_woken()) time_out(awaited_lock_ ? "it waits for a lock" : "it waits for an event");
+    if (!has_woken())
+      meet_deadline(awaited_lock_ ? "it waits for a lock" : "it waits for an event");
   }
   if (event_) cores_->races.acquire(number_, &event_key);
   event_ = false;

@@ -62,7 +62,10 @@ Cpu::Settings::Settings()
       cache_call_cycles("cache_call_cycles", 60, vp::Unit::cycles, cycles_range,
                         vp::Source::assumed, "a cache operation before its first line"),
       cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
-                        vp::Source::assumed, "a line of 32 bytes in both cache levels") {}
+                        vp::Source::assumed, "a line of 32 bytes in both cache levels"),
+      block_cycles("block_cycles", 0, vp::Unit::cycles, {0, 1'000}, vp::Source::decision,
+                   "what each basic block of the program's own code takes, beside the work that it "
+                   "counts; 0: nothing") {}
 
 Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock) : Cpu(name, clock, nullptr) {}
 
@@ -129,7 +132,7 @@ void Cpu::run() {
       activity_.idle(now_ps());
       if (moment_listener_) moment_listener_(Moment::call_over);
     }
-    deadline_ps_ = now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps);
+    set_deadline(now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps));
     follow_clock();
     start_ahead();
     exit_code_ = call_program();
@@ -173,6 +176,13 @@ void Cpu::freeze() {
   if (asleep && state_ == State::running) activity_.idle(now_ps() - dozes_since_ps_);
 }
 
+void Cpu::on_failure(FailureListener listener) {
+  failure_listener_ = std::move(listener);
+  trap_.on_fault([this](const Fault& fault) {
+    if (fault.kind != Fault::Kind::interrupted) failure_listener_(fault.text() + where());
+  });
+}
+
 // The thread never comes back: nothing of the program is unwound.
 void Cpu::stop(std::exception_ptr error) {
   error_ = std::move(error);
@@ -182,7 +192,9 @@ void Cpu::stop(std::exception_ptr error) {
 }
 
 void Cpu::fail(const std::string& problem) {
-  stop(std::make_exception_ptr(vp::ProtocolError(problem + where())));
+  const std::string text = problem + where();
+  if (failure_listener_) failure_listener_(text);
+  stop(std::make_exception_ptr(vp::ProtocolError(text)));
 }
 
 // A mistake found ahead of time: first what the program did before.
@@ -230,6 +242,7 @@ Cpu::Counted Cpu::counted() const {
     sum.cycles += work.cycles * work.count;
     sum.stall_fs += work.stall_fs * work.count;
   }
+  sum.cycles += LocalTime::Wide{timed_blocks_ * settings_.block_cycles} << LocalTime::fraction_bits;
   return sum;
 }
 

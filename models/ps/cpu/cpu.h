@@ -107,6 +107,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     vp::Parameter<std::uint32_t> barrier_cycles;
     vp::Parameter<std::uint32_t> cache_call_cycles;
     vp::Parameter<std::uint32_t> cache_line_cycles;
+    vp::Parameter<std::uint32_t> block_cycles;
   };
   /// Of all cores.
   const Settings& settings() const { return settings_; }
@@ -156,6 +157,16 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// For each core its own. Null: nobody is told.
   using MomentListener = std::function<void(Moment)>;
   void on_moment(MomentListener listener) { moment_listener_ = std::move(listener); }
+  /// Calls `look` once, on the program's stack, when the simulation comes to `ps`: in the HAL call
+  /// in which that time passes. No time and no result depends on it. Before the simulation starts.
+  void call_at(std::uint64_t ps, std::function<void()> look) {
+    call_at_ps_ = ps;
+    called_at_ = std::move(look);
+  }
+  /// Told why the program is stopped, as check() throws it, while its calls are under way: in a
+  /// signal handler if it is a fault. Null: nobody is.
+  using FailureListener = std::function<void(const std::string& problem)>;
+  void on_failure(FailureListener listener);
   /// When all that the program has done so far will be over, in ps: its own time, of which the
   /// simulation may be behind. In a handler that of the handler.
   std::uint64_t program_time_ps() const { return reached_ps() + local_time_.ps_after(0); }
@@ -297,6 +308,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     return std::max(now_ps(), access_end_ps_) + (in_handler_now_ ? 0 : timeline_.total_ps());
   }
   void spend_cycles(std::uint64_t cycles);
+  void spend_blocks();
   std::uint64_t take_work();
   void work_for(std::uint64_t ps);
   [[gnu::noinline]] std::uint64_t pass_busy(std::uint64_t start_ps, std::uint64_t end_ps);
@@ -349,7 +361,11 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
   [[noreturn]] static void nothing_runs(const char* call);
-  [[noreturn]] void time_out(const char* what, const std::string& hint = {});
+  void set_deadline(std::uint64_t ps) {
+    timeout_ps_ = ps;
+    deadline_ps_ = std::min(ps, call_at_ps_);
+  }
+  void meet_deadline(const char* what, const std::string& hint = {});
   std::string last_look() const;
   [[noreturn]] void misuse(const std::string& problem);
   [[noreturn]] void break_off(const std::string& problem);
@@ -371,6 +387,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::string cost_profile_;
   CacheListener cache_listener_;
   MomentListener moment_listener_;
+  FailureListener failure_listener_;
   bool pause_at_end_ = true;
   bool poll_elision_ = true;
 
@@ -382,6 +399,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   sc_core::sc_event never_;
 
   std::vector<Work> work_;
+  std::uint64_t timed_blocks_ = 0;  ///< basic blocks that took block_cycles each
   std::size_t open_functions_ = 0;  ///< entered by the program, ahead of time
   std::size_t open_before_handler_ = 0;
   Activity activity_;
@@ -392,7 +410,10 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   Timeline timeline_;                 ///< what the program does after it
   LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
   std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
-  std::uint64_t deadline_ps_ = 0;
+  std::uint64_t timeout_ps_ = 0;
+  std::uint64_t call_at_ps_ = ~std::uint64_t{0};
+  std::function<void()> called_at_;
+  std::uint64_t deadline_ps_ = 0;  ///< the first of both
   std::uint64_t dozes_since_ps_ = 0;
   unsigned unacknowledged_ = 0;                ///< handlers in a row that left a request pending
   std::uint64_t first_unacknowledged_ps_ = 0;  ///< when the first of them returned
@@ -458,6 +479,15 @@ void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Trans
   access_end_ps_ = answer.ps;
 }
 
+// What the program did since its last call, where its basic blocks take time.
+inline void Cpu::spend_blocks() {
+  const std::uint32_t cycles = settings_.block_cycles;
+  if (cycles == 0) return;
+  const std::uint64_t blocks = ProgramWatch::take_blocks();
+  timed_blocks_ += blocks;
+  spend_cycles(blocks * cycles);
+}
+
 // The program's code goes on, after a call in which the other core's may have run.
 inline void Cpu::go_on() {
   if (running_ != this) take_turn();
@@ -467,6 +497,7 @@ inline void Cpu::go_on() {
 template <class Call>
 auto Cpu::guarded(Call call) {
   ProgramWatch::enter_hal();
+  spend_blocks();
   try {
     if constexpr (std::is_void_v<decltype(call())>) {
       call();

@@ -81,7 +81,7 @@ const hal_frame* Cpu::next_frame() {
   scheduler_.forget_horizon();
   if (next) {
     frame = frame + 1;
-    deadline_ps_ = now_ps() + settings_.timeout;
+    set_deadline(now_ps() + settings_.timeout);
     start_ahead();
   }
   return next;
@@ -276,6 +276,9 @@ void __sanitizer_cov_trace_pc(void) {
     if (ps::FaultTrap::can_leave()) ps::FaultTrap::leave_at_stop();
     return;
   }
+  if (Watch::block_counts &&
+      Watch::count_block(reinterpret_cast<std::uintptr_t>(__builtin_return_address(0))))
+    return;
   const unsigned before = Watch::suspicions();
   on_cpu("a loop", [before](ps::Cpu& cpu) { cpu.notice_loop(before); });
   Watch::suspect_again(before);

@@ -16,6 +16,9 @@ constexpr unsigned most_beside_other = 10;
 /// Handlers in a row after which an interrupt looks as if nobody acknowledged it (decision).
 constexpr unsigned many_handlers = 1'000;
 constexpr std::uint64_t ps_per_ns = 1'000;
+/// Where basic blocks take time, that of so many passes at once (decision): the longest that an
+/// interrupt waits for a loop.
+constexpr std::uint64_t blocks_at_once = 64;
 
 }  // namespace
 
@@ -24,6 +27,8 @@ volatile std::uint64_t ProgramWatch::blocks_left = ~std::uint64_t{0};
 volatile std::uint64_t ProgramWatch::blocks_limit = ~std::uint64_t{0};
 volatile ProgramWatch::Stop ProgramWatch::stop = ProgramWatch::Stop::none;
 volatile unsigned ProgramWatch::suspicions_ = 0;
+ProgramWatch::BlockCounts* ProgramWatch::block_counts = nullptr;
+std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::uint64_t{0};
 
 int Cpu::call_program() {
   struct Call {
@@ -34,7 +39,7 @@ int Cpu::call_program() {
   // The first core's looks after both.
   const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
                         this};
-  ProgramWatch::start(settings_.loop_blocks);
+  ProgramWatch::start(settings_.block_cycles == 0 ? settings_.loop_blocks.get() : blocks_at_once);
   const Fault* fault = trap_.call(
       [](void* context) {
         Call& call = *static_cast<Call*>(context);
@@ -45,6 +50,7 @@ int Cpu::call_program() {
         }
       },
       &call, limit);
+  spend_blocks();
   ProgramWatch::end();
   if (number_ == 0) LineGuard::program_is_over();
   if (fault) report(*fault);
@@ -150,11 +156,12 @@ __attribute__((no_sanitize("address", "undefined"))) void Cpu::look_at(const voi
   if (size != 0) static_cast<void>(bytes[size - 1]);
 }
 
-// An interrupt ends the jump: the program may have waited for what its handler does.
+// An interrupt ends the jump: the program may have waited for what its handler does. Where blocks
+// take time, no jump is needed.
 void Cpu::notice_loop(unsigned before) {
   const std::uint64_t taken = interrupts;
   catch_up();
-  if (interrupts == taken) {
+  if (interrupts == taken && settings_.block_cycles == 0) {
     pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
     catch_up();
   }

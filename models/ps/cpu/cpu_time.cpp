@@ -222,8 +222,8 @@ std::uint64_t Cpu::pass_busy(std::uint64_t start_ps, std::uint64_t end_ps) {
   const std::uint64_t end = std::min(end_ps, std::max(deadline_ps_, start_ps));
   scheduler_.pass_from(start_ps, end);
   activity_.busy(end - start_ps);
-  if (end >= deadline_ps_) time_out("no end", last_look());
-  return end;
+  if (end >= deadline_ps_) meet_deadline("no end", last_look());
+  return end < end_ps ? pass_busy(end, end_ps) : end;
 }
 
 // The simulation follows, up to an interrupt at most: handlers run inside HAL calls that catch up,
@@ -235,7 +235,7 @@ void Cpu::settle() {
     return;
   }
   close_segment();
-  if (reached_ps() >= deadline_ps_) {
+  if (reached_ps() >= timeout_ps_) {
     catch_up();
     return;
   }
@@ -296,11 +296,21 @@ std::uint64_t Cpu::pass(std::uint64_t ps) {
   scheduler_.pass_from(start, end, interruptible() ? irq_is_low : nullptr, this);
   const std::uint64_t now = now_ps();
   activity_.busy(now - start);
-  if (now >= deadline_ps_) time_out("no end", last_look());
-  return now - start;
+  if (now < deadline_ps_) return now - start;
+  meet_deadline("no end", last_look());
+  const std::uint64_t left = ps - (now - start);
+  return now - start + (left == 0 || interrupt_due() ? 0 : pass(left));
 }
 
-void Cpu::time_out(const char* what, const std::string& hint) {
+// The time-out, or only call_at()'s: then all goes on.
+void Cpu::meet_deadline(const char* what, const std::string& hint) {
+  if (now_ps() < timeout_ps_) {
+    call_at_ps_ = vp::Clock::never;
+    deadline_ps_ = timeout_ps_;
+    start_ahead();
+    called_at_();
+    return;
+  }
   fail(std::string(what) + " within " + vp::format_time(settings_.timeout) +
        " of simulated time since the last image (" + settings_.timeout.name() + ")" + hint +
        doing_elsewhere());
@@ -342,6 +352,7 @@ void Cpu::run_handler() {
   spend_cycles(settings_.interrupt_entry);
   if (moment_listener_) moment_listener_(Moment::handler_begins);
   call_handler();
+  spend_blocks();
   if (open_functions_ != open_before_handler_) {
     misuse("the interrupt handler returned without leaving its function");
   }
@@ -368,7 +379,7 @@ void Cpu::wait_for_interrupt() {
              "look, with hal_interrupt_enable(false)");
   }
   catch_up();
-  if (!interrupt_pending()) sleep();
+  sleep();
   take_interrupts();
 }
 
@@ -388,9 +399,9 @@ void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) 
 }
 
 void Cpu::sleep() {
-  doze(std::max(deadline_ps_, now_ps()), irq_is_low);
-  if (!interrupt_pending()) {
-    time_out("it waits for an interrupt, and none came");
+  while (!interrupt_pending()) {
+    doze(std::max(deadline_ps_, now_ps()), irq_is_low);
+    if (!interrupt_pending()) meet_deadline("it waits for an interrupt, and none came");
   }
 }
 
@@ -398,8 +409,9 @@ void Cpu::sleep() {
 // does not count.
 void Cpu::sleep_until(std::uint64_t ps) {
   while (now_ps() < ps) {
-    deadline_ps_ = ps + settings_.timeout;
-    doze(ps, interruptible() ? irq_is_low : nullptr);
+    set_deadline(ps + settings_.timeout);
+    doze(std::min(ps, std::max(deadline_ps_, now_ps())), interruptible() ? irq_is_low : nullptr);
+    if (now_ps() >= deadline_ps_) meet_deadline("no end");
     take_interrupts();
   }
 }

@@ -255,6 +255,7 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
 
 void FaultTrap::land() {
   ProgramWatch::end();
+  if (const auto listener = std::exchange(listener_, nullptr)) listener(fault_);
   siglongjmp(landing_, 1);
 }
 

@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <ps/cpu/program_watch.h>
 
@@ -68,6 +70,8 @@ class FaultTrap {
   /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Exceptions pass. A
   /// limit of 0 ns is none.
   const Fault* call(void (*code)(void* context), void* context, const HostLimit& limit);
+  /// Told of a fault before its code is left, in a signal handler if a signal was it; once.
+  void on_fault(std::function<void(const Fault&)> listener) { listener_ = std::move(listener); }
   /// The code that runs now is that of its call().
   void resume() { active_ = this; }
   /// The code of its call() never goes on.
@@ -95,6 +99,7 @@ class FaultTrap {
   bool is_stack_overflow(std::uintptr_t address) const;
 
   std::size_t stack_size_;
+  std::function<void(const Fault&)> listener_;
   std::uintptr_t stack_top_ = 0;
   HostWatch watch_;
   bool watched_ = false;

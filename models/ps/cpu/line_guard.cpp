@@ -106,6 +106,7 @@ void LineGuard::for_each_page(std::uintptr_t address, std::size_t bytes, Action 
 // DMA engines write page after page while the program sleeps: one call closes them all.
 void LineGuard::guard(std::uintptr_t address, std::size_t bytes) {
   if (stopped_ || bytes == 0) return;
+  used_from_ = std::min(used_from_, (address - first_) / page);
   used_ = std::max(used_, (std::min(address + bytes, end_) - 1 - first_) / page + 1);
   for_each_page(address, bytes, [&](std::size_t number, unsigned from, unsigned to) {
     Page& of = pages_[number];
@@ -177,7 +178,7 @@ void LineGuard::leave_alone_all_closed_with(std::size_t number) {
 void LineGuard::stop() {
   if (std::exchange(stopped_, true)) return;
   close();
-  for (std::size_t i = 0; i < used_; ++i) {
+  for (std::size_t i = used_from_; i < used_; ++i) {
     if (pages_[i].closed != 0) open(i);
   }
 }

@@ -90,7 +90,8 @@ class LineGuard {
   bool stopped_ = false;
   unsigned steps_left_;
   SparseArray<Page> pages_;
-  std::size_t used_ = 0;  ///< pages up to the last that was guarded
+  // Pages that were ever guarded lie in [used_from_, used_): most of the memory never is.
+  std::size_t used_from_ = SIZE_MAX, used_ = 0;
   std::uint32_t closings_ = 0;
   std::deque<Range> ranges_;  ///< that were guarded last: those of the devices that write
   /// Opened for the instruction at which the program stands. One may access that many pages.

@@ -399,7 +399,13 @@ class SharedObject {
     if (auto object = loaded[path].lock()) return object;
     auto object = std::make_shared<SharedObject>(path);
     loaded[path] = object;
+    if (kept) kept->push_back(object);
     return object;
+  }
+
+  /// Keeps from here on what is opened. It is never destroyed, nor then what is in it.
+  static void keep() {
+    if (!kept) kept = new std::vector<std::shared_ptr<SharedObject>>;
   }
 
   explicit SharedObject(const std::string& path)
@@ -439,10 +445,14 @@ class SharedObject {
            " of a static object: do such work in the entry function";
   }
 
+  static std::vector<std::shared_ptr<SharedObject>>* kept;
+
   std::string path_;
   void* handle_;
   StaticImage image_;
 };
+
+std::vector<std::shared_ptr<SharedObject>>* SharedObject::kept = nullptr;
 
 class LoadedProgram : public Program {
  public:
@@ -480,6 +490,10 @@ std::vector<std::string> option_names(const hal_option_info& option) {
 std::unique_ptr<Program> Program::linked(const hal_program& description) {
   check(description, "the linked program");
   return std::make_unique<LinkedProgram>(description);
+}
+
+void Program::keep_loaded() {
+  SharedObject::keep();
 }
 
 std::unique_ptr<Program> Program::load(const std::string& path) {

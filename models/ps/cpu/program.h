@@ -23,6 +23,10 @@ class Program {
   /// load() does.
   static std::unique_ptr<Program> linked(const hal_program& description);
 
+  /// From here on programs stay in memory until the process ends, without their destructors: one
+  /// that runs many times then loads each once. Each run finds fresh variables as ever (reset()).
+  static void keep_loaded();
+
   virtual ~Program() = default;
 
   const hal_program& description() const { return *description_; }

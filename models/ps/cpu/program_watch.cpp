@@ -47,6 +47,16 @@ void leave_empty_loop(void*) {}
 
 }  // namespace
 
+// Who ends the program from outside must not do so in the middle of this.
+bool ProgramWatch::count_block(std::uintptr_t address) {
+  runs = false;
+  ++(*block_counts)[address];
+  runs = true;
+  if (++counted_ >= counted_limit_) return false;
+  blocks_left = blocks_limit;
+  return true;
+}
+
 void HostWatch::arm(const HostLimit& limit, Leave leave) {
   limit_ = limit;
   leave_ = leave;
@@ -159,11 +169,12 @@ const std::string& CodeLocator::text(std::uintptr_t address) const {
 }
 
 std::string CodeLocator::look_up(std::uintptr_t address) const {
-  std::ifstream stream(file_, std::ios::binary);
-  const std::vector<char> file((std::istreambuf_iterator<char>(stream)),
-                               std::istreambuf_iterator<char>());
+  if (content_.empty()) {
+    std::ifstream stream(file_, std::ios::binary);
+    content_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
   const std::uintptr_t place = address - base_;
-  const std::string symbol = symbol_in(file, place);
+  const std::string symbol = symbol_in(content_, place);
   return hex_short(place) + (symbol.empty() ? "" : " " + symbol);
 }
 
@@ -199,6 +210,27 @@ std::vector<std::string> CodeLocator::functions(std::uintptr_t address) const {
   const std::string around = symbol(address);
   names.push_back(around.empty() ? text(address) : around);
   return names;
+}
+
+// Parts of a function that seldom run lie elsewhere, with names of their own. Two functions of one
+// name are one.
+std::map<std::string, std::uint64_t> CodeLocator::calls(
+    const ProgramWatch::BlockCounts& blocks) const {
+  std::map<std::uintptr_t, std::uint64_t> in_order(blocks.begin(), blocks.end());
+  std::map<std::string, std::uint64_t> calls;
+  std::uintptr_t last_start = 0;
+  for (const auto& [address, count] : in_order) {
+    if (!contains(address)) continue;
+    const std::string name = symbol(address);
+    if (name.empty() || name.find("[clone .cold") != name.npos) continue;
+    const std::string& place = text(address);
+    const std::uintptr_t start =
+        address - std::strtoull(place.c_str() + place.rfind('+') + 1, nullptr, 16);
+    if (start == last_start) continue;
+    last_start = start;
+    calls[name] += count;
+  }
+  return calls;
 }
 
 std::string CodeLocator::path(const std::vector<std::uintptr_t>& calls) const {

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <ps/cpu/line_guard.h>
@@ -21,6 +23,10 @@ struct ProgramWatch {
   /// Basic blocks of the program until somebody looks at it: a loop without HAL call is suspected.
   static volatile std::uint64_t blocks_left;
   static volatile std::uint64_t blocks_limit;
+  /// How often each basic block ran, by the address behind its call of
+  /// __sanitizer_cov_trace_pc(). Null: nobody counts. To be set before the program starts.
+  using BlockCounts = std::unordered_map<std::uintptr_t, std::uint64_t>;
+  static BlockCounts* block_counts;
 
   /// Why the program is to end at its next basic block.
   enum class Stop : std::uint8_t { none, host_time, interrupted };
@@ -29,6 +35,7 @@ struct ProgramWatch {
   static void enter_hal() { runs = false; }
   static void leave_hal() {
     blocks_left = blocks_limit;
+    counted_ = 0;
     suspicions_ = 0;
     LineGuard::program_runs();
     runs = true;
@@ -36,7 +43,8 @@ struct ProgramWatch {
   /// The program's code is about to run; `blocks` without HAL call are a suspicion.
   static void start(std::uint64_t blocks) {
     stop = Stop::none;
-    blocks_limit = blocks;
+    counted_limit_ = blocks;
+    blocks_limit = block_counts ? 1 : blocks;
     leave_hal();
   }
   /// No program runs any more.
@@ -48,6 +56,15 @@ struct ProgramWatch {
     blocks_limit = 1;
     if (runs) blocks_left = 1;
   }
+
+  /// Basic blocks since the last call, or HAL call.
+  static std::uint64_t take_blocks() {
+    const std::uint64_t blocks = blocks_left < blocks_limit ? blocks_limit - blocks_left : 0;
+    blocks_left = blocks_limit;
+    return block_counts ? std::exchange(counted_, 0) : blocks;
+  }
+  /// Counts a block of the program. False: a loop without HAL call is suspected.
+  static bool count_block(std::uintptr_t address);
 
   /// Suspicions since the last HAL call.
   static unsigned suspicions() { return suspicions_ & ~marked; }
@@ -74,6 +91,7 @@ struct ProgramWatch {
  private:
   static constexpr unsigned marked = 1u << 31;
   static volatile unsigned suspicions_;
+  static std::uint64_t counted_, counted_limit_;  ///< blocks, while they are counted
 };
 
 /// How much of the host's time code of a program may take while nothing progresses.
@@ -137,6 +155,11 @@ class CodeLocator {
   /// (main.cpp:12), called from make (…" where one was inlined. Without lines where it was built
   /// without debug information; empty if no call lies in it.
   std::string path(const std::vector<std::uintptr_t>& calls) const;
+  /// How often each function was called that has code of its own, by its name, if so often the
+  /// blocks ran: its first one runs in each call.
+  std::map<std::string, std::uint64_t> calls(const ProgramWatch::BlockCounts& blocks) const;
+  /// The file has debug information for `address`.
+  bool knows_line(std::uintptr_t address) const { return !lines(address).empty(); }
 
  private:
   /// A line of the source, and the function that it stands in.
@@ -147,6 +170,7 @@ class CodeLocator {
   std::vector<Line> lines(std::uintptr_t address) const;
 
   std::string file_;
+  mutable std::vector<char> content_;  ///< of the file, once somebody asked
   std::uintptr_t base_ = 0;
   mutable std::map<std::uintptr_t, std::string> texts_;
   mutable backtrace_state* debug_ = nullptr;  ///< debug information of the process; never freed

@@ -53,6 +53,39 @@ BOOST_AUTO_TEST_CASE(how_soon_it_is_noticed_changes_no_time) {
   BOOST_TEST(acknowledged({"cpu.loop_blocks=1000"}) == expected, boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(where_blocks_take_time_it_waits_for_64_at_most) {
+  constexpr std::uint64_t cycles = 3, at_once_ps = 64 * cycles * 1'000;
+  const Settings settings{"cpu.block_cycles=3 cycles"};
+  const std::vector<std::uint64_t> times = acknowledged(settings);
+  BOOST_TEST_REQUIRE(times.size() == expected.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    BOOST_TEST(times[i] >= expected[i]);
+    BOOST_TEST(times[i] <= expected[i] + at_once_ps + 10'000);  // the handler's own blocks
+  }
+  BOOST_TEST(acknowledged(settings) == times, boost::test_tools::per_element());
+}
+
+/// Between the two accesses of a program that compares bytes, in ps.
+std::uint64_t computing_takes(const Settings& settings) {
+  const auto program = ps::Program::load(MARKERVP_TEST_PROGRAMS "/computing.so");
+  Bench b(settings);
+  b.cpu.load(*program, costs());
+  sc_core::sc_start();
+  b.cpu.check();
+  const std::vector<std::uint64_t> times = b.device.times();
+  return times.at(1) - times.at(0);
+}
+
+BOOST_AUTO_TEST_CASE(blocks_take_time_only_if_they_are_to) {
+  BOOST_TEST(computing_takes({}) == 0u);
+  const std::uint64_t one = computing_takes({"cpu.block_cycles=1 cycles"});
+  BOOST_TEST(one >= 256'000u);  // a block or two a byte
+  BOOST_TEST(one <= 1'024'000u);
+  BOOST_TEST(computing_takes({"cpu.block_cycles=7 cycles"}) == 7 * one);
+  BOOST_TEST(computing_takes({"cpu.block_cycles=7 cycles", "cpu.quantum=0 ps"}) == 7 * one);
+  BOOST_TEST(computing_takes({"cpu.block_cycles=7 cycles", "cpu.loop_blocks=1000"}) == 7 * one);
+}
+
 BOOST_AUTO_TEST_CASE(without_interrupt_it_ends_at_the_timeout) {
   const auto program = ps::Program::load(MARKERVP_TEST_PROGRAMS "/spinning.so");
   Bench b({"cpu.timeout=5 ms"});

@@ -1,4 +1,6 @@
 // Programs as plug-ins: loading, what can be wrong with them, and their static state.
+#include <dlfcn.h>
+
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
@@ -67,6 +69,17 @@ BOOST_AUTO_TEST_CASE(static_state_is_fresh_when_loaded_again_or_twice) {
   const auto second = ps::Program::load(programs + "./counting.so");
   BOOST_TEST(run(*second) == fresh, boost::test_tools::per_element());
   BOOST_TEST(run(*first) == fresh, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(static_state_is_fresh_of_a_program_that_stays_loaded) {
+  ps::Program::keep_loaded();
+  for (int i = 0; i < 3; ++i) {
+    const auto program = ps::Program::load(programs + "counting.so");
+    BOOST_TEST(run(*program) == fresh, boost::test_tools::per_element());
+  }
+  void* const loaded = dlopen((programs + "counting.so").c_str(), RTLD_NOW | RTLD_NOLOAD);
+  BOOST_TEST(loaded != nullptr);
+  if (loaded) dlclose(loaded);
 }
 
 BOOST_AUTO_TEST_CASE(a_linked_program) {

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(version) {
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
-       "a command is missing: run, history, scenes, designs, config, map, report, validate, "
+       "a command is missing: run, history, debug, scenes, designs, config, map, report, validate, "
        "devices, "
        "clocks, power, rtl, trace, sweep, explore, metrics, pareto, sensitivity, compare, "
        "compare-detectors or completion"},

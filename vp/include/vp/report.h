@@ -60,6 +60,9 @@ class ReportRouter {
   void set_time_source(std::function<std::uint64_t()> now_ps) { now_ps_ = std::move(now_ps); }
   /// What the software is at, for the lines that are printed; empty: nothing, or it is not running.
   void set_place_source(std::function<std::string()> place) { place_ = std::move(place); }
+  /// Told of each warning, after it was printed, where it is given. Null: nobody is.
+  using WarningListener = std::function<void(const Warning&)>;
+  void on_warning(WarningListener listener) { warning_listener_ = std::move(listener); }
   /// Warnings throw too: for tests, in which nothing may be warned of.
   void set_fail_on_warning(bool fail) { fail_on_warning_ = fail; }
 
@@ -78,6 +81,7 @@ class ReportRouter {
   std::shared_ptr<spdlog::logger> logger_;
   std::function<std::uint64_t()> now_ps_;
   std::function<std::string()> place_;
+  WarningListener warning_listener_;
   bool fail_on_warning_ = false;
   std::array<std::uint64_t, sc_core::SC_MAX_SEVERITY> by_severity_{};
   std::map<std::string, std::uint64_t> by_id_;

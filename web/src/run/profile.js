@@ -17,9 +17,9 @@ const measures = [
   { name: "Energy", of: (f) => f.energy, show: microjoules },
 ];
 
-/** The functions with what they and those below them took; callers stand before those that they call. */
-function tree(rows) {
-  const all = rows.map(([name, caller, calls, work, stalls, waiting, asleep, cycles_, energy]) => ({ name, caller, calls, work, stalls, waiting, asleep, cycles: cycles_, energy, below: [], total: [] }));
+/** The functions with what they and those below them took; callers stand before those that they call. `calls`: of each, by name. */
+function tree(rows, calls) {
+  const all = rows.map(([name, caller, halCalls, work, stalls, waiting, asleep, cycles_, energy]) => ({ name, caller, halCalls, work, stalls, waiting, asleep, cycles: cycles_, energy, calls: calls?.[name], below: [], total: [] }));
   all.forEach((f, i) => {
     f.index = i;
     f.depth = i === 0 ? 0 : all[f.caller].depth + 1;
@@ -84,7 +84,7 @@ function flameGraph(all) {
   };
   const tip = (f) => [f.name, `${measures[m].name.toLowerCase()} ${measures[m].show(f.total[m])}, ${fixed(all[0].total[m] > 0 ? 100 * f.total[m] / all[0].total[m] : 0, 1)} %`,
     `itself: work ${time(f.work)}, stalls ${time(f.stalls)}, waiting ${time(f.waiting)}, asleep ${time(f.asleep)}`,
-    `${counted(f.calls, "call")} of the HAL`].join("\n");
+    f.calls === undefined ? "" : `called ${counted(f.calls, "time")}, wherever from`, `${counted(f.halCalls, "call")} of the HAL`].filter(Boolean).join("\n");
   const option = () => ({
     grid: { left: 0, right: 0, top: 0, height }, xAxis: axis({ type: "value", min: 0, max: 1, show: false }), yAxis: axis({ type: "value", min: 0, max: 1, show: false }),
     tooltip: { show: true, trigger: "item", formatter: (p) => tip(all[p.value[0]]) },
@@ -114,7 +114,8 @@ const functionColumns = [
   inTime("Stalls", (f) => f.stalls), inTime("Waiting", (f) => f.waiting), inTime("Asleep", (f) => f.asleep),
   { title: "Cycles", number: true, value: (f) => f.cycles, show: (v) => fixed(v, 0) },
   { title: "Energy", unit: "µJ", csv: "Energy uJ", number: true, value: (f) => f.energy, show: (v) => significant(v, 3) },
-  { title: "HAL calls", number: true, value: (f) => f.calls },
+  { title: "Calls", number: true, value: (f) => f.calls },
+  { title: "HAL calls", number: true, value: (f) => f.halCalls },
 ];
 
 /** Each function once, wherever it was called; of recursive calls the outermost counts. */
@@ -122,10 +123,10 @@ function byFunction(all) {
   const found = new Map();
   const within = (f) => { for (let g = f; g.index > 0;) { g = all[g.caller]; if (g.name === f.name) return true; } return false; };
   for (const f of all) {
-    const sum = found.get(f.name) ?? { name: f.name, all: 0, own: 0, work: 0, stalls: 0, waiting: 0, asleep: 0, cycles: 0, energy: 0, calls: 0 };
+    const sum = found.get(f.name) ?? { name: f.name, all: 0, own: 0, work: 0, stalls: 0, waiting: 0, asleep: 0, cycles: 0, energy: 0, calls: f.calls, halCalls: 0 };
     if (!within(f)) sum.all += f.total[0];
     sum.own += measures[0].of(f);
-    for (const part of ["work", "stalls", "waiting", "asleep", "cycles", "energy", "calls"]) sum[part] += f[part];
+    for (const part of ["work", "stalls", "waiting", "asleep", "cycles", "energy", "halCalls"]) sum[part] += f[part];
     found.set(f.name, sum);
   }
   const [program, ...others] = [...found.values()];
@@ -159,7 +160,7 @@ function latencies(profile) {
 export function profile(run) {
   const facts = run.extras.profile;
   if (!facts) return null;
-  const all = tree(facts.functions);
+  const all = tree(facts.functions, facts.calls);
   const named = facts.named.length > 0 && h("details", {}, h("summary", {}, "Functions that the program names, with their calls"),
     dataTable({ caption: "Functions that the program names", name: "named-functions", exportable: true, rows: facts.named, columns: [
       { title: "Function", head: true, value: (f) => f[0] }, { title: "Calls", number: true, value: (f) => f[1] }, inTime("Itself", (f) => f[2]), inTime("Entry to return", (f) => f[3])] }));
