@@ -52,6 +52,17 @@ Vector6d difference(const BoardPose& from, const BoardPose& to) {
   return result;
 }
 
+/// factor⁻¹ · columns, of a lower triangular factor. One column at a time: for several at once
+/// Eigen allocates memory, and a program on the chip has none to give.
+Matrix6d solve(const Matrix6d& factor, const Matrix6d& columns) {
+  Matrix6d result;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d column = columns.col(i);
+    result.col(i) = factor.triangularView<Eigen::Lower>().solve(column);
+  }
+  return result;
+}
+
 Vector6d both(double turn, double shift) {
   Vector6d result;
   result << turn, turn, turn, shift, shift, shift;
@@ -108,9 +119,8 @@ PoseTrack::Weighed PoseTrack::weigh(const BoardPose& seen) const {
 void PoseTrack::correct(const Weighed& weighed) {
   work(Work::poses_corrected, 1);
   ++frames_;
-  const auto factor = weighed.factor.triangularView<Eigen::Lower>();
-  const Matrix6d pose = factor.solve(matrix(pose_.covariance));
-  const Matrix6d speeds = factor.solve(matrix(mixed_));
+  const Matrix6d pose = solve(weighed.factor, matrix(pose_.covariance));
+  const Matrix6d speeds = solve(weighed.factor, matrix(mixed_));
   move(pose_, pose.transpose() * weighed.surprise);
   Vector6d::Map(speed_.data()) += speeds.transpose() * weighed.surprise;
   Matrix6d::Map(pose_.covariance.data()) -= pose.transpose() * pose;
