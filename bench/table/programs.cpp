@@ -143,6 +143,8 @@ void add_systems(List& list, const ProgramOptions& options, const std::string& i
   list.add_frames({"preloaded", executable, "preload", frames}, image, {fidelity});
   for (const FrameProgram& program : functions) list.add_frames(program, image);
   list.add_frames({"uploaded", executable, "upload", frames}, image, {fidelity});
+  list.add_frames({"improved", executable, "preload", frames}, image,
+                  {fidelity, "design=improved", "profile=a9-O2"});
   if (options.parts && fast) {
     list.add_frames({"uploaded_clocked", executable, "upload", 5}, image, {"fidelity=clocked"});
   }

@@ -28,8 +28,8 @@ namespace {
 /// Height of the strip below the image, px.
 constexpr int strip_height = 118;
 
-/// Fills the strip: ID and time, pose, error and counts on the left, the legend on the right if
-/// there is room.
+/// Fills the strip: ID and time, pose, error and counts on the left, on the right what the colours
+/// mean that were drawn, if there is room.
 void draw_strip(cv::Mat& strip, const report::FrameReport& frame);
 
 constexpr double title_size = 0.62;
@@ -44,7 +44,6 @@ constexpr int legend_column = 172;
 constexpr int legend_columns = 2;
 constexpr int legend_sample = 12;  ///< half the length of a sample line
 constexpr double ps_per_ms = 1e9;
-constexpr double ps_per_s = 1e12;
 
 std::string title(const report::FrameReport& frame) {
   std::string text = frame.input;
@@ -55,10 +54,10 @@ std::string title(const report::FrameReport& frame) {
   return text;
 }
 
-std::string speed(const report::FrameReport& frame) {
+/// No rate: frames may overlap.
+std::string time_taken(const report::FrameReport& frame) {
   if (!frame.delivered() || frame.end_ps <= frame.start_ps) return "";
-  const auto time = static_cast<double>(frame.end_ps - frame.start_ps);
-  return fmt::format("{:.1f} FPS   {:.2f} ms", ps_per_s / time, time / ps_per_ms);
+  return fmt::format("{:.2f} ms", static_cast<double>(frame.end_ps - frame.start_ps) / ps_per_ms);
 }
 
 std::string pose_line(const report::FoundMarker& marker) {
@@ -79,33 +78,29 @@ std::string error_line(const report::FrameReport& frame, const report::FoundMark
   return fmt::format("reprojection {:.2f} px", *marker.reprojection_px);
 }
 
-std::string counts_line(const report::FrameReport& frame) {
-  const report::Features& shown = frame.features;
-  return fmt::format("{}   {}   {}   threshold {}", report::counted(shown.corners.size(), "corner"),
-                     report::counted(shown.blobs.size(), "blob"),
-                     report::counted(shown.candidates.size(), "candidate"), frame.threshold);
-}
-
 struct Entry {
   const char* text;
-  const cv::Scalar& colour;
+  cv::Scalar colour;
   enum { corner, thin, thick } kind;
   int dx, dy;
 };
 
 constexpr int legend_rows = 4;
 
-/// Column by column, legend_rows each.
-const std::vector<Entry>& legend() {
-  static const std::vector<Entry> entries{
-      {"corner, tip north", palette::sky_blue, Entry::corner, 0, -1},
-      {"corner, tip east", palette::bluish_green, Entry::corner, 1, 0},
-      {"corner, tip south", palette::orange, Entry::corner, 0, 1},
-      {"corner, tip west", palette::vermillion, Entry::corner, -1, 0},
-      {"blob", palette::reddish_purple, Entry::thin, 0, 0},
-      {"candidate", palette::blue, Entry::thick, 0, 0},
-      {"marker", palette::yellow, Entry::thick, 0, 0},
-  };
+/// Of what the frame shows; column by column, legend_rows each.
+std::vector<Entry> legend(const report::FrameReport& frame) {
+  std::vector<Entry> entries;
+  const report::Features& drawn = frame.features;
+  if (!drawn.corners.empty()) {
+    entries = {{"corner, tip north", palette::sky_blue, Entry::corner, 0, -1},
+               {"corner, tip east", palette::bluish_green, Entry::corner, 1, 0},
+               {"corner, tip south", palette::orange, Entry::corner, 0, 1},
+               {"corner, tip west", palette::vermillion, Entry::corner, -1, 0}};
+  }
+  if (!drawn.blobs.empty()) entries.push_back({"blob", palette::reddish_purple, Entry::thin, 0, 0});
+  if (!drawn.candidates.empty())
+    entries.push_back({"candidate", palette::blue, Entry::thick, 0, 0});
+  if (!frame.markers.empty()) entries.push_back({"marker", palette::yellow, Entry::thick, 0, 0});
   return entries;
 }
 
@@ -129,13 +124,13 @@ void draw_entry(cv::Mat& strip, cv::Point place, const Entry& entry) {
             legend_size);
 }
 
-void draw_legend(cv::Mat& strip) {
+void draw_legend(cv::Mat& strip, const std::vector<Entry>& entries) {
   const int left = strip.cols - legend_columns * legend_column + legend_sample;
-  for (std::size_t i = 0; i < legend().size(); ++i) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     const int column = static_cast<int>(i) / legend_rows;
     const int row = static_cast<int>(i) % legend_rows;
     draw_entry(strip, {left + column * legend_column, first_baseline - 5 + row * line_pitch},
-               legend()[i]);
+               entries[i]);
   }
 }
 
@@ -144,7 +139,7 @@ void draw_strip(cv::Mat& strip, const report::FrameReport& frame) {
   const std::string head = title(frame);
   draw_text(strip, {left_margin, first_baseline}, head, palette::text, title_size);
   const int after = left_margin + text_width(head, title_size) + title_gap;
-  draw_text(strip, {after, first_baseline}, speed(frame), palette::yellow, title_size);
+  draw_text(strip, {after, first_baseline}, time_taken(frame), palette::yellow, title_size);
   int baseline = first_baseline;
   const auto add_line = [&](const std::string& text, const cv::Scalar& colour) {
     draw_text(strip, {left_margin, baseline += line_pitch}, text, colour, line_size);
@@ -153,8 +148,8 @@ void draw_strip(cv::Mat& strip, const report::FrameReport& frame) {
     add_line(pose_line(frame.markers.front()), palette::text);
     add_line(error_line(frame, frame.markers.front()), palette::text);
   }
-  add_line(counts_line(frame), palette::faint_text);
-  if (strip.cols >= widest_text + legend_columns * legend_column) draw_legend(strip);
+  add_line(report::counts_text(frame), palette::faint_text);
+  if (strip.cols >= widest_text + legend_columns * legend_column) draw_legend(strip, legend(frame));
 }
 
 }  // namespace

@@ -21,10 +21,32 @@ std::string degrees(double radians) {
   return vp::format_fixed(radians * degrees_per_radian, 1);
 }
 
+/// With so many places; with two more if fewer than two digits were left of it.
+std::string error_figure(double value, int places) {
+  const bool little = value > 0 && value * std::pow(10, places) < 10;
+  return vp::format_fixed(value, little ? places + 2 : places);
+}
+
+std::string pose_error_text(double translation_mm, double rotation_deg) {
+  return "   translation " + error_figure(translation_mm, 1) + " mm   rotation " +
+         error_figure(rotation_deg, 2) + " deg";
+}
+
 }  // namespace
 
 std::string counted(std::uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string counts_text(const FrameReport& frame) {
+  std::string text;
+  for (const Counts::Count& count : frame.counts.list()) {
+    if (count.lost) continue;
+    std::string noun = count.name.substr(0, count.name.find_last_not_of('s') + 1);
+    std::replace(noun.begin(), noun.end(), '_', ' ');
+    text += counted(count.value, noun) + "   ";
+  }
+  return text + "threshold " + std::to_string(frame.threshold);
 }
 
 std::string angles_text(const Eigen::Matrix3d& r) {
@@ -35,10 +57,9 @@ std::string angles_text(const Eigen::Matrix3d& r) {
 
 std::string error_text(const FoundMarker& found, const GroundTruth& truth) {
   const MarkerError error = measure_error(found, truth);
-  const std::string text = "corner " + vp::format_fixed(error.corner_px, 2) + " px";
+  const std::string text = "corner " + error_figure(error.corner_px, 2) + " px";
   if (!found.has_pose) return text;
-  return text + "   translation " + vp::format_fixed(error.translation_mm, 1) + " mm   rotation " +
-         vp::format_fixed(error.rotation_deg, 2) + " deg";
+  return text + pose_error_text(error.translation_mm, error.rotation_deg);
 }
 
 namespace {
@@ -85,18 +106,6 @@ std::string marker_text(const FrameReport& frame, const FoundMarker& found) {
     text += line("error", fmt::format("another marker: the scene has {}", frame.truth->marker_id));
   }
   return text;
-}
-
-/// "31 corners   36 feature words". What was lost has a warning.
-std::string counts_text(const FrameReport& frame) {
-  std::string text;
-  for (const Counts::Count& count : frame.counts.list()) {
-    if (count.lost) continue;
-    std::string noun = count.name.substr(0, count.name.find_last_not_of('s') + 1);
-    std::replace(noun.begin(), noun.end(), '_', ' ');
-    text += counted(count.value, noun) + "   ";
-  }
-  return text + "threshold " + std::to_string(frame.threshold);
 }
 
 /// Stage names over their times; as many lines as the width demands.
@@ -187,12 +196,9 @@ std::string fps_text(const Summary& summary, bool has_camera) {
 }
 
 std::string mean_error_text(const Summary& summary) {
-  const std::string over = counted(summary.corner_px().count(), "marker");
-  return fmt::format(
-      "error    corner {:.2f} px   translation {:.1f} mm   rotation {:.2f} deg   "
-      "(mean over {})\n",
-      summary.corner_px().mean(), summary.translation_mm().mean(), summary.rotation_deg().mean(),
-      over);
+  return "error    corner " + error_figure(summary.corner_px().mean(), 2) + " px" +
+         pose_error_text(summary.translation_mm().mean(), summary.rotation_deg().mean()) +
+         "   (mean over " + counted(summary.corner_px().count(), "marker") + ")\n";
 }
 
 std::string verdict_text(const Verdict& verdict) {

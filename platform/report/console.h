@@ -14,6 +14,9 @@ namespace platform::report {
 /// "1 blob", "2 blobs".
 std::string counted(std::uint64_t count, const std::string& noun);
 
+/// "31 corners   36 feature words   threshold 128". What was lost has a warning.
+std::string counts_text(const FrameReport& frame);
+
 /// "pitch 0.1 yaw 30.0 roll -2.5 deg": the angles of R = Rz(roll) * Ry(yaw) * Rx(pitch).
 std::string angles_text(const Eigen::Matrix3d& rotation);
 

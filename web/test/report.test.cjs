@@ -29,6 +29,8 @@ const blocks = {
   const more = samples.sweep({ points: 300 }).sweep;
   blocks.threeObjectives = { sweep: { ...more, objectives: [...more.objectives, { metric: "frames.error.corner_px.mean", unit: "px", better: -1 }] } };
 }
+blocks.overlapping = samples.run();
+blocks.overlapping.result.summary.fps.mean *= 1.5;
 let browser;
 
 before(async () => {
@@ -142,6 +144,14 @@ async function rowsOf(page, title) {
   return figure.locator("table:not(.u-legend) tbody tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
 }
 const number = (text) => Number(text.replace(/[^\d.]/g, ""));
+
+test("no rate is said for another clock where frames overlap", async () => {
+  await open("overlapping", async (page) => {
+    const guidance = await page.locator("#guidance").textContent();
+    assert.match(guidance, /At 55 MHz a frame would take about [\d.]+ ms \(derived\)\./);
+    assert.doesNotMatch(guidance, /frames\/s/);
+  });
+});
 
 test("a stage and its parts are not stacked", async () => {
   const frame = samples.psOnly().result.frames[0].time_us.frame;

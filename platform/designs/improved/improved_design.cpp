@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include <blob_stream.h>
 #include <designs/designs.h>
 #include <marker_logic.h>
 #include <report/result.h>
@@ -59,6 +60,7 @@ ImprovedDesign::ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports,
   ports.irq_f2p(concat.dout);
   proc_sys_reset.ext_reset_in(ports.fclk_reset0_n());
   camera.frame_ena.attach(*this);
+  blob_labelling.blob_out.attach(*this);
   control_block.rst_out.attach(*this);
 }
 
@@ -74,9 +76,34 @@ void ImprovedDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
     counted_ = {counted_[0], 0, 0, 0};
     return;
   }
-  if (signal.bits() != 0) return;
+  if (&signal == &blob_labelling.blob_out) {
+    if (signal.bits() != 0) note_blob();
+    return;
+  }
+  note_frame();
+}
+
+void ImprovedDesign::note_frame() {
   const std::uint32_t number = camera.frame_number;
-  sent_[number % sent_.size()] = {number, camera.mid_exposure_ps(), ports_.scheduler.now_ps()};
+  Sent& frame = slot(number);
+  if (camera.frame_ena) {
+    frame = {number, camera.mid_exposure_ps()};
+  } else {
+    frame.end_ps = ports_.scheduler.now_ps();
+  }
+}
+
+// A frame's blobs all come before the camera may take the next one.
+void ImprovedDesign::note_blob() {
+  const auto point = [this](blob_stream::Extreme extreme) {
+    return blob_labelling.extreme[extreme].written();
+  };
+  marker::BoundingBox box{};
+  box.sx = static_cast<std::uint16_t>(blob_stream::x(point(blob_stream::least_x)));
+  box.sy = static_cast<std::uint16_t>(blob_stream::y(point(blob_stream::least_y)));
+  box.ex = static_cast<std::uint16_t>(blob_stream::x(point(blob_stream::greatest_x)));
+  box.ey = static_cast<std::uint16_t>(blob_stream::y(point(blob_stream::greatest_y)));
+  slot(camera.frame_number).blobs.push_back(box);
 }
 
 bool ImprovedDesign::report(const Publication& publication, report::FrameReport& frame) {
@@ -104,7 +131,7 @@ void ImprovedDesign::fill_in(report::FrameReport& frame, std::uint64_t now_ps) c
   frame.end_ps = now_ps;
 }
 
-void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps) const {
+void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps) {
   // Stamps count pairs of CPU cycles.
   const vp::Clock& cpu = ports_.ps.cpu_clk.clk;
   const auto duration = [&cpu](std::uint64_t counts) {
@@ -127,7 +154,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
   }
   const report::StageTime detection = stage("detection", t.detection, "frame");
   frame.times = {detection, stage("pose", t.pose, "frame"), whole};
-  const Sent& sent = sent_[result_.camera_frame % sent_.size()];
+  const Sent& sent = slot(result_.camera_frame);
   if (sent.number != result_.camera_frame || sent.end_ps < frame.start_ps) return;
   const auto between = [](const char* name, std::uint64_t from_ps, std::uint64_t to_ps,
                           const char* part_of, const std::string& why) {
@@ -152,6 +179,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
       {capture, between("wait", sent.end_ps, detection.start_ps, "frame",
                         "the last blobs and their DMA, the trigger of the next frame, and what the "
                         "software still had to do for the one before")});
+  frame.features.blobs = sent.blobs;
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
   frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, "", ""));
 }

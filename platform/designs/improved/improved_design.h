@@ -39,14 +39,19 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   struct Sent {
     std::uint32_t number = 0;
     std::uint64_t mid_exposure_ps = 0;
-    std::uint64_t end_ps = 0;  ///< of its last pixel; 0: no such frame
+    std::uint64_t end_ps = 0;                     ///< of its last pixel; 0: no such frame
+    std::vector<marker::BoundingBox> blobs = {};  ///< that the labelling showed, for the picture
   };
   /// What the logic dropped: triggers, pictures, the rest of pictures, packets.
   using Dropped = std::array<std::uint64_t, 4>;
 
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void note_frame();
+  void note_blob();
+  /// Where the camera's frame of this number stands, or stood.
+  Sent& slot(std::uint32_t number) { return sent_[number % sent_.size()]; }
   void fill_in(report::FrameReport& frame, std::uint64_t now_ps) const;
-  void add_times(report::FrameReport& frame, std::uint64_t now_ps) const;
+  void add_times(report::FrameReport& frame, std::uint64_t now_ps);
   void add_counts(report::FrameReport& frame);
   Dropped counters() const;
   void note_dropped();

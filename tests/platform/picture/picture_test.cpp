@@ -71,6 +71,44 @@ BOOST_AUTO_TEST_CASE(an_empty_frame_is_the_image_alone) {
   }
 }
 
+/// Something in the strip below the image has this tint, in the legend or left of it. What is thin
+/// is blended with the ground.
+bool strip_has(const Picture& picture, bool (*tint)(const std::uint8_t* rgb), bool legend) {
+  for (std::size_t row = 960; row < std::size_t(picture.height); ++row) {
+    for (std::size_t column = legend ? 820 : 0; column < (legend ? 1280u : 820u); ++column) {
+      if (tint(&picture.rgb[(row * 1280 + column) * 3])) return true;
+    }
+  }
+  return false;
+}
+
+bool is_yellow(const std::uint8_t* c) {
+  return c[0] > c[2] + 60 && c[1] > c[2] + 60;
+}
+bool is_purple(const std::uint8_t* c) {
+  return c[0] > c[1] + 30 && c[2] > c[1] + 15;
+}
+bool is_sky_blue(const std::uint8_t* c) {
+  return c[2] > c[0] + 60 && c[1] > c[0] + 40;
+}
+
+BOOST_AUTO_TEST_CASE(the_legend_has_what_is_drawn_and_nothing_else) {
+  Example example;
+  Picture picture = annotate(example.image, example.frame);
+  for (const auto tint : {is_sky_blue, is_purple, is_yellow})
+    BOOST_TEST(strip_has(picture, tint, true));
+  example.frame.features.corners.clear();
+  picture = annotate(example.image, example.frame);
+  BOOST_TEST(!strip_has(picture, is_sky_blue, true));
+  BOOST_TEST(strip_has(picture, is_purple, true));
+  example.frame.features.blobs.clear();
+  example.frame.markers.clear();
+  picture = annotate(example.image, example.frame);
+  BOOST_TEST(!strip_has(picture, is_purple, true));
+  BOOST_TEST(!strip_has(picture, is_yellow, true));
+  BOOST_TEST(strip_has(picture, is_yellow, false), "the time that the frame took");
+}
+
 BOOST_AUTO_TEST_CASE(what_lies_outside_the_image_or_behind_the_camera_does_no_harm) {
   Example example;
   report::FoundMarker& marker = example.frame.markers[0];

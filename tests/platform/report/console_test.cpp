@@ -41,6 +41,14 @@ BOOST_AUTO_TEST_CASE(a_frame_in_a_few_lines) {
   BOOST_TEST(contains(text, "6144.5"), text);
 }
 
+BOOST_AUTO_TEST_CASE(small_errors_keep_two_digits) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.markers[0].corners_px[0].x -= 2 - 0.0172;
+  frame.markers[0].pose.translation[2] -= 0.012 - 0.0001654;
+  const std::string text = report::frame_text(frame);
+  BOOST_TEST(contains(text, "corner 0.0043 px   translation 0.165 mm   rotation 0.00 deg"), text);
+}
+
 BOOST_AUTO_TEST_CASE(a_frame_without_marker) {
   report::FrameReport frame = found_frame("z1.0");
   frame.markers.clear();

@@ -8,6 +8,9 @@ export function fixed(value, places) {
   return sign + grouped + (part ? "." + part : "");
 }
 
+/** With so many places; with two more if fewer than two digits were left of it, as on the console. */
+export const error = (value, places) => fixed(value, value > 0 && value * 10 ** places < 10 ? places + 2 : places);
+
 /** About `digits` significant digits. */
 export function significant(value, digits = 3) {
   if (!Number.isFinite(value)) return "–";

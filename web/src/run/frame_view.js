@@ -1,6 +1,6 @@
 // The image with what was found in it, each kind a layer to switch.
 import { download, h, s } from "../kit/dom.js";
-import { counted, fixed, heading, significant, time, words } from "../kit/format.js";
+import { counted, error, fixed, heading, significant, time, words } from "../kit/format.js";
 import { stageColour } from "../kit/theme.js";
 import { countsOf, partsOf } from "./facts.js";
 
@@ -73,8 +73,8 @@ function facts(frame) {
         add("Reprojection", `${fixed(marker.reprojection_px, 2)} px after ${counted(marker.iterations, "iteration")}`);
     }
     if (marker.error) {
-      add("Error", [`${fixed(marker.error.corner_px, 2)} px`, marker.error.translation_mm !== undefined && `${fixed(marker.error.translation_mm, 1)} mm`,
-        marker.error.rotation_deg !== undefined && `${fixed(marker.error.rotation_deg, 2)}°`].filter(Boolean).join(", "));
+      add("Error", [`${error(marker.error.corner_px, 2)} px`, marker.error.translation_mm !== undefined && `${error(marker.error.translation_mm, 1)} mm`,
+        marker.error.rotation_deg !== undefined && `${error(marker.error.rotation_deg, 2)}°`].filter(Boolean).join(", "));
     }
   }
   if (frame.markers.length === 0) add("Marker", "none found");

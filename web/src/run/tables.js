@@ -1,6 +1,6 @@
 // Frames, configuration, provenance.
 import { h } from "../kit/dom.js";
-import { fixed, words } from "../kit/format.js";
+import { error, fixed, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
 import { countsOf } from "./facts.js";
@@ -17,9 +17,9 @@ export function frameTable(run) {
     ...run.stages.map((name) => number(words(name), "µs", (f) => f.time_us?.[name], 1)),
     number("Energy", "mJ", (f) => f.energy_mj?.total ?? f.energy_mj, 3),
     ...countsOf(run.frames).map((name) => number(words(name), null, (f) => f.counts[name], 0)),
-    number("Error", "px", (f) => first(f)?.error?.corner_px, 2),
-    number("Error", "mm", (f) => first(f)?.error?.translation_mm, 1),
-    number("Error", "°", (f) => first(f)?.error?.rotation_deg, 2),
+    number("Error", "px", (f) => first(f)?.error?.corner_px, 2, (v) => error(v, 2)),
+    number("Error", "mm", (f) => first(f)?.error?.translation_mm, 1, (v) => error(v, 1)),
+    number("Error", "°", (f) => first(f)?.error?.rotation_deg, 2, (v) => error(v, 2)),
     { title: "Warnings", value: (f) => f.warnings?.join("; ") },
   ].filter((column) => has(column.value));
   const left = (run.summary.frames ?? 0) - run.frames.length;

@@ -1,6 +1,6 @@
 // The answer before the details: figures with origin, band, and the thesis' value beside them.
 import { h } from "../kit/dom.js";
-import { counted, fixed, signed, significant, tidy } from "../kit/format.js";
+import { counted, error, fixed, signed, significant, tidy } from "../kit/format.js";
 import { legend, origin } from "../kit/origin.js";
 import { value } from "../published.js";
 import { thesisOf } from "./thesis.js";
@@ -73,8 +73,8 @@ function tiles(run) {
   }
   if (run.error) {
     list.push(tile({
-      label: "Error of the pose", number: fixed(run.error.translation, 1), unit: "mm",
-      band: `${fixed(run.error.rotation, 2)}°, corners ${fixed(run.error.corner, 2)} px`,
+      label: "Error of the pose", number: error(run.error.translation, 1), unit: "mm",
+      band: `${error(run.error.rotation, 2)}°, corners ${error(run.error.corner, 2)} px`,
       source: "simulated", detail: `mean over ${counted(run.error.count, "marker")} whose truth is known`,
       thesis: thesis && `thesis ${value("pose.all.translation")} mm, ${value("pose.all.rotation")}°`,
     }));
