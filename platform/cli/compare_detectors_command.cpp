@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cli/commands.h>
 #include <cli/sweep_command.h>
 #include <designs/designs.h>
@@ -213,13 +215,22 @@ class Comparer {
     const double ms = ms_since(start);
     detectors::Detector detector;
     detector.name = name;
-    detector.description = design_named(name).description;
+    detector.description = design_named(name).description + dropped_text(found);
     detector.host_ms = ms / static_cast<double>(result_.images.size());
     detector.hardware = hardware(found.at("summary"));
     detector.seen.resize(result_.images.size());
     for (const Json& frame : found.at("frames"))
       detector.seen.at(frame.at("index").get<std::size_t>()) = seen_in(frame);
     result_.detectors.push_back(std::move(detector));
+  }
+
+  /// Images that came before a design was ready for them show nothing to it.
+  std::string dropped_text(const Json& result) const {
+    if (!result.contains("camera")) return "";
+    const std::size_t dropped = result_.images.size() - result.at("frames").size();
+    if (dropped == 0) return "";
+    return fmt::format("; dropped {} of {} images, which came at {:g} a second", dropped,
+                       result_.images.size(), result.at("camera").at("rate_fps").get<double>());
   }
 
   static detectors::HardwareFigures hardware(const Json& summary) {

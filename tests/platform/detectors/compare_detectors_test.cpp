@@ -94,6 +94,20 @@ BOOST_AUTO_TEST_CASE(each_of_several_markers_is_judged) {
   BOOST_TEST(double(of("improved")["translation_mm"]) < 5);
 }
 
+// A design that is not ready for an image finds nothing in it, and the comparison says why.
+BOOST_AUTO_TEST_CASE(images_that_a_design_dropped_are_told) {
+  const std::string many = "z2.5@markers=15";
+  BOOST_TEST(compare({many, many, many, many, "--design", "improved", "--no-report"}) == 0, err);
+  const std::string usual = of("improved")["description"];
+  BOOST_TEST(usual.find("dropped") == std::string::npos);
+  BOOST_TEST(compare({many, many, many, many, "--design", "improved", "--no-report", "--set",
+                      "camera.rate=320 fps"}) == 0,
+             err);
+  const std::string told = of("improved")["description"];
+  BOOST_TEST(told == usual + "; dropped 2 of 4 images, which came at 320 a second");
+  BOOST_TEST(out.find(told) != std::string::npos, out);
+}
+
 BOOST_AUTO_TEST_CASE(a_folder_brings_its_truth) {
   BOOST_TEST(run({"scenes", "z1.0@noise=0.02", "-o", "noisy"}) == 0, err);
   BOOST_TEST(out == "wrote 1 image and truth.json in noisy\n");
