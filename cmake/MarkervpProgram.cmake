@@ -9,7 +9,7 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
     message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP): the vendor's drivers are C, write project(… LANGUAGES C CXX)")
   endif()
   set(drivers "")
-  foreach(driver axidma gpio scugic scutimer uartps)
+  foreach(driver axidma gpio scugic scutimer scuwdt uartps)
     set(place "${driver}*/src/x${driver}.c")
     file(GLOB found "${folder}/${place}" "${folder}/libsrc/${place}" "${folder}/*/libsrc/${place}"
       "${folder}/XilinxProcessorIPLib/drivers/${place}")
@@ -34,7 +34,7 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
   if(NOT drivers)
     message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): no driver of the vendor's is there. "
       "Name the libsrc of a board support package or a checkout of the vendor's repository; looked for "
-      "axidma, gpio, scugic, scutimer and uartps, each as <driver>*/src/x<driver>.c")
+      "axidma, gpio, scugic, scutimer, scuwdt and uartps, each as <driver>*/src/x<driver>.c")
   endif()
   target_sources(${NAME} PRIVATE "${markervp_vendor_tables}")
   list(JOIN drivers ", " drivers)

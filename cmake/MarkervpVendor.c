@@ -73,6 +73,13 @@ XScuTimer_Config XScuTimer_ConfigTable[] = {
     {.DeviceId = XPAR_XSCUTIMER_0_DEVICE_ID, .BaseAddr = XPAR_XSCUTIMER_0_BASEADDR}};
 #endif
 
+#ifdef MARKERVP_VENDOR_SCUWDT
+#include <xscuwdt.h>
+
+XScuWdt_Config XScuWdt_ConfigTable[] = {
+    {.DeviceId = XPAR_XSCUWDT_0_DEVICE_ID, .BaseAddr = XPAR_XSCUWDT_0_BASEADDR}};
+#endif
+
 #ifdef MARKERVP_VENDOR_UARTPS
 #include <xuartps.h>
 
@@ -82,5 +89,12 @@ XScuTimer_Config XScuTimer_ConfigTable[] = {
       .InputClockHz = XPAR_XUARTPS_##n##_UART_CLK_FREQ_HZ,                                  \
   }
 
-XUartPs_Config XUartPs_ConfigTable[] = {UARTPS(0), UARTPS(1)};
+XUartPs_Config XUartPs_ConfigTable[] = {
+#ifdef XPAR_XUARTPS_0_BASEADDR
+    UARTPS(0),
+#endif
+#ifdef XPAR_XUARTPS_1_BASEADDR
+    UARTPS(1),
+#endif
+};
 #endif

@@ -10,6 +10,7 @@
 
 #include <gic_registers.h>
 #include <slcr_registers.h>
+#include <uart_registers.h>
 #include <vp/ip.h>
 #include <vp/register_bank.h>
 #include <vp/text.h>
@@ -88,16 +89,14 @@ constexpr const char* processor_devices =
     "#define XPAR_XSCUTIMER_NUM_INSTANCES 1\n"
     "#define XPAR_XSCUTIMER_0_DEVICE_ID 0\n"
     "#define XPAR_XSCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_XSCUWDT_NUM_INSTANCES 1\n"
+    "#define XPAR_SCUWDT_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUWDT_0_BASEADDR 0xF8F00620U\n"
+    "#define XPAR_XSCUWDT_0_DEVICE_ID 0\n"
+    "#define XPAR_XSCUWDT_0_BASEADDR 0xF8F00620U\n"
     "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n"
-    "\n/* UARTs, and what the processing system has besides */\n"
-    "#define XPAR_XUARTPS_0_DEVICE_ID 0\n"
-    "#define XPAR_XUARTPS_0_BASEADDR 0xE0000000U\n"
-    "#define XPAR_XUARTPS_0_UART_CLK_FREQ_HZ 50000000\n"
-    "#define XPAR_XUARTPS_1_DEVICE_ID 1\n"
-    "#define XPAR_XUARTPS_1_BASEADDR 0xE0001000U\n"
-    "#define XPAR_XUARTPS_1_UART_CLK_FREQ_HZ 50000000\n"
-    "#define XPAR_XUARTPS_NUM_INSTANCES 2\n"
-    "#include <xparameters_ps.h>\n";
+    "\n/* UARTs, and what the processing system has besides */\n";
+constexpr std::uint32_t uart_ref_hz = 50'000'000;
 
 }  // namespace
 
@@ -112,6 +111,14 @@ std::string header(const Platform& platform) {
   out.address("PS7_DDR_0_S_AXI_BASEADDR", platform.ddr_base);
   out.address("PS7_DDR_0_S_AXI_HIGHADDR", platform.ddr_last);
   out.text += processor_devices;
+  for (std::size_t n = 0; n < platform.uarts.size(); ++n) {
+    const std::string name = "XUARTPS_" + std::to_string(n);
+    out.number(name + "_DEVICE_ID", n);
+    out.address(name + "_BASEADDR", platform.uarts[n]);
+    out.number(name + "_UART_CLK_FREQ_HZ", uart_ref_hz);
+  }
+  out.number("XUARTPS_NUM_INSTANCES", platform.uarts.size());
+  out.text += "#include <xparameters_ps.h>\n";
   std::map<std::string, unsigned> numbers;
   for (const Device& device : platform.devices) {
     define_device(out, device, numbers[device.driver]++);
@@ -120,10 +127,11 @@ std::string header(const Platform& platform) {
   for (const auto& [driver, count] : numbers) {
     if (!driver.empty()) out.number("X" + driver + "_NUM_INSTANCES", count);
   }
-  out.text += "\n/* Console */\n#define STDOUT_BASEADDRESS ";
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "0x%08XU\n", static_cast<unsigned>(platform.console_uart));
-  out.text += digits;
+  if (!platform.uarts.empty()) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%08XU\n", static_cast<unsigned>(platform.uarts.back()));
+    out.text += std::string("\n/* Console */\n#define STDOUT_BASEADDRESS ") + digits;
+  }
   out.text += "\n#endif\n";
   return out.text;
 }
@@ -139,8 +147,6 @@ using xparameters::Device;
 
 /// What Vivado states for the 666,666,667 Hz of a ZedBoard: it multiplies 33.333333 MHz.
 constexpr std::uint64_t usual_cpu_hz = 666'666'667, vivado_cpu_hz = 666'666'687;
-/// The boards' console.
-constexpr std::uint32_t console_uart = 0xE000'1000;
 
 std::string capitals(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -333,7 +339,8 @@ std::string xparameters_header(Zynq& zynq) {
   platform.ps_clock_hz = static_cast<std::uint64_t>(zynq.ps.slcr.ps_clk.get());
   platform.ddr_base = ps::Ddr::base;
   platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
-  platform.console_uart = console_uart;
+  if (zynq.ps.uart0.enabled) platform.uarts.push_back(uart::uart0_base);
+  if (zynq.ps.uart1.enabled) platform.uarts.push_back(uart::uart1_base);
   // Those that software can reach, in the order in which drivers number them.
   for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
     for (const HardwareMap::Device& place : map.devices) {

@@ -28,7 +28,8 @@ struct Platform {
   std::uint64_t ps_clock_hz;
   std::uint32_t ddr_base;
   std::uint32_t ddr_last;
-  std::uint32_t console_uart;   ///< base address
+  /// Base addresses in the order of their numbers; the last is the console.
+  std::vector<std::uint32_t> uarts;
   std::vector<Device> devices;  ///< those of one driver in the order of their numbers
 };
 

@@ -22,6 +22,10 @@ vp::RegisterBankOptions uart_options() {
 
 Uart::Uart(sc_core::sc_module_name name, vp::Clock& uart_ref_clk)
     : vp::Clocked(name, uart_ref_clk),
+      enabled(
+          "enabled", true, vp::Source::decision,
+          "as Vivado enables it for a board: false leaves it out of xparameters.h, and what comes "
+          "behind it has its number"),
       registers("registers", uart::registers, uart_options(), &uart_ref_clk.scheduler()),
       cr_(registers[uart::CR]),
       mr_(registers[uart::MR]),

@@ -3,6 +3,7 @@
 #include <ps/cpu/console.h>
 #include <vp/clock.h>
 #include <vp/counter.h>
+#include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
 #include <cstdint>
@@ -23,6 +24,8 @@ class Uart : public vp::Clocked {
  public:
   Uart(sc_core::sc_module_name name, vp::Clock& uart_ref_clk);
   const char* kind() const override { return "ps::Uart"; }
+
+  vp::Parameter<bool> enabled;
 
   vp::RegisterBank registers;
   vp::Signal<bool> irq{"irq"};  ///< active high

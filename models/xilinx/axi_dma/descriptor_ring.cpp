@@ -114,10 +114,12 @@ void DescriptorRing::begin_update(std::uint64_t cycle, bool cyclic) {
   if (engine.m_axi.done()) complete_access(cycle, cyclic);
 }
 
+// Nobody looks at the status of a cyclic descriptor, which software may be taking back meanwhile.
 void DescriptorRing::begin_fetch(std::uint64_t cycle, bool cyclic) {
   access_ = Access::fetch;
   fetch_began_ = cycle;
-  engine.m_axi.read(next_, reinterpret_cast<unsigned char*>(words_), descriptor::bytes, false);
+  engine.m_axi.read(next_, reinterpret_cast<unsigned char*>(words_),
+                    cyclic ? descriptor::STATUS : descriptor::bytes, false);
   if (engine.m_axi.done()) complete_access(cycle, cyclic);
 }
 

@@ -5,6 +5,7 @@
 #include <axi_dma_registers.h>
 #include <hal/hal.h>
 #include <xaxidma.h>
+#include <xil_printf.h>
 
 namespace {
 
@@ -110,7 +111,7 @@ int XAxiDma_CfgInitialize(XAxiDma* InstancePtr, XAxiDma_Config* Config) {
   initialise_ring(InstancePtr->RxBdRing[0], *Config, true);
   XAxiDma_Reset(InstancePtr);
   for (unsigned polls = 0; !XAxiDma_ResetIsDone(InstancePtr); ++polls) {
-    if (polls == reset_polls) return XST_FAILURE;
+    if (polls == reset_polls) return XST_DMA_ERROR;
   }
   InstancePtr->Initialized = 1;
   return XST_SUCCESS;
@@ -157,21 +158,24 @@ u32 XAxiDma_Busy(XAxiDma* InstancePtr, int Direction) {
 }
 
 int XAxiDma_Pause(XAxiDma* InstancePtr) {
-  if (!InstancePtr->Initialized || !InstancePtr->HasSg) return XST_FAILURE;
-  for_each_ring(InstancePtr, [](XAxiDma_BdRing& ring) {
-    if (ring.RunState == AXIDMA_CHANNEL_HALTED) return;
-    set_control(ring, dmacr::RS, false);
+  if (!InstancePtr->Initialized) return XST_NOT_SGDMA;
+  for_each_ring(InstancePtr, [&](XAxiDma_BdRing& ring) {
+    if (!InstancePtr->HasSg) set_control(ring, dmacr::RS, false);
     ring.RunState = AXIDMA_CHANNEL_HALTED;
-    ring.BdaRestart = nullptr;
   });
   return XST_SUCCESS;
 }
 
 int XAxiDma_Resume(XAxiDma* InstancePtr) {
-  if (!InstancePtr->Initialized || !InstancePtr->HasSg) return XST_FAILURE;
+  if (!InstancePtr->Initialized) return XST_NOT_SGDMA;
   int result = XST_SUCCESS;
   for_each_ring(InstancePtr, [&](XAxiDma_BdRing& ring) {
-    if (result == XST_SUCCESS && ring.AllCnt != 0) result = XAxiDma_BdRingStart(&ring);
+    if (!InstancePtr->HasSg) {
+      set_control(ring, dmacr::RS, true);
+      ring.RunState = AXIDMA_CHANNEL_NOT_HALTED;
+    } else if (XAxiDma_BdRingStart(&ring) != XST_SUCCESS) {
+      result = XST_DMA_ERROR;
+    }
   });
   return result;
 }
@@ -233,7 +237,7 @@ XAxiDma_Bd* behind(const XAxiDma_BdRing& ring, XAxiDma_Bd* bd, int count) {
 
 /// The engine takes it: no status, and frames as a stream needs them. XST_SUCCESS, or why not.
 int hand_over(const XAxiDma_BdRing& ring, XAxiDma_Bd* bd) {
-  if (XAxiDma_BdGetLength(bd, ring.MaxTransferLen) == 0) return XST_INVALID_PARAM;
+  if (XAxiDma_BdGetLength(bd, ring.MaxTransferLen) == 0) return XST_FAILURE;
   XAxiDma_BdWrite(bd, XAXIDMA_BD_STS_OFFSET,
                   XAxiDma_BdRead(bd, XAXIDMA_BD_STS_OFFSET) & ~descriptor::Cmplt);
   flush(bd);
@@ -274,6 +278,7 @@ u32 XAxiDma_BdGetAppWord(XAxiDma_Bd*, int, int* Valid) {
 u32 XAxiDma_BdRingCreate(XAxiDma_BdRing* RingPtr, UINTPTR PhysAddr, UINTPTR VirtAddr, u32 Alignment,
                          int BdCount) {
   RingPtr->AllCnt = RingPtr->FreeCnt = RingPtr->PreCnt = RingPtr->HwCnt = RingPtr->PostCnt = 0;
+  RingPtr->Cyclic = 0;
   if (BdCount <= 0 || Alignment < XAXIDMA_BD_MINIMUM_ALIGNMENT ||
       (Alignment & (Alignment - 1)) != 0 || PhysAddr % Alignment != 0 ||
       VirtAddr % Alignment != 0) {
@@ -305,7 +310,7 @@ u32 XAxiDma_BdRingCreate(XAxiDma_BdRing* RingPtr, UINTPTR PhysAddr, UINTPTR Virt
 }
 
 int XAxiDma_BdRingClone(XAxiDma_BdRing* RingPtr, XAxiDma_Bd* SrcBdPtr) {
-  if (RingPtr->AllCnt == 0) return XST_DMA_SG_LIST_ERROR;
+  if (RingPtr->AllCnt == 0) return XST_DMA_SG_NO_LIST;
   if (RingPtr->RunState == AXIDMA_CHANNEL_NOT_HALTED) return XST_DEVICE_IS_STARTED;
   if (RingPtr->FreeCnt != RingPtr->AllCnt) return XST_DMA_SG_LIST_ERROR;
   auto* bd = reinterpret_cast<XAxiDma_Bd*>(RingPtr->FirstBdAddr);
@@ -346,7 +351,8 @@ int XAxiDma_BdRingUnAlloc(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetP
 }
 
 int XAxiDma_BdRingToHw(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetPtr) {
-  if (NumBd <= 0) return XST_INVALID_PARAM;
+  if (NumBd < 0) return XST_INVALID_PARAM;
+  if (NumBd == 0) return XST_SUCCESS;
   if (RingPtr->PreCnt < NumBd || RingPtr->PreHead != BdSetPtr) return XST_DMA_SG_LIST_ERROR;
   XAxiDma_Bd* const last = behind(*RingPtr, BdSetPtr, NumBd - 1);
   const bool framed = (XAxiDma_BdGetCtrl(BdSetPtr) & descriptor::StartOfFrame) != 0 &&
@@ -378,10 +384,15 @@ int XAxiDma_BdRingFromHw(XAxiDma_BdRing* RingPtr, int BdLimit, XAxiDma_Bd** BdSe
     if ((status & descriptor::Cmplt) == 0) break;
     const u32 frame = RingPtr->IsRxChannel ? status : XAxiDma_BdGetCtrl(bd);
     if ((frame & descriptor::EndOfFrame) != 0) whole = seen;
+    if (RingPtr->Cyclic) {  // seen once: the next round shows when it is done again
+      XAxiDma_BdWrite(bd, XAXIDMA_BD_STS_OFFSET, status & ~descriptor::Cmplt);
+      flush(bd);
+    }
   }
   if (whole == 0) return 0;
   *BdSetPtr = RingPtr->HwHead;
   RingPtr->HwHead = behind(*RingPtr, RingPtr->HwHead, whole);
+  if (RingPtr->Cyclic) return whole;
   RingPtr->HwCnt -= whole;
   RingPtr->PostCnt += whole;
   return whole;
@@ -398,7 +409,7 @@ int XAxiDma_BdRingFree(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetPtr)
 }
 
 int XAxiDma_UpdateBdRingCDesc(XAxiDma_BdRing* RingPtr) {
-  if (RingPtr->AllCnt == 0) return XST_DMA_SG_LIST_ERROR;
+  if (RingPtr->AllCnt == 0) return XST_DMA_SG_NO_LIST;
   if (RingPtr->RunState == AXIDMA_CHANNEL_NOT_HALTED || XAxiDma_BdRingHwIsStarted(RingPtr)) {
     return XST_SUCCESS;
   }
@@ -423,7 +434,7 @@ int XAxiDma_StartBdRingHw(XAxiDma_BdRing* RingPtr) {
   RingPtr->RunState = AXIDMA_CHANNEL_NOT_HALTED;
   if (RingPtr->HwCnt == 0) return XST_SUCCESS;
   hal_cache_invalidate(RingPtr->HwTail, sizeof *RingPtr->HwTail);
-  if (!XAxiDma_BdHwCompleted(RingPtr->HwTail)) {
+  if (RingPtr->Cyclic || !XAxiDma_BdHwCompleted(RingPtr->HwTail)) {
     write(*RingPtr, MM2S_TAILDESC,
           bus_address(RingPtr->Cyclic ? RingPtr->CyclicBd : RingPtr->HwTail));
   }
@@ -456,7 +467,8 @@ void XAxiDma_BdRingGetCoalesce(XAxiDma_BdRing* RingPtr, u32* CounterPtr, u32* Ti
 }
 
 int XAxiDma_BdRingCheck(XAxiDma_BdRing* RingPtr) {
-  if (RingPtr->AllCnt == 0) return XST_DMA_SG_LIST_ERROR;
+  if (RingPtr->AllCnt == 0) return XST_DMA_SG_NO_LIST;
+  if (RingPtr->RunState == AXIDMA_CHANNEL_NOT_HALTED) return XST_IS_STARTED;
   const int counted = RingPtr->FreeCnt + RingPtr->PreCnt + RingPtr->HwCnt + RingPtr->PostCnt;
   if (counted != RingPtr->AllCnt) return XST_DMA_SG_LIST_ERROR;
   auto* bd = reinterpret_cast<XAxiDma_Bd*>(RingPtr->FirstBdAddr);
@@ -468,6 +480,21 @@ int XAxiDma_BdRingCheck(XAxiDma_BdRing* RingPtr) {
     bd = next;
   }
   return XST_SUCCESS;
+}
+
+void XAxiDma_DumpBd(XAxiDma_Bd* BdPtr) {
+  const auto word = [&](u32 at) { return static_cast<unsigned>(XAxiDma_BdRead(BdPtr, at)); };
+  xil_printf("descriptor %lx:\n next %x, buffer %x, control %x, status %x, ID %lx\n",
+             reinterpret_cast<unsigned long>(BdPtr), word(descriptor::NXTDESC),
+             word(descriptor::BUFFER_ADDRESS), word(descriptor::CONTROL), word(descriptor::STATUS),
+             static_cast<unsigned long>(XAxiDma_BdGetId(BdPtr)));
+}
+
+void XAxiDma_BdRingDumpRegs(XAxiDma_BdRing* RingPtr) {
+  const auto word = [&](u32 at) { return static_cast<unsigned>(read(*RingPtr, at)); };
+  xil_printf("channel %lx:\n control %x, status %x, current descriptor %x, tail descriptor %x\n",
+             static_cast<unsigned long>(RingPtr->ChanBase), word(MM2S_DMACR), word(MM2S_DMASR),
+             word(MM2S_CURDESC), word(MM2S_TAILDESC));
 }
 
 }  // extern "C"

@@ -16,6 +16,8 @@ XScuGic_Config config = {
 /// What functions use that have no instance.
 XScuGic without_instance = {&config, XIL_COMPONENT_IS_READY, 0};
 
+u32 own_cpu = 0;
+
 std::uint32_t cpu_interface(const XScuGic* instance, std::uint32_t offset) {
   return static_cast<std::uint32_t>(instance->Config->CpuBaseAddress) + offset;
 }
@@ -33,7 +35,7 @@ void initialise_distributor(const XScuGic* instance) {
     hal_write32(distributor(instance, gic::ICDIPR(n)), default_priority * 0x0101'0101u);
   }
   for (unsigned n = gic::first_spi / 4; n < gic::byte_registers; ++n) {
-    hal_write32(distributor(instance, gic::ICDIPTR(n)), 0x0101'0101u);
+    hal_write32(distributor(instance, gic::ICDIPTR(n)), 0x0101'0101u << own_cpu);
   }
   for (unsigned n = 0; n < gic::bit_registers; ++n) {
     hal_write32(distributor(instance, gic::ICDICER(n)), 0xFFFF'FFFFu);
@@ -43,6 +45,14 @@ void initialise_distributor(const XScuGic* instance) {
 
 void replace_bits(std::uint32_t address, std::uint32_t mask, std::uint32_t value) {
   hal_write32(address, (hal_read32(address) & ~mask) | value);
+}
+
+/// The register with an interrupt's target CPUs, and the bit in it of one of them.
+std::uint32_t target_of(UINTPTR distributor_base, u32 id) {
+  return static_cast<std::uint32_t>(distributor_base) + gic::ICDIPTR(id / 4);
+}
+std::uint32_t bit_of(u8 cpu, u32 id) {
+  return 1u << cpu << id % 4 * 8;
 }
 
 }  // namespace
@@ -108,15 +118,40 @@ void XScuGic_GetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8* Priori
 }
 
 void XScuGic_InterruptMaptoCpu(XScuGic* InstancePtr, u8 Cpu_Id, u32 Int_Id) {
-  if (Int_Id >= gic::id_count) return;
-  const unsigned byte = Int_Id % 4 * 8;
-  replace_bits(distributor(InstancePtr, gic::ICDIPTR(Int_Id / 4)), 0, 1u << Cpu_Id << byte);
+  XScuGic_InterruptMapFromCpuByDistAddr(InstancePtr->Config->DistBaseAddress, Cpu_Id, Int_Id);
 }
 
 void XScuGic_InterruptUnmapFromCpu(XScuGic* InstancePtr, u8 Cpu_Id, u32 Int_Id) {
-  if (Int_Id >= gic::id_count) return;
-  const unsigned byte = Int_Id % 4 * 8;
-  replace_bits(distributor(InstancePtr, gic::ICDIPTR(Int_Id / 4)), 1u << Cpu_Id << byte, 0);
+  XScuGic_InterruptUnmapFromCpuByDistAddr(InstancePtr->Config->DistBaseAddress, Cpu_Id, Int_Id);
+}
+
+void XScuGic_UnmapAllInterruptsFromCpu(XScuGic* InstancePtr, u8 Cpu_Id) {
+  XScuGic_UnmapAllInterruptsFromCpuByDistAddr(InstancePtr->Config->DistBaseAddress, Cpu_Id);
+}
+
+void XScuGic_InterruptMapFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id, u32 Int_Id) {
+  if (Int_Id < gic::id_count)
+    replace_bits(target_of(DistBaseAddress, Int_Id), 0, bit_of(Cpu_Id, Int_Id));
+}
+
+void XScuGic_InterruptUnmapFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id, u32 Int_Id) {
+  if (Int_Id < gic::id_count)
+    replace_bits(target_of(DistBaseAddress, Int_Id), bit_of(Cpu_Id, Int_Id), 0);
+}
+
+void XScuGic_UnmapAllInterruptsFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id) {
+  for (u32 id = gic::first_spi; id < gic::id_count; id += 4) {
+    replace_bits(target_of(DistBaseAddress, id), 0x0101'0101u << Cpu_Id, 0);
+  }
+}
+
+void XScuGic_SetCpuID(u32 CpuCoreId) {
+  Xil_AssertVoid(CpuCoreId <= 1U);
+  own_cpu = CpuCoreId;
+}
+
+u32 XScuGic_GetCpuID(void) {
+  return own_cpu;
 }
 
 s32 XScuGic_SoftwareIntr(XScuGic* InstancePtr, u32 Int_Id, u32 Cpu_Identifier) {

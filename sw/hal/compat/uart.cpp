@@ -20,6 +20,22 @@ void replace_mode(const XUartPs* instance, std::uint32_t mask, std::uint32_t bit
   write(instance, uart::MR, (read(instance, uart::MR) & ~mask) | bits);
 }
 
+/// Where an option of XUartPs_SetOptions stands.
+struct Option {
+  u16 option;
+  std::uint32_t offset, bit;
+};
+constexpr Option options[] = {
+    {XUARTPS_OPTION_SET_BREAK, uart::CR, uart::cr::STTBRK},
+    {XUARTPS_OPTION_STOP_BREAK, uart::CR, uart::cr::STPBRK},
+    {XUARTPS_OPTION_RESET_TMOUT, uart::CR, uart::cr::TORST},
+    {XUARTPS_OPTION_RESET_TX, uart::CR, uart::cr::TXRES},
+    {XUARTPS_OPTION_RESET_RX, uart::CR, uart::cr::RXRES},
+    {XUARTPS_OPTION_ASSERT_RTS, uart::MODEMCR, uart::modemcr::RTS},
+    {XUARTPS_OPTION_ASSERT_DTR, uart::MODEMCR, uart::modemcr::DTR},
+    {XUARTPS_OPTION_SET_FCM, uart::MODEMCR, uart::modemcr::FCM},
+};
+
 u32 send_some(XUartPs* instance) {
   XUartPsBuffer& buffer = instance->SendBuffer;
   u32 sent = 0;
@@ -70,14 +86,29 @@ u8 XUartPs_RecvByte(UINTPTR BaseAddress) {
   return static_cast<u8>(XUartPs_ReadReg(BaseAddress, uart::FIFO));
 }
 
+void XUartPs_ResetHw(UINTPTR BaseAddress) {
+  XUartPs_WriteReg(BaseAddress, uart::IDR, uart::event::all);
+  XUartPs_WriteReg(BaseAddress, uart::CR,
+                   uart::cr::RXRES | uart::cr::TXRES | uart::cr::RXDIS | uart::cr::TXDIS);
+  XUartPs_WriteReg(BaseAddress, uart::ISR, uart::event::all);
+  XUartPs_WriteReg(BaseAddress, uart::MR, 0);
+  XUartPs_WriteReg(BaseAddress, uart::RXWM, XUARTPS_RXWM_RESET_VAL);
+  XUartPs_WriteReg(BaseAddress, uart::TX_FIFO_LEVEL, XUARTPS_TXWM_RESET_VAL);
+  XUartPs_WriteReg(BaseAddress, uart::RXTOUT, XUARTPS_RXTOUT_DISABLE);
+  XUartPs_WriteReg(BaseAddress, uart::MODEMCR, 0);
+  XUartPs_WriteReg(BaseAddress, uart::FLOW_DELAY, 0);
+  XUartPs_WriteReg(BaseAddress, uart::BAUDGEN, XUARTPS_BAUDGEN_RESET_VAL);
+  XUartPs_WriteReg(BaseAddress, uart::BAUD_DIV, XUARTPS_BAUDDIV_RESET_VAL);
+}
+
 XUartPs_Config* XUartPs_LookupConfig(u16 DeviceId) {
   static XUartPs_Config configs[] = {
-      {XPAR_XUARTPS_0_DEVICE_ID, XPAR_XUARTPS_0_BASEADDR, XPAR_XUARTPS_0_UART_CLK_FREQ_HZ, 0},
-      {XPAR_XUARTPS_1_DEVICE_ID, XPAR_XUARTPS_1_BASEADDR, XPAR_XUARTPS_1_UART_CLK_FREQ_HZ, 0}};
-  for (XUartPs_Config& config : configs) {
-    if (config.DeviceId == DeviceId) return &config;
-  }
-  return nullptr;
+      {0, HAL_XPAR(XUARTPS_0_BASEADDR), HAL_XPAR(XUARTPS_0_UART_CLK_FREQ_HZ), 0},
+#ifdef XPAR_XUARTPS_1_BASEADDR
+      {1, HAL_XPAR(XUARTPS_1_BASEADDR), HAL_XPAR(XUARTPS_1_UART_CLK_FREQ_HZ), 0},
+#endif
+  };
+  return DeviceId < HAL_XPAR(XUARTPS_NUM_INSTANCES) ? &configs[DeviceId] : nullptr;
 }
 
 s32 XUartPs_CfgInitialize(XUartPs* InstancePtr, XUartPs_Config* Config, UINTPTR EffectiveAddr) {
@@ -114,7 +145,7 @@ u32 XUartPs_Recv(XUartPs* InstancePtr, u8* BufferPtr, u32 NumBytes) {
   return received;
 }
 
-u8 XUartPs_IsSending(XUartPs* InstancePtr) {
+u32 XUartPs_IsSending(XUartPs* InstancePtr) {
   const u32 status = read(InstancePtr, uart::SR);
   const bool sends = (status & uart::sr::TACTIVE) != 0 || (status & uart::sr::TEMPTY) == 0;
   return sends ? TRUE : FALSE;
@@ -164,6 +195,33 @@ void XUartPs_GetDataFormat(XUartPs* InstancePtr, XUartPsFormat* FormatPtr) {
   FormatPtr->DataBits = (mode & uart::mr::CHRL) >> uart::mr::CHRL_shift;
   FormatPtr->Parity = (mode & uart::mr::PAR) >> uart::mr::PAR_shift;
   FormatPtr->StopBits = static_cast<u8>((mode & uart::mr::NBSTOP) >> uart::mr::NBSTOP_shift);
+}
+
+void XUartPs_SetOptions(XUartPs* InstancePtr, u16 Options) {
+  for (const Option& option : options) {
+    const u32 others = read(InstancePtr, option.offset) & ~option.bit;
+    write(InstancePtr, option.offset, others | ((Options & option.option) != 0 ? option.bit : 0));
+  }
+}
+
+u16 XUartPs_GetOptions(XUartPs* InstancePtr) {
+  unsigned set = 0;
+  for (const Option& option : options) {
+    if ((read(InstancePtr, option.offset) & option.bit) != 0) set |= option.option;
+  }
+  return static_cast<u16>(set);
+}
+
+u16 XUartPs_GetModemStatus(XUartPs* InstancePtr) {
+  return static_cast<u16>(read(InstancePtr, uart::MODEMSR));
+}
+
+void XUartPs_SetFlowDelay(XUartPs* InstancePtr, u8 FlowDelayValue) {
+  write(InstancePtr, uart::FLOW_DELAY, FlowDelayValue & XUARTPS_FLOWDEL_MASK);
+}
+
+u8 XUartPs_GetFlowDelay(XUartPs* InstancePtr) {
+  return static_cast<u8>(read(InstancePtr, uart::FLOW_DELAY) & XUARTPS_FLOWDEL_MASK);
 }
 
 void XUartPs_SetOperMode(XUartPs* InstancePtr, u8 OperationMode) {

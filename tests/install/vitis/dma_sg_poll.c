@@ -212,5 +212,7 @@ static int CheckDmaResult(XAxiDma* AxiDmaInstPtr) {
   if (Status != XST_SUCCESS) return XST_FAILURE;
   Status = XAxiDma_BdRingToHw(RxRingPtr, FreeBdCount, BdPtr);
   if (Status != XST_SUCCESS) return XST_FAILURE;
+  if (XAxiDma_BdRingCheck(RxRingPtr) != XST_IS_STARTED) return XST_FAILURE;
+  if (XAxiDma_Pause(AxiDmaInstPtr) != XST_SUCCESS) return XST_FAILURE;
   return XAxiDma_BdRingCheck(RxRingPtr) == XST_SUCCESS ? XST_SUCCESS : XST_FAILURE;
 }

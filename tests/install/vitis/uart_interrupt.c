@@ -5,7 +5,11 @@
 #include "xscugic.h"
 #include "xuartps.h"
 
+#ifdef ONLY_UART /* the vendor's examples are for boards on which UART 1 is the only one, and number 0 */
+#define UART_INT_IRQ_ID XPAR_XUARTPS_1_INTR
+#else
 #define UART_INT_IRQ_ID XPAR_XUARTPS_0_INTR
+#endif
 #define TEST_BUFFER_SIZE 100
 
 XUartPs UartPs;

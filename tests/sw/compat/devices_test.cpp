@@ -1,10 +1,14 @@
-// XGpio and XAxiDma.
+// XGpio, XAxiDma, XUartPs and XScuWdt.
 #include <boost/test/unit_test.hpp>
 
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
+#include <private_timer_registers.h>
+#include <uart_registers.h>
 #include <xaxidma.h>
 #include <xgpio.h>
+#include <xscuwdt.h>
+#include <xuartps.h>
 
 #include "fake_hal.h"
 
@@ -87,7 +91,7 @@ BOOST_AUTO_TEST_CASE(initialisation_resets_the_channel_that_is_there) {
 
 BOOST_AUTO_TEST_CASE(a_reset_that_never_ends) {
   add_engine(dma_0 + axi_dma::MM2S_DMACR, 1'000'000);
-  BOOST_CHECK_EQUAL(XAxiDma_CfgInitialize(&sender, XAxiDma_LookupConfig(0)), XST_FAILURE);
+  BOOST_CHECK_EQUAL(XAxiDma_CfgInitialize(&sender, XAxiDma_LookupConfig(0)), XST_DMA_ERROR);
 }
 
 BOOST_AUTO_TEST_CASE(a_transfer_writes_address_run_length_in_that_order) {
@@ -138,6 +142,92 @@ BOOST_AUTO_TEST_CASE(interrupts) {
   BOOST_CHECK_EQUAL(XAxiDma_IntrGetIrq(&receiver, XAXIDMA_DEVICE_TO_DMA), XAXIDMA_IRQ_IOC_MASK);
   XAxiDma_IntrAckIrq(&receiver, XAXIDMA_IRQ_IOC_MASK, XAXIDMA_DEVICE_TO_DMA);
   BOOST_CHECK(writes_to(status) == Words{0x1000});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(xuartps, Fixture)
+
+BOOST_AUTO_TEST_CASE(devices_have_the_numbers_of_the_platform) {
+  BOOST_CHECK_EQUAL(XUartPs_LookupConfig(0)->BaseAddress, uart::uart0_base);
+  BOOST_CHECK_EQUAL(XUartPs_LookupConfig(1)->BaseAddress, uart::uart1_base);
+  BOOST_CHECK(XUartPs_LookupConfig(2) == nullptr);
+  state().xparameters["XUARTPS_NUM_INSTANCES"] = 1;
+  BOOST_CHECK(XUartPs_LookupConfig(1) == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(options_are_bits_of_two_registers) {
+  XUartPs instance;
+  BOOST_REQUIRE_EQUAL(XUartPs_CfgInitialize(&instance, XUartPs_LookupConfig(0), uart::uart0_base),
+                      XST_SUCCESS);
+  constexpr std::uint32_t control = uart::uart0_base + uart::CR;
+  constexpr std::uint32_t modem = uart::uart0_base + uart::MODEMCR;
+  state().registers[control] = uart::cr::TXEN | uart::cr::RXEN | uart::cr::STPBRK;
+  state().registers[modem] = uart::modemcr::DTR;
+  XUartPs_SetOptions(&instance, XUARTPS_OPTION_SET_BREAK | XUARTPS_OPTION_SET_FCM);
+  BOOST_CHECK_EQUAL(state().registers[control], uart::cr::TXEN | uart::cr::RXEN | uart::cr::STTBRK);
+  BOOST_CHECK_EQUAL(state().registers[modem], uart::modemcr::FCM);
+  BOOST_CHECK_EQUAL(XUartPs_GetOptions(&instance),
+                    XUARTPS_OPTION_SET_BREAK | XUARTPS_OPTION_SET_FCM);
+}
+
+BOOST_AUTO_TEST_CASE(flow_delay_and_modem_status) {
+  XUartPs instance;
+  BOOST_REQUIRE_EQUAL(XUartPs_CfgInitialize(&instance, XUartPs_LookupConfig(0), uart::uart0_base),
+                      XST_SUCCESS);
+  XUartPs_SetFlowDelay(&instance, 0xFF);
+  BOOST_CHECK(writes_to(uart::uart0_base + uart::FLOW_DELAY) == Words{0x3F});
+  BOOST_CHECK_EQUAL(XUartPs_GetFlowDelay(&instance), 0x3F);
+  state().registers[uart::uart0_base + uart::MODEMSR] = XUARTPS_MODEMSR_FCMS;
+  BOOST_CHECK_EQUAL(XUartPs_GetModemStatus(&instance), XUARTPS_MODEMSR_FCMS);
+}
+
+BOOST_AUTO_TEST_CASE(a_reset_turns_both_directions_off) {
+  XUartPs_ResetHw(uart::uart1_base);
+  BOOST_CHECK(writes_to(uart::uart1_base + uart::IDR) == Words{uart::event::all});
+  BOOST_CHECK(writes_to(uart::uart1_base + uart::CR) == Words{0x2B});
+  BOOST_CHECK(writes_to(uart::uart1_base + uart::BAUDGEN) == Words{0x28B});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(xscuwdt, Fixture)
+
+BOOST_AUTO_TEST_CASE(modes_and_counter) {
+  constexpr std::uint32_t base = private_timer::base;
+  XScuWdt instance{};
+  XScuWdt_Config* const config = XScuWdt_LookupConfig(XPAR_SCUWDT_0_DEVICE_ID);
+  BOOST_REQUIRE_EQUAL(config->BaseAddr, base + private_timer::WDT_LOAD);
+  BOOST_CHECK(XScuWdt_LookupConfig(1) == nullptr);
+  BOOST_CHECK_EQUAL(XScuWdt_CfgInitialize(&instance, config, config->BaseAddr), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(XScuWdt_SelfTest(&instance), XST_SUCCESS);
+  state().accesses.clear();
+  XScuWdt_SetWdMode(&instance);
+  XScuWdt_LoadWdt(&instance, 1000);
+  XScuWdt_Start(&instance);
+  XScuWdt_RestartWdt(&instance);
+  BOOST_CHECK((writes_to(base + private_timer::WDT_CONTROL) == Words{0x8, 0x9}));
+  BOOST_CHECK((writes_to(base + private_timer::WDT_LOAD) == Words{1000, 1000}));
+  BOOST_CHECK_EQUAL(XScuWdt_CfgInitialize(&instance, config, config->BaseAddr),
+                    XST_DEVICE_IS_STARTED);
+  XScuWdt_SetTimerMode(&instance);
+  BOOST_CHECK((writes_to(base + private_timer::WDT_DISABLE) ==
+               Words{private_timer::disable_key_1, private_timer::disable_key_2}));
+  XScuWdt_Stop(&instance);
+  XScuWdt_EnableAutoReload(&instance);
+  BOOST_CHECK_EQUAL(XScuWdt_GetControlReg(&instance), 0xAu);
+  BOOST_CHECK(!XScuWdt_IsTimerExpired(&instance) && !XScuWdt_IsWdtExpired(&instance));
+  state().registers[base + private_timer::WDT_INTERRUPT_STATUS] = 1;
+  BOOST_CHECK(XScuWdt_IsTimerExpired(&instance) && !XScuWdt_IsWdtExpired(&instance));
+  state().registers[base + private_timer::WDT_RESET_STATUS] = 1;
+  BOOST_CHECK(XScuWdt_IsWdtExpired(&instance));
+}
+
+BOOST_AUTO_TEST_CASE(a_load_register_that_does_not_hold) {
+  XScuWdt instance{};
+  XScuWdt_CfgInitialize(&instance, XScuWdt_LookupConfig(0), XPAR_XSCUWDT_0_BASEADDR);
+  state().on_read[XPAR_XSCUWDT_0_BASEADDR] = [] { return 0u; };
+  BOOST_CHECK_EQUAL(XScuWdt_SelfTest(&instance), XST_FAILURE);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -82,8 +82,11 @@ BOOST_AUTO_TEST_CASE(space_that_is_none) {
   constexpr UINTPTR no_bus_address = UINTPTR{1} << 32;
   BOOST_CHECK_EQUAL(XAxiDma_BdRingCreate(tx, no_bus_address, no_bus_address, 64, 4),
                     XST_INVALID_PARAM);
-  BOOST_CHECK_EQUAL(XAxiDma_BdRingCheck(tx), XST_DMA_SG_LIST_ERROR);
-  BOOST_CHECK_EQUAL(XAxiDma_BdRingStart(tx), XST_DMA_SG_LIST_ERROR);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingCheck(tx), XST_DMA_SG_NO_LIST);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingStart(tx), XST_DMA_SG_NO_LIST);
+  XAxiDma_Bd pattern = {};
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingClone(tx, &pattern), XST_DMA_SG_NO_LIST);
+  BOOST_CHECK_EQUAL(XAxiDma_Resume(&dma), XST_DMA_ERROR);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingCntCalc(64, 0x1000), 64u);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingMemCalc(128, 3), 384u);
 }
@@ -91,6 +94,7 @@ BOOST_AUTO_TEST_CASE(space_that_is_none) {
 BOOST_AUTO_TEST_CASE(a_packet_goes_round) {
   create(tx, 4);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingStart(tx), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingCheck(tx), XST_IS_STARTED);
   BOOST_CHECK(writes_to(base + MM2S_CURDESC) == Words{static_cast<std::uint32_t>(space())});
   BOOST_CHECK(writes_to(base + MM2S_TAILDESC).empty());
   XAxiDma_Bd* const packet = allocate(tx, 3);
@@ -126,7 +130,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_handed_over) {
   BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 2, packet + 1), XST_DMA_SG_LIST_ERROR);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 1, packet), XST_FAILURE);  // a packet without its end
   XAxiDma_BdWrite(packet + 1, XAXIDMA_BD_CTRL_LEN_OFFSET, eof);
-  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 2, packet), XST_INVALID_PARAM);  // no length
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 2, packet), XST_FAILURE);  // no length
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, -1, packet), XST_INVALID_PARAM);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 0, packet), XST_SUCCESS);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingUnAlloc(tx, 1, packet), XST_FAILURE);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingUnAlloc(tx, 1, packet + 1), XST_SUCCESS);
   BOOST_CHECK_EQUAL(XAxiDma_BdSetLength(packet, 0, 0x3FFF), XST_INVALID_PARAM);
@@ -151,6 +157,56 @@ BOOST_AUTO_TEST_CASE(received_packets_end_where_the_hardware_says) {
   BOOST_CHECK_EQUAL(XAxiDma_BdRingFromHw(rx, XAXIDMA_ALL_BDS, &done), 0);
 }
 
+// In cyclic mode descriptors stay with the hardware: what was seen done is done again a round
+// later.
+BOOST_AUTO_TEST_CASE(a_ring_that_goes_round_by_itself) {
+  create(rx, 4);
+  XAxiDma_Bd* const first = allocate(rx, 4);
+  XAxiDma_BdRingEnableCyclicDMA(rx);
+  BOOST_CHECK_EQUAL(XAxiDma_SelectCyclicMode(&dma, XAXIDMA_DEVICE_TO_DMA, 1), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(rx, 4, first), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingStart(rx), XST_SUCCESS);
+  BOOST_CHECK_NE(state().registers[base + S2MM_DMACR] & dmacr::Cyclic_BD_Enable, 0u);
+  XAxiDma_Bd* done = nullptr;
+  for (int round = 0; round < 3; ++round) {
+    BOOST_CHECK_EQUAL(XAxiDma_BdRingFromHw(rx, XAXIDMA_ALL_BDS, &done), 0);
+    for (int i = 0; i < 4; ++i) complete(first + i, XAXIDMA_BD_STS_RXEOF_MASK);
+    BOOST_CHECK_EQUAL(XAxiDma_BdRingFromHw(rx, 3, &done), 3);
+    BOOST_CHECK(done == first);
+    BOOST_CHECK(!XAxiDma_BdHwCompleted(first));
+    BOOST_CHECK_EQUAL(XAxiDma_BdRingFromHw(rx, XAXIDMA_ALL_BDS, &done), 1);
+    BOOST_CHECK(done == first + 3);
+  }
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingCreate(rx, space(), space(), 64, 4), XST_FAILURE);
+  BOOST_CHECK_EQUAL(rx->Cyclic, 0);
+}
+
+// A paused ring takes descriptors, and the hardware hears of them when it goes on.
+BOOST_AUTO_TEST_CASE(a_pause) {
+  dma.HasS2Mm = 0;
+  create(tx, 4);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingStart(tx), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(XAxiDma_Pause(&dma), XST_SUCCESS);
+  BOOST_CHECK(XAxiDma_BdRingHwIsStarted(tx));
+  XAxiDma_Bd* const packet = allocate(tx, 1);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingToHw(tx, 1, packet), XST_SUCCESS);
+  BOOST_CHECK(writes_to(base + MM2S_TAILDESC).empty());
+  BOOST_CHECK_EQUAL(XAxiDma_Resume(&dma), XST_SUCCESS);
+  BOOST_CHECK(writes_to(base + MM2S_TAILDESC) == Words{static_cast<std::uint32_t>(space())});
+}
+
+BOOST_AUTO_TEST_CASE(registers_and_descriptors_are_printed) {
+  create(tx, 4);
+  XAxiDma_Bd* const packet = allocate(tx, 1);
+  XAxiDma_BdSetId(packet, 0x1234);
+  XAxiDma_DumpBd(packet);
+  XAxiDma_BdRingDumpRegs(rx);
+  BOOST_TEST(state().console.find("buffer 10000000, control c000040, status 0, ID 1234\n") !=
+             std::string::npos);
+  BOOST_TEST(state().console.find("channel 40400030:\n control 0, status 1,") != std::string::npos);
+  BOOST_CHECK_EQUAL(XAxiDma_BdRingGetSr(rx), dmasr::Halted);
+}
+
 BOOST_AUTO_TEST_CASE(coalescing) {
   u32 packets = 0, delay = 0;
   BOOST_CHECK_EQUAL(XAxiDma_BdRingSetCoalesce(tx, 8, 100), XST_SUCCESS);
@@ -170,7 +226,14 @@ BOOST_AUTO_TEST_CASE(one_mode_or_the_other) {
   BOOST_CHECK_EQUAL(XAxiDma_SelectCyclicMode(&dma, XAXIDMA_DMA_TO_DEVICE, 1), XST_SUCCESS);
   dma.HasSg = 0;
   BOOST_CHECK_EQUAL(XAxiDma_SelectCyclicMode(&dma, XAXIDMA_DMA_TO_DEVICE, 1), XST_INVALID_PARAM);
-  BOOST_CHECK_EQUAL(XAxiDma_Pause(&dma), XST_FAILURE);
+  XAxiDma_BdRingStart(tx);
+  BOOST_CHECK_EQUAL(XAxiDma_Resume(&dma), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(state().registers[base + MM2S_DMASR], 0u);
+  BOOST_CHECK_EQUAL(XAxiDma_Pause(&dma), XST_SUCCESS);
+  BOOST_CHECK_EQUAL(state().registers[base + MM2S_DMASR], dmasr::Halted);
+  dma.Initialized = 0;
+  BOOST_CHECK_EQUAL(XAxiDma_Pause(&dma), XST_NOT_SGDMA);
+  BOOST_CHECK_EQUAL(XAxiDma_Resume(&dma), XST_NOT_SGDMA);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -83,6 +83,34 @@ BOOST_AUTO_TEST_CASE(priority_and_trigger_of_one_interrupt) {
   BOOST_CHECK_EQUAL(state().registers[distributor + gic::ICDICFR(3)], 0x5D55'5555u);
 }
 
+BOOST_AUTO_TEST_CASE(targets) {
+  constexpr std::uint32_t of_61 = distributor + gic::ICDIPTR(15);
+  state().registers[of_61] = 0x0101'0101;
+  XScuGic_InterruptMaptoCpu(&controller, 1, 61);
+  BOOST_CHECK_EQUAL(state().registers[of_61], 0x0101'0301u);
+  XScuGic_InterruptUnmapFromCpu(&controller, 0, 61);
+  BOOST_CHECK_EQUAL(state().registers[of_61], 0x0101'0201u);
+  XScuGic_UnmapAllInterruptsFromCpu(&controller, 0);
+  BOOST_CHECK_EQUAL(state().registers[of_61], 0x0000'0200u);
+  BOOST_CHECK_EQUAL(state().registers[distributor + gic::ICDIPTR(23)], 0u);
+}
+
+BOOST_AUTO_TEST_CASE(of_another_cpu) {
+  XScuGic_SetCpuID(1);
+  BOOST_CHECK_EQUAL(XScuGic_GetCpuID(), 1u);
+  XScuGic_CfgInitialize(&controller, config, config->CpuBaseAddress);
+  BOOST_CHECK_EQUAL(state().registers[distributor + gic::ICDIPTR(23)], 0x0202'0202u);
+  XScuGic_SetCpuID(0);
+}
+
+BOOST_AUTO_TEST_CASE(registers_by_name) {
+  XScuGic_CPUWriteReg(&controller, XSCUGIC_CPU_PRIOR_OFFSET, 0x50);
+  BOOST_CHECK_EQUAL(XScuGic_CPUReadReg(&controller, XSCUGIC_CPU_PRIOR_OFFSET), 0x50u);
+  XScuGic_DistWriteReg(&controller, XSCUGIC_PENDING_SET_OFFSET, 1);
+  BOOST_CHECK(writes_to(distributor + gic::ICDISPR(0)) == Words{1});
+  BOOST_CHECK_EQUAL(XScuGic_DistReadReg(&controller, XSCUGIC_PENDING_SET_OFFSET), 1u);
+}
+
 BOOST_AUTO_TEST_CASE(numbers_beyond_the_last_are_refused) {
   int calls = 0;
   BOOST_CHECK_EQUAL(XScuGic_Connect(&controller, 96, &note, &calls), XST_INVALID_PARAM);

@@ -49,9 +49,27 @@ BOOST_AUTO_TEST_CASE(follows_the_configuration) {
   }
 }
 
+// On most boards UART 1 is the only one: it is the vendor's number 0, with the interrupt of UART 1.
+BOOST_AUTO_TEST_CASE(uarts_that_a_board_has) {
+  const kit::Simulation context;
+  vp::Configuration configuration;
+  configuration.set("ps.uart0.enabled=false");
+  const vp::Configuration::Scope scope(configuration);
+  platform::Zynq zynq{*platform::builtin_designs().front()};
+  const std::string text = platform::hardware_map(zynq).xparameters;
+  for (const char* line : {"XPAR_XUARTPS_0_BASEADDR 0xE0001000U", "XPAR_XUARTPS_NUM_INSTANCES 1",
+                           "STDOUT_BASEADDRESS 0xE0001000U"}) {
+    BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
+                        line);
+  }
+  BOOST_CHECK(text.find("XUARTPS_1") == std::string::npos);
+  xparameters::Platform none{1, 1, 0, 0, {}, {}};
+  BOOST_CHECK(xparameters::header(none).find("STDOUT") == std::string::npos);
+}
+
 // Each driver counts its own devices.
 BOOST_AUTO_TEST_CASE(numbers_follow_the_order) {
-  xparameters::Platform platform{1, 1, 0, 0, 0, {}};
+  xparameters::Platform platform{1, 1, 0, 0, {}, {}};
   platform.devices = {{"LEDS", "GPIO", 0x4000'0000, 0x4000'FFFF, {}, {}},
                       {"COPY", "AXIDMA", 0x4001'0000, 0x4001'FFFF, {}, {{"MM2S_INTROUT", 63}}},
                       {"KEYS", "GPIO", 0x4002'0000, 0x4002'FFFF, {{"IS_DUAL", 1}}, {}},

@@ -51,7 +51,7 @@ typedef struct {
 XAxiDma_Config* XAxiDma_LookupConfig(u32 DeviceId);
 XAxiDma_Config* XAxiDma_LookupConfigBaseAddr(UINTPTR Baseaddr);
 
-/** Resets the core. XST_FAILURE if it does not leave reset. */
+/** Resets the core. XST_DMA_ERROR if it does not leave reset. */
 int XAxiDma_CfgInitialize(XAxiDma* InstancePtr, XAxiDma_Config* Config);
 void XAxiDma_Reset(XAxiDma* InstancePtr);
 int XAxiDma_ResetIsDone(XAxiDma* InstancePtr);
@@ -66,9 +66,10 @@ u32 XAxiDma_SimpleTransfer(XAxiDma* InstancePtr, UINTPTR BuffAddr, u32 Length, i
 /** True until the first transfer of a channel is over, and for a channel that was not built. */
 u32 XAxiDma_Busy(XAxiDma* InstancePtr, int Direction);
 
-/** Stops both channels after what they are at; only for scatter-gather. */
+/** With scatter-gather: what was handed over is still done, and what XAxiDma_BdRingToHw takes from
+ * now on waits. Without: both channels stop. XST_NOT_SGDMA before the instance is initialised. */
 int XAxiDma_Pause(XAxiDma* InstancePtr);
-/** Lets them go on. */
+/** Lets them go on. XST_DMA_ERROR if a channel has no ring or does not run. */
 int XAxiDma_Resume(XAxiDma* InstancePtr);
 int XAxiDma_SelectKeyHole(XAxiDma* InstancePtr, int Direction, int Select);
 /** Descriptors are used again and again. */

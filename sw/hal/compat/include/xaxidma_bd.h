@@ -6,6 +6,7 @@
 
 #include <string.h>
 #include <xaxidma_hw.h>
+#include <xdebug.h>
 #include <xil_cache.h>
 #include <xil_types.h>
 #include <xstatus.h>
@@ -33,6 +34,8 @@ int XAxiDma_BdSetBufAddr(XAxiDma_Bd* BdPtr, UINTPTR Addr);
 int XAxiDma_BdSetLength(XAxiDma_Bd* BdPtr, u32 LenBytes, u32 LengthMask);
 /** Frame bits: XAXIDMA_BD_CTRL_…. */
 void XAxiDma_BdSetCtrl(XAxiDma_Bd* BdPtr, u32 Data);
+/** Prints the descriptor. */
+void XAxiDma_DumpBd(XAxiDma_Bd* BdPtr);
 /** The engine is built without control and status streams: XST_INVALID_PARAM. */
 int XAxiDma_BdSetAppWord(XAxiDma_Bd* BdPtr, int Offset, u32 Word);
 u32 XAxiDma_BdGetAppWord(XAxiDma_Bd* BdPtr, int Offset, int* Valid);
@@ -66,6 +69,26 @@ static inline UINTPTR XAxiDma_BdGetId(XAxiDma_Bd* BdPtr) {
   memcpy(&id, (u8*)BdPtr + XAXIDMA_BD_ID_OFFSET, sizeof id);
   return id;
 }
+
+/* Of the multichannel mode and of micro mode, which the platform's engine has not. */
+#define MARKERVP_ONE_CHANNEL \
+  MARKERVP_NOT_OFFERED("the platform's AXI DMA has no multichannel mode: one channel a direction")
+void XAxiDma_BdSetTId(XAxiDma_Bd* BdPtr, u32 TId) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetTId(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetTDest(XAxiDma_Bd* BdPtr, u32 TDest) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetTDest(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetTUser(XAxiDma_Bd* BdPtr, u32 TUser) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetTUser(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetARCache(XAxiDma_Bd* BdPtr, u32 ARCache) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetARCache(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetARUser(XAxiDma_Bd* BdPtr, u32 ARUser) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetARUser(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetStride(XAxiDma_Bd* BdPtr, u32 Stride) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetStride(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+void XAxiDma_BdSetVSize(XAxiDma_Bd* BdPtr, u32 VSize) MARKERVP_ONE_CHANNEL;
+u32 XAxiDma_BdGetVSize(XAxiDma_Bd* BdPtr) MARKERVP_ONE_CHANNEL;
+int XAxiDma_BdSetBufAddrMicroMode(XAxiDma_Bd* BdPtr, UINTPTR Addr)
+    MARKERVP_NOT_OFFERED("the platform's AXI DMA has no micro mode: use XAxiDma_BdSetBufAddr");
 
 #ifdef __cplusplus
 }

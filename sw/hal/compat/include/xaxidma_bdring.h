@@ -4,6 +4,7 @@
 /* A ring of buffer descriptors. One goes round free, allocated, with the hardware, done by it, and
  * free again. */
 
+#include <stdlib.h>
 #include <xaxidma_bd.h>
 #include <xil_types.h>
 #include <xstatus.h>
@@ -66,6 +67,7 @@ typedef struct {
        ? (XAxiDma_Bd*)(RingPtr)->LastBdAddr     \
        : (XAxiDma_Bd*)((UINTPTR)(BdPtr) - (RingPtr)->Separation))
 
+#define XAxiDma_BdRingGetSr(RingPtr) XAxiDma_ReadReg((RingPtr)->ChanBase, XAXIDMA_SR_OFFSET)
 #define XAxiDma_BdRingGetCurrBd(RingPtr) \
   ((XAxiDma_Bd*)(UINTPTR)XAxiDma_ReadReg((RingPtr)->ChanBase, XAXIDMA_CDESC_OFFSET))
 #define XAxiDma_BdRingHwIsStarted(RingPtr) \
@@ -90,8 +92,16 @@ typedef struct {
 #define XAxiDma_BdRingAckIrq(RingPtr, Mask) \
   XAxiDma_WriteReg((RingPtr)->ChanBase, XAXIDMA_SR_OFFSET, (Mask)&XAXIDMA_IRQ_ALL_MASK)
 
+/** Where the ring goes on when it is started again. */
+#define XAxiDma_BdRingSnapShotCurrBd(RingPtr) \
+  ((void)((RingPtr)->BdaRestart = XAxiDma_BdRingGetCurrBd(RingPtr)))
+/** The software's part of cyclic mode: descriptors stay with the hardware when they are taken from
+ * it. The hardware's part is XAxiDma_SelectCyclicMode. */
+#define XAxiDma_BdRingEnableCyclicDMA(RingPtr) ((void)((RingPtr)->Cyclic = 1))
+
 /** Makes a ring of `BdCount` descriptors in memory that both addresses name. XST_INVALID_PARAM if
- * that is not aligned, has no bus address or wraps; XST_FAILURE if the channel is not stopped. */
+ * that is not aligned, has no bus address or wraps; XST_FAILURE if the channel is not stopped.
+ * Without a ring the other functions say XST_DMA_SG_NO_LIST. */
 u32 XAxiDma_BdRingCreate(XAxiDma_BdRing* RingPtr, UINTPTR PhysAddr, UINTPTR VirtAddr, u32 Alignment,
                          int BdCount);
 /** Copies a descriptor to all of a ring of which none is in use. */
@@ -100,12 +110,12 @@ int XAxiDma_BdRingClone(XAxiDma_BdRing* RingPtr, XAxiDma_Bd* SrcBdPtr);
 int XAxiDma_BdRingAlloc(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd** BdSetPtr);
 /** Gives back those that were allocated last. XST_FAILURE if they were not. */
 int XAxiDma_BdRingUnAlloc(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetPtr);
-/** Hands over the oldest that were allocated; starts them if the channel runs. XST_INVALID_PARAM if
- * one has no length, XST_DMA_SG_LIST_ERROR if they are not those, XST_FAILURE if a packet to a
+/** Hands over the oldest that were allocated; starts them if the channel runs.
+ * XST_DMA_SG_LIST_ERROR if they are not those, XST_FAILURE if one has no length or a packet to a
  * stream does not begin with TXSOF or end with TXEOF. */
 int XAxiDma_BdRingToHw(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetPtr);
 /** The oldest that the hardware has done, at most `BdLimit`, whole packets only. Returns how many.
- */
+ * In cyclic mode they are its own again at once. */
 int XAxiDma_BdRingFromHw(XAxiDma_BdRing* RingPtr, int BdLimit, XAxiDma_Bd** BdSetPtr);
 /** Frees the oldest that BdRingFromHw gave. XST_DMA_SG_LIST_ERROR if they are not those. */
 int XAxiDma_BdRingFree(XAxiDma_BdRing* RingPtr, int NumBd, XAxiDma_Bd* BdSetPtr);
@@ -117,8 +127,10 @@ int XAxiDma_UpdateBdRingCDesc(XAxiDma_BdRing* RingPtr);
  * keeps one. XST_FAILURE if one is out of range. */
 int XAxiDma_BdRingSetCoalesce(XAxiDma_BdRing* RingPtr, u32 Counter, u32 Timer);
 void XAxiDma_BdRingGetCoalesce(XAxiDma_BdRing* RingPtr, u32* CounterPtr, u32* TimerPtr);
-/** XST_SUCCESS if ring and counts agree. */
+/** XST_SUCCESS if ring and counts agree, XST_IS_STARTED if the channel runs. */
 int XAxiDma_BdRingCheck(XAxiDma_BdRing* RingPtr);
+/** Prints the channel's registers. */
+void XAxiDma_BdRingDumpRegs(XAxiDma_BdRing* RingPtr);
 
 #ifdef __cplusplus
 }

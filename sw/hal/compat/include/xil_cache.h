@@ -19,9 +19,27 @@ static inline void Xil_DCacheInvalidateRange(INTPTR adr, u32 len) {
   hal_cache_invalidate((void*)adr, len);
 }
 
+/** One line of 32 bytes: the one that holds the address. */
+static inline void Xil_DCacheFlushLine(INTPTR adr) {
+  Xil_DCacheFlushRange(adr & ~(INTPTR)31, 32);
+}
+static inline void Xil_DCacheInvalidateLine(INTPTR adr) {
+  Xil_DCacheInvalidateRange(adr & ~(INTPTR)31, 32);
+}
+static inline void Xil_DCacheStoreLine(INTPTR adr) {
+  hal_cache_flush((const void*)(adr & ~(INTPTR)31), 32);
+}
+
 static inline void Xil_DCacheEnable(void) {}
 static inline void Xil_ICacheEnable(void) {}
+static inline void Xil_ICacheDisable(void) {}
 static inline void Xil_ICacheInvalidate(void) {}
+static inline void Xil_ICacheInvalidateLine(INTPTR adr) {
+  (void)adr;
+}
+static inline void Xil_ICacheInvalidateRange(INTPTR adr, u32 len) {
+  (void)adr, (void)len;
+}
 
 #define MARKERVP_NOT_OFFERED(text) __attribute__((error(text)))
 void Xil_DCacheDisable(void) MARKERVP_NOT_OFFERED(

@@ -3,6 +3,7 @@
 
 /* Of the exceptions only IRQ has a handler; the others end the program, as the HAL says. */
 
+#include <bspconfig.h>
 #include <hal/hal.h>
 #include <xil_types.h>
 #include <xpseudo_asm.h>
@@ -14,7 +15,15 @@ extern "C" {
 typedef void (*Xil_ExceptionHandler)(void* data);
 typedef void (*Xil_InterruptHandler)(void* data);
 
+#define XIL_EXCEPTION_ID_FIRST 0U
+#define XIL_EXCEPTION_ID_RESET 0U
+#define XIL_EXCEPTION_ID_UNDEFINED_INT 1U
+#define XIL_EXCEPTION_ID_SWI_INT 2U
+#define XIL_EXCEPTION_ID_PREFETCH_ABORT_INT 3U
+#define XIL_EXCEPTION_ID_DATA_ABORT_INT 4U
 #define XIL_EXCEPTION_ID_IRQ_INT 5U
+#define XIL_EXCEPTION_ID_FIQ_INT 6U
+#define XIL_EXCEPTION_ID_LAST 6U
 #define XIL_EXCEPTION_ID_INT XIL_EXCEPTION_ID_IRQ_INT
 #define XIL_EXCEPTION_IRQ 0x80U
 #define XIL_EXCEPTION_FIQ 0x40U

@@ -59,6 +59,21 @@ void XScuGic_InterruptUnmapFromCpu(XScuGic* InstancePtr, u8 Cpu_Id, u32 Int_Id);
 /** Raises interrupt 0 to 15 at the CPUs whose bits are set. */
 s32 XScuGic_SoftwareIntr(XScuGic* InstancePtr, u32 Int_Id, u32 Cpu_Identifier);
 
+/** The CPU, 0 or 1, to which XScuGic_CfgInitialize sends shared interrupts; 0 at the start. */
+void XScuGic_SetCpuID(u32 CpuCoreId);
+u32 XScuGic_GetCpuID(void);
+/** No shared interrupt goes to this CPU any more. */
+void XScuGic_UnmapAllInterruptsFromCpu(XScuGic* InstancePtr, u8 Cpu_Id);
+
+#define XScuGic_CPUReadReg(InstancePtr, RegOffset) \
+  XScuGic_ReadReg((InstancePtr)->Config->CpuBaseAddress, (RegOffset))
+#define XScuGic_CPUWriteReg(InstancePtr, RegOffset, Data) \
+  XScuGic_WriteReg((InstancePtr)->Config->CpuBaseAddress, (RegOffset), (Data))
+#define XScuGic_DistReadReg(InstancePtr, RegOffset) \
+  XScuGic_ReadReg((InstancePtr)->Config->DistBaseAddress, (RegOffset))
+#define XScuGic_DistWriteReg(InstancePtr, RegOffset, Data) \
+  XScuGic_WriteReg((InstancePtr)->Config->DistBaseAddress, (RegOffset), (Data))
+
 /** For Xil_ExceptionRegisterHandler: serves one interrupt. */
 void XScuGic_InterruptHandler(XScuGic* InstancePtr);
 

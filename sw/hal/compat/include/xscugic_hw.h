@@ -4,6 +4,7 @@
 /* The interrupt controller: offsets of registers, and access without an instance (UG585 chapter 7).
  */
 
+#include <bspconfig.h>
 #include <xil_assert.h>
 #include <xil_exception.h>
 #include <xil_io.h>
@@ -14,8 +15,15 @@ extern "C" {
 #endif
 
 #define XSCUGIC_MAX_NUM_INTR_INPUTS 96U
+#define XSCUGIC_SPI_INT_ID_START 0x20U
+#define XSCUGIC_MAX_INTR_PRIO_VAL 248U
+#define XSCUGIC_INTR_PRIO_MASK 0x000000F8U
+#define XSCUGIC_PRIORITY_MASK 0x000000FFU
+#define XSCUGIC_INT_CFG_MASK 0x00000003U
 #define XSCUGIC_SPI_CPU0_MASK 0x01U
 #define XSCUGIC_SPI_CPU1_MASK 0x02U
+#define XSCUGIC_SFI_SELFTRIG_MASK 0x02010000U
+#define XSCUGIC_SFI_TRIG_TRGFILT_MASK 0x03000000U
 #define XSCUGIC_SFI_TRIG_CPU_MASK 0x00FF0000U
 #define XSCUGIC_SFI_TRIG_INTID_MASK 0x0000000FU
 
@@ -26,7 +34,17 @@ extern "C" {
 #define XSCUGIC_EOI_OFFSET 0x10U
 #define XSCUGIC_RUN_PRIOR_OFFSET 0x14U
 #define XSCUGIC_HI_PEND_OFFSET 0x18U
+#define XSCUGIC_ALIAS_BIN_PT_OFFSET 0x1CU
 #define XSCUGIC_ACK_INTID_MASK 0x000003FFU
+#define XSCUGIC_CPUID_MASK 0x00000C00U
+#define XSCUGIC_EOI_INTID_MASK 0x000003FFU
+#define XSCUGIC_PEND_INTID_MASK 0x000003FFU
+#define XSCUGIC_RUN_PRIORITY_MASK 0x000000FFU
+#define XSCUGIC_CNTR_EN_S_MASK 0x00000001U
+#define XSCUGIC_CNTR_EN_NS_MASK 0x00000002U
+#define XSCUGIC_CNTR_ACKCTL_MASK 0x00000004U
+#define XSCUGIC_CNTR_FIQEN_MASK 0x00000008U
+#define XSCUGIC_CNTR_SBPR_MASK 0x00000010U
 
 #define XSCUGIC_DIST_EN_OFFSET 0x000U
 #define XSCUGIC_IC_TYPE_OFFSET 0x004U
@@ -40,7 +58,11 @@ extern "C" {
 #define XSCUGIC_PRIORITY_OFFSET 0x400U
 #define XSCUGIC_SPI_TARGET_OFFSET 0x800U
 #define XSCUGIC_INT_CFG_OFFSET 0xC00U
+#define XSCUGIC_PPI_STAT_OFFSET 0xD00U
+#define XSCUGIC_SPI_STAT_OFFSET 0xD04U
 #define XSCUGIC_SFI_TRIG_OFFSET 0xF00U
+#define XSCUGIC_PERPHID_OFFSET 0xFD0U
+#define XSCUGIC_PCELLID_OFFSET 0xFF0U
 #define XSCUGIC_EN_INT_MASK 0x00000001U
 
 #define XSCUGIC_INT_CFG_OFFSET_CALC(InterruptID) \
@@ -73,6 +95,9 @@ void XScuGic_RegisterHandler(UINTPTR BaseAddress, s32 InterruptID, Xil_Interrupt
 void XScuGic_SetPriTrigTypeByDistAddr(UINTPTR DistBaseAddress, u32 Int_Id, u8 Priority, u8 Trigger);
 void XScuGic_GetPriTrigTypeByDistAddr(UINTPTR DistBaseAddress, u32 Int_Id, u8* Priority,
                                       u8* Trigger);
+void XScuGic_InterruptMapFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id, u32 Int_Id);
+void XScuGic_InterruptUnmapFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id, u32 Int_Id);
+void XScuGic_UnmapAllInterruptsFromCpuByDistAddr(UINTPTR DistBaseAddress, u8 Cpu_Id);
 
 #ifdef __cplusplus
 }

@@ -25,6 +25,8 @@
 #define XScuTimer_SetLoadReg(BaseAddr, Value) \
   XScuTimer_WriteReg(BaseAddr, XSCUTIMER_LOAD_OFFSET, Value)
 #define XScuTimer_GetCounterReg(BaseAddr) XScuTimer_ReadReg(BaseAddr, XSCUTIMER_COUNTER_OFFSET)
+#define XScuTimer_SetCounterReg(BaseAddr, Value) \
+  XScuTimer_WriteReg(BaseAddr, XSCUTIMER_COUNTER_OFFSET, Value)
 #define XScuTimer_GetControlReg(BaseAddr) XScuTimer_ReadReg(BaseAddr, XSCUTIMER_CONTROL_OFFSET)
 #define XScuTimer_SetControlReg(BaseAddr, Value) \
   XScuTimer_WriteReg(BaseAddr, XSCUTIMER_CONTROL_OFFSET, Value)

@@ -6,6 +6,7 @@
 #include <xil_assert.h>
 #include <xil_types.h>
 #include <xparameters.h>
+#include <xplatform_info.h>
 #include <xstatus.h>
 #include <xuartps_hw.h>
 
@@ -14,6 +15,18 @@ extern "C" {
 #endif
 
 #define XUARTPS_DFT_BAUDRATE 115200U
+#define XUARTPS_MIN_RATE 110U
+#define XUARTPS_MAX_RATE 921600U
+
+/* For XUartPs_SetOptions. */
+#define XUARTPS_OPTION_SET_BREAK 0x0080U
+#define XUARTPS_OPTION_STOP_BREAK 0x0040U
+#define XUARTPS_OPTION_RESET_TMOUT 0x0020U
+#define XUARTPS_OPTION_RESET_TX 0x0010U
+#define XUARTPS_OPTION_RESET_RX 0x0008U
+#define XUARTPS_OPTION_ASSERT_RTS 0x0004U
+#define XUARTPS_OPTION_ASSERT_DTR 0x0002U
+#define XUARTPS_OPTION_SET_FCM 0x0001U
 
 #define XUARTPS_OPER_MODE_NORMAL (u8)0x00U
 #define XUARTPS_OPER_MODE_AUTO_ECHO (u8)0x01U
@@ -87,7 +100,23 @@ s32 XUartPs_CfgInitialize(XUartPs* InstancePtr, XUartPs_Config* Config, UINTPTR 
 u32 XUartPs_Send(XUartPs* InstancePtr, u8* BufferPtr, u32 NumBytes);
 /** Takes what has come; with interrupts on, the handler takes the rest. Returns how many. */
 u32 XUartPs_Recv(XUartPs* InstancePtr, u8* BufferPtr, u32 NumBytes);
-u8 XUartPs_IsSending(XUartPs* InstancePtr);
+u32 XUartPs_IsSending(XUartPs* InstancePtr);
+
+#define XUartPs_GetChannelStatus(InstancePtr) \
+  XUartPs_ReadReg((InstancePtr)->Config.BaseAddress, XUARTPS_SR_OFFSET)
+#define XUartPs_GetModeControl(InstancePtr) \
+  XUartPs_ReadReg((InstancePtr)->Config.BaseAddress, XUARTPS_CR_OFFSET)
+#define XUartPs_SetModeControl(InstancePtr, RegisterValue) \
+  XUartPs_WriteReg((InstancePtr)->Config.BaseAddress, XUARTPS_CR_OFFSET, (RegisterValue))
+
+/** Exactly these: XUARTPS_OPTION_…. Breaks and modem lines are stored only. */
+void XUartPs_SetOptions(XUartPs* InstancePtr, u16 Options);
+u16 XUartPs_GetOptions(XUartPs* InstancePtr);
+/** XUARTPS_MODEMSR_…. No modem line is wired. */
+u16 XUartPs_GetModemStatus(XUartPs* InstancePtr);
+/** Bytes in the receive FIFO that would stop the other end; below 4: none. */
+void XUartPs_SetFlowDelay(XUartPs* InstancePtr, u8 FlowDelayValue);
+u8 XUartPs_GetFlowDelay(XUartPs* InstancePtr);
 
 /** XST_UART_BAUD_ERROR if no divisors come within 3 %. */
 s32 XUartPs_SetBaudRate(XUartPs* InstancePtr, u32 BaudRate);
