@@ -67,7 +67,7 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
       std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm,
                              program_->may_start_core() ? 2 : 1);
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
-  reports_.set_place_source([this] { return zynq_->ps.cpu.program_counter(); });
+  reports_.set_place_source([this] { return zynq_->ps.cpu.place(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(
       "profile", "thesis", vp::Source::decision,
       "costs of the software: thesis (scaled to its measurements), a9-O0, a9-O2 (nothing fitted), "
@@ -213,6 +213,7 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
   } catch (...) {
     error = std::current_exception();
   }
+  reports_.finish();
   folder_.restore();
   if (tracer) wrote_trace_ = tracer->close();
   tracer.reset();

@@ -41,7 +41,10 @@ StopPoint::StopPoint(const StopOptions& options, Zynq& zynq, vp::ReportRouter& r
       break;
     case StopOptions::When::warning:
       reports_.on_warning([this, &cpu](const vp::Warning& w) {
-        count(": " + w.where + ": " + w.message + " (" + w.id + ")", cpu);
+        const bool waited = w.time_ps != zynq_.scheduler.now_ps();
+        count(": " + w.where + ": " + w.message + " (" + w.id +
+                  (waited ? ", at " + vp::format_time(w.time_ps) : "") + ")",
+              cpu);
       });
       break;
     case StopOptions::When::failure:

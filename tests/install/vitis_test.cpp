@@ -103,6 +103,9 @@ BOOST_AUTO_TEST_CASE(a_watchdog_that_nobody_serves) {
   const kit::Outcome outcome = run("scuwdt_unserved");
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "warning: ps.private_timer: the watchdog expired"), outcome.err);
+  // It comes while the program sleeps: where it goes on is where it slept.
+  BOOST_TEST(contains(outcome.err, "called from main (" + project("vitis") + "/scuwdt.c:"),
+             outcome.err);
 }
 
 BOOST_AUTO_TEST_CASE(runs_are_alike) {

@@ -1,5 +1,6 @@
 #include <vp/clock_scheduler.h>
 
+#include <vp/report.h>
 #include <vp/systemc_pins.h>
 
 #include <algorithm>
@@ -207,6 +208,7 @@ void ClockScheduler::wait_in_kernel(std::uint64_t ps, Condition condition, const
   }
   synchronise();
   if (last_.valid() && last_ == sc_core::sc_get_current_process_handle()) let_others_go_first();
+  ReportRouter::software_goes_on();
 }
 
 // An edge of this time wakes a process one delta cycle later.
@@ -250,6 +252,7 @@ void ClockScheduler::rejoin() {
   if (instant_ps_ > kernel_ps()) {
     plan_wake_up();
     sc_core::wait(from_ps(instant_ps_ - kernel_ps()));
+    ReportRouter::software_goes_on();
   }
 }
 

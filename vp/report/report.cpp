@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace vp {
 namespace {
@@ -99,6 +100,7 @@ ReportRouter::ReportRouter(int verbosity)
 }
 
 ReportRouter::~ReportRouter() {
+  finish();
   using sc_core::sc_report_handler;
   sc_report_handler::set_handler(old_handler_);
   for (int severity = sc_core::SC_INFO; severity < sc_core::SC_MAX_SEVERITY; ++severity) {
@@ -139,26 +141,58 @@ void ReportRouter::route(const sc_core::sc_report& report) {
   }
   ++by_severity_[report.get_severity()];
   const std::uint64_t repeats = ++by_id_[entry.id];
-  print(report, entry, repeats);
-  if (report.get_severity() != sc_core::SC_WARNING) return;
-  if (warnings_.size() < kept_limit) warnings_.push_back(entry);
-  if (warning_listener_) warning_listener_(entry);
+  const bool warns = report.get_severity() == sc_core::SC_WARNING;
+  if (warns && warnings_.size() < kept_limit) warnings_.push_back(entry);
+  const bool stops = report.get_severity() >= sc_core::SC_ERROR;
+  const bool prints = stops || repeats <= repeat_limit;
+  if (!prints && !(warns && warning_listener_)) return;
+  // A message that says its place itself is left alone.
+  const bool wants_place = report.get_severity() != sc_core::SC_INFO && place_ &&
+                           entry.message.find(", pc 0x") == std::string::npos;
+  const Line line{report.get_severity(), std::move(entry), wants_place, prints,
+                  !stops && repeats == repeat_limit};
+  std::optional<std::string> place;
+  if (wants_place) {
+    place = place_();
+  } else if (waiting_.empty()) {
+    place = "";
+  }
+  if (place || stops) {
+    finish();
+    give(line, place.value_or(""));
+  } else {
+    waiting_.push_back(line);
+    lines_wait_ = true;
+  }
 }
 
-void ReportRouter::print(const sc_core::sc_report& report, const Warning& entry,
-                         std::uint64_t repeats) {
-  if (report.get_severity() < sc_core::SC_ERROR && repeats > repeat_limit) return;
-  std::string line = entry.where.empty() ? "" : entry.where + ": ";
-  line += entry.message + " [" + entry.id + "] at " + format_time(entry.time_ps);
-  // A message that says it itself is left alone.
-  if (report.get_severity() != sc_core::SC_INFO && place_ && line.find(", pc 0x") == line.npos) {
-    const std::string place = place_();
-    if (!place.empty()) line += ", " + place;
+void ReportRouter::give(const Line& line, const std::string& place) {
+  if (line.prints) {
+    std::string text = line.report.where.empty() ? "" : line.report.where + ": ";
+    text +=
+        line.report.message + " [" + line.report.id + "] at " + format_time(line.report.time_ps);
+    if (line.wants_place && !place.empty()) text += ", " + place;
+    if (line.is_last) text += " (further ones are only counted)";
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    logger_->log(level(line.severity), "{}", text);
   }
-  if (report.get_severity() < sc_core::SC_ERROR && repeats == repeat_limit)
-    line += " (further ones are only counted)";
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  logger_->log(level(report.get_severity()), "{}", line);
+  if (line.severity == sc_core::SC_WARNING && warning_listener_) warning_listener_(line.report);
+}
+
+// Asked from elsewhere than the software it is not known yet.
+void ReportRouter::print_waiting_lines() {
+  if (current_router == nullptr || !current_router->place_) return;
+  const std::optional<std::string> place = current_router->place_();
+  if (place) current_router->print_waiting_lines(*place);
+}
+
+void ReportRouter::print_waiting_lines(const std::string& place) {
+  lines_wait_ = false;
+  for (const Line& line : std::exchange(waiting_, {})) give(line, place);
+}
+
+void ReportRouter::finish() {
+  print_waiting_lines("");
 }
 
 }  // namespace vp

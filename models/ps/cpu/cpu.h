@@ -177,6 +177,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// "pc …" as CodeLocator::path() has it, while the program or a HAL call of it is under way;
   /// otherwise empty.
   std::string program_counter() const;
+  /// The same; none where it is not the program that looks, but something that happens while it
+  /// waits.
+  std::optional<std::string> place() const;
   /// False: polls make every read. Default: those that cannot see anything new only take their
   /// time, and are counted like the others.
   void set_poll_elision(bool elide) { poll_elision_ = elide; }

@@ -167,6 +167,12 @@ void Cpu::notice_loop(unsigned before) {
   }
 }
 
+std::optional<std::string> Cpu::place() const {
+  const auto process = sc_core::sc_get_current_process_handle();
+  if (running_ && dynamic_cast<const Cpu*>(process.get_parent_object()) == nullptr) return {};
+  return program_counter();
+}
+
 std::string Cpu::program_counter() const {
   if (!code_ || !running_) return {};
   return code_->path(fault_calls_.empty() ? return_addresses() : fault_calls_);

@@ -159,4 +159,53 @@ BOOST_AUTO_TEST_CASE(an_error_never_returns) {
   sc_core::sc_report_handler::set_actions(sc_core::SC_ERROR, actions);
 }
 
+// What happens while the software waits is told where it goes on, in the order in which it
+// happened.
+BOOST_AUTO_TEST_CASE(lines_wait_for_their_place) {
+  bool waits = true;
+  router->set_place_source([&]() -> std::optional<std::string> {
+    if (waits) return std::nullopt;
+    return "pc 0x1";
+  });
+  std::string told;
+  router->on_warning([&](const vp::Warning& w) { told += w.message; });
+  dma.action = [&] {
+    vp::warn(dma, "/markervp/a", "first");
+    vp::info(dma, "/markervp/b", "second", sc_core::SC_LOW);
+    vp::warn(dma, "/markervp/c", "third, pc 0x2");
+    vp::ReportRouter::software_goes_on();
+    BOOST_TEST(out.str() == "");
+    BOOST_TEST(told == "");
+    BOOST_TEST(router->warnings().size() == 2u);
+    sc_core::wait(sc_core::sc_time(1, sc_core::SC_US));
+    waits = false;
+    vp::ReportRouter::software_goes_on();
+    BOOST_TEST(told == "firstthird, pc 0x2");
+    vp::warn(dma, "/markervp/a", "fourth");
+    waits = true;
+    vp::warn(dma, "/markervp/a", "fifth");
+  };
+  sc_core::sc_start();
+  router->finish();
+  BOOST_TEST(out.str() ==
+             "warning: dma: first [/markervp/a] at 12.345 us, pc 0x1\n"
+             "info: dma: second [/markervp/b] at 12.345 us\n"
+             "warning: dma: third, pc 0x2 [/markervp/c] at 12.345 us\n"
+             "warning: dma: fourth [/markervp/a] at 13.345 us, pc 0x1\n"
+             "warning: dma: fifth [/markervp/a] at 13.345 us\n");
+}
+
+// An error waits for nobody, but for what happened before it.
+BOOST_AUTO_TEST_CASE(an_error_comes_behind_what_waits) {
+  router->set_place_source([]() -> std::optional<std::string> { return std::nullopt; });
+  dma.action = [this] {
+    vp::warn(dma, "/markervp/a", "first");
+    vp::error(dma, "/markervp/b", "broken");
+  };
+  BOOST_CHECK_THROW(sc_core::sc_start(), sc_core::sc_report);
+  BOOST_TEST(out.str() ==
+             "warning: dma: first [/markervp/a] at 12.345 us\n"
+             "error: dma: broken [/markervp/b] at 12.345 us\n");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

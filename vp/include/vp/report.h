@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -59,8 +60,17 @@ class ReportRouter {
   /// ahead of it.
   void set_time_source(std::function<std::uint64_t()> now_ps) { now_ps_ = std::move(now_ps); }
   /// What the software is at, for the lines that are printed; empty: nothing, or it is not running.
-  void set_place_source(std::function<std::string()> place) { place_ = std::move(place); }
-  /// Told of each warning, after it was printed, where it is given. Null: nobody is.
+  /// None: it waits meanwhile, and says so when it goes on; until then lines wait, too.
+  using PlaceSource = std::function<std::optional<std::string>()>;
+  void set_place_source(PlaceSource place) { place_ = std::move(place); }
+  /// To be called where software may have waited and goes on: prints the lines that wait for it.
+  static void software_goes_on() {
+    if (lines_wait_) print_waiting_lines();
+  }
+  /// Prints the lines that wait: nobody goes on any more.
+  void finish();
+  /// Told of each warning, after it was printed, where it is given, or where the software goes on
+  /// if it waited. Null: nobody is.
   using WarningListener = std::function<void(const Warning&)>;
   void on_warning(WarningListener listener) { warning_listener_ = std::move(listener); }
   /// Warnings throw too: for tests, in which nothing may be warned of.
@@ -76,11 +86,21 @@ class ReportRouter {
  private:
   static void handle(const sc_core::sc_report& report, const sc_core::sc_actions& actions);
   void route(const sc_core::sc_report& report);
-  void print(const sc_core::sc_report& report, const Warning& entry, std::uint64_t repeats);
+  struct Line {
+    sc_core::sc_severity severity;
+    Warning report;
+    bool wants_place, prints;
+    bool is_last;  ///< that is printed for its id
+  };
+  void give(const Line& line, const std::string& place);
+  static void print_waiting_lines();
+  void print_waiting_lines(const std::string& place);
 
   std::shared_ptr<spdlog::logger> logger_;
   std::function<std::uint64_t()> now_ps_;
-  std::function<std::string()> place_;
+  PlaceSource place_;
+  std::vector<Line> waiting_;  ///< for the software to say where it is
+  static inline bool lines_wait_ = false;
   WarningListener warning_listener_;
   bool fail_on_warning_ = false;
   std::array<std::uint64_t, sc_core::SC_MAX_SEVERITY> by_severity_{};
