@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* tables = R"(
 CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE points(key TEXT UNIQUE, position INTEGER PRIMARY KEY, status TEXT, exit_code INTEGER,
+CREATE TABLE points(key TEXT, position INTEGER PRIMARY KEY, status TEXT, exit_code INTEGER,
                     signal INTEGER, message TEXT, program TEXT, inputs TEXT, feasible TEXT,
                     has_metrics INTEGER);
 CREATE TABLE parameters(key TEXT REFERENCES points(key), path TEXT, value TEXT, number REAL,
@@ -36,34 +36,35 @@ CREATE TABLE runs(key TEXT REFERENCES points(key), engine TEXT, host TEXT, date 
 
 /// Values of a row of metric_values: a row for each would take ten times as long, and four times
 /// the room.
-constexpr std::size_t row_values = 16;
+constexpr std::size_t row_values = 64;
 
 /// "v0", …
 std::string value_column(std::size_t i) {
   return "v" + std::to_string(i);
 }
 
-/// The metrics that differ, and the view of them all.
-std::string metric_tables() {
+/// The metrics that differ, `rows` rows a point, and the view of them all. The rows are numbered
+/// up, so that each goes to the end of its table.
+std::string metric_tables(std::size_t rows) {
   std::string columns, choice;
   for (std::size_t i = 0; i < row_values; ++i) {
     columns += ", " + value_column(i) + " REAL";
     choice += " WHEN " + std::to_string(i) + " THEN " + value_column(i);
   }
   const std::string values = std::to_string(row_values);
-  return "CREATE TABLE metric_values(position INTEGER REFERENCES points, part INTEGER" + columns +
-         ", PRIMARY KEY(position, part)) WITHOUT ROWID;"
+  return "CREATE TABLE metric_values(place INTEGER PRIMARY KEY" + columns +
+         ");"
          "CREATE VIEW metrics AS"
          " SELECT key, name, value FROM metric_names JOIN points"
          " WHERE value IS NOT NULL AND has_metrics"
          " UNION ALL SELECT key, name, number FROM"
-         " (SELECT position, name, CASE id % " +
+         " (SELECT key, name, CASE id % " +
          values + choice +
-         " END AS number FROM metric_names"
-         " JOIN metric_values ON part = id / " +
-         values +
+         " END AS number FROM metric_names JOIN points"
+         " JOIN metric_values ON place = position * " +
+         std::to_string(rows) + " + id / " + values +
          " WHERE metric_names.value IS NULL)"
-         " JOIN points USING(position) WHERE number IS NOT NULL;";
+         " WHERE number IS NOT NULL;";
 }
 
 class Database {
@@ -250,77 +251,53 @@ void add_parameters(const Database& database, const Results& results,
   }
 }
 
-/// `measured` says which points have metrics.
-void add_points(const Database& database, const Results& results,
-                const std::vector<bool>& measured) {
-  Insert points(database, "points", 10);
-  for (std::size_t position = 0; position < results.rows.size(); ++position) {
-    const ResultRow& row = results.rows[position];
-    points.row(
-        row.key, static_cast<std::int64_t>(position), std::string(row.failed ? "failed" : "done"),
-        std::int64_t{row.failed ? row.failure.exit_code : 0}, std::int64_t{row.failure.signal},
-        row.failure.message, row.program.text(), row.inputs.text(),
-        std::string(to_string(results.feasible(row))), std::int64_t{measured[position] ? 1 : 0});
+/// `measured` says which points have metrics. The index is made at once, of sorted keys.
+void add_points(Database& database, const Results& results, const std::vector<bool>& measured) {
+  {
+    Insert points(database, "points", 10);
+    for (std::size_t position = 0; position < results.rows.size(); ++position) {
+      const ResultRow& row = results.rows[position];
+      points.row(
+          row.key, static_cast<std::int64_t>(position), std::string(row.failed ? "failed" : "done"),
+          std::int64_t{row.failed ? row.failure.exit_code : 0}, std::int64_t{row.failure.signal},
+          row.failure.message, row.program.text(), row.inputs.text(),
+          std::string(to_string(results.feasible(row))), std::int64_t{measured[position] ? 1 : 0});
+    }
   }
+  database.execute("CREATE UNIQUE INDEX points_key ON points(key)");
 }
 
-/// The metrics of all points, and what they share.
-class MetricTables {
- public:
-  explicit MetricTables(const Results& results)
-      : results_(results), names_(results.metric_names()), selection_(names_) {
-    find_shared();
+/// Writes the metrics of all points. Returns which points have any.
+std::vector<bool> add_metrics(Database& database, const Results& results) {
+  const std::vector<std::string> names = results.metric_names();
+  std::vector<std::optional<double>> shared;
+  std::vector<std::size_t> differing;  // places in `names`, by id
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    shared.push_back(results.common().value(names[i]));
+    if (!shared[i]) differing.push_back(i);
   }
-
-  /// Which points have metrics.
-  const std::vector<bool>& measured() const { return measured_; }
-
-  void write(const Database& database) {
-    Insert ids(database, "metric_names", 3);
-    std::vector<std::size_t> differing;  // places in names_, by id
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (!shared_[i]) differing.push_back(i);
-    }
-    std::size_t id = 0, next = differing.size();
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      ids.row(static_cast<std::int64_t>(shared_[i] ? next++ : id++), names_[i], shared_[i]);
-    Insert values(database, "metric_values", 2 + row_values);
-    for (std::size_t position = 0; position < results_.rows.size(); ++position)
-      add_values(values, position, differing);
-  }
-
- private:
-  /// The value that a metric has in all points that have metrics.
-  void find_shared() {
-    shared_.resize(names_.size());
-    bool first = true;
-    for (const ResultRow& row : results_.rows) {
-      const Metrics metrics = results_.metrics_of(row, block_);
-      measured_.push_back(!metrics.empty());
-      if (metrics.empty()) continue;
-      const std::vector<std::size_t>& places = selection_.places_in(metrics);
-      for (std::size_t i = 0; i < names_.size(); ++i) {
-        const bool has_it = places[i] < metrics.values().size();
-        if (first && has_it) shared_[i] = metrics.values()[places[i]];
-        if (shared_[i] && (!has_it || *shared_[i] != metrics.values()[places[i]]))
-          shared_[i].reset();
-      }
-      first = false;
-    }
-  }
-
-  void add_values(Insert& values, std::size_t position, const std::vector<std::size_t>& differing) {
-    if (!measured_[position]) return;
-    const Metrics metrics = results_.metrics_of(results_.rows[position], block_);
-    const std::vector<std::size_t>& places = selection_.places_in(metrics);
+  const std::size_t rows = (differing.size() + row_values - 1) / row_values;
+  database.execute(metric_tables(rows).c_str());
+  Insert ids(database, "metric_names", 3);
+  std::size_t id = 0, next = differing.size();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    ids.row(static_cast<std::int64_t>(shared[i] ? next++ : id++), names[i], shared[i]);
+  Insert values(database, "metric_values", 1 + row_values);
+  Selection selection(names);
+  RunLogs::Block block;
+  std::vector<bool> measured;
+  for (std::size_t position = 0; position < results.rows.size(); ++position) {
+    const Metrics metrics = results.metrics_of(results.rows[position], block);
+    measured.push_back(!metrics.empty());
+    if (metrics.empty()) continue;
+    auto place = static_cast<std::int64_t>(position * rows);
+    const std::vector<std::size_t>& places = selection.places_in(metrics);
     for (std::size_t first = 0; first < differing.size(); first += row_values) {
-      values.add(static_cast<std::int64_t>(position));
-      values.add(static_cast<std::int64_t>(first / row_values));
+      values.add(place++);
       for (std::size_t i = first; i < first + row_values; ++i) {
-        const std::size_t place =
-            i < differing.size() ? places[differing[i]] : metrics.values().size();
-        if (place < metrics.values().size()) {
-          values.add(metrics.values()[place]);
+        const bool has_it = i < differing.size() && places[differing[i]] < metrics.values().size();
+        if (has_it) {
+          values.add(metrics.values()[places[differing[i]]]);
         } else {
           values.add(nullptr);
         }
@@ -328,14 +305,8 @@ class MetricTables {
       values.end_row();
     }
   }
-
-  const Results& results_;
-  std::vector<std::string> names_;
-  Selection selection_;
-  RunLogs::Block block_;
-  std::vector<bool> measured_;
-  std::vector<std::optional<double>> shared_;  ///< of the names
-};
+  return measured;
+}
 
 /// Finds the rows of keys, mostly asked for in the order of the rows.
 class RowFinder {
@@ -398,7 +369,6 @@ void write_database(const std::string& path, const Results& results, const RunLo
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = EXCLUSIVE;"
         "PRAGMA page_size = 16384; PRAGMA cache_size = -65536; BEGIN");
     database.execute(tables);
-    database.execute(metric_tables().c_str());
     {
       Insert facts(database, "sweep", 2);
       const Manifest& manifest = results.manifest;
@@ -407,9 +377,7 @@ void write_database(const std::string& path, const Results& results, const RunLo
       facts.row(std::string("file"), manifest.source);
       facts.row(std::string("markervp"), manifest.program.dump());
     }
-    MetricTables metrics(results);
-    add_points(database, results, metrics.measured());
-    metrics.write(database);
+    add_points(database, results, add_metrics(database, results));
     const std::vector<std::size_t> order = by_key(results);
     add_parameters(database, results, order);
     add_runs(database, results, runs, order);

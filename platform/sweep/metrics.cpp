@@ -7,6 +7,7 @@
 #include <vp/text.h>
 
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <map>
 #include <set>
@@ -242,6 +243,28 @@ Metrics::Names Selection::seen() const {
   std::set<std::string> names;
   for (const auto& [unused, picked] : picked_) names.insert(picked.all->begin(), picked.all->end());
   return {names.begin(), names.end()};
+}
+
+// A value is the same if its bits are: the texts of 0 and -0 differ.
+void CommonFigures::add(const Metrics& metrics) {
+  if (metrics.empty()) return;
+  if (first_.empty()) {
+    first_ = metrics;
+    selection_ = Selection(first_.names());
+    differs_.assign(first_.values().size(), 0);
+  }
+  const std::vector<std::size_t>& places = selection_.places_in(metrics);
+  for (std::size_t i = 0; i < differs_.size(); ++i) {
+    const bool has_it = places[i] < metrics.values().size();
+    differs_[i] |= !has_it || std::memcmp(&first_.values()[i], &metrics.values()[places[i]],
+                                          sizeof(double)) != 0;
+  }
+}
+
+std::optional<double> CommonFigures::value(const std::string& name) const {
+  const std::size_t place = first_.place_of(name);
+  if (place == differs_.size() || differs_[place] != 0) return std::nullopt;
+  return first_.values()[place];
 }
 
 Metrics MetricsReader::read(const Json& result) {

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -109,6 +110,20 @@ class Selection {
 
   Metrics::Names wanted_;
   std::map<const Metrics::Names*, Picked> picked_;  ///< by `all`
+};
+
+/// The figures that all points have, each with the same value.
+class CommonFigures {
+ public:
+  /// A point's; nothing if it has none.
+  void add(const Metrics& metrics);
+  /// The value of a figure in all points that have any; none if it differs, or a point lacks it.
+  std::optional<double> value(const std::string& name) const;
+
+ private:
+  Metrics first_;
+  Selection selection_{{}};             ///< its names
+  std::vector<unsigned char> differs_;  ///< by place in `first_`
 };
 
 /// metrics_of() of one result after another: those of the same shape as the one before cost no new

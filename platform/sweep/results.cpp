@@ -76,6 +76,7 @@ void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
     bases_.push_back(std::make_shared<const std::map<std::string, std::string>>(
         from.families[bases_.size()].configuration));
   ResultRow row;
+  common_.add(outcome.metrics);
   static_cast<Outcome&>(row) = std::move(outcome);
   if (!rows.empty()) row.metrics.share_names(rows.back().metrics);
   row.key = std::move(point.key);
@@ -183,6 +184,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
   Results results(manifest);
   results.rows.reserve(manifest.points.size());
   Selection selection(figures_of(manifest, more));
+  CommonFigures common;
   Metrics before;
   RunLogs::Block block;
   for (PlannedPoint& point : manifest.points) {
@@ -194,6 +196,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
     Metrics& metrics = outcome->metrics;
     metrics.share_names(before);
     before = metrics;
+    common.add(metrics);
     metrics = selection.of(metrics);
     results.add(manifest, std::move(point), *std::move(outcome));
   }
@@ -201,6 +204,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
   results.manifest = std::move(manifest);
   results.logs_ = std::move(logs);
   results.names_ = selection.seen();
+  results.common_ = std::move(common);  // the rows have some figures only
   return results;
 }
 
@@ -260,6 +264,52 @@ class NumberColumn {
   std::string text_;
 };
 
+/// The figures of rows, each behind a comma. What all rows share is put into words once.
+class FigureFields {
+ public:
+  FigureFields(const std::vector<std::string>& names, const CommonFigures& common)
+      : none_(names.size(), ','), selection_(names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::optional<double> shared = common.value(names[i]);
+      end_ += ',';
+      if (shared) {
+        end_ += csv_number(*shared);
+      } else {
+        columns_.push_back({std::exchange(end_, {}), i, {}});
+      }
+    }
+  }
+
+  void append(std::string& line, const Metrics& figures) {
+    if (figures.empty()) {
+      line += none_;
+      return;
+    }
+    const std::vector<std::size_t>& places = selection_.places_in(figures);
+    for (Column& column : columns_) {
+      line += column.before;
+      const std::size_t place = places[column.name];
+      if (place < figures.values().size()) line += column.numbers.text(figures.values()[place]);
+    }
+    line += end_;
+  }
+
+ private:
+  struct Column {
+    std::string before;  ///< shared figures, and its comma
+    std::size_t name;
+    NumberColumn numbers;
+  };
+
+  std::string none_;  ///< a row without figures
+  std::vector<Column> columns_;
+  std::string end_;  ///< behind the last column
+  Selection selection_;
+};
+
+/// Lines of a table that are written together.
+constexpr std::size_t write_bytes = 1 << 18;
+
 }  // namespace
 
 void write_csv(const std::string& path, const Results& results) {
@@ -269,23 +319,22 @@ void write_csv(const std::string& path, const Results& results) {
   fields.insert(fields.end(), results.manifest.swept.begin(), results.manifest.swept.end());
   fields.insert(fields.end(), metrics.begin(), metrics.end());
   file.write(csv_line(fields));
-  std::vector<NumberColumn> columns(metrics.size());
-  Selection selection(metrics);
+  FigureFields figures(metrics, results.common());
   RunLogs::Block block;
+  std::string lines;
   for (const ResultRow& row : results.rows) {
-    const Metrics figures = results.metrics_of(row, block);
-    const std::vector<std::size_t>& places = selection.places_in(figures);
     fields = {row.key, row.failed ? "failed" : "done", row.failure.message,
               to_string(results.feasible(row))};
     for (const std::string& swept : results.manifest.swept) fields.push_back(row.value(swept));
-    std::string line = csv_line(fields);
-    line.pop_back();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      line += ',';
-      if (places[i] < figures.values().size()) line += columns[i].text(figures.values()[places[i]]);
-    }
-    file.write(line += '\n');
+    lines += csv_line(fields);
+    lines.pop_back();
+    figures.append(lines, results.metrics_of(row, block));
+    lines += '\n';
+    if (lines.size() < write_bytes) continue;
+    file.write(lines);
+    lines.clear();
   }
+  file.write(lines);
   file.commit_durably();
 }
 

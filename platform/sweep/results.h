@@ -58,6 +58,8 @@ struct Results {
   Metrics metrics_of(const ResultRow& row, RunLogs::Block& block) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
+  /// The metrics that do not tell one point from another.
+  const CommonFigures& common() const { return common_; }
   /// Those that the sweep asks for; all if it does not.
   std::vector<std::string> chosen_metrics() const;
 
@@ -69,6 +71,7 @@ struct Results {
   std::vector<std::shared_ptr<const std::map<std::string, std::string>>> bases_;
   std::shared_ptr<const RunLogs> logs_;  ///< which have all metrics; null: the rows have
   std::vector<std::string> names_;       ///< of all metrics in them
+  CommonFigures common_;                 ///< of all metrics
 };
 
 /// Reads the results of a manifest's points, which become the rows. Of a million points not all
@@ -105,7 +108,7 @@ std::string verdicts_text(const Results& results);
 ///   constants(path, value)                those that all points share
 ///   metrics(key, name, value)             a view of metric_names, whose `value` all points that
 ///   ran
-///                                         share, or of metric_values, with 16 of the others a row
+///                                         share, or of metric_values, with 64 of the others a row
 ///   runs(key, engine, host, date, attempt, wall_s, cpu_s)
 ///     only the key is known where the process was killed before it told
 ///   sweep(name, value)                    its title, file, program version

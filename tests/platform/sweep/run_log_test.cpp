@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include <report/verdict.h>
+#include <sweep/report.h>
 #include <sweep/results.h>
 #include <sweep/store.h>
 
@@ -222,6 +225,63 @@ BOOST_AUTO_TEST_CASE(tables_are_the_same_with_logs_and_without) {
   BOOST_TEST(contains(from_files, "|more.figure_4|"));
   BOOST_TEST(contains(from_files, "|more.figure_5|5.0"), "a metric that most points share");
   BOOST_TEST(contains(from_files, "|summary.other|1.5"), "a metric of one point");
+}
+
+// More than a row of the database has room for; a point without figures lies between others.
+BOOST_AUTO_TEST_CASE(each_figure_of_each_point_stands_in_both_tables) {
+  const Folder folder(6, 400);
+  Json negative = Folder::result(4, 400);
+  negative["more"]["figure_5"] = -0.0;
+  for (int i : {0, 1, 3, 5}) {
+    Json zero = Folder::result(i, 400);
+    zero["more"]["figure_5"] = 0.0;
+    folder.write(i, zero);
+  }
+  folder.write(4, negative);
+  folder.store().write(
+      failed_record(folder.manifest(), folder.manifest().points[2], {-1, 11, "crash"}));
+  folder.log_all();
+  const auto logs = folder.logs();
+  const Results results = read_results(logs, Manifest(folder.manifest()));
+  BOOST_TEST(!results.common().value("more.figure_5"), "0 and -0 are two values");
+  BOOST_TEST(results.common().value("more.figure_6").value() == 6);
+  const std::string csv = folder / "t.csv", database = folder / "t.sqlite";
+  write_csv(csv, results);
+  write_database(database, results, *logs);
+  const kit::Outcome dump =
+      kit::run_process("/bin/sh",
+                       {"-c", "sqlite3 -separator ' ' " + database +
+                                  " 'select key, name, quote(value) from metrics'"},
+                       folder.path());
+  BOOST_TEST(dump.exit_code == 0, dump.err);
+  std::map<std::pair<std::string, std::string>, double> stored;
+  std::istringstream rows(dump.out);
+  for (std::string key, name, value; rows >> key >> name >> value;)
+    stored[{key, name}] = std::stod(value);
+  std::string lines;
+  std::size_t figures = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Metrics metrics = folder.file(i).metrics;
+    for (std::size_t place = 0; place < metrics.values().size(); ++place) {
+      const auto found = stored.find({folder.key(i), metrics.names()[place]});
+      BOOST_REQUIRE((found != stored.end() && found->second == metrics.values()[place]));
+      lines += "," + csv_number(metrics.values()[place]);
+      ++figures;
+    }
+    if (metrics.empty()) lines += std::string(results.metric_names().size(), ',');
+    lines += '\n';
+  }
+  BOOST_TEST(stored.size() == figures);
+  std::string texts;
+  std::istringstream table(kit::read_file(csv));
+  std::string line;
+  for (std::getline(table, line); std::getline(table, line);) {
+    const std::size_t fields = 4 + folder.manifest().swept.size();  // before the figures
+    std::size_t at = 0;
+    for (std::size_t field = 1; field < fields; ++field) at = line.find(',', at) + 1;
+    texts += line.substr(line.find(',', at)) + '\n';
+  }
+  BOOST_TEST((texts == lines));
 }
 
 // Of a million points: 16 bytes for each of some 20 figures, and 600 for the rest.

@@ -104,4 +104,20 @@ BOOST_AUTO_TEST_CASE(results_of_one_shape_are_read_like_any) {
   BOOST_TEST(reader.read(second).shares_names(reader.read(first)));
 }
 
+BOOST_AUTO_TEST_CASE(a_common_figure_has_one_value_in_all_points_that_have_figures) {
+  CommonFigures common;
+  BOOST_TEST(!common.value("a").has_value(), "of no point");
+  common.add({});
+  common.add({{"a", 1}, {"b", 2}, {"c", 3}});
+  common.add({{"a", 1}, {"b", 4}, {"c", 3}});
+  common.add({});
+  BOOST_TEST(common.value("a").value() == 1);
+  BOOST_TEST(!common.value("b").has_value(), "it differs");
+  BOOST_TEST(common.value("c").value() == 3);
+  common.add({{"a", 1}, {"b", 2}, {"d", 5}});
+  BOOST_TEST(common.value("a").value() == 1);
+  for (const char* name : {"b", "c", "d", "e"})
+    BOOST_TEST(!common.value(name).has_value(), "a point lacks it, or has another");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
