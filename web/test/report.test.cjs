@@ -108,6 +108,31 @@ test("narrow screens do not scroll sideways", async () => {
   }
 });
 
+/** Where each chart stands on the page, and how high it is, when all those near the window are drawn. */
+const places = (page) => page.$$eval(".chart-area", (areas) => areas.map((area) => {
+  const box = area.getBoundingClientRect();
+  return [Math.round(box.top + window.scrollY), Math.round(box.height)];
+}));
+
+test("charts that are not drawn yet keep their room, however many lines their legend takes", async () => {
+  const heights = {};
+  for (const name of ["sweep", "validation", "comparison"]) {
+    for (const viewport of [{ width: 1280, height: 900 }, { width: 420, height: 600 }]) {
+      await open(name, async (page) => {
+        await page.waitForSelector(".chart-area");
+        await page.waitForTimeout(300);
+        const before = await places(page);
+        const waiting = await page.$$eval(".chart-area", (areas) => areas.filter((area) => !area.dataset.drawn).length);
+        assert.ok(waiting > 0, `${name}: some are still to be drawn`);
+        (heights[name] ??= []).push(before.reduce((sum, [, height]) => sum + height, 0));
+        await scrollThrough(page);
+        assert.deepEqual(await places(page), before, `${name}, ${viewport.width} px wide`);
+      }, { viewport });
+    }
+  }
+  assert.ok(Object.values(heights).some(([wide, narrow]) => narrow > wide), "some legend takes more lines where it is narrow");
+});
+
 test("layers of the frame switch", () => open("run", async (page) => {
   const layer = page.locator('g[data-layer="corners"]');
   await assert.doesNotReject(layer.waitFor());
@@ -282,7 +307,6 @@ test("the flame graph names what took most, counts recursion once, and grows by 
 }));
 
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
-  await scrollThrough(page);  // a chart that is drawn meanwhile moves the table from under the pointer
   const button = page.locator("#points tbody button").nth(4);
   await button.click();
   assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json' --output 'out/a sweep/reports/${await button.textContent()}cafe'`);

@@ -64,11 +64,21 @@ export function chart({ name, title, summary, note, height = 280, least, option,
   const noted = note && h("p", { class: "note" }, words(note));
   const target = h("div", { class: "chart-area", role: "img", "aria-label": label(), style: { height: height + "px", minWidth: least ? least + "px" : "" } });
   let instance = null;
+  const size = () => ({ width: target.clientWidth || 900, height: target.clientHeight || height });
   // Tooltips are drawn, not HTML: names of files stand in them.
   const full = () => {
     const common = base();
     const own = option();
     return { ...common, ...own, tooltip: own.tooltip ? { ...common.tooltip, ...own.tooltip } : { show: false } };
+  };
+  // The room that it will take, so that nothing moves when it is drawn: data do not change its legend.
+  const reserve = () => {
+    const { series = [], ...rest } = screen ? {} : full();
+    if (instance || !rest.legend) return;
+    const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
+    copy.setOption({ ...rest, series: [series].flat().map(({ name, type }) => ({ name, type })) });
+    target.style.height = `${height + belowLegend(copy, rest)}px`;
+    copy.dispose();
   };
   const fit = () => {
     target.style.height = `${height + belowLegend(instance, option())}px`;
@@ -96,7 +106,7 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     instance.setOption(rest, { replaceMerge: ["series"] });
     ready?.(instance, true);
   };
-  const stale = whenSeen(target, () => (instance ? update() : draw()));
+  const stale = whenSeen(target, () => (instance ? update() : draw()), reserve);
   const entry = {
     target,
     redraw() {
@@ -108,6 +118,7 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     resize() {
       instance?.resize();
       if (instance && !screen) fit();
+      else reserve();
     },
     instance: () => instance,
   };
@@ -119,7 +130,6 @@ export function chart({ name, title, summary, note, height = 280, least, option,
     for (const series of [complete.series ?? []].flat()) series.progressive = 0;
     return complete;
   };
-  const size = () => ({ width: target.clientWidth || 900, height: target.clientHeight || height });
   const svg = () => {
     const copy = echarts.init(null, null, { renderer: "svg", ssr: true, ...size() });
     copy.setOption(whole());

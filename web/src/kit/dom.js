@@ -28,15 +28,23 @@ const observer = new IntersectionObserver((entries) => {
   for (const entry of entries) entry.target.seen(entry.isIntersecting);
 }, { rootMargin: "200px" });
 
-/** Calls `draw` when `element` comes near the window. Returns a function that has it drawn again, at once or when it is next seen. */
-export function whenSeen(element, draw) {
-  let near = false, fresh = false;
+/**
+ * Calls `draw` when `element` comes near the window, and `reserve` before, as soon as its width is known. Returns a function that has
+ * it drawn again, at once or when it is next seen.
+ */
+export function whenSeen(element, draw, reserve = () => {}) {
+  let near = false, fresh = false, placed = false;
   element.drawNow = () => {
     if (fresh) return;
     fresh = true;
     draw();
   };
-  element.seen = (now) => { near = now; if (near) element.drawNow(); };
+  element.seen = (now) => {
+    near = now;
+    if (near) element.drawNow();
+    else if (!placed) reserve();
+    placed = true;
+  };
   observer.observe(element);
   return () => { fresh = false; element.seen(near); };
 }

@@ -102,6 +102,7 @@ export function parallel(sweep, selection) {
     table: () => ({ caption: "Points that are kept", rows: kept(), columns: columnsOf(sweep, selection, kept()) }),
   });
   selection.onChange(() => (dragging ? say() : figure.update()));
+  say();
   figure.append(status);
   return figure;
 }
