@@ -158,6 +158,11 @@ void become_gdb(pid_t process, const std::vector<std::string>& commands) {
 
 int debug_run(const DebugOptions& options, std::ostream& out, std::ostream& err) {
   RunOptions run = options_of(options.folder);
+  if (run.linux_app) {
+    throw vp::InputError(
+        "this run had a Linux application (--linux), which is a process of its own: 'markervp "
+        "history' tells who accessed a register, from which line");
+  }
   run.debug = options;
   const pid_t process = start(run, out, err);
   int status = 0;

@@ -16,6 +16,7 @@ constexpr const char* examples = R"(Examples:
   markervp run z1.0 roll30 photo.png        scenes and files, one after the other
   markervp run roll                         every scene of a group
   markervp run clip.avi --fit scale --camera camera.yaml
+  markervp run --linux ./my_app -- -v       an unmodified Linux application
   markervp run --trace run.vcd --trace-window 6ms:7ms
   markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
   markervp sweep pixel-clock                many design points, a ready study
@@ -49,7 +50,8 @@ docs/rtl.md has a map.)";
 
 constexpr const char* run_examples =
     R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
-any the demo scene runs. Results: result.json and an annotated picture per frame.)";
+any the demo scene runs. With --linux it is an argument of the application. Results: result.json
+and an annotated picture per frame.)";
 
 constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
@@ -117,6 +119,13 @@ void add_platform_options(CLI::App& command, PlatformOptions& target) {
   command
       .add_option("--program", target.program,
                   "PS program: a file, or the name of an installed one")
+      ->type_name("FILE");
+}
+
+void add_linux_option(CLI::App& command, RunOptions& target) {
+  command
+      .add_option("--linux", target.linux_app,
+                  "run a Linux application; its arguments are what stands behind, after --")
       ->type_name("FILE");
 }
 
@@ -214,6 +223,7 @@ void add_run(CLI::App& app, RunOptions& target) {
   add_input_options(*command, target);
   add_design_option(*command, target.configuration);
   add_platform_options(*command, target);
+  add_linux_option(*command, target);
   add_point_option(*command, target);
   add_configuration_options(*command, target.configuration);
   add_output_options(*command, target);

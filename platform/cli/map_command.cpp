@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cli/commands.h>
+#include <linux_app/linux_devices.h>
 #include <run/simulation.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -248,10 +249,20 @@ void print_devices(const HardwareMap& map, std::ostream& out) {
   }
 }
 
+/// With the file that a Linux application finds it at.
 void print_interrupts(const HardwareMap& map, std::ostream& out) {
-  out << "\ninterrupt  raised by\n";
+  const std::vector<LinuxDevices::Uio> uios = LinuxDevices::uios_of(map);
+  const auto file = [&uios](std::uint32_t id) -> std::string {
+    for (std::size_t i = 0; i < uios.size(); ++i) {
+      if (uios[i].interrupt == id) return "/dev/uio" + std::to_string(i);
+    }
+    return {};
+  };
+  out << fmt::format("\n{:>9}  {:<32} {}\n", "interrupt", "raised by", "with --linux");
   for (const HardwareMap::Interrupt& i : map.interrupts) {
-    out << fmt::format("{:>9}  {}\n", i.id, i.source);
+    const std::string linux_file = file(i.id);
+    out << (linux_file.empty() ? fmt::format("{:>9}  {}\n", i.id, i.source)
+                               : fmt::format("{:>9}  {:<32} {}\n", i.id, i.source, linux_file));
   }
 }
 

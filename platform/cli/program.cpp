@@ -36,6 +36,7 @@ report::Provenance provenance(const RunOptions& options, const std::vector<std::
   result.details.emplace_back("output", options.output);
   if (options.camera) result.details.emplace_back("camera", *options.camera);
   if (options.program) result.details.emplace_back("program_file", *options.program);
+  if (options.linux_app) result.details.emplace_back("linux_application", *options.linux_app);
   if (options.trace) result.details.emplace_back("trace", *options.trace);
   return result;
 }

@@ -143,6 +143,23 @@ StopOptions stop_options(const DebugOptions& options) {
   return {When::failure, 0, {}, false, 1};
 }
 
+/// The inputs are the application's arguments.
+LinuxOptions linux_options(const RunOptions& options) {
+  const auto refuse = [](const std::string& option) {
+    throw vp::InputError("--linux with " + option +
+                         ": a Linux application takes no images, and is no PS program; leave one "
+                         "of the two out");
+  };
+  if (options.program) refuse("--program");
+  if (options.camera) refuse("--camera");
+  if (options.fit) refuse("--fit");
+  if (options.rate) refuse("--rate");
+  if (options.frames) refuse("--frames");
+  if (options.repeat != 1) refuse("--repeat");
+  if (options.point) refuse("--point");
+  return {*options.linux_app, options.inputs};
+}
+
 SimulationOptions simulation_options(const RunOptions& options) {
   const bool traces = options.trace_window || !options.trace_filter.empty() ||
                       options.trace_clocks || options.trace_trigger;
@@ -151,6 +168,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   }
   SimulationOptions result;
   result.program = options.program;
+  if (options.linux_app) result.linux_app = linux_options(options);
   if (options.trace) result.trace = trace_options(options);
   if (!options.log_bus_filter.empty() && !options.log_bus) {
     throw vp::InputError("--log-bus-filter without a log: name its file with --log-bus");
@@ -380,6 +398,7 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
 int run_into(MemoryRun* memory, const RunOptions& asked_for,
              const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   const HostClock::time_point start = HostClock::now();
+  if (asked_for.linux_app && asked_for.point) linux_options(asked_for);
   const RunOptions options = with_point(asked_for, err);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
@@ -389,7 +408,9 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   if (!page && !options.timeline) asked.timeline_frames = 0;
   asked.console = memory ? memory->console : &out;
   const std::unique_ptr<Simulation> simulation = build(configuration, asked);
-  const auto source = input::open_inputs(options.inputs, input_options(options, *simulation));
+  const auto source =
+      input::open_inputs(options.linux_app ? std::vector<std::string>() : options.inputs,
+                         input_options(options, *simulation));
   FrameRunner runner(*source);
   check_outputs_differ(options);
   check_trace(options);

@@ -37,7 +37,12 @@ void set_defaults(const DesignInfo& design) {
 
 // The design names the program, or the program its design.
 void Simulation::choose_design() {
-  if (options_.program) program_ = ps::Program::load(program_file(*options_.program));
+  if (options_.linux_app) {
+    linux_run_ = std::make_unique<LinuxRun>(*options_.linux_app);
+    program_ = linux_run_->program();
+  } else if (options_.program) {
+    program_ = ps::Program::load(program_file(*options_.program));
+  }
   const DesignInfo& usual =
       program_ ? design_of_program(program_->name()) : *builtin_designs().front();
   design_name_ = std::make_unique<vp::Parameter<std::string>>(
@@ -85,7 +90,8 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options_.timeline_frames);
   power_->record_timeline(recorder_->records());
   if (options_.trace) power_->follow();
-  zynq_->ps.cpu.load(*program_, costs_->costs);
+  if (linux_run_) linux_run_->connect(*zynq_, bench_->cache_contract());
+  zynq_->ps.cpu.load(*program_, linux_run_ ? linux_run_->costs(costs_->costs) : costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);

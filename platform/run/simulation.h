@@ -9,6 +9,7 @@
 
 #include <host/process.h>
 #include <input/image_file.h>
+#include <linux_app/linux_run.h>
 #include <profiles/cost_profile.h>
 #include <ps/cpu/program.h>
 #include <report/result.h>
@@ -32,6 +33,7 @@ namespace platform {
 /// What is asked of a simulation beside its configuration.
 struct SimulationOptions {
   std::optional<std::string> program = {};     ///< file or name; none: that of the design
+  std::optional<LinuxOptions> linux_app = {};  ///< a Linux application, in place of a program
   std::optional<vp::TraceOptions> trace = {};  ///< waveforms to record
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
@@ -107,6 +109,7 @@ class Simulation {
   vp::ReportRouter reports_;
   std::unique_ptr<vp::Parameter<std::string>> design_name_;
   const DesignInfo* design_ = nullptr;
+  std::unique_ptr<LinuxRun> linux_run_;
   std::unique_ptr<ps::Program> program_;
   std::optional<profiles::CostProfile> costs_;
   std::unique_ptr<Zynq> zynq_;

@@ -193,14 +193,18 @@ void BusHistory::note(const BusAccess& access) {
   // A poll reads thousands of times, and looking at the stack takes longer than all the rest.
   const bool polls = same && access.read;
   std::vector<std::uintptr_t> calls;
-  if (access.by_processor && !polls) calls = ps::return_addresses();
-  if (same && (polls || last->calls == calls)) {
+  std::string place;
+  if (access.by_processor && !polls) {
+    calls = ps::return_addresses();
+    if (!zynq().ps.cpu.code()) place = zynq().ps.cpu.program_counter();
+  }
+  if (same && (polls || (last->calls == calls && last->place == place))) {
     last->last.ps = access.ps;
     ++last->times;
     return;
   }
   if (entries_.size() == options_.count) entries_.pop_front();
-  entries_.push_back({access, access.ps, 1, std::move(calls)});
+  entries_.push_back({access, access.ps, 1, std::move(calls), std::move(place)});
 }
 
 std::vector<std::string> BusHistory::lines() const {
@@ -212,7 +216,7 @@ std::vector<std::string> BusHistory::lines() const {
       line += "  (" + std::to_string(entry.times) + " times since " +
               vp::format_time(entry.first_ps) + ")";
     }
-    const std::string place = code ? code->path(entry.calls) : std::string();
+    const std::string place = code ? code->path(entry.calls) : entry.place;
     lines.push_back(line + (place.empty() ? "" : "  ") + place);
   }
   return lines;

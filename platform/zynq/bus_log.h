@@ -152,6 +152,7 @@ class BusHistory : public BusWatch {
     std::uint64_t first_ps;
     std::uint64_t times;
     std::vector<std::uintptr_t> calls;
+    std::string place;  ///< of a program that is elsewhere
   };
   void note(const BusAccess& access) override;
 

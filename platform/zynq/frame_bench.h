@@ -41,6 +41,8 @@ class FrameBench : public ps::TestBench {
   /// The run is over, however it ended. Returns the warnings that stand in no frame's report.
   std::vector<std::string> finish();
 
+  CacheContract& cache_contract() { return cache_contract_; }
+
   /// Images that the program took and of which it published nothing.
   std::uint64_t unpublished() const { return taken_ - std::min(published_, taken_); }
   /// None: the camera has no rate, or the program never asked for a second image.

@@ -196,7 +196,7 @@ void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
            "a DMA reads " + vp::hex(*stale) +
                (once ? ", which the program wrote after it was flushed"
                      : ", which the program never flushed") +
-               ": it works here, and fails on the chip; call hal_cache_flush() " +
+               ": it works here, and fails on the chip; " + flush_call_ + " " +
                (once ? "between the last write and the transfer" : "before the transfer"));
 }
 
@@ -211,8 +211,9 @@ void CacheContract::device_will_write(std::uint64_t address, std::uint64_t bytes
   vp::warn(zynq_.ps.cpu, "/markervp/cpu/written_over",
            "a DMA is about to write the cache line of " + vp::hex(*dirty) +
                ", which the program wrote and has not flushed: it works here; on the chip the "
-               "cache writes it back at any time, over what the DMA wrote; call hal_cache_flush() "
-               "before the transfer, and keep other data out of the buffer's cache lines");
+               "cache writes it back at any time, over what the DMA wrote; " +
+               flush_call_ +
+               " before the transfer, and keep other data out of the buffer's cache lines");
 }
 
 // In a signal handler, between two instructions of the program.
@@ -230,8 +231,8 @@ void CacheContract::program_reads(std::uint64_t address) {
   vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
            "the program reads " + vp::hex(address) + ", which a DMA wrote " +
                (early ? "after the program invalidated it" : "and the program never invalidated") +
-               ": it works here, and fails on the chip; call hal_cache_invalidate() between the "
-               "transfer and the first read");
+               ": it works here, and fails on the chip; " + invalidate_call_ +
+               " between the transfer and the first read");
 }
 
 }  // namespace platform

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <ps/cpu/line_guard.h>
 #include <ps/memory/memory.h>
@@ -32,6 +34,11 @@ class CacheContract {
   CacheContract(const CacheContract&) = delete;
   CacheContract& operator=(const CacheContract&) = delete;
 
+  /// What a program calls to maintain caches, for messages.
+  void name_calls(std::string flush, std::string invalidate) {
+    flush_call_ = std::move(flush);
+    invalidate_call_ = std::move(invalidate);
+  }
   /// The test bench placed something there, flushed: what the program then makes of it is not
   /// looked at, which would cost a tenth of the speed with images.
   void placed(std::uint64_t address, std::uint64_t bytes) { mark(address, bytes, current | given); }
@@ -80,6 +87,8 @@ class CacheContract {
   ps::SparseArray<unsigned char> lines_;
   ps::SparseArray<unsigned char> memory_;  ///< behind the caches
   ps::LineGuard guard_;
+  std::string flush_call_ = "call hal_cache_flush()";
+  std::string invalidate_call_ = "call hal_cache_invalidate()";
   bool warned_of_read_ = false;
   bool warned_of_write_ = false;
   std::deque<Watch> watches_;  ///< of every memory master in the PL

@@ -163,6 +163,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     call_at_ps_ = ps;
     called_at_ = std::move(look);
   }
+  /// Says where the program is, in place of the processor: of one that only stands for another,
+  /// elsewhere. For program_counter().
+  void locate_program(std::function<std::string()> locate) { locate_program_ = std::move(locate); }
   /// Told why the program is stopped, as check() throws it, while its calls are under way: in a
   /// signal handler if it is a fault. Null: nobody is.
   using FailureListener = std::function<void(const std::string& problem)>;
@@ -180,6 +183,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// The same; none where it is not the program that looks, but something that happens while it
   /// waits.
   std::optional<std::string> place() const;
+  /// Ends the program because of a mistake, when what it did before is over. In guarded() only.
+  [[noreturn]] void misuse(const std::string& problem);
   /// False: polls make every read. Default: those that cannot see anything new only take their
   /// time, and are counted like the others.
   void set_poll_elision(bool elide) { poll_elision_ = elide; }
@@ -370,7 +375,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void meet_deadline(const char* what, const std::string& hint = {});
   std::string last_look() const;
-  [[noreturn]] void misuse(const std::string& problem);
   [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
   void freeze();
@@ -387,6 +391,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::function<std::string(std::uint32_t)> device_;
   std::function<std::string(std::uint32_t, std::uint32_t)> describe_register_;
   std::function<Request()> describe_request_;
+  std::function<std::string()> locate_program_;
   std::string cost_profile_;
   CacheListener cache_listener_;
   MomentListener moment_listener_;

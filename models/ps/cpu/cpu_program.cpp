@@ -174,6 +174,7 @@ std::optional<std::string> Cpu::place() const {
 }
 
 std::string Cpu::program_counter() const {
+  if (locate_program_) return locate_program_();
   if (!code_ || !running_) return {};
   return code_->path(fault_calls_.empty() ? return_addresses() : fault_calls_);
 }

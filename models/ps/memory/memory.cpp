@@ -1,4 +1,5 @@
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <ps/memory/memory.h>
 #include <vp/clock.h>
@@ -59,23 +60,33 @@ std::uint64_t checked_dma_base(const std::string& name, std::uint64_t dma_base, 
 }  // namespace
 
 FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
-    : size_(size) {
+    : size_(size), descriptor_(memfd_create("memory", MFD_CLOEXEC)) {
   void* wanted = reinterpret_cast<void*>(first);
-  void* got = mmap(wanted, size, PROT_READ | PROT_WRITE,
-                   MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (descriptor_ >= 0) close(descriptor_);
+    throw vp::InputError(what + ": the host has no file of " + std::to_string(size) + " bytes (" +
+                         reason + ")");
+  }
+  const auto view = [this, size](void* at, int flags) {
+    return mmap(at, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE | flags, descriptor_,
+                0);
+  };
+  void* got = view(wanted, MAP_FIXED_NOREPLACE);
   if (got == wanted) {
-    // From a length of 0 mremap() makes a second mapping of the same pages: mremap(2).
-    void* second = mremap(got, 0, size, MREMAP_MAYMOVE);
+    void* second = view(nullptr, 0);
     data_ = static_cast<unsigned char*>(got);
     second_view_ = static_cast<unsigned char*>(second);
     if (second != MAP_FAILED) return;
     const std::string reason = std::strerror(errno);
     munmap(got, size);
+    close(descriptor_);
     throw vp::InputError(what + ": the host has no room for a second view of " +
                          std::to_string(size) + " bytes (" + reason + "): choose a smaller size");
   }
   const std::string reason = got == MAP_FAILED ? std::strerror(errno) : "address not granted";
   if (got != MAP_FAILED) munmap(got, size);
+  close(descriptor_);
   const std::string range = vp::hex(first) + " to " + vp::hex(first + size);
   const std::string who = occupant(first, first + size);
   throw vp::InputError(
@@ -88,6 +99,7 @@ FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::ui
 FixedMapping::~FixedMapping() {
   munmap(data_, size_);
   munmap(second_view_, size_);
+  close(descriptor_);
 }
 
 void FixedMapping::clear() {

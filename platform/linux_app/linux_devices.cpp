@@ -1,0 +1,103 @@
+#include <linux_app/linux_devices.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+#include <zynq/hardware_map.h>
+
+namespace platform {
+
+using namespace vp::literals;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr vp::Range<std::uint32_t> cycles_range{0, 10'000'000};
+constexpr std::uint64_t page = 4096;
+
+/// "pl.axi_dma_0" of "pl.axi_dma_0.s_axi_lite".
+std::string parent_of(const std::string& path) {
+  return path.substr(0, path.rfind('.'));
+}
+
+}  // namespace
+
+std::vector<LinuxDevices::Uio> LinuxDevices::uios_of(const report::HardwareMap& map) {
+  std::vector<Uio> uios;
+  for (const report::HardwareMap::Device& device : map.devices) {
+    if (device.way != "m_axi_gp0" || device.registers.empty()) continue;
+    const std::size_t first = uios.size();
+    for (const report::HardwareMap::Interrupt& interrupt : map.interrupts) {
+      if (parent_of(interrupt.source) != parent_of(device.path)) continue;
+      const std::string line = interrupt.source.substr(interrupt.source.rfind('.') + 1);
+      uios.push_back({device.name + "_" + line, interrupt.id, device.base, device.size});
+    }
+    if (uios.size() == first + 1) uios.back().name = device.name;
+  }
+  if (uios.size() > linux_app::most_uio) uios.resize(linux_app::most_uio);
+  return uios;
+}
+
+LinuxDevices::LinuxDevices(sc_core::sc_module_name name, Zynq& zynq)
+    : sc_module(name),
+      system_call("system_call", 700, vp::Unit::cycles, cycles_range, vp::Source::assumed,
+                  "a call of the kernel by the application: about 1 us"),
+      wake_up("wake_up", 10'000, vp::Unit::cycles, cycles_range, vp::Source::assumed,
+              "from what an application waits for to its next statement: about 15 us"),
+      udmabufs("udmabufs", 1, vp::Unit::none, {0, 8}, vp::Source::decision,
+               "buffers /dev/udmabuf0 …"),
+      udmabuf_size("udmabuf_size", 1_MiB, vp::Unit::bytes, {4_KiB, 512_MiB}, vp::Source::decision,
+                   "of each of them"),
+      uios_(uios_of(hardware_map(zynq))) {
+  const ps::DmaAllocator& memory = zynq.ps.ddr.dma_memory();
+  const std::uint64_t room = memory.end() - memory.first() - memory.used();
+  const std::uint64_t size = (udmabuf_size + page - 1) / page * page;
+  if (size * (udmabufs + 1) <= room) return;
+  throw vp::InputError(std::to_string(udmabufs) + " buffers of " + std::to_string(udmabuf_size) +
+                       " B (" + udmabufs.name() + ", " + udmabuf_size.name() +
+                       ") do not fit into the DMA memory of " + std::to_string(room) +
+                       " B: choose smaller ones, or a lower ps.ddr.dma_base");
+}
+
+LinuxFolder::LinuxFolder() : path_(fs::temp_directory_path() / "markervp-linux-XXXXXX") {
+  if (!::mkdtemp(path_.data()))
+    throw std::system_error(errno, std::generic_category(), "no folder for /dev and /sys");
+}
+
+LinuxFolder::~LinuxFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void LinuxFolder::write(const std::string& file, const std::string& text) const {
+  const std::string path = path_ + file;
+  std::error_code ignored;
+  fs::create_directories(fs::path(path).parent_path(), ignored);
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::system_error(errno, std::generic_category(), path);
+}
+
+// Documentation/driver-api/uio-howto.rst of Linux.
+void LinuxFolder::add(const LinuxDevices::Uio& uio, std::size_t number) const {
+  const std::string file = "/uio" + std::to_string(number), of = "/sys/class/uio" + file;
+  write("/dev" + file, "");
+  write(of + "/name", uio.name + "\n");
+  write(of + "/version", "devicetree\n");
+  const auto hex = [](std::uint64_t value) { return vp::hex(static_cast<std::uint32_t>(value)); };
+  write(of + "/maps/map0/name", uio.name + "\n");
+  write(of + "/maps/map0/addr", hex(uio.base) + "\n");
+  write(of + "/maps/map0/size", hex(uio.size) + "\n");
+  write(of + "/maps/map0/offset", "0x0\n");
+}
+
+}  // namespace platform

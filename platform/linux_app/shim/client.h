@@ -1,0 +1,75 @@
+#pragma once
+
+#include <dlfcn.h>
+#include <signal.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include <linux_app/protocol.h>
+
+/// The shim: a library that is loaded before all others into a Linux application, and has functions
+/// of the C library's names. It brings to the platform what the application does with its devices
+/// and with time; everything else is the C library's.
+///
+/// It needs no C++ library, which the application may not have.
+namespace shim {
+
+using linux_app::Reply;
+using linux_app::Request;
+using linux_app::What;
+
+/// The function of a name that the application would have called without the shim.
+#define REAL(name)                                                                            \
+  ([] {                                                                                       \
+    static auto* const real = reinterpret_cast<decltype(&::name)>(::dlsym(RTLD_NEXT, #name)); \
+    return real;                                                                              \
+  }())
+
+/// This process is the application, or a copy of it by fork(). False in what it started by exec().
+bool is_application();
+/// The time of whoever calls is the platform's: of the one thread that uses devices.
+bool is_in_lock_step();
+/// Calls of the one thread that uses devices; the first to open one is it.
+void take_devices();
+
+/// Asks the platform and waits for its answer; no signal handler runs meanwhile. Another thread, or
+/// a copy by fork(), is refused.
+Reply ask(What what, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0,
+          const char* text = nullptr);
+/// The same of `size` bytes, in a handler of a signal, which others do not interrupt.
+Reply ask_in_handler(What what, std::uint64_t a, std::uint64_t b, std::uint32_t size);
+/// Called behind each answer: what it says of interrupts.
+void note_interrupts(const Reply& reply);
+
+/// Ends the run with a message: what went wrong, as printf() writes it. Where is added.
+[[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
+/// Tells that a signal ends the application.
+void tell_death(int signal, std::uint64_t address);
+
+/// The instruction at which the application stands in the one that is made now, where that is not
+/// what its stack says: 0.
+void stand_at(std::uintptr_t instruction);
+
+/// Where the application is: "pc 0x1151 main+0x1c (app.c:12), called from …". Empty: not known.
+void locate(char* text, std::size_t size);
+/// To be called early: what locate() needs is loaded then, and not in a signal handler.
+void prepare_to_locate();
+
+/// Faults of the application are caught from now on.
+void catch_faults();
+constexpr int faults[] = {SIGSEGV, SIGBUS, SIGTRAP, SIGFPE, SIGILL, SIGABRT};
+
+/// Blocks all signals but those of faults, for a scope.
+class NoSignals {
+ public:
+  NoSignals();
+  ~NoSignals();
+  NoSignals(const NoSignals&) = delete;
+  NoSignals& operator=(const NoSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace shim

@@ -1,0 +1,192 @@
+// Linux applications that go wrong, and what cannot be run as one.
+#include <boost/test/unit_test.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "executable.h"
+
+using namespace integration;
+
+namespace {
+
+struct Mistakes : Workplace {
+  // Folders of applications go there, and are gone again.
+  Mistakes() {
+    std::filesystem::create_directory(*this / "tmp");
+    ::setenv("TMPDIR", (*this / "tmp").c_str(), 1);
+  }
+  ~Mistakes() {
+    BOOST_TEST(std::filesystem::is_empty(*this / "tmp"));
+    ::unsetenv("TMPDIR");
+  }
+
+  Arguments arguments(const std::string& mistake, const Arguments& options = {}) const {
+    Arguments all{"--linux", MARKERVP_APPLICATIONS "mistakes", "--no-report", "--quiet", mistake};
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+  }
+  /// The last line that it says must have all of `parts`.
+  void ends(int exit_code, const std::string& mistake, const Arguments& parts,
+            const Arguments& options = {}) const {
+    BOOST_TEST_CONTEXT(mistake) {
+      const kit::Outcome outcome = run(arguments(mistake, options));
+      BOOST_TEST(outcome.signal == 0);
+      BOOST_TEST(outcome.exit_code == exit_code, outcome.err);
+      for (const std::string& part : parts)
+        BOOST_TEST((outcome.err.find(part) != std::string::npos),
+                   "'" << part << "' is not in: " << outcome.err);
+    }
+  }
+  /// The run is stopped, and its result says so.
+  void stops(const std::string& mistake, const Arguments& parts,
+             const Arguments& options = {}) const {
+    ends(3, mistake, parts, options);
+    BOOST_TEST(result()["incomplete"] == "stopped by an error");
+  }
+  void warns(const std::string& mistake, const Arguments& parts) const { ends(0, mistake, parts); }
+
+  void refuses(const Arguments& words, const Arguments& parts) const {
+    const kit::Outcome outcome = run(words);
+    BOOST_TEST(outcome.exit_code == 2, outcome.err);
+    BOOST_TEST(outcome.out == "");
+    for (const std::string& part : parts)
+      BOOST_TEST((outcome.err.find(part) != std::string::npos),
+                 "'" << part << "' is not in: " << outcome.err);
+    BOOST_TEST(!std::filesystem::exists(*this / "out"));
+  }
+  std::string copy(const std::string& name, std::filesystem::perms more) const {
+    const std::string file = *this / name;
+    std::filesystem::copy_file(MARKERVP_APPLICATIONS "gpio", file);
+    std::filesystem::permissions(file, more, std::filesystem::perm_options::add);
+    return file;
+  }
+};
+
+const std::string in_main = ", called from main (";
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(linux_mistakes, Mistakes)
+
+BOOST_AUTO_TEST_CASE(accesses_that_no_device_takes) {
+  stops("unmapped", {"data abort: write to 0x50000000 (m_axi_gp0): DECERR, nothing answers there",
+                     " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:30)", in_main});
+  stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:38)"});
+  stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:43)"});
+  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:49)"});
+  stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:54)"});
+  stops("copying", {"from register to register in one instruction, at 0x41200000"});
+}
+
+BOOST_AUTO_TEST_CASE(mappings) {
+  stops("private_map", {"mmap() of the registers at 0x41200000 with MAP_PRIVATE", "use MAP_SHARED",
+                        "called from private_map (", in_main});
+  stops("read_only", {"writes to the registers at 0x41200000", "without PROT_WRITE"});
+  stops("leaks", {"more than 64 device files and attributes open", " leaks+0x"});
+  stops("stream", {"opens /dev/uio0 with fopen()", "use open()", " stream+0x"});
+}
+
+BOOST_AUTO_TEST_CASE(what_bare_metal_programs_are_told_too) {
+  warns("no_register",
+        {"pl.axi_gpio_0.s_axi: write to 0x00000190, where the device has no register",
+         " no_register+0x", "mistakes.c:34)", in_main});
+  warns("unflushed", {"a DMA reads 0x10", "which the program never flushed",
+                      "write 1 to sync_for_device before the transfer", " unflushed+0x"});
+  warns("beyond", {"MM2S transfer of 128 bytes at 0x80000000 leaves the memory", " beyond+0x"});
+}
+
+BOOST_AUTO_TEST_CASE(it_dies) {
+  stops("null_pointer",
+        {"ended by SIGSEGV", "access to 0x00000008, a null pointer", " null_pointer+0x", in_main});
+  stops("aborts", {"ended by SIGABRT", " aborts+0x"});
+}
+
+BOOST_AUTO_TEST_CASE(it_never_ends) {
+  const Arguments soon{"--set", "ps.cpu.timeout=1 ms"};
+  stops("endless",
+        {"no end within 1 ms", "the last register that it read was axi_gpio_0.GPIO_DATA",
+         " endless+0x"},
+        soon);
+  stops("sleeping", {"none came within 1 ms", " sleeping+0x"}, soon);
+  stops("waiting", {"it waits for an interrupt, and none came within 1 ms", " waiting+0x"}, soon);
+  stops("masked",
+        {"an interrupt of /dev/uio0, which is masked", "write 1 (a uint32_t) to /dev/uio0",
+         " masked+0x"},
+        soon);
+  stops("computing", {"takes the host's time and lets no simulated time pass"},
+        {"--set", "ps.cpu.host_timeout=300 ms"});
+}
+
+BOOST_AUTO_TEST_CASE(more_than_one) {
+  stops("threads", {"a second thread of the application uses its devices", " touch+0x"});
+  stops("forks", {"a copy of the application, made by fork(), uses its devices", " forks+0x"});
+  stops("becomes", {"became another program, by exec()"});
+  ends(1, "starts",
+       {"'sh', which the application started, uses /dev/uio0", "ended with exit code 7"});
+}
+
+BOOST_AUTO_TEST_CASE(ctrl_c_leaves_no_process_behind) {
+  for (const std::string mistake : {"two_processes", "computing"}) {
+    Arguments all = arguments(mistake);
+    all.insert(all.begin(), "run");
+    kit::ChildProcess run(MARKERVP_EXECUTABLE, all, path());
+    const std::string first_line = mistake == "computing" ? "udmabuf0" : "two\n";
+    while (!run.ended() && run.out().find(first_line) == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    run.send(SIGINT);
+    const kit::Outcome outcome = run.wait();
+    BOOST_TEST(outcome.exit_code == 130, outcome.err);
+    BOOST_TEST(result()["incomplete"] == "interrupted");
+  }
+  const std::string mine = MARKERVP_APPLICATIONS "mistakes";
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    std::error_code none;
+    BOOST_TEST(std::filesystem::read_symlink(process.path() / "exe", none) != mine);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_application) {
+  refuses({"--linux", "nowhere"}, {"--linux: 'nowhere' cannot be opened: No such file"});
+  refuses({"--linux", "."}, {"is no file: name an executable"});
+  kit::write_file(*this / "script", "#!/bin/sh\n");
+  refuses({"--linux", "script"}, {"may not be executed: chmod +x"});
+  using std::filesystem::perms;
+  std::filesystem::permissions(*this / "script", perms::owner_all);
+  refuses({"--linux", "script"}, {"is no executable of Linux (ELF)", "interpreter"});
+  refuses({"--linux", copy("root", perms::set_uid)}, {"is setuid or setgid"});
+  std::string bytes = kit::read_file(copy("arm", perms::owner_all));
+  bytes[18] = 40;  // e_machine
+  kit::write_file(*this / "arm", bytes);
+  refuses({"--linux", *this / "arm"}, {"is for another machine, ARM", "not a cross compiler"});
+}
+
+BOOST_AUTO_TEST_CASE(a_static_one) {
+  const std::string source = *this / "static.c", file = *this / "static";
+  kit::write_file(source, "int main(void) { return 0; }\n");
+  const kit::Outcome built =
+      kit::run_process(MARKERVP_C_COMPILER, {"-static", "-o", file, source}, path());
+  BOOST_TEST_REQUIRE(built.exit_code == 0, built.err);
+  refuses({"--linux", file}, {"is linked statically", "without -static"});
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_go_together) {
+  const std::string gpio = MARKERVP_APPLICATIONS "gpio";
+  refuses({"--linux", gpio, "--program", "blink"}, {"--linux with --program"});
+  refuses({"--linux", gpio, "--rate", "60"}, {"--linux with --rate"});
+  refuses({"--linux", gpio, "--fit", "crop"}, {"--linux with --fit"});
+  refuses({"--linux", gpio, "--set", "linux.udmabuf_size=512 MiB"},
+          {"do not fit into the DMA memory"});
+  refuses({"--program", "blink", "--set", "linux.udmabufs=2"}, {"linux.udmabufs"});
+}
+
+BOOST_AUTO_TEST_CASE(no_debugger) {
+  BOOST_TEST(run(arguments("no_register")).exit_code == 0);
+  const kit::Outcome outcome = kit::run_process(MARKERVP_EXECUTABLE, {"debug", "out"}, path());
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST((outcome.err.find("a process of its own") != std::string::npos), outcome.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
