@@ -28,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using linux_app::What;
 
+/// Of a program.
+constexpr std::size_t longest_name = 128;
 constexpr const char* shim_name = "libmarkervp_linux.so";
 /// How long next() waits, of the host's time.
 constexpr int longest_wait_us = 100'000, end_wait_us = 1'000;
@@ -126,7 +128,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 LinuxApplication::LinuxApplication(const LinuxOptions& options)
     : options_(options),
-      name_(fs::path(options.file).filename().string()),
+      name_(fs::path(options.file).filename().string().substr(0, longest_name)),
       path_(absolute(options.file)),
       shim_(find_shim()) {
   const std::string problem = problem_of(path_);
@@ -222,7 +224,7 @@ std::optional<LinuxApplication::Asked> LinuxApplication::next() {
     death_ = {static_cast<int>(asked->request.a), asked->request.b, asked->text};
     asked.reset();
   }
-  if (silent_) look_for_end();
+  if (!asked) look_for_end();
   return asked;
 }
 

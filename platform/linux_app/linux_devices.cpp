@@ -7,6 +7,11 @@
 #include <fstream>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -67,14 +72,50 @@ LinuxDevices::LinuxDevices(sc_core::sc_module_name name, Zynq& zynq)
                        " B: choose smaller ones, or a lower ps.ddr.dma_base");
 }
 
-LinuxFolder::LinuxFolder() : path_(fs::temp_directory_path() / "markervp-linux-XXXXXX") {
-  if (!::mkdtemp(path_.data()))
-    throw std::system_error(errno, std::generic_category(), "no folder for /dev and /sys");
+namespace {
+
+constexpr const char* folder_name = "markervp-linux-";
+
+/// Of a folder, which is locked; -1: somebody else has it, or there is none.
+int lock_folder(const std::string& path, int how) {
+  const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat status {};
+  const bool locked = folder >= 0 && ::flock(folder, LOCK_EX | how) == 0 &&
+                      ::fstat(folder, &status) == 0 && status.st_nlink != 0;
+  if (locked || folder < 0) return folder;
+  ::close(folder);
+  return -1;
+}
+
+/// Folders of processes that were killed.
+void remove_left_over() {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored)) {
+    if (entry.path().filename().string().rfind(folder_name, 0) != 0) continue;
+    const int folder = lock_folder(entry.path(), LOCK_NB);
+    if (folder < 0) continue;
+    fs::remove_all(entry.path(), ignored);
+    ::close(folder);
+  }
+}
+
+}  // namespace
+
+// One that is not locked yet may be removed by somebody else: then there is another.
+LinuxFolder::LinuxFolder() {
+  remove_left_over();
+  while (lock_ < 0) {
+    path_ = fs::temp_directory_path() / (std::string(folder_name) + "XXXXXX");
+    if (!::mkdtemp(path_.data()))
+      throw std::system_error(errno, std::generic_category(), "no folder for /dev and /sys");
+    lock_ = lock_folder(path_, 0);
+  }
 }
 
 LinuxFolder::~LinuxFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  ::close(lock_);
 }
 
 void LinuxFolder::write(const std::string& file, const std::string& text) const {

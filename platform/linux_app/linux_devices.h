@@ -39,7 +39,8 @@ class LinuxDevices final : public sc_core::sc_module {
   std::vector<Uio> uios_;
 };
 
-/// A folder with /dev and /sys/class as an application sees them, for as long as it lives.
+/// A folder with /dev and /sys/class as an application sees them, for as long as it lives. Where a
+/// process is killed, its folder is removed with the next one that is made.
 class LinuxFolder {
  public:
   /// Throws std::system_error if the host has no room for it.
@@ -55,6 +56,7 @@ class LinuxFolder {
 
  private:
   std::string path_;
+  int lock_ = -1;  ///< the folder, locked
 };
 
 }  // namespace platform

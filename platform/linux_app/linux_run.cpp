@@ -84,6 +84,8 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
   caches_ = &caches;
   caches.name_calls("write 1 to sync_for_device", "write 1 to sync_for_cpu");
   devices_.emplace("linux", zynq);
+  folder_.emplace();
+  folder_->write("/dev/mem", "");
   zynq.ps.cpu.locate_program([this] { return place(); });
 }
 
@@ -114,8 +116,6 @@ void LinuxRun::boot() {
   const auto print = [](const std::string& line) {
     hal_console_write((line + "\n").c_str(), line.size() + 1);
   };
-  folder_.emplace();
-  folder_->write("/dev/mem", "");
   const std::vector<LinuxDevices::Uio>& uios = devices_->uios();
   uios_.resize(uios.size());
   for (std::size_t i = 0; i < uios.size(); ++i) {

@@ -65,6 +65,17 @@ struct Mistakes : Workplace {
   }
 };
 
+/// How many run mistakes.c.
+unsigned processes() {
+  unsigned count = 0;
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    std::error_code none;
+    const auto file = std::filesystem::read_symlink(process.path() / "exe", none);
+    count += file == MARKERVP_APPLICATIONS "mistakes" ? 1 : 0;
+  }
+  return count;
+}
+
 const std::string in_main = ", called from main (";
 
 }  // namespace
@@ -128,6 +139,27 @@ BOOST_AUTO_TEST_CASE(more_than_one) {
        {"'sh', which the application started, uses /dev/uio0", "ended with exit code 7"});
 }
 
+/// What an application started ends with it.
+BOOST_AUTO_TEST_CASE(a_copy_does_not_outlive_it) {
+  ends(0, "leaves_a_copy", {});
+  BOOST_TEST(processes() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_killed_run_leaves_the_next_one_takes_away) {
+  Arguments all = arguments("computing");
+  all.insert(all.begin(), "run");
+  kit::ChildProcess run(MARKERVP_EXECUTABLE, all, path());
+  while (!run.ended() && processes() == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  run.send(SIGKILL);
+  run.wait();
+  for (int i = 0; i < 1000 && processes() != 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  BOOST_TEST(processes() == 0u);
+  BOOST_TEST(!std::filesystem::is_empty(*this / "tmp"));
+  ends(0, "no_register", {});
+}
+
 BOOST_AUTO_TEST_CASE(ctrl_c_leaves_no_process_behind) {
   for (const std::string mistake : {"two_processes", "computing"}) {
     Arguments all = arguments(mistake);
@@ -141,11 +173,7 @@ BOOST_AUTO_TEST_CASE(ctrl_c_leaves_no_process_behind) {
     BOOST_TEST(outcome.exit_code == 130, outcome.err);
     BOOST_TEST(result()["incomplete"] == "interrupted");
   }
-  const std::string mine = MARKERVP_APPLICATIONS "mistakes";
-  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
-    std::error_code none;
-    BOOST_TEST(std::filesystem::read_symlink(process.path() / "exe", none) != mine);
-  }
+  BOOST_TEST(processes() == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_application) {

@@ -110,6 +110,13 @@ BOOST_AUTO_TEST_CASE(time_is_simulated) {
     BOOST_TEST(contains(works(application, {"times"}).out, "1006"));
 }
 
+BOOST_AUTO_TEST_CASE(an_application_in_cpp) {
+  works("works_cpp", {});
+  const kit::Outcome outcome = start("works_cpp", {"wrong"});
+  BOOST_TEST(contains(outcome.err, "where the device has no register"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "works_cpp.cpp:"), outcome.err);
+}
+
 BOOST_AUTO_TEST_CASE(arguments_and_exit_code) {
   const kit::Outcome outcome = start("works", {"x", "-v", "two words", "5"});
   BOOST_TEST(outcome.exit_code == 1);
@@ -137,7 +144,7 @@ BOOST_AUTO_TEST_CASE(history_names_the_line) {
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
   BOOST_TEST(
       contains(outcome.out, "write  0x41200004  axi_gpio_0.GPIO_TRI  0x00000000  OK  pc 0x"));
-  BOOST_TEST(contains(outcome.out, "gpio.c:34)"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "gpio.c:35)"), outcome.out);
 }
 
 BOOST_AUTO_TEST_CASE(the_map_shows_where_interrupts_are) {

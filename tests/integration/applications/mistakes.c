@@ -173,6 +173,13 @@ static void two_processes(void) {
   while (1) registers[DATA] = 1;
 }
 
+static void leaves_a_copy(void) {
+  gpio()[TRI] = 0;
+  if (fork() == 0) {
+    while (1) pause();
+  }
+}
+
 static void leaks(void) {
   while (open("/dev/uio0", O_RDWR) >= 0) continue;
 }
@@ -181,16 +188,32 @@ int main(int count, char** words) {
   const struct {
     const char* name;
     void (*make)(void);
-  } mistakes[] = {
-      {"unmapped", unmapped},   {"no_register", no_register}, {"unaligned", unaligned},
-      {"wide", wide},           {"vector", vector},           {"atomic", atomic},
-      {"copying", copying},     {"private_map", private_map}, {"null_pointer", null_pointer},
-      {"read_only", read_only}, {"aborts", aborts},           {"endless", endless},
-      {"computing", computing}, {"sleeping", sleeping},       {"waiting", waiting},
-      {"masked", masked},       {"threads", threads},         {"forks", forks},
-      {"starts", starts},       {"becomes", becomes},         {"stream", stream},
-      {"unflushed", unflushed}, {"beyond", beyond},           {"two_processes", two_processes},
-      {"leaks", leaks}};
+  } mistakes[] = {{"unmapped", unmapped},
+                  {"no_register", no_register},
+                  {"unaligned", unaligned},
+                  {"wide", wide},
+                  {"vector", vector},
+                  {"atomic", atomic},
+                  {"copying", copying},
+                  {"private_map", private_map},
+                  {"null_pointer", null_pointer},
+                  {"read_only", read_only},
+                  {"aborts", aborts},
+                  {"endless", endless},
+                  {"computing", computing},
+                  {"sleeping", sleeping},
+                  {"waiting", waiting},
+                  {"masked", masked},
+                  {"threads", threads},
+                  {"forks", forks},
+                  {"starts", starts},
+                  {"becomes", becomes},
+                  {"stream", stream},
+                  {"unflushed", unflushed},
+                  {"beyond", beyond},
+                  {"two_processes", two_processes},
+                  {"leaks", leaks},
+                  {"leaves_a_copy", leaves_a_copy}};
   for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
     if (count == 2 && strcmp(words[1], mistakes[i].name) == 0) {
       mistakes[i].make();
