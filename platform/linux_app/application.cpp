@@ -40,8 +40,12 @@ std::string find_shim() {
   const std::vector<std::string> folders = host::library_folders();
   std::error_code ignored;
   for (const std::string& folder : folders) {
-    const fs::path file = fs::path(folder) / shim_name;
-    if (fs::exists(file, ignored)) return file.string();
+    const std::string file = (fs::path(folder) / shim_name).string();
+    if (!fs::exists(file, ignored)) continue;
+    if (file.find_first_of(": ") == std::string::npos) return file;
+    throw vp::InputError("--linux: '" + file +
+                         "' has a space or a colon in its path, and LD_PRELOAD takes neither "
+                         "(ld.so(8)): install markervp elsewhere");
   }
   throw vp::InputError("--linux: no " + std::string(shim_name) + " in " + folders.front() +
                        ": install markervp whole");
@@ -248,6 +252,17 @@ std::string LinuxApplication::place() {
     if (!asked && errno != EINTR && errno != EAGAIN) return {};
     if (asked && asked->request.what == What::place) return asked->text;
     if (asked && asked->request.what == What::failure) failure_ = std::move(asked);
+  }
+  return {};
+}
+
+// It answers at once, unless it has a handler of its own for that signal.
+std::string LinuxApplication::end_for_time() {
+  constexpr int most_waits = 50;  // it reads debug information
+  ::kill(process_, linux_app::out_of_time);
+  for (int i = 0; i < most_waits && !silent_; ++i) {
+    const std::optional<Asked> asked = receive();
+    if (asked && asked->request.what == What::died) return asked->text;
   }
   return {};
 }

@@ -51,6 +51,9 @@ class LinuxApplication {
   /// Asks where it is, while it waits for an answer; "" if it does not say.
   std::string place();
 
+  /// Ends it where it is, and says where; "" if it does not.
+  std::string end_for_time();
+
   /// What it said before it died of a signal.
   struct Death {
     int signal;

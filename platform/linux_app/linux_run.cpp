@@ -93,7 +93,14 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
 int LinuxRun::serve_to_end() {
   boot();
   while (true) {
-    if (ps::ProgramWatch::stop != ps::ProgramWatch::Stop::none) ps::FaultTrap::leave_at_stop();
+    using Stop = ps::ProgramWatch::Stop;
+    if (ps::ProgramWatch::stop == Stop::host_time) {
+      // In a call of the HAL, so that the watch does not leave it.
+      ps::Cpu::running("a Linux application").guarded([&] {
+        place_ = application_.end_for_time();
+      });
+    }
+    if (ps::ProgramWatch::stop != Stop::none) ps::FaultTrap::leave_at_stop();
     const std::optional<Asked> asked = application_.next();
     if (asked) {
       serve(*asked);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 
 /// What an application's process and the platform say to each other: the shim asks, over a socket
@@ -11,6 +12,9 @@ constexpr int socket_descriptor = 198;
 constexpr int memory_descriptor = 199;  ///< the DDR, from its first byte on
 /// The environment variable that names the folder with /dev and /sys as the application sees them.
 constexpr const char* folder_variable = "MARKERVP_LINUX";
+
+/// Sent to an application that takes too long: it tells where it is, as of any signal that ends it.
+constexpr int out_of_time = SIGXCPU;
 
 constexpr unsigned most_uio = 16;  ///< as many as there are lines IRQ_F2P
 constexpr std::uint64_t forever = ~std::uint64_t{0};

@@ -110,6 +110,13 @@ BOOST_AUTO_TEST_CASE(time_is_simulated) {
     BOOST_TEST(contains(works(application, {"times"}).out, "1006"));
 }
 
+BOOST_AUTO_TEST_CASE(its_own_handlers_and_masks) {
+  for (const std::string application : {"works_0", "works", "works_2"}) {
+    const kit::Outcome outcome = start(application, {"signals"});
+    BOOST_TEST(contains(outcome.err, "ended with exit code 5"), outcome.out << outcome.err);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(an_application_in_cpp) {
   works("works_cpp", {});
   const kit::Outcome outcome = start("works_cpp", {"wrong"});

@@ -20,9 +20,10 @@ namespace shim {
 
 namespace {
 
-bool is_one = false;         ///< this process is the application
-bool is_copy = false;        ///< by fork()
-thread_local char own;       ///< each thread has another
+bool is_one = false;   ///< this process is the application
+bool is_copy = false;  ///< by fork()
+thread_local char own __attribute__((tls_model("initial-exec")));  ///< each thread has another
+const char* tree = nullptr;  ///< folder(), whatever becomes of the environment
 const char* user = nullptr;  ///< `own` of the thread that uses devices
 bool has_user = false;       ///< otherwise it is the first one, for its time
 
@@ -68,6 +69,10 @@ NoSignals::NoSignals() {
 
 NoSignals::~NoSignals() {
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+const char* folder() {
+  return is_one ? tree : ::getenv(linux_app::folder_variable);
 }
 
 bool is_application() {
@@ -157,6 +162,7 @@ __attribute__((constructor)) void begin() {
   ::fcntl(linux_app::memory_descriptor, F_SETFD, FD_CLOEXEC);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   is_one = true;
+  tree = ::strdup(::getenv(linux_app::folder_variable));
   user = &own;
   ::pthread_atfork(nullptr, nullptr, [] { is_copy = true; });
   // A line is read when it is written, though nobody looks from a terminal.

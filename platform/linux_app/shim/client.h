@@ -26,6 +26,8 @@ using linux_app::What;
     return real;                                                                              \
   }())
 
+/// With /dev and /sys; null: this process has nothing to do with the platform.
+const char* folder();
 /// This process is the application, or a copy of it by fork(). False in what it started by exec().
 bool is_application();
 /// The time of whoever calls is the platform's: of the one thread that uses devices.

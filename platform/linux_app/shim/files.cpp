@@ -115,8 +115,8 @@ class Path {
  public:
   explicit Path(const char* path) : path_(path) {
     if (!path || path[0] != '/') return;
-    const char* const folder = ::getenv(linux_app::folder_variable);
-    if (!folder) return;
+    const char* const tree = folder();
+    if (!tree) return;
     is_device_ = names_device(path);
     const bool is_class = begins(path, "/sys/class/uio") || begins(path, "/sys/class/u-dma-buf") ||
                           begins(path, "/sys/class/udmabuf");
@@ -129,7 +129,7 @@ class Path {
                   program_invocation_short_name, path);
       return;
     }
-    if (::snprintf(led_, sizeof led_, "%s%s", folder, path) < static_cast<int>(sizeof led_))
+    if (::snprintf(led_, sizeof led_, "%s%s", tree, path) < static_cast<int>(sizeof led_))
       path_ = led_;
   }
   operator const char*() const { return path_; }

@@ -2,6 +2,7 @@
 #include "registers.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <ucontext.h>
@@ -212,6 +213,7 @@ void catch_faults() {
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   ::sigfillset(&action.sa_mask);
   for (const int signal : faults) REAL(sigaction)(signal, &action, nullptr);
+  REAL(sigaction)(linux_app::out_of_time, &action, nullptr);
 }
 
 void* map_registers(void* address, std::size_t length, int protection, int flags,
@@ -257,6 +259,38 @@ void unmap_registers(void* address, std::size_t length) {
   }
 }
 
+bool protect_registers(void* address, std::size_t length, int protection) {
+  const auto first = reinterpret_cast<std::uintptr_t>(address);
+  bool any = false;
+  for (std::size_t i = 0; i < mapping_count; ++i) {
+    if (mappings[i].end <= first || mappings[i].first >= first + length) continue;
+    mappings[i].protection = protection;
+    any = true;
+  }
+  return any;
+}
+
+namespace {
+
+/// A set of signals to be blocked: without those by which accesses come.
+class Blocked {
+ public:
+  explicit Blocked(const sigset_t* asked) : set_(asked) {
+    if (!asked || !is_application()) return;
+    without_ = *asked;
+    ::sigdelset(&without_, SIGSEGV);
+    ::sigdelset(&without_, SIGTRAP);
+    set_ = &without_;
+  }
+  operator const sigset_t*() const { return set_; }
+
+ private:
+  const sigset_t* set_;
+  sigset_t without_;
+};
+
+}  // namespace
+
 }  // namespace shim
 
 #pragma GCC visibility push(default)
@@ -264,7 +298,12 @@ extern "C" {
 
 int sigaction(int signal, const struct sigaction* action, struct sigaction* before) noexcept {
   struct sigaction* const own = shim::is_application() ? shim::wanted_of(signal) : nullptr;
-  if (!own) return REAL(sigaction)(signal, action, before);
+  if (!own) {
+    if (!action) return REAL(sigaction)(signal, action, before);
+    struct sigaction taken = *action;
+    taken.sa_mask = *shim::Blocked(&action->sa_mask);
+    return REAL(sigaction)(signal, &taken, before);
+  }
   if (before) *before = *own;
   if (action) *own = *action;
   return 0;
@@ -277,6 +316,19 @@ sighandler_t signal(int number, sighandler_t handler) noexcept {
   *own = {};
   own->sa_handler = handler;
   return before;
+}
+
+int sigprocmask(int how, const sigset_t* set, sigset_t* before) noexcept {
+  return REAL(sigprocmask)(how, how == SIG_UNBLOCK ? set : shim::Blocked(set), before);
+}
+
+int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) noexcept {
+  return REAL(pthread_sigmask)(how, how == SIG_UNBLOCK ? set : shim::Blocked(set), before);
+}
+
+int mprotect(void* address, size_t length, int protection) noexcept {
+  if (shim::protect_registers(address, length, protection)) return 0;
+  return REAL(mprotect)(address, length, protection);
 }
 
 }  // extern "C"

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -384,6 +385,44 @@ static int times(void) {
   return 0;
 }
 
+static volatile uint32_t* in_handler;
+
+static void on_user(int number) {
+  (void)number;
+  in_handler[0] = in_handler[0] + 1;
+}
+
+static void on_fault(int number) {
+  (void)number;
+  _exit(5);
+}
+
+/* Handlers and masks of its own; an environment that is gone. */
+static int signals(void) {
+  volatile uint32_t* registers = map(open_file("/dev/mem", O_RDWR), 4096, OCM);
+  in_handler = registers;
+  struct sigaction action = {.sa_handler = on_user}, before;
+  sigfillset(&action.sa_mask);
+  EXPECT(sigaction(SIGUSR1, &action, NULL) == 0);
+  EXPECT(signal(SIGSEGV, on_fault) == SIG_DFL);
+  EXPECT(sigaction(SIGSEGV, NULL, &before) == 0 && before.sa_handler == on_fault);
+  registers[0] = 1;
+  EXPECT(raise(SIGUSR1) == 0 && registers[0] == 2);
+  sigset_t all;
+  sigfillset(&all);
+  EXPECT(sigprocmask(SIG_SETMASK, &all, NULL) == 0);
+  registers[0] |= 8;
+  EXPECT(registers[0] == 10);
+  EXPECT(mprotect((void*)registers, 4096, PROT_READ | PROT_WRITE) == 0);
+  registers[0] = 3;
+  EXPECT(registers[0] == 3);
+  clearenv();
+  EXPECT(access("/dev/uio0", F_OK) == 0);
+  volatile uintptr_t nowhere = 8;
+  *(volatile int*)nowhere = 1;
+  return 1;
+}
+
 static int environment(int count, char** words) {
   EXPECT(count == 5 && strcmp(words[2], "-v") == 0 && strcmp(words[3], "two words") == 0);
   printf("no line end, exit code %s", words[4]);
@@ -400,5 +439,6 @@ int main(int count, char** words) {
   if (strcmp(what, "waiting") == 0) return waiting();
   if (strcmp(what, "memory") == 0) return memory();
   if (strcmp(what, "times") == 0) return times();
+  if (strcmp(what, "signals") == 0) return signals();
   return environment(count, words);
 }
