@@ -466,6 +466,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
       value = saw;
     }
   } last_look_;
+  bool loop_jumps_ = false;  ///< time passes because of a loop without a call of the HAL
 
   FaultTrap trap_;
   std::optional<CodeLocator> code_;          ///< of a plug-in

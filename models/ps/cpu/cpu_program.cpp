@@ -162,7 +162,9 @@ void Cpu::notice_loop(unsigned before) {
   const std::uint64_t taken = interrupts;
   catch_up();
   if (interrupts == taken && settings_.block_cycles == 0) {
+    loop_jumps_ = true;
     pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
+    loop_jumps_ = false;
     catch_up();
   }
 }

@@ -318,6 +318,9 @@ void Cpu::meet_deadline(const char* what, const std::string& hint) {
 
 // What a program that does not end was likely waiting for.
 std::string Cpu::last_look() const {
+  if (loop_jumps_) {
+    return "; it loops without a call of the HAL, as one does that waits for a variable";
+  }
   if (last_look_.by == Look::By::nobody) return {};
   std::string text =
       describe_register_ ? describe_register_(last_look_.address, last_look_.value) : std::string();
