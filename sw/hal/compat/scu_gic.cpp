@@ -104,9 +104,12 @@ void XScuGic_SetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8 Priorit
   const unsigned byte = Int_Id % 4 * 8;
   replace_bits(distributor(InstancePtr, gic::ICDIPR(Int_Id / 4)), 0xFFu << byte,
                (Priority & gic::priority_mask) << byte);
+  // Of a CPU's own interrupts the sense is fixed: it is not written where it is right already.
+  const std::uint32_t senses = distributor(InstancePtr, gic::ICDICFR(Int_Id / 16));
   const unsigned pair = Int_Id % 16 * 2;
-  replace_bits(distributor(InstancePtr, gic::ICDICFR(Int_Id / 16)), 3u << pair,
-               (Trigger & 3u) << pair);
+  const bool fixed = Int_Id < gic::first_spi;
+  if (fixed && (hal_read32(senses) >> pair & 3u) == (Trigger & 3u)) return;
+  replace_bits(senses, 3u << pair, (Trigger & 3u) << pair);
 }
 
 void XScuGic_GetPriorityTriggerType(XScuGic* InstancePtr, u32 Int_Id, u8* Priority, u8* Trigger) {

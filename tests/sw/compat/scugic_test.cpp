@@ -83,6 +83,16 @@ BOOST_AUTO_TEST_CASE(priority_and_trigger_of_one_interrupt) {
   BOOST_CHECK_EQUAL(state().registers[distributor + gic::ICDICFR(3)], 0x5D55'5555u);
 }
 
+// Nothing is written to a read-only register that holds it already; what it does not hold is told.
+BOOST_AUTO_TEST_CASE(the_sense_of_a_cpus_own_interrupt) {
+  constexpr std::uint32_t senses = distributor + gic::ICDICFR(1);
+  state().registers[senses] = 0x7DC0'0000;
+  XScuGic_SetPriorityTriggerType(&controller, 29, 0xA0, 3);
+  BOOST_CHECK(writes_to(senses).empty());
+  XScuGic_SetPriorityTriggerType(&controller, 29, 0xA0, 1);
+  BOOST_CHECK(writes_to(senses) == Words{0x75C0'0000});
+}
+
 BOOST_AUTO_TEST_CASE(targets) {
   constexpr std::uint32_t of_61 = distributor + gic::ICDIPTR(15);
   state().registers[of_61] = 0x0101'0101;
