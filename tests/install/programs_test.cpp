@@ -92,6 +92,38 @@ BOOST_AUTO_TEST_CASE(a_program_that_fails) {
   BOOST_TEST(result()["program_end"]["exit_code"] == 7);
 }
 
+// Counters of gcov are static data, which the platform restores: they are written before.
+BOOST_AUTO_TEST_CASE(coverage) {
+  BOOST_TEST_REQUIRE(run(file("covered")).exit_code == 0);
+  const std::string objects = installed.beside("programs/CMakeFiles/covered.dir");
+  const kit::Outcome gcov =
+      installed.run("/usr/bin/env", {"gcov", "-o", objects, "checked.cpp.gcda"});
+  BOOST_TEST_REQUIRE(gcov.exit_code == 0, gcov.err);
+  const std::string lines = kit::read_file(installed.beside("checked.cpp.gcov"));
+  BOOST_TEST(contains(lines, "       10:   12:  return table[index % 4];"), lines);
+  BOOST_TEST(contains(lines, "    #####:   10:    return -1;"), lines);
+}
+
+BOOST_AUTO_TEST_CASE(sanitizers) {
+  const auto checked = [&](const std::string& name) {
+    return installed.run("/bin/sh", {"-c",
+                                     "LD_PRELOAD=$(gcc -print-file-name=libasan.so) "
+                                     "ASAN_OPTIONS=detect_leaks=0 " +
+                                         (installed / "bin/markervp") +
+                                         " run --output out --program " + file(name)});
+  };
+  const kit::Outcome fine = checked("address_checked");
+  BOOST_TEST(fine.exit_code == 0, fine.err);
+  BOOST_TEST(fine.err == "");
+  const kit::Outcome beyond = checked("beyond");
+  BOOST_TEST(beyond.exit_code != 0);
+  BOOST_TEST(contains(beyond.err, "global-buffer-overflow"), beyond.err);
+  BOOST_TEST(contains(beyond.err, "checked.cpp:23"), beyond.err);
+  const kit::Outcome overflowing = run(file("overflowing"));
+  BOOST_TEST(overflowing.exit_code == 0);
+  BOOST_TEST(contains(overflowing.err, "checked.cpp:27:"), overflowing.err);
+}
+
 /// On the chip its static buffer would do; here only the HAL's memory has a bus address.
 BOOST_AUTO_TEST_CASE(a_dma_buffer_outside_of_the_ddr) {
   const kit::Outcome outcome = run(file("dma_outside"));

@@ -414,6 +414,7 @@ class SharedObject {
   // ran.
   // A fault in one leaves the loader in the middle of its work: nothing can go on.
   ~SharedObject() {
+    write_coverage();
     image_.restore();
     const std::string stopped = stopped_by([this] { dlclose(handle_); });
     if (stopped.empty()) return;
@@ -438,6 +439,13 @@ class SharedObject {
     if (handle) return handle;
     throw vp::InputError("cannot load program '" + path +
                          "': " + vp::load_problem(path, dlerror()));
+  }
+
+  /// The counters of gcov, where it was built with them, are static data, too, and written when the
+  /// object is unloaded: then they would be what they were at the start.
+  void write_coverage() const {
+    using Dump = void (*)();
+    if (const auto dump = reinterpret_cast<Dump>(dlsym(handle_, "__gcov_dump"))) dump();
   }
 
   static std::string at_end(const std::string& path, const char* what, const std::string& problem) {
