@@ -1,4 +1,5 @@
-/* The rest of the headers: checks, tests of registers, waiting, time, the low-level interrupt controller. */
+/* The rest of the headers: checks, tests of registers, waiting, time, the low-level interrupt
+ * controller. */
 #include "sleep.h"
 #include "xil_assert.h"
 #include "xil_cache.h"
@@ -51,7 +52,13 @@ int main(void) {
   if (Xil_ConvertCharToNibble('c', &nibble) != XST_SUCCESS || nibble != 12) return XST_FAILURE;
   Xil_MemCpy(&copy, &word, sizeof word);
   dsb();
+  DATA_SYNC;
+  INST_SYNC;
+  SYNCHRONIZE_IO;
   if (copy != word) return XST_FAILURE;
+  Xil_Out32BE((UINTPTR)&copy, 0x11223344);
+  if (copy != 0x44332211 || Xil_In32BE((UINTPTR)&copy) != 0x11223344) return XST_FAILURE;
+  if (Xil_Htons(0x1234) != 0x3412 || Xil_In16LE((UINTPTR)&copy) != 0x2211) return XST_FAILURE;
 
   XTime_GetTime(&begin);
   usleep(100);
@@ -60,6 +67,7 @@ int main(void) {
     return XST_FAILURE;
   }
 
+  if (XPAR_CPU_ID != 0U) return XST_FAILURE;
   XScuGic_DeviceInitialize(XPAR_SCUGIC_0_DEVICE_ID);
   XScuGic_RegisterHandler(XPAR_SCUGIC_0_CPU_BASEADDR, 3, Raised, &three);
   Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_IRQ_INT, XScuGic_DeviceInterruptHandler,

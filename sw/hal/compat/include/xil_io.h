@@ -18,6 +18,10 @@
 extern "C" {
 #endif
 
+#define SYNCHRONIZE_IO dmb()
+#define DATA_SYNC dsb()
+#define INST_SYNC isb()
+
 static inline bool markervp_is_register(UINTPTR address) {
   return address >= 0x40000000U && address <= 0xFFFFFFFFU;
 }
@@ -69,6 +73,27 @@ static inline void Xil_Out8(UINTPTR Addr, u8 Value) {
     *(volatile u8*)Addr = Value;
   }
 }
+
+static inline u16 Xil_EndianSwap16(u16 Data) {
+  return __builtin_bswap16(Data);
+}
+static inline u32 Xil_EndianSwap32(u32 Data) {
+  return __builtin_bswap32(Data);
+}
+
+/* The chip is little endian. */
+#define Xil_In16LE Xil_In16
+#define Xil_In32LE Xil_In32
+#define Xil_Out16LE Xil_Out16
+#define Xil_Out32LE Xil_Out32
+#define Xil_In16BE(Addr) Xil_EndianSwap16(Xil_In16(Addr))
+#define Xil_In32BE(Addr) Xil_EndianSwap32(Xil_In32(Addr))
+#define Xil_Out16BE(Addr, Value) Xil_Out16((Addr), Xil_EndianSwap16(Value))
+#define Xil_Out32BE(Addr, Value) Xil_Out32((Addr), Xil_EndianSwap32(Value))
+#define Xil_Htonl Xil_EndianSwap32
+#define Xil_Htons Xil_EndianSwap16
+#define Xil_Ntohl Xil_EndianSwap32
+#define Xil_Ntohs Xil_EndianSwap16
 
 static inline void Xil_Out64(UINTPTR Addr, u64 Value) {
   Xil_Out32(Addr, (u32)Value);

@@ -55,6 +55,11 @@
 #define XPAR_GLOBAL_TMR_DEVICE_ID 0U
 #define XPAR_SCUWDT_DEVICE_ID 0U
 
+/* The core the program runs on; the second core's program defines it as 1. */
+#ifndef XPAR_CPU_ID
+#define XPAR_CPU_ID 0U
+#endif
+
 /* As older releases have it */
 #define XPAR_XUARTPS_0_CLOCK_HZ XPAR_XUARTPS_0_UART_CLK_FREQ_HZ
 #define XPAR_XUARTPS_1_CLOCK_HZ XPAR_XUARTPS_1_UART_CLK_FREQ_HZ
