@@ -76,11 +76,11 @@ endfunction()
 
 # markervp_add_program_test(NAME test SCRIPT test_x.py PROGRAM target) runs the tests of a Python file with pytest, and the program
 # in them: the fixture `board` starts it (docs/software.md). JUnit: <test>.xml beside the build. Without SCRIPT the test is that
-# `markervp run` ends well; ARGUMENTS go to it.
+# `markervp run` ends well. ARGUMENTS go to it, with SCRIPT to each run that names no options.
 function(markervp_add_program_test)
   cmake_parse_arguments(TEST "" "NAME;SCRIPT;PROGRAM" "ARGUMENTS" ${ARGN})
-  if(NOT TEST_NAME OR NOT TEST_PROGRAM OR TEST_UNPARSED_ARGUMENTS OR (TEST_SCRIPT AND TEST_ARGUMENTS))
-    message(FATAL_ERROR "markervp_add_program_test(NAME test PROGRAM target [SCRIPT test_x.py | ARGUMENTS …]): got '${ARGN}'")
+  if(NOT TEST_NAME OR NOT TEST_PROGRAM OR TEST_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "markervp_add_program_test(NAME test PROGRAM target [SCRIPT test_x.py] [ARGUMENTS …]): got '${ARGN}'")
   endif()
   if(PROJECT_NAME STREQUAL "markervp")
     set(markervp $<TARGET_FILE:markervp>)
@@ -96,8 +96,9 @@ function(markervp_add_program_test)
   endif()
   find_program(MARKERVP_PYTEST NAMES pytest-3 pytest REQUIRED DOC "pytest, Debian's python3-pytest")
   cmake_path(ABSOLUTE_PATH TEST_SCRIPT)
+  list(TRANSFORM TEST_ARGUMENTS PREPEND --markervp=)
   add_test(NAME ${TEST_NAME} COMMAND "${MARKERVP_PYTEST}" -q -p markervp_pytest -p no:cacheprovider
-    --junitxml=${TEST_NAME}.xml "${TEST_SCRIPT}")
+    --junitxml=${TEST_NAME}.xml ${TEST_ARGUMENTS} "${TEST_SCRIPT}")
   set_tests_properties(${TEST_NAME} PROPERTIES ENVIRONMENT
     "MARKERVP=${markervp};MARKERVP_PROGRAM=$<TARGET_FILE:${TEST_PROGRAM}>;PYTHONPATH=${modules};PYTHONDONTWRITEBYTECODE=1")
 endfunction()

@@ -1,17 +1,8 @@
-"""Words that a test gives to a stream of the design, and takes from one."""
-import os
-import pathlib
+"""Words that a test gives to a stream of the design, and takes from one; levels of pins."""
 import re
 
 import markervp
 import pytest
-
-DESIGN = pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("ends.so")
-
-
-@pytest.fixture
-def board(start):
-    return start(options=["--design", str(DESIGN), "--no-report"])
 
 
 def echoed(board, words):
@@ -60,12 +51,19 @@ def test_a_picture_goes_at_once(board, monkeypatch):
 
 def test_the_same_words_come_back_on_the_same_edges(start):
     def lead():
-        board = start(options=["--design", str(DESIGN), "--no-report"])
+        board = start()
         beats = echoed(board, [1, 2, 3])
         board.send("pl.source", [0])
         return beats, {key: value for key, value in board.finish().result.items() if key != "provenance"}
 
     assert lead() == lead()
+
+
+def test_the_pins_of_a_gpio_are_driven(board):
+    for level in 5, 2, 0xFFFF_FFFF:
+        board.drive("pl.pins", level)
+        board.run("1 us")
+        assert board.read("axi_gpio_0.GPIO_DATA") == level
 
 
 @pytest.mark.parametrize("mistake, message", [
@@ -84,4 +82,4 @@ def test_a_mistake_is_told_and_no_word_goes(board, mistake, message):
 
 def test_a_design_without_such_ends_is_told(start):
     with pytest.raises(markervp.Error, match="no stream source 'pl.source': this design has none"):
-        start("blink").send("pl.source", [1])
+        start("blink", options=["--no-report"]).send("pl.source", [1])

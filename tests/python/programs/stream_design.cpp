@@ -1,7 +1,8 @@
 // A DMA engine between two ends of streams that a test holds: it gives words to `source` and looks
-// at what came to `sink`.
+// at what came to `sink`. The pins of a GPIO it holds, too.
 #include <vp/axi_stream.h>
 #include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 #include <zynq/design_plugin.h>
 
@@ -14,11 +15,14 @@ class Ends : public sc_core::sc_module, public platform::Design {
         registers_("axi_interconnect", ports.fclk_clk(0)),
         memory_("axi_mem_interconnect", ports.fclk_clk(0)),
         dma_("axi_dma_0", ports.fclk_clk(0)),
+        gpio_("axi_gpio_0", ports.fclk_clk(0), {}),
         source_("source", ports.fclk_clk(0)),
         sink_("sink", ports.fclk_clk(0)) {
     ports.m_axi_gp0(registers_);
     ports.s_axi_hp0(memory_);
     registers_.connect(dma_.s_axi_lite, 0x4040'0000);
+    registers_.connect(gpio_.s_axi, 0x4120'0000);
+    gpio_.gpio.io_i(pins_);
     memory_.connect(dma_);
     dma_.axi_resetn(ports.fclk_reset0_n());
     source_.m_axis(in_);
@@ -35,9 +39,11 @@ class Ends : public sc_core::sc_module, public platform::Design {
  private:
   xilinx::AxiInterconnect registers_, memory_;
   xilinx::AxiDma dma_;
+  xilinx::AxiGpio gpio_;
   vp::StreamSource source_;
   vp::StreamSink sink_;
   vp::AxiStream in_{"in"}, out_{"out"};
+  vp::Signal<std::uint32_t> pins_{"pins"};
 };
 
 const platform::DesignInfo& info() {
