@@ -146,11 +146,26 @@ void LazyBridge::run_through(std::uint64_t edge) {
   pass();
 }
 
+// The last edge of the pixel clock on which a word crosses that passes by `cycle`, two edges behind
+// its arrival.
+std::uint64_t LazyBridge::last_crossing(std::uint64_t cycle) const {
+  if (ratio_ != 0) return (cycle - 3) / ratio_;
+  return pixel_clock_.cycle_at_or_after(system_clock_.time_of(cycle - 2)) - 1;
+}
+
+// From one word to the next, 32 pixels, are four edges of the system clock or more: they arrive at
+// least three apart, whatever the clocks' phase.
+bool LazyBridge::words_are_far_apart() const {
+  return pixel_clock_.frequency_hz() <= 8 * system_clock_.frequency_hz();
+}
+
 // The same for as many words of a packet as there are, where their arrivals are far enough apart.
 bool LazyBridge::run_many_through(std::uint64_t cycle) {
-  if (ratio_ == 0 || fifo_.count() != 0 || in_reset_ || pending() || !late_.empty()) return false;
-  const std::uint64_t last_crossing = (cycle - 3) / ratio_;
-  const std::uint64_t arrived = (last_crossing - crossing_of(next_)) / 32 + 1;
+  if (fifo_.count() != 0 || in_reset_ || pending() || !late_.empty()) return false;
+  const bool crosses_since_change =
+      crossing_of(next_) > changed_pixel_ && cycle - 2 > changed_system_;
+  if (!crosses_since_change || !words_are_far_apart()) return false;
+  const std::uint64_t arrived = (last_crossing(cycle) - crossing_of(next_)) / 32 + 1;
   const auto count = static_cast<std::uint32_t>(
       std::min<std::uint64_t>({arrived, binary_.size() - next_, burst_words_ - in_packet_}));
   const std::uint32_t* words = binary_.data() + next_;

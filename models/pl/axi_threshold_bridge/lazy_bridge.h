@@ -73,6 +73,8 @@ class LazyBridge {
   void plan();
   void step(std::uint64_t edge);
   void run_through(std::uint64_t edge);
+  std::uint64_t last_crossing(std::uint64_t cycle) const;
+  bool words_are_far_apart() const;
   bool run_many_through(std::uint64_t cycle);
   void end_packet();
   void offer();
