@@ -9,6 +9,7 @@
 #include <designs/designs.h>
 #include <host/process.h>
 #include <input/frame_source.h>
+#include <pl/common/known_frames.h>
 #include <ps/cpu/program.h>
 #include <run/simulation.h>
 #include <sweep/axes.h>
@@ -24,6 +25,8 @@ using Json = nlohmann::ordered_json;
 
 /// Memory for scenes that were rendered before: 200 at 640×480.
 constexpr std::size_t most_scene_bytes = std::size_t{64} << 20;
+/// The same for pictures whose words are known.
+constexpr std::size_t most_known_bytes = std::size_t{32} << 20;
 
 std::optional<std::string> if_named(const std::string& text) {
   if (text.empty()) return std::nullopt;
@@ -131,6 +134,7 @@ bool runs_own_code(const std::string& program,
 
 int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err) {
   vp::begin_fresh_context();
+  pl::known_frame_bytes = most_known_bytes;
   if (!runs_own_code(point.program, point.settings)) ps::Program::keep_loaded();
   MemoryRun found;
   const auto hand_over = [&] {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pl/common/estimate.h>
+#include <pl/common/known_frames.h>
 #include <pl/common/rtl_model.h>
 
 namespace pl {
@@ -111,7 +112,15 @@ void CornerDetectionTlm::begin(std::uint64_t cycle) {
   begin_ = cycle;
   changed_cycle_ = vp::Clock::never;
   frame_.begin(frames->data());
-  append_corners();
+  static KnownFrames<std::vector<StampedWord>> known;
+  const std::uint64_t parameter = std::uint64_t{geometry_.width} << 32 | threshold;
+  const std::vector<StampedWord> corners =
+      known.result(frames->data(), geometry_.pixels(), parameter, [&] {
+        std::vector<StampedWord> found;
+        frame_.advance(geometry_.height, found);
+        return found;
+      });
+  append(corners);
 }
 
 void CornerDetectionTlm::pixels_changed(std::uint32_t first, std::uint32_t) {
@@ -131,17 +140,20 @@ void CornerDetectionTlm::find_again(std::uint64_t cycle) {
       begin_ + CornerCore::latency + std::uint64_t{row} * geometry_.width;
   corners_.erase(first_at_or_after(row_begin, next_), corners_.end());
   const std::size_t kept = corners_.size();
+  std::vector<StampedWord> found;
+  frame_.advance(row, found);  // those before are there, also of a frame that was known
+  found.clear();
   frame_.rewind(row);
-  append_corners();
+  frame_.advance(geometry_.height, found);
+  append(found);
   corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(kept),
                  first_at_or_after(cycle, kept));
   changed_cycle_ = vp::Clock::never;
 }
 
-void CornerDetectionTlm::append_corners() {
-  const std::size_t old = corners_.size();
-  frame_.advance(geometry_.height, corners_);
-  for (std::size_t i = old; i < corners_.size(); ++i) corners_[i].clock += begin_;
+void CornerDetectionTlm::append(const std::vector<StampedWord>& corners) {
+  for (const StampedWord& corner : corners)
+    corners_.push_back({corner.clock + begin_, corner.word});
 }
 
 std::vector<StampedWord>::iterator CornerDetectionTlm::first_at_or_after(std::uint64_t cycle,

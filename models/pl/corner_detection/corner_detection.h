@@ -93,7 +93,8 @@ class CornerDetectionTlm final : public CornerDetection, private FrameListener {
   void pixels_changed(std::uint32_t first, std::uint32_t count) override;
   void begin(std::uint64_t cycle);
   void find_again(std::uint64_t cycle);
-  void append_corners();
+  /// Stamps them with cycles.
+  void append(const std::vector<StampedWord>& corners);
   std::vector<StampedWord>::iterator first_at_or_after(std::uint64_t cycle, std::size_t from);
   std::uint64_t next_change(std::uint64_t cycle) const;
   void emit(std::uint64_t cycle);

@@ -1,5 +1,7 @@
 #include <pl/global_threshold/core.h>
 
+#include <pl/common/known_frames.h>
+
 #include <algorithm>
 
 namespace pl {
@@ -92,7 +94,9 @@ void ThresholdFrame::refresh(std::uint32_t first, std::uint32_t count) {
 }
 
 std::uint8_t ThresholdFrame::end() {
-  threshold_ = find_peaks(image_, position_).threshold();
+  static KnownFrames<Peaks> known;
+  threshold_ =
+      known.result(image_, position_, 0, [&] { return find_peaks(image_, position_); }).threshold();
   return threshold_;
 }
 

@@ -1,4 +1,5 @@
 // From the stream of the DMA into the BRAM.
+#include <pl/common/known_frames.h>
 #include <pl/control_block/control_block.h>
 #include <boost/test/unit_test.hpp>
 
@@ -32,6 +33,30 @@ struct Store : harness::Pipeline {
   unsigned address() const { return pl.axi_image_store.address; }
 
   Image image = harness::noise(width, height, 41);
+};
+
+/// A picture's words, then those of the same picture while another one is written over it.
+std::vector<harness::Word> words_of_two_frames(const Image& picture) {
+  Store s;
+  std::vector<harness::Word> words;
+  for (const bool written_over : {false, true}) {
+    s.load(picture);
+    s.raise_ena();
+    s.run_to_clock(900);
+    if (written_over) s.driver.control(control_packet::ena | control_packet::wr_en);
+    s.run_to_clock(s.clocks_of_a_frame());
+    const std::vector<harness::Word> of_frame = s.words();
+    BOOST_TEST((of_frame != words), "what is written over is seen");
+    words.insert(words.end(), of_frame.begin(), of_frame.end());
+    s.driver.control(0);
+    s.run_for(s.driver.hold_ps);
+  }
+  return words;
+}
+
+struct RememberFrames {
+  RememberFrames() { pl::known_frame_bytes = 4 * width * height; }
+  ~RememberFrames() { pl::known_frame_bytes = 0; }
 };
 
 }  // namespace
@@ -118,6 +143,24 @@ BOOST_AUTO_TEST_CASE(an_uploaded_image_gives_the_words_of_a_loaded_one) {
   harness::Pipeline loaded({}, harness::frame_size(width, height));
   loaded.load(s.image);
   BOOST_TEST(harness::first_difference(uploaded, loaded.run_frame()) == "");
+}
+
+BOOST_AUTO_TEST_CASE(pictures_that_were_seen_before_give_the_same_words) {
+  std::vector<Image> pictures;
+  for (int seed = 0; seed < 6; ++seed) {  // more than are remembered
+    pictures.push_back(harness::rectangles(width, height, 40, seed));
+    pictures.push_back(pictures.back());
+    pictures.back().back() ^= 0x80;
+  }
+  std::vector<std::vector<harness::Word>> expected;
+  for (const Image& picture : pictures) expected.push_back(words_of_two_frames(picture));
+  const RememberFrames remember;
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      BOOST_TEST((words_of_two_frames(pictures[i]) == expected[i]));
+      BOOST_TEST((words_of_two_frames(pictures[i]) == expected[i]), "seen a moment ago");
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
