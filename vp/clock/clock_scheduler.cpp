@@ -1,5 +1,6 @@
 #include <vp/clock_scheduler.h>
 
+#include <vp/ip.h>
 #include <vp/report.h>
 #include <vp/systemc_pins.h>
 
@@ -18,17 +19,6 @@ namespace {
 
 /// Bounds a batch when nothing else is planned, so that the kernel gets a say now and then.
 constexpr std::uint64_t longest_batch_ps = 1'000'000'000;
-
-/// Tells every signal of the simulation who runs the instants. True if foreign modules take part.
-bool claim_signals(const std::vector<sc_core::sc_object*>& objects, ClockScheduler& scheduler) {
-  bool foreign = false;
-  for (sc_core::sc_object* object : objects) {
-    if (auto* signal = dynamic_cast<SignalBase*>(object)) signal->set_scheduler(scheduler);
-    foreign |= dynamic_cast<const ClockPin*>(object) || dynamic_cast<const FollowerBase*>(object);
-    foreign |= claim_signals(object->get_child_objects(), scheduler);
-  }
-  return foreign;
-}
 
 /// Puts a module behind every module of its clock that reads its outputs. A ring is entered
 /// anywhere: its closing link becomes a deferred signal.
@@ -92,7 +82,9 @@ ClockScheduler::ClockScheduler(sc_core::sc_module_name name) : sc_module(name) {
 }
 
 void ClockScheduler::start_of_simulation() {
-  keeps_pace_ = claim_signals(sc_core::sc_get_top_level_objects(), *this);
+  for (SignalBase* signal : all_objects<SignalBase>()) signal->set_scheduler(*this);
+  // Foreign modules take part.
+  keeps_pace_ = !all_objects<ClockPin>().empty() || !all_objects<FollowerBase>().empty();
   order_clocks();
   order_modules();
   mark_deferred_signals();

@@ -20,11 +20,9 @@ constexpr unsigned most_changes = 1000;
 /// The pins of foreign modules. Our own ports are no sc_port.
 std::vector<sc_core::sc_port_base*> foreign_pins() {
   std::vector<sc_core::sc_port_base*> pins;
-  for (const sc_core::sc_object* top : sc_core::sc_get_top_level_objects()) {
-    for (sc_core::sc_port_base* port : all_below<sc_core::sc_port_base>(*top)) {
-      const std::string kind = port->kind();
-      if (kind == "sc_in" || kind == "sc_out" || kind == "sc_inout") pins.push_back(port);
-    }
+  for (sc_core::sc_port_base* port : all_objects<sc_core::sc_port_base>()) {
+    const std::string kind = port->kind();
+    if (kind == "sc_in" || kind == "sc_out" || kind == "sc_inout") pins.push_back(port);
   }
   return pins;
 }

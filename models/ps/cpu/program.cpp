@@ -92,9 +92,13 @@ int visit(dl_phdr_info* info, std::size_t, void* data) {
 __attribute__((no_sanitize("address", "undefined"))) void copy(unsigned char* to,
                                                                const unsigned char* from,
                                                                std::size_t size) {
+#if defined(__x86_64__)
+  asm volatile("rep movsb" : "+D"(to), "+S"(from), "+c"(size) : : "memory");
+#else
   volatile unsigned char* target = to;
   const volatile unsigned char* source = from;
   for (std::size_t i = 0; i < size; ++i) target[i] = source[i];
+#endif
 }
 
 StaticImage::StaticImage(void* handle) {
@@ -409,7 +413,10 @@ class SharedObject {
   }
 
   explicit SharedObject(const std::string& path)
-      : path_(path), handle_(load(path)), image_(handle_) {}
+      : path_(path),
+        handle_(load(path)),
+        image_(handle_),
+        may_start_core_(needs_symbol(path, "hal_cpu_start")) {}
   // Destructors of static objects then find what their constructors left, however often the program
   // ran.
   // A fault in one leaves the loader in the middle of its work: nothing can go on.
@@ -428,6 +435,7 @@ class SharedObject {
     return static_cast<const hal_program*>(dlsym(handle_, symbol));
   }
   void restore() const { image_.restore(); }
+  bool may_start_core() const { return may_start_core_; }
 
  private:
   static void* load(const std::string& path) {
@@ -458,6 +466,7 @@ class SharedObject {
   std::string path_;
   void* handle_;
   StaticImage image_;
+  bool may_start_core_;
 };
 
 std::vector<std::shared_ptr<SharedObject>>* SharedObject::kept = nullptr;
@@ -468,7 +477,7 @@ class LoadedProgram : public Program {
                 std::string path)
       : Program(description, std::move(path)), object_(std::move(object)) {}
   void reset() override { object_->restore(); }
-  bool may_start_core() const override { return needs_symbol(path(), "hal_cpu_start"); }
+  bool may_start_core() const override { return object_->may_start_core(); }
 
  private:
   std::shared_ptr<SharedObject> object_;

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 #include <systemc>
+#include <typeinfo>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -26,17 +28,45 @@ class HierarchyScope {
   static sc_core::sc_simcontext* context() { return sc_core::sc_get_curr_simcontext(); }
 };
 
-/// The objects of type T below `top`, in the order in which they were made; those inside one of
-/// them come after it.
+/// Finds the objects of type T. What a class is it asks once: most objects are parameters and
+/// counters.
+template <class T>
+class ObjectSearch {
+ public:
+  /// In the order in which they were made; those inside one of them come after it.
+  std::vector<T*> found;
+
+  void look_at(const std::vector<sc_core::sc_object*>& objects) {
+    for (sc_core::sc_object* object : objects) {
+      if (others_.count(&typeid(*object)) == 0) {
+        if (auto* wanted = dynamic_cast<T*>(object)) {
+          found.push_back(wanted);
+        } else {
+          others_.insert(&typeid(*object));
+        }
+      }
+      look_at(object->get_child_objects());
+    }
+  }
+
+ private:
+  std::unordered_set<const std::type_info*> others_;
+};
+
+/// The objects of type T below `top`, in the order of ObjectSearch.
 template <class T>
 std::vector<T*> all_below(const sc_core::sc_object& top) {
-  std::vector<T*> found;
-  for (sc_core::sc_object* child : top.get_child_objects()) {
-    if (auto* object = dynamic_cast<T*>(child)) found.push_back(object);
-    const std::vector<T*> inner = all_below<T>(*child);
-    found.insert(found.end(), inner.begin(), inner.end());
-  }
-  return found;
+  ObjectSearch<T> search;
+  search.look_at(top.get_child_objects());
+  return std::move(search.found);
+}
+
+/// Those of the whole simulation.
+template <class T>
+std::vector<T*> all_objects() {
+  ObjectSearch<T> search;
+  search.look_at(sc_core::sc_get_top_level_objects());
+  return std::move(search.found);
 }
 
 /// Makes SystemC begin again: what is built from here on is another simulation, and time is 0. What
