@@ -80,6 +80,12 @@ ps::CostTable LinuxRun::costs(const ps::CostTable& costs) const {
 }
 
 void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
+  if (zynq.ps.ddr.descriptor() < 0)
+    throw vp::InputError(
+        "--linux: the application shares the DDR as a file without a name, and "
+        "none of " +
+        std::to_string(zynq.ps.ddr.size) +
+        " B is allowed: raise 'ulimit -f', or choose a smaller ps.ddr.size");
   zynq_ = &zynq;
   caches_ = &caches;
   caches.name_calls("write 1 to sync_for_device", "write 1 to sync_for_cpu");

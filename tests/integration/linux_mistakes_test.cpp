@@ -227,6 +227,16 @@ BOOST_AUTO_TEST_CASE(where_no_shim_is_to_be_had) {
   refused("nothing", "no libmarkervp_linux.so in ");
 }
 
+BOOST_AUTO_TEST_CASE(a_limit_of_files_below_the_memory) {
+  const kit::Outcome outcome =
+      kit::run_process("/bin/bash",
+                       {"-c", "ulimit -f 100000; exec " MARKERVP_EXECUTABLE
+                              " run --linux " MARKERVP_APPLICATIONS "gpio"},
+                       path());
+  BOOST_TEST(outcome.exit_code == 2, outcome.err);
+  BOOST_TEST((outcome.err.find("raise 'ulimit -f'") != std::string::npos), outcome.err);
+}
+
 BOOST_AUTO_TEST_CASE(what_does_not_go_together) {
   const std::string gpio = MARKERVP_APPLICATIONS "gpio";
   refuses({"--linux", gpio, "--program", "blink"}, {"--linux with --program"});

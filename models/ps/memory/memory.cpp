@@ -1,4 +1,5 @@
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <ps/memory/memory.h>
@@ -57,24 +58,28 @@ std::uint64_t checked_dma_base(const std::string& name, std::uint64_t dma_base, 
                        vp::hex(end) + ": choose a lower address or a larger " + name + ".size");
 }
 
+/// A file without a name; -1: the host has none of that size (ulimit -f).
+int file_of(std::uint64_t size) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < size) return -1;
+  const int file = memfd_create("memory", MFD_CLOEXEC);
+  if (file < 0 || ftruncate(file, static_cast<off_t>(size)) == 0) return file;
+  close(file);
+  return -1;
+}
+
 }  // namespace
 
 FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
-    : size_(size), descriptor_(memfd_create("memory", MFD_CLOEXEC)) {
+    : size_(size), descriptor_(file_of(size)) {
   void* wanted = reinterpret_cast<void*>(first);
-  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
-    const std::string reason = std::strerror(errno);
-    if (descriptor_ >= 0) close(descriptor_);
-    throw vp::InputError(what + ": the host has no file of " + std::to_string(size) + " bytes (" +
-                         reason + ")");
-  }
-  const auto view = [this, size](void* at, int flags) {
-    return mmap(at, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE | flags, descriptor_,
-                0);
-  };
-  void* got = view(wanted, MAP_FIXED_NOREPLACE);
+  void* got =
+      mmap(wanted, size, PROT_READ | PROT_WRITE,
+           MAP_SHARED | MAP_NORESERVE | MAP_FIXED_NOREPLACE | (descriptor_ < 0 ? MAP_ANONYMOUS : 0),
+           descriptor_, 0);
   if (got == wanted) {
-    void* second = view(nullptr, 0);
+    // From a length of 0 mremap() makes a second mapping of the same pages: mremap(2).
+    void* second = mremap(got, 0, size, MREMAP_MAYMOVE);
     data_ = static_cast<unsigned char*>(got);
     second_view_ = static_cast<unsigned char*>(second);
     if (second != MAP_FAILED) return;

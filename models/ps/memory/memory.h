@@ -23,8 +23,8 @@ class Clock;
 namespace ps {
 
 /// Zeroed host memory at chosen host addresses, for as long as the object lives, and a second view
-/// of it elsewhere. Pages take memory when first touched. It is a file without a name, which other
-/// processes may map, too.
+/// of it elsewhere. Pages take memory when first touched. Where the host allows a file without a name
+/// of that size, it is one, which other processes may map, too.
 class FixedMapping {
  public:
   /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
@@ -39,14 +39,14 @@ class FixedMapping {
   /// rights of pages of data() away (ps::LineGuard).
   unsigned char* second_view() const { return second_view_; }
   std::uint64_t size() const { return size_; }
-  /// The file.
+  /// The file; -1: none.
   int descriptor() const { return descriptor_; }
   /// Gives all pages back: the memory reads 0 again.
   void clear();
 
  private:
-  unsigned char* data_ = nullptr;
-  unsigned char* second_view_ = nullptr;
+  unsigned char* data_;
+  unsigned char* second_view_;
   std::uint64_t size_;
   int descriptor_;
 };
@@ -143,7 +143,7 @@ class Ddr : public vp::MemoryTarget {
   unsigned char* at(std::uint32_t address, std::uint64_t bytes = 1) const;
   /// The same byte for who is not the program: devices and the test bench.
   unsigned char* behind(std::uint32_t address, std::uint64_t bytes = 1) const;
-  /// A file with all of it, for another process to map.
+  /// A file with all of it, for another process to map; -1: the host allows none of that size.
   int descriptor() const { return memory_.descriptor(); }
   /// Counts one transaction that went through direct access.
   void account(tlm::tlm_command command, std::uint64_t bytes);
