@@ -110,6 +110,10 @@ LinuxFolder::LinuxFolder() {
       throw std::system_error(errno, std::generic_category(), "no folder for /dev and /sys");
     lock_ = lock_folder(path_, 0);
   }
+  // What older releases of the driver call it.
+  const fs::path classes = fs::path(path_) / "sys/class";
+  fs::create_directories(classes / "u-dma-buf");
+  fs::create_directory_symlink("u-dma-buf", classes / "udmabuf");
 }
 
 LinuxFolder::~LinuxFolder() {

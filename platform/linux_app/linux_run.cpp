@@ -155,7 +155,6 @@ void LinuxRun::make_buffers() {
     Buffer buffer;
     buffer.base = memory.bus_address;
     buffer.size = buffer.sync_size = memory.size;
-    folder_->write("/dev/udmabuf" + std::to_string(i), "");
     show(buffer, i);
     buffers_.push_back(buffer);
   }
@@ -376,22 +375,20 @@ void LinuxRun::sleep_until(std::optional<std::uint64_t> count, Condition met) {
 
 // The driver's documentation: github.com/ikwzm/udmabuf.
 void LinuxRun::show(const Buffer& buffer, std::size_t number) const {
-  const std::string name = "/udmabuf" + std::to_string(number);
-  for (const char* const of : {"/sys/class/u-dma-buf", "/sys/class/udmabuf"}) {
-    const auto attribute = [&](const char* file, const std::string& value) {
-      folder_->write(of + name + "/" + file, value + "\n");
-    };
-    attribute("phys_addr", vp::hex(static_cast<std::uint32_t>(buffer.base)));
-    attribute("size", std::to_string(buffer.size));
-    attribute("sync_mode", std::to_string(buffer.sync_mode));
-    attribute("sync_offset", vp::hex(static_cast<std::uint32_t>(buffer.sync_offset)));
-    attribute("sync_size", std::to_string(buffer.sync_size));
-    attribute("sync_direction", std::to_string(buffer.sync_direction));
-    attribute("sync_for_cpu", "0");
-    attribute("sync_for_device", "0");
-    attribute("sync_owner", "0");
-    attribute("dma_coherent", "0");
-  }
+  folder_->write("/dev/udmabuf" + std::to_string(number), "");
+  show(number, "phys_addr", vp::hex(static_cast<std::uint32_t>(buffer.base)));
+  show(number, "size", std::to_string(buffer.size));
+  show(number, "sync_mode", std::to_string(buffer.sync_mode));
+  show(number, "sync_size", std::to_string(buffer.sync_size));
+  for (const char* const zero : {"sync_offset", "sync_direction", "sync_for_cpu", "sync_for_device",
+                                 "sync_owner", "dma_coherent"})
+    show(number, zero, "0");
+}
+
+void LinuxRun::show(std::size_t number, const std::string& attribute,
+                    const std::string& value) const {
+  folder_->write("/sys/class/u-dma-buf/udmabuf" + std::to_string(number) + "/" + attribute,
+                 value + "\n");
 }
 
 /// What was written to an attribute; an errno, or 0.
@@ -412,7 +409,7 @@ int LinuxRun::store(Buffer& buffer, std::size_t number, const std::string& text)
     if (name != attribute) continue;
     if (*value > target.second) return EINVAL;
     *target.first = *value;
-    show(buffer, number);
+    show(number, name, std::to_string(*value));
     return 0;
   }
   return EACCES;

@@ -69,6 +69,7 @@ class LinuxRun {
   void warn_of_masked(std::size_t number) const;
   int store(Buffer& buffer, std::size_t number, const std::string& text);
   void show(const Buffer& buffer, std::size_t number) const;
+  void show(std::size_t number, const std::string& attribute, const std::string& value) const;
   int synchronise(const Buffer& buffer, bool for_device, std::uint64_t value) const;
 
   std::uint64_t counts_of(std::uint64_t ns) const;

@@ -124,6 +124,23 @@ BOOST_AUTO_TEST_CASE(an_application_in_cpp) {
   BOOST_TEST(contains(outcome.err, "works_cpp.cpp:"), outcome.err);
 }
 
+BOOST_AUTO_TEST_CASE(a_script_by_its_interpreter) {
+  const std::string python = "/usr/bin/python3";
+  BOOST_TEST_REQUIRE(std::filesystem::exists(python));
+  kit::write_file(*this / "script.py",
+                  "import mmap, os, struct, time\n"
+                  "gpio = mmap.mmap(os.open('/dev/mem', os.O_RDWR), 4096, offset=0x41200000)\n"
+                  "gpio[4:8] = struct.pack('<I', 0)\n"
+                  "gpio[0:4] = struct.pack('<I', 0x100)\n"
+                  "start = time.monotonic()\n"
+                  "time.sleep(0.001)\n"
+                  "print(struct.unpack('<I', gpio[0:4]), f'{time.monotonic() - start:.4f}')\n"
+                  "print(sorted(os.listdir('/sys/class/uio')))\n");
+  const kit::Outcome outcome = run({"--linux", python, "--no-report", "script.py"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "(256,) 0.0010\n['uio0', 'uio1']\n"), outcome.out);
+}
+
 BOOST_AUTO_TEST_CASE(arguments_and_exit_code) {
   const kit::Outcome outcome = start("works", {"x", "-v", "two words", "5"});
   BOOST_TEST(outcome.exit_code == 1);

@@ -32,7 +32,7 @@ constexpr int most_open = 64;
 struct Open {
   enum class Kind : std::uint8_t { none, memory, uio, buffer, attribute };
   Kind kind;
-  bool sync;  ///< O_SYNC
+  bool sync;  ///< O_SYNC or O_DSYNC
   std::uint32_t number;
   std::uint64_t base, size;
   unsigned descriptors;  ///< that stand for it
@@ -150,13 +150,13 @@ int open_device(const char* path, const Path& led, int flags) {
   const bool is_memory = !digits, is_uio = begins(path, "/dev/uio");
   const Device device = is_memory ? Device::memory : is_uio ? Device::uio : Device::buffer;
   const Reply reply = ask(What::open, static_cast<std::uint64_t>(device), number);
-  const int descriptor = is_uio ? ::eventfd(0, (flags & O_NONBLOCK ? EFD_NONBLOCK : 0) |
-                                                   (flags & O_CLOEXEC ? EFD_CLOEXEC : 0))
-                                : REAL(open)(led, flags & ~(O_CREAT | O_EXCL | O_TRUNC));
+  // No regular file: some look at that before they map it.
+  const int descriptor = ::eventfd(0, ((flags & O_NONBLOCK) != 0 ? EFD_NONBLOCK : 0) |
+                                          ((flags & O_CLOEXEC) != 0 ? EFD_CLOEXEC : 0));
   if (descriptor < 0) return descriptor;
   using Kind = Open::Kind;
   Open& open = new_open(is_memory ? Kind::memory : is_uio ? Kind::uio : Kind::buffer);
-  open.sync = (flags & O_SYNC) == O_SYNC || (flags & O_DSYNC) != 0;
+  open.sync = (flags & O_DSYNC) != 0;  // O_SYNC has its bit
   open.number = static_cast<std::uint32_t>(number);
   open.base = reply.a;
   open.size = reply.b;
