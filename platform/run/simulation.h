@@ -33,7 +33,6 @@ namespace platform {
 /// What is asked of a simulation beside its configuration.
 struct SimulationOptions {
   std::optional<std::string> program = {};     ///< file or name; none: that of the design
-  std::optional<LinuxOptions> linux_app = {};  ///< a Linux application, in place of a program
   std::optional<vp::TraceOptions> trace = {};  ///< waveforms to record
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
@@ -43,6 +42,7 @@ struct SimulationOptions {
   std::optional<std::string> software_profile = {};   ///< file: where the program's time goes
   std::optional<int> control = {};                    ///< socket of a test that leads the run
   std::vector<TerminalOptions> terminals = {};        ///< one for an UART
+  std::optional<LinuxOptions> linux_app = {};  ///< a Linux application, in place of a program
   std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
 };
 
