@@ -69,8 +69,8 @@ struct RunOptions : PlatformOptions {
   std::optional<std::string> register_coverage;
   std::optional<std::string> software_profile;
   std::optional<std::string> linux_app;  ///< a Linux application; `inputs` are its arguments
-  std::optional<int> control;          ///< socket of a test that leads the run
-  std::vector<std::string> terminals;  ///< "uart1", "uart1=LINK"
+  std::optional<int> control;            ///< socket of a test that leads the run
+  std::vector<std::string> terminals;    ///< "uart1", "uart1=LINK"
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
   bool require_marker = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -76,6 +77,18 @@ namespace {
 
 constexpr const char* folder_name = "markervp-linux-";
 
+[[noreturn]] void no_folder(const std::string& reason) {
+  throw vp::InputError("--linux: no folder can be made for the application's /dev and /sys (" +
+                       reason + "): let TMPDIR name one that takes files");
+}
+
+fs::path temporary_folder() {
+  std::error_code problem;
+  const fs::path folder = fs::temp_directory_path(problem);
+  if (problem) no_folder(problem.message());
+  return folder;
+}
+
 /// Of a folder, which is locked; -1: somebody else has it, or there is none.
 int lock_folder(const std::string& path, int how) {
   const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -90,7 +103,7 @@ int lock_folder(const std::string& path, int how) {
 /// Folders of processes that were killed.
 void remove_left_over() {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored)) {
+  for (const auto& entry : fs::directory_iterator(temporary_folder(), ignored)) {
     if (entry.path().filename().string().rfind(folder_name, 0) != 0) continue;
     const int folder = lock_folder(entry.path(), LOCK_NB);
     if (folder < 0) continue;
@@ -105,9 +118,8 @@ void remove_left_over() {
 LinuxFolder::LinuxFolder() {
   remove_left_over();
   while (lock_ < 0) {
-    path_ = fs::temp_directory_path() / (std::string(folder_name) + "XXXXXX");
-    if (!::mkdtemp(path_.data()))
-      throw std::system_error(errno, std::generic_category(), "no folder for /dev and /sys");
+    path_ = temporary_folder() / (std::string(folder_name) + "XXXXXX");
+    if (!::mkdtemp(path_.data())) no_folder(std::strerror(errno));
     lock_ = lock_folder(path_, 0);
   }
   // What older releases of the driver call it.

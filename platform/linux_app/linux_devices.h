@@ -43,7 +43,7 @@ class LinuxDevices final : public sc_core::sc_module {
 /// process is killed, its folder is removed with the next one that is made.
 class LinuxFolder {
  public:
-  /// Throws std::system_error if the host has no room for it.
+  /// Throws vp::InputError if the host has no room for it.
   LinuxFolder();
   ~LinuxFolder();
   LinuxFolder(const LinuxFolder&) = delete;

@@ -23,8 +23,8 @@ class Clock;
 namespace ps {
 
 /// Zeroed host memory at chosen host addresses, for as long as the object lives, and a second view
-/// of it elsewhere. Pages take memory when first touched. Where the host allows a file without a name
-/// of that size, it is one, which other processes may map, too.
+/// of it elsewhere. Pages take memory when first touched. Where the host allows a file without a
+/// name of that size, it is one, which other processes may map, too.
 class FixedMapping {
  public:
   /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
