@@ -25,6 +25,15 @@ def test_keys_and_interrupts_come_in(board):
     assert board.console == ["ready", "uart0: <a>", "uart0: <b>", "pressed", "pressed"]
 
 
+def test_standard_input_is_on_from_the_start(start):
+    board = start(pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("inbyte.so"))
+    board.run("10 us")
+    board.uart("k!", device="uart1")
+    assert board.finish()["program_end.exit_code"] == 0
+    # As at 115 200 baud: 20 bits.
+    assert 170e-6 < board.time < 200e-6
+
+
 def test_memory_and_signals_are_read_and_written(board):
     board.write("ocm+0x100", 0x12345678)
     assert board.read("ocm+0x100") == 0x12345678
