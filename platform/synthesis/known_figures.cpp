@@ -101,14 +101,18 @@ std::optional<Point> KnownFigures::find(const vp::IpEstimate::Rtl& rtl) const {
   for (const Entry& entry : entries_) {
     if (entry.module == rtl.module) found.push_back(&entry);
   }
-  for (const auto& [name, value] : rtl.parameters) {
+  const auto take_those_at = [&found](const std::string& name, std::int64_t value) {
     std::vector<const Entry*> here;
     for (const Entry* entry : found) {
       const auto parameter = entry->parameters.find(name);
       if (parameter != entry->parameters.end() && parameter->second == value) here.push_back(entry);
     }
     if (!here.empty()) found = here;
-  }
+  };
+  // Several pixels a clock are another circuit, not more of the same.
+  const auto pixels = rtl.parameters.find("PIXELS_PER_CLOCK");
+  if (pixels != rtl.parameters.end()) take_those_at(pixels->first, pixels->second);
+  for (const auto& [name, value] : rtl.parameters) take_those_at(name, value);
   for (const auto& [name, value] : rtl.parameters) {
     std::map<std::int64_t, const Entry*> by_value;
     for (const Entry* entry : found) {

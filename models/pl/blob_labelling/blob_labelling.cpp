@@ -32,8 +32,7 @@ BlobLabelling::BlobLabelling(sc_core::sc_module_name name, const Site& site)
 void BlobLabelling::connect(IpPorts& ports) {
   ports.input(ena);
   ports.input(rst);
-  ports.input(pixel);
-  for (const vp::In<bool>& lane : more_pixels) ports.input(lane);
+  ports.input(pixel, more_pixels);
   ports.input(x, geometry_.words().x_bits());
   ports.input(y, geometry_.words().y_bits());
   ports.output(blob_out);
@@ -44,6 +43,9 @@ void BlobLabelling::connect(IpPorts& ports) {
   ports.parameter("HEIGHT", "pl.height", geometry_.height);
   ports.parameter("LABELS", label_count.name(), label_count);
   ports.parameter("MINIMUM_SIDE", minimum_side.name(), minimum_side);
+  ports.pixels_per_clock(geometry_.pixels_per_clock);
+  if (geometry_.pixels_per_clock > 1)
+    ports.parameter("RUN_FIFO_DEPTH", run_fifo_depth.name(), run_fifo_depth);
 }
 
 void BlobLabelling::show(const Extremes& extremes) {
@@ -114,25 +116,10 @@ void BlobLabellingClocked::reset() {
   sleep();
 }
 
-// With several pixels a clock: the ends of runs and their FIFO, a bank for each that a clock may
-// bring, comparisons of places that lie a clock ahead of the decision, and a memory of the places.
 vp::IpEstimate BlobLabelling::own_estimate() const {
-  const std::uint32_t pixels = geometry_.pixels_per_clock;
-  if (pixels == 1)
-    return synthesised_ip("blob_labelling", {{"LABELS", label_count}, {"WIDTH", geometry_.width}});
-  const marker_logic::WordFormat place = geometry_.words();
-  const std::uint32_t run_bits = 2 * place.x_bits() + place.y_bits(), banks = pixels / 2 + 1;
-  const std::uint32_t key_bits = 8 * (2 * std::max(place.x_bits(), place.y_bits()) + 1);
-  const bool in_lut = run_fifo_depth <= deepest_in_lut;
-  const std::uint32_t fifo_lut = in_lut ? run_bits * banks * ((run_fifo_depth + 63) / 64) : 0;
-  vp::IpEstimate e = grouped_ip(
-      "blob_labelling", 2000 + geometry_.width / 4 + 40 * pixels + 100 + fifo_lut,
-      1800 + run_bits * (banks + 3) + 20 * pixels, 100 * mhz,
-      "places are compared a clock ahead, so that a decision is as long as with one pixel");
-  e.bram36 = 2 * xilinx::block_ram_36(label_count, key_bits) + 2 +
-             xilinx::block_ram_36(geometry_.width, 2 * place.x_bits()) +
-             banks * fifo_memory(run_fifo_depth, run_bits);
-  return e;
+  return synthesised_ip("blob_labelling", {{"LABELS", label_count},
+                                           {"PIXELS_PER_CLOCK", geometry_.pixels_per_clock},
+                                           {"WIDTH", geometry_.width}});
 }
 
 BlobLabellingTlm::BlobLabellingTlm(sc_core::sc_module_name name, const Site& site)

@@ -29,7 +29,7 @@ class IpPorts;
 /// in RunLabeller::clocks_per_blob clocks, in the order in which they are complete.
 ///
 /// Where more than a pixel comes a clock, runs wait in a FIFO for their turn (GroupLabellingCore):
-/// the blob is shown 8 clocks behind the edge that takes the end of the first run beyond (x, y +
+/// the blob is shown 10 clocks behind the edge that takes the end of the first run beyond (x, y +
 /// 1), or of that row, if no other run waits, and the next frame begins when all runs had their
 /// turn.
 class BlobLabelling : public vp::Clocked, public vp::Ip {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <pl/blob_labelling/group_core.h>
+
 namespace pl {
 
 bool LabelQueue::take(std::uint64_t now) {
@@ -77,17 +79,16 @@ void LabellingFrame::label(Run& run, std::size_t& above) {
   finish(run, labelled, step(run.last + (at_edge ? 1 : 2)));
 }
 
-// Where a run ends, and where the row does, is known behind the clock after the one that takes it.
 void LabellingFrame::find_row_of_groups() {
   std::size_t above = 0;
   for (std::uint32_t first = dark_.next_set(0); first < geometry_.width;) {
     const std::uint32_t end = std::min(geometry_.width, dark_.next_clear(first));
     Run run{first, end - 1, 0, runs_++};
-    known_ = step(std::min(end, geometry_.width - 1));
+    known_ = known_at(std::min(end, geometry_.width - 1));
     if (queue_up(run)) label_in_group(run, above);
     first = dark_.next_set(end);
   }
-  known_ = step(geometry_.width - 1);
+  known_ = known_at(geometry_.width - 1);
   for (; above < above_.size(); ++above) pass(above_[above], work());
   work();
 }
@@ -107,6 +108,11 @@ void LabellingFrame::label_in_group(Run& run, std::size_t& above) {
     touch(run, labelled, above_[above], clock);
   queued_.push_back(clock);
   finish(run, labelled, clock);
+}
+
+// What the pixel in column `x` ends is in the FIFO, and worked on a clock later.
+std::uint64_t LabellingFrame::known_at(std::uint32_t x) const {
+  return row_ + x / geometry_.pixels_per_clock + GroupLabellingCore::clocks_to_fifo + 1;
 }
 
 // Room is what there was before the clock in which the run ended.

@@ -85,6 +85,7 @@ class LabellingFrame {
   // More than one.
   void find_row_of_groups();
   void label_in_group(Run& run, std::size_t& above);
+  std::uint64_t known_at(std::uint32_t x) const;
   bool queue_up(const Run& run);
   std::uint64_t work();
 
@@ -98,7 +99,7 @@ class LabellingFrame {
   void leave(std::uint64_t clock, bool shown, const Extremes& extremes);
   Component root(Component component);
   /// The clock of the step that looks at column `x` of the present row.
-  std::uint64_t step(std::uint32_t x) const { return row_ + x / geometry_.pixels_per_clock + 2; }
+  std::uint64_t step(std::uint32_t x) const { return row_ + x + 2; }
 
   const Geometry geometry_;
   const std::uint32_t minimum_side_, fifo_depth_;

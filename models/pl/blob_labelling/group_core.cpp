@@ -1,5 +1,6 @@
 #include <pl/blob_labelling/group_core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace pl {
@@ -13,7 +14,7 @@ GroupLabellingCore::GroupLabellingCore(const Geometry& geometry, std::uint32_t l
 void GroupLabellingCore::reset() {
   RunLabeller::reset();
   fifo_.clear();
-  group_ = {};
+  groups_ = {};
   dark_ = taken_ = false;
   rows_ = row_ = above_ = here_ = 0;
   label_ = 0;
@@ -26,8 +27,9 @@ void GroupLabellingCore::clock(bool ena, std::uint32_t dark, std::uint32_t x, st
   const std::size_t room = fifo_depth_ - fifo_.size();
   const bool taken = busy_ && work();
   move_free_labels(taken, returned);
-  if (group_.valid) find_runs(room);
-  group_ = {ena, dark, x, y};
+  if (groups_.back().valid) find_runs(groups_.back(), room);
+  std::copy_backward(groups_.begin(), groups_.end() - 1, groups_.end());
+  groups_.front() = {ena, dark, x, y};
   if (ena) busy_ = true;
 }
 
@@ -69,23 +71,23 @@ bool GroupLabellingCore::end_row() {
   return false;
 }
 
-void GroupLabellingCore::find_runs(std::size_t room) {
+void GroupLabellingCore::find_runs(const Group& group, std::size_t room) {
   for (std::uint32_t lane = 0; lane < geometry_.pixels_per_clock; ++lane) {
-    const bool dark = (group_.dark >> lane & 1) != 0;
-    const std::uint32_t x = group_.x + lane;
+    const bool dark = (group.dark >> lane & 1) != 0;
+    const std::uint32_t x = group.x + lane;
     if (dark && !dark_) run_first_ = x;
-    if (!dark && dark_) end_run(x - 1, room);
+    if (!dark && dark_) end_run(x - 1, group.y, room);
     dark_ = dark;
   }
-  if (group_.x + geometry_.pixels_per_clock != geometry_.width) return;
-  if (dark_) end_run(geometry_.width - 1, room);
+  if (group.x + geometry_.pixels_per_clock != geometry_.width) return;
+  if (dark_) end_run(geometry_.width - 1, group.y, room);
   dark_ = false;
-  rows_ += group_.y + 1 == geometry_.height ? 2 : 1;
+  rows_ += group.y + 1 == geometry_.height ? 2 : 1;
 }
 
-void GroupLabellingCore::end_run(std::uint32_t last, std::size_t& room) {
+void GroupLabellingCore::end_run(std::uint32_t last, std::uint32_t y, std::size_t& room) {
   if (room == 0) return lose(last - run_first_ + 1);
-  fifo_.push_back({run_first_, last, group_.y});
+  fifo_.push_back({run_first_, last, y});
   --room;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -23,6 +24,11 @@ namespace pl {
 /// A frame may begin when this is done with the one before.
 class GroupLabellingCore final : public RunLabeller {
  public:
+  /// Clocks from the one that takes a run's end until it comes into the FIFO. The ends are found in
+  /// one, and after the next the FIFO may hold them; what happens to a run is decided a clock
+  /// before it does.
+  static constexpr unsigned clocks_to_fifo = 3;
+
   /// `fifo_depth`: runs.
   GroupLabellingCore(const Geometry& geometry, std::uint32_t labels, std::uint32_t minimum_side,
                      std::uint32_t fifo_depth);
@@ -40,17 +46,17 @@ class GroupLabellingCore final : public RunLabeller {
 
   bool work();
   bool end_row();
-  void find_runs(std::size_t room);
-  void end_run(std::uint32_t last, std::size_t& room);
+  void find_runs(const Group& group, std::size_t room);
+  void end_run(std::uint32_t last, std::uint32_t y, std::size_t& room);
 
   const std::uint32_t fifo_depth_;
   std::vector<Run> places_;  ///< of the ring's runs
   std::deque<Run> fifo_;
 
-  Group group_;                  ///< captured
-  std::uint32_t run_first_ = 0;  ///< of the run that has begun
-  bool dark_ = false;            ///< the pixel before the group is dark: a run has begun
-  std::uint32_t rows_ = 0;       ///< of the frame, whose runs all are in the FIFO or beyond it
+  std::array<Group, clocks_to_fifo> groups_;  ///< captured, the newest one first
+  std::uint32_t run_first_ = 0;               ///< of the run that has begun
+  bool dark_ = false;       ///< the pixel before the group is dark: a run has begun
+  std::uint32_t rows_ = 0;  ///< of the frame, whose runs all are in the FIFO or beyond it
 
   std::uint32_t row_ = 0;  ///< that is worked on
   std::uint32_t above_ = 0,

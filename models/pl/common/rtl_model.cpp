@@ -95,6 +95,9 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
     memory_outputs_.push_back(pin(output.name, output.bits, true));
   for (const IpPorts::Input& input : ports_.memory_inputs)
     memory_inputs_.push_back(pin(input.name, input.bits, false));
+  for (const IpPorts::IdlePin& idle : ports_.idle_pins) {
+    if (find(idle.name)) pin(idle.name, idle.bits, idle.output);
+  }
   for (const IpPorts::Parameter& parameter : ports_.parameters) check(parameter);
   for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
     if (!connected_[i]) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <pl/common/fidelity.h>
+#include <pl/common/lanes.h>
 #include <pl/common/rtl_interface.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
@@ -48,6 +49,14 @@ class IpPorts {
     std::string name;
     std::string key;  ///< of the configuration
     std::uint64_t value;
+    bool usual;  ///< what a module has that has no such parameter: benches do not name it
+  };
+  /// A pin for a pixel that does not come: RTL that may be built for more may have it. An input
+  /// stays 0, an output has no meaning.
+  struct IdlePin {
+    std::string name;
+    unsigned bits;
+    bool output;
   };
 
   /// `beside_model`: the RTL watches what the model sees and changes nothing.
@@ -62,10 +71,24 @@ class IpPorts {
   void input(const char* name, unsigned bits, std::function<std::uint64_t()> read) {
     inputs.push_back({nullptr, name, bits, std::move(read)});
   }
+  /// The pixels that come on a clock.
+  template <class T>
+  void input(const vp::In<T>& port, const Lanes<vp::In<T>>& more) {
+    input(port);
+    for (const vp::In<T>& lane : more) input(lane);
+    add_idle(last_name(port.name()), more.size(), vp::default_width<T>(), false);
+  }
   /// `valid`: the signal beside which the port means something; null: it always does.
   template <class T>
   void output(vp::Signal<T>& port, const vp::Signal<bool>* valid = nullptr) {
     add(last_name(port.name()).c_str(), port, valid, false);
+  }
+  /// The pixels that leave on a clock.
+  template <class T>
+  void output(vp::Signal<T>& port, Lanes<vp::Signal<T>>& more, const vp::Signal<bool>* valid) {
+    output(port, valid);
+    for (vp::Signal<T>& lane : more) output(lane, valid);
+    add_idle(last_name(port.name()), more.size(), port.width(), true);
   }
   /// Under another name than the port's.
   template <class T>
@@ -87,12 +110,16 @@ class IpPorts {
   }
   /// What the IP is configured for; RTL that has no such parameter is trusted to fit.
   void parameter(const char* name, const std::string& key, std::uint64_t value) {
-    parameters.push_back({name, key, value});
+    parameters.push_back({name, key, value, false});
+  }
+  void pixels_per_clock(std::uint32_t value) {
+    parameters.push_back({"PIXELS_PER_CLOCK", "pl.pixels_per_clock", value, value == 1});
   }
 
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   std::vector<Parameter> parameters;
+  std::vector<IdlePin> idle_pins;
   std::vector<MemoryOutput> memory_outputs;
   std::vector<Input> memory_inputs;  ///< what the memory shows behind the edge
   bool combinational = false;        ///< outputs follow inputs within the clock
@@ -104,6 +131,10 @@ class IpPorts {
 
  private:
   static std::string last_name(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+  void add_idle(const std::string& pixel, std::size_t more, unsigned bits, bool output) {
+    for (auto lane = static_cast<std::uint32_t>(more) + 1; lane < most_pixels_per_clock; ++lane)
+      idle_pins.push_back({lane_name(pixel, lane), bits, output});
+  }
   template <class T>
   void add(const char* name, vp::Signal<T>& port, const vp::Signal<bool>* valid, bool optional) {
     std::function<bool()> is_valid;

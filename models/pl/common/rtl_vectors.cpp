@@ -2,6 +2,7 @@
 #include <pl/common/rtl_model.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include <vp/error.h>
 
@@ -289,7 +290,10 @@ void RtlVectors::write_response() {
 
 void RtlVectors::end_of_simulation() {
   if (clocks_ != 0) write_response();
-  Bench bench{ip_, {}, {}, ports_.parameters, clocks_};
+  Bench bench{ip_, {}, {}, {}, clocks_};
+  std::copy_if(ports_.parameters.begin(), ports_.parameters.end(),
+               std::back_inserter(bench.parameters),
+               [](const IpPorts::Parameter& parameter) { return !parameter.usual; });
   for (const IpPorts::Input& input : ports_.inputs)
     bench.inputs.push_back({input.name, input.bits});
   for (const IpPorts::Output& output : ports_.outputs) {

@@ -20,13 +20,11 @@ void GlobalThreshold::connect(IpPorts& ports) {
   ports.input(frame_ena);
   ports.input(wr_thresh);
   ports.input(threshold);
-  ports.input(pixel);
-  for (const vp::In<std::uint8_t>& lane : more_pixels) ports.input(lane);
+  ports.input(pixel, more_pixels);
   ports.input(x, geometry_.words().x_bits());
   ports.input(y, geometry_.words().y_bits());
   ports.output(binary_ena);
-  ports.output(binary_out, &binary_ena);
-  for (vp::Signal<bool>& lane : more_binary) ports.output(lane, &binary_ena);
+  ports.output(binary_out, more_binary, &binary_ena);
   ports.output(binary_x, &binary_ena);
   ports.output(binary_y, &binary_ena);
   ports.output(thresh_out);
@@ -34,6 +32,7 @@ void GlobalThreshold::connect(IpPorts& ports) {
   ports.report(active_threshold);
   ports.parameter("WIDTH", "pl.width", geometry_.width);
   ports.parameter("HEIGHT", "pl.height", geometry_.height);
+  ports.pixels_per_clock(geometry_.pixels_per_clock);
 }
 
 void GlobalThresholdClocked::edge() {

@@ -259,15 +259,11 @@ void LocalThreshold::refuse(const std::string& why) const {
 }
 
 // The pixels of the window's rows, before and behind its middle, and the sums of all columns, as
-// wide as what a clock brings; each pixel of it has sums and products of its own.
+// wide as what a clock brings.
 vp::IpEstimate LocalThreshold::own_estimate() const {
   const std::uint32_t pixels = geometry_.pixels_per_clock;
-  vp::IpEstimate e = synthesised_ip("local_threshold", {{"RADIUS", radius}});
-  if (pixels > 1) {
-    e = grouped_ip("local_threshold", 320 * pixels, 310 * pixels, 100 * mhz,
-                   "sums and products of each pixel, a register behind each");
-    e.dsp = 2 * pixels;
-  }
+  vp::IpEstimate e =
+      synthesised_ip("local_threshold", {{"PIXELS_PER_CLOCK", pixels}, {"RADIUS", radius}});
   const std::uint32_t window = 2 * radius + 1, row = geometry_.clocks_per_row();
   const std::uint32_t lag = LocalThresholdCore::lag(geometry_, radius) / pixels;
   e.bram36 = xilinx::block_ram_36(lag, 8 * pixels) +

@@ -40,16 +40,8 @@ std::uint64_t OtsuThresholdTlm::pass_time(std::uint64_t cycle) {
 
 namespace {
 
-// Each pixel of a clock has histograms of its own, one to count and one to search, each in a memory
-// of 18 kbit; the search adds them up.
 vp::IpEstimate estimate_otsu(const Geometry& geometry) {
-  const std::uint32_t more = geometry.pixels_per_clock - 1;
-  if (more == 0) return synthesised_ip("otsu_threshold");
-  vp::IpEstimate e = grouped_ip("otsu_threshold", 850 + 170 * more, 846 + 150 * more, 100 * mhz,
-                                "the histograms' sum has a register of its own");
-  e.bram36 = 2.0 + 1.0 * more;
-  e.dsp = 7;
-  return e;
+  return synthesised_ip("otsu_threshold", {{"PIXELS_PER_CLOCK", geometry.pixels_per_clock}});
 }
 
 }  // namespace

@@ -17,12 +17,14 @@ void PixelStreamCore::step(const Input& input, bool ready) {
 
 // Room is judged by what stood before this clock, as a full flag does.
 void PixelStreamCore::take(const Input& input, bool ready, bool empty, bool room) {
-  if (closing_ && room) {
+  const bool closed = closing_ && room;
+  if (closed) {
     fifo_.push_back({0, true});
     closing_ = false;
   }
   if (input.starts) {
-    passing_ = ready && empty && !closing_;
+    // A frame whose first pixels are a word finds the FIFO taken by that end.
+    passing_ = ready && empty && !closing_ && !(closed && input.word);
     words_ = 0;
     if (!passing_) ++dropped_frames_;
   }

@@ -305,14 +305,14 @@ PixelStream::PixelStream(sc_core::sc_module_name name, const Site& site)
 void PixelStream::connect(IpPorts& ports) {
   ports.input(rst);
   ports.input(ena);
-  ports.input(pixel);
-  for (const vp::In<std::uint8_t>& lane : more_pixels) ports.input(lane);
+  ports.input(pixel, more_pixels);
   add_stream(ports, m);
   ports.report(dropped_frames);
   ports.report(cut_frames);
   ports.parameter("WIDTH", "pl.width", geometry_.width);
   ports.parameter("HEIGHT", "pl.height", geometry_.height);
   ports.parameter("FIFO_DEPTH", fifo_depth.name(), fifo_depth);
+  ports.pixels_per_clock(geometry_.pixels_per_clock);
 }
 
 void PixelStream::show_counts() {
@@ -329,10 +329,9 @@ void PixelStream::drive() {
 }
 
 vp::IpEstimate PixelStream::own_estimate() const {
-  vp::IpEstimate e = synthesised_ip("pixel_stream", {{"FIFO_DEPTH", fifo_depth}});
-  // Fewer pixels wait for the rest of their word, and more are counted.
-  if (geometry_.pixels_per_clock > 1)
-    e = grouped_ip("pixel_stream", 200, 170, 120 * mhz, "a FIFO and counters, as with one pixel");
+  vp::IpEstimate e = synthesised_ip(
+      "pixel_stream",
+      {{"PIXELS_PER_CLOCK", geometry_.pixels_per_clock}, {"FIFO_DEPTH", fifo_depth}});
   e.bram36 = fifo_memory(fifo_depth, 33);
   return e;
 }

@@ -61,6 +61,20 @@ BOOST_AUTO_TEST_CASE(a_point_is_taken_as_it_is) {
   BOOST_TEST(e.source == "synthesised from its RTL (Yosys 0.23), LABELS=64");
 }
 
+// Whatever else was synthesised only for one of them.
+BOOST_AUTO_TEST_CASE(the_number_of_pixels_a_clock_counts_first) {
+  const KnownFigures known = figures(R"({"version": 1, "tool": "Yosys 0.23", "entries": [
+    {"ip": "pixels", "parameters": {"LABELS": 16, "PIXELS_PER_CLOCK": 1}, "lut": 10, "lut_memory": 0,
+     "lut_through": 0, "ff": 1, "ramb18": 0, "ramb36": 0, "dsp": 0},
+    {"ip": "pixels", "parameters": {"LABELS": 64, "PIXELS_PER_CLOCK": 4}, "lut": 40, "lut_memory": 0,
+     "lut_through": 0, "ff": 4, "ramb18": 0, "ramb36": 0, "dsp": 0}]})");
+  const auto lut = [&known](std::int64_t labels, std::int64_t pixels) {
+    return known.find({"pixels", {{"LABELS", labels}, {"PIXELS_PER_CLOCK", pixels}}, {}})->lut;
+  };
+  BOOST_TEST(lut(16, 4) == 40);
+  BOOST_TEST(lut(64, 1) == 10);
+}
+
 BOOST_AUTO_TEST_CASE(between_two_points_counts_are_on_a_line_and_fmax_is_in_both_ranges) {
   const vp::IpEstimate e = applied(tree(40));
   BOOST_TEST(e.lut == 200u);

@@ -1,13 +1,15 @@
 // Blob Labelling: each connected component of dark pixels once, with its outermost pixels in eight
-// directions. Companion of LabellingCore (core.h), which says how it works.
+// directions. Companion of RunLabeller (run_labeller.h), which says how it works; one pixel a clock is
+// LabellingCore's (core.h), several are GroupLabellingCore's (group_core.h).
 //
-// A pixel is captured in one clock (`step`), what starts and ends with it is known in the next, and
-// decided upon in the third. The memories of the rows' runs follow one clock later, the extremes three.
+// The memories of the rows' runs follow one clock behind a decision, the extremes three.
 module blob_labelling #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
     parameter int LABELS = 512,       // 0, which means none, included
     parameter int MINIMUM_SIDE = 10,  // smallest side (last - first) of a blob that is shown
+    parameter int PIXELS_PER_CLOCK = 1,  // 1, 2 or 4
+    parameter int RUN_FIFO_DEPTH = 64,   // runs that wait, where several pixels come on a clock
     parameter int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10,
     parameter int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9
 ) (
@@ -15,6 +17,12 @@ module blob_labelling #(
     input  logic              ena,
     input  logic              rst,
     input  logic              pixel,          // 1 is dark
+    // verilator lint_off UNUSEDSIGNAL
+    // Neighbours to the right, as many as come on a clock.
+    input  logic              pixel_1,
+    input  logic              pixel_2,
+    input  logic              pixel_3,
+    // verilator lint_on UNUSEDSIGNAL
     input  logic [X_BITS-1:0] x,
     input  logic [Y_BITS-1:0] y,
     output logic              blob_out,
@@ -27,233 +35,88 @@ module blob_labelling #(
     output logic [      31:0] extreme_6,
     output logic [      31:0] extreme_7,
     output logic              idle,           // no frame, and every blob was shown
-    output logic [      31:0] label_overflow  // dark pixels of runs that found no free label
+    output logic [      31:0] label_overflow  // dark pixels of runs that found no free label, or no room
 );
   localparam int BITS = $clog2(LABELS);
-  localparam int COLUMN = $clog2(WIDTH);
-  localparam int RUNS = 2 * (WIDTH / 4 + 2);  // places in the ring of runs
-  localparam int PLACE = $clog2(RUNS);
   localparam int KEYS = 8 * (((X_BITS > Y_BITS) ? X_BITS : Y_BITS) * 2 + 1);
-  localparam logic [X_BITS-1:0] LAST = X_BITS'(WIDTH - 1);
-  localparam logic [Y_BITS-1:0] BOTTOM = Y_BITS'(HEIGHT - 1);
+  localparam int SEVERAL = PIXELS_PER_CLOCK > 1 ? 1 : 0;
 
-  // The captured pixel. Behind a frame come a bright row and one pixel more.
-  logic step, dark, first_column, last_column, below, final_pixel, busy;
-  logic [X_BITS-1:0] column;
-  logic [Y_BITS-1:0] row;
-  logic flushing;
-  logic [X_BITS:0] flush;  // clocks of it that are left
-  wire last_flush = flush == (X_BITS + 1)'(1);
-  logic [X_BITS-1:0] flush_column;
-  wire [X_BITS-1:0] next_column = flushing ? flush_column : x;
+  wire busy, is_new, label_free, written, clear, load, holds, joins, done, done_blob;
+  wire [BITS-1:0] next_label, written_label, held, touched, done_label;
+  wire [X_BITS-1:0] run_first, run_last;
+  wire [Y_BITS-1:0] run_row;
 
-  (* ram_style = "block" *) logic line[0:WIDTH-1];
-  logic line_above;
-  always_ff @(posedge clk) begin
-    if (step) line[COLUMN'(column)] <= dark;
-    line_above <= line[COLUMN'(next_column)];
+  if (SEVERAL != 0) begin : g_groups
+    group_labeller #(
+        .WIDTH(WIDTH),
+        .HEIGHT(HEIGHT),
+        .BITS(BITS),
+        .P(PIXELS_PER_CLOCK),
+        .FIFO_DEPTH(RUN_FIFO_DEPTH),
+        .X_BITS(X_BITS),
+        .Y_BITS(Y_BITS)
+    ) labeller (
+        .clk,
+        .ena,
+        .rst,
+        .pixels(PIXELS_PER_CLOCK'({pixel_3, pixel_2, pixel_1, pixel})),
+        .x,
+        .y,
+        .busy,
+        .is_new,
+        .next_label,
+        .label_free,
+        .label_overflow,
+        .written,
+        .written_label,
+        .run_first,
+        .run_last,
+        .run_row,
+        .clear,
+        .load,
+        .held,
+        .holds,
+        .joins,
+        .touched,
+        .done,
+        .done_blob,
+        .done_label
+    );
+  end else begin : g_pixels
+    pixel_labeller #(
+        .WIDTH(WIDTH),
+        .HEIGHT(HEIGHT),
+        .BITS(BITS),
+        .X_BITS(X_BITS),
+        .Y_BITS(Y_BITS)
+    ) labeller (
+        .clk,
+        .ena,
+        .rst,
+        .pixel,
+        .x,
+        .y,
+        .busy,
+        .is_new,
+        .next_label,
+        .label_free,
+        .label_overflow,
+        .written,
+        .written_label,
+        .run_first,
+        .run_last,
+        .run_row,
+        .clear,
+        .load,
+        .held,
+        .holds,
+        .joins,
+        .touched,
+        .done,
+        .done_blob,
+        .done_label
+    );
   end
-
-  always_ff @(posedge clk) begin
-    flush_column <= flushing && flush_column != LAST ? flush_column + 1'b1 : '0;
-    if (flushing || ena) begin
-      dark         <= !flushing && pixel;
-      column       <= next_column;
-      first_column <= next_column == '0;
-      last_column  <= next_column == LAST;
-      below        <= flushing ? !last_flush : y != '0;
-      final_pixel  <= flushing && last_flush;
-      if (!flushing) row <= y;
-    end
-    if (rst) begin
-      step     <= 1'b0;
-      flushing <= 1'b0;
-      flush    <= '0;
-      busy     <= 1'b0;
-    end else begin
-      step <= flushing || ena;
-      if (flushing) begin
-        flush <= flush - 1'b1;
-        if (last_flush) flushing <= 1'b0;
-      end else if (ena && x == LAST && y == BOTTOM) begin
-        flush <= (X_BITS + 1)'(WIDTH + 1);
-        flushing <= 1'b1;
-      end
-      if (!flushing && ena) busy <= 1'b1;
-      else if (ends_frame && !step) busy <= 1'b0;
-    end
-  end
-
-  // What starts and ends in this row and in the row above, in the next clock.
-  logic last_dark, last_above, last_ended, row_dark;
-  wire dark_before = !first_column && last_dark;
-  wire above_before = !first_column && last_above;
-  wire above = below && line_above;
-  wire start = dark && !dark_before;
-  wire above_start = above && !above_before;
-  logic starts, above_starts, starts_below, meets, passes, finishes, spans, seen_dark, decides;
-  logic ends_frame, at_first, behind_first;
-  logic [X_BITS-1:0] place_x;
-  logic [Y_BITS-1:0] place_y;
-
-  always_ff @(posedge clk) begin
-    if (step) begin
-      place_x   <= column;
-      place_y   <= row;
-      seen_dark <= dark;
-    end
-    if (rst) begin
-      last_dark    <= 1'b0;
-      last_above   <= 1'b0;
-      last_ended   <= 1'b0;
-      row_dark     <= 1'b0;
-      starts       <= 1'b0;
-      above_starts <= 1'b0;
-      starts_below <= 1'b0;
-      meets        <= 1'b0;
-      passes       <= 1'b0;
-      finishes     <= 1'b0;
-      spans        <= 1'b0;
-      decides      <= 1'b0;
-      ends_frame   <= 1'b0;
-      at_first     <= 1'b0;
-      behind_first <= 1'b0;
-    end else begin
-      starts       <= step && start;
-      above_starts <= step && above_start;
-      starts_below <= step && start && (above || above_before);  // touches a run above
-      meets        <= step && dark_before && above_start;        // a run touches one that starts now
-      passes       <= step && (first_column ? last_above : above_before && !above);
-      finishes     <= step && last_ended;
-      spans        <= step && last_ended && row_dark;            // it is the only one of its row
-      decides      <= step;
-      ends_frame   <= step && final_pixel;
-      at_first     <= step && first_column;
-      behind_first <= at_first;
-      if (step) begin
-        last_dark  <= dark;
-        last_above <= above;
-        last_ended <= (dark_before && !dark) || (dark && last_column);
-        row_dark   <= first_column ? dark : row_dark && (dark || last_column);
-      end
-    end
-  end
-
-  // The run above: the present one or the one before, and the next one. A run that has another one of
-  // its component to its left finds it on top of the stack of open components. A run that spans a row, but
-  // for its last pixel, may be taken from the row above in the clock in which it ends.
-  logic [BITS-1:0] above_label, stored_label, open_label, final_label;
-  logic above_valid, above_seen, above_left, above_right, open_seen;
-  logic stored_valid, stored_left, is_valid, is_linked;
-  wire next_left = spans ? is_linked : stored_left;
-  wire new_valid = next_left || (spans ? is_valid : stored_valid);
-  wire [BITS-1:0] new_label = next_left ? open_label : spans ? final_label : stored_label;
-  wire new_seen = next_left && open_seen;
-  wire [BITS-1:0] touched = above_starts ? new_label : above_label;
-  wire touched_valid = above_starts ? new_valid : above_valid;
-  wire touched_seen = above_starts ? new_seen : above_seen;
-
-  // The run of this row; `held`: whose extremes are at hand, if `holds`.
-  logic [BITS-1:0] label, held;
-  logic labelled, linked, holds;
-  wire adopts = (starts_below && touched_valid) || (meets && new_valid && !labelled);
-  // Components are joined where the run of one starts, and never in the clock in which a run ends. One
-  // that has runs in this row lies around the present one, and is the open one.
-  wire other_open = stored_left && open_label != label;
-  wire other_next = !stored_left && stored_valid && stored_label != label;
-  wire joins_outer = meets && labelled && other_open && open_seen;
-  wire joins_inner = meets && labelled && (other_next || (other_open && !open_seen));
-  wire joins = joins_outer || joins_inner;
-
-  always_ff @(posedge clk) begin
-    if (adopts || joins_outer) label <= touched;
-    if (adopts) labelled <= 1'b1;
-    else if (starts) labelled <= 1'b0;
-    if (adopts) linked <= touched_seen;
-    else if (joins_outer) linked <= 1'b1;
-    if (above_starts) begin
-      above_label <= joins_inner ? label : new_label;
-      above_valid <= new_valid;
-      above_left  <= next_left;
-    end
-    if (above_starts) above_seen <= new_seen || adopts || joins_inner;
-    else if (adopts) above_seen <= 1'b1;
-  end
-
-  // The run that ended: its label, a new one if it has none, none if none is free.
-  logic [BITS-1:0] next_label;
-  logic label_free;
-  wire is_new = finishes && !labelled;
-  assign final_label = labelled ? label : next_label;
-  assign is_linked = labelled && linked;
-  assign is_valid = labelled || label_free;
-  wire written = finishes && is_valid;
-  logic [X_BITS-1:0] run_first, run_last, run_length;
-  logic [Y_BITS-1:0] run_row;
-  always_ff @(posedge clk) begin
-    if (starts) run_first <= place_x;
-    if (decides && seen_dark) begin
-      run_last   <= place_x;
-      run_row    <= place_y;
-      run_length <= starts ? X_BITS'(1) : run_length + 1'b1;
-    end
-    if (adopts || joins_outer) held <= touched;
-    else if (written) held <= final_label;
-    if (adopts) holds <= 1'b1;
-    else if (starts) holds <= 1'b0;
-    else if (written) holds <= 1'b1;
-    if (rst) label_overflow <= '0;
-    else if (is_new && !written) label_overflow <= label_overflow + 32'(run_length);
-  end
-
-  // Components that are open in the row above; the top is a register.
-  logic first_is_set, right;
-  wire passed_seen = above_seen || (starts_below && !above_starts);
-  wire passed = passes && above_valid;
-  wire open_replace = passed && right && above_left;
-  wire open_push = passed && right && !above_left;
-  wire open_pop = passed && !right && above_left;
-  wire complete = passed && !right && !passed_seen;
-
-  logic [BITS:0] stack[0:(1<<(PLACE-1))-1];
-  logic [PLACE-2:0] depth, under;  // under = depth - 1
-  always_ff @(posedge clk) begin
-    if (open_push) stack[depth] <= {open_seen, open_label};
-    if (open_push || open_replace) {open_seen, open_label} <= {passed_seen, above_label};
-    else if (open_pop) {open_seen, open_label} <= stack[under];
-    if (rst) {depth, under} <= {(PLACE - 1)'(0), ~(PLACE - 1)'(0)};
-    else if (open_push) {depth, under} <= {depth + 1'b1, depth};
-    else if (open_pop) {depth, under} <= {under, under - 1'b1};
-  end
-
-  logic stored_right;
-  run_ring #(
-      .RUNS (RUNS),
-      .PLACE(PLACE),
-      .BITS (BITS)
-  ) ring (
-      .clk,
-      .rst,
-      .begins_row(behind_first),
-      .finishes,
-      .label(final_label),
-      .valid(is_valid),
-      .linked(is_linked),
-      .meets,
-      .joins_linked(joins_outer && linked),
-      .outer(open_label),
-      .inner(label),
-      .take(above_starts),
-      .stored_label,
-      .stored_valid,
-      .stored_left,
-      .stored_right,
-      .first_is_set
-  );
-  // The last run of a row may be finished while the first one is taken from the row above, or passes.
-  wire next_right = !spans && (stored_right || (first_is_set && (at_first || behind_first)));
-  assign right = above_right || (first_is_set && behind_first);
-  always_ff @(posedge clk) above_right <= above_starts ? next_right : right;
 
   // Labels that are done with leave one after the other; those of complete components with them.
   wire leaves;
@@ -278,18 +141,19 @@ module blob_labelling #(
       .X_BITS(X_BITS),
       .Y_BITS(Y_BITS),
       .BITS  (BITS),
-      .KEYS  (KEYS)
+      .KEYS  (KEYS),
+      .JOINS_AT_ONCE(SEVERAL)
   ) extremes (
       .clk,
       .write(written),
-      .write_label(final_label),
+      .write_label(written_label),
       .first(run_first),
       .last(run_last),
       .row(run_row),
-      .clear(starts && !adopts),
-      .load(adopts),
-      .held(written ? final_label : held),
-      .holds(written || holds),
+      .clear,
+      .load,
+      .held,
+      .holds,
       .join_(joins),
       .other(touched),
       .read(take_out),
@@ -307,9 +171,9 @@ module blob_labelling #(
   ) out (
       .clk,
       .rst,
-      .push(complete || joins),
-      .push_blob(passes),
-      .push_label(passes ? above_label : stored_left && open_seen ? label : new_label),
+      .push(done),
+      .push_blob(done_blob),
+      .push_label(done_label),
       .take(take_out),
       .take_label(out_label),
       .taken_keys(out_keys),

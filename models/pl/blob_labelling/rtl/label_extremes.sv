@@ -7,7 +7,8 @@ module label_extremes #(
     parameter int X_BITS = 10,
     parameter int Y_BITS = 9,
     parameter int BITS = 9,
-    parameter int KEYS = 168
+    parameter int KEYS = 168,
+    parameter int JOINS_AT_ONCE = 0  // 1: a component may join another one behind the clock that wrote it
 ) (
     input  logic              clk,
     // A run ended, of the present component.
@@ -77,9 +78,10 @@ module label_extremes #(
   end
 
   // What a run wrote is not in the memory yet when the next ones read it. Two clocks later it is taken
-  // from `recent`. One clock later, too: that is the first run of a row, which joins nothing else.
+  // from `recent`. One clock later, too: that is the first run of a row, which joins nothing else;
+  // with JOINS_AT_ONCE what is joined comes as it is written.
   logic [KEYS-1:0] current, operand, memory, stored, recent;
-  logic load_recent, answer_recent;
+  logic load_recent, answer_recent, joins_written;
   wire [KEYS-1:0] answer = answer_recent ? recent : stored;
   wire [KEYS-1:0] loaded = clear_3 ? '1 : load_recent ? recent : memory;
   wire [KEYS-1:0] joined;
@@ -89,13 +91,23 @@ module label_extremes #(
     assign joined[i*KEY+:KEY] = theirs < mine ? theirs : mine;
   end
 
+  if (JOINS_AT_ONCE != 0) begin : g_at_once
+    logic not_write_2;  // inverted: every operand waits for write_2
+    always_ff @(posedge clk) begin
+      not_write_2 <= !write_1;
+      joins_written <= !not_write_2 && other_1 == label_2;
+    end
+  end else begin : g_later
+    assign joins_written = 1'b0;
+  end
+
   logic [KEYS-1:0] keys[0:(1<<BITS)-1];
   logic [KEYS-1:0] copy[0:(1<<BITS)-1];
   always_ff @(posedge clk) begin
     if (write_3) keys[label_3] <= joined;
     stored <= keys[other_1];
     memory <= answer;
-    operand <= write_2 ? run_2 : join_2 ? answer : '1;
+    operand <= write_2 ? run_2 : !join_2 ? '1 : joins_written ? joined : answer;
     answer_recent <= write_3 && other_1 == label_3;
     load_recent <= write_3 && other_2 == label_3;
     recent <= joined;

@@ -1,15 +1,24 @@
 // Pixel Stream: each frame of grey pixels as one packet, four pixels a word. Companion of
 // PixelStreamCore (core.h), which says when a frame is dropped or cut.
+//
+// With four pixels a clock a word comes on each edge, and the first one with the frame's begin.
 module pixel_stream #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
     parameter int FIFO_DEPTH = 64,  // words that wait, besides the output register
+    parameter int PIXELS_PER_CLOCK = 1,  // 1, 2 or 4
     parameter int COUNT_BITS = $clog2(FIFO_DEPTH + 1)
 ) (
     input  logic        clk,
     input  logic        rst,
     input  logic        ena,             // of the frame
     input  logic [ 7:0] pixel,
+    // verilator lint_off UNUSEDSIGNAL
+    // Neighbours to the right, as many as come on a clock.
+    input  logic [ 7:0] pixel_1,
+    input  logic [ 7:0] pixel_2,
+    input  logic [ 7:0] pixel_3,
+    // verilator lint_on UNUSEDSIGNAL
     output logic [31:0] m_tdata,         // the leftmost pixel in bits 7:0
     output logic [ 3:0] m_tkeep,
     output logic        m_tvalid,
@@ -23,18 +32,21 @@ module pixel_stream #(
   localparam int PLACE_BITS = $clog2(FIFO_DEPTH);
   localparam logic [PLACE_BITS-1:0] LAST_PLACE = PLACE_BITS'(FIFO_DEPTH - 1);
 
-  // Four pixels make a word.
+  // Four pixels make a word. The newest come on top.
+  localparam logic WHOLE = PIXELS_PER_CLOCK == 4;
+  localparam int COME = 8 * PIXELS_PER_CLOCK;
+  wire [COME-1:0] comes = COME'({pixel_3, pixel_2, pixel_1, pixel});
   logic ena_before;
-  logic [31:8] gathered;  // the newest three
+  logic [31:8] gathered;
   logic [1:0] lane;
   wire starts = ena && !ena_before;
-  wire [31:0] word = {pixel, gathered};
-  wire word_full = ena && !starts && lane == 2'd3;
+  wire [31:0] word = 32'({comes, gathered} >> (COME - 8));
+  wire word_full = ena && (WHOLE || (!starts && lane == 2'(4 - PIXELS_PER_CLOCK)));
   always_ff @(posedge clk) begin
     ena_before <= ena;
     if (ena) begin
       gathered <= word[31:8];
-      lane     <= starts ? 2'd1 : lane + 1'b1;
+      lane     <= starts ? 2'(PIXELS_PER_CLOCK) : lane + 2'(PIXELS_PER_CLOCK);
     end
   end
 
@@ -44,10 +56,11 @@ module pixel_stream #(
   logic [COUNT_BITS-1:0] count;
   logic waits, room;            // count is not 0, not FIFO_DEPTH
   wire close = closing && room;
-  wire takes = m_tready && !waits && !m_tvalid && !(closing && !room);
+  wire takes = m_tready && !waits && !m_tvalid && !(closing && (WHOLE || !room));
   wire passes = starts ? takes : passing;
-  wire cut = passes && ((ena_before && !ena) || (word_full && !room));
-  wire store = word_full && passes && room;
+  wire cut = passes && ((ena_before && !ena) || (word_full && !(WHOLE && starts) && !room));
+  wire store = word_full && (WHOLE && starts ? takes : passes && room);  // who takes has room
+  wire at_last = last && !(WHOLE && starts);
   always_ff @(posedge clk)
     if (rst) begin
       passing        <= 1'b0;
@@ -55,14 +68,14 @@ module pixel_stream #(
       dropped_frames <= '0;
       cut_frames     <= '0;
     end else begin
-      passing <= passes && !cut && !(store && last);
+      passing <= passes && !cut && !(store && at_last);
       closing <= cut ? !first : closing && !room;
       if (starts && !takes) dropped_frames <= dropped_frames + 1'b1;
       if (cut) cut_frames <= cut_frames + 1'b1;
       if (starts) begin
-        words <= '0;
-        first <= 1'b1;
-        last  <= FRAME_WORDS == 1;
+        words <= WHOLE ? WORD_BITS'(1) : '0;
+        first <= !WHOLE;
+        last  <= FRAME_WORDS == (WHOLE ? 2 : 1);
       end else if (store) begin
         words <= words + 1'b1;
         first <= 1'b0;
@@ -82,7 +95,7 @@ module pixel_stream #(
   assign m_tvalid = offered;
   assign m_tlast  = offered && fifo_last;
   always_ff @(posedge clk) begin
-    if (push) fifo[write] <= close ? {1'b1, 32'd0} : {last, word};
+    if (push) fifo[write] <= close ? {1'b1, 32'd0} : {at_last, word};
     if (pop) {fifo_last, m_tdata} <= fifo[read];
     if (rst) begin
       read    <= '0;

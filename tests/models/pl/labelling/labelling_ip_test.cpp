@@ -174,9 +174,9 @@ struct Bench : kit::Simulation {
       if (candidate.name == model) ip = candidate.make("blob_labelling", {clk, geometry});
     }
 #ifdef MARKERVP_LABELLING_RTL
-    if (model == "rtl") {
+    if (model.rfind("rtl_", 0) == 0) {
       ip = pl::BlobLabelling::models().make_rtl("blob_labelling", {clk, geometry},
-                                                {MARKERVP_LABELLING_RTL});
+                                                {MARKERVP_LABELLING_RTL + model.substr(4) + ".so"});
     }
 #endif
     ip->ena(source.ena);
@@ -308,15 +308,15 @@ BOOST_AUTO_TEST_CASE(pixels_that_change_before_they_come_are_equal_in_both_model
 // ends.
 BOOST_AUTO_TEST_CASE(the_rtl_is_equal_to_the_clocked_model) {
   Random random(4);
-  const pl::Geometry size{32, 4};
   std::size_t shown = 0, lost = 0;
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < 150; ++round) {
+    const pl::Geometry size{32, 4, 64, groups[round % 3]};
     Script script;
     script.resets[2] = 2;  // registers have a value from the first reset on
     std::uint64_t cycle = 10;
     for (int frame = 0; frame < 400; ++frame) {
       script.frames[cycle] = {random_picture(random, size.width, size.height)};
-      const std::uint32_t whole = size.pixels() + size.width + 1;
+      const std::uint32_t whole = size.clocks() + gap(size);
       if (random.below(20) == 0) {
         const std::uint64_t at = cycle + 1 + random.below(whole);
         script.resets[at] = 1 + random.below(3);
@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(the_rtl_is_equal_to_the_clocked_model) {
     }
     script.end = cycle + 2500;
     const Outcome clocked = run("clocked", size, 9, 2, script);
-    const Outcome rtl = run("rtl", size, 9, 2, script);
+    const Outcome rtl = run("rtl_" + std::to_string(size.pixels_per_clock), size, 9, 2, script);
     BOOST_TEST(rtl.seen == clocked.seen, boost::test_tools::per_element());
     BOOST_TEST(rtl.losses == clocked.losses, boost::test_tools::per_element());
     BOOST_TEST(rtl.settled == clocked.settled, boost::test_tools::per_element());
@@ -341,15 +341,16 @@ BOOST_AUTO_TEST_CASE(the_rtl_is_equal_to_the_clocked_model) {
 // What it was built for is compared with the configuration.
 BOOST_AUTO_TEST_CASE(rtl_of_another_size_is_refused) {
   Script script;
-  BOOST_CHECK_THROW(run("rtl", {32, 8}, 9, 2, script), vp::InputError);
-  BOOST_CHECK_THROW(run("rtl", {32, 4}, 10, 2, script), vp::InputError);
+  BOOST_CHECK_THROW(run("rtl_1", {32, 8}, 9, 2, script), vp::InputError);
+  BOOST_CHECK_THROW(run("rtl_1", {32, 4}, 10, 2, script), vp::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(rtl_of_one_pixel_a_clock_is_refused_where_more_come) {
-  BOOST_CHECK_EXCEPTION(run("rtl", {32, 4, 64, 2}, 9, 2, {}), vp::InputError,
-                        [](const vp::InputError& error) {
-                          return std::string(error.what()).find("pixel_1") != std::string::npos;
-                        });
+  BOOST_CHECK_EXCEPTION(
+      run("rtl_1", {32, 4, 64, 2}, 9, 2, {}), vp::InputError, [](const vp::InputError& error) {
+        return std::string(error.what()).find("PIXELS_PER_CLOCK is 1, and pl.pixels_per_clock 2") !=
+               std::string::npos;
+      });
 }
 #endif
 
@@ -385,11 +386,11 @@ BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
 }
 
 // With four pixels a clock. Row 25 has no run: its end, pixels (60..63, 25), is taken on edge
-// 10 + 26 x 16. Looked at one edge later, it lets the run above pass another one later, and six
-// stages later the blob is shown. The frame is over when its last row is and the bright row behind
-// it, a clock each.
+// 10 + 26 x 16. In the FIFO three edges later, it lets the run above pass another one later, and
+// six stages later the blob is shown. The frame is over when its last row is and the bright row
+// behind it, a clock each.
 BOOST_AUTO_TEST_CASE(a_square_in_groups_is_shown_at_this_time) {
-  check_square({64, 32, 64, 4}, 10 + 26 * 16 + 2 + 6, 10 + 32 * 16 + 2 + 1);
+  check_square({64, 32, 64, 4}, 10 + 26 * 16 + 4 + 6, 10 + 32 * 16 + 4 + 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_that_begins_while_runs_wait_is_refused) {

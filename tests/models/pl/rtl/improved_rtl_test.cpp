@@ -1,5 +1,5 @@
-// The RTL of the design `improved`, in a chain of its IP: in lock-step with the models, in their
-// place, and with bugs, each of which is found at its port.
+// The RTL of the design `improved`, in a chain of its IP, with one, two and four pixels a clock: in
+// lock-step with the models, in their place, and with bugs, each of which is found at its port.
 #include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_stream/blob_stream.h>
 #include <pl/camera/camera.h>
@@ -8,6 +8,7 @@
 #include <pl/pixel_stream/pixel_stream.h>
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
+#include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -21,19 +22,19 @@ namespace {
 using Strings = std::vector<std::string>;
 
 const Bug bugs[] = {
-    {"diagonal_lost", "blob_labelling", "blob_labelling.sv", "start && (above || above_before)",
+    {"diagonal_lost", "blob_labelling", "pixel_labeller.sv", "start && (above || above_before)",
      "start && above", "label_overflow"},
-    {"joined_is_forgotten", "blob_labelling", "label_extremes.sv", "join_2 ? answer", "join_2 ? '1",
-     "extreme"},
+    {"joined_is_forgotten", "blob_labelling", "label_extremes.sv", "? joined : answer",
+     "? joined : '1", "extreme"},
     {"shown_too_soon", "blob_labelling", "leaving_blobs.sv", "SPACING = 3'd7", "SPACING = 3'd6",
      "blob_out"},
     {"one_label_less", "blob_labelling", "free_labels.sv", "fresh  <= unused != LAST",
      "fresh  <= unused + 1'b1 != LAST", ""},
-    {"right_neighbour_missed", "blob_labelling", "blob_labelling.sv",
+    {"right_neighbour_missed", "blob_labelling", "pixel_labeller.sv",
      "assign right = above_right || (first_is_set && behind_first)", "assign right = above_right",
      ""},
-    {"darker_only", "otsu_threshold", "otsu_threshold.sv", "pixel <= active_threshold",
-     "pixel < active_threshold", "binary_out"},
+    {"darker_only", "otsu_threshold", "otsu_threshold.sv", "8*lane+:8] <= active_threshold",
+     "8*lane+:8] < active_threshold", "binary_out"},
     {"same_level_twice", "otsu_threshold", "level_counters.sv",
      "wire again = writes && written == raised && writes_bank == raises_bank",
      "wire again = 1'b0 && writes && written == raised && writes_bank == raises_bank",
@@ -44,8 +45,8 @@ const Bug bugs[] = {
      "{window[7+i+:9], 1'b0}", "active_threshold"},
     {"old_counts", "otsu_threshold", "level_counters.sv", "clear || (ended && bank != 1'(b))",
      "clear", "active_threshold"},
-    {"mean_not_reached", "local_threshold", "local_threshold.sv", "limit <= {1'b0, sum}",
-     "limit < {1'b0, sum}", "binary_out"},
+    {"mean_not_reached", "local_threshold", "local_threshold.sv", "limit <= {1'b0, sums",
+     "limit < {1'b0, sums", "binary_out"},
     {"last_row_lost", "local_threshold", "local_threshold.sv", "row == R'(HEIGHT + RADIUS) && next",
      "row == R'(HEIGHT + RADIUS - 1) && next", "binary_ena"},
     {"row_leaves_too_early", "local_threshold", "local_threshold.sv", "row == R'(WINDOW - 1)",
@@ -58,8 +59,8 @@ const Bug bugs[] = {
      "level", "binary_out"},
     {"last_word_early", "pixel_stream", "pixel_stream.sv", "FRAME_WORDS - 2", "FRAME_WORDS - 3",
      "m_tlast"},
-    {"leftmost_on_top", "pixel_stream", "pixel_stream.sv", "word = {pixel, gathered}",
-     "word = {gathered, pixel}", "m_tdata"},
+    {"leftmost_on_top", "pixel_stream", "pixel_stream.sv", "{comes, gathered} >>",
+     "{gathered, comes} >>", "m_tdata"},
     {"torn_frame", "pixel_stream", "pixel_stream.sv", "starts ? takes : passing",
      "starts ? 1'b1 : passing", ""},
     {"end_of_a_cut_packet", "pixel_stream", "pixel_stream.sv", "closing <= cut ? !first",
@@ -72,7 +73,47 @@ const Bug bugs[] = {
      "packet_ends = push && is_trailer", "busy"},
     {"losses_of_all_frames", "blob_stream", "blob_stream.sv", "{24'd0, threshold_used, lost",
      "{24'd0, threshold_used, dropped_blobs", "m_tdata"},
+    // Of several pixels a clock.
+    {"neighbours_swapped", "pixel_stream", "pixel_stream.sv", "{pixel_3, pixel_2, pixel_1, pixel}",
+     "{pixel_3, pixel_1, pixel_2, pixel}", "m_tdata", 4},
+    {"second_half_first", "pixel_stream", "pixel_stream.sv", "lane == 2'(4 - PIXELS_PER_CLOCK)",
+     "lane == 2'(2 - PIXELS_PER_CLOCK)", "m_t", 2},
+    {"first_word_lost", "pixel_stream", "pixel_stream.sv", "starts ? takes : passes",
+     "starts ? 1'b0 : passes", "m_tdata", 4},
+    {"first_word_not_counted", "pixel_stream", "pixel_stream.sv", "words <= WHOLE ? WORD_BITS'(1)",
+     "words <= WHOLE ? WORD_BITS'(0)", "m_tlast", 4},
+    {"another_neighbours_threshold", "otsu_threshold", "otsu_threshold.sv",
+     "pixels_come[8*lane+:8] <= active", "pixels_come[8*(lane/2)+:8] <= active", "binary_out_", 4},
+    {"word_ends_with_its_last_pixel", "otsu_threshold", "otsu_threshold.sv",
+     "x[4:0] == 5'(32 - PIXELS_PER_CLOCK)", "x[4:0] == 5'd31", "thresh_out", 2},
+    {"one_histogram_not_added", "otsu_threshold", "otsu_threshold.sv",
+     "i < PIXELS_PER_CLOCK; i++) all", "i < PIXELS_PER_CLOCK - 1; i++) all", "active_threshold", 4},
+    {"searched_a_clock_later", "otsu_threshold", "otsu_threshold.sv", "9'h000 : 9'h1FF",
+     "9'h1FF : 9'h1FF", "active_threshold", 2},
+    {"ends_of_the_second_run_lost", "blob_labelling", "group_runs.sv", "ends     <= valid ? found",
+     "ends     <= valid ? found & 3'b101", "", 4},
+    {"run_goes_on_in_the_next_row", "blob_labelling", "group_runs.sv", "i == P ? at_right",
+     "i == P ? 1'b0", "", 2},
+    {"touches_only_below", "blob_labelling", "run_merge.sv", "first <= second_behind",
+     "first < second_behind", "", 4},
+    {"one_run_too_many", "blob_labelling", "run_fifo.sv", "runs_come <= COUNT'(DEPTH - 1 - i)",
+     "runs_come <= COUNT'(DEPTH - i)", "label_overflow", 4},
+    {"lost_run_counts_one", "blob_labelling", "run_fifo.sv", "behind[0+:COLUMN] - first[0+:COLUMN]",
+     "COLUMN'(1)", "label_overflow", 4},
+    {"row_ends_a_clock_early", "blob_labelling", "run_merge.sv",
+     "end_row   <= is_end && !more_above", "end_row   <= is_end", "", 2},
+    {"first_window_too_wide", "local_threshold", "window_sums.sv", "i < P - BESIDE || !ends",
+     "i < P", "binary_out", 4},
+    {"window_loses_too_late", "local_threshold", "window_sums.sv", "- lane) / P + 1;",
+     "- lane) / P + 2;", "binary_out", 2},
+    {"border_of_a_neighbour", "local_threshold", "local_threshold.sv", "1 + RIGHT) - place",
+     "2 + RIGHT) - place", "binary_out", 2},
+    {"rows_behind_the_frame_missing", "blob_labelling", "run_merge.sv", "is_frame_end && !below",
+     "1'b0 && is_frame_end && !below", "", 2},
 };
+
+/// What comes on an edge.
+const std::uint32_t groups[] = {1, 2, 4};
 
 const Strings ips{"blob_labelling", "otsu_threshold", "local_threshold", "pixel_stream",
                   "blob_stream"};
@@ -84,18 +125,32 @@ std::string threshold_beside(const std::string& ip) {
 
 constexpr pl::Geometry size{64, 32, 32};
 
-std::string parameters(const std::string& ip) {
-  if (ip == "blob_labelling") return "WIDTH=64 HEIGHT=32 LABELS=16 MINIMUM_SIDE=2";
-  if (ip == "local_threshold") return "WIDTH=64 HEIGHT=32 RADIUS=3";
-  if (ip == "pixel_stream") return "WIDTH=64 HEIGHT=32 FIFO_DEPTH=6";
-  return ip == "blob_stream" ? "FIFO_DEPTH=20" : "WIDTH=64 HEIGHT=32";
+std::string parameters(const std::string& ip, std::uint32_t pixels) {
+  if (ip == "blob_stream") return "FIFO_DEPTH=20";
+  std::string all = "WIDTH=64 HEIGHT=32 PIXELS_PER_CLOCK=" + std::to_string(pixels);
+  if (ip == "blob_labelling") all += " LABELS=16 MINIMUM_SIDE=2 RUN_FIFO_DEPTH=12";
+  if (ip == "local_threshold") all += " RADIUS=3";
+  if (ip == "pixel_stream") all += " FIFO_DEPTH=6";
+  return all;
+}
+
+/// The object of an IP without a bug.
+std::string object_of(const std::string& ip, std::uint32_t pixels) {
+  return ip == "blob_stream" ? ip : ip + "_" + std::to_string(pixels);
 }
 
 const RtlObjects& objects() {
   static const RtlObjects built = [] {
     std::vector<RtlObjects::Object> all;
-    for (const std::string& ip : ips) all.push_back({ip, ip, parameters(ip)});
-    for (const Bug& bug : bugs) all.push_back({bug.name, bug.ip, parameters(bug.ip), &bug});
+    for (const std::string& ip : ips) {
+      for (const std::uint32_t pixels : groups) {
+        const std::string name = object_of(ip, pixels);
+        if (all.empty() || all.back().name != name)
+          all.push_back({name, ip, parameters(ip, pixels)});
+      }
+    }
+    for (const Bug& bug : bugs)
+      all.push_back({bug.name, bug.ip, parameters(bug.ip, bug.pixels), &bug});
     return RtlObjects(all);
   }();
   return built;
@@ -121,8 +176,10 @@ struct Fidelity : sc_core::sc_module {
 /// Camera, threshold, labelling and both streams; the sinks take beats, or let them wait, at
 /// random.
 struct Chain : kit::Simulation {
-  explicit Chain(const Strings& more, const std::string& rule = "otsu_threshold")
-      : settings(settings_with(more, rule)), fidelity("fidelity", rule) {
+  Chain(const Strings& more, const std::string& rule, std::uint32_t a_clock)
+      : settings(settings_with(more, rule)),
+        fidelity("fidelity", rule),
+        site{clk, {size.width, size.height, size.burst_words, a_clock}} {
     camera->ena(ena);
     camera->por(por);
     camera->hold(blob_stream->busy);
@@ -131,16 +188,19 @@ struct Chain : kit::Simulation {
       port->bind(rst);
     pixel_stream->ena(camera->frame_ena);
     pixel_stream->pixel(camera->pixel);
+    pixel_stream->more_pixels(camera->more_pixels);
     pixel_stream->m(pixels);
     threshold->por(por);
     threshold->frame_ena(camera->frame_ena);
     threshold->wr_thresh(wr_thresh);
     threshold->threshold(level);
     threshold->pixel(camera->pixel);
+    threshold->more_pixels(camera->more_pixels);
     threshold->x(camera->pixel_x);
     threshold->y(camera->pixel_y);
     blob_labelling->ena(threshold->binary_ena);
     blob_labelling->pixel(threshold->binary_out);
+    blob_labelling->more_pixels(threshold->more_binary);
     blob_labelling->x(threshold->binary_x);
     blob_labelling->y(threshold->binary_y);
     blob_stream->frame_ena(camera->frame_ena);
@@ -158,12 +218,14 @@ struct Chain : kit::Simulation {
 
   static Strings settings_with(const Strings& more, const std::string& rule) {
     Strings all{"blob_labelling.label_count=16", "blob_labelling.minimum_side=2 px",
-                "pixel_stream.fifo_depth=6", "blob_stream.fifo_depth=20"};
+                "blob_labelling.run_fifo_depth=12", "pixel_stream.fifo_depth=6",
+                "blob_stream.fifo_depth=20"};
     if (rule == "local_threshold") all.push_back("local_threshold.radius=3 px");
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
 
+  std::uint32_t group() const { return site.geometry.pixels_per_clock; }
   void clocks(std::uint64_t n) { sc_core::sc_start(vp::from_ps(n * 10'000)); }
 
   /// Triggers, and lets clocks pass until everything of the frame is over. How seldom a sink lets
@@ -209,7 +271,7 @@ struct Chain : kit::Simulation {
       run_frame(harness::noise(64, 32, seed), 9, 3);
       run_frame(spots(), never, 2);
       run_frame(frame_around(), 40, never);
-      cut_frame(harness::rectangles(64, 32, 20, seed + 7), 300 + 400 * seed);
+      cut_frame(harness::rectangles(64, 32, 20, seed + 7), 64 + (300 + 400 * seed) / group());
     }
     wr_thresh = true;
     level = 90;
@@ -220,7 +282,7 @@ struct Chain : kit::Simulation {
     ena = false;
     clocks(2);
     ena = true;
-    clocks(700);
+    clocks(64 + 700 / group());
     wr_thresh = true;
     level = 60;
     clocks(2);
@@ -302,7 +364,7 @@ struct Chain : kit::Simulation {
   vp::Signal<bool> ena{"ena"}, rst{"rst"}, por{"por"}, wr_thresh{"wr_thresh"};
   vp::Signal<std::uint8_t> level{"level"};
   Fidelity fidelity;
-  const pl::Site site{clk, size};
+  const pl::Site site;
   std::unique_ptr<pl::Camera> camera = pl::Camera::models().list().at(0).make("camera", site);
   std::unique_ptr<pl::PixelStream> pixel_stream = fidelity.pixel_stream.make(site);
   std::unique_ptr<pl::GlobalThreshold> threshold = fidelity.threshold.make(site);
@@ -317,42 +379,72 @@ struct Chain : kit::Simulation {
 BOOST_AUTO_TEST_SUITE(improved_rtl)
 
 BOOST_AUTO_TEST_CASE(the_rtl_as_it_is_never_differs) {
-  for (const std::string& ip : ips)
-    BOOST_TEST(Chain({lockstep(ip, ip)}, threshold_beside(ip)).failure() == "", ip);
+  for (const std::uint32_t pixels : groups) {
+    for (const std::string& ip : ips) {
+      const std::string object = object_of(ip, pixels);
+      BOOST_TEST(Chain({lockstep(ip, object)}, threshold_beside(ip), pixels).failure() == "",
+                 object << ", " << pixels);
+    }
+  }
 }
 
 // As in the platform, which begins behind a reset that nobody sees.
 BOOST_AUTO_TEST_CASE(without_a_reset_the_rtl_begins_as_its_model) {
-  for (const std::string& ip : ips) {
-    Chain chain({lockstep(ip, ip)}, threshold_beside(ip));
-    chain.resets = false;
-    BOOST_TEST(chain.failure() == "", ip);
+  for (const std::uint32_t pixels : groups) {
+    for (const std::string& ip : ips) {
+      const std::string object = object_of(ip, pixels);
+      Chain chain({lockstep(ip, object)}, threshold_beside(ip), pixels);
+      chain.resets = false;
+      BOOST_TEST(chain.failure() == "", object << ", " << pixels);
+    }
   }
 }
 
 // Each alone, and all of them, in the place of the models.
 BOOST_AUTO_TEST_CASE(in_the_place_of_the_models_nobody_sees_a_difference) {
-  for (const std::string rule : {"otsu_threshold", "local_threshold"}) {
-    const std::string models = Chain({}, rule).seen();
-    BOOST_TEST(models.size() > 10'000u);
-    Strings all;
-    for (const std::string& ip : {std::string("blob_labelling"), rule, std::string("pixel_stream"),
-                                  std::string("blob_stream")}) {
-      all.push_back("fidelity." + ip + "=" + objects().file(ip));
-      BOOST_TEST((Chain({all.back()}, rule).seen() == models), ip);
+  for (const std::uint32_t pixels : groups) {
+    for (const std::string rule : {"otsu_threshold", "local_threshold"}) {
+      const std::string models = Chain({}, rule, pixels).seen();
+      BOOST_TEST(models.size() > 10'000u);
+      Strings all;
+      for (const std::string& ip : {std::string("blob_labelling"), rule,
+                                    std::string("pixel_stream"), std::string("blob_stream")}) {
+        all.push_back("fidelity." + ip + "=" + objects().file(object_of(ip, pixels)));
+        BOOST_TEST((Chain({all.back()}, rule, pixels).seen() == models), ip << ", " << pixels);
+      }
+      BOOST_TEST((Chain(all, rule, pixels).seen() == models), pixels);
     }
-    BOOST_TEST((Chain(all, rule).seen() == models));
   }
 }
 
 BOOST_AUTO_TEST_CASE(each_bug_is_found_at_its_port) {
   for (const Bug& bug : bugs) {
     const std::string failure =
-        Chain({lockstep(bug.ip, bug.name)}, threshold_beside(bug.ip)).failure();
+        Chain({lockstep(bug.ip, bug.name)}, threshold_beside(bug.ip), bug.pixels).failure();
     const std::size_t ports = failure.find(": ", failure.find(", at "));
     BOOST_TEST_REQUIRE(ports != std::string::npos, bug.name << ": " << failure);
     BOOST_TEST(failure.compare(ports + 2, std::string(bug.port).size(), bug.port) == 0,
                bug.name << ": " << failure);
+  }
+}
+
+// RTL for another number of pixels a clock is told by its parameter, or by the pins that it lacks.
+BOOST_AUTO_TEST_CASE(rtl_of_another_number_of_pixels_is_refused) {
+  const auto refused = [](std::uint32_t built, std::uint32_t pixels) {
+    try {
+      Chain({lockstep("pixel_stream", object_of("pixel_stream", built))}, "otsu_threshold", pixels);
+    } catch (const vp::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const auto& [built, pixels] : {std::pair{1u, 2u}, {2u, 1u}, {4u, 2u}}) {
+    const std::string text = refused(built, pixels);
+    const std::string expected =
+        "PIXELS_PER_CLOCK is " + std::to_string(built) + ", and pl.pixels_per_clock " +
+        std::to_string(pixels) +
+        ": build it with PARAMETERS PIXELS_PER_CLOCK=" + std::to_string(pixels);
+    BOOST_TEST(text.find(expected) != std::string::npos, text);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ struct Bug {
   const char* file;
   const char* right;
   const char* wrong;
-  const char* port;  ///< that differs first
+  const char* port;          ///< that differs first
+  std::uint32_t pixels = 1;  ///< a clock
 };
 
 /// RTL of models/pl, as it is or with a bug, built in a folder that goes with this object.

@@ -36,15 +36,18 @@ struct Rtl {
     for (const std::string& file : files) script += " " + file;
     return kit::run_process(YOSYS, {"-Q", "-T", "-p", script + "; " + commands}, folder.path());
   }
-  kit::Outcome elaborate(const Words& files, const std::string& top) const {
-    return yosys(files, "hierarchy -check -top " + top +
+  kit::Outcome elaborate(const Words& files, const std::string& top,
+                         const std::string& parameter = "") const {
+    return yosys(files, "hierarchy -check -top " + top + parameter +
                             "; proc; check -assert; select -assert-none t:$dlatch");
   }
 
   /// Cells by type of the whole hierarchy, after synthesis for the 7 series.
-  std::map<std::string, int> synthesise(const std::string& top) const {
+  std::map<std::string, int> synthesise(const std::string& top,
+                                        const std::string& parameter = "") const {
     const kit::Outcome outcome =
-        yosys(sources(), "synth_xilinx -family xc7 -top " + top + "; tee -o cells.txt stat");
+        yosys(sources(), "hierarchy -top " + top + parameter + "; synth_xilinx -family xc7 -top " +
+                             top + "; tee -o cells.txt stat");
     BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.out + outcome.err);
     std::string text = kit::read_file(folder / "cells.txt");
     const std::size_t whole = text.find("=== design hierarchy ===");
@@ -89,16 +92,33 @@ const std::map<std::string, std::vector<Words>> improved = {
      {{},
       {"WIDTH=32", "HEIGHT=16", "LABELS=4", "MINIMUM_SIDE=1"},
       {"WIDTH=1280", "HEIGHT=720"},
-      {"WIDTH=2048", "HEIGHT=2048", "LABELS=2048", "MINIMUM_SIDE=2047"}}},
-    {"otsu_threshold", {{}, {"WIDTH=32", "HEIGHT=16"}, {"WIDTH=2048", "HEIGHT=2048"}}},
+      {"WIDTH=2048", "HEIGHT=2048", "LABELS=2048", "MINIMUM_SIDE=2047"},
+      {"PIXELS_PER_CLOCK=2"},
+      {"PIXELS_PER_CLOCK=4"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=32", "HEIGHT=16", "LABELS=4", "RUN_FIFO_DEPTH=4"},
+      {"PIXELS_PER_CLOCK=2", "WIDTH=2048", "HEIGHT=2048", "LABELS=2048", "RUN_FIFO_DEPTH=4096"}}},
+    {"otsu_threshold",
+     {{},
+      {"WIDTH=32", "HEIGHT=16"},
+      {"WIDTH=2048", "HEIGHT=2048"},
+      {"PIXELS_PER_CLOCK=2", "WIDTH=32", "HEIGHT=16"},
+      {"PIXELS_PER_CLOCK=4"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=2048", "HEIGHT=2048"}}},
     {"local_threshold",
      {{},
       {"WIDTH=32", "HEIGHT=16", "RADIUS=1", "OFFSET=1"},
-      {"WIDTH=2048", "HEIGHT=2048", "RADIUS=31", "OFFSET=255"}}},
+      {"WIDTH=2048", "HEIGHT=2048", "RADIUS=31", "OFFSET=255"},
+      {"PIXELS_PER_CLOCK=2", "WIDTH=32", "HEIGHT=16", "RADIUS=1", "OFFSET=1"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=32", "HEIGHT=16", "RADIUS=1", "OFFSET=1"},
+      {"PIXELS_PER_CLOCK=4"},
+      {"PIXELS_PER_CLOCK=2", "WIDTH=2048", "HEIGHT=2048", "RADIUS=31", "OFFSET=255"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=2048", "HEIGHT=2048", "RADIUS=31", "OFFSET=255"}}},
     {"pixel_stream",
      {{},
       {"WIDTH=32", "HEIGHT=16", "FIFO_DEPTH=2"},
-      {"WIDTH=2048", "HEIGHT=2048", "FIFO_DEPTH=65536"}}},
+      {"WIDTH=2048", "HEIGHT=2048", "FIFO_DEPTH=65536"},
+      {"PIXELS_PER_CLOCK=2"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=32", "HEIGHT=16", "FIFO_DEPTH=2"}}},
     {"blob_stream", {{}, {"FIFO_DEPTH=8"}, {"FIFO_DEPTH=65535"}}}};
 
 BOOST_AUTO_TEST_CASE(lint_has_nothing_to_say_of_the_improved_design_at_any_size) {
@@ -117,6 +137,16 @@ BOOST_AUTO_TEST_CASE(yosys_reads_it_and_finds_no_latch_and_no_loop) {
   for (const std::string& top : tops) {
     const kit::Outcome outcome = elaborate(sources(), top);
     BOOST_TEST(outcome.exit_code == 0, top << ": " << outcome.out << outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(yosys_reads_it_with_several_pixels_a_clock) {
+  for (const char* top : {"blob_labelling", "local_threshold", "otsu_threshold", "pixel_stream"}) {
+    for (const char* pixels : {"2", "4"}) {
+      const kit::Outcome outcome =
+          elaborate(sources(), top, std::string(" -chparam PIXELS_PER_CLOCK ") + pixels);
+      BOOST_TEST(outcome.exit_code == 0, top << ": " << outcome.out << outcome.err);
+    }
   }
 }
 
@@ -147,6 +177,10 @@ BOOST_AUTO_TEST_CASE(memories_become_memories) {
   auto labelling = synthesise("blob_labelling");
   BOOST_TEST(labelling["RAMB18E1"] + 2 * labelling["RAMB36E1"] >= 10);
   BOOST_TEST(labelling["FDRE"] < 2500);
+  auto groups = synthesise("blob_labelling", " -chparam PIXELS_PER_CLOCK 4");
+  BOOST_TEST(groups["RAMB18E1"] + 2 * groups["RAMB36E1"] >= 11);
+  BOOST_TEST(groups["RAM32M"] == 16);
+  BOOST_TEST(groups["FDRE"] < 2500);
   auto local = synthesise("local_threshold");
   BOOST_TEST(local["RAMB18E1"] == 5);
   BOOST_TEST(local["FDRE"] < 400);
