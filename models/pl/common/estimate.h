@@ -32,23 +32,6 @@ inline vp::IpEstimate synthesised_ip(const char* kind,
   return e;
 }
 
-/// An IP with RTL, where it takes several pixels a clock, which its RTL does not: what synthesis
-/// gives for one, and what is added.
-inline vp::IpEstimate grouped_ip(const char* kind, std::uint32_t lut, std::uint32_t ff,
-                                 std::uint64_t fmax_hz, const char* why) {
-  vp::IpEstimate e;
-  e.kind = kind;
-  e.lut = lut;
-  e.ff = ff;
-  e.uncertainty_percent = 50;
-  e.source = "derived from synthesis of its RTL for one pixel a clock, and from what more take";
-  e.fmax_hz = fmax_hz;
-  e.fmax_high_hz = 200 * mhz;  // as one pixel a clock comes to
-  e.fmax_origin = vp::FmaxOrigin::estimated;
-  e.fmax_documentation = why;
-  return e;
-}
-
 /// One of the thesis, where it works at the system clock.
 inline vp::IpEstimate rtl_ip(const char* kind,
                              std::map<std::string, std::int64_t> parameters = {}) {

@@ -154,7 +154,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
   }
   const report::StageTime detection = stage("detection", t.detection, "frame");
   frame.times = {detection, stage("pose", t.pose, "frame"), whole};
-  const Sent& sent = slot(result_.camera_frame);
+  Sent& sent = slot(result_.camera_frame);
   if (sent.number != result_.camera_frame || sent.end_ps < frame.start_ps) return;
   const auto between = [](const char* name, std::uint64_t from_ps, std::uint64_t to_ps,
                           const char* part_of, const std::string& why) {
@@ -179,7 +179,7 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
       {capture, between("wait", sent.end_ps, detection.start_ps, "frame",
                         "the last blobs and their DMA, the trigger of the next frame, and what the "
                         "software still had to do for the one before")});
-  frame.features.blobs = sent.blobs;
+  frame.features.blobs = std::move(sent.blobs);
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
   frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, "", ""));
 }

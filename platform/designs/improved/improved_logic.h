@@ -71,8 +71,7 @@ class ImprovedLogic : public sc_core::sc_module {
       {1, 4},
       vp::Source::decision,
       "neighbours in a row that camera, threshold and labelling take on one edge: 1, 2 or 4. With "
-      "4 "
-      "the stream of pictures is full, and its DMA writes 64 bits a clock"};
+      "4 the stream of pictures is full, and its DMA writes 64 bits a clock"};
   pl::Geometry geometry() const { return {width, height, burst_words, pixels_per_clock}; }
 
   /// Brings counters up to now, for whoever looks at them from outside.

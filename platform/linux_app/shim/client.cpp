@@ -14,8 +14,6 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-#include "files.h"
-
 namespace shim {
 
 namespace {

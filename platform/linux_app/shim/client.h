@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <signal.h>
+#include <sys/types.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -58,6 +59,22 @@ void locate(char* text, std::size_t size);
 /// To be called early: what locate() needs is loaded then, and not in a signal handler.
 void prepare_to_locate();
 
+// ---- files.cpp
+/// The DDR: bus addresses [first, end).
+void set_memory(std::uint64_t first, std::uint64_t end);
+/// Some uio is open: an interrupt may end a wait.
+bool may_be_interrupted();
+
+// ---- registers.cpp
+/// mmap() of device registers: pages without access rights. Each access of the application faults,
+/// is made by the platform, and the application goes on: the instruction is stepped over with the
+/// word in the page, so that it does what it always does.
+void* map_registers(void* address, std::size_t length, int protection, int flags,
+                    std::uint32_t bus_address);
+/// What the application may do with them. False: there are none.
+bool protect_registers(void* address, std::size_t length, int protection);
+/// They are registers no more.
+void unmap_registers(void* address, std::size_t length);
 /// Faults of the application are caught from now on.
 void catch_faults();
 constexpr int faults[] = {SIGSEGV, SIGBUS, SIGTRAP, SIGFPE, SIGILL, SIGABRT};

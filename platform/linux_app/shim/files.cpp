@@ -1,5 +1,4 @@
 // Device files and their sysfs: what opens, maps, reads, writes and closes them.
-#include "files.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -16,7 +15,6 @@
 #include <unistd.h>
 
 #include "client.h"
-#include "registers.h"
 
 namespace shim {
 

@@ -1,5 +1,4 @@
 // Registers in the application's memory, and the faults of the application itself.
-#include "registers.h"
 
 #include <errno.h>
 #include <pthread.h>

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "client.h"
-#include "files.h"
 
 namespace shim {
 
