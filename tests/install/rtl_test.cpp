@@ -148,6 +148,41 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_local_threshold) {
   check_same(run("local_rtl", with(clocked, {"--set", setting("local_threshold")})), models);
 }
 
+// All IP that take several pixels a clock together in the running system, with either threshold.
+BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_several_pixels_a_clock) {
+  const std::string folder = installed.beside("group_rtl_source");
+  std::filesystem::create_directory(folder);
+  kit::write_file(folder + "/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
+project(group_rtl LANGUAGES CXX)
+find_package(markervp REQUIRED COMPONENTS rtl)
+file(GLOB common ${markervp_RTL}/common/*.sv)
+foreach(ip otsu_threshold local_threshold blob_labelling pixel_stream)
+  file(GLOB sources ${markervp_RTL}/${ip}/*.sv)
+  foreach(pixels 2 4)
+    markervp_add_rtl(${ip}_${pixels} IP ${ip} TOP ${ip} SOURCES ${sources} ${common}
+      PARAMETERS PIXELS_PER_CLOCK=${pixels})
+  endforeach()
+endforeach()
+)");
+  installed.build(folder, "group_rtl");
+  for (const std::string pixels : {"2", "4"}) {
+    for (const std::string rule : {"otsu", "local"}) {
+      const std::string name = rule + "_" + pixels;
+      const Words inputs = pictures({"--design", "improved", "--set", "pl.threshold_rule=" + rule,
+                                     "--set", "pl.pixels_per_clock=" + pixels});
+      const Json models = run(name, inputs);
+      BOOST_TEST(models["summary"]["detected"] >= 4);
+      Words all = inputs;
+      for (const std::string& ip :
+           {rule + "_threshold", std::string("blob_labelling"), std::string("pixel_stream")}) {
+        all = with(all, {"--set", "pl.fidelity." + ip + "=" +
+                                      installed.beside("group_rtl/" + ip + "_" + pixels + ".so")});
+      }
+      check_same(run(name + "_rtl", with(all, {"--set", setting("blob_stream")})), models);
+    }
+  }
+}
+
 // The detector behind the threshold takes pixels then: nobody needs to say so.
 BOOST_AUTO_TEST_CASE(a_check_chooses_models_that_go_with_the_rtl) {
   const kit::Outcome outcome =
