@@ -1,8 +1,9 @@
-# markervp_add_test(NAME n [FREEZES] SOURCES a.cpp… [LIBRARIES l…] [LABELS slow])
+# markervp_add_test(NAME n [FREEZES] SOURCES a.cpp… [LIBRARIES l…] [LABELS slow] [COST seconds])
 # One Boost.Test program, one CTest entry. LABELS slow: left out by `ctest -LE slow`. FREEZES: its PS programs fail, and are
 # frozen where they stand; what their stacks hold is never given back, which the address sanitizer is not to count as leaks.
+# COST: what takes a minute and more begins first, or one core waits at the end for the other.
 function(markervp_add_test)
-  cmake_parse_arguments(TEST "FREEZES" "NAME" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "FREEZES" "NAME;COST" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${TEST_NAME} ${TEST_SOURCES} $<TARGET_OBJECTS:markervp_test_main>
     $<TARGET_OBJECTS:markervp_address_sanitizer>)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} Boost::unit_test_framework)
@@ -15,6 +16,9 @@ function(markervp_add_test)
   set_tests_properties(${TEST_NAME} PROPERTIES TIMEOUT 1800)  # against hangs; sanitizers under load take long
   if(TEST_FREEZES)
     set_tests_properties(${TEST_NAME} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+  endif()
+  if(TEST_COST)
+    set_tests_properties(${TEST_NAME} PROPERTIES COST ${TEST_COST})
   endif()
   if(TEST_LABELS)
     set_tests_properties(${TEST_NAME} PROPERTIES LABELS "${TEST_LABELS}")

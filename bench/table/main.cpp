@@ -143,8 +143,9 @@ int main(int argc, char** argv) try {
       ->check(CLI::Range(100, 1'000'000));
   app.add_flag("!--no-parts", options.programs.parts, "without parts of a frame and rendering");
   app.add_option("--write", options.document, "write the table into this document");
-  app.add_option("--check", options.slack,
-                 "fail if a figure misses what it must reach, loosened by this factor")
+  app.add_option(
+         "--check", options.slack,
+         "fail if a figure against a peer misses what it must reach, loosened by this factor")
       ->check(CLI::Range(1.0, 100.0));
   CLI11_PARSE(app, argc, argv);
   Measurement measurement(options);

@@ -176,6 +176,7 @@ const std::vector<RtlIp>& rtl_ips() {
 
 std::vector<Figure> figures(const std::string& fidelity) {
   const auto higher = Figure::Better::higher, lower = Figure::Better::lower;
+  const auto clock = Figure::Against::clock;
   constexpr auto none = std::nullopt;
   const std::string system = fidelity + ", whole system";
   std::vector<Figure> all{
@@ -192,7 +193,7 @@ std::vector<Figure> figures(const std::string& fidelity) {
       {"own VCD writer against sc_trace, 130 signals (few change; half change)", 4, 7, "×", higher,
        faster("own", "sc_trace")},
       {"VCD read by `markervp trace`, 130 signals (few change; half change)", 100, none, "MB/s",
-       higher, read_per_second("reading")},
+       higher, read_per_second("reading"), clock},
       {system + ", image preloaded, against the plain function in plain C++", 0.5, 0.8, "×", higher,
        faster("preloaded", "scalar")},
       {system + ", image preloaded, against the plain function with our SIMD", 0.5, 0.8, "×",
@@ -204,11 +205,11 @@ std::vector<Figure> figures(const std::string& fidelity) {
       {system + ", image uploaded, against the plain function with our SIMD", none, none, "×",
        higher, faster("uploaded", "function")},
       {system + ", image uploaded, against the hardware's real time", 8, 15, "×", higher,
-       faster_than_hardware("uploaded")},
+       faster_than_hardware("uploaded"), clock},
       {system + ", image preloaded, against the hardware's real time", none, none, "×", higher,
-       faster_than_hardware("preloaded")},
+       faster_than_hardware("preloaded"), clock},
       {fidelity + ", design `improved`, against the hardware's real time", 5, none, "×", higher,
-       faster_than_hardware("improved")},
+       faster_than_hardware("improved"), clock},
       {fidelity + " against clocked, whole system", none, none, "×", higher,
        faster("uploaded", "uploaded_clocked")},
       {"plain function with our SIMD against the same in plain C++", none, none, "×", higher,
@@ -217,8 +218,9 @@ std::vector<Figure> figures(const std::string& fidelity) {
        faster("function", "naive")},
       {"corners of a frame against OpenCV's FAST", none, none, "×", higher,
        faster("corner_frame", "opencv_fast")},
-      {"`markervp run` of one frame, start to exit", 300, 100, "ms", lower, processor_time("run")},
-      {"rendering a scene", 30, none, "ms", lower, processor_time("render_scene")},
+      {"`markervp run` of one frame, start to exit", 300, 100, "ms", lower, processor_time("run"),
+       clock},
+      {"rendering a scene", 30, none, "ms", lower, processor_time("render_scene"), clock},
       {"memory of a long `markervp run`, without the page", 150, none, "MB", lower,
        memory("memory_long")},
       {"what it grew since frame 100", 1, none, "MB", lower, growth},
@@ -350,6 +352,7 @@ std::vector<std::string> misses(const Table& table, double slack) {
   std::vector<std::string> lines;
   for (const Table::Line& line : table.lines) {
     const Figure& figure = line.figure;
+    if (figure.against == Figure::Against::clock) continue;
     if (!figure.must || !line.values.front()) continue;
     const double limit =
         figure.better == Figure::Better::higher ? *figure.must / slack : *figure.must * slack;

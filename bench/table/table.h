@@ -34,6 +34,7 @@ std::vector<std::string> disagreeing(const std::vector<Round>& rounds,
 /// One line of the table.
 struct Figure {
   enum class Better { higher, lower };
+  enum class Against { peer, clock };
 
   std::string title;
   std::optional<double> must, aim;  ///< on the first image; nothing: for comparison only
@@ -41,6 +42,8 @@ struct Figure {
   Better better = Better::higher;
   /// Of one round and image; nothing if it was not measured.
   std::function<std::optional<double>(const Round&, const std::string& image)> value;
+  /// What was measured in the same round, or the wall clock: that one judges the host, too.
+  Against against = Against::peer;
 
   bool satisfies(double value, double bound) const {
     return better == Better::higher ? value >= bound : value <= bound;
@@ -80,7 +83,7 @@ std::string plain_text(const Table& table);
 std::string markdown(const Table& table);
 
 /// One line for each figure of the first image that misses its `must`, loosened by `slack`: 1 is
-/// the must itself, 2 half of it.
+/// the must itself, 2 half of it. Figures against the clock are left out: a busy host misses them.
 std::vector<std::string> misses(const Table& table, double slack);
 
 /// `document` with everything between its marker lines replaced by `text`. Throws

@@ -81,7 +81,9 @@ for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
       }));
       assert.ok(drawn.length >= least, `${drawn.length} charts`);
       assert.deepEqual(drawn.filter((chart) => !chart.ok), []);
-      const { violations } = await new AxeBuilder({ page }).analyze();
+      // In the dark only colours are others.
+      const axe = new AxeBuilder({ page });
+      const { violations } = await (colorScheme === "dark" ? axe.withRules(["color-contrast"]) : axe).analyze();
       assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(" | ")}`), []);
     }, { colorScheme }));
   }
