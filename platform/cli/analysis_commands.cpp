@@ -119,8 +119,9 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
     if (report.skipped != 0)
       err << "markervp: warning: "
           << report::counted(report.skipped, report.method == "main effects" ? "point" : "effect")
-          << " left out of '" << figure.text()
-          << "': a point failed, is missing or has no value of it" << std::endl;
+          << " left out of '" << figure.text() << "': a point failed, is missing, "
+          << (options.all ? "" : "is not feasible (--all takes those) ") << "or has no value of it"
+          << std::endl;
     const std::string lines = sweep::sensitivity_csv(figure.text(), report);
     csv += csv.empty() ? lines : lines.substr(lines.find('\n') + 1);
   }
