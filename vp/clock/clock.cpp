@@ -19,12 +19,25 @@ using Wide = unsigned __int128;
 
 void EdgeTimes::restart(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   hertz_ = hertz;
+  stands_ = hertz == 0;
   origin_ = anchor_ = {cycles, ps, hertz / 2};
   reach_ps_ = 0;
   if (stands()) return;
   period_ps_ = ps_per_second / hertz_;
   period_remainder_ = ps_per_second % hertz_;
   reach_ps_ = (std::uint64_t{1} << 62) / hertz_;
+}
+
+void EdgeTimes::halt(std::uint64_t cycles, std::uint64_t ps) {
+  stands_ = true;
+  origin_ = anchor_ = {cycles, ps, 0};
+  reach_ps_ = 0;
+}
+
+void EdgeTimes::join(std::uint64_t cycles, const EdgeTimes& source, std::uint64_t source_cycle) {
+  const Edge last = source.edge(source_cycle);
+  *this = source;
+  origin_ = anchor_ = {cycles, last.ps, last.remainder};
 }
 
 // Some way before `cycle`, as the next question may be about an earlier time.
@@ -172,6 +185,20 @@ void Clock::start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   if (!times_.stands()) next_ = times_.edge(cycles + 1);
 }
 
+void Clock::halt() {
+  const std::uint64_t now = scheduler_.synchronised_ps();
+  times_.halt(cycle(), now);
+  plan_next(now);
+  if (pin_) pin_->follow_gate();
+}
+
+void Clock::join(const Clock& source) {
+  const std::uint64_t now = scheduler_.synchronised_ps();
+  times_.join(cycle(), source.times_, source.cycle());
+  plan_next(now);
+  if (pin_) pin_->follow_gate();
+}
+
 std::uint64_t Clock::cycle() const {
   const std::uint64_t now = scheduler_.now_ps();
   if (now == cycle_ps_) return cycle_;
@@ -181,7 +208,7 @@ std::uint64_t Clock::cycle() const {
 }
 
 std::uint64_t Clock::duration_ps(double cycles) const {
-  if (times_.stands()) return never;
+  if (times_.hertz() == 0) return never;
   return static_cast<std::uint64_t>(cycles * static_cast<double>(EdgeTimes::ps_per_second) /
                                         static_cast<double>(times_.hertz()) +
                                     0.5);

@@ -92,11 +92,23 @@ void ClockPin::plan_rise() {
   plan(clock_.edge_at_or_after(to_ps(sc_core::sc_time_stamp()) + 1));
 }
 
+// A gate may have closed behind this edge.
 void ClockPin::plan_fall(std::uint64_t from_ps) {
-  plan(from_ps + (clock_.edge_at_or_after(from_ps + 1) - from_ps) / 2);
+  const std::uint64_t next_ps = clock_.edge_at_or_after(from_ps + 1);
+  const std::uint64_t period_ps =
+      next_ps == Clock::never ? clock_.duration_ps(1) : next_ps - from_ps;
+  plan(from_ps + period_ps / 2);
+}
+
+// An edge of this very instant was before.
+void ClockPin::follow_gate() {
+  if (high_ || planned_ps_ == to_ps(sc_core::sc_time_stamp())) return;
+  edge_.cancel();
+  plan_rise();
 }
 
 void ClockPin::plan(std::uint64_t ps) {
+  planned_ps_ = ps;
   if (ps != Clock::never) edge_.notify(from_ps(ps - to_ps(sc_core::sc_time_stamp())));
 }
 

@@ -31,7 +31,7 @@ const sc_core::sc_object& Ip::object() const {
 }
 
 const Clock& Ip::logic_clock() const {
-  if (clock_) return *clock_;
+  if (clock_) return clock_->source();
   throw std::logic_error(std::string(object().name()) +
                          ": an IP without a clock of its own: call its set_logic_clock()");
 }

@@ -31,9 +31,14 @@ class EdgeTimes {
 
   /// `cycles` edges have been; the next one comes one period after `ps`. 0 Hz: the clock stands.
   void restart(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz);
+  /// `cycles` edges have been, the last one at or before `ps`: no more come. hertz() stays.
+  void halt(std::uint64_t cycles, std::uint64_t ps);
+  /// `cycles` edges have been: those to come are the ones of `source` behind its edge number
+  /// `source_cycle`, which is no earlier than its last change.
+  void join(std::uint64_t cycles, const EdgeTimes& source, std::uint64_t source_cycle);
 
   std::uint64_t hertz() const { return hertz_; }
-  bool stands() const { return hertz_ == 0; }
+  bool stands() const { return stands_; }
 
   /// Edge number `cycle`, since the last change of a clock that runs.
   Edge edge(std::uint64_t cycle) const;
@@ -61,6 +66,7 @@ class EdgeTimes {
   }
 
   std::uint64_t hertz_ = 0;
+  bool stands_ = true;
   Edge origin_{0, 0, 0};                ///< the last change: no edge, but they count from there
   std::uint64_t period_ps_ = 0;         ///< rounded down
   std::uint64_t period_remainder_ = 0;  ///< what that cut off, in 1 / f ps
@@ -241,6 +247,14 @@ class Clock : public sc_core::sc_object {
   ClockScheduler& scheduler() const { return scheduler_; }
   /// Edges on which at least one module ran, for performance reports.
   std::uint64_t edges_run() const { return edges_run_; }
+  /// The clock whose edges these are: itself, unless a gate stands between.
+  virtual const Clock& source() const { return *this; }
+
+ protected:
+  /// No edge comes after now.
+  void halt();
+  /// The edges after now are those of `source`.
+  void join(const Clock& source);
 
  private:
   friend class ClockScheduler;

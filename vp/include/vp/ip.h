@@ -144,7 +144,8 @@ class Ip {
 
   /// The module that this is.
   const sc_core::sc_object& object() const;
-  /// The clock that its logic must reach. Throws std::logic_error if it has none.
+  /// The clock that its logic must reach; of a gated one the source. Throws std::logic_error if it
+  /// has none.
   const Clock& logic_clock() const;
   /// From the parameters as they are configured.
   IpEstimate estimate() const;

@@ -30,6 +30,9 @@ class ClockPin : public sc_core::sc_module, private ClockListener {
 
   sc_core::sc_signal<bool> level{"level"};
 
+  /// The clock's gate has opened or closed: it comes up with the next edge that there is.
+  void follow_gate();
+
  private:
   void start_of_simulation() override { plan_rise(); }
   void before_change(Clock&) override {}
@@ -41,6 +44,7 @@ class ClockPin : public sc_core::sc_module, private ClockListener {
 
   Clock& clock_;
   sc_core::sc_event edge_;
+  std::uint64_t planned_ps_ = 0;
   bool high_ = false;
 };
 
