@@ -323,6 +323,8 @@ const Figure& limit_of(const Device& device, ClockKind kind) {
       return device.cpu_421_mhz;
     case ClockKind::ddr:
       return device.ddr_mhz;
+    case ClockKind::external:
+      return device.clock_buffer_mhz;
     case ClockKind::fclk:
       break;
   }
@@ -342,7 +344,7 @@ ClockVerdict judge(const ClockPlanner& planner, ClockKind kind, double hz) {
   if (hz > 0) {
     verdict.margin_percent = 100 * (verdict.limit_hz / hz - 1);
     verdict.within = hz <= with_tolerance(verdict.limit_hz);
-    verdict.makeable = planner.makes(hz, kind);
+    verdict.makeable = kind == ClockKind::external || planner.makes(hz, kind);
   }
   return verdict;
 }

@@ -58,6 +58,7 @@ enum class ClockKind {
   cpu_421,  ///< CPU_6x4x, ratio 4:2:1
   ddr,
   fclk,
+  external,  ///< comes in at a pin: no PLL makes it
 };
 const Figure& limit_of(const Device& device, ClockKind kind);  ///< MHz
 Divider divider_of(ClockKind kind);

@@ -88,6 +88,8 @@ const std::vector<FigureInfo>& figures() {
       {"ddr_mhz", "MHz", "highest memory clock, DDR3 or DDR3L", Owner::grade, &Device::ddr_mhz, 1,
        10'000},
       {"fclk_mhz", "MHz", "highest clock to the PL", Owner::grade, &Device::fclk_mhz, 1, 10'000},
+      {"clock_buffer_mhz", "MHz", "highest clock from a pin", Owner::grade,
+       &Device::clock_buffer_mhz, 1, 10'000},
       {"vco_max_mhz", "MHz", "highest output of a PLL", Owner::grade, &Device::vco_max_mhz, 1,
        10'000},
       {"fmax_factor", "", "Fmax of logic over that of grade -1", Owner::grade, &Device::fmax_factor,

@@ -39,12 +39,13 @@ struct Device {
   Figure device_code;  ///< bits 12 to 16 of IDCODE
 
   // Highest clocks of the speed grade, MHz.
-  Figure cpu_621_mhz;  ///< CPU_6x4x with the ratio 6:2:1
-  Figure cpu_421_mhz;  ///< CPU_6x4x with the ratio 4:2:1
-  Figure ddr_mhz;      ///< DDR3 and DDR3L; two transfers a clock
-  Figure fclk_mhz;     ///< to the PL
-  Figure vco_max_mhz;  ///< of the PLLs of the processing system
-  Figure fmax_factor;  ///< Fmax of logic, over that of grade -1
+  Figure cpu_621_mhz;       ///< CPU_6x4x with the ratio 6:2:1
+  Figure cpu_421_mhz;       ///< CPU_6x4x with the ratio 4:2:1
+  Figure ddr_mhz;           ///< DDR3 and DDR3L; two transfers a clock
+  Figure fclk_mhz;          ///< to the PL
+  Figure clock_buffer_mhz;  ///< of a clock that comes in at a pin
+  Figure vco_max_mhz;       ///< of the PLLs of the processing system
+  Figure fmax_factor;       ///< Fmax of logic, over that of grade -1
 
   // Of the family.
   Figure crystal_min_mhz, crystal_max_mhz;  ///< PS_CLK

@@ -128,6 +128,7 @@ struct ClockReport {
     double margin_percent = 0;  ///< by how much it could rise up to the limit; negative: must fall
     bool within = true;         ///< of the speed grade
     bool makeable = true;       ///< PLLs and dividers give it
+    bool external = false;      ///< comes in at a pin: nothing in the chip makes it
   };
 
   std::string device;

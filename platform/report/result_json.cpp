@@ -346,11 +346,13 @@ Json to_json(const ClockReport& report) {
     entry["frequency_mhz"] = mhz(clock.frequency_mhz);
     entry["offset_percent"] = rounded(100 * (clock.made_mhz / clock.wish_mhz - 1), percent_places);
     Json& made = entry["made"];
-    made["mhz"] = mhz(clock.made_mhz);
-    made["pll"] = clock.pll;
-    made["vco_mhz"] = mhz(clock.vco_mhz);
-    made["feedback"] = clock.feedback;
-    made["divisors"] = {clock.divisor0, clock.divisor1};
+    if (!clock.external) {
+      made["mhz"] = mhz(clock.made_mhz);
+      made["pll"] = clock.pll;
+      made["vco_mhz"] = mhz(clock.vco_mhz);
+      made["feedback"] = clock.feedback;
+      made["divisors"] = {clock.divisor0, clock.divisor1};
+    }
     entry["below_mhz"] = clock.below_mhz > 0 ? Json(mhz(clock.below_mhz)) : Json();
     entry["above_mhz"] = clock.above_mhz > 0 ? Json(mhz(clock.above_mhz)) : Json();
     entry["limit_mhz"] = mhz(clock.limit_mhz);

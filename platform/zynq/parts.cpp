@@ -15,12 +15,6 @@ constexpr std::uint64_t slowest_hz = 1'000'000, fastest_hz = 1'000'000'000;
 /// No logic is faster than the clock buffer: 2.155 ns in public timing reports of -1.
 constexpr std::uint64_t clock_buffer_hz = 464'000'000;
 
-/// What holds it is its name: it is `clk` there.
-std::string name_of(const vp::Clock& clock) {
-  const sc_core::sc_object* source = clock.get_parent_object();
-  return source && std::string(clock.basename()) == "clk" ? source->name() : clock.name();
-}
-
 /// Where Fmax comes from.
 std::string explanation(const vp::IpEstimate& e, const device::Device& device) {
   const double factor = device.fmax_factor.value;
@@ -58,6 +52,11 @@ double mhz(std::uint64_t hz) {
 }
 
 }  // namespace
+
+std::string name_of(const vp::Clock& clock) {
+  const sc_core::sc_object* source = clock.get_parent_object();
+  return source && std::string(clock.basename()) == "clk" ? source->name() : clock.name();
+}
 
 std::vector<Part> parts_of(const sc_core::sc_object& pl) {
   std::vector<Part> parts;
@@ -126,7 +125,7 @@ TimingClosure::TimingClosure(sc_core::sc_module_name name, const std::vector<Par
 
 report::TimingReport TimingClosure::report(
     const std::function<std::uint64_t(const vp::Clock&)>& fastest,
-    const std::function<double(double)>& made_below_hz) const {
+    const std::function<double(const vp::Clock&, double)>& made_below_hz) const {
   report::TimingReport report;
   for (const Limit& limit : limits_) {
     report::TimingReport::Module module;
@@ -136,7 +135,8 @@ report::TimingReport TimingClosure::report(
     module.frequency_mhz = mhz(hz);
     module.fmax_mhz = mhz(limit.fmax);
     module.fmax_high_mhz = mhz(limit.fmax_high);
-    module.reachable_mhz = made_below_hz(static_cast<double>(limit.fmax)) / device::hz_per_mhz;
+    module.reachable_mhz =
+        made_below_hz(*limit.ip.clock, static_cast<double>(limit.fmax)) / device::hz_per_mhz;
     module.met = hz <= limit.fmax;
     module.margin_percent = hz == 0 ? 0 : 100 * (module.fmax_mhz / module.frequency_mhz - 1);
     const bool own = limit.fmax.is_changed() || limit.fmax_high.is_changed();

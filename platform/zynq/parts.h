@@ -26,6 +26,9 @@ struct Part {
   vp::IpEstimate estimate;
 };
 
+/// "ps.fclk_clk0": what holds a clock is its name, where that is `clk`.
+std::string name_of(const vp::Clock& clock);
+
 /// Everything below `pl` that is an IP (vp::Ip), in the order of reports, with the figures of
 /// synthesis where it has RTL.
 std::vector<Part> parts_of(const sc_core::sc_object& pl);
@@ -44,9 +47,10 @@ class TimingClosure : public sc_core::sc_module {
                 const device::Device& device);
 
   /// `fastest_hz` tells the highest frequency that a clock had, `made_below_hz` the highest that
-  /// the chip makes up to another; 0: none.
-  report::TimingReport report(const std::function<std::uint64_t(const vp::Clock&)>& fastest_hz,
-                              const std::function<double(double)>& made_below_hz) const;
+  /// it can have up to another; 0: none.
+  report::TimingReport report(
+      const std::function<std::uint64_t(const vp::Clock&)>& fastest_hz,
+      const std::function<double(const vp::Clock&, double)>& made_below_hz) const;
 
  private:
   struct Limit : sc_core::sc_module {

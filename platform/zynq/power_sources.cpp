@@ -69,11 +69,11 @@ PowerStates::PowerStates(Zynq& zynq)
       fastest_cpu_hz_(zynq.ps.cpu_clk.clk.frequency_hz()) {
   zynq.ps.cpu_clk.clk.add_listener(*this);
   for (const auto& [number, source] : zynq.ps.fclks()) {
-    const vp::Clock& clock = source->clk;
     source->clk.add_listener(*this);
-    pl_clocks_.push_back({&clock, vp::PiecewiseConstant(hz(clock)),
-                          vp::PiecewiseConstant(frame_runs() ? hz(clock) : 0),
-                          clock.frequency_hz()});
+    add_pl_clock(source->clk, false);
+  }
+  for (const Design::ClockRole& role : zynq.design().clock_roles()) {
+    if (!knows(*role.clock)) add_pl_clock(*role.clock, true);
   }
   for (ps::Cpu* core : zynq.ps.cpus()) core->asleep.attach(*this);
   if (busy_) busy_->attach(*this);
@@ -93,11 +93,23 @@ std::uint64_t PowerStates::fastest_hz(const vp::Clock& clock) const {
   return &clock == &zynq_.ps.cpu_clk.clk ? fastest_cpu_hz_ : pl_clock(clock).fastest_hz;
 }
 
+void PowerStates::add_pl_clock(const vp::Clock& clock, bool external) {
+  pl_clocks_.push_back({&clock, vp::PiecewiseConstant(hz(clock)),
+                        vp::PiecewiseConstant(frame_runs() ? hz(clock) : 0), clock.frequency_hz(),
+                        external});
+}
+
+bool PowerStates::knows(const vp::Clock& clock) const {
+  return std::any_of(pl_clocks_.begin(), pl_clocks_.end(),
+                     [&](const PlClock& known) { return known.clock == &clock; });
+}
+
 const PowerStates::PlClock& PowerStates::pl_clock(const vp::Clock& clock) const {
   for (const PlClock& known : pl_clocks_) {
     if (known.clock == &clock) return known;
   }
-  throw std::logic_error(std::string(clock.name()) + " is no clock that the PS makes for the PL");
+  throw std::logic_error(std::string(clock.name()) +
+                         " is no clock that the PS makes for the PL, nor one of the design's");
 }
 
 // A core falls asleep and wakes with every burst of an upload: nothing else is looked at.
@@ -392,6 +404,14 @@ struct Use {
   std::uint64_t fastest_hz;
 };
 
+void add_verdict(ClockReport::Clock& clock, const device::ClockVerdict& verdict) {
+  clock.limit_mhz = verdict.limit_hz / device::hz_per_mhz;
+  clock.limit_confidence = to_string(verdict.confidence);
+  clock.margin_percent = verdict.margin_percent;
+  clock.within = verdict.within;
+  clock.makeable = verdict.makeable;
+}
+
 ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
   const device::MadeClock& made = use.made;
   const auto wish_hz = static_cast<double>(use.wish_hz), hz = static_cast<double>(use.fastest_hz);
@@ -410,15 +430,22 @@ ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
   if (near.below) clock.below_mhz = near.below->hz / device::hz_per_mhz;
   if (near.above) clock.above_mhz = near.above->hz / device::hz_per_mhz;
   const device::ClockVerdict verdict = judge(ps.clock_planner(), use.kind, hz);
-  clock.limit_mhz = verdict.limit_hz / device::hz_per_mhz;
-  clock.limit_confidence = to_string(verdict.confidence);
-  clock.margin_percent = verdict.margin_percent;
-  clock.within = verdict.within;
+  add_verdict(clock, verdict);
   if (!verdict.within) {
     const auto legal = ps.clock_planner().neighbours(verdict.limit_hz, use.kind, ps.clock_plan());
     if (legal.below) clock.legal_mhz = legal.below->hz / device::hz_per_mhz;
   }
-  clock.makeable = verdict.makeable;
+  return clock;
+}
+
+/// Of a clock that comes in at a pin.
+ClockReport::Clock judged(const ProcessingSystem& ps, const PowerStates::PlClock& external) {
+  const auto hz = static_cast<double>(external.fastest_hz);
+  ClockReport::Clock clock;
+  clock.name = name_of(*external.clock);
+  clock.wish_mhz = clock.frequency_mhz = clock.made_mhz = hz / device::hz_per_mhz;
+  clock.external = true;
+  add_verdict(clock, judge(ps.clock_planner(), ClockKind::external, hz));
   return clock;
 }
 
@@ -435,20 +462,23 @@ report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options,
   ClockReport report;
   report.device = zynq.chip.data.name();
   report.mode = zynq.chip.clocks.text();
-  const auto add = [&](const Use& use) {
+  const auto add = [&](const auto& use) {
     report.clocks.push_back(judged(ps, use));
     report.legal = report.legal && report.clocks.back().within && report.clocks.back().makeable;
   };
   const auto add_source = [&](const ClockSource& source, ClockKind kind,
                               const device::MadeClock& made) {
-    add({source.name(), kind, source.frequency, made, states.fastest_hz(source.clk)});
+    add(Use{source.name(), kind, source.frequency, made, states.fastest_hz(source.clk)});
   };
   add_source(ps.cpu_clk, ps.slcr.ratio_621() ? ClockKind::cpu_621 : ClockKind::cpu_421,
              ps.clock_plan().cpu);
   auto made = ps.clock_plan().fclk.begin();
   for (const auto& [number, source] : ps.fclks()) add_source(*source, ClockKind::fclk, *made++);
-  add({"power.ddr", ClockKind::ddr, options.ddr.frequency, made_ddr(zynq, options),
-       ddr_hz(zynq, options)});
+  for (const PowerStates::PlClock& clock : states.pl_clocks()) {
+    if (clock.external) add(clock);
+  }
+  add(Use{"power.ddr", ClockKind::ddr, options.ddr.frequency, made_ddr(zynq, options),
+          ddr_hz(zynq, options)});
   return report;
 }
 

@@ -65,6 +65,7 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
     vp::PiecewiseConstant hz;
     vp::PiecewiseConstant frame_hz;  ///< 0 while no frame is played
     std::uint64_t fastest_hz;        ///< that it had
+    bool external = false;           ///< comes in at a pin, for the design
   };
 
   explicit PowerStates(Zynq& zynq);
@@ -78,8 +79,10 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
 
   /// The highest frequency that the clock of the cores, or one of the PL, had.
   std::uint64_t fastest_hz(const vp::Clock& clock) const;
-  /// Throws std::logic_error for one that the PS does not make.
+  /// Throws std::logic_error for one that neither the PS makes nor the design has.
   const PlClock& pl_clock(const vp::Clock& clock) const;
+  bool is_external(const vp::Clock& clock) const { return pl_clock(clock).external; }
+  const std::deque<PlClock>& pl_clocks() const { return pl_clocks_; }
   /// Of the processor, those that do not wait for an interrupt or an event.
   unsigned awake_cores() const;
   bool frame_runs() const { return !busy_ || *busy_; }
@@ -95,6 +98,8 @@ class PowerStates : private vp::ClockListener, private vp::SignalListener {
   void after_change(vp::Clock&) override { update(); }
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void update();
+  void add_pl_clock(const vp::Clock& clock, bool external);
+  bool knows(const vp::Clock& clock) const;
   template <class Visit>
   void for_each_history(Visit visit);
 

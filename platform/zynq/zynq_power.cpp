@@ -191,7 +191,9 @@ report::ClockReport ZynqPower::clock_report() const {
 report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {
   if (!options.pl_design) return {};
   return timing.report([this](const vp::Clock& clock) { return states_.fastest_hz(clock); },
-                       [this](double hz) { return zynq_.ps.highest_fclk_hz(hz); });
+                       [this](const vp::Clock& clock, double hz) {
+                         return states_.is_external(clock) ? hz : zynq_.ps.highest_fclk_hz(hz);
+                       });
 }
 
 }  // namespace platform

@@ -171,12 +171,14 @@ BOOST_AUTO_TEST_CASE(a_marker_is_found_up_to_the_border_and_not_beyond_it) {
 
 BOOST_AUTO_TEST_CASE(a_camera_that_is_too_fast_loses_whole_frames) {
   const Arguments fast{"z1.0", "--repeat", "10", "--rate", "1000 fps"};
-  BOOST_TEST(difference(fast) == "");
-  const Json result = run_of(fast);
-  const Json& camera = result["camera"];
-  BOOST_TEST(camera["dropped"] > 5);
-  BOOST_TEST(int(camera["offered"]) - int(camera["dropped"]) == result["summary"]["delivered"]);
-  for (const Json& frame : result["frames"]) BOOST_TEST(frame["markers"].size() == 1u);
+  for (const Arguments& arguments : {fast, with(fast, "pl.camera.line_blanking=100 cycles")}) {
+    BOOST_TEST(difference(arguments) == "");
+    const Json result = run_of(arguments);
+    const Json& camera = result["camera"];
+    BOOST_TEST(camera["dropped"] > 5);
+    BOOST_TEST(int(camera["offered"]) - int(camera["dropped"]) == result["summary"]["delivered"]);
+    for (const Json& frame : result["frames"]) BOOST_TEST(frame["markers"].size() == 1u);
+  }
 }
 
 // The DMA cannot keep up with bursts of two words: pictures end early, and the software says so.
@@ -391,6 +393,58 @@ BOOST_AUTO_TEST_CASE(hd_is_as_fast_as_pixels_come) {
 /// `arguments` with so many pixels a clock.
 Arguments in_groups(const Arguments& arguments, int pixels) {
   return with(arguments, "pl.pixels_per_clock=" + std::to_string(pixels));
+}
+
+BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_with_blanked_lines_and_a_clock_of_the_camera) {
+  const Arguments few{"demo", "z1.0"};
+  BOOST_TEST(difference(with(few, "pl.camera.line_blanking=160 cycles")) == "");
+  BOOST_TEST(difference(with(few, "pl.camera_clk.frequency=74.25 MHz")) == "");
+  const Arguments blanked = with(in_groups(few, 4), "pl.camera.line_blanking=77 cycles");
+  BOOST_TEST(difference(with(blanked, "pl.threshold_rule=local")) == "");
+}
+
+// 25.175 MHz, 160 clocks behind a line, 45 lines behind a frame.
+BOOST_AUTO_TEST_CASE(a_sensor_sets_the_rate) {
+  Arguments sensor{"z1.0", "--repeat", "5"};
+  for (const char* setting :
+       {"pl.camera_clk.frequency=25.175 MHz", "pl.camera.line_blanking=160 cycles",
+        "pl.camera.frame_blanking=36160 cycles"})
+    sensor = with(sensor, setting);
+  BOOST_TEST(difference(sensor) == "");
+  const Json result = run_of(sensor);
+  BOOST_TEST(result["summary"]["detected"] == 5);
+  BOOST_TEST(sustained_fps(result) < 25.175e6 / (800 * 525));
+  BOOST_TEST(sustained_fps(result) > 59.8, "what the program needs to trigger again");
+  // From 36 160 clocks before the first pixel to the last one, and two for the trigger.
+  for (const Json& frame : result["frames"])
+    BOOST_TEST(double(frame["time_us"]["capture"]) > (36'160 + 480 * 800 - 160) / 25.175);
+  BOOST_TEST(result["verdict"]["feasible"] == "yes");
+  const auto clock_of = [&result](const std::string& name) {
+    for (const Json& module : result["timing"]["modules"]) {
+      if (module["name"] == name) return std::string(module["clock"]);
+    }
+    return std::string();
+  };
+  BOOST_TEST(clock_of("pl.blob_labelling") == "pl.camera_clk");
+  BOOST_TEST(clock_of("pl.pixel_crossing") == "ps.fclk_clk0");
+  BOOST_TEST(clock_of("pl.axi_dma_0") == "ps.fclk_clk0");
+  const auto camera_clock = [](const Json& run) {
+    for (const Json& clock : run["clocks"]["list"]) {
+      if (clock["name"] == "pl.camera_clk") return clock;
+    }
+    return Json();
+  };
+  const Json own = camera_clock(result);
+  BOOST_TEST(own["made"].is_null(), "it comes from outside");
+  BOOST_TEST(own["frequency_mhz"] == 25.175);
+  BOOST_TEST(own["makeable"] == true);
+  BOOST_TEST(own["limit_mhz"] == 464.0);
+  BOOST_TEST(camera_clock(run_of({"z1.0"})).is_null());
+  // Faster than a clock buffer, than any IP, and than the DMA: pictures are cut, and told.
+  const Json fast = run_of(with(sensor, "pl.camera_clk.frequency=500 MHz"), 1);
+  BOOST_TEST(fast["frames"][0]["counts"]["cut_pictures"] == 1);
+  BOOST_TEST(camera_clock(fast)["within"] == false);
+  BOOST_TEST(fast["verdict"]["feasible"] == "no");
 }
 
 BOOST_AUTO_TEST_CASE(both_fidelities_are_equal_with_more_than_a_pixel_a_clock) {

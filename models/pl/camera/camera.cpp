@@ -4,6 +4,7 @@
 #include <vp/error.h>
 #include <vp/probe.h>
 
+#include <algorithm>
 #include <string>
 
 namespace pl {
@@ -18,7 +19,8 @@ class CameraClocked final : public Camera {
   void edge() override;
   void send_pixel();
 
-  std::uint64_t blanking_ = 0;  ///< clocks until the first pixel leaves, exposure and all
+  std::uint64_t blanking_ = 0;       ///< clocks until the first pixel leaves, exposure and all
+  std::uint32_t line_blanking_ = 0;  ///< clocks until the next line's first pixel leaves
   std::uint16_t column_ = 0, row_ = 0;
   bool running_ = false;
   vp::Probe<std::uint64_t> blanking_probe_{"blanking", blanking_, 32};
@@ -29,13 +31,20 @@ void CameraClocked::edge() {
   if (rst) {
     running_ = false;
     blanking_ = 0;
+    line_blanking_ = 0;
+    open_gate(true);
     frame_ena = false;
     return sleep();
   }
   frame_ena = running_;
-  if (running_) send_pixel();
+  open_gate(line_blanking_ == 0);
+  if (line_blanking_ != 0) {
+    --line_blanking_;
+  } else if (running_) {
+    send_pixel();
+  }
   if (blanking_ != 0 && --blanking_ == 0) {
-    begin_frame(clock().cycle());
+    begin_frame();
     running_ = true;
     column_ = row_ = 0;
   }
@@ -53,37 +62,60 @@ void CameraClocked::send_pixel() {
   if (column_ == geometry_.width) {
     column_ = 0;
     running_ = ++row_ != geometry_.height;
+    if (running_) line_blanking_ = line_blanking;
   }
 }
 
-/// frame_ena rises and falls at its clocks; what passes between is in `frames`.
+/// frame_ena rises and falls at its clocks, and the gate moves; what passes between is in `frames`.
 class CameraTlm final : public Camera {
  public:
-  CameraTlm(sc_core::sc_module_name name, const Site& site) : Camera(name, site) {}
+  CameraTlm(sc_core::sc_module_name name, const Site& site)
+      : Camera(name, site),
+        line_(site.geometry.clocks_per_row() + line_blanking),
+        frame_(site.geometry.height * line_ - line_blanking) {}
 
  private:
   void edge() override;
+  bool is_blanked(std::uint64_t cycle) const;
+  std::uint64_t next_change(std::uint64_t cycle) const;
 
+  // From a first pixel on, clocks.
+  const std::uint64_t line_;                ///< until the next line begins
+  const std::uint64_t frame_;               ///< until the last line is over
   std::uint64_t begin_ = vp::Clock::never;  ///< edge behind which the first pixel leaves
 };
 
 void CameraTlm::edge() {
   sleep();
   const std::uint64_t cycle = clock().cycle();
-  const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + geometry_.clocks();
+  const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + frame_;
   const bool starts = triggered(under_way);
   if (rst) {
     begin_ = vp::Clock::never;
+    open_gate(true);
     frame_ena = false;
     return wake_at(vp::Clock::never);
   }
-  if (cycle == begin_) begin_frame(cycle);
+  if (cycle == begin_) begin_frame();
   frame_ena = under_way && cycle > begin_;
+  open_gate(!(under_way && is_blanked(cycle)));
   if (starts) begin_ = cycle + clocks_to_frame();
-  if (begin_ == vp::Clock::never) return;
-  for (const std::uint64_t next : {begin_, begin_ + 1, begin_ + geometry_.clocks() + 1}) {
-    if (next > cycle) return wake_at(next);
-  }
+  if (begin_ != vp::Clock::never) wake_at(next_change(cycle));
+}
+
+/// Of a frame under way.
+bool CameraTlm::is_blanked(std::uint64_t cycle) const {
+  return cycle > begin_ && (cycle - begin_ - 1) % line_ >= line_ - line_blanking;
+}
+
+std::uint64_t CameraTlm::next_change(std::uint64_t cycle) const {
+  const std::uint64_t end = begin_ + frame_ + 1;
+  if (cycle < begin_) return begin_;
+  if (cycle == begin_) return begin_ + 1;
+  if (cycle >= end) return vp::Clock::never;
+  if (line_blanking == 0) return end;
+  const std::uint64_t in_line = (cycle - begin_ - 1) % line_, pixels = line_ - line_blanking;
+  return std::min(cycle - in_line + (in_line < pixels ? pixels : line_), end);
 }
 
 }  // namespace
@@ -101,6 +133,7 @@ Camera::Camera(sc_core::sc_module_name name, const Site& site)
       more_pixels("pixel", site.geometry.pixels_per_clock),
       pixel_x("pixel_x", site.geometry.words().x_bits()),
       pixel_y("pixel_y", site.geometry.words().y_bits()),
+      gate_(line_blanking == 0 ? nullptr : std::make_unique<vp::GatedClock>("pixel_clk", site.clk)),
       geometry_(site.geometry),
       scene_(std::make_shared<std::vector<std::uint8_t>>(site.geometry.pixels())) {
   wake_on(ena);
@@ -146,11 +179,12 @@ std::uint64_t Camera::clocks_to_frame() const {
   return end_of_exposure - clock().cycle() + frame_blanking;
 }
 
-void Camera::begin_frame(std::uint64_t cycle) {
+void Camera::begin_frame() {
   frames.announce();
   before_ = frame_;
   frame_ = exposed_;
-  frames.begin(frame_->data(), geometry_.pixels(), cycle + 1, geometry_.pixels_per_clock);
+  frames.begin(frame_->data(), geometry_.pixels(), pixel_clk().cycle() + 1,
+               geometry_.pixels_per_clock);
 }
 
 // The trigger's edge detection, two counters of 32 bits, and a register for each pin of the port.

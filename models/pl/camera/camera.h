@@ -8,6 +8,7 @@
 #include <pl/common/frame_channel.h>
 #include <pl/common/lanes.h>
 #include <vp/clock.h>
+#include <vp/gated_clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
 
@@ -15,7 +16,10 @@ namespace pl {
 
 /// A triggered sensor with a global shutter, behind a parallel port: a rise of `ena` exposes what
 /// it sees for `exposure`; `frame_blanking` clocks later its pixels come, line by line, as many a
-/// clock as the logic takes.
+/// clock as the logic takes, with `line_blanking` clocks between two lines.
+///
+/// While a line is blanked the gate of pixel_clk() is closed: the logic behind it sees a frame
+/// without a gap, and only the times of its edges differ.
 ///
 /// The sensor stands outside of the chip: its image needs no memory there, and the test bench says
 /// what it sees. In the chip is the port, which drops triggers that come too early, and counts
@@ -40,8 +44,6 @@ class Camera : public vp::Clocked, public vp::Ip {
   Lanes<vp::Signal<std::uint8_t>> more_pixels;
   vp::Signal<std::uint16_t> pixel_x;
   vp::Signal<std::uint16_t> pixel_y;
-  // Whole frames.
-  GreyFrames frames{"frames", clock()};
 
   vp::Parameter<std::uint64_t> exposure{
       "exposure",
@@ -55,6 +57,19 @@ class Camera : public vp::Clocked, public vp::Ip {
       "frame_blanking",     64,
       vp::Unit::cycles,     {GreyFrames::drain_clocks, 1'000'000},
       vp::Source::decision, "from the end of the exposure to the frame's first pixel"};
+  vp::Parameter<std::uint32_t> line_blanking{
+      "line_blanking",      0,
+      vp::Unit::cycles,     {0, 100'000},
+      vp::Source::decision, "from the last pixel of a line to the first one of the next"};
+
+ private:
+  std::unique_ptr<vp::GatedClock> gate_;  ///< none without line_blanking
+
+ public:
+  /// The clock of all that takes pixels: the camera's, without the edges of blanked lines.
+  vp::Clock& pixel_clk() { return gate_ ? *gate_ : clock(); }
+  /// Whole frames; counted on pixel_clk().
+  GreyFrames frames{"frames", pixel_clk()};
 
   /// What the sensor sees from now on: a frame's pixels, row by row.
   void show(const std::vector<std::uint8_t>& pixels);
@@ -70,9 +85,12 @@ class Camera : public vp::Clocked, public vp::Ip {
   bool triggered(bool under_way);
   /// From the trigger, at this edge, to the one behind which the first pixel leaves: clocks.
   std::uint64_t clocks_to_frame() const;
-  /// The first pixel leaves on the edge after `cycle`.
-  void begin_frame(std::uint64_t cycle);
+  /// The first pixel leaves on the next edge.
+  void begin_frame();
   const std::vector<std::uint8_t>& frame() const { return *frame_; }
+  void open_gate(bool open) {
+    if (gate_) gate_->open(open);
+  }
 
   const Geometry geometry_;
 

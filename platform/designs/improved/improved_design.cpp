@@ -61,7 +61,7 @@ ImprovedDesign::ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports,
   proc_sys_reset.ext_reset_in(ports.fclk_reset0_n());
   camera.frame_ena.attach(*this);
   blob_labelling.blob_out.attach(*this);
-  control_block.rst_out.attach(*this);
+  logic_rst().attach(*this);
 }
 
 input::ImageSize ImprovedDesign::frame_size() const {
@@ -69,7 +69,7 @@ input::ImageSize ImprovedDesign::frame_size() const {
 }
 
 void ImprovedDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
-  if (&signal == &control_block.rst_out) {
+  if (&signal == &logic_rst()) {
     // Which the reset is about to clear.
     settle();
     note_dropped();
@@ -166,14 +166,14 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
     shown.why = why;
     return shown;
   };
-  const std::string rate = pixels_per_clock == 1
-                               ? std::string("one pixel a clock")
-                               : std::to_string(pixels_per_clock) + " pixels a clock";
+  std::string rate = pixels_per_clock == 1 ? std::string("one pixel a clock")
+                                           : std::to_string(pixels_per_clock) + " pixels a clock";
+  if (camera.line_blanking != 0) rate += " and pl.camera.line_blanking";
   report::StageTime capture =
       between("capture", frame.start_ps, sent.end_ps, "frame",
               camera.exposure == 0 ? rate + ", so it lasts as long as the image does"
                                    : "the exposure (pl.camera.exposure), then " + rate);
-  capture.clock = "ps.fclk_clk0";
+  capture.clock = camera_clk.own() ? camera_clk.name() : "ps.fclk_clk0";
   frame.times.insert(
       frame.times.begin(),
       {capture, between("wait", sent.end_ps, detection.start_ps, "frame",
@@ -228,7 +228,9 @@ void ImprovedDesign::add_counts(report::FrameReport& frame) {
 }
 
 std::vector<Design::ClockRole> ImprovedDesign::clock_roles() {
-  return {{"pixel", &ports_.fclk_clk(0), "feature_extraction"}};
+  if (!camera_clk.own()) return {{"pixel", &ports_.fclk_clk(0), "feature_extraction"}};
+  return {{"pixel", &camera_clk.clk(), "feature_extraction"},
+          {"system", &ports_.fclk_clk(0), "data_bridge"}};
 }
 
 TimelineEngines ImprovedDesign::timeline() {

@@ -57,11 +57,12 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
                   {marker_logic::min_burst_words, marker_logic::max_burst_words},
                   vp::Source::decision,
                   "words of a burst of either DMA to the memory; 2, 4, 8, … 256"),
-      camera_(fidelity.camera.make({clk, geometry()})),
-      pixel_stream_(fidelity.pixel_stream.make({clk, geometry()})),
-      threshold_(fidelity.threshold.make({clk, geometry()})),
-      blob_labelling_(fidelity.blob_labelling.make({clk, geometry()})),
-      blob_stream_(fidelity.blob_stream.make({clk, geometry()})),
+      camera_clk("camera_clk", clk),
+      camera_(fidelity.camera.make({camera_clk.clk(), geometry()})),
+      pixel_stream_(fidelity.pixel_stream.make({camera.pixel_clk(), geometry()})),
+      threshold_(fidelity.threshold.make({camera.pixel_clk(), geometry()})),
+      blob_labelling_(fidelity.blob_labelling.make({camera.pixel_clk(), geometry()})),
+      blob_stream_(fidelity.blob_stream.make({camera.pixel_clk(), geometry()})),
       proc_sys_reset("proc_sys_reset", clk),
       axi_interconnect("axi_interconnect", clk),
       axi_mem_interconnect("axi_mem_interconnect", clk),
@@ -71,7 +72,9 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
       axi_dma_1("axi_dma_1", clk, packet_writer(::blob_stream::max_packet_bytes, burst_words)),
       concat("concat", 2) {
   control_block.set_logic_clock(clk);
+  if (&camera.pixel_clk() != &clk) crossing_.emplace(camera.pixel_clk(), camera_clk.clk(), clk);
   connect_bus();
+  connect_streams();
   name_groups();
   count_work();
 }
@@ -79,22 +82,38 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
 void ImprovedLogic::before_end_of_elaboration() {
   for (vp::In<bool>* rst :
        {&camera.rst, &pixel_stream.rst, &threshold.rst, &blob_labelling.rst, &blob_stream.rst}) {
-    rst->bind(control_block.rst_out);
+    rst->bind(logic_rst());
   }
+  connect_control();
   connect_pixels();
   connect_blobs();
 }
 
+void ImprovedLogic::connect_control() {
+  if (!crossing_) return connect_control(control_block, proc_sys_reset.peripheral_reset);
+  pl::ControlCrossing& control = crossing_->control;
+  control.ena_in(control_block.ena);
+  control.rst_in(control_block.rst_out);
+  control.por_in(proc_sys_reset.peripheral_reset);
+  control.wr_thresh_in(control_block.wr_thresh);
+  control.threshold_in(control_block.threshold);
+  connect_control(control, control.por);
+}
+
+template <class Control>
+void ImprovedLogic::connect_control(Control& control, vp::Signal<bool>& por) {
+  camera.ena(control.ena);
+  camera.por(por);
+  threshold.por(por);
+  threshold.wr_thresh(control.wr_thresh);
+  threshold.threshold(control.threshold);
+}
+
 void ImprovedLogic::connect_pixels() {
-  camera.ena(control_block.ena);
-  camera.por(proc_sys_reset.peripheral_reset);
   camera.hold(blob_stream.busy);
   pixel_stream.ena(camera.frame_ena);
   pixel_stream.pixel(camera.pixel);
   pixel_stream.more_pixels(camera.more_pixels);
-  threshold.por(proc_sys_reset.peripheral_reset);
-  threshold.wr_thresh(control_block.wr_thresh);
-  threshold.threshold(control_block.threshold);
   threshold.frame_ena(camera.frame_ena);
   threshold.pixel(camera.pixel);
   threshold.more_pixels(camera.more_pixels);
@@ -137,12 +156,27 @@ void ImprovedLogic::connect_bus() {
   axi_dma_1.axi_resetn(proc_sys_reset.peripheral_aresetn);
   axi_mem_interconnect.connect(axi_dma_0);
   axi_mem_interconnect.connect(axi_dma_1);
-  pixel_stream.m(pixel_stream_link);
-  axi_dma_0.s2mm().s_axis(pixel_stream_link);
-  blob_stream.m(blob_stream_link);
-  axi_dma_1.s2mm().s_axis(blob_stream_link);
   concat.connect_interrupt(axi_dma_0.s2mm_introut, addresses::dma_image_interrupt);
   concat.connect_interrupt(axi_dma_1.s2mm_introut, addresses::dma_binary_interrupt);
+}
+
+void ImprovedLogic::connect_streams() {
+  axi_dma_0.s2mm().s_axis(pixel_stream_link);
+  axi_dma_1.s2mm().s_axis(blob_stream_link);
+  if (!crossing_) {
+    pixel_stream.m(pixel_stream_link);
+    blob_stream.m(blob_stream_link);
+    return;
+  }
+  const auto connect = [this](pl::StreamCrossing& crossing, vp::AxiStreamMaster& from,
+                              vp::AxiStream& before, vp::AxiStream& behind) {
+    from(before);
+    crossing.s()(before);
+    crossing.m(behind);
+    crossing.rst()(logic_rst());
+  };
+  connect(crossing_->pixels, pixel_stream.m, crossing_->pixels_link, pixel_stream_link);
+  connect(crossing_->blobs, blob_stream.m, crossing_->blobs_link, blob_stream_link);
 }
 
 // In the order of reports.
@@ -154,6 +188,7 @@ void ImprovedLogic::name_groups() {
   group("feature_extraction", {&camera, &threshold, &blob_labelling});
   group("data_bridge", {&pixel_stream, &blob_stream, &control_block, &axi_dma_0, &axi_dma_1,
                         &axi_gpio_0, &axi_interconnect, &axi_mem_interconnect, &proc_sys_reset});
+  if (crossing_) group("data_bridge", {&crossing_->control, &crossing_->pixels, &crossing_->blobs});
 }
 
 void ImprovedLogic::count_work() {
@@ -161,6 +196,11 @@ void ImprovedLogic::count_work() {
   const auto blob_words = [this] { return axi_dma_1.beats(); };
   pixel_stream.set_active_clocks(pixel_words);
   blob_stream.set_active_clocks(blob_words);
+  if (crossing_) {
+    crossing_->pixels.set_active_clocks(pixel_words);
+    crossing_->blobs.set_active_clocks(blob_words);
+    crossing_->control.set_active_clocks([] { return 0; });
+  }
   axi_mem_interconnect.set_active_clocks([=] { return pixel_words() + blob_words(); });
   axi_interconnect.set_active_clocks([this] {
     return xilinx::clocks_per_access *

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 
@@ -9,13 +10,16 @@
 #include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_stream/blob_stream.h>
 #include <pl/camera/camera.h>
+#include <pl/camera/camera_clock.h>
 #include <pl/common/fidelity.h>
 #include <pl/common/geometry.h>
 #include <pl/control_block/control_block.h>
+#include <pl/control_crossing/control_crossing.h>
 #include <pl/global_threshold/global_threshold.h>
 #include <pl/local_threshold/local_threshold.h>
 #include <pl/otsu_threshold/otsu_threshold.h>
 #include <pl/pixel_stream/pixel_stream.h>
+#include <pl/stream_crossing/stream_crossing.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
@@ -41,8 +45,10 @@ struct ImprovedFidelity : sc_core::sc_module {
 };
 
 /// The programmable logic of the design `improved`: the camera's pixels go to the DDR as they are,
-/// and through threshold and labelling to become a packet of blobs. One clock, no frame in block
-/// memory.
+/// and through threshold and labelling to become a packet of blobs. No frame in block memory.
+///
+/// One clock, unless the camera has one of its own, or blanks lines: then what takes pixels has
+/// that clock, and control packet and both streams cross between it and the buses' clock.
 ///
 ///   camera ─┬─ pixel_stream ── axi_dma_0 ── DDR
 ///           └─ threshold ── blob_labelling ── blob_stream ── axi_dma_1 ── DDR
@@ -74,14 +80,23 @@ class ImprovedLogic : public sc_core::sc_module {
       "4 the stream of pictures is full, and its DMA writes 64 bits a clock"};
   pl::Geometry geometry() const { return {width, height, burst_words, pixels_per_clock}; }
 
+  /// Resets all that takes pixels.
+  vp::Signal<bool>& logic_rst() {
+    return crossing_ ? crossing_->control.rst : control_block.rst_out;
+  }
+
   /// Brings counters up to now, for whoever looks at them from outside.
   void settle_counters();
 
  private:
   void before_end_of_elaboration() override;
+  void connect_control();
+  template <class Control>
+  void connect_control(Control& control, vp::Signal<bool>& por);
   void connect_pixels();
   void connect_blobs();
   void connect_bus();
+  void connect_streams();
   void name_groups();
   void count_work();
 
@@ -96,6 +111,7 @@ class ImprovedLogic : public sc_core::sc_module {
 
  public:
   pl::ControlBlock control_block{"control_block"};
+  pl::CameraClock camera_clk;
   // Modelled as `fidelity` says.
   const std::unique_ptr<pl::Camera> camera_;
   pl::Camera& camera = *camera_;
@@ -117,6 +133,21 @@ class ImprovedLogic : public sc_core::sc_module {
   vp::AxiStream pixel_stream_link{"pixels"};
   vp::AxiStream blob_stream_link{"blobs"};
   xilinx::Concat concat;  ///< interrupts of both DMAs
+
+ private:
+  /// Between the clock of pixels and that of buses.
+  struct Crossing {
+    Crossing(vp::Clock& pixel_clk, vp::Clock& camera_clk, vp::Clock& clk)
+        : control("control_crossing", camera_clk),
+          pixels("pixel_crossing", pixel_clk, clk),
+          blobs("blob_crossing", pixel_clk, clk) {}
+
+    pl::ControlCrossing control;
+    pl::StreamCrossing pixels, blobs;
+    vp::AxiStream pixels_link{"pixels_before_crossing"}, blobs_link{"blobs_before_crossing"};
+  };
+
+  std::optional<Crossing> crossing_;  ///< none where both are one clock
 };
 
 }  // namespace platform

@@ -256,6 +256,9 @@ BOOST_AUTO_TEST_CASE(clocks_are_judged_with_their_margin) {
   check(ClockKind::fclk, 55 * mhz, true, true, 354.5454);  // by another plan than the board's
   check(ClockKind::fclk, 57.123456 * mhz, true, false, 337.6486);
   check(ClockKind::fclk, 333'333'333, false, true, -25);
+  check(ClockKind::external, 57.123456 * mhz, true, true, 712.2757);
+  check(ClockKind::external, 464 * mhz, true, true, 0);
+  check(ClockKind::external, 500 * mhz, false, true, -7.2);
   check(ClockKind::cpu_621, 666'666'667, true, true, 0.05);
   check(ClockKind::cpu_421, 666'666'667, false, true, -19.9999);
   check(ClockKind::cpu_621, 1000 * mhz, false, false, -33.3);

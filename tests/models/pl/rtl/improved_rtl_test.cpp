@@ -13,6 +13,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "frames.h"
+#include "improved_chain.h"
 #include "pipeline.h"
 #include "rtl_objects.h"
 #include "stream.h"
@@ -179,41 +180,24 @@ struct Chain : kit::Simulation {
   Chain(const Strings& more, const std::string& rule, std::uint32_t a_clock)
       : settings(settings_with(more, rule)),
         fidelity("fidelity", rule),
-        site{clk, {size.width, size.height, size.burst_words, a_clock}} {
-    camera->ena(ena);
-    camera->por(por);
-    camera->hold(blob_stream->busy);
-    for (vp::In<bool>* port : {&camera->rst, &pixel_stream->rst, &threshold->rst,
-                               &blob_labelling->rst, &blob_stream->rst})
-      port->bind(rst);
-    pixel_stream->ena(camera->frame_ena);
-    pixel_stream->pixel(camera->pixel);
-    pixel_stream->more_pixels(camera->more_pixels);
-    pixel_stream->m(pixels);
-    threshold->por(por);
-    threshold->frame_ena(camera->frame_ena);
-    threshold->wr_thresh(wr_thresh);
-    threshold->threshold(level);
-    threshold->pixel(camera->pixel);
-    threshold->more_pixels(camera->more_pixels);
-    threshold->x(camera->pixel_x);
-    threshold->y(camera->pixel_y);
-    blob_labelling->ena(threshold->binary_ena);
-    blob_labelling->pixel(threshold->binary_out);
-    blob_labelling->more_pixels(threshold->more_binary);
-    blob_labelling->x(threshold->binary_x);
-    blob_labelling->y(threshold->binary_y);
-    blob_stream->frame_ena(camera->frame_ena);
-    blob_stream->frame_number(camera->frame_number);
-    blob_stream->threshold(threshold->active_threshold);
-    blob_stream->idle(blob_labelling->idle);
-    blob_stream->blob_out(blob_labelling->blob_out);
-    for (std::size_t i = 0; i < blob_stream->extreme.size(); ++i)
-      blob_stream->extreme[i](blob_labelling->extreme[i]);
-    blob_stream->label_overflow(blob_labelling->label_overflow);
-    blob_stream->m(blobs);
+        geometry{size.width, size.height, size.burst_words, a_clock},
+        chain(build()) {
+    chain.connect(control, false);
+    chain.pixel_stream->m(pixels);
+    chain.blob_stream->m(blobs);
     pixel_sink.s(pixels);
     blob_sink.s(blobs);
+  }
+
+  harness::ImprovedChain build() {
+    harness::ImprovedChain made;
+    made.camera = pl::Camera::models().list().at(0).make("camera", {clk, geometry});
+    const pl::Site site{made.camera->pixel_clk(), geometry};
+    made.pixel_stream = fidelity.pixel_stream.make(site);
+    made.threshold = fidelity.threshold.make(site);
+    made.blob_labelling = fidelity.blob_labelling.make(site);
+    made.blob_stream = fidelity.blob_stream.make(site);
+    return made;
   }
 
   static Strings settings_with(const Strings& more, const std::string& rule) {
@@ -225,18 +209,18 @@ struct Chain : kit::Simulation {
     return all;
   }
 
-  std::uint32_t group() const { return site.geometry.pixels_per_clock; }
+  std::uint32_t group() const { return geometry.pixels_per_clock; }
   void clocks(std::uint64_t n) { sc_core::sc_start(vp::from_ps(n * 10'000)); }
 
   /// Triggers, and lets clocks pass until everything of the frame is over. How seldom a sink lets
   /// beats wait, in clocks.
   void run_frame(const harness::Image& image, unsigned pixels_wait, unsigned blobs_wait) {
-    camera->show(image);
+    chain.camera->show(image);
     pixel_sink.accept(true);
     blob_sink.accept(true);
-    ena = false;
+    control.ena = false;
     clocks(2);
-    ena = true;
+    control.ena = true;
     for (std::uint64_t passed = 0; passed < size.pixels() + 1000;) {
       const unsigned n = 1 + random.below(30);
       clocks(n);
@@ -258,11 +242,11 @@ struct Chain : kit::Simulation {
   void play() {
     sc_core::sc_start(vp::from_ps(5'000));  // between two edges
     if (resets) {
-      por = true;
-      rst = true;
+      control.por = true;
+      control.rst = true;
       clocks(3);
-      por = false;
-      rst = false;
+      control.por = false;
+      control.rst = false;
       clocks(5);
     }
     constexpr unsigned never = ~0u;
@@ -273,28 +257,28 @@ struct Chain : kit::Simulation {
       run_frame(frame_around(), 40, never);
       cut_frame(harness::rectangles(64, 32, 20, seed + 7), 64 + (300 + 400 * seed) / group());
     }
-    wr_thresh = true;
-    level = 90;
+    control.wr_thresh = true;
+    control.threshold = 90;
     run_frame(harness::stripes(64, 32), 4, 4);
-    wr_thresh = false;
+    control.wr_thresh = false;
     // A threshold that comes while a frame runs.
-    camera->show(harness::noise(64, 32, 8));
-    ena = false;
+    chain.camera->show(harness::noise(64, 32, 8));
+    control.ena = false;
     clocks(2);
-    ena = true;
+    control.ena = true;
     clocks(64 + 700 / group());
-    wr_thresh = true;
-    level = 60;
+    control.wr_thresh = true;
+    control.threshold = 60;
     clocks(2);
-    wr_thresh = false;
+    control.wr_thresh = false;
     clocks(size.pixels() + 1000);
     // The slave is not ready when the frame begins; then it is a frame as any other.
-    camera->show(harness::noise(64, 32, 3));
+    chain.camera->show(harness::noise(64, 32, 3));
     pixel_sink.accept(false);
     blob_sink.accept(false);
-    ena = false;
+    control.ena = false;
     clocks(2);
-    ena = true;
+    control.ena = true;
     clocks(400);
     pixel_sink.accept(true);
     blob_sink.accept(true);
@@ -303,12 +287,12 @@ struct Chain : kit::Simulation {
   }
 
   void cut_frame(const harness::Image& image, std::uint64_t after) {
-    camera->show(image);
-    ena = false;
+    chain.camera->show(image);
+    control.ena = false;
     clocks(2);
-    ena = true;
+    control.ena = true;
     clocks(after);
-    reset(rst, 2);
+    reset(control.rst, 2);
   }
 
   /// Many small blobs: more than there are labels, and more than the FIFO holds.
@@ -339,21 +323,9 @@ struct Chain : kit::Simulation {
     }
     return "";
   }
-  /// What leaves the chain, with the times.
   std::string seen() {
     play();
-    std::string text;
-    for (const harness::StreamSink* sink : {&pixel_sink, &blob_sink}) {
-      for (const harness::StreamSink::Beat& beat : sink->beats)
-        text += std::to_string(beat.ps) + " " + std::to_string(beat.data) + " " +
-                std::to_string(beat.last) + "\n";
-    }
-    for (const std::uint32_t count :
-         {pixel_stream->dropped_frames.get(), pixel_stream->cut_frames.get(),
-          blob_stream->dropped_frames.get(), blob_stream->dropped_blobs.get(),
-          blob_labelling->label_overflow.get()})
-      text += std::to_string(count) + " ";
-    return text;
+    return chain.seen(pixel_sink, blob_sink);
   }
 
   bool resets = true;  ///< before the first frame
@@ -361,17 +333,13 @@ struct Chain : kit::Simulation {
   harness::Random random{5};
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clk{"clk", scheduler, 100'000'000};
-  vp::Signal<bool> ena{"ena"}, rst{"rst"}, por{"por"}, wr_thresh{"wr_thresh"};
-  vp::Signal<std::uint8_t> level{"level"};
+  harness::ChainControl control;
   Fidelity fidelity;
-  const pl::Site site;
-  std::unique_ptr<pl::Camera> camera = pl::Camera::models().list().at(0).make("camera", site);
-  std::unique_ptr<pl::PixelStream> pixel_stream = fidelity.pixel_stream.make(site);
-  std::unique_ptr<pl::GlobalThreshold> threshold = fidelity.threshold.make(site);
-  std::unique_ptr<pl::BlobLabelling> blob_labelling = fidelity.blob_labelling.make(site);
-  std::unique_ptr<pl::BlobStream> blob_stream = fidelity.blob_stream.make(site);
+  const pl::Geometry geometry;
+  harness::ImprovedChain chain;
   vp::AxiStream pixels{"pixels"}, blobs{"blobs"};
-  harness::StreamSink pixel_sink{"pixel_sink", clk}, blob_sink{"blob_sink", clk};
+  harness::StreamSink pixel_sink{"pixel_sink", chain.camera->pixel_clk()},
+      blob_sink{"blob_sink", chain.camera->pixel_clk()};
 };
 
 }  // namespace
@@ -414,6 +382,24 @@ BOOST_AUTO_TEST_CASE(in_the_place_of_the_models_nobody_sees_a_difference) {
       }
       BOOST_TEST((Chain(all, rule, pixels).seen() == models), pixels);
     }
+  }
+}
+
+// Behind the gate of a camera that blanks its lines the RTL sees what it always sees.
+BOOST_AUTO_TEST_CASE(blanked_lines_are_nothing_to_the_rtl) {
+  for (const std::uint32_t pixels : groups) {
+    const std::string blanking = "camera.line_blanking=" + std::to_string(13 / pixels) + " cycles";
+    const std::string rule = pixels == 2 ? "local_threshold" : "otsu_threshold";
+    Strings beside{blanking}, in_place{blanking};
+    for (const std::string& ip : {std::string("blob_labelling"), rule, std::string("pixel_stream"),
+                                  std::string("blob_stream")}) {
+      beside.push_back(lockstep(ip, object_of(ip, pixels)));
+      in_place.push_back("fidelity." + ip + "=" + objects().file(object_of(ip, pixels)));
+    }
+    BOOST_TEST(Chain(beside, rule, pixels).failure() == "", pixels);
+    const std::string models = Chain({blanking}, rule, pixels).seen();
+    BOOST_TEST(models != Chain({}, rule, pixels).seen(), "it came later");
+    BOOST_TEST((Chain(in_place, rule, pixels).seen() == models), pixels);
   }
 }
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+
+#include <vp/clock.h>
+#include <vp/ip.h>
+#include <vp/signal.h>
+
+namespace pl {
+
+/// What software says to the logic, on its way from the bus clock to the pixel clock: each wire
+/// through two registers. One model for both fidelities.
+///
+/// The threshold crosses beside `wr_thresh`, bit by bit: that is a level, and loads again on each
+/// clock, so what was torn stands for a clock at most. A level that does not last until an edge of
+/// the pixel clock is lost, and warned of.
+class ControlCrossing : public vp::Clocked, public vp::Ip {
+ public:
+  ControlCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk);
+
+  // Bus clock.
+  vp::In<bool> ena_in{"ena_in", this};
+  vp::In<bool> rst_in{"rst_in", this};
+  vp::In<bool> por_in{"por_in", this};
+  vp::In<bool> wr_thresh_in{"wr_thresh_in", this};
+  vp::In<std::uint8_t> threshold_in{"threshold_in", this};
+  // Pixel clock.
+  vp::Signal<bool> ena{"ena"};
+  vp::Signal<bool> rst{"rst"};
+  vp::Signal<bool> por{"por"};
+  vp::Signal<bool> wr_thresh{"wr_thresh"};
+  vp::Signal<std::uint8_t> threshold{"threshold"};
+
+ private:
+  struct Levels {
+    bool ena = false, rst = false, por = false, wr_thresh = false;
+    std::uint8_t threshold = 0;
+    bool operator==(const Levels& other) const {
+      return ena == other.ena && rst == other.rst && por == other.por &&
+             wr_thresh == other.wr_thresh && threshold == other.threshold;
+    }
+  };
+
+  void end_of_elaboration() override;
+  void edge() override;
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  vp::IpEstimate own_estimate() const override;
+  Levels inputs() const { return {ena_in, rst_in, por_in, wr_thresh_in, threshold_in}; }
+
+  Levels first_;                     ///< of the two registers; the other one is the output
+  std::array<bool, 4> unsampled_{};  ///< levels that changed since the last edge
+};
+
+}  // namespace pl
