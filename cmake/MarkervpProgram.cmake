@@ -29,6 +29,10 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
     target_include_directories(${NAME} BEFORE PRIVATE "${source}")
     string(TOUPPER "${driver}" upper)
     target_compile_definitions(${NAME} PRIVATE "MARKERVP_VENDOR_${upper}")
+    if(driver STREQUAL "scugic")
+      # How many interrupts there are, its releases before 2019 see by the compiler's processor: 95, or a Zynq UltraScale+'s 195.
+      target_compile_definitions(${NAME} PRIVATE __ARM_NEON__)
+    endif()
     list(APPEND drivers ${driver})
   endforeach()
   if(NOT drivers)
@@ -43,11 +47,11 @@ endfunction()
 
 # markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER])
 # A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it. The sources
-# define hal_program_info, or main().
+# define hal_program_info, or main(). Drivers of VENDOR_BSP stand on markervp::compat, which need not be named.
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
   cmake_parse_arguments(PROGRAM "" "VENDOR_BSP" "SOURCES;LIBRARIES" ${ARGN})
-  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS)
+  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder]): "
       "got '${ARGN}'")
   endif()
@@ -56,6 +60,7 @@ function(markervp_add_program NAME)
   add_library(${NAME} MODULE ${PROGRAM_SOURCES} "${description}")
   target_link_libraries(${NAME} PRIVATE markervp::hal ${PROGRAM_LIBRARIES})
   if(DEFINED PROGRAM_VENDOR_BSP)
+    target_link_libraries(${NAME} PRIVATE markervp::compat)
     _markervp_use_vendor_drivers(${NAME} "${PROGRAM_VENDOR_BSP}")
   endif()
   # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.

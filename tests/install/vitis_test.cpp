@@ -134,6 +134,14 @@ BOOST_AUTO_TEST_CASE(a_vendor_folder_that_is_none) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_modelled_does_not_build) {
+// An empty variable is told, rather than built with our drivers.
+BOOST_AUTO_TEST_CASE(a_vendor_folder_without_name) {
+  const kit::Outcome outcome =
+      installed.configure(project("vitis"), "vitis_refused", {"-DVENDOR_FOLDER="});
+  BOOST_TEST(outcome.exit_code != 0);
+  BOOST_TEST(contains(outcome.err, "[VENDOR_BSP folder]"), outcome.err);
+}
+
   const std::pair<const char*, const char*> programs[] = {
       {"not_modelled", "use Xil_DCacheFlushRange"},
       {"multichannel", "AXI DMA has no multichannel mode"}};
