@@ -69,7 +69,7 @@ function(markervp_add_program NAME)
   # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
   target_compile_options(${NAME} PRIVATE
     "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
-  # Built for gcov, it offers the function that writes the counters: they are static data, which the platform restores.
+  # Built for gcov, it offers the function that writes the counters: they are static data, which the platform else restores.
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}")
   set(options "$<TARGET_PROPERTY:${NAME},COMPILE_OPTIONS>;${flags}")
   target_link_options(${NAME} PRIVATE "$<$<IN_LIST:--coverage,${options}>:-Wl,-u,__gcov_dump>")

@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(a_program_that_fails) {
   BOOST_TEST(result()["program_end"]["exit_code"] == 7);
 }
 
-// Counters of gcov are static data, which the platform restores: they are written before.
+// Counters of gcov are static data, which the platform restores: they are written instead, once.
 BOOST_AUTO_TEST_CASE(coverage) {
   BOOST_TEST_REQUIRE(run(file("covered")).exit_code == 0);
   const std::string objects = installed.beside("programs/CMakeFiles/covered.dir");
@@ -102,6 +102,7 @@ BOOST_AUTO_TEST_CASE(coverage) {
   const std::string lines = kit::read_file(installed.beside("checked.cpp.gcov"));
   BOOST_TEST(contains(lines, "       10:   12:  return table[index % 4];"), lines);
   BOOST_TEST(contains(lines, "    #####:   10:    return -1;"), lines);
+  BOOST_TEST(contains(lines, "0:Runs:1\n"), lines);
 }
 
 BOOST_AUTO_TEST_CASE(sanitizers) {

@@ -12,6 +12,16 @@ def echoed(board, words):
     return board.received("pl.sink")
 
 
+def test_a_line_of_the_start_is_waited_for(board):
+    assert board.time == 0 and board.console == ["up"]
+    assert board.wait_for_text("up", timeout="1 us") == 0
+    board.run("1 us")
+    with pytest.raises(markervp.Error, match="did not come within 1 us"):
+        board.wait_for_text("up", timeout="1 us")  # it is over
+    board.send("pl.source", [0])
+    board.finish()
+
+
 def test_what_goes_in_comes_back(board):
     beats = echoed(board, [1, 0xFFFF_FFFF, 7])
     assert [(beat.data, beat.last, beat.keep) for beat in beats] == [(2, False, 15), (0, False, 15), (8, True, 15)]

@@ -32,10 +32,11 @@ std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::u
 
 int Cpu::call_program() {
   struct Call {
+    void (*boot)(void);
     int (*program)(void);
     void (*entry)(void);
     int result;
-  } call{program_->description().entry, entry_, 0};
+  } call{program_->boot(), program_->description().entry, entry_, 0};
   // The first core's looks after both.
   const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
                         this};
@@ -46,6 +47,7 @@ int Cpu::call_program() {
         if (call.entry) {
           call.entry();
         } else {
+          if (call.boot) call.boot();
           call.result = call.program();
         }
       },

@@ -418,11 +418,10 @@ class SharedObject {
         image_(handle_),
         may_start_core_(needs_symbol(path, "hal_cpu_start")) {}
   // Destructors of static objects then find what their constructors left, however often the program
-  // ran.
+  // ran. Not so where gcov counts: its counters would be new, too, and written as another run.
   // A fault in one leaves the loader in the middle of its work: nothing can go on.
   ~SharedObject() {
-    write_coverage();
-    image_.restore();
+    if (!write_coverage()) image_.restore();
     const std::string stopped = stopped_by([this] { dlclose(handle_); });
     if (stopped.empty()) return;
     std::cerr << "markervp: " << at_end(path_, "destructor", stopped) << std::endl;
@@ -436,6 +435,9 @@ class SharedObject {
   }
   void restore() const { image_.restore(); }
   bool may_start_core() const { return may_start_core_; }
+  void (*boot() const)(void) {
+    return reinterpret_cast<void (*)(void)>(dlsym(handle_, "markervp_boot"));
+  }
 
  private:
   static void* load(const std::string& path) {
@@ -449,11 +451,12 @@ class SharedObject {
                          "': " + vp::load_problem(path, dlerror()));
   }
 
-  /// The counters of gcov, where it was built with them, are static data, too, and written when the
-  /// object is unloaded: then they would be what they were at the start.
-  void write_coverage() const {
+  /// Writes the counters of gcov, where it was built with them.
+  bool write_coverage() const {
     using Dump = void (*)();
-    if (const auto dump = reinterpret_cast<Dump>(dlsym(handle_, "__gcov_dump"))) dump();
+    const auto dump = reinterpret_cast<Dump>(dlsym(handle_, "__gcov_dump"));
+    if (dump) dump();
+    return dump != nullptr;
   }
 
   static std::string at_end(const std::string& path, const char* what, const std::string& problem) {
@@ -478,6 +481,7 @@ class LoadedProgram : public Program {
       : Program(description, std::move(path)), object_(std::move(object)) {}
   void reset() override { object_->restore(); }
   bool may_start_core() const override { return object_->may_start_core(); }
+  void (*boot() const)(void) override { return object_->boot(); }
 
  private:
   std::shared_ptr<SharedObject> object_;

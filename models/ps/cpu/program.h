@@ -37,6 +37,10 @@ class Program {
   /// May it start the second core? It refers to hal_cpu_start(); nobody knows of a linked one.
   virtual bool may_start_core() const { return false; }
 
+  /// What stands for the board's boot code, and runs before the entry function: `markervp_boot` of
+  /// its libraries. Null: nothing.
+  virtual void (*boot() const)(void) { return nullptr; }
+
   /// Makes its static variables what they were after loading: before each run. Variables inside
   /// functions are fresh too. What a static object holds on the heap is not reset; programs for the
   /// chip have no such objects.

@@ -4,7 +4,6 @@
 #include <global_timer_registers.h>
 #include <hal/hal.h>
 #include <sleep.h>
-#include <uart_registers.h>
 #include <xil_assert.h>
 #include <xil_printf.h>
 #include <xil_testio.h>
@@ -70,31 +69,11 @@ unsigned int sleep(unsigned int seconds) {
 
 }  // extern "C"
 
-// xil_assert.h, xil_util.h, xil_testio.h, and inbyte() of xil_printf.h.
+// xil_assert.h, xil_util.h and xil_testio.h.
 
 namespace {
 
 Xil_AssertCallback assert_callback = nullptr;
-
-constexpr std::uint32_t stdin_at(std::uint32_t offset) {
-  return STDOUT_BASEADDRESS + offset;
-}
-
-/// The vendor's boot code leaves the UART of standard input on, 115 200 baud of 50 MHz, 8N1: what
-/// nobody set up since is brought there by the first read.
-void listen() {
-  static bool done = false;
-  if (done) return;
-  done = true;
-  const std::uint32_t control = hal_read32(stdin_at(uart::CR));
-  if ((control & uart::cr::RXEN) && !(control & uart::cr::RXDIS)) return;
-  if (!(control & uart::cr::TXEN) || (control & uart::cr::TXDIS)) {
-    hal_write32(stdin_at(uart::MR), uart::mr::PAR_none);
-    hal_write32(stdin_at(uart::BAUDGEN), 62);
-    hal_write32(stdin_at(uart::BAUD_DIV), 6);
-  }
-  hal_write32(stdin_at(uart::CR), (control & ~std::uint32_t{uart::cr::RXDIS}) | uart::cr::RXEN);
-}
 
 }  // namespace
 
@@ -116,13 +95,6 @@ void Xil_Assert(const char8* File, s32 Line) {
 }
 
 void XNullHandler(void*) {}
-
-char inbyte(void) {
-  listen();
-  while (hal_read32(stdin_at(uart::SR)) & uart::sr::REMPTY) {
-  }
-  return static_cast<char>(hal_read32(stdin_at(uart::FIFO)));
-}
 
 u32 Xil_WaitForEvent(u32 RegAddr, u32 EventMask, u32 Event, u32 Timeout) {
   u32 seen = 0;

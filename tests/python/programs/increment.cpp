@@ -12,6 +12,7 @@ using Channel = drivers::AxiDmaConfig::Channel;
 constexpr std::uint32_t dma_base = 0x4040'0000, most = 1024;  // bytes of a packet
 
 int run() {
+  hal_console_write("up\n", 3);
   drivers::AxiDma to_memory, from_memory;
   if (!to_memory.initialise({dma_base, Channel::stream_to_memory}) ||
       !from_memory.initialise({dma_base, Channel::memory_to_stream}))
