@@ -4,6 +4,10 @@
  */
 #include <xparameters.h>
 
+#ifdef SDT
+#error "VENDOR_BSP builds the vendor's drivers without SDT: leave the definition out, or VENDOR_BSP"
+#endif
+
 #ifdef MARKERVP_VENDOR_AXIDMA
 #include <xaxidma.h>
 

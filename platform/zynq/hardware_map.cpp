@@ -40,6 +40,19 @@ class Definitions {
   std::string text;
 };
 
+/// What releases from 2023.2 on have besides, under the driver's name with an X before it: devices
+/// are known by their addresses, and an interrupt has its sense with it (level high is 4), as in a
+/// device tree (xinterrupt_wrap.h).
+void define_interrupts(Definitions& out, const std::string& name,
+                       const std::vector<std::uint32_t>& ids) {
+  constexpr std::uint32_t level_high = 4u << 12;
+  for (std::size_t n = 0; n < ids.size(); ++n) {
+    const std::string number = n == 0 ? "" : "_" + std::to_string(n);
+    out.address(name + "_INTERRUPTS" + number, (ids[n] - gic::first_spi) | level_high);
+  }
+  if (!ids.empty()) out.address(name + "_INTERRUPT_PARENT", gic::distributor_base);
+}
+
 /// Both under the instance's name and under that of the driver: code uses either. Interrupts end in
 /// INTR under the one, in VEC_ID under the other, which leaves the line out if there is only one.
 void define_device(Definitions& out, const Device& device, unsigned number) {
@@ -53,12 +66,20 @@ void define_device(Definitions& out, const Device& device, unsigned number) {
     out.address(name + "_HIGHADDR", device.last);
     for (const auto& [option, value] : device.options) out.number(name + "_" + option, value);
   }
+  std::vector<std::uint32_t> interrupts;
   for (const auto& [line, id] : device.interrupts) {
+    interrupts.push_back(id);
     out.number("FABRIC_" + device.name + "_" + line + "_INTR", id);
     if (has_driver) out.number("FABRIC_" + names.back() + "_" + line + "_VEC_ID", id);
   }
   if (has_driver && device.interrupts.size() == 1) {
     out.number("FABRIC_" + names.back() + "_VEC_ID", device.interrupts.front().second);
+  }
+  if (has_driver) {
+    const std::string name = "X" + names.back();
+    out.address(name + "_BASEADDR", device.base);
+    out.address(name + "_HIGHADDR", device.last);
+    define_interrupts(out, name, interrupts);
   }
 }
 
@@ -81,6 +102,7 @@ constexpr const char* processor_devices =
     "#define XPAR_XSCUGIC_NUM_INSTANCES 1\n"
     "#define XPAR_SCUGIC_0_CPU_BASEADDR 0xF8F00100U\n"
     "#define XPAR_SCUGIC_0_DIST_BASEADDR 0xF8F01000U\n"
+    "#define XPAR_XSCUGIC_0_BASEADDR 0xF8F01000U\n"
     "#define XPAR_GLOBAL_TMR_BASEADDR 0xF8F00200U\n"
     "#define XPAR_GLOBAL_TMR_INTR 27\n"
     "#define XPAR_SCUTIMER_0_BASEADDR 0xF8F00600U\n"
@@ -89,11 +111,15 @@ constexpr const char* processor_devices =
     "#define XPAR_XSCUTIMER_NUM_INSTANCES 1\n"
     "#define XPAR_XSCUTIMER_0_DEVICE_ID 0\n"
     "#define XPAR_XSCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_XSCUTIMER_0_INTERRUPTS 0x0010100DU\n"
+    "#define XPAR_XSCUTIMER_0_INTERRUPT_PARENT 0xF8F01000U\n"
     "#define XPAR_XSCUWDT_NUM_INSTANCES 1\n"
     "#define XPAR_SCUWDT_0_DEVICE_ID 0\n"
     "#define XPAR_SCUWDT_0_BASEADDR 0xF8F00620U\n"
     "#define XPAR_XSCUWDT_0_DEVICE_ID 0\n"
     "#define XPAR_XSCUWDT_0_BASEADDR 0xF8F00620U\n"
+    "#define XPAR_XSCUWDT_0_INTERRUPTS 0x0010100EU\n"
+    "#define XPAR_XSCUWDT_0_INTERRUPT_PARENT 0xF8F01000U\n"
     "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n"
     "\n/* UARTs, and what the processing system has besides */\n";
 constexpr std::uint32_t uart_ref_hz = 50'000'000;
@@ -116,6 +142,9 @@ std::string header(const Platform& platform) {
     out.number(name + "_DEVICE_ID", n);
     out.address(name + "_BASEADDR", platform.uarts[n]);
     out.number(name + "_UART_CLK_FREQ_HZ", uart_ref_hz);
+    define_interrupts(
+        out, name,
+        {platform.uarts[n] == uart::uart0_base ? uart::uart0_interrupt : uart::uart1_interrupt});
   }
   out.number("XUARTPS_NUM_INSTANCES", platform.uarts.size());
   out.text += "#include <xparameters_ps.h>\n";

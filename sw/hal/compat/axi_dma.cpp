@@ -7,6 +7,8 @@
 #include <xaxidma.h>
 #include <xil_printf.h>
 
+#include "device_tables.h"
+
 namespace {
 
 using namespace axi_dma;
@@ -67,36 +69,35 @@ bool is_possible(const XAxiDma_BdRing& ring, UINTPTR address, u32 length) {
          (ring.HasDRE || address % static_cast<UINTPTR>(ring.DataWidth) == 0);
 }
 
-#define MARKERVP_AXI_DMA(number)                                                 \
-  {                                                                              \
-    XPAR_AXI_DMA_##number##_DEVICE_ID, HAL_XPAR(AXI_DMA_##number##_BASEADDR), 0, \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_INCLUDE_MM2S)), 0,          \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_M_AXI_MM2S_DATA_WIDTH)),    \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_INCLUDE_S2MM)), 0,          \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_M_AXI_S2MM_DATA_WIDTH)),    \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_INCLUDE_SG)), 1, 1, 32,     \
-        static_cast<int>(HAL_XPAR(AXI_DMA_##number##_SG_LENGTH_WIDTH)),          \
+#define MARKERVP_AXI_DMA(number)                                                              \
+  {                                                                                           \
+    number, HAL_XPAR(AXIDMA_##number##_BASEADDR), 0,                                          \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_MM2S)), 0,                        \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_M_AXI_MM2S_DATA_WIDTH)),                  \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_S2MM)), 0,                        \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_M_AXI_S2MM_DATA_WIDTH)),                  \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_SG)), 1, 1, 32,                   \
+        static_cast<int>(HAL_XPAR(AXIDMA_##number##_SG_LENGTH_WIDTH)),                        \
+        {HAL_XPAR(XAXIDMA_##number##_INTERRUPTS), HAL_XPAR(XAXIDMA_##number##_INTERRUPTS_1)}, \
+        XPAR_XSCUGIC_0_BASEADDR,                                                              \
   }
-
-XAxiDma_Config* find(UINTPTR key, bool by_address) {
-  static XAxiDma_Config configs[] = {MARKERVP_AXI_DMA(0), MARKERVP_AXI_DMA(1)};
-  static_assert(sizeof configs / sizeof configs[0] == XPAR_XAXIDMA_NUM_INSTANCES, "one entry each");
-  for (XAxiDma_Config& config : configs) {
-    if ((by_address ? config.BaseAddr : config.DeviceId) == key) return &config;
-  }
-  return nullptr;
-}
 
 }  // namespace
 
 extern "C" {
 
-XAxiDma_Config* XAxiDma_LookupConfig(u32 DeviceId) {
-  return find(DeviceId, false);
+XAxiDma_Config* XAxiDma_LookupConfig(UINTPTR DeviceId) {
+  static XAxiDma_Config configs[] = {MARKERVP_AXI_DMA(0), MARKERVP_AXI_DMA(1), MARKERVP_AXI_DMA(2),
+                                     MARKERVP_AXI_DMA(3)};
+  static const unsigned count = markervp_compat::devices(HAL_XPAR(XAXIDMA_NUM_INSTANCES));
+  for (unsigned n = 0; n < count; ++n) {
+    if (DeviceId == n || DeviceId == configs[n].BaseAddr) return &configs[n];
+  }
+  return nullptr;
 }
 
 XAxiDma_Config* XAxiDma_LookupConfigBaseAddr(UINTPTR Baseaddr) {
-  return find(Baseaddr, true);
+  return XAxiDma_LookupConfig(Baseaddr);
 }
 
 int XAxiDma_CfgInitialize(XAxiDma* InstancePtr, XAxiDma_Config* Config) {

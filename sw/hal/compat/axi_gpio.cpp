@@ -3,6 +3,8 @@
 #include <hal/hal.h>
 #include <xgpio.h>
 
+#include "device_tables.h"
+
 namespace {
 
 std::uint32_t read(const XGpio* instance, std::uint32_t offset) {
@@ -23,22 +25,24 @@ std::uint32_t direction_of(const XGpio* instance, unsigned channel) {
          (channel == 2 ? axi_gpio::GPIO2_TRI : axi_gpio::GPIO_TRI);
 }
 
+#define MARKERVP_AXI_GPIO(number)                                       \
+  {                                                                     \
+    number, HAL_XPAR(GPIO_##number##_BASEADDR),                         \
+        static_cast<int>(HAL_XPAR(GPIO_##number##_INTERRUPT_PRESENT)),  \
+        static_cast<int>(HAL_XPAR(GPIO_##number##_IS_DUAL)),            \
+        HAL_XPAR(XGPIO_##number##_INTERRUPTS), XPAR_XSCUGIC_0_BASEADDR, \
+  }
+
 }  // namespace
 
 extern "C" {
 
-XGpio_Config* XGpio_LookupConfig(u16 DeviceId) {
-  static XGpio_Config configs[] = {
-      {XPAR_AXI_GPIO_0_DEVICE_ID, HAL_XPAR(AXI_GPIO_0_BASEADDR),
-       static_cast<int>(HAL_XPAR(AXI_GPIO_0_INTERRUPT_PRESENT)),
-       static_cast<int>(HAL_XPAR(AXI_GPIO_0_IS_DUAL))},
-      {XPAR_AXI_GPIO_1_DEVICE_ID, HAL_XPAR(AXI_GPIO_1_BASEADDR),
-       static_cast<int>(HAL_XPAR(AXI_GPIO_1_INTERRUPT_PRESENT)),
-       static_cast<int>(HAL_XPAR(AXI_GPIO_1_IS_DUAL))},
-  };
-  static_assert(sizeof configs / sizeof configs[0] == XPAR_XGPIO_NUM_INSTANCES, "one entry each");
-  for (XGpio_Config& config : configs) {
-    if (config.DeviceId == DeviceId) return &config;
+XGpio_Config* XGpio_LookupConfig(UINTPTR DeviceId) {
+  static XGpio_Config configs[] = {MARKERVP_AXI_GPIO(0), MARKERVP_AXI_GPIO(1), MARKERVP_AXI_GPIO(2),
+                                   MARKERVP_AXI_GPIO(3)};
+  static const unsigned count = markervp_compat::devices(HAL_XPAR(XGPIO_NUM_INSTANCES));
+  for (unsigned n = 0; n < count; ++n) {
+    if (DeviceId == n || DeviceId == configs[n].BaseAddress) return &configs[n];
   }
   return nullptr;
 }
@@ -51,7 +55,7 @@ int XGpio_CfgInitialize(XGpio* InstancePtr, XGpio_Config* Config, UINTPTR Effect
   return XST_SUCCESS;
 }
 
-int XGpio_Initialize(XGpio* InstancePtr, u16 DeviceId) {
+int XGpio_Initialize(XGpio* InstancePtr, UINTPTR DeviceId) {
   XGpio_Config* config = XGpio_LookupConfig(DeviceId);
   if (config == nullptr) return XST_DEVICE_NOT_FOUND;
   return XGpio_CfgInitialize(InstancePtr, config, config->BaseAddress);

@@ -59,8 +59,12 @@ std::uint32_t bit_of(u8 cpu, u32 id) {
 
 extern "C" {
 
-XScuGic_Config* XScuGic_LookupConfig(u16 DeviceId) {
-  return DeviceId == config.DeviceId ? &config : nullptr;
+XScuGic_Config* XScuGic_LookupConfig(UINTPTR DeviceId) {
+  return DeviceId == config.DeviceId || DeviceId == config.DistBaseAddress ? &config : nullptr;
+}
+
+XScuGic_Config* XScuGic_LookupConfigBaseAddr(UINTPTR BaseAddress) {
+  return BaseAddress == config.DistBaseAddress ? &config : nullptr;
 }
 
 s32 XScuGic_CfgInitialize(XScuGic* InstancePtr, XScuGic_Config* ConfigPtr, UINTPTR) {
@@ -184,13 +188,11 @@ void XScuGic_Stop(XScuGic* InstancePtr) {
 }
 
 s32 XScuGic_DeviceInitialize(u32 DeviceId) {
-  return XScuGic_CfgInitialize(&without_instance, XScuGic_LookupConfig(static_cast<u16>(DeviceId)),
-                               0);
+  return XScuGic_CfgInitialize(&without_instance, XScuGic_LookupConfig(DeviceId), 0);
 }
 
 void XScuGic_DeviceInterruptHandler(void* DeviceId) {
-  without_instance.Config =
-      XScuGic_LookupConfig(static_cast<u16>(reinterpret_cast<UINTPTR>(DeviceId)));
+  without_instance.Config = XScuGic_LookupConfig(reinterpret_cast<UINTPTR>(DeviceId));
   if (without_instance.Config != nullptr) XScuGic_InterruptHandler(&without_instance);
 }
 

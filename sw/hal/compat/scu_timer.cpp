@@ -4,15 +4,17 @@
 
 extern "C" {
 
-XScuTimer_Config* XScuTimer_LookupConfig(u16 DeviceId) {
-  static XScuTimer_Config timer = {XPAR_XSCUTIMER_0_DEVICE_ID, XPAR_XSCUTIMER_0_BASEADDR};
-  return DeviceId == timer.DeviceId ? &timer : nullptr;
+XScuTimer_Config* XScuTimer_LookupConfig(UINTPTR DeviceId) {
+  static XScuTimer_Config timer = {XPAR_XSCUTIMER_0_DEVICE_ID, XPAR_XSCUTIMER_0_BASEADDR,
+                                   XPAR_XSCUTIMER_0_INTERRUPTS, XPAR_XSCUTIMER_0_INTERRUPT_PARENT};
+  return DeviceId == timer.DeviceId || DeviceId == timer.BaseAddr ? &timer : nullptr;
 }
 
 s32 XScuTimer_CfgInitialize(XScuTimer* InstancePtr, XScuTimer_Config* ConfigPtr,
                             UINTPTR EffectiveAddress) {
   if (InstancePtr->IsStarted == XIL_COMPONENT_IS_STARTED) return XST_DEVICE_IS_STARTED;
-  InstancePtr->Config = {ConfigPtr->DeviceId, EffectiveAddress};
+  InstancePtr->Config = *ConfigPtr;
+  InstancePtr->Config.BaseAddr = EffectiveAddress;
   InstancePtr->IsStarted = 0;
   InstancePtr->IsReady = XIL_COMPONENT_IS_READY;
   return XST_SUCCESS;

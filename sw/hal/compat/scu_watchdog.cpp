@@ -3,15 +3,17 @@
 
 extern "C" {
 
-XScuWdt_Config* XScuWdt_LookupConfig(u16 DeviceId) {
-  static XScuWdt_Config watchdog = {XPAR_XSCUWDT_0_DEVICE_ID, XPAR_XSCUWDT_0_BASEADDR};
-  return DeviceId == watchdog.DeviceId ? &watchdog : nullptr;
+XScuWdt_Config* XScuWdt_LookupConfig(UINTPTR DeviceId) {
+  static XScuWdt_Config watchdog = {XPAR_XSCUWDT_0_DEVICE_ID, XPAR_XSCUWDT_0_BASEADDR,
+                                    XPAR_XSCUWDT_0_INTERRUPTS, XPAR_XSCUWDT_0_INTERRUPT_PARENT};
+  return DeviceId == watchdog.DeviceId || DeviceId == watchdog.BaseAddr ? &watchdog : nullptr;
 }
 
 s32 XScuWdt_CfgInitialize(XScuWdt* InstancePtr, XScuWdt_Config* ConfigPtr,
                           UINTPTR EffectiveAddress) {
   if (InstancePtr->IsStarted == XIL_COMPONENT_IS_STARTED) return XST_DEVICE_IS_STARTED;
-  InstancePtr->Config = {ConfigPtr->DeviceId, EffectiveAddress};
+  InstancePtr->Config = *ConfigPtr;
+  InstancePtr->Config.BaseAddr = EffectiveAddress;
   InstancePtr->IsStarted = 0;
   InstancePtr->IsReady = XIL_COMPONENT_IS_READY;
   return XST_SUCCESS;

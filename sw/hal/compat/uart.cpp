@@ -66,6 +66,9 @@ void serve_receiver(XUartPs* instance, u32 event) {
   XUartPsBuffer& buffer = instance->ReceiveBuffer;
   if (buffer.RemainingBytes != 0) receive_some(instance);
   const u32 received = buffer.RequestedBytes - buffer.RemainingBytes;
+  // A time-out whose bytes were the last that were asked for is none.
+  if (buffer.RemainingBytes == 0 && event == XUARTPS_EVENT_RECV_TOUT)
+    event = XUARTPS_EVENT_RECV_DATA;
   if (buffer.RemainingBytes == 0 || event != XUARTPS_EVENT_RECV_DATA)
     tell(instance, event, received);
 }
@@ -101,14 +104,19 @@ void XUartPs_ResetHw(UINTPTR BaseAddress) {
   XUartPs_WriteReg(BaseAddress, uart::BAUD_DIV, XUARTPS_BAUDDIV_RESET_VAL);
 }
 
-XUartPs_Config* XUartPs_LookupConfig(u16 DeviceId) {
+XUartPs_Config* XUartPs_LookupConfig(UINTPTR DeviceId) {
   static XUartPs_Config configs[] = {
-      {0, HAL_XPAR(XUARTPS_0_BASEADDR), HAL_XPAR(XUARTPS_0_UART_CLK_FREQ_HZ), 0},
+      {0, HAL_XPAR(XUARTPS_0_BASEADDR), HAL_XPAR(XUARTPS_0_UART_CLK_FREQ_HZ), 0,
+       HAL_XPAR(XUARTPS_0_INTERRUPTS), XPAR_XUARTPS_0_INTERRUPT_PARENT},
 #ifdef XPAR_XUARTPS_1_BASEADDR
-      {1, HAL_XPAR(XUARTPS_1_BASEADDR), HAL_XPAR(XUARTPS_1_UART_CLK_FREQ_HZ), 0},
+      {1, HAL_XPAR(XUARTPS_1_BASEADDR), HAL_XPAR(XUARTPS_1_UART_CLK_FREQ_HZ), 0,
+       HAL_XPAR(XUARTPS_1_INTERRUPTS), XPAR_XUARTPS_1_INTERRUPT_PARENT},
 #endif
   };
-  return DeviceId < HAL_XPAR(XUARTPS_NUM_INSTANCES) ? &configs[DeviceId] : nullptr;
+  for (UINTPTR number = 0; number < HAL_XPAR(XUARTPS_NUM_INSTANCES); ++number) {
+    if (DeviceId == number || DeviceId == configs[number].BaseAddress) return &configs[number];
+  }
+  return nullptr;
 }
 
 s32 XUartPs_CfgInitialize(XUartPs* InstancePtr, XUartPs_Config* Config, UINTPTR EffectiveAddr) {

@@ -57,8 +57,9 @@ BOOST_AUTO_TEST_CASE(uarts_that_a_board_has) {
   const vp::Configuration::Scope scope(configuration);
   platform::Zynq zynq{*platform::builtin_designs().front()};
   const std::string text = platform::hardware_map(zynq).xparameters;
-  for (const char* line : {"XPAR_XUARTPS_0_BASEADDR 0xE0001000U", "XPAR_XUARTPS_NUM_INSTANCES 1",
-                           "STDOUT_BASEADDRESS 0xE0001000U"}) {
+  for (const char* line :
+       {"XPAR_XUARTPS_0_BASEADDR 0xE0001000U", "XPAR_XUARTPS_NUM_INSTANCES 1",
+        "XPAR_XUARTPS_0_INTERRUPTS 0x00004032U", "STDOUT_BASEADDRESS 0xE0001000U"}) {
     BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
                         line);
   }
@@ -81,7 +82,9 @@ BOOST_AUTO_TEST_CASE(numbers_follow_the_order) {
        {"XPAR_OWN_BASEADDR 0x40030000U", "XPAR_FABRIC_OWN_IRQ_INTR 64", "XPAR_LEDS_DEVICE_ID 0",
         "XPAR_KEYS_DEVICE_ID 1", "XPAR_COPY_DEVICE_ID 0", "XPAR_GPIO_1_BASEADDR 0x40020000U",
         "XPAR_GPIO_1_IS_DUAL 1", "XPAR_FABRIC_COPY_MM2S_INTROUT_INTR 63",
-        "XPAR_XGPIO_NUM_INSTANCES 2", "XPAR_XAXIDMA_NUM_INSTANCES 1"}) {
+        "XPAR_XGPIO_NUM_INSTANCES 2", "XPAR_XGPIO_1_BASEADDR 0x40020000U",
+        "XPAR_XAXIDMA_0_INTERRUPTS 0x0000401FU", "XPAR_XAXIDMA_0_INTERRUPT_PARENT 0xF8F01000U",
+        "XPAR_XAXIDMA_NUM_INSTANCES 1"}) {
     BOOST_CHECK_MESSAGE(text.find(std::string("#define ") + line + "\n") != std::string::npos,
                         line);
   }

@@ -33,6 +33,8 @@ typedef struct {
   int S2MmNumChannels;
   int AddrWidth;
   int SgLengthWidth; /**< bits of lengths */
+  u32 IntrId[2];     /**< for XSetupInterruptSystem, of MM2S before S2MM; 0xFFFF: none */
+  UINTPTR IntrParent;
 } XAxiDma_Config;
 
 typedef struct {
@@ -47,8 +49,8 @@ typedef struct {
   int RxNumChannels;
 } XAxiDma;
 
-/** NULL if there is no such device. */
-XAxiDma_Config* XAxiDma_LookupConfig(u32 DeviceId);
+/** By number or, as releases with SDT ask, by base address. NULL if there is no such device. */
+XAxiDma_Config* XAxiDma_LookupConfig(UINTPTR DeviceId);
 XAxiDma_Config* XAxiDma_LookupConfigBaseAddr(UINTPTR Baseaddr);
 
 /** Resets the core. XST_DMA_ERROR if it does not leave reset. */

@@ -18,6 +18,8 @@ typedef struct {
   UINTPTR BaseAddress;
   int InterruptPresent;
   int IsDual;
+  u32 IntrId; /**< for XSetupInterruptSystem; 0xFFFF: none */
+  UINTPTR IntrParent;
 } XGpio_Config;
 
 typedef struct {
@@ -27,11 +29,11 @@ typedef struct {
   int IsDual;
 } XGpio;
 
-/** NULL if there is no such device. */
-XGpio_Config* XGpio_LookupConfig(u16 DeviceId);
+/** By number or, as releases with SDT ask, by base address. NULL if there is no such device. */
+XGpio_Config* XGpio_LookupConfig(UINTPTR DeviceId);
 int XGpio_CfgInitialize(XGpio* InstancePtr, XGpio_Config* Config, UINTPTR EffectiveAddr);
 /** XST_DEVICE_NOT_FOUND if there is no such device. */
-int XGpio_Initialize(XGpio* InstancePtr, u16 DeviceId);
+int XGpio_Initialize(XGpio* InstancePtr, UINTPTR DeviceId);
 /** XST_SUCCESS if the device was initialised. */
 int XGpio_SelfTest(XGpio* InstancePtr);
 

@@ -34,8 +34,10 @@ typedef struct {
   u32 UnhandledInterrupts;
 } XScuGic;
 
-/** NULL if there is no such device. */
-XScuGic_Config* XScuGic_LookupConfig(u16 DeviceId);
+/** By number or, as releases with SDT ask, by base address (of the distributor). NULL if there is no
+ * such device. */
+XScuGic_Config* XScuGic_LookupConfig(UINTPTR DeviceId);
+XScuGic_Config* XScuGic_LookupConfigBaseAddr(UINTPTR BaseAddress);
 
 /** All interrupts off, priority 0xA0, to CPU 0; then controller and CPU interface on. The base
  * address is that of the configuration. */

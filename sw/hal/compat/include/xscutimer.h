@@ -16,6 +16,8 @@ extern "C" {
 typedef struct {
   u16 DeviceId;
   UINTPTR BaseAddr;
+  u32 IntrId; /**< for XSetupInterruptSystem */
+  UINTPTR IntrParent;
 } XScuTimer_Config;
 
 typedef struct {
@@ -24,8 +26,8 @@ typedef struct {
   u32 IsStarted;
 } XScuTimer;
 
-/** NULL if there is no such device. */
-XScuTimer_Config* XScuTimer_LookupConfig(u16 DeviceId);
+/** By number or, as releases with SDT ask, by base address. NULL if there is no such device. */
+XScuTimer_Config* XScuTimer_LookupConfig(UINTPTR DeviceId);
 /** XST_DEVICE_IS_STARTED if the instance runs already. */
 s32 XScuTimer_CfgInitialize(XScuTimer* InstancePtr, XScuTimer_Config* ConfigPtr,
                             UINTPTR EffectiveAddress);

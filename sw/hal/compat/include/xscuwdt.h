@@ -15,6 +15,8 @@ extern "C" {
 typedef struct {
   u16 DeviceId;
   UINTPTR BaseAddr;
+  u32 IntrId; /**< for XSetupInterruptSystem */
+  UINTPTR IntrParent;
 } XScuWdt_Config;
 
 typedef struct {
@@ -23,8 +25,8 @@ typedef struct {
   u32 IsStarted;
 } XScuWdt;
 
-/** NULL if there is no such device. */
-XScuWdt_Config* XScuWdt_LookupConfig(u16 DeviceId);
+/** By number or, as releases with SDT ask, by base address. NULL if there is no such device. */
+XScuWdt_Config* XScuWdt_LookupConfig(UINTPTR DeviceId);
 /** XST_DEVICE_IS_STARTED if the instance runs already. */
 s32 XScuWdt_CfgInitialize(XScuWdt* InstancePtr, XScuWdt_Config* ConfigPtr,
                           UINTPTR EffectiveAddress);

@@ -59,6 +59,8 @@ typedef struct {
   UINTPTR BaseAddress;
   u32 InputClockHz;
   s32 ModemPinsConnected;
+  u32 IntrId; /**< for XSetupInterruptSystem */
+  UINTPTR IntrParent;
 } XUartPs_Config;
 
 typedef struct {
@@ -89,8 +91,8 @@ typedef struct {
   u8 is_rxbs_error;
 } XUartPs;
 
-/** NULL if there is no such device. */
-XUartPs_Config* XUartPs_LookupConfig(u16 DeviceId);
+/** By number or, as releases with SDT ask, by base address. NULL if there is no such device. */
+XUartPs_Config* XUartPs_LookupConfig(UINTPTR DeviceId);
 /** 115200 baud, 8 data bits, no parity, one stop bit; receiver and transmitter on, no interrupts.
  * XST_UART_BAUD_ERROR if the clock gives no such rate. */
 s32 XUartPs_CfgInitialize(XUartPs* InstancePtr, XUartPs_Config* Config, UINTPTR EffectiveAddr);
