@@ -258,7 +258,7 @@ std::string LinuxApplication::place() {
 
 // It answers at once, unless it has a handler of its own for that signal.
 std::string LinuxApplication::end_for_time() {
-  constexpr int most_waits = 50;  // it reads debug information
+  constexpr int most_waits = 500;  // it reads debug information, on a computer that may be busy
   ::kill(process_, linux_app::out_of_time);
   for (int i = 0; i < most_waits && !silent_; ++i) {
     const std::optional<Asked> asked = receive();

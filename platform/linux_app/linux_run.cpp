@@ -17,6 +17,10 @@ namespace platform {
 
 namespace {
 
+void print(const std::string& line) {
+  hal_console_write((line + "\n").c_str(), line.size() + 1);
+}
+
 using linux_app::Device;
 using linux_app::Reply;
 using linux_app::What;
@@ -126,9 +130,6 @@ void LinuxRun::boot() {
   timer_hz_ = zynq_->ps.cpu_clk.clk.frequency_hz() / drivers::GlobalTimer::cycles_per_count;
   gic_.connect(timer_interrupt, drivers::Trigger::rising_edge, &on_alarm, this);
   hal_interrupt_enable(true);
-  const auto print = [](const std::string& line) {
-    hal_console_write((line + "\n").c_str(), line.size() + 1);
-  };
   const std::vector<LinuxDevices::Uio>& uios = devices_->uios();
   uios_.resize(uios.size());
   for (std::size_t i = 0; i < uios.size(); ++i) {
@@ -247,6 +248,12 @@ void LinuxRun::obey(const Asked& asked, Reply& reply) {
       reply.now_ns = now_ns();
       return;
     }
+    case What::missing:
+      print("linux: " + asked.text + " is not there: those that are stand above");
+      return;
+    case What::refused:
+      hal_warn(asked.text.c_str());
+      return;
     case What::store:
       reply.error = store(buffers_.at(request.a), request.a, asked.text);
       return;

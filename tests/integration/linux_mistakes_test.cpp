@@ -94,11 +94,11 @@ BOOST_FIXTURE_TEST_SUITE(linux_mistakes, Mistakes)
 
 BOOST_AUTO_TEST_CASE(accesses_that_no_device_takes) {
   stops("unmapped", {"data abort: write to 0x50000000 (m_axi_gp0): DECERR, nothing answers there",
-                     " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:30)", in_main});
-  stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:38)"});
-  stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:43)"});
-  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:49)"});
-  stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:54)"});
+                     " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:31)", in_main});
+  stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:39)"});
+  stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:44)"});
+  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:50)"});
+  stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:55)"});
   stops("copying", {"from register to register in one instruction, at 0x41200000"});
 }
 
@@ -113,9 +113,12 @@ BOOST_AUTO_TEST_CASE(mappings) {
 BOOST_AUTO_TEST_CASE(what_bare_metal_programs_are_told_too) {
   warns("no_register",
         {"pl.axi_gpio_0.s_axi: write to 0x00000190, where the device has no register",
-         " no_register+0x", "mistakes.c:34)", in_main});
+         " no_register+0x", "mistakes.c:35)", in_main});
   warns("unflushed", {"a DMA reads 0x10", "which the program never flushed",
                       "write 1 to sync_for_device before the transfer", " unflushed+0x"});
+  warns("beyond_a_map",
+        {"mmap() of 4096 bytes at offset 0x1000: of this file 0x10000 can be mapped",
+         "beyond_a_map+0x"});
   warns("beyond", {"MM2S transfer of 128 bytes at 0x80000000 leaves the memory", " beyond+0x"});
 }
 
@@ -257,6 +260,16 @@ BOOST_AUTO_TEST_CASE(no_debugger) {
   const kit::Outcome outcome = kit::run_process(MARKERVP_EXECUTABLE, {"debug", "out"}, path());
   BOOST_TEST(outcome.exit_code == 2);
   BOOST_TEST((outcome.err.find("a process of its own") != std::string::npos), outcome.err);
+}
+
+// The board says as little; here there is a list.
+BOOST_AUTO_TEST_CASE(a_device_that_is_none) {
+  const kit::Outcome outcome = run(arguments("no_device"));
+  BOOST_TEST(outcome.exit_code == 0);
+  BOOST_TEST(outcome.err == "");
+  BOOST_TEST((outcome.out.find("linux: /dev/uio9 is not there: those that are stand above\n") !=
+              std::string::npos),
+             outcome.out);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -125,6 +125,16 @@ Reply ask_in_handler(What what, std::uint64_t a, std::uint64_t b, std::uint32_t 
   return exchange({what, size, a, b, 0}, nullptr);
 }
 
+void warn_of_invalid(const char* format, ...) {
+  char text[linux_app::longest_text];
+  va_list values;
+  va_start(values, format);
+  ::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  ask(What::refused, 0, 0, 0, text);
+  errno = EINVAL;
+}
+
 void fail(const char* format, ...) {
   char text[linux_app::longest_text];
   va_list values;

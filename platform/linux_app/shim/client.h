@@ -45,6 +45,10 @@ Reply ask_in_handler(What what, std::uint64_t a, std::uint64_t b, std::uint32_t 
 /// Called behind each answer: what it says of interrupts.
 void note_interrupts(const Reply& reply);
 
+/// Warns of a call that gets EINVAL, which says too little: what is wrong with it, as printf()
+/// writes it.
+void warn_of_invalid(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
 /// Ends the run with a message: what went wrong, as printf() writes it. Where is added.
 [[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
 /// Tells that a signal ends the application.

@@ -141,7 +141,10 @@ class Path {
 };
 
 int open_device(const char* path, const Path& led, int flags) {
-  if (REAL(access)(led, F_OK) != 0) return -1;
+  if (REAL(access)(led, F_OK) != 0) {
+    if (is_in_lock_step()) ask(What::missing, 0, 0, 0, path);
+    return refuse(ENOENT);
+  }
   take_devices();
   const char* const digits = ::strpbrk(path, "0123456789");
   const unsigned long number = digits ? ::strtoul(digits, nullptr, 10) : 0;
@@ -268,26 +271,24 @@ void* map(const Open& open, void* address, std::size_t length, int protection, i
           std::uint64_t offset) {
   using Kind = Open::Kind;
   const std::uint64_t pages = (length + page - 1) / page * page;
-  const std::uint64_t how = open.sync ? std::uint64_t{linux_app::o_sync} : 0;
-  if (offset % page != 0 || length == 0 || open.kind == Kind::attribute) {
-    errno = EINVAL;
+  const std::uint64_t size =
+      open.kind == Kind::memory ? std::uint64_t{1} << 32 : (open.size + page - 1) / page * page;
+  const bool is_there = offset % page == 0 && length != 0 && pages <= size &&
+                        offset <= (open.kind == Kind::uio ? 0 : size - pages);
+  if (!is_there) {
+    warn_of_invalid(
+        "mmap() of %zu bytes at offset 0x%llX: of this file 0x%llX can be mapped, by pages", length,
+        static_cast<unsigned long long>(offset), static_cast<unsigned long long>(size));
     return MAP_FAILED;
   }
-  if (open.kind == Kind::memory) {
-    constexpr std::uint64_t end = std::uint64_t{1} << 32;
-    if (offset >= memory_first && offset + pages <= memory_end)
-      return map_memory(address, length, protection, flags, offset, how);
-    if (offset + pages <= end)
-      return map_registers(address, length, protection, flags, static_cast<std::uint32_t>(offset));
-  } else if (open.kind == Kind::buffer) {
-    if (offset + pages <= (open.size + page - 1) / page * page)
-      return map_memory(address, length, protection, flags, open.base + offset,
-                        how | linux_app::of_buffer | static_cast<std::uint64_t>(open.number) << 8);
-  } else if (offset == 0 && pages <= (open.size + page - 1) / page * page) {
-    return map_registers(address, length, protection, flags, static_cast<std::uint32_t>(open.base));
-  }
-  errno = EINVAL;
-  return MAP_FAILED;
+  const std::uint64_t how = open.sync ? std::uint64_t{linux_app::o_sync} : 0;
+  if (open.kind == Kind::buffer)
+    return map_memory(address, length, protection, flags, open.base + offset,
+                      how | linux_app::of_buffer | static_cast<std::uint64_t>(open.number) << 8);
+  if (open.kind == Kind::memory && offset >= memory_first && offset + pages <= memory_end)
+    return map_memory(address, length, protection, flags, offset, how);
+  return map_registers(address, length, protection, flags,
+                       static_cast<std::uint32_t>(open.base + offset));
 }
 
 bool is_of_platform(int descriptor) {

@@ -1,5 +1,6 @@
 /* What goes wrong in Linux applications, a mistake a word of the command line. */
 #define _GNU_SOURCE
+#include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
@@ -164,6 +165,16 @@ static void beyond(void) {
 }
 
 /* Waits for a signal in a child, too: nothing of it may be left. */
+static void no_device(void) {
+  if (open("/dev/uio9", O_RDWR) >= 0 || errno != ENOENT) exit(1);
+}
+
+static void beyond_a_map(void) {
+  const int file = open("/dev/uio0", O_RDWR);
+  if (mmap(NULL, 0x20000, PROT_READ, MAP_SHARED, file, 0) != MAP_FAILED || errno != EINVAL) exit(1);
+  if (mmap(NULL, 4096, PROT_READ, MAP_SHARED, file, 4096) != MAP_FAILED || errno != EINVAL) exit(1);
+}
+
 static void two_processes(void) {
   volatile uint32_t* const registers = gpio();
   if (fork() == 0) {
@@ -211,6 +222,8 @@ int main(int count, char** words) {
                   {"stream", stream},
                   {"unflushed", unflushed},
                   {"beyond", beyond},
+                  {"no_device", no_device},
+                  {"beyond_a_map", beyond_a_map},
                   {"two_processes", two_processes},
                   {"leaks", leaks},
                   {"leaves_a_copy", leaves_a_copy}};
