@@ -24,12 +24,13 @@ class Loop : public sc_core::sc_module, public platform::Design {
         registers_("axi_interconnect", ports.fclk_clk(0)),
         memory_("axi_mem_interconnect", ports.fclk_clk(0)),
         dma_("axi_dma_0", ports.fclk_clk(0)),
-        gpio_("axi_gpio_0", ports.fclk_clk(0), dual_with_interrupt()),
+        gpio_("buttons", ports.fclk_clk(0), dual_with_interrupt()),
         concat_("concat", 3) {
     ports.m_axi_gp0(registers_);
     ports.s_axi_hp0(memory_);
     registers_.connect(dma_.s_axi_lite, 0x4040'0000);
-    registers_.connect(gpio_.s_axi, 0x4120'0000);
+    // Neither its name nor its place are those of the default design.
+    registers_.connect(gpio_.s_axi, 0x4123'0000);
     memory_.connect(dma_);
     dma_.axi_resetn(ports.fclk_reset0_n());
     dma_.mm2s().m_axis(stream_);
