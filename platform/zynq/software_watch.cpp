@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include <vp/ip.h>
 #include <vp/report.h>
@@ -44,6 +45,7 @@ CacheContract::CacheContract(Zynq& zynq)
       end_(zynq.ps.ddr.dma_memory().end()),
       lines_((end_ - first_) / line),
       memory_(end_ - first_),
+      written_(zynq.ps.ddr.behind(static_cast<std::uint32_t>(first_))),
       guard_(first_, end_, zynq.ps.cache_guard_steps,
              [this](std::uintptr_t address) { program_reads(address); }) {
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
@@ -72,7 +74,7 @@ void CacheContract::check_transfers() {
   const ps::DmaAllocator& memory = zynq_.ps.ddr.dma_memory();
   const auto check = [this, &memory](const std::string& who, std::uint64_t address,
                                      std::uint64_t bytes) -> std::string {
-    if (who == "S2MM") device_will_write(address, bytes);
+    if (std::string_view(who) == "S2MM") device_will_write(address, bytes);
     const auto buffer = memory.buffer_at(address);
     if (!buffer || address + bytes <= buffer->end) return {};
     return "leaves its buffer, " + std::to_string(buffer->end - buffer->first) + " bytes at " +
@@ -96,9 +98,9 @@ void CacheContract::mark(std::uint64_t address, std::uint64_t bytes, unsigned ma
   const auto bits = static_cast<unsigned char>(marks);
   const auto kept = static_cast<unsigned char>(~cleared);
   unsigned char* const from = &marks_at(address);
-  unsigned char* const last = &marks_at(std::min(address + bytes, end_) - 1);
-  for (unsigned char* at = from; at <= last; ++at)
-    *at = static_cast<unsigned char>((*at & kept) | bits);
+  const std::ptrdiff_t count = &marks_at(std::min(address + bytes, end_) - 1) - from + 1;
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    from[i] = static_cast<unsigned char>((from[i] & kept) | bits);
 }
 
 // Whole lines leave the cache.
@@ -137,8 +139,8 @@ void CacheContract::device_wrote(std::uint64_t address, std::uint64_t bytes) {
 // From what the program sees to what lies behind the caches.
 void CacheContract::copy(std::uint64_t address, std::uint64_t bytes) {
   bytes = std::min(address + bytes, end_) - address;
-  std::memcpy(memory_.data() + (address - first_),
-              zynq_.ps.ddr.behind(static_cast<std::uint32_t>(address), bytes), bytes);
+  const std::uint64_t at = address - first_;
+  std::memcpy(memory_.data() + at, written_ + at, bytes);
 }
 
 // The first address whose byte a device does not see as the program does, in a line without one of
@@ -148,8 +150,7 @@ std::optional<std::uint64_t> CacheContract::first_dirty(std::uint64_t address, s
   constexpr std::uint64_t piece = 128 * line;
   const std::uint64_t end = std::min(address + bytes, end_);
   const unsigned char* const seen = memory_.data() - first_;
-  const unsigned char* const wrote =
-      zynq_.ps.ddr.behind(static_cast<std::uint32_t>(first_)) - first_;
+  const unsigned char* const wrote = written_ - first_;
   const auto next_after = [end](std::uint64_t at, std::uint64_t size) {
     return std::min(end, (at / size + 1) * size);
   };
@@ -186,8 +187,20 @@ std::optional<std::uint64_t> CacheContract::first_unflushed(std::uint64_t addres
   return flushed_end;
 }
 
+// Nearly every read of a device is a burst of lines that are all given, or were all flushed and not
+// written since.
+bool CacheContract::is_flushed_piece(std::uint64_t address, std::uint64_t bytes) {
+  if (bytes > end_ - address) return false;
+  const unsigned char* const last = &marks_at(address + bytes - 1);
+  unsigned marks = current | given;  // that all lines have
+  for (const unsigned char* at = &marks_at(address); at <= last; ++at) marks &= *at;
+  if (marks == (current | given)) return true;
+  const std::uint64_t at = address - first_;
+  return marks == current && std::memcmp(memory_.data() + at, written_ + at, bytes) == 0;
+}
+
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
-  if (warned_of_read_ || !watches(address, bytes)) return;
+  if (warned_of_read_ || !watches(address, bytes) || is_flushed_piece(address, bytes)) return;
   const std::optional<std::uint64_t> stale = first_unflushed(address, bytes);
   if (!stale) return;
   warned_of_read_ = true;

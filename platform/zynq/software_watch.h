@@ -80,12 +80,14 @@ class CacheContract {
   std::optional<std::uint64_t> first_dirty(std::uint64_t address, std::uint64_t bytes,
                                            unsigned but);
   std::optional<std::uint64_t> first_unflushed(std::uint64_t address, std::uint64_t bytes);
+  bool is_flushed_piece(std::uint64_t address, std::uint64_t bytes);
 
   Zynq& zynq_;
   std::uint64_t first_;
   std::uint64_t end_;
   ps::SparseArray<unsigned char> lines_;
   ps::SparseArray<unsigned char> memory_;  ///< behind the caches
+  const unsigned char* const written_;     ///< the same bytes as the program has them
   ps::LineGuard guard_;
   std::string flush_call_ = "call hal_cache_flush()";
   std::string invalidate_call_ = "call hal_cache_invalidate()";

@@ -176,16 +176,18 @@ Bridge::Bridge(sc_core::sc_module_name name, const Clock& clock, Leaves leaves)
 }
 
 void Bridge::enter(bool read, std::uint64_t start_ps, Passage& passage) const {
-  if (hertz_ != clock_.frequency_hz()) {
-    hertz_ = clock_.frequency_hz();
-    read_ = times(true);
-    write_ = times(false);
-  }
+  if (hertz_ != clock_.frequency_hz()) follow_clock();
   const Times& t = read ? read_ : write_;
   passage.earliest_ps = start_ps + t.request;
   passage.leaves_ps = leaves(passage.earliest_ps);
   passage.answer_ps = start_ps + t.whole;
   passage.rest_ps = t.rest;
+}
+
+void Bridge::follow_clock() const {
+  hertz_ = clock_.frequency_hz();
+  read_ = times(true);
+  write_ = times(false);
 }
 
 inline std::uint64_t Bridge::leaves(std::uint64_t earliest_ps) const {

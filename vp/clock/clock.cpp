@@ -70,12 +70,13 @@ std::uint64_t EdgeTimes::cycle_at_or_after(std::uint64_t ps) const {
   return std::max(anchor_.cycle + n, origin_.cycle + 1);
 }
 
-std::uint64_t EdgeTimes::far_edge_at_or_after(std::uint64_t ps) const {
-  if (stands()) return never;
-  if (ps <= origin_.ps) return edge(origin_.cycle + 1).ps;
+EdgeTimes::Moment EdgeTimes::far_edge_at_or_after(std::uint64_t ps) const {
+  if (stands()) return {origin_.cycle, never};
+  const std::uint64_t first = origin_.cycle + 1;
+  if (ps <= origin_.ps) return {first, edge(first).ps};
   const std::uint64_t n = edges_from_anchor(ps);
-  if (anchor_.cycle + n <= origin_.cycle) return edge(origin_.cycle + 1).ps;
-  return time_from_anchor(n);
+  if (anchor_.cycle + n < first) return {first, edge(first).ps};
+  return {anchor_.cycle + n, time_from_anchor(n)};
 }
 
 void Earliest::push(std::uint64_t time) {
@@ -90,9 +91,22 @@ void Earliest::erase(std::size_t place) {
 }
 
 void Earliest::look() {
-  first_ = 0;
-  others_ = never;
-  for (std::size_t place = 1; place < times_.size(); ++place) set(place, times_[place]);
+  std::size_t first = 0;
+  std::uint64_t earliest = times_[0], others = never;
+  const std::size_t count = times_.size();
+  const std::uint64_t* const times = times_.data();
+  for (std::size_t place = 1; place < count; ++place) {
+    const std::uint64_t time = times[place];
+    if (time >= others) continue;
+    if (time < earliest) {
+      others = std::exchange(earliest, time);
+      first = place;
+    } else {
+      others = time;
+    }
+  }
+  first_ = first;
+  others_ = others;
 }
 
 // A module's alarm has moved, outside of an edge.
@@ -181,6 +195,7 @@ void Clock::set_frequency(std::uint64_t hertz) {
 
 void Clock::start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   times_.restart(cycles, ps, hertz);
+  ahead_ = {0, never};
   next_ = {cycles + 1, never, 0};
   if (!times_.stands()) next_ = times_.edge(cycles + 1);
 }
@@ -201,9 +216,12 @@ void Clock::join(const Clock& source) {
 
 std::uint64_t Clock::cycle() const {
   const std::uint64_t now = scheduler_.now_ps();
-  if (now == cycle_ps_) return cycle_;
-  cycle_ps_ = now;
-  cycle_ = times_.cycles_until(now);
+  return now == cycle_ps_ ? cycle_ : count_cycles(now);
+}
+
+std::uint64_t Clock::count_cycles(std::uint64_t now_ps) const {
+  cycle_ = now_ps == ahead_.ps ? ahead_.cycle : times_.cycles_until(now_ps);
+  cycle_ps_ = now_ps;
   return cycle_;
 }
 

@@ -256,17 +256,6 @@ std::string Cpu::device_at(std::uint32_t address) const {
   return device.empty() ? device : " (" + device + ")";
 }
 
-std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value) {
-  const std::uint64_t now = catch_up();
-  if (vp::RegisterRoute* route = routes_.find(address)) {
-    on_bus(now, read, address, [&] { return route->transfer(now, read, value); });
-  } else {
-    transport(read, address, value);
-  }
-  if (read) last_look_.note_read(address, value);
-  return value;
-}
-
 // The general way: anything may be behind the sockets.
 void Cpu::transport(bool read, std::uint32_t address, std::uint32_t& value) {
   if (address % sizeof data_ != 0) {

@@ -238,6 +238,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   hal_poll_result poll_until_changed(std::uint32_t address, std::uint32_t previous,
                                      std::uint32_t cycles, std::uint32_t limit);
   void barrier();
+  void order_memory();
   void maintain_cache(CacheCall call, const void* data, std::size_t size);
   hal_dma_buffer allocate_dma(std::size_t size, std::size_t alignment);
   void connect_interrupt(hal_interrupt_handler handler, void* context);
@@ -317,11 +318,20 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void spend_cycles(std::uint64_t cycles);
   void spend_blocks();
+  void spend_timed_blocks();
   std::uint64_t take_work();
   void work_for(std::uint64_t ps);
   [[gnu::noinline]] std::uint64_t pass_busy(std::uint64_t start_ps, std::uint64_t end_ps);
   void close_segment();
+  /// Work that is over before anything else is to be looked at: `work_ps` of it, from `start_ps`,
+  /// the present, or from the end of the last access.
+  struct Stretch {
+    std::uint64_t start_ps, work_ps, end_ps;
+  };
+  bool take_stretch(Stretch& stretch);
+  std::uint64_t pass_stretch(const Stretch& stretch);
   std::uint64_t catch_up();
+  bool nothing_comes_before() const;
   [[gnu::noinline]] std::uint64_t catch_up_slowly();
   [[gnu::noinline]] std::uint64_t pass_work(std::uint64_t start_ps, std::uint64_t work_ps);
   void settle();
@@ -360,6 +370,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void handler_begins();
 
   std::uint32_t access(bool read, std::uint32_t address, std::uint32_t value);
+  bool access_quietly(const Stretch& stretch, bool read, std::uint32_t address,
+                      std::uint32_t& value);
   /// An access that left at `start_ps`. `transfer` brings it to the device and gives the answer.
   template <class Transfer>
   void on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer);
@@ -476,7 +488,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 };
 
 template <class Transfer>
-void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer) {
+[[gnu::always_inline]] inline void Cpu::on_bus(std::uint64_t start_ps, bool read,
+                                               std::uint32_t address, Transfer transfer) {
   vp::RegisterRoute::Answer answer;
   try {
     answer = transfer();
@@ -490,11 +503,7 @@ void Cpu::on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Trans
 
 // What the program did since its last call, where its basic blocks take time.
 inline void Cpu::spend_blocks() {
-  const std::uint32_t cycles = settings_.block_cycles;
-  if (cycles == 0) return;
-  const std::uint64_t blocks = ProgramWatch::take_blocks();
-  timed_blocks_ += blocks;
-  spend_cycles(blocks * cycles);
+  if (settings_.block_cycles != 0) spend_timed_blocks();
 }
 
 // The program's code goes on, after a call in which the other core's may have run.

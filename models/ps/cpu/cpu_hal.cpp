@@ -24,6 +24,14 @@ void Cpu::barrier() {
   catch_up();
 }
 
+// The program's own: memory is as it is when the barrier is over. Where nothing happens until then,
+// its time passes with what follows.
+void Cpu::order_memory() {
+  ++barriers;
+  spend_cycles(settings_.barrier_cycles);
+  if (!nothing_comes_before()) catch_up();
+}
+
 void Cpu::maintain_cache(CacheCall call, const void* data, std::size_t size) {
   constexpr std::uintptr_t line = DmaAllocator::cache_line;
   const auto first = reinterpret_cast<std::uintptr_t>(data) / line;
@@ -54,7 +62,7 @@ void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
 }
 
 bool Cpu::enable_interrupt(bool enable) {
-  catch_up();
+  if (!nothing_comes_before()) catch_up();
   const bool was_enabled = !masked_;
   masked_ = !enable;
   take_interrupts();
@@ -153,7 +161,7 @@ hal_poll_result hal_poll_until_changed(uint32_t address, uint32_t previous, uint
 }
 
 void hal_barrier(void) {
-  on_cpu("hal_barrier", [](ps::Cpu& cpu) { cpu.barrier(); });
+  on_cpu("hal_barrier", [](ps::Cpu& cpu) { cpu.order_memory(); });
 }
 
 void hal_cache_flush(const void* data, size_t size) {

@@ -19,6 +19,7 @@ void LocalTime::set_frequency(std::uint64_t hertz) {
   denominator_ = hertz << denominator_bits;
   cycle_fs_ = fs_per_second / hertz;
   cycle_rest_ = fs_per_second % hertz << denominator_bits;
+  cycle_ps_up_ = cycle_fs_ / fs_per_ps + 1;
   cycle_remainder_ = 0;  // less than a femtosecond
   // whole · cycle_rest_ and whole · cycle_fs_ below 2^62; the fraction adds less than 2^55.
   const std::uint64_t whole = little_limit / std::max(cycle_rest_, cycle_fs_);
@@ -174,22 +175,77 @@ inline void Cpu::end_access() {
   if (access_end_ps_ > start) pass_busy(start, access_end_ps_);
 }
 
-// All that was done ahead passes, and interrupts that come run their handler. Returns the present
-// time. Usually nothing happens meanwhile, so that no interrupt can come: that is kept short.
-std::uint64_t Cpu::catch_up() {
+// What basic blocks took since they were last looked at.
+void Cpu::spend_timed_blocks() {
+  const std::uint64_t blocks = ProgramWatch::take_blocks();
+  timed_blocks_ += blocks;
+  spend_cycles(blocks * settings_.block_cycles);
+}
+
+// What was done since the simulation was looked at; false where more than that is to be played.
+inline bool Cpu::take_stretch(Stretch& stretch) {
   const bool in_one = in_handler_now_ || (timeline_.empty() && (masked_ || !interrupt_pending()));
   const std::uint64_t start = now_ps();
   if (!in_one || !scheduler_.up_to_date(start) || !local_time_.little() ||
       hertz_ != clock_.frequency_hz()) {
-    return catch_up_slowly();
+    return false;
   }
   const std::uint64_t work = local_time_.empty() ? 0 : local_time_.take_little();
-  const std::uint64_t end = std::max(access_end_ps_, start) + work;
+  stretch = {start, work, std::max(access_end_ps_, start) + work};
   start_ahead();
+  return true;
+}
+
+// Usually nothing happens meanwhile, so that no interrupt can come: that is kept short.
+inline std::uint64_t Cpu::pass_stretch(const Stretch& stretch) {
+  const auto [start, work, end] = stretch;
   if (end <= start) return start;
   if (end >= deadline_ps_ || !scheduler_.pass_quietly(end)) return pass_work(start, work);
   activity_.busy(end - start);
   return end;
+}
+
+// All that was done ahead passes, and interrupts that come run their handler. Returns the present
+// time.
+std::uint64_t Cpu::catch_up() {
+  Stretch stretch;
+  return take_stretch(stretch) ? pass_stretch(stretch) : catch_up_slowly();
+}
+
+// Whether what was done so far is over before anything else happens: then nobody sees when it is.
+bool Cpu::nothing_comes_before() const {
+  if ((!in_handler_now_ && !timeline_.empty()) || interrupt_pending()) return false;
+  if (!local_time_.little() || hertz_ != clock_.frequency_hz()) return false;
+  const std::uint64_t end = std::max(access_end_ps_, now_ps()) + local_time_.most_ps();
+  return end < deadline_ps_ && scheduler_.is_quiet_until(end);
+}
+
+// Work before an access and the way to the register are one stretch where nothing comes in between.
+inline bool Cpu::access_quietly(const Stretch& stretch, bool read, std::uint32_t address,
+                                std::uint32_t& value) {
+  vp::RegisterRoute* const route = routes_.find(address);
+  vp::BusStage::Passage passage;
+  if (!route || stretch.end_ps >= deadline_ps_ ||
+      !route->reach_quietly(stretch.end_ps, read, passage)) {
+    return false;
+  }
+  on_bus(stretch.start_ps, read, address, [&] { return route->arrive(passage, read, value); });
+  return true;
+}
+
+std::uint32_t Cpu::access(bool read, std::uint32_t address, std::uint32_t value) {
+  Stretch stretch;
+  const bool plain = take_stretch(stretch);
+  if (!plain || !access_quietly(stretch, read, address, value)) {
+    const std::uint64_t now = plain ? pass_stretch(stretch) : catch_up_slowly();
+    if (vp::RegisterRoute* route = routes_.find(address)) {
+      on_bus(now, read, address, [&] { return route->transfer(now, read, value); });
+    } else {
+      transport(read, address, value);
+    }
+  }
+  if (read) last_look_.note_read(address, value);
+  return value;
 }
 
 std::uint64_t Cpu::catch_up_slowly() {

@@ -63,9 +63,8 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
   build_channels();
   build_scatter_gather();
   s_axi_lite.before_access([this] {
-    for (DmaChannel* channel : std::initializer_list<DmaChannel*>{mm2s_.get(), s2mm_.get()}) {
-      if (channel && channel->finishing()) channel->bring_up_to(clock().cycle());
-    }
+    if (mm2s_ && mm2s_->finishing()) mm2s_->bring_up_to(clock().cycle());
+    if (s2mm_ && s2mm_->finishing()) s2mm_->bring_up_to(clock().cycle());
   });
 }
 

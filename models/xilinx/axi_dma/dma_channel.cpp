@@ -133,6 +133,7 @@ DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offset
       address_msb(bank[offsets.address_msb]),
       length(bank[offsets.length]),
       core_(core),
+      clock_(core.channel_clock()),
       name_(std::move(name)),
       counts_at_rest_(counts_at_rest) {
   dmacr.after_write([this](std::uint32_t word) { control_written(word); });

@@ -291,9 +291,10 @@ class DmaChannel {
   std::uint64_t run_and_halt(std::uint64_t cycle);
   void halt_after(std::uint64_t cycle);
   void plan_after_write();
-  std::uint64_t now() const { return core_.channel_clock().cycle(); }
+  std::uint64_t now() const { return clock_.cycle(); }
   bool running() const { return dmacr.any(axi_dma::dmacr::RS); }
 
+  const vp::Clock& clock_;
   std::string name_;
   std::unique_ptr<DescriptorRing> ring_;  ///< null in direct register mode
   unsigned under_way_ = 0;                ///< descriptors whose data is being moved

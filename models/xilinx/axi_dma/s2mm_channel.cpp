@@ -99,9 +99,8 @@ void S2mmChannel::take_words(const vp::BeatSource::Beats& beats, std::uint64_t c
 }
 
 void S2mmChannel::append(const std::uint32_t* words, std::uint32_t count) {
-  const std::size_t old = collected_.size();
-  collected_.resize(old + count * word_bytes);
-  std::memcpy(&collected_[old], words, count * word_bytes);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(words);
+  collected_.insert(collected_.end(), bytes, bytes + count * word_bytes);
   collected_beats_ += count;
   received_ += count * word_bytes;
 }
@@ -161,7 +160,11 @@ void S2mmChannel::close_burst(std::uint64_t cycle) {
   burst.address = write_address_;
   const auto lead = static_cast<unsigned>(write_address_ % word_bytes);
   burst.beats = (lead + static_cast<unsigned>(collected_.size()) + word_bytes - 1) / word_bytes;
-  burst.data = std::exchange(collected_, {});
+  burst.data.swap(collected_);
+  if (!spare_.empty()) {
+    collected_.swap(spare_.back());
+    spare_.pop_back();
+  }
   if (!keyhole()) write_address_ += burst.data.size();
   queued_beats_ += burst.beats;
   collected_beats_ = 0;
@@ -212,6 +215,8 @@ void S2mmChannel::end_burst(std::uint64_t cycle) {
   bus_ = Bus::free;
   bus_free_at_ = cycle + core_.timing().write_gap;
   queued_beats_ -= bursts_.front().beats;
+  spare_.push_back(std::move(bursts_.front().data));
+  spare_.back().clear();
   bursts_.pop_front();
   if (!transfers_.empty()) --transfers_.front().bursts;
   const std::uint32_t error = error_bit(m_axi.response());

@@ -78,6 +78,7 @@ class S2mmChannel : public DmaChannel {
   bool in_packet_ = false;
   std::deque<Transfer> transfers_;  ///< under way; the last one takes beats until it is closed
   std::vector<unsigned char> collected_;
+  std::vector<std::vector<unsigned char>> spare_;  ///< memory of bursts that are over
   unsigned collected_beats_ = 0;
   std::deque<Burst> bursts_;
   unsigned queued_beats_ = 0;  ///< beats in bursts_

@@ -70,9 +70,9 @@ void Concat::end_of_elaboration() {
   dout = vector;
 }
 
-void Concat::on_change(vp::SignalBase&, std::uint32_t i) {
+void Concat::on_change(vp::SignalBase& line, std::uint32_t i) {
   const std::uint32_t bit = 1u << i;
-  dout = in_[i].read() ? dout | bit : dout & ~bit;
+  dout = line.bits() != 0 ? dout | bit : dout & ~bit;
 }
 
 }  // namespace xilinx

@@ -44,8 +44,13 @@ class EdgeTimes {
   Edge edge(std::uint64_t cycle) const;
   /// The edge after `edge`, without a division.
   Edge after(Edge edge) const;
-  /// Time of the first edge at or after `ps`; never if the clock stands.
-  std::uint64_t edge_at_or_after(std::uint64_t ps) const;
+  /// An edge and its time.
+  struct Moment {
+    std::uint64_t cycle;
+    std::uint64_t ps;
+  };
+  /// The first edge at or after `ps`; at `never` if the clock stands.
+  Moment edge_at_or_after(std::uint64_t ps) const;
   /// Its number.
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const;
   /// How many edges there were until `ps`, one at `ps` included.
@@ -58,7 +63,7 @@ class EdgeTimes {
 
   void set_anchor(std::uint64_t cycle) const;
   std::uint64_t edges_from_anchor(std::uint64_t ps) const;
-  std::uint64_t far_edge_at_or_after(std::uint64_t ps) const;
+  Moment far_edge_at_or_after(std::uint64_t ps) const;
   std::uint64_t time_from_anchor(std::uint64_t edges) const {
     const std::uint64_t ps = anchor_.ps + edges * period_ps_;
     if (period_remainder_ == 0) return ps;
@@ -135,12 +140,14 @@ inline EdgeTimes::Edge EdgeTimes::after(Edge edge) const {
 }
 
 // From an anchor near before it; its own edge and those of a clock that has just changed are left
-// to the general way.
-inline std::uint64_t EdgeTimes::edge_at_or_after(std::uint64_t ps) const {
+// to the general way. Each access to a register asks.
+[[gnu::always_inline]] inline EdgeTimes::Moment EdgeTimes::edge_at_or_after(
+    std::uint64_t ps) const {
   const std::uint64_t ahead = ps - anchor_.ps;
   const std::uint64_t distance = ahead * hertz_;
   if (ahead - 1 >= reach_ps_ || distance <= anchor_.remainder) return far_edge_at_or_after(ps);
-  return time_from_anchor((distance - anchor_.remainder + ps_per_second - 1) / ps_per_second);
+  const std::uint64_t n = (distance - anchor_.remainder + ps_per_second - 1) / ps_per_second;
+  return {anchor_.cycle + n, time_from_anchor(n)};
 }
 
 inline void Earliest::set(std::size_t place, std::uint64_t time) {
@@ -239,8 +246,12 @@ class Clock : public sc_core::sc_object {
   }
   /// Number of the first edge at or after `ps` (not before the clock's last change).
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const { return times_.cycle_at_or_after(ps); }
-  /// Time in ps of the first edge at or after `ps`; `never` if the clock stands.
-  std::uint64_t edge_at_or_after(std::uint64_t ps) const { return times_.edge_at_or_after(ps); }
+  /// Time in ps of the first edge at or after `ps`; `never` if the clock stands. Its number is
+  /// kept: who waits for an edge asks for cycle() there.
+  std::uint64_t edge_at_or_after(std::uint64_t ps) const {
+    ahead_ = times_.edge_at_or_after(ps);
+    return ahead_.ps;
+  }
   /// `cycles` periods in ps, rounded to the nearest.
   std::uint64_t duration_ps(double cycles) const;
 
@@ -266,6 +277,7 @@ class Clock : public sc_core::sc_object {
     bool awake = true;
   };
 
+  [[gnu::noinline]] std::uint64_t count_cycles(std::uint64_t now_ps) const;
   void start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz);
   void run_edge();
   void run_alarm(std::size_t at);
@@ -282,9 +294,10 @@ class Clock : public sc_core::sc_object {
   ClockScheduler& scheduler_;
   std::size_t number_ = 0;  ///< among the scheduler's clocks that have modules
   EdgeTimes times_;
-  EdgeTimes::Edge next_{1, never, 0};       ///< the next edge that runs; at `never` while asleep
-  mutable std::uint64_t cycle_ps_ = never;  ///< the time that was last asked for,
-  mutable std::uint64_t cycle_ = 0;         ///< and the number of edges then
+  EdgeTimes::Edge next_{1, never, 0};          ///< the next edge that runs; at `never` while asleep
+  mutable std::uint64_t cycle_ps_ = never;     ///< the time that was last asked for,
+  mutable std::uint64_t cycle_ = 0;            ///< and the number of edges then
+  mutable EdgeTimes::Moment ahead_{0, never};  ///< the edge that edge_at_or_after() found last
   std::uint64_t edges_run_ = 0;
   std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;

@@ -94,6 +94,15 @@ class RegisterRoute {
     return single_stage_ ? transfer_through(*single_stage_, now_ps, read, word)
                          : transfer_through_all(now_ps, read, word);
   }
+  /// Lets time pass until an access that leaves at `start_ps`, now or later, is at the register, if
+  /// nothing happens meanwhile; arrive() follows. False: no time passes.
+  bool reach_quietly(std::uint64_t start_ps, bool read, BusStage::Passage& passage) const {
+    if (!single_stage_) return false;
+    single_stage_->enter(read, start_ps, passage);
+    return scheduler_->pass_quietly(passage.leaves_ps);
+  }
+  /// Reads or writes `word` at the register, on a route of one stage.
+  Answer arrive(const BusStage::Passage& passage, bool read, std::uint32_t& word);
   /// Lets time pass until the access reaches the register, and reads or writes `word` there. From
   /// an SC_THREAD. Throws ProtocolError if a clock on the way stands.
   Answer complete(Access& access, std::uint32_t& word);
@@ -206,6 +215,11 @@ inline RegisterRoute::Answer RegisterRoute::transfer_through(const BusStage& sta
   if (changes != scheduler_->clock_changes() && look_again(stop, passage, changes)) {
     wait_to_leave(stop, passage, read, changes);
   }
+  return arrive(passage, read, word);
+}
+
+inline RegisterRoute::Answer RegisterRoute::arrive(const BusStage::Passage& passage, bool read,
+                                                   std::uint32_t& word) {
   Answer answer{bank_->access(*register_, read, address_, word), 0};
   answer.ps = std::max(passage.leaves_ps + passage.rest_ps, passage.answer_ps);
   count(read, answer.status != tlm::TLM_OK_RESPONSE);

@@ -117,6 +117,7 @@ class Bridge : public sc_core::sc_module, private BusStage {
   bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
 
   void enter(bool read, std::uint64_t start_ps, Passage& passage) const final;
+  [[gnu::noinline]] void follow_clock() const;
   std::uint64_t leaves(std::uint64_t earliest_ps) const final;
   std::uint64_t longest_wait_ps() const final;
   std::string obstacle() const final;
