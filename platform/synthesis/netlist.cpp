@@ -402,11 +402,20 @@ class Graph {
       case Kind::outside:
         break;
       case Kind::unknown:
-        throw vp::InputError("'" + type +
-                             "' is left after synthesis, and how long it takes is not known: " +
-                             (type[0] == '$' ? "write it so that it can be synthesised"
-                                             : "leave it outside of the module"));
+        refuse(type);
     }
+  }
+
+  /// A cell of Yosys, or a primitive; one with parameters is called $paramod\NAME\...
+  [[noreturn]] static void refuse(std::string type) {
+    if (starts_with(type, "$paramod\\")) {
+      type.erase(0, type.find('\\') + 1);
+      type.erase(std::min(type.find('\\'), type.size()));
+    }
+    throw vp::InputError("'" + type +
+                         "' is left after synthesis, and how long it takes is not known: " +
+                         (type[0] == '$' ? "write it so that it can be synthesised"
+                                         : "leave it outside of the module"));
   }
 
   void add_logic(const Json& cell, const std::string& type) {

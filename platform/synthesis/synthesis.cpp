@@ -69,15 +69,19 @@ void check_name(const std::string& name, const char* what) {
 
 std::string script_of(const Design& design, const Scratch& scratch) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
-  // ties in the mapping fall by these numbers.
-  std::string script = "read_verilog -sv -defer";
+  // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
+  // for there each pass goes through all of its 800 cells.
+  std::string script =
+      "read_verilog -lib -specify +/xilinx/cells_sim.v\n"
+      "read_verilog -lib -defer +/xilinx/cells_xtra.v\n"
+      "read_verilog -sv -defer";
   for (const fs::path& source : design.sources) script += " " + quoted(source);
   script += "\nhierarchy -check -top " + design.top;
   for (const auto& [name, value] : design.parameters)
     script += fmt::format(" -chparam {} {}", name, value);
   script += "\ntee -q -o " + (scratch / "proc.txt").string() + " proc";
   script += "\ntee -q -o " + (scratch / "check.txt").string() + " check";
-  script += "\nsynth_xilinx -family xc7 -flatten -abc9 -top " + design.top;
+  script += "\nsynth_xilinx -family xc7 -flatten -abc9 -run prepare: -top " + design.top;
   if (!design.dsp) script += " -nodsp";
   script += "\nwrite_json " + (scratch / "netlist.json").string() + "\n";
   return script;
@@ -169,7 +173,6 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"axi_threshold_bridge", {{"FIFO_DEPTH", 256}}},
           {"axi_threshold_bridge", {{"FIFO_DEPTH", 512}}},
           {"blob_detection", {{"LABELS", 16}}},
-          {"blob_detection", {{"LABELS", 32}}},
           {"blob_detection", {{"LABELS", 64}}},
           {"blob_detection", {{"LABELS", 128}}},
           {"blob_labelling", {{"LABELS", 128}, {"PIXELS_PER_CLOCK", 1}, {"WIDTH", 640}}},

@@ -111,6 +111,20 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_synthesised_is_refused) {
   check_says(
       refusal("module own(input logic a, output logic y);\n  missing m(.a, .y);\nendmodule\n"),
       {"missing"});
+  check_says(
+      refusal("module own(input logic d, output logic q);\n"
+              "  IDELAYE2 #(.IDELAY_VALUE(3)) delay(.IDATAIN(d), .DATAOUT(q));\nendmodule\n"),
+      {"'IDELAYE2'", "leave it outside of the module"});
+}
+
+BOOST_AUTO_TEST_CASE(primitives_of_the_family_may_stand_in_the_rtl) {
+  const Figures figures =
+      synthesise(design("module own(input logic clk, d, output logic q);\n  wire c;\n"
+                        "  BUFG buffer(.I(clk), .O(c));\n  always_ff @(posedge c) q <= d;\n"
+                        "endmodule\n",
+                        "own"),
+                 timing);
+  BOOST_TEST(figures.netlist.cells.ff == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_parameter_that_there_is_not_is_refused) {

@@ -161,19 +161,28 @@ module pixel_labeller #(
   wire touched_seen = above_starts ? new_seen : above_seen;
 
   // The run of this row; `last_held`: whose extremes are at hand, if `last_holds`.
-  logic [BITS-1:0] label, last_held;
+  logic [BITS-1:0] label, not_label, last_held;  // inverted, for the address of a memory: label has loads enough
   logic labelled, linked, last_holds;
   wire adopts = (starts_below && touched_valid) || (meets && new_valid && !labelled);
   // Components are joined where the run of one starts, and never in the clock in which a run ends. One
   // that has runs in this row lies around the present one, and is the open one.
-  wire other_open = stored_left && open_label != label;
+  wire is_open;  // the present component is the open one
+  same_bits #(
+      .BITS(BITS)
+  ) open_is_present (
+      .a(open_label),
+      .b(label),
+      .same(is_open)
+  );
+  wire other_open = stored_left && !is_open;
   wire other_next = !stored_left && stored_valid && stored_label != label;
   wire joins_outer = meets && labelled && other_open && open_seen;
   wire joins_inner = meets && labelled && (other_next || (other_open && !open_seen));
   assign joins = joins_outer || joins_inner;
+  wire [BITS-1:0] next_one = adopts || joins_outer ? touched : label;
 
   always_ff @(posedge clk) begin
-    if (adopts || joins_outer) label <= touched;
+    if (adopts || joins_outer) {label, not_label} <= {touched, ~touched};
     if (adopts) labelled <= 1'b1;
     else if (starts) labelled <= 1'b0;
     if (adopts) linked <= touched_seen;
@@ -247,6 +256,8 @@ module pixel_labeller #(
       .joins_linked(joins_outer && linked),
       .outer(open_label),
       .inner(label),
+      .not_inner(not_label),
+      .next_inner(next_one),
       .take(above_starts),
       .stored_label,
       .stored_valid,

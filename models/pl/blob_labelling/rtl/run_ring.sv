@@ -23,6 +23,8 @@ module run_ring #(
     input  logic             joins_linked,
     input  logic [ BITS-1:0] outer,
     input  logic [ BITS-1:0] inner,
+    input  logic [ BITS-1:0] not_inner,     // the same, inverted
+    input  logic [ BITS-1:0] next_inner,    // in the next clock
     // The next run of the row above is taken, and known from the clock on behind the one in which it
     // ended.
     input  logic             take,
@@ -41,18 +43,40 @@ module run_ring #(
   logic adds, adds_valid, adds_linked, sets, moves, moves_last;
   logic [PLACE-1:0] left_place;
   logic [PLACE-1:0] not_mine, not_set;  // inverted, or Yosys takes them into the memory's ports
-  logic [BITS-1:0] first_label, last_label;
+  logic [BITS-1:0] first_label, last_label, not_last_label;
   wire [PLACE-1:0] set_place = ~not_set;
   wire [PLACE-1:0] last_place = moves ? ~not_mine : left_place;
 
-  // The last run of a label may be written just now.
-  wire writes_mine = moves_last && last_label == inner;
-  wire writes_others = moves_last && last_label == outer;
-  wire [PLACE-1:0] last_mine = writes_mine ? last_place : last[inner];
+  // The last run of a label may be written just now. Inverted, for comparisons: the memory's address has
+  // loads enough.
+  wire last_is_mine, last_is_others;
+  same_bits #(
+      .BITS(BITS)
+  ) with_inner (
+      .a(~not_last_label),
+      .b(inner),
+      .same(last_is_mine)
+  );
+  same_bits #(
+      .BITS(BITS)
+  ) with_outer (
+      .a(~not_last_label),
+      .b(outer),
+      .same(last_is_others)
+  );
+  wire writes_mine = moves_last && last_is_mine;
+  wire writes_others = moves_last && last_is_others;
+  wire [PLACE-1:0] last_mine = writes_mine ? last_place : last[~not_inner];
   wire from_place = meets ? writes_others : writes_mine;
   wire from_mine = !meets && !writes_mine;
   wire from_others = meets && !writes_others;
-  wire [PLACE-1:0] first_mine = adds && !adds_linked && first_label == inner ? left_place : first[inner];
+  // The first run, too, or in the clock before, in which the memory was read.
+  wire writes_first = adds && !adds_linked;
+  logic wrote_first;
+  logic [BITS-1:0] wrote_label;
+  logic [PLACE-1:0] wrote_place, first_read;
+  wire [PLACE-1:0] first_mine = writes_first && first_label == inner ? left_place
+                              : wrote_first && wrote_label == inner ? wrote_place : first_read;
 
   always_ff @(posedge clk) begin
     adds        <= finishes && !rst;
@@ -63,11 +87,12 @@ module run_ring #(
     sets        <= ((finishes && linked) || joins_linked) && !rst;
     not_mine    <= ~last_mine;
     // Of `meets`, for `joins_linked` comes late.
-    not_set     <= ~((from_place ? last_place : '0) | (from_mine ? last[inner] : '0)
+    not_set     <= ~((from_place ? last_place : '0) | (from_mine ? last[~not_inner] : '0)
                      | (from_others ? last[outer] : '0));
     left_place  <= meets ? first_mine : write;
     first_label <= label;
     last_label  <= meets ? outer : label;
+    not_last_label <= ~(meets ? outer : label);
     if (rst) write <= '0;
     else if (finishes) write <= write == PLACE'(RUNS - 1) ? '0 : write + 1'b1;
   end
@@ -84,7 +109,9 @@ module run_ring #(
   end
 
   always_ff @(posedge clk) begin
-    if (adds && !adds_linked) first[first_label] <= left_place;
+    if (writes_first) first[first_label] <= left_place;
+    first_read <= first[next_inner];
+    {wrote_first, wrote_label, wrote_place} <= {writes_first, first_label, left_place};
     if (moves_last) last[last_label] <= last_place;
   end
 
@@ -100,17 +127,17 @@ module run_ring #(
     wire sets_here = sets && set_place[0] == 1'(odd);
     wire [PLACE-2:0] added = left_place[PLACE-1:1];
     wire [PLACE-2:0] set = set_place[PLACE-1:1];
-    logic [PLACE-2:0] place;
+    logic [PLACE-2:0] place, not_place;  // the same: each is an address with half of the loads
+    wire [PLACE-2:0] next_place = place == (PLACE - 1)'(RUNS / 2 - 1) ? '0 : place + 1'b1;
     always_ff @(posedge clk) begin
       if (adds && adds_here) labels[added] <= {adds_valid, first_label};
       if ((adds || moves) && adds_here) lefts[added] <= moves || adds_linked;
       if (adds && adds_here) right_new[added] <= right_set[added];
       if (sets_here) right_set[set] <= !right_new[set];
-      if (rst) place <= '0;
-      else if (take && next_is_odd == 1'(odd))
-        place <= place == (PLACE - 1)'(RUNS / 2 - 1) ? '0 : place + 1'b1;
+      if (rst) {place, not_place} <= {(PLACE - 1)'(0), ~(PLACE - 1)'(0)};
+      else if (take && next_is_odd == 1'(odd)) {place, not_place} <= {next_place, ~next_place};
     end
-    wire right = (right_new[place] ^ right_set[place]) || (sets_here && set == place);
+    wire right = (right_new[~not_place] ^ right_set[~not_place]) || (sets_here && set == ~not_place);
     assign found[odd*RUN+:RUN] = {right, lefts[place], labels[place]};
   end
   wire [RUN-1:0] next = take == next_is_odd ? found[0+:RUN] : found[RUN+:RUN];

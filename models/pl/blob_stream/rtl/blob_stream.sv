@@ -72,7 +72,7 @@ module blob_stream #(
 
   always_ff @(posedge clk) begin
     frame_before <= frame_ena;
-    if (opens) begin
+    if (!under_way) begin  // what stands when a frame begins: fewer have to wait for `opens`
       number          <= frame_number;
       threshold_used  <= threshold;
       overflow_before <= label_overflow;

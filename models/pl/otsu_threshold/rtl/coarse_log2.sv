@@ -7,19 +7,6 @@ module coarse_log2 #(
     input  logic [BITS-1:0] value,
     output logic [    19:0] log
 );
-  // log2(1 + i/1024), bit by bit: whether the square of what is left reaches 2.
-  function automatic logic [13:0] fraction(input logic [9:0] index);
-    logic [63:0] left;
-    left = {33'd0, 1'b1, index, 20'd0};
-    for (int bit_ = 13; bit_ >= 0; bit_--) begin
-      left = left * left >> 30;
-      fraction[bit_] = left[31];
-      if (left[31]) left = left >> 1;
-    end
-  endfunction
-  logic [13:0] fractions[0:1023];
-  initial for (int i = 0; i < 1024; i++) fractions[i] = fraction(10'(i));
-
   // The first byte with a bit set, then the first bit of it.
   localparam int BYTES = (BITS + 7) / 8;
   wire [8*BYTES+15:0] bytes = {(8 * BYTES)'(value), 16'd0};
@@ -50,12 +37,17 @@ module coarse_log2 #(
 
   logic [5:0] exponent;
   logic [13:0] looked_up;
+  log2_fractions fractions (
+      .clk,
+      .index,
+      .fraction(looked_up)
+  );
   always_ff @(posedge clk) begin
     shifted <= bytes;
     for (int i = 0; i < BYTES; i++) used[i] <= bytes[16+8*i+:8] != 8'd0;
     {byte_, window} <= {found_byte, found_window};
     {byte_of_index, bit_of_index, index} <= {byte_, found_bit, found_index};
-    {exponent, looked_up} <= {byte_of_index, bit_of_index, fractions[index]};
+    exponent <= {byte_of_index, bit_of_index};
     log <= {exponent, looked_up};
   end
 endmodule

@@ -18,16 +18,20 @@ module otsu_search #(
   localparam int STAGES = 11;
   logic [STAGES:1] passes;
   logic [STAGES:3] splits;
+  // What goes through them is cleared a clock later, before the first level comes: in one clock it would
+  // be too many loads.
+  logic cleared;
+  always_ff @(posedge clk) cleared <= clear;
 
   // Sums of counts and of levels, which are counts times level.
   logic [7:0] weight;
   logic [N-1:0] n0, n0_of_s0, n1;
   logic [S-1:0] weighted, s0;
   always_ff @(posedge clk) begin
-    weight   <= clear ? '0 : weight + 8'(reads);
+    weight   <= cleared ? '0 : weight + 8'(reads);
     weighted <= counted * S'(weight);
-    n0       <= clear ? '0 : n0 + (reads ? counted : '0);
-    s0       <= clear ? '0 : s0 + (passes[1] ? weighted : '0);
+    n0       <= cleared ? '0 : n0 + (reads ? counted : '0);
+    s0       <= cleared ? '0 : s0 + (passes[1] ? weighted : '0);
     n0_of_s0 <= n0;
     n1       <= pixels - n0;
   end
@@ -70,7 +74,7 @@ module otsu_search #(
     passes   <= clear ? '0 : {passes[STAGES-1:1], reads};
     splits   <= clear ? '0 : {splits[STAGES-1:3], passes[2] && n0_of_s0 != '0 && n1 != '0};
     variance <= {log_d, 1'b0} - {1'b0, log_q};
-    if (clear) split <= 8'd0;
+    if (cleared) split <= 8'd0;
     else if (passes[STAGES]) split <= split + 1'b1;
     if (better) begin
       best  <= variance;
@@ -80,7 +84,7 @@ module otsu_search #(
       last        <= split;
       behind_last <= split + 1'b1;
     end
-    if (clear) any <= 1'b0;
+    if (cleared) any <= 1'b0;
     else if (better) any <= 1'b1;
   end
   logic ends;
