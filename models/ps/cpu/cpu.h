@@ -238,7 +238,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   hal_poll_result poll_until_changed(std::uint32_t address, std::uint32_t previous,
                                      std::uint32_t cycles, std::uint32_t limit);
   void barrier();
-  void order_memory();
   void maintain_cache(CacheCall call, const void* data, std::size_t size);
   hal_dma_buffer allocate_dma(std::size_t size, std::size_t alignment);
   void connect_interrupt(hal_interrupt_handler handler, void* context);
@@ -331,7 +330,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   bool take_stretch(Stretch& stretch);
   std::uint64_t pass_stretch(const Stretch& stretch);
   std::uint64_t catch_up();
-  bool nothing_comes_before() const;
   [[gnu::noinline]] std::uint64_t catch_up_slowly();
   [[gnu::noinline]] std::uint64_t pass_work(std::uint64_t start_ps, std::uint64_t work_ps);
   void settle();

@@ -24,14 +24,6 @@ void Cpu::barrier() {
   catch_up();
 }
 
-// The program's own: memory is as it is when the barrier is over. Where nothing happens until then,
-// its time passes with what follows.
-void Cpu::order_memory() {
-  ++barriers;
-  spend_cycles(settings_.barrier_cycles);
-  if (!nothing_comes_before()) catch_up();
-}
-
 void Cpu::maintain_cache(CacheCall call, const void* data, std::size_t size) {
   constexpr std::uintptr_t line = DmaAllocator::cache_line;
   const auto first = reinterpret_cast<std::uintptr_t>(data) / line;
@@ -62,7 +54,7 @@ void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
 }
 
 bool Cpu::enable_interrupt(bool enable) {
-  if (!nothing_comes_before()) catch_up();
+  catch_up();
   const bool was_enabled = !masked_;
   masked_ = !enable;
   take_interrupts();
@@ -161,7 +153,7 @@ hal_poll_result hal_poll_until_changed(uint32_t address, uint32_t previous, uint
 }
 
 void hal_barrier(void) {
-  on_cpu("hal_barrier", [](ps::Cpu& cpu) { cpu.order_memory(); });
+  on_cpu("hal_barrier", [](ps::Cpu& cpu) { cpu.barrier(); });
 }
 
 void hal_cache_flush(const void* data, size_t size) {

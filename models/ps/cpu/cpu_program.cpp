@@ -68,11 +68,10 @@ void Cpu::break_off(const std::string& problem) {
   misuse(problem);
 }
 
-// Simulated time, also that which is counted and has not passed yet, and images. In a signal
-// handler: what is read may be half a step ahead.
+// Simulated time and images. In a signal handler: what is read may be half a step ahead.
 std::uint64_t Cpu::progress(const void* cpu) {
   const Cpu& self = *static_cast<const Cpu*>(cpu);
-  return self.now_ps() + self.local_time_.most_ps() + self.frame;
+  return self.now_ps() + self.frame;
 }
 
 void Cpu::interrupt_program() {

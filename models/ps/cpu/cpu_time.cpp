@@ -19,7 +19,6 @@ void LocalTime::set_frequency(std::uint64_t hertz) {
   denominator_ = hertz << denominator_bits;
   cycle_fs_ = fs_per_second / hertz;
   cycle_rest_ = fs_per_second % hertz << denominator_bits;
-  cycle_ps_up_ = cycle_fs_ / fs_per_ps + 1;
   cycle_remainder_ = 0;  // less than a femtosecond
   // whole · cycle_rest_ and whole · cycle_fs_ below 2^62; the fraction adds less than 2^55.
   const std::uint64_t whole = little_limit / std::max(cycle_rest_, cycle_fs_);
@@ -210,14 +209,6 @@ inline std::uint64_t Cpu::pass_stretch(const Stretch& stretch) {
 std::uint64_t Cpu::catch_up() {
   Stretch stretch;
   return take_stretch(stretch) ? pass_stretch(stretch) : catch_up_slowly();
-}
-
-// Whether what was done so far is over before anything else happens: then nobody sees when it is.
-bool Cpu::nothing_comes_before() const {
-  if ((!in_handler_now_ && !timeline_.empty()) || interrupt_pending()) return false;
-  if (!local_time_.little() || hertz_ != clock_.frequency_hz()) return false;
-  const std::uint64_t end = std::max(access_end_ps_, now_ps()) + local_time_.most_ps();
-  return end < deadline_ps_ && scheduler_.is_quiet_until(end);
 }
 
 // Work before an access and the way to the register are one stretch where nothing comes in between.

@@ -71,10 +71,6 @@ class LocalTime {
   }
   /// take_ps(), where it is.
   std::uint64_t take_little();
-  /// take_ps() does not return more; without a division. Only if little().
-  std::uint64_t most_ps() const {
-    return (cycles_.little / one_cycle + 1) * cycle_ps_up_ + stall_fs_.little / 512 + 2;
-  }
   /// What take_ps() would return after so many more whole cycles.
   std::uint64_t ps_after(std::uint64_t cycles) const;
 
@@ -112,7 +108,6 @@ class LocalTime {
   std::uint64_t denominator_ = 1;    ///< hertz · 2^5
   std::uint64_t cycle_fs_ = 0;       ///< a whole cycle in femtoseconds, rounded down
   std::uint64_t cycle_rest_ = 0;     ///< what that cuts off, in 1 / (hertz · 2^5) of one
-  std::uint64_t cycle_ps_up_ = 0;    ///< a whole cycle in picoseconds, rounded up
   std::uint64_t little_cycles_ = 0;  ///< up to this, take_little() does
   Sum cycles_;                       ///< in 2^-20 cycles
   Sum stall_fs_;
