@@ -308,6 +308,13 @@ test("the flame graph names what took most, counts recursion once, and grows by 
   assert.match(await section.locator("#latency, table", { hasText: "private_timer" }).last().textContent(), /812.5/);
 }));
 
+test("a table that comes into sight keeps its buttons: one that is pressed is not taken away", () => open("sweep", async (page) => {
+  const button = await page.locator("#points tbody button").first().elementHandle();
+  await button.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(200);
+  assert.ok(await button.evaluate((element) => element.isConnected));
+}));
+
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
   const button = page.locator("#points tbody button").nth(4);
   await button.click();

@@ -56,5 +56,6 @@ export function download(name, content, type) {
     : URL.createObjectURL(new Blob([content], { type }));
   const link = h("a", { href: url, download: name });
   link.click();
-  if (url.startsWith("blob:")) setTimeout(() => URL.revokeObjectURL(url), 1000);
+  // A busy browser takes seconds to begin.
+  if (url.startsWith("blob:")) setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }

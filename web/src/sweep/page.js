@@ -77,8 +77,8 @@ function points(sweep, selection, wanted, caption, name, open) {
     const rows = sweep.points.filter(wanted);
     holder.replaceChildren(...(rows.length ? [h("h3", {}, caption), dataTable({ columns: [key, ...columnsOf(sweep, selection, rows)], rows, caption, name, exportable: true, limit: 20 })] : []));
   };
-  fill();
   selection.onChange(whenSeen(holder, fill));
+  holder.drawNow();  // what is filled again when first seen takes the button from under the mouse
   return holder;
 }
 
