@@ -26,6 +26,7 @@ namespace {
 
 using platform::Simulation;
 using platform::input::InputFrame;
+using platform::input::SharedFrame;
 using platform::report::FrameReport;
 
 vp::Configuration configuration_of(const bench::Arguments& arguments) {
@@ -39,12 +40,12 @@ vp::Configuration configuration_of(const bench::Arguments& arguments) {
   return configuration;
 }
 
-InputFrame frame_of(const std::string& image, platform::input::ImageSize size) {
+SharedFrame frame_of(const std::string& image, platform::input::ImageSize size) {
   InputFrame frame;
   frame.name = image;
   frame.image = {size.width, size.height, bench::make_image(image)};
   frame.camera = platform::Camera::for_resolution(size.width, size.height);
-  return frame;
+  return std::make_shared<InputFrame>(std::move(frame));
 }
 
 /// Frames for the simulation, and the timer: it runs from the first frame after the warm-up to the
@@ -54,9 +55,9 @@ class Frames {
   Frames(benchmark::State& state, const std::string& image, platform::input::ImageSize size)
       : state_(state), frame_(frame_of(image, size)) {}
 
-  const InputFrame* next() {
-    if (given_++ < bench::warm_up_frames) return &frame_;
-    return state_.KeepRunning() ? &frame_ : nullptr;
+  SharedFrame next() {
+    if (given_++ < bench::warm_up_frames) return frame_;
+    return state_.KeepRunning() ? frame_ : nullptr;
   }
 
   bool take(FrameReport&& report) {
@@ -74,7 +75,7 @@ class Frames {
 
  private:
   benchmark::State& state_;
-  const InputFrame frame_;
+  const SharedFrame frame_;
   int given_ = 0, taken_ = 0;
   std::uint64_t warm_ps_ = 0;  ///< simulated end of the warm-up
   FrameReport last_;
@@ -161,13 +162,13 @@ void measure_alone(benchmark::State& state, const bench::Arguments& arguments) {
   const vp::Configuration::Scope scope(configuration);
   Simulation simulation(platform::SimulationOptions{});
   configuration.check_unused();
-  const InputFrame frame = frame_of(arguments.image, simulation.image_size());
+  const SharedFrame frame = frame_of(arguments.image, simulation.image_size());
   bench::Recording& noted = recording();
   int given = 0;
   std::size_t begin = 0, end = 0;
-  const auto next = [&]() -> const InputFrame* {
+  const auto next = [&]() -> SharedFrame {
     begin = std::exchange(end, noted.evaluations);  // from one image to the next
-    return given++ <= bench::warm_up_frames ? &frame : nullptr;
+    return given++ <= bench::warm_up_frames ? frame : nullptr;
   };
   simulation.run(next, [](FrameReport&&) { return true; });
   Replay replay(noted);

@@ -258,11 +258,11 @@ class Comparer {
     std::vector<detectors::Detector> found(peers.size());
     const auto source = input::open_inputs(options_.inputs, input_);
     for (detectors::Image& image : result_.images) {
-      const input::InputFrame frame = *source->next();
-      if (frame.truth) image.truth = detectors::truth_of(make_scene(frame.name, frame.camera));
+      const input::SharedFrame frame = source->next();
+      if (frame->truth) image.truth = detectors::truth_of(make_scene(frame->name, frame->camera));
       for (std::size_t i = 0; i < peers.size(); ++i) {
         const HostClock::time_point start = HostClock::now();
-        found[i].seen.push_back(peers[i]->find(frame.image, frame.camera));
+        found[i].seen.push_back(peers[i]->find(frame->image, frame->camera));
         found[i].host_ms += ms_since(start) / static_cast<double>(result_.images.size());
       }
     }

@@ -27,14 +27,12 @@ void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
   progress_.reset();
 }
 
-const input::InputFrame* FrameRunner::give(input::FrameSource& source) {
+input::SharedFrame FrameRunner::give(input::FrameSource& source) {
   if (error_ || host::InterruptGuard::noted()) return nullptr;
   try {
-    std::optional<input::InputFrame> frame =
-        first_ ? std::exchange(first_, std::nullopt) : source.next();
-    if (!frame) return nullptr;
-    pending_.push_back(*std::move(frame));
-    return &pending_.back();
+    input::SharedFrame frame = first_ ? std::move(first_) : source.next();
+    if (frame) pending_.push_back(frame);
+    return frame;
   } catch (...) {
     error_ = std::current_exception();
     return nullptr;
@@ -63,7 +61,7 @@ const input::InputFrame& FrameRunner::input_of(const report::FrameReport& report
     throw vp::ProtocolError("the program reported frame " + std::to_string(report.index) +
                             ", which it was not given or reported already");
   }
-  return pending_.front();
+  return *pending_.front();
 }
 
 void FrameRunner::write(report::FrameReport& report, const input::InputFrame& input,

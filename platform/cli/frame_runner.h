@@ -6,7 +6,6 @@
 #include <exception>
 #include <iosfwd>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <host/output_folder.h>
@@ -50,15 +49,15 @@ class FrameRunner {
   const std::string& first_without_marker() const { return first_without_marker_; }
 
  private:
-  const input::InputFrame* give(input::FrameSource& source);
+  input::SharedFrame give(input::FrameSource& source);
   bool take(report::FrameReport report, const Outputs& outputs);
   const input::InputFrame& input_of(const report::FrameReport& report);
   void write(report::FrameReport& report, const input::InputFrame& input, const Outputs& outputs);
 
   input::FrameSource& source_;
-  std::optional<input::InputFrame> first_;
-  std::deque<input::InputFrame> pending_;  ///< given to the simulation, report not yet taken
-  std::uint32_t first_pending_ = 0;        ///< index of the first of them
+  input::SharedFrame first_;
+  std::deque<input::SharedFrame> pending_;  ///< given to the simulation, report not yet taken
+  std::uint32_t first_pending_ = 0;         ///< index of the first of them
   std::unique_ptr<vp::Progress> progress_;
   std::exception_ptr error_;
   std::uint64_t frames_ = 0;

@@ -13,7 +13,6 @@
 
 #include <cctype>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 #include <set>
 
@@ -247,8 +246,8 @@ Camera scene_camera(const InputOptions& options) {
   return camera;
 }
 
-std::deque<InputFrame>& kept() {
-  static std::deque<InputFrame> frames;
+std::vector<SharedFrame>& kept() {
+  static std::vector<SharedFrame> frames;
   return frames;
 }
 
@@ -257,9 +256,18 @@ bool same(const Camera& a, const Camera& b) {
          a.cx == b.cx && a.cy == b.cy;
 }
 
+SharedFrame share(InputFrame frame) {
+  return std::make_shared<const InputFrame>(std::move(frame));
+}
+
+SharedFrame render_scene(const InputItem& item, const Camera& camera) {
+  const Scene scene = make_scene(item.source, camera);
+  return share({item.name, render(scene), camera, ground_truth(scene)});
+}
+
 std::size_t kept_bytes() {
   std::size_t bytes = 0;
-  for (const InputFrame& frame : kept()) bytes += frame.image.pixels.size();
+  for (const SharedFrame& frame : kept()) bytes += frame->image.pixels.size();
   return bytes;
 }
 
@@ -271,16 +279,15 @@ void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& opt
   for (const InputItem& item : list_inputs(asked, options)) {
     if (item.kind != InputItem::Kind::scene) continue;
     const Camera camera = scene_camera(options);
-    if (kept_scene(item.source, camera) != nullptr) continue;
+    if (kept_scene(item.source, camera)) continue;
     if (kept_bytes() >= most_bytes) return;
-    const Scene scene = make_scene(item.source, camera);
-    kept().push_back({item.name, render(scene), camera, ground_truth(scene)});
+    kept().push_back(render_scene(item, camera));
   }
 }
 
-const InputFrame* kept_scene(const std::string& name, const Camera& camera) {
-  for (const InputFrame& frame : kept()) {
-    if (frame.name == name && same(frame.camera, camera)) return &frame;
+SharedFrame kept_scene(const std::string& name, const Camera& camera) {
+  for (const SharedFrame& frame : kept()) {
+    if (frame->name == name && same(frame->camera, camera)) return frame;
   }
   return nullptr;
 }
@@ -299,14 +306,14 @@ class ListedFrames : public FrameSource {
     warn_of_camera();
   }
 
-  std::optional<InputFrame> next() override {
+  SharedFrame next() override {
     while (given_ < options_.limit.value_or(UINT64_MAX) && round_ < options_.repeat) {
-      if (std::optional<InputFrame> frame = from_current_item()) {
+      if (SharedFrame frame = from_current_item()) {
         ++given_;
         return frame;
       }
     }
-    return std::nullopt;
+    return nullptr;
   }
 
   std::optional<std::uint64_t> size() const override {
@@ -351,16 +358,16 @@ class ListedFrames : public FrameSource {
     }
   }
 
-  /// The next frame of the item whose turn it is; nothing when it has no more, and the next item's
+  /// The next frame of the item whose turn it is; none when it has no more, and the next item's
   /// turn has come.
-  std::optional<InputFrame> from_current_item() {
+  SharedFrame from_current_item() {
     const InputItem& item = items_[position_];
     if (item.kind == InputItem::Kind::video) {
-      std::optional<InputFrame> frame = video_frame(item);
+      SharedFrame frame = video_frame(item);
       if (!frame) advance();
       return frame;
     }
-    InputFrame frame = kept_or_made(item);
+    SharedFrame frame = kept_or_made(item);
     advance();
     return frame;
   }
@@ -371,14 +378,14 @@ class ListedFrames : public FrameSource {
     ++round_;
   }
 
-  InputFrame kept_or_made(const InputItem& item) {
+  SharedFrame kept_or_made(const InputItem& item) {
     if (kept_.empty()) return make(item);
-    std::optional<InputFrame>& kept = kept_[position_];
+    SharedFrame& kept = kept_[position_];
     if (!kept) kept = make(item);
-    return *kept;
+    return kept;
   }
 
-  InputFrame make(const InputItem& item) {
+  SharedFrame make(const InputItem& item) {
     if (item.kind == InputItem::Kind::scene) return scene_frame(item);
     std::optional<GreyImage> image = read_image(item.source);
     if (!image)
@@ -386,14 +393,13 @@ class ListedFrames : public FrameSource {
     return fitted(item, item.name, *std::move(image));
   }
 
-  InputFrame scene_frame(const InputItem& item) {
+  SharedFrame scene_frame(const InputItem& item) {
     const Camera camera = scene_camera(options_);
-    if (const InputFrame* kept = kept_scene(item.source, camera)) return *kept;
-    const Scene scene = make_scene(item.source, camera);
-    return {item.name, render(scene), camera, ground_truth(scene)};
+    if (SharedFrame kept = kept_scene(item.source, camera)) return kept;
+    return render_scene(item, camera);
   }
 
-  std::optional<InputFrame> video_frame(const InputItem& item) {
+  SharedFrame video_frame(const InputItem& item) {
     if (!video_) {
       video_ = open_video(item.source);
       video_frames_ = 0;
@@ -401,7 +407,7 @@ class ListedFrames : public FrameSource {
     std::optional<GreyImage> image = video_->next();
     if (!image) {
       end_video(item);
-      return std::nullopt;
+      return nullptr;
     }
     const std::string name = item.name + "#" + std::to_string(video_frames_++);
     return fitted(item, name, *std::move(image));
@@ -418,17 +424,17 @@ class ListedFrames : public FrameSource {
     }
   }
 
-  InputFrame fitted(const InputItem& item, const std::string& name, GreyImage image) {
+  SharedFrame fitted(const InputItem& item, const std::string& name, GreyImage image) {
     const ImageSize size{image.width, image.height};
     check_fit(item.source, size, options_.size, options_.fit);
     const Camera camera = camera_of(options_, size);
-    return {name, fit_image(std::move(image), options_.size, options_.fit),
-            fit_camera(camera, options_.size, options_.fit), std::nullopt};
+    return share({name, fit_image(std::move(image), options_.size, options_.fit),
+                  fit_camera(camera, options_.size, options_.fit), std::nullopt});
   }
 
   std::vector<InputItem> items_;
   InputOptions options_;
-  std::vector<std::optional<InputFrame>> kept_;  ///< by position; empty unless the list repeats
+  std::vector<SharedFrame> kept_;  ///< by position; empty unless the list repeats
   std::vector<std::string> warnings_;
   std::size_t position_ = 0;
   std::uint64_t round_ = 0;

@@ -75,13 +75,16 @@ struct InputFrame {
   std::optional<GroundTruth> truth;  ///< of scenes
 };
 
+/// Whoever has it keeps it; none: there is no frame.
+using SharedFrame = std::shared_ptr<const InputFrame>;
+
 /// Frames one after the other, in memory that does not grow with their number.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame; nothing when there are no more. Throws vp::InputError that names the input.
-  virtual std::optional<InputFrame> next() = 0;
+  /// The next frame; none when there are no more. Throws vp::InputError that names the input.
+  virtual SharedFrame next() = 0;
   /// How many frames there are, if that is known: videos do not tell for sure.
   virtual std::optional<std::uint64_t> size() const = 0;
   /// What the user should know and is no error, once each, complete after the last frame.
@@ -106,7 +109,7 @@ std::unique_ptr<FrameSource> open_inputs(const std::vector<std::string>& inputs,
 void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& options,
                  std::size_t most_bytes);
 
-/// A kept scene as that camera sees it; null if it was not kept.
-const InputFrame* kept_scene(const std::string& name, const Camera& camera);
+/// A kept scene as that camera sees it; none if it was not kept.
+SharedFrame kept_scene(const std::string& name, const Camera& camera);
 
 }  // namespace platform::input

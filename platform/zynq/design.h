@@ -128,7 +128,7 @@ class Design {
   /// Of the images that the program is given.
   virtual input::ImageSize frame_size() const = 0;
   /// Puts an image where one is that nobody uploads: a sensor's memory. Default: nowhere.
-  virtual void show_image(const GreyImage& /*image*/) {}
+  virtual void show_image(const std::shared_ptr<const GreyImage>& /*image*/) {}
   /// Brings memories and counters up to now, for whoever looks at them from outside.
   virtual void settle() {}
 

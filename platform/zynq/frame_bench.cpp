@@ -46,16 +46,16 @@ std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
 
 const hal_frame* FrameBench::next_frame(std::uint64_t) {
   if (camera_.has_rate()) hand_over(came_ps(awaited_));
-  const input::InputFrame* frame = next_image();
+  input::SharedFrame frame = next_image();
   for (; frame && missed_ > 0; --missed_) frame = next_image();
   if (!frame) return nullptr;
-  place(*frame);
+  place(frame);
   ++taken_;
   return &frame_;
 }
 
-const input::InputFrame* FrameBench::next_image() {
-  const input::InputFrame* frame = stop_ ? nullptr : next_();
+input::SharedFrame FrameBench::next_image() {
+  input::SharedFrame frame = stop_ ? nullptr : next_();
   if (frame) ++images_;
   return frame;
 }
@@ -65,17 +65,18 @@ std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
 }
 
 // Of a program that does not upload its images: in the image store, or before the camera.
-void FrameBench::place(const input::InputFrame& frame) {
-  if (!options_.uploads()) zynq_.design().show_image(frame.image);
-  std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, frame.image.pixels.size()),
-              frame.image.pixels.data(), frame.image.pixels.size());
-  cache_contract_.placed(frame_.bus_address, frame.image.pixels.size());
+void FrameBench::place(const input::SharedFrame& frame) {
+  if (!options_.uploads()) zynq_.design().show_image({frame, &frame->image});
+  const std::vector<std::uint8_t>& pixels = frame->image.pixels;
+  std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, pixels.size()), pixels.data(), pixels.size());
+  cache_contract_.placed(frame_.bus_address, pixels.size());
   frame_.index = images_ - 1;
-  frame_.fx = frame.camera.fx;
-  frame_.fy = frame.camera.fy;
-  frame_.cx = frame.camera.cx;
-  frame_.cy = frame.camera.cy;
-  std::copy(frame.camera.distortion.begin(), frame.camera.distortion.end(), frame_.distortion);
+  const Camera& camera = frame->camera;
+  frame_.fx = camera.fx;
+  frame_.fy = camera.fy;
+  frame_.cx = camera.cx;
+  frame_.cy = camera.cy;
+  std::copy(camera.distortion.begin(), camera.distortion.end(), frame_.distortion);
 }
 
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,

@@ -28,7 +28,7 @@ namespace platform {
 /// the next image, or there is none.
 class FrameBench : public ps::TestBench {
  public:
-  using NextFrame = std::function<const input::InputFrame*()>;
+  using NextFrame = std::function<input::SharedFrame()>;
   using FrameDone = std::function<bool(report::FrameReport&&)>;
 
   /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA
@@ -57,9 +57,9 @@ class FrameBench : public ps::TestBench {
   std::optional<std::uint32_t> xparameter(const char* name) override;
 
  private:
-  const input::InputFrame* next_image();
+  input::SharedFrame next_image();
   std::uint64_t came_ps(std::uint64_t number) const;
-  void place(const input::InputFrame& frame);
+  void place(const input::SharedFrame& frame);
   void hand_over(std::optional<std::uint64_t> until_ps);
   void take_new_warnings(std::vector<std::string>& list);
 

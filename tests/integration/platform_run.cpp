@@ -2,7 +2,7 @@
 
 #include <deque>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 
 #include <input/frame_source.h>
@@ -18,9 +18,10 @@ namespace {
 using platform::Simulation;
 using platform::input::ImageSize;
 using platform::input::InputFrame;
+using platform::input::SharedFrame;
 using platform::report::FrameReport;
 
-using Next = std::function<std::optional<InputFrame>()>;
+using Next = std::function<SharedFrame()>;
 
 PlatformRun run(const Settings& settings, System system,
                 const std::function<Next(ImageSize)>& open) {
@@ -33,19 +34,15 @@ PlatformRun run(const Settings& settings, System system,
 
   PlatformRun result;
   const Next next = open(simulation.image_size());
-  std::optional<InputFrame> current;
-  simulation.run(
-      [&]() -> const InputFrame* {
-        current = next();
-        return current ? &*current : nullptr;
-      },
-      [&](FrameReport&& report) {
-        report.input = current->name;
-        report.truth = current->truth;
-        report.camera = current->camera;
-        result.frames.push_back(std::move(report));
-        return true;
-      });
+  SharedFrame current;
+  simulation.run([&] { return current = next(); },
+                 [&](FrameReport&& report) {
+                   report.input = current->name;
+                   report.truth = current->truth;
+                   report.camera = current->camera;
+                   result.frames.push_back(std::move(report));
+                   return true;
+                 });
   result.facts = simulation.facts();
   return result;
 }
@@ -67,10 +64,10 @@ PlatformRun run_images(const std::vector<platform::GreyImage>& images, const Set
                        System system) {
   return run(settings, system, [&](ImageSize size) -> Next {
     const auto camera = platform::Camera::for_resolution(size.width, size.height);
-    return [&images, camera, given = std::size_t{0}]() mutable -> std::optional<InputFrame> {
-      if (given == images.size()) return std::nullopt;
+    return [&images, camera, given = std::size_t{0}]() mutable -> SharedFrame {
+      if (given == images.size()) return nullptr;
       const std::string name = "image" + std::to_string(given);
-      return InputFrame{name, images[given++], camera, std::nullopt};
+      return std::make_shared<InputFrame>(InputFrame{name, images[given++], camera, std::nullopt});
     };
   });
 }

@@ -3,7 +3,6 @@
 #include <run/simulation.h>
 #include <vp/configuration.h>
 #include <boost/test/unit_test.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "simulation.h"
 
 using platform::Simulation;
-using platform::input::InputFrame;
 using platform::report::FrameReport;
 
 namespace {
@@ -31,17 +29,12 @@ struct DeviceRun {
     platform::input::InputOptions options;
     options.size = simulation.image_size();
     auto source = platform::input::open_inputs(scenes, options);
-    std::optional<InputFrame> current;
-    simulation.run(
-        [&]() -> const InputFrame* {
-          current = source->next();
-          return current ? &*current : nullptr;
-        },
-        [&](FrameReport&& report) {
-          frames.push_back(std::move(report));
-          pixel_clocks.push_back(zynq.ps.fclk_clk1.clk.frequency_hz());
-          return true;
-        });
+    simulation.run([&] { return source->next(); },
+                   [&](FrameReport&& report) {
+                     frames.push_back(std::move(report));
+                     pixel_clocks.push_back(zynq.ps.fclk_clk1.clk.frequency_hz());
+                     return true;
+                   });
     warnings = simulation.reports().count(sc_core::SC_WARNING);
   }
   std::vector<FrameReport> frames;

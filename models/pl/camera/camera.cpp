@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace pl {
 
@@ -141,13 +142,13 @@ Camera::Camera(sc_core::sc_module_name name, const Site& site)
   wake_on(por);
 }
 
-void Camera::show(const std::vector<std::uint8_t>& pixels) {
-  if (pixels.size() != geometry_.pixels()) {
+void Camera::show(Image image) {
+  if (image->size() != geometry_.pixels()) {
     throw vp::InputError(std::string(name()) + " sees an image of " +
-                         std::to_string(pixels.size()) + " pixels: its frames have " +
+                         std::to_string(image->size()) + " pixels: its frames have " +
                          std::to_string(geometry_.pixels()));
   }
-  scene_ = std::make_shared<std::vector<std::uint8_t>>(pixels);
+  scene_ = std::move(image);
 }
 
 bool Camera::triggered(bool under_way) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <pl/common/fidelity.h>
@@ -71,14 +72,17 @@ class Camera : public vp::Clocked, public vp::Ip {
   /// Whole frames; counted on pixel_clk().
   GreyFrames frames{"frames", pixel_clk()};
 
-  /// What the sensor sees from now on: a frame's pixels, row by row.
-  void show(const std::vector<std::uint8_t>& pixels);
+  /// A frame's pixels, row by row.
+  using Image = std::shared_ptr<const std::vector<std::uint8_t>>;
+  /// What the sensor sees from now on. Throws vp::InputError for an image of another size.
+  void show(Image image);
+  void show(std::vector<std::uint8_t> pixels) {
+    show(std::make_shared<const std::vector<std::uint8_t>>(std::move(pixels)));
+  }
   /// Middle of the last frame's exposure, ps.
   std::uint64_t mid_exposure_ps() const { return exposed_ps_ + exposure / 2; }
 
  protected:
-  using Image = std::shared_ptr<const std::vector<std::uint8_t>>;
-
   Camera(sc_core::sc_module_name name, const Site& site);
 
   /// Looks at trigger and resets. True: a frame is exposed.

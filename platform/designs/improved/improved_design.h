@@ -25,7 +25,9 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   }
 
   input::ImageSize frame_size() const override;
-  void show_image(const GreyImage& image) override { camera.show(image.pixels); }
+  void show_image(const std::shared_ptr<const GreyImage>& image) override {
+    camera.show({image, &image->pixels});
+  }
   void settle() override { settle_counters(); }
   bool report(const Publication& publication, report::FrameReport& frame) override;
 

@@ -352,8 +352,8 @@ input::ImageSize MarkerDesign::frame_size() const {
   return {static_cast<int>(geometry().width), static_cast<int>(geometry().height)};
 }
 
-void MarkerDesign::show_image(const GreyImage& image) {
-  bram.load(image.pixels);
+void MarkerDesign::show_image(const std::shared_ptr<const GreyImage>& image) {
+  bram.load(image->pixels);
 }
 
 std::optional<double> MarkerDesign::program_option(const std::string& name) const {

@@ -87,7 +87,7 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
                const pl::Models<pl::PixelFilter>* filter = nullptr);
 
   input::ImageSize frame_size() const override;
-  void show_image(const GreyImage& image) override;
+  void show_image(const std::shared_ptr<const GreyImage>& image) override;
   void settle() override { ProgrammableLogic::settle(); }
   std::optional<double> program_option(const std::string& name) const override;
   bool report(const Publication& publication, report::FrameReport& frame) override;

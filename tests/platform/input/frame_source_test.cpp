@@ -17,8 +17,8 @@ namespace {
 
 std::vector<InputFrame> all(FrameSource& source) {
   std::vector<InputFrame> frames;
-  while (std::optional<InputFrame> frame = source.next()) frames.push_back(*std::move(frame));
-  BOOST_TEST(!source.next().has_value(), "frames after the last one");
+  while (const SharedFrame frame = source.next()) frames.push_back(*frame);
+  BOOST_TEST(!source.next(), "frames after the last one");
   return frames;
 }
 
