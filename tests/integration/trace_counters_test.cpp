@@ -49,10 +49,8 @@ Counted run(const std::vector<std::pair<std::string, std::string>>& settings) {
   platform::input::InputOptions options;
   options.size = simulation.image_size();
   const auto source = platform::input::open_inputs({"demo", "z0.5", "z1.0"}, options);
-  simulation.run([&] {
-    return source->next(); },
-      [(platform::report::FrameReport&&) {
-    return true; });
+  simulation.run([&] { return source->next(); },
+                 [](platform::report::FrameReport&&) { return true; });
   Counted result;
   for (const vp::Counter* counter : vp::all_counters()) {
     result.counters[counter->name()] = counter->get();
