@@ -54,25 +54,35 @@ module local_threshold #(
 
   wire reset = por || rst;
 
-  // A pixel goes in, or nothing behind the last one: in each clock, once a frame has begun.
-  logic busy, ended;
+  // A pixel goes in, or nothing behind the last one: in each clock, once a frame has begun. `turns` is
+  // high where the middle of the window comes into the next row. What that row decides is in
+  // registers by then: compared at once it was the longest path.
+  logic busy, ended, turns, first_row, upper_rows, lower_rows, last_row;
   logic [C-1:0] column, next_column;
   logic [R-1:0] row;
   wire push = frame_ena || busy;
-  wire last = row == R'(HEIGHT + RADIUS) && next_column == C'(AHEAD);
+  wire last = turns && last_row;
   wire clear = reset || ended;  // one clock behind the last one
   always_ff @(posedge clk) begin
-    ended <= busy && last && !clear;
+    ended <= last && !clear;
+    turns <= push && !clear && next_column == C'(AHEAD - 1);
     if (clear) begin
       busy        <= 1'b0;
       column      <= '0;
       next_column <= C'(1);
       row         <= '0;
+      {first_row, upper_rows, lower_rows, last_row} <= '0;
     end else if (push) begin
       busy        <= 1'b1;
       column      <= next_column;
       next_column <= next_column == C'(ROW - 1) ? '0 : next_column + 1'b1;
-      if (next_column == '0) row <= row + 1'b1;
+      if (next_column == '0) begin
+        row        <= row + 1'b1;
+        first_row  <= row == R'(RADIUS - 1);
+        upper_rows <= row < R'(2 * RADIUS);
+        lower_rows <= row >= R'(HEIGHT - 1);
+        last_row   <= row == R'(HEIGHT + RADIUS - 1);
+      end
     end
   end
 
@@ -187,11 +197,11 @@ module local_threshold #(
   logic [P*N-1:0] across;
   always_ff @(posedge clk)
     if (clear || last) leaves <= 1'b0;
-    else if (busy && next_column == C'(AHEAD)) begin
-      if (row == R'(RADIUS)) leaves <= 1'b1;
-      if (row == R'(RADIUS)) down <= N'(RADIUS + 1);
-      else if (row >= R'(HEIGHT)) down <= down - 1'b1;
-      else if (row <= R'(2 * RADIUS)) down <= down + 1'b1;
+    else if (turns) begin
+      if (first_row) leaves <= 1'b1;
+      if (first_row) down <= N'(RADIUS + 1);
+      else if (lower_rows) down <= down - 1'b1;
+      else if (upper_rows) down <= down + 1'b1;
     end
   if (P == 1) begin : g_across
     always_ff @(posedge clk)
@@ -221,18 +231,20 @@ module local_threshold #(
   always_ff @(posedge clk) leaves_then <= reset ? '0 : {leaves_then[1:0], leaves};
   logic [P-1:0] binary;
   for (genvar lane = 0; lane < P; lane++) begin : g_mean
-    logic [2*N-1:0] count;
+    // Not in the multiplier, which needs its inputs a nanosecond earlier than a register of the fabric.
+    (* keep *) logic [2*N-1:0] count;
+    logic [2*N-1:0] count_then;
     logic [7:0] grey;
     logic [8:0] raised;
-    logic [SUM:0] product, limit;
+    logic [SUM:0] limit;
     logic below, below_then;
     always_ff @(posedge clk) begin
       count        <= across[lane*N+:N] * down;
+      count_then   <= count;
       grey         <= middle[8*lane+:8];
-      raised       <= {1'b0, middle[8*lane+:8]} + 9'(OFFSET);
-      product      <= (SUM + 1)'(count) * (SUM + 1)'(raised);
+      raised       <= {1'b0, grey} + 9'(OFFSET);
+      limit        <= (SUM + 1)'(count_then) * (SUM + 1)'(raised);
       below        <= grey <= level;
-      limit        <= product;
       below_then   <= below;
       binary[lane] <= below_then || limit <= {1'b0, sums[lane*SUM+:SUM]};
     end
