@@ -70,8 +70,13 @@ std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
 void S2mmChannel::take_beats(std::uint64_t cycle) {
   if (!s_axis.source()) {
     if (beat_) take_beat(s_axis.tdata, s_axis.tkeep, s_axis.tlast, cycle);
-    return;
+  } else if (s_axis.source_changed() || cycle >= take_from_) {
+    take_from_source(cycle);
   }
+}
+
+void S2mmChannel::take_from_source(std::uint64_t cycle) {
+  take_from_ = 0;
   for (auto beats = s_axis.source()->take(cycle); beats.count != 0;
        beats = s_axis.source()->take(cycle)) {
     take_words(beats, cycle);
@@ -220,7 +225,9 @@ void S2mmChannel::end_burst(std::uint64_t cycle) {
   bursts_.pop_front();
   if (!transfers_.empty()) --transfers_.front().bursts;
   const std::uint32_t error = error_bit(m_axi.response());
-  if (error != 0 && !draining_) fail_transfer(cycle, error);
+  if (error == 0 || draining_) return;
+  if (s_axis.source()) take_from_source(cycle);  // what passed until now
+  fail_transfer(cycle, error);
 }
 
 // The oldest transfer is in memory.
@@ -247,13 +254,16 @@ void S2mmChannel::completed() {
   length = received_;
 }
 
-std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) const {
+std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) {
   if (!m_axi.done()) return cycle + 1;
   const bool listening = cycle >= ready_from_ && !closed_;
   if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid, or by the source
   if (listening && bus_ == Bus::busy && buffered_beats(cycle) >= fifo_beats_) return cycle + 1;
   std::uint64_t next = cycle < ready_from_ ? ready_from_ : never;
-  if (listening && s_axis.source()) next = next_beat_of_interest(cycle);
+  if (listening && s_axis.source()) {
+    next = next_beat_of_interest(cycle);
+    take_from_ = uses_descriptors() || keyhole() ? 0 : next;
+  }
   if (bus_ == Bus::busy) {
     next = std::min(next, burst_end_);
   } else if (!bursts_.empty()) {
@@ -272,6 +282,7 @@ void S2mmChannel::abandon() {
     while (s_axis.source()->take(core_.channel_clock().cycle()).count != 0) continue;
   }
   ready_from_ = never;
+  take_from_ = 0;
   closed_ = draining_ = true;
   overflow_ = in_packet_ = false;
   transfers_.clear();

@@ -51,6 +51,7 @@ class S2mmChannel : public DmaChannel {
   void completed() override;
 
   void take_beats(std::uint64_t cycle);
+  void take_from_source(std::uint64_t cycle);
   void take_beat(std::uint32_t data, std::uint8_t keep, bool last, std::uint64_t cycle);
   void take_words(const vp::BeatSource::Beats& beats, std::uint64_t cycle);
   void append(const std::uint32_t* words, std::uint32_t count);
@@ -64,7 +65,7 @@ class S2mmChannel : public DmaChannel {
   void fail_transfer(std::uint64_t cycle, std::uint32_t error);
   std::uint64_t shown_at(std::uint64_t cycle) const;
   unsigned buffered_beats(std::uint64_t cycle) const;
-  std::uint64_t next_edge(std::uint64_t cycle) const;
+  std::uint64_t next_edge(std::uint64_t cycle);
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_beats_;
@@ -73,8 +74,9 @@ class S2mmChannel : public DmaChannel {
   std::uint32_t capacity_ = 0;       ///< LENGTH
   std::uint32_t received_ = 0;       ///< bytes taken that LENGTH has room for
   std::uint64_t ready_from_ = never;
-  bool closed_ = true;     ///< no more beats belong to the last transfer
-  bool overflow_ = false;  ///< the packet has bytes that it has no room for
+  std::uint64_t take_from_ = 0;  ///< with a source: edge before which no beat has to be taken
+  bool closed_ = true;           ///< no more beats belong to the last transfer
+  bool overflow_ = false;        ///< the packet has bytes that it has no room for
   bool in_packet_ = false;
   std::deque<Transfer> transfers_;  ///< under way; the last one takes beats until it is closed
   std::vector<unsigned char> collected_;

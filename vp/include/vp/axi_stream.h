@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include <vp/clock.h>
@@ -78,6 +79,7 @@ class AxiStream : public sc_core::sc_module {
   Clocked* slave_ = nullptr;
   bool slave_takes_source_ = false;
   BeatSource* source_ = nullptr;
+  bool source_changed_ = false;  ///< since the slave asked
   BurstSink* sink_ = nullptr;
   BurstSender* sender_ = nullptr;
 };
@@ -114,7 +116,10 @@ class AxiStreamMaster {
   bool slave_takes_source() const { return link_->slave_takes_source_; }
   void set_source(BeatSource& source) { link_->source_ = &source; }
   /// More, or other, beats are in sight of the source than before.
-  void wake_slave() { link_->slave_->wake(); }
+  void wake_slave() {
+    link_->source_changed_ = true;
+    link_->slave_->wake();
+  }
   /// Counts what passed from the source, and the edges on which it waited for TREADY.
   void count(std::uint64_t beats, std::uint64_t packets, std::uint64_t stalls) {
     link_->beats.add(beats);
@@ -172,6 +177,8 @@ class AxiStreamSlave {
   /// The slave asks source() if there is one. Before the binding.
   void accept_source() { takes_source_ = true; }
   BeatSource* source() const { return link_->source_; }
+  /// Whether what was in sight of the source has changed since the last call.
+  bool source_changed() { return std::exchange(link_->source_changed_, false); }
   /// Before the binding.
   void set_sink(BurstSink& sink) { sink_ = &sink; }
   /// A burst under way is given up to edge `cycle`, the rest beat by beat.
