@@ -290,7 +290,8 @@ struct Seen {
   std::vector<std::uint8_t> memory;
 };
 
-// Triggers, resets of either side, transfers armed early, late, too short or not at all.
+// Triggers, resets of either side, transfers armed early, late, too short, not at all, or so that
+// they leave the memory.
 Seen random_run(bool tlm, std::uint64_t seed, std::uint32_t pixels_per_clock) {
   PixelBench b(
       fidelity(tlm),
@@ -323,8 +324,9 @@ Seen random_run(bool tlm, std::uint64_t seed, std::uint32_t pixels_per_clock) {
           break;
         case 3:
         case 4:
-          b.pixels.arm(4 * random.below(1024),
-                       random.below(4) ? frame_bytes : 4 * (1 + random.below(200)));
+          b.pixels.arm(
+              random.below(8) ? 4 * random.below(1024) : memory_bytes - 4 * (1 + random.below(250)),
+              random.below(4) ? frame_bytes : 4 * (1 + random.below(200)));
           break;
         default:
           b.camera.show(image_of(random.below(100)));
