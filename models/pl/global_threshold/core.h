@@ -99,7 +99,7 @@ class ThresholdFrame {
   std::uint8_t end();
 
   /// The frame is over: of its pixels so far.
-  Histogram histogram() const { return count_levels(image_, position_); }
+  Histogram histogram() const;
 
   /// The frame's words, row by row; bit i of word w is pixel 32w + i. Bits of pixels that were not
   /// binarised are 0.

@@ -100,4 +100,9 @@ std::uint8_t ThresholdFrame::end() {
   return threshold_;
 }
 
+Histogram ThresholdFrame::histogram() const {
+  static KnownFrames<Histogram> known;
+  return known.result(image_, position_, 0, [this] { return count_levels(image_, position_); });
+}
+
 }  // namespace pl
