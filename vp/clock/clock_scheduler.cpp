@@ -20,35 +20,6 @@ namespace {
 /// Bounds a batch when nothing else is planned, so that the kernel gets a say now and then.
 constexpr std::uint64_t longest_batch_ps = 1'000'000'000;
 
-/// Puts a module behind every module of its clock that reads its outputs. A ring is entered
-/// anywhere: its closing link becomes a deferred signal.
-class ConsumerFirstOrder {
- public:
-  explicit ConsumerFirstOrder(const std::vector<Clocked*>& modules,
-                              const std::vector<std::vector<Clocked*>>& producers)
-      : modules_(modules), producers_(producers), visited_(modules.size(), false) {
-    for (std::size_t i = 0; i < modules_.size(); ++i) visit(i);
-    std::reverse(order_.begin(), order_.end());
-  }
-  const std::vector<Clocked*>& order() const { return order_; }
-
- private:
-  void visit(std::size_t i) {
-    if (visited_[i]) return;
-    visited_[i] = true;
-    for (Clocked* producer : producers_[i]) {
-      const auto at = std::find(modules_.begin(), modules_.end(), producer);
-      if (at != modules_.end()) visit(static_cast<std::size_t>(at - modules_.begin()));
-    }
-    order_.push_back(modules_[i]);
-  }
-
-  const std::vector<Clocked*>& modules_;
-  const std::vector<std::vector<Clocked*>>& producers_;
-  std::vector<bool> visited_;
-  std::vector<Clocked*> order_;
-};
-
 /// Exceptions that a process is handling while it waits. The C++ runtime keeps them for a thread of
 /// the host, of which all processes are part.
 class ExceptionsInFlight {
@@ -310,22 +281,37 @@ void ClockScheduler::remove_observer(InstantObserver& observer) {
   observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
 }
 
+// Consumers before producers. A ring is opened where that takes the fewest bits: next comes,
+// always, the module of whose outputs the modules behind it read the fewest, of equal ones the one
+// made last. What they do read is deferred.
 void ClockScheduler::order_modules() {
   for (Clock* clock : clocks_) {
-    std::vector<std::vector<Clocked*>> producers;
-    std::vector<Clocked*> modules;
-    for (const Clock::Place& place : clock->places_) {
-      const Clocked* module = place.module;
-      modules.push_back(place.module);
-      auto& list = producers.emplace_back();
-      for (const InBase* input : module->inputs_) {
-        if (!input->signal()) continue;
-        Clocked* producer = input->signal()->writer();
-        if (producer) list.push_back(producer);
-      }
+    std::vector<Clocked*> left, order;
+    for (const Clock::Place& place : clock->places_) left.insert(left.begin(), place.module);
+    while (!left.empty()) {
+      auto bits = bits_read(left);
+      const auto next = std::min_element(
+          left.begin(), left.end(), [&](Clocked* a, Clocked* b) { return bits[a] < bits[b]; });
+      order.push_back(*next);
+      left.erase(next);
     }
-    clock->set_order(ConsumerFirstOrder(modules, producers).order());
+    clock->set_order(order);
   }
+}
+
+/// Of the outputs of each module, so many bits are read by others of them.
+std::unordered_map<const Clocked*, unsigned> ClockScheduler::bits_read(
+    const std::vector<Clocked*>& modules) {
+  std::unordered_map<const Clocked*, unsigned> bits;
+  std::unordered_set<const SignalBase*> seen;
+  for (const Clocked* reader : modules) {
+    for (const InBase* input : reader->inputs_) {
+      const SignalBase* signal = input->signal();
+      if (!signal || signal->writer() == reader || !seen.insert(signal).second) continue;
+      bits[signal->writer()] += signal->width();
+    }
+  }
+  return bits;
 }
 
 void ClockScheduler::mark_deferred_signals() {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <systemc>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -153,6 +154,8 @@ class ClockScheduler : public sc_core::sc_module {
   void run_edges(std::size_t from, std::uint64_t ps);
   void commit_deferred();
   void order_modules();
+  static std::unordered_map<const Clocked*, unsigned> bits_read(
+      const std::vector<Clocked*>& modules);
   void mark_deferred_signals();
   void run_edge_of(std::size_t clock);
   void reschedule(const Clock& clock);

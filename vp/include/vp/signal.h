@@ -142,6 +142,7 @@ class Signal : public SignalReader<T> {
       return;
     }
     if (this->deferred_) {
+      if (!this->queued_ && value == value_) return;
       next_ = value;
       if (!this->queued_) this->defer();
     } else if (value != value_) {
