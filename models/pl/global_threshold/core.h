@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <pl/common/geometry.h>
@@ -28,7 +29,7 @@ class ThresholdCore {
 
   /// Loads the next threshold from the peaks and starts a new histogram.
   void end_frame() {
-    threshold_ = static_cast<std::uint8_t>((dark_peak_ + bright_peak_) / 2);
+    threshold_ = next_threshold();
     clear_histogram();
   }
   /// Forgets the running frame's histogram; the threshold stays.
@@ -39,6 +40,10 @@ class ThresholdCore {
     bright_peak_ = 255;
   }
 
+  /// That of the running frame's pixels so far.
+  std::uint8_t next_threshold() const {
+    return static_cast<std::uint8_t>((dark_peak_ + bright_peak_) / 2);
+  }
   std::uint8_t threshold() const { return threshold_; }
   void set_threshold(std::uint8_t threshold) { threshold_ = threshold; }
   std::uint8_t dark_peak() const { return dark_peak_; }
@@ -60,6 +65,28 @@ class ThresholdCore {
   std::uint8_t dark_peak_ = 0, bright_peak_ = 255;
   std::uint8_t threshold_ = default_threshold;
 };
+
+/// A threshold that is searched behind a frame, while nobody counts pixels.
+class ThresholdSearch {
+ public:
+  /// What a frame gives is there on edge `due`, if it gives anything. What was not found until now
+  /// never is.
+  void start(std::uint64_t due, std::optional<std::uint8_t> found);
+  void stop() { due_ = never; }
+  /// Where no frame runs: the threshold that is loaded on this edge, once.
+  std::optional<std::uint8_t> take(std::uint64_t cycle);
+  /// The edge that loads it.
+  std::uint64_t due() const { return due_; }
+
+ private:
+  static constexpr std::uint64_t never = ~std::uint64_t{0};
+  std::uint64_t due_ = never;
+  std::uint8_t found_ = 0;
+};
+
+/// From the edge behind a frame's last pixel to the one that may load the threshold between its
+/// peaks, where several pixels come on a clock: the levels one by one, and the pipeline.
+constexpr std::uint64_t peak_search_clocks = 256 + 7;
 
 /// Pixels of each grey level.
 using Histogram = std::array<std::uint32_t, 256>;
@@ -95,7 +122,9 @@ class ThresholdFrame {
   /// Of `count` pixels that were binarised, from `first` on, the values changed: they are binarised
   /// again with the present threshold.
   void refresh(std::uint32_t first, std::uint32_t count);
-  /// The frame is over: takes over the threshold that its pixels so far give, and returns it.
+  /// The frame is over: the threshold that its pixels so far give.
+  std::uint8_t next_threshold() const;
+  /// Takes it over, and returns it.
   std::uint8_t end();
 
   /// The frame is over: of its pixels so far.

@@ -93,16 +93,31 @@ void ThresholdFrame::refresh(std::uint32_t first, std::uint32_t count) {
   }
 }
 
-std::uint8_t ThresholdFrame::end() {
+std::uint8_t ThresholdFrame::next_threshold() const {
   static KnownFrames<Peaks> known;
-  threshold_ =
-      known.result(image_, position_, 0, [&] { return find_peaks(image_, position_); }).threshold();
+  return known.result(image_, position_, 0, [&] { return find_peaks(image_, position_); })
+      .threshold();
+}
+
+std::uint8_t ThresholdFrame::end() {
+  threshold_ = next_threshold();
   return threshold_;
 }
 
 Histogram ThresholdFrame::histogram() const {
   static KnownFrames<Histogram> known;
   return known.result(image_, position_, 0, [this] { return count_levels(image_, position_); });
+}
+
+void ThresholdSearch::start(std::uint64_t due, std::optional<std::uint8_t> found) {
+  due_ = found ? due : never;
+  found_ = found.value_or(0);
+}
+
+std::optional<std::uint8_t> ThresholdSearch::take(std::uint64_t cycle) {
+  if (cycle < due_) return std::nullopt;
+  due_ = never;
+  return found_;
 }
 
 }  // namespace pl

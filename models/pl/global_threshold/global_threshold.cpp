@@ -45,8 +45,9 @@ void GlobalThresholdClocked::edge() {
   thresh_out = false;
   const bool frame_ended = !frame && frame_before_;
   if (frame) take_pixels();
+  if (!frame) take_found(clock().cycle());
   if (frame_ended) end_frame(clock().cycle());
-  const std::uint64_t next = frame ? vp::Clock::never : pass_time(clock().cycle());
+  const std::uint64_t next = frame ? vp::Clock::never : search_.due();
   if (wr_thresh) core_.set_threshold(threshold);  // wins over the frame's own
   if (!frame || wr_thresh) active_threshold = core_.threshold();
   if (!frame && !frame_before_ && !wr_thresh) {
@@ -54,6 +55,19 @@ void GlobalThresholdClocked::edge() {
     wake_at(next);
   }
   frame_before_ = frame;
+}
+
+void GlobalThresholdClocked::take_found(std::uint64_t cycle) {
+  if (const auto found = search_.take(cycle)) core_.set_threshold(*found);
+}
+
+void GlobalThresholdClocked::end_frame(std::uint64_t cycle) {
+  if (geometry_.pixels_per_clock == 1) {
+    core_.end_frame();
+  } else {
+    search_.start(cycle + peak_search_clocks, core_.next_threshold());
+    core_.clear_histogram();
+  }
 }
 
 void GlobalThresholdClocked::take_pixels() {
@@ -78,7 +92,7 @@ bool GlobalThresholdClocked::take_pixel(std::uint8_t grey) {
 void GlobalThresholdClocked::reset() {
   if (por) core_.set_threshold(ThresholdCore::default_threshold);
   core_.clear_histogram();
-  stop();
+  search_.stop();
   active_threshold = core_.threshold();
   binary_ena = false;
   thresh_out = false;
@@ -86,26 +100,11 @@ void GlobalThresholdClocked::reset() {
   sleep();
 }
 
-// The histogram is cleared in one clock, so its 256 counters are registers, each as wide as the
-// number of pixels, read through a multiplexer. The RTL takes one pixel a clock: for several, what
-// synthesis gives for one and what they add.
 vp::IpEstimate GlobalThreshold::own_estimate() const {
-  const std::uint32_t more = geometry_.pixels_per_clock - 1;
-  if (more == 0) {
-    vp::IpEstimate e = rtl_ip("global_threshold");
-    e.fmax_documentation = "runs comfortably at 100 MHz (thesis 4.6.1)";
-    return e;
-  }
-  vp::IpEstimate e;
-  e.kind = "global_threshold";
-  e.lut = 600 + 600 * more;
-  e.ff = 402 + 120 * more;
-  e.uncertainty_percent = 50;
-  e.source = "derived from synthesis of its RTL for one pixel a clock, and from what more take";
-  e.fmax_hz = 50 * mhz;
-  e.fmax_high_hz = 200 * mhz;  // as one pixel a clock comes to
-  e.fmax_origin = vp::FmaxOrigin::estimated;
-  e.fmax_documentation = "each pixel of a clock may be the peak that the next one is compared with";
+  const std::uint32_t pixels = geometry_.pixels_per_clock;
+  if (pixels > 1) return synthesised_ip("global_threshold", {{"PIXELS_PER_CLOCK", pixels}});
+  vp::IpEstimate e = rtl_ip("global_threshold", {{"PIXELS_PER_CLOCK", pixels}});
+  e.fmax_documentation = "runs comfortably at 100 MHz (thesis 4.6.1)";
   return e;
 }
 
@@ -125,9 +124,10 @@ void GlobalThresholdTlm::edge() {
   const std::uint64_t cycle = clock().cycle();
   const bool frame = frame_ena;
   binary_ena = frame;
+  if (!frame) take_found(cycle);
   if (frame && !running_) begin(cycle);
   if (!frame && running_) end(cycle);
-  std::uint64_t next = running_ ? vp::Clock::never : pass_time(cycle);
+  std::uint64_t next = running_ ? vp::Clock::never : search_.due();
   if (wr_thresh) load(cycle);
   active_threshold = frame_.threshold();
   if (!binary_frames.taken_whole()) {
@@ -138,6 +138,18 @@ void GlobalThresholdTlm::edge() {
     }
   }
   wake_at(next);
+}
+
+void GlobalThresholdTlm::take_found(std::uint64_t cycle) {
+  if (const auto found = search_.take(cycle)) frame_.set_threshold(*found);
+}
+
+void GlobalThresholdTlm::end_frame(std::uint64_t cycle) {
+  if (geometry_.pixels_per_clock == 1) {
+    frame_.end();
+  } else {
+    search_.start(cycle + peak_search_clocks, frame_.next_threshold());
+  }
 }
 
 void GlobalThresholdTlm::begin(std::uint64_t cycle) {
@@ -191,7 +203,7 @@ bool GlobalThresholdTlm::emit(std::uint64_t cycle) {
 
 void GlobalThresholdTlm::reset() {
   if (por) frame_.set_threshold(ThresholdCore::default_threshold);
-  stop();
+  search_.stop();
   active_threshold = frame_.threshold();
   binary_ena = false;
   thresh_out = false;

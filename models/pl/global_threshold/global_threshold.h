@@ -16,6 +16,10 @@ class IpPorts;
 
 /// Global Threshold (thesis 4.3.5, ports of table B.2; `threshold` is an input, as table B.4 drives
 /// it).
+///
+/// The threshold of a frame is loaded on the edge behind it. With several pixels a clock it is
+/// loaded peak_search_clocks later, or on the edge behind the next frame if that began sooner; one
+/// that ends sooner starts a new search, and the old one has no result.
 class GlobalThreshold : public vp::Clocked, public vp::Ip {
  public:
   static Models<GlobalThreshold>& models();
@@ -79,15 +83,13 @@ class GlobalThresholdClocked : public GlobalThreshold {
 
  protected:
   /// On the edge behind the frame's last pixel.
-  virtual void end_frame(std::uint64_t /*cycle*/) { core_.end_frame(); }
-  /// On edges without a frame, this one included. Returns the next edge on which something happens.
-  virtual std::uint64_t pass_time(std::uint64_t /*cycle*/) { return vp::Clock::never; }
-  /// `por` or `rst`.
-  virtual void stop() {}
+  virtual void end_frame(std::uint64_t cycle);
 
   ThresholdCore core_;
+  ThresholdSearch search_;
 
  private:
+  void take_found(std::uint64_t cycle);
   void edge() override;
   void reset();
   void take_pixels();
@@ -109,12 +111,11 @@ class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
   GlobalThresholdTlm(sc_core::sc_module_name name, const Site& site);
 
  protected:
-  // As those of GlobalThresholdClocked.
-  virtual void end_frame(std::uint64_t /*cycle*/) { frame_.end(); }
-  virtual std::uint64_t pass_time(std::uint64_t /*cycle*/) { return vp::Clock::never; }
-  virtual void stop() {}
+  /// As that of GlobalThresholdClocked.
+  virtual void end_frame(std::uint64_t cycle);
 
   ThresholdFrame frame_;
+  ThresholdSearch search_;
   bool running_ = false;  ///< pixels are taken
 
  private:
@@ -122,6 +123,7 @@ class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
   void edge() override;
   void pixels_changed(std::uint32_t first, std::uint32_t count) override;
   void reset();
+  void take_found(std::uint64_t cycle);
   void begin(std::uint64_t cycle);
   void end(std::uint64_t cycle);
   void load(std::uint64_t cycle);

@@ -60,16 +60,4 @@ std::optional<std::uint8_t> find_otsu_threshold(const Histogram& histogram) {
   return static_cast<std::uint8_t>((first + last) / 2);
 }
 
-void OtsuSearch::start(std::uint64_t cycle, const Histogram& histogram) {
-  const std::optional<std::uint8_t> found = find_otsu_threshold(histogram);
-  due_ = found ? cycle + clocks : never;
-  found_ = found.value_or(0);
-}
-
-std::optional<std::uint8_t> OtsuSearch::take(std::uint64_t cycle) {
-  if (cycle < due_) return std::nullopt;
-  due_ = never;
-  return found_;
-}
-
 }  // namespace pl

@@ -21,25 +21,8 @@ std::optional<std::uint8_t> find_otsu_threshold(const Histogram& histogram);
 /// log2(`value`) in steps of 2^-14, from the first eleven bits of `value`, which is not 0.
 std::uint32_t coarse_log2(std::uint64_t value);
 
-/// The search behind a frame, while nobody counts pixels.
-class OtsuSearch {
- public:
-  /// From the edge behind a frame's last pixel to the one that may load its threshold: the levels
-  /// one by one, and the pipeline.
-  static constexpr std::uint64_t clocks = 256 + 16;
-
-  /// On the edge behind a frame's last pixel. What was not found until then never is.
-  void start(std::uint64_t cycle, const Histogram& histogram);
-  void stop() { due_ = never; }
-  /// Where no frame runs: the threshold that is loaded on this edge, once.
-  std::optional<std::uint8_t> take(std::uint64_t cycle);
-  /// The edge that loads it.
-  std::uint64_t due() const { return due_; }
-
- private:
-  static constexpr std::uint64_t never = ~std::uint64_t{0};
-  std::uint64_t due_ = never;
-  std::uint8_t found_ = 0;
-};
+/// From the edge behind a frame's last pixel to the one that may load its threshold: the levels one
+/// by one, and the pipeline.
+constexpr std::uint64_t otsu_search_clocks = 256 + 16;
 
 }  // namespace pl

@@ -15,27 +15,15 @@ Models<GlobalThreshold>& OtsuThreshold::models() {
 }
 
 void OtsuThresholdClocked::end_frame(std::uint64_t cycle) {
-  pass_time(cycle);  // what became due while the frame ran
   Histogram histogram;
   for (std::size_t level = 0; level < histogram.size(); ++level)
     histogram[level] = core_.histogram(static_cast<std::uint8_t>(level));
-  search_.start(cycle, histogram);
+  search_.start(cycle + otsu_search_clocks, find_otsu_threshold(histogram));
   core_.clear_histogram();
 }
 
-std::uint64_t OtsuThresholdClocked::pass_time(std::uint64_t cycle) {
-  if (const auto found = search_.take(cycle)) core_.set_threshold(*found);
-  return search_.due();
-}
-
 void OtsuThresholdTlm::end_frame(std::uint64_t cycle) {
-  pass_time(cycle);  // what became due while the frame ran
-  search_.start(cycle, frame_.histogram());
-}
-
-std::uint64_t OtsuThresholdTlm::pass_time(std::uint64_t cycle) {
-  if (const auto found = search_.take(cycle)) frame_.set_threshold(*found);
-  return search_.due();
+  search_.start(cycle + otsu_search_clocks, find_otsu_threshold(frame_.histogram()));
 }
 
 namespace {

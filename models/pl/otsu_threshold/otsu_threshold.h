@@ -8,7 +8,7 @@ namespace pl {
 /// Otsu Threshold: in the place of Global Threshold, with its ports. A frame is made binary with
 /// the threshold that Otsu's method gives for the one before, the first with 127.
 ///
-/// The threshold is loaded OtsuSearch::clocks behind the frame, or on the edge behind the next one
+/// The threshold is loaded otsu_search_clocks behind the frame, or on the edge behind the next one
 /// if that began sooner. One that ends sooner starts a new search, and the old one has no result.
 class OtsuThreshold : public GlobalThreshold {
  public:
@@ -30,11 +30,7 @@ class OtsuThresholdClocked : public GlobalThresholdClocked {
 
  private:
   void end_frame(std::uint64_t cycle) override;
-  std::uint64_t pass_time(std::uint64_t cycle) override;
-  void stop() override { search_.stop(); }
   vp::IpEstimate own_estimate() const override;
-
-  OtsuSearch search_;
 };
 
 /// Otsu Threshold at transaction level.
@@ -45,11 +41,7 @@ class OtsuThresholdTlm final : public GlobalThresholdTlm {
 
  private:
   void end_frame(std::uint64_t cycle) override;
-  std::uint64_t pass_time(std::uint64_t cycle) override;
-  void stop() override { search_.stop(); }
   vp::IpEstimate own_estimate() const override;
-
-  OtsuSearch search_;
 };
 
 }  // namespace pl

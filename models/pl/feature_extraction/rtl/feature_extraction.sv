@@ -126,6 +126,8 @@ module feature_extraction #(
   logic [7:0] active_threshold;  // for simulations
   logic busy;
   /* verilator lint_on UNUSEDSIGNAL */
+  /* verilator lint_off PINCONNECTEMPTY */
+  // One pixel comes on a clock.
   global_threshold #(
       .WIDTH (WIDTH),
       .HEIGHT(HEIGHT)
@@ -137,16 +139,23 @@ module feature_extraction #(
       .wr_thresh,
       .threshold,
       .pixel,
+      .pixel_1(8'd0),
+      .pixel_2(8'd0),
+      .pixel_3(8'd0),
       .x(pixel_x),
       .y(pixel_y),
       .binary_ena,
       .binary_out,
+      .binary_out_1(),
+      .binary_out_2(),
+      .binary_out_3(),
       .binary_x,
       .binary_y,
       .thresh_out,
       .thresh_data,
       .active_threshold
   );
+  /* verilator lint_on PINCONNECTEMPTY */
 
   logic blob_out, idle;
   logic [31:0] blob_start, blob_end;

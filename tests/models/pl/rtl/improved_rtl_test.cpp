@@ -3,6 +3,7 @@
 #include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_stream/blob_stream.h>
 #include <pl/camera/camera.h>
+#include <pl/global_threshold/global_threshold.h>
 #include <pl/local_threshold/local_threshold.h>
 #include <pl/otsu_threshold/otsu_threshold.h>
 #include <pl/pixel_stream/pixel_stream.h>
@@ -11,6 +12,8 @@
 #include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>
+
+#include <algorithm>
 
 #include "frames.h"
 #include "improved_chain.h"
@@ -109,6 +112,16 @@ const Bug bugs[] = {
      "- lane) / P + 2;", "binary_out", 2},
     {"border_of_a_neighbour", "local_threshold", "local_threshold.sv", "1 + RIGHT) - place",
      "2 + RIGHT) - place", "binary_out", 2},
+    {"later_of_equal_peaks", "global_threshold", "peak_search.sv", "{total, ~latest}",
+     "{total, latest}", "active_threshold", 4},
+    {"peak_of_the_first_pixel", "global_threshold", "peak_search.sv", "first || rank >= best",
+     "first || rank > best", "active_threshold", 2},
+    {"last_of_one_lane", "global_threshold", "peak_search.sv", "time_3 > time_2", "time_3 < time_2",
+     "active_threshold", 4},
+    {"clocks_of_the_frame_before", "global_threshold", "last_seen.sv", "clocks[{into, level}]",
+     "clocks[{!into, level}]", "active_threshold", 2},
+    {"searched_a_level_later", "global_threshold", "peak_search.sv", "passes[5] && at == 8'd255",
+     "passes[5] && at == 8'd254", "active_threshold", 4},
     {"rows_behind_the_frame_missing", "blob_labelling", "run_merge.sv", "is_frame_end && !below",
      "1'b0 && is_frame_end && !below", "", 2},
 };
@@ -116,12 +129,18 @@ const Bug bugs[] = {
 /// What comes on an edge.
 const std::uint32_t groups[] = {1, 2, 4};
 
-const Strings ips{"blob_labelling", "otsu_threshold", "local_threshold", "pixel_stream",
-                  "blob_stream"};
+const Strings thresholds{"otsu_threshold", "global_threshold", "local_threshold"};
+const Strings ips{"blob_labelling",  "otsu_threshold", "global_threshold",
+                  "local_threshold", "pixel_stream",   "blob_stream"};
 
 /// The threshold in the chain that tests `ip`.
 std::string threshold_beside(const std::string& ip) {
-  return ip == "local_threshold" ? ip : "otsu_threshold";
+  return std::count(thresholds.begin(), thresholds.end(), ip) != 0 ? ip : thresholds.front();
+}
+const pl::Models<pl::GlobalThreshold>& models_of(const std::string& threshold) {
+  if (threshold == "otsu_threshold") return pl::OtsuThreshold::models();
+  if (threshold == "local_threshold") return pl::LocalThreshold::models();
+  return pl::GlobalThreshold::models();
 }
 
 constexpr pl::Geometry size{64, 32, 32};
@@ -163,10 +182,7 @@ std::string lockstep(const std::string& ip, const std::string& object) {
 
 struct Fidelity : sc_core::sc_module {
   Fidelity(sc_core::sc_module_name name, const std::string& rule)
-      : sc_module(name),
-        threshold(
-            rule == "otsu_threshold" ? pl::OtsuThreshold::models() : pl::LocalThreshold::models(),
-            pl::Fidelity::clocked, {&blob_labelling}) {}
+      : sc_module(name), threshold(models_of(rule), pl::Fidelity::clocked, {&blob_labelling}) {}
 
   pl::Choice<pl::PixelStream> pixel_stream{pl::PixelStream::models(), pl::Fidelity::clocked};
   pl::Choice<pl::BlobStream> blob_stream{pl::BlobStream::models(), pl::Fidelity::clocked};
@@ -283,6 +299,7 @@ struct Chain : kit::Simulation {
     pixel_sink.accept(true);
     blob_sink.accept(true);
     clocks(size.pixels() + 1000);
+    run_frame(harness::Image(64 * 32, 220), never, never);  // nothing is dark
     run_frame(harness::rectangles(64, 32, 30, 9), never, never);
   }
 
@@ -371,7 +388,7 @@ BOOST_AUTO_TEST_CASE(without_a_reset_the_rtl_begins_as_its_model) {
 // Each alone, and all of them, in the place of the models.
 BOOST_AUTO_TEST_CASE(in_the_place_of_the_models_nobody_sees_a_difference) {
   for (const std::uint32_t pixels : groups) {
-    for (const std::string rule : {"otsu_threshold", "local_threshold"}) {
+    for (const std::string& rule : thresholds) {
       const std::string models = Chain({}, rule, pixels).seen();
       BOOST_TEST(models.size() > 10'000u);
       Strings all;

@@ -104,6 +104,11 @@ const std::map<std::string, std::vector<Words>> improved = {
       {"PIXELS_PER_CLOCK=2", "WIDTH=32", "HEIGHT=16"},
       {"PIXELS_PER_CLOCK=4"},
       {"PIXELS_PER_CLOCK=4", "WIDTH=2048", "HEIGHT=2048"}}},
+    {"global_threshold",
+     {{"PIXELS_PER_CLOCK=2"},
+      {"PIXELS_PER_CLOCK=2", "WIDTH=2048", "HEIGHT=2048"},
+      {"PIXELS_PER_CLOCK=4"},
+      {"PIXELS_PER_CLOCK=4", "WIDTH=32", "HEIGHT=16"}}},
     {"local_threshold",
      {{},
       {"WIDTH=32", "HEIGHT=16", "RADIUS=1", "OFFSET=1"},
@@ -192,6 +197,9 @@ BOOST_AUTO_TEST_CASE(memories_become_memories) {
   BOOST_TEST(bridge["FDRE"] < 200);
   auto threshold = synthesise("global_threshold");
   BOOST_TEST(threshold["FDRE"] < 500);
+  auto several = synthesise("global_threshold", " -chparam PIXELS_PER_CLOCK 4");
+  BOOST_TEST(several["RAMB18E1"] == 12);
+  BOOST_TEST(several["FDRE"] < 1200);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
