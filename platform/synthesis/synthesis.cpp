@@ -186,6 +186,7 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"blob_stream", {{"FIFO_DEPTH", 512}}},
           {"clock_crossing", {}},
           {"control_block", {}},
+          {"control_crossing", {}},
           {"corner_detection", {{"LEAN", 0}}},
           {"corner_detection", {{"LEAN", 1}}},
           {"feature_packaging", {{"BUFFER_DEPTH", 16}}},

@@ -148,6 +148,14 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_local_threshold) {
   check_same(run("local_rtl", with(clocked, {"--set", setting("local_threshold")})), models);
 }
 
+BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_clock_of_the_camera) {
+  const Words inputs{"demo",     "z2.0",  "--design",
+                     "improved", "--set", "pl.camera_clk.frequency=25.175 MHz"};
+  const Json models = run("own_clock", inputs);
+  BOOST_TEST(models["summary"]["detected"] == 2);
+  check_same(run("own_clock_rtl", with(inputs, {"--set", setting("control_crossing")})), models);
+}
+
 // All IP that take several pixels a clock together in the running system, with each threshold, at
 // the design's 100 MHz, which all of them meet.
 BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_several_pixels_a_clock) {

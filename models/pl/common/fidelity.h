@@ -121,6 +121,8 @@ class ChoiceBase {
   using Feeds = std::vector<const ChoiceBase*>;
 
   Passage gives() const { return traits_[chosen_].gives; }
+  /// No model of the list, but an RtlFile.
+  bool is_file() const { return RtlFile::parse(text()).has_value(); }
 
  protected:
   /// `traits` is never empty.

@@ -3,12 +3,29 @@
 #include <string>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <vp/report.h>
 
 namespace pl {
 
-ControlCrossing::ControlCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk)
-    : Clocked(name, pixel_clk), Ip(&pixel_clk) {}
+Models<ControlCrossing>& ControlCrossing::models() {
+  static Models<ControlCrossing> models{
+      "control_crossing",
+      {model<ControlCrossing, ControlCrossingClocked>("clocked", no_image, no_image)},
+      rtl_model<ControlCrossing, ControlCrossingClocked>()};
+  return models;
+}
+
+ControlCrossing::ControlCrossing(sc_core::sc_module_name name, const Site& site)
+    : Clocked(name, site.clk), Ip(&site.clk) {}
+
+void ControlCrossing::connect(IpPorts& ports) {
+  for (vp::In<bool>* level : {&ena_in, &rst_in, &por_in, &wr_thresh_in}) ports.input(*level);
+  ports.input(threshold_in);
+  for (vp::Signal<bool>* level : {&ena, &rst, &por, &wr_thresh}) ports.output(*level);
+  ports.output(threshold);
+  ports.behind_edge = [this] { note_sampled(); };
+}
 
 void ControlCrossing::end_of_elaboration() {
   Clocked::end_of_elaboration();
@@ -31,7 +48,7 @@ void ControlCrossing::on_change(vp::SignalBase& signal, std::uint32_t id) {
   wake();
 }
 
-void ControlCrossing::edge() {
+void ControlCrossingClocked::edge() {
   ena = first_.ena;
   rst = first_.rst;
   por = first_.por;
@@ -40,13 +57,13 @@ void ControlCrossing::edge() {
   const Levels now = inputs();
   if (now == first_) sleep();
   first_ = now;
-  unsampled_ = {};
+  note_sampled();
 }
 
 vp::IpEstimate ControlCrossing::own_estimate() const {
-  constexpr std::uint32_t wires = 12, registers = 2;
-  vp::IpEstimate e = small_ip("control_crossing", 0, registers * wires, 464 * mhz);
-  e.source = "derived from the model's registers";
+  vp::IpEstimate e = synthesised_ip("control_crossing");
+  e.fmax_hz = e.fmax_high_hz = 464 * mhz;
+  e.fmax_origin = vp::FmaxOrigin::derived;
   e.fmax_documentation =
       "registers behind registers; what a clock buffer of -1 lets through (2.155 ns)";
   return e;

@@ -2,6 +2,7 @@
 
 #include <blob_stream.h>
 #include <marker_logic.h>
+#include <vp/error.h>
 #include <xilinx/common/estimate.h>
 #include <initializer_list>
 
@@ -41,6 +42,7 @@ const pl::Models<pl::GlobalThreshold>& thresholds(const std::string& rule) {
 ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity otherwise,
                                    const pl::Models<pl::GlobalThreshold>& thresholds)
     : sc_module(name),
+      control_crossing(pl::ControlCrossing::models(), otherwise),
       pixel_stream(pl::PixelStream::models(), otherwise),
       blob_stream(pl::BlobStream::models(), otherwise),
       blob_labelling(pl::BlobLabelling::models(), otherwise),
@@ -72,7 +74,15 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
       axi_dma_1("axi_dma_1", clk, packet_writer(::blob_stream::max_packet_bytes, burst_words)),
       concat("concat", 2) {
   control_block.set_logic_clock(clk);
-  if (&camera.pixel_clk() != &clk) crossing_.emplace(camera.pixel_clk(), camera_clk.clk(), clk);
+  if (&camera.pixel_clk() != &clk) {
+    crossing_.emplace(fidelity.control_crossing.make({camera_clk.clk(), geometry()}),
+                      camera.pixel_clk(), clk);
+  } else if (fidelity.control_crossing.is_file()) {
+    throw vp::InputError(std::string(fidelity.name()) +
+                         ".control_crossing: the camera has the clock of the buses, so nothing "
+                         "crosses; give " +
+                         camera_clk.name() + ".frequency, too");
+  }
   connect_bus();
   connect_streams();
   name_groups();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <systemc>
+#include <utility>
 
 #include <marker_logic.h>
 #include <pl/blob_labelling/blob_labelling.h>
@@ -36,6 +37,7 @@ struct ImprovedFidelity : sc_core::sc_module {
   ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity otherwise,
                    const pl::Models<pl::GlobalThreshold>& thresholds);
 
+  pl::Choice<pl::ControlCrossing> control_crossing;
   // Whoever feeds another one comes behind it.
   pl::Choice<pl::PixelStream> pixel_stream;
   pl::Choice<pl::BlobStream> blob_stream;
@@ -137,12 +139,13 @@ class ImprovedLogic : public sc_core::sc_module {
  private:
   /// Between the clock of pixels and that of buses.
   struct Crossing {
-    Crossing(vp::Clock& pixel_clk, vp::Clock& camera_clk, vp::Clock& clk)
-        : control("control_crossing", camera_clk),
+    Crossing(std::unique_ptr<pl::ControlCrossing> made, vp::Clock& pixel_clk, vp::Clock& clk)
+        : control_crossing(std::move(made)),
           pixels("pixel_crossing", pixel_clk, clk),
           blobs("blob_crossing", pixel_clk, clk) {}
 
-    pl::ControlCrossing control;
+    const std::unique_ptr<pl::ControlCrossing> control_crossing;
+    pl::ControlCrossing& control = *control_crossing;
     pl::StreamCrossing pixels, blobs;
     vp::AxiStream pixels_link{"pixels_before_crossing"}, blobs_link{"blobs_before_crossing"};
   };

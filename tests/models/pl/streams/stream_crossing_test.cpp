@@ -136,7 +136,7 @@ struct CrossedChain : kit::Simulation {
   vp::Clock bus, camera_clk;
   harness::ChainControl software;
   harness::ImprovedChain chain;
-  pl::ControlCrossing control{"control_crossing", camera_clk};
+  pl::ControlCrossingClocked control{"control_crossing", {camera_clk, small_frame}};
   pl::StreamCrossing pixel_crossing{"pixel_crossing", chain.camera->pixel_clk(), bus};
   pl::StreamCrossing blob_crossing{"blob_crossing", chain.camera->pixel_clk(), bus};
   vp::AxiStream pixels_before{"pixels_before"}, pixels{"pixels"}, blobs_before{"blobs_before"},
