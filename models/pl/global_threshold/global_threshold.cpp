@@ -44,8 +44,11 @@ void GlobalThresholdClocked::edge() {
   binary_ena = frame;
   thresh_out = false;
   const bool frame_ended = !frame && frame_before_;
-  if (frame) take_pixels();
-  if (!frame) take_found(clock().cycle());
+  if (frame) {
+    take_pixels();
+  } else {
+    take_found(clock().cycle());
+  }
   if (frame_ended) end_frame(clock().cycle());
   const std::uint64_t next = frame ? vp::Clock::never : search_.due();
   if (wr_thresh) core_.set_threshold(threshold);  // wins over the frame's own

@@ -101,7 +101,7 @@ void ImprovedLogic::before_end_of_elaboration() {
 
 void ImprovedLogic::connect_control() {
   if (!crossing_) return connect_control(control_block, proc_sys_reset.peripheral_reset);
-  pl::ControlCrossing& control = crossing_->control;
+  pl::ControlCrossing& control = *crossing_->control_crossing;
   control.ena_in(control_block.ena);
   control.rst_in(control_block.rst_out);
   control.por_in(proc_sys_reset.peripheral_reset);
@@ -185,8 +185,10 @@ void ImprovedLogic::connect_streams() {
     crossing.m(behind);
     crossing.rst()(logic_rst());
   };
-  connect(crossing_->pixels, pixel_stream.m, crossing_->pixels_link, pixel_stream_link);
-  connect(crossing_->blobs, blob_stream.m, crossing_->blobs_link, blob_stream_link);
+  connect(crossing_->pixel_crossing, pixel_stream.m, crossing_->pixels_before_crossing,
+          pixel_stream_link);
+  connect(crossing_->blob_crossing, blob_stream.m, crossing_->blobs_before_crossing,
+          blob_stream_link);
 }
 
 // In the order of reports.
@@ -198,7 +200,9 @@ void ImprovedLogic::name_groups() {
   group("feature_extraction", {&camera, &threshold, &blob_labelling});
   group("data_bridge", {&pixel_stream, &blob_stream, &control_block, &axi_dma_0, &axi_dma_1,
                         &axi_gpio_0, &axi_interconnect, &axi_mem_interconnect, &proc_sys_reset});
-  if (crossing_) group("data_bridge", {&crossing_->control, &crossing_->pixels, &crossing_->blobs});
+  if (crossing_)
+    group("data_bridge", {crossing_->control_crossing.get(), &crossing_->pixel_crossing,
+                          &crossing_->blob_crossing});
 }
 
 void ImprovedLogic::count_work() {
@@ -207,9 +211,9 @@ void ImprovedLogic::count_work() {
   pixel_stream.set_active_clocks(pixel_words);
   blob_stream.set_active_clocks(blob_words);
   if (crossing_) {
-    crossing_->pixels.set_active_clocks(pixel_words);
-    crossing_->blobs.set_active_clocks(blob_words);
-    crossing_->control.set_active_clocks([] { return 0; });
+    crossing_->pixel_crossing.set_active_clocks(pixel_words);
+    crossing_->blob_crossing.set_active_clocks(blob_words);
+    crossing_->control_crossing->set_active_clocks([] { return 0; });
   }
   axi_mem_interconnect.set_active_clocks([=] { return pixel_words() + blob_words(); });
   axi_interconnect.set_active_clocks([this] {

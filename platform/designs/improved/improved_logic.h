@@ -84,7 +84,7 @@ class ImprovedLogic : public sc_core::sc_module {
 
   /// Resets all that takes pixels.
   vp::Signal<bool>& logic_rst() {
-    return crossing_ ? crossing_->control.rst : control_block.rst_out;
+    return crossing_ ? crossing_->control_crossing->rst : control_block.rst_out;
   }
 
   /// Brings counters up to now, for whoever looks at them from outside.
@@ -141,13 +141,13 @@ class ImprovedLogic : public sc_core::sc_module {
   struct Crossing {
     Crossing(std::unique_ptr<pl::ControlCrossing> made, vp::Clock& pixel_clk, vp::Clock& clk)
         : control_crossing(std::move(made)),
-          pixels("pixel_crossing", pixel_clk, clk),
-          blobs("blob_crossing", pixel_clk, clk) {}
+          pixel_crossing("pixel_crossing", pixel_clk, clk),
+          blob_crossing("blob_crossing", pixel_clk, clk) {}
 
     const std::unique_ptr<pl::ControlCrossing> control_crossing;
-    pl::ControlCrossing& control = *control_crossing;
-    pl::StreamCrossing pixels, blobs;
-    vp::AxiStream pixels_link{"pixels_before_crossing"}, blobs_link{"blobs_before_crossing"};
+    pl::StreamCrossing pixel_crossing, blob_crossing;
+    vp::AxiStream pixels_before_crossing{"pixels_before_crossing"};
+    vp::AxiStream blobs_before_crossing{"blobs_before_crossing"};
   };
 
   std::optional<Crossing> crossing_;  ///< none where both are one clock
