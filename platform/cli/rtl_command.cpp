@@ -28,8 +28,9 @@ std::string object_of(const std::string& rtl, const std::string& ip) {
     const fs::path file = fs::path(rtl) / place / (ip + ".so");
     if (fs::exists(file, ignored)) return fs::absolute(file).string();
   }
-  throw vp::InputError("--rtl '" + rtl + "': there is no " + ip + ".so in it, nor in its build: " +
-                       "build it with markervp_add_rtl(" + ip + " IP " + ip + " TOP …)");
+  throw vp::InputError("--rtl '" + rtl + "': there is no " + ip +
+                       ".so in it, nor in its build: " + "build it with markervp_add_rtl(" + ip +
+                       " IP … TOP …), or name the .so itself");
 }
 
 /// Finds when a signal is first high.
@@ -100,7 +101,7 @@ int check(const RtlOptions& options, const std::vector<std::string>& arguments, 
   run_options.configuration.assignments.push_back(
       "pl.fidelity." + options.ip + "=lockstep:" + object_of(options.rtl, options.ip));
   run_options.trace = trace_file;
-  run_options.trace_filter = {part + ".*", part + ".rtl.*"};
+  run_options.trace_filter = {part + ".**"};
   run_options.trace_level = "everything";
   run_options.trace_trigger = part + ".rtl.differs rises";
   run_options.no_pictures = run_options.no_report = run_options.quiet = true;

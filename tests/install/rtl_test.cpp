@@ -153,7 +153,36 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_clock_of_the_camera) {
                      "improved", "--set", "pl.camera_clk.frequency=25.175 MHz"};
   const Json models = run("own_clock", inputs);
   BOOST_TEST(models["summary"]["detected"] == 2);
-  check_same(run("own_clock_rtl", with(inputs, {"--set", setting("control_crossing")})), models);
+  const std::string stream = file("stream_crossing");
+  Words all = inputs;
+  for (const std::string& crossing :
+       {setting("control_crossing"), "pl.fidelity.pixel_crossing=" + stream,
+        "pl.fidelity.blob_crossing=" + stream}) {
+    check_same(run("own_clock_rtl", with(inputs, {"--set", crossing})), models);
+    all = with(all, {"--set", crossing});
+  }
+  for (const std::string ip : {"otsu_threshold", "blob_labelling", "pixel_stream", "blob_stream"})
+    all = with(all, {"--set", setting(ip)});
+  check_same(run("own_clock_all_rtl", all), models);
+  check_refused(installed.markervp({"run", "demo", "--design", "improved", "--output", "never",
+                                    "--set", "pl.fidelity.pixel_crossing=" + stream}),
+                {"pl.fidelity.pixel_crossing", "nothing crosses", "pl.camera_clk.frequency"});
+}
+
+BOOST_AUTO_TEST_CASE(a_check_and_vectors_of_an_ip_between_two_clocks) {
+  const Words own_clock{"demo", "--design", "improved", "--set",
+                        "pl.camera_clk.frequency=25.175 MHz"};
+  const kit::Outcome outcome =
+      installed.markervp(with({"rtl", "check", "pixel_crossing", "--rtl", file("stream_crossing"),
+                               "--output", "check_crossing"},
+                              own_clock));
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "equal: pixel_crossing"), outcome.out);
+  const kit::Outcome vectors = installed.markervp(
+      with({"rtl", "vectors", "blob_crossing", "--output", "crossing_vectors"}, own_clock));
+  BOOST_TEST(vectors.exit_code == 0, vectors.err);
+  BOOST_TEST(contains(kit::read_file(installed.beside("crossing_vectors/bench.sv")),
+                      "{clk, m_clk} = rises;"));
 }
 
 // All IP that take several pixels a clock together in the running system, with each threshold, at

@@ -40,9 +40,9 @@ std::optional<RtlFile> RtlFile::parse(const std::string& text) {
   return RtlFile{path, beside ? Use::lockstep : Use::in_place};
 }
 
-ModelName::ModelName(const std::string& ip, std::string otherwise,
+ModelName::ModelName(const std::string& instance, std::string otherwise,
                      const std::vector<std::string>& names, bool takes_rtl)
-    : ParameterBase(ip.c_str(), vp::Unit::none, vp::Source::decision,
+    : ParameterBase(instance.c_str(), vp::Unit::none, vp::Source::decision,
                     "how this IP is modelled: clock by clock, whole frames, or RTL"),
       value_(otherwise) {
   const vp::Setting* given = setting();
@@ -57,10 +57,10 @@ ModelName::ModelName(const std::string& ip, std::string otherwise,
   follows("fidelity");
 }
 
-ChoiceBase::ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,
+ChoiceBase::ChoiceBase(const std::string& instance, std::vector<ModelTraits> traits, bool takes_rtl,
                        Fidelity otherwise, const Feeds& feeds)
     : traits_(std::move(traits)),
-      parameter_(ip, usual(otherwise, feeds), names_of(traits_), takes_rtl) {
+      parameter_(instance, usual(otherwise, feeds), names_of(traits_), takes_rtl) {
   while (chosen_ < traits_.size() && traits_[chosen_].name != parameter_.get()) ++chosen_;
   // RTL has the pins of the clocked model.
   if (chosen_ == traits_.size()) {

@@ -33,6 +33,8 @@ constexpr Passage no_image{}, by_pixel{true, false}, by_frame{false, true}, both
 struct Site {
   vp::Clock& clk;
   Geometry geometry;
+  vp::Clock* m_clk =
+      nullptr;  ///< of whoever takes the stream of an IP that lies between two clocks
 };
 
 /// What the choice among the models of an IP depends on.
@@ -80,8 +82,8 @@ class Models {
   using MakeRtl =
       std::function<std::unique_ptr<Ip>(const char* name, const Site& site, const RtlFile& rtl)>;
 
-  /// `ip`: the name of the instance, and of its key in `fidelity`. `rtl`: empty for an IP in whose
-  /// place no RTL can stand.
+  /// `ip`: its name, which is that of the instance and of its key in `fidelity` where a design has
+  /// only one. `rtl`: empty for an IP in whose place no RTL can stand.
   Models(std::string ip, std::initializer_list<Model<Ip>> models, MakeRtl rtl = {})
       : make_rtl(std::move(rtl)), ip_(std::move(ip)), models_(models) {}
 
@@ -106,8 +108,8 @@ class Models {
 /// `fidelity.<ip>`: the name of a model, or RtlFile.
 class ModelName : public vp::ParameterBase {
  public:
-  ModelName(const std::string& ip, std::string otherwise, const std::vector<std::string>& names,
-            bool takes_rtl);
+  ModelName(const std::string& instance, std::string otherwise,
+            const std::vector<std::string>& names, bool takes_rtl);
   const std::string& get() const { return value_; }
 
  private:
@@ -121,12 +123,14 @@ class ChoiceBase {
   using Feeds = std::vector<const ChoiceBase*>;
 
   Passage gives() const { return traits_[chosen_].gives; }
+  /// Its key.
+  std::string name() const { return parameter_.name(); }
   /// No model of the list, but an RtlFile.
   bool is_file() const { return RtlFile::parse(text()).has_value(); }
 
  protected:
   /// `traits` is never empty.
-  ChoiceBase(const std::string& ip, std::vector<ModelTraits> traits, bool takes_rtl,
+  ChoiceBase(const std::string& instance, std::vector<ModelTraits> traits, bool takes_rtl,
              Fidelity otherwise, const Feeds& feeds);
   std::size_t chosen() const { return chosen_; }
   const std::string& text() const { return parameter_.get(); }
@@ -151,9 +155,13 @@ class Choice : public ChoiceBase {
   /// What it feeds has chosen before. Throws vp::InputError if that cannot take what a configured
   /// model gives.
   Choice(const Models<Ip>& models, Fidelity otherwise, const Feeds& feeds = {})
-      : ChoiceBase(models.ip(), {models.list().begin(), models.list().end()},
+      : Choice(models.ip(), models, otherwise, feeds) {}
+  /// Of one of several instances of the IP.
+  Choice(const std::string& instance, const Models<Ip>& models, Fidelity otherwise,
+         const Feeds& feeds = {})
+      : ChoiceBase(instance, {models.list().begin(), models.list().end()},
                    models.make_rtl != nullptr, otherwise, feeds),
-        ip_(models.ip()) {
+        instance_(instance) {
     if (chosen() < models.list().size()) {
       make_ = models.list()[chosen()].make;
     } else {
@@ -162,10 +170,10 @@ class Choice : public ChoiceBase {
     }
   }
 
-  std::unique_ptr<Ip> make(const Site& site) const { return make_(ip_.c_str(), site); }
+  std::unique_ptr<Ip> make(const Site& site) const { return make_(instance_.c_str(), site); }
 
  private:
-  std::string ip_;
+  std::string instance_;
   typename Model<Ip>::Make make_;
 };
 

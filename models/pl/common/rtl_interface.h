@@ -5,7 +5,7 @@
 // What a shared object with Verilated RTL (cmake: markervp_add_rtl) says of itself: plain C, so
 // that it may be built with any compiler and Verilator.
 
-#define RTL_INTERFACE 2
+#define RTL_INTERFACE 3
 #define RTL_SYMBOL "markervp_rtl"
 
 struct RtlPort {
@@ -33,10 +33,13 @@ struct RtlDescriptor {
   void* (*create)(const char* name);
   void (*destroy)(void* model);
   void (*eval)(void* model);
+  // All clocks are low again, as behind an eval() with them low, which is not needed: nothing in
+  // the RTL waits for a clock to fall. Null: that is not known.
+  void (*lower)(void* model);
   void* (*pin)(void* model, uint32_t port);  // where the value of a port is kept
 
-  // All bytes that eval() depends on, pins included: while they stay the same, so does what it does.
-  // 0 bytes: nobody knows them all, and state() is not asked.
+  // All bytes that eval() depends on, pins included: while they stay the same, so does what it
+  // does. 0 bytes: nobody knows them all, and state() is not asked.
   uint64_t state_bytes;
   const void* (*state)(void* model);
 };

@@ -79,18 +79,19 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
       ports_(std::move(ports)),
       rtl_(open(file)),
       model_(rtl_.create(instance.c_str()), rtl_.destroy),
+      risen_ps_(ports_.clocks.size(), vp::Clock::never),
       connected_(rtl_.port_count),
-      rest_(rtl_.state_bytes) {
+      rest_(rtl_.state_bytes, ports_.clocks.size()) {
   if (rtl_.ip != ip)
     refuse(rtl_.place, std::string("it was built as ") + rtl_.ip + "; set pl.fidelity." + rtl_.ip);
   leave_out_what_it_lacks();
-  clk_ = static_cast<std::uint8_t*>(pin("clk", 1, false));
-  rtl_.eval(model_.get());  // with the clock low: the first edge would be none otherwise
+  for (const IpPorts::ClockPin& clock : ports_.clocks)
+    levels_.push_back(static_cast<std::uint8_t*>(pin(clock.name, 1, false)));
+  rtl_.eval(model_.get());  // with the clocks low: the first edge would be none otherwise
   for (const IpPorts::Input& input : ports_.inputs)
-    before_.push_back(pin(input.name, input.bits, false));
+    inputs_.push_back({pin(input.name, input.bits, false), input.bits, &input.read});
   for (const IpPorts::Output& output : ports_.outputs)
-    after_.push_back(pin(output.name, output.bits, true));
-  driven_.resize(after_.size());
+    outputs_.push_back({pin(output.name, output.bits, true), output.bits, output.clock});
   for (const IpPorts::MemoryOutput& output : ports_.memory_outputs)
     memory_outputs_.push_back(pin(output.name, output.bits, true));
   for (const IpPorts::Input& input : ports_.memory_inputs)
@@ -106,27 +107,50 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
     }
   }
   reset();
-  for (std::size_t i = 0; i < before_.size(); ++i)
-    taken_.push_back(load(before_[i], ports_.inputs[i].bits));
+  for (InputPin& pin : inputs_) pin.value = load(pin.place, pin.bits);
 }
 
 // As a system reset does before time 0, after which models begin: all other inputs are 0.
 void RtlPins::reset() {
   const auto set_resets = [this](std::uint64_t level) {
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-      const IpPorts::Input& input = ports_.inputs[i];
-      if (input.name == "rst" || input.name == "por") store(before_[i], input.bits, level);
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      const std::string& name = ports_.inputs[i].name;
+      if (name == "rst" || name == "por") store(inputs_[i].place, inputs_[i].bits, level);
     }
   };
   set_resets(1);
-  for (unsigned edge = 0; edge < reset_clocks; ++edge) cycle_clock();
+  for (unsigned edge = 0; edge < reset_clocks; ++edge) cycle_clocks();
   set_resets(0);
 }
 
-void RtlPins::cycle_clock() {
-  for (const std::uint8_t level : {1, 0}) {
-    *clk_ = level;
+void RtlPins::cycle_clocks() {
+  for (const std::uint8_t value : {1, 0}) {
+    for (std::uint8_t* level : levels_) *level = value;
     rtl_.eval(model_.get());
+  }
+}
+
+// A signal's type is at least as wide as the pin, and its lowest byte comes first, as that of the
+// pin.
+void RtlPins::find_signals() {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    if (ports_.inputs[i].port) inputs_[i].signal = ports_.inputs[i].place();
+  }
+  bound_ = true;
+}
+
+std::uint64_t RtlPins::now_ps() const {
+  return ports_.clocks.front().clock->scheduler().now_ps();
+}
+
+void RtlPins::raise(std::size_t clock) {
+  const std::uint64_t now = now_ps();
+  risen_ = 0;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    if (i != clock && ports_.clocks[i].clock->edge_at_or_after(now) != now) continue;
+    *levels_[i] = 1;
+    risen_ps_[i] = now;
+    risen_ |= 1u << i;
   }
 }
 
@@ -160,20 +184,23 @@ void RtlPins::ask_memory() {
   }
 }
 
-void RtlAlarm::arm() {
-  if (armed_) return;
-  for (const IpPorts::Input& input : ports_.inputs) {
+void RtlInPlace::listen() {
+  for (const IpPorts::Input& input : pins_.ports().inputs) {
     if (input.port) input.port->signal()->attach(*this);
   }
-  armed_ = true;
+  listening_ = sleeping_ = true;
 }
 
-void RtlAlarm::disarm() {
-  if (!armed_) return;
-  for (const IpPorts::Input& input : ports_.inputs) {
+void RtlInPlace::stop_listening() {
+  for (const IpPorts::Input& input : pins_.ports().inputs) {
     if (input.port) input.port->signal()->detach(*this);
   }
-  armed_ = false;
+  listening_ = false;
+}
+
+void RtlInPlace::on_change(vp::SignalBase&, std::uint32_t) {
+  sleeping_ = false;
+  for (vp::Clocked* module : modules_) module->wake();
 }
 
 PortTaps::PortTaps(const IpPorts& ports, vp::Clocked& owner) {
@@ -183,43 +210,54 @@ PortTaps::PortTaps(const IpPorts& ports, vp::Clocked& owner) {
   for (const IpPorts::Output& output : ports.outputs) taps_.emplace_back(output.port, owner);
 }
 
-RtlShadow::RtlShadow(sc_core::sc_module_name name, vp::Clock& clk, RtlPins& pins)
-    : Clocked(name, clk), pins_(pins), taps_(pins.ports(), *this), edges_left_(clocks_shown) {
+PortWatcher::PortWatcher(sc_core::sc_module_name name, const IpPorts& ports)
+    : Clocked(name, *ports.clocks.front().clock), taps_(ports, *this) {
+  for (std::size_t i = 1; i < ports.clocks.size(); ++i) further_.emplace_back(*this, ports, i);
+}
+
+RtlShadow::RtlShadow(sc_core::sc_module_name name, RtlPins& pins)
+    : PortWatcher(name, pins.ports()),
+      pins_(pins),
+      last_edges_(pins.ports().clocks.size()),
+      edges_left_(clocks_shown) {
   for (const IpPorts::Output& output : pins_.ports().outputs)
     outputs_.emplace_back(output.name.c_str(), output.bits);
 }
 
-void RtlShadow::edge() {
+void RtlShadow::edge_of(std::size_t clock) {
   if (difference_.empty()) {
-    compare();
+    compare(clock);
   } else if (--edges_left_ == 0) {
     fail();
   }
-  pins_.clock_edge();
-  note_outputs();
-  edge_ = this_edge();
-  edge_ps_ = clock().scheduler().now_ps();
+  pins_.clock_edge(clock);
+  note_outputs(clock);
+  const vp::Clock& its = *pins_.ports().clocks[clock].clock;
+  last_edges_[clock] = {its.cycle(), its.scheduler().now_ps()};
 }
 
-// Nobody looked behind the last edge yet.
+// Nobody looked behind the last edges yet.
 void RtlShadow::end_of_simulation() {
-  if (difference_.empty()) compare();
+  for (std::size_t i = 0; i < last_edges_.size() && difference_.empty(); ++i) compare(i);
   if (!difference_.empty()) fail();
 }
 
-void RtlShadow::note_outputs() {
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = pins_.value(i);
+void RtlShadow::note_outputs(std::size_t clock) {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (pins_.ports().outputs[i].clock == clock) outputs_[i] = pins_.value(i);
+  }
 }
 
-/// What stands behind the last edge.
-void RtlShadow::compare() {
-  if (edge_ == 0) return;
+/// What stands behind the last edge of the clock.
+void RtlShadow::compare(std::size_t clock) {
+  const Edge& edge = last_edges_[clock];
+  if (edge.number == 0) return;
   const IpPorts& ports = pins_.ports();
   if (ports.combinational || !ports.memory_outputs.empty()) pins_.settle();
-  if (ports.combinational) note_outputs();
+  if (ports.combinational) note_outputs(clock);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const IpPorts::Output& output = ports.outputs[i];
-    if (output.valid && !output.valid()) continue;
+    if (output.clock != clock || (output.valid && !output.valid())) continue;
     compare(output.name, output.bits, output.port()->bits() & mask(output.bits), outputs_[i].get());
   }
   for (std::size_t i = 0; i < ports.memory_outputs.size(); ++i) {
@@ -230,8 +268,8 @@ void RtlShadow::compare() {
   differs = !difference_.empty();
   if (difference_.empty()) return;
   difference_ = "RTL '" + pins_.file() + "' differs from the model behind edge " +
-                std::to_string(edge_) + " of " + clock().basename() + ", at " +
-                vp::format_time(edge_ps_) + ": " + difference_;
+                std::to_string(edge.number) + " of " + ports.clocks[clock].clock->basename() +
+                ", at " + vp::format_time(edge.ps) + ": " + difference_;
 }
 
 void RtlShadow::compare(const std::string& port, unsigned bits, std::uint64_t model,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include <vp/clock_scheduler.h>
 #include <vp/error.h>
 
 namespace pl {
@@ -18,9 +19,17 @@ struct Port {
 /// What the texts of both benches are made of.
 struct Bench {
   std::string ip;
+  std::vector<std::string> clocks;
   std::vector<Port> inputs, outputs;
   std::vector<IpPorts::Parameter> parameters;
-  std::uint64_t clocks;
+  std::uint64_t lines;
+
+  /// The first column of stimulus where there are several clocks: which of them rise, the first one
+  /// in the highest bit.
+  std::vector<Port> rises() const {
+    if (clocks.size() == 1) return {};
+    return {{"rises", static_cast<unsigned>(clocks.size())}};
+  }
 };
 
 constexpr const char* digits = "0123456789ABCDEF";
@@ -48,6 +57,15 @@ std::string name_of(const Port& port) {
   return port.name;
 }
 
+std::string as_it_is(const std::string& text) {
+  return text;
+}
+
+std::string columns_text(const Bench& bench) {
+  if (bench.rises().empty()) return "";
+  return "; the first one of stimulus: which of " + list(bench.clocks, ", ", as_it_is) + " rise";
+}
+
 /// `text` with each `{key}` replaced.
 std::string filled(std::string text,
                    const std::vector<std::pair<std::string, std::string>>& values) {
@@ -62,14 +80,14 @@ std::string filled(std::string text,
 
 constexpr const char* verilog =
     R"(// Made by markervp: plays stimulus.hex to {ip}, and compares it with response.hex. A line is a clock,
-// a column a port. What an output need not be is X there.
+// a column a port{columns}. What an output need not be is X there.
 //   iverilog -g2012 -s bench -o bench.vvp bench.sv YOUR_FILES && vvp -n bench.vvp
 `timescale 1ns / 1ps
 module bench;
-  localparam CLOCKS = {clocks};
-  logic clk = 0;
+  localparam CLOCKS = {lines};
+{clocks}
 {declarations}
-  {ip} {parameters}dut (.clk(clk), {connections});
+  {ip} {parameters}dut ({connections});
 
   integer stimulus, response, clock, failed = 0;
   initial begin
@@ -85,10 +103,10 @@ module bench;
         $display("FAIL: clock %0d is not in stimulus.hex or response.hex", clock);
         failed = 1;
       end else begin
-        #5 clk = 1;
+        #5 {raise};
         #5;
 {comparisons}
-        clk = 0;
+        {lower};
       end
     end
     if (failed) $fatal(1, "{ip} differs");
@@ -102,8 +120,15 @@ std::string verilog_bench(const Bench& bench) {
   const auto range = [](const Port& port) {
     return port.bits == 1 ? std::string() : "[" + std::to_string(port.bits - 1) + ":0] ";
   };
-  const auto connection = [](const Port& port) { return "." + port.name + "(" + port.name + ")"; };
+  const auto connection = [](const std::string& name) { return "." + name + "(" + name + ")"; };
+  const auto port_connection = [&](const Port& port) { return connection(port.name); };
+  const bool several = bench.clocks.size() > 1;
+  const std::string all_clocks =
+      several ? "{" + list(bench.clocks, ", ", as_it_is) + "}" : bench.clocks.front();
+  std::vector<Port> stimulus = bench.rises();
   std::string declarations, comparisons;
+  for (const Port& port : stimulus) declarations += "  logic " + range(port) + port.name + ";\n";
+  stimulus.insert(stimulus.end(), bench.inputs.begin(), bench.inputs.end());
   for (const Port& port : bench.inputs)
     declarations += "  logic " + range(port) + port.name + ";\n";
   for (const Port& port : bench.outputs) {
@@ -119,26 +144,33 @@ std::string verilog_bench(const Bench& bench) {
   const std::string parameters = list(bench.parameters, ", ", [](const IpPorts::Parameter& p) {
     return "." + p.name + "(" + std::to_string(p.value) + ")";
   });
-  return filled(verilog,
-                {{"ip", bench.ip},
-                 {"clocks", std::to_string(bench.clocks)},
-                 {"declarations", declarations},
-                 {"parameters", parameters.empty() ? "" : "#(" + parameters + ") "},
-                 {"connections", list(bench.inputs, ", ", connection) + ", " +
-                                     list(bench.outputs, ", ", connection)},
-                 {"input_formats", repeated(" %h", bench.inputs.size())},
-                 {"output_formats", repeated(" %h", bench.outputs.size())},
-                 {"inputs", list(bench.inputs, ", ", name_of)},
-                 {"expected", list(bench.outputs, ", ",
-                                   [](const Port& port) { return "expected_" + port.name; })},
-                 {"input_count", std::to_string(bench.inputs.size())},
-                 {"output_count", std::to_string(bench.outputs.size())},
-                 {"comparisons", comparisons}});
+  return filled(
+      verilog,
+      {{"ip", bench.ip},
+       {"columns", columns_text(bench)},
+       {"clocks", list(bench.clocks, "\n",
+                       [](const std::string& clock) { return "  logic " + clock + " = 0;"; })},
+       {"raise", all_clocks + " = " + (several ? "rises" : "1")},
+       {"lower", all_clocks + " = 0"},
+       {"lines", std::to_string(bench.lines)},
+       {"declarations", declarations},
+       {"parameters", parameters.empty() ? "" : "#(" + parameters + ") "},
+       {"connections", list(bench.clocks, ", ", connection) + ", " +
+                           list(bench.inputs, ", ", port_connection) + ", " +
+                           list(bench.outputs, ", ", port_connection)},
+       {"input_formats", repeated(" %h", stimulus.size())},
+       {"output_formats", repeated(" %h", bench.outputs.size())},
+       {"inputs", list(stimulus, ", ", name_of)},
+       {"expected",
+        list(bench.outputs, ", ", [](const Port& port) { return "expected_" + port.name; })},
+       {"input_count", std::to_string(stimulus.size())},
+       {"output_count", std::to_string(bench.outputs.size())},
+       {"comparisons", comparisons}});
 }
 
 constexpr const char* vhdl =
     R"(-- Made by markervp: plays stimulus.hex to {ip}, and compares it with response.hex. A line is a clock,
--- a column a port. What an output need not be is X there. VHDL-2008.
+-- a column a port{columns}. What an output need not be is X there. VHDL-2008.
 --   ghdl -a --std=08 YOUR_FILES bench.vhd && ghdl -e --std=08 bench && ghdl -r --std=08 bench
 library ieee;
 use ieee.std_logic_1164.all;
@@ -148,13 +180,13 @@ entity bench is
 end entity;
 
 architecture test of bench is
-  constant CLOCKS : positive := {clocks};
-  signal clk : std_logic := '0';
+  constant CLOCKS : positive := {lines};
+  signal {clocks} : std_logic := '0';
 {declarations}
 begin
   dut : entity work.{ip}
 {generics}    port map (
-      clk => clk, {connections});
+      {connections});
 
   process
     file stimulus : text open read_mode is "stimulus.hex";
@@ -178,10 +210,10 @@ begin
       readline(stimulus, values);
 {reads}      readline(response, values);
 {expected_reads}      wait for 5 ns;
-      clk <= '1';
+      {raise}
       wait for 5 ns;
 {comparisons}      assert not failed report "{ip} differs" severity failure;
-      clk <= '0';
+      {lower}
     end loop;
     report "PASS: equal on " & integer'image(CLOCKS) & " clocks";
     wait;
@@ -201,7 +233,18 @@ std::string vhdl_bench(const Bench& bench) {
     return "      hread(values, " + variable + ", good);\n      assert good report \"" + file +
            ": no number for " + variable + "\" severity failure;\n";
   };
-  std::string declarations, variables, reads, expected_reads, comparisons;
+  const auto clock_connection = [](const std::string& name) { return name + " => " + name; };
+  std::string declarations, variables, reads, expected_reads, comparisons, raise, lower;
+  for (const Port& port : bench.rises()) {
+    variables += "    variable " + port.name + " : " + vector(port) + ";\n";
+    reads += read(port.name, "stimulus.hex");
+  }
+  for (std::size_t i = 0; i < bench.clocks.size(); ++i) {
+    const std::string bit = std::to_string(bench.clocks.size() - 1 - i);
+    const std::string level = bench.rises().empty() ? "'1'" : "rises(" + bit + ")";
+    raise += (i == 0 ? "" : " ") + bench.clocks[i] + " <= " + level + ";";
+    lower += (i == 0 ? "" : " ") + bench.clocks[i] + " <= '0';";
+  }
   for (const Port& port : bench.inputs) {
     declarations += "  signal " + port.name + " : " + vector(port) + ";\n";
     variables += "    variable next_" + port.name + " : " + vector(port) + ";\n";
@@ -219,10 +262,15 @@ std::string vhdl_bench(const Bench& bench) {
     return p.name + " => " + std::to_string(p.value);
   });
   return filled(vhdl, {{"ip", bench.ip},
-                       {"clocks", std::to_string(bench.clocks)},
+                       {"columns", columns_text(bench)},
+                       {"clocks", list(bench.clocks, ", ", as_it_is)},
+                       {"raise", raise},
+                       {"lower", lower},
+                       {"lines", std::to_string(bench.lines)},
                        {"declarations", declarations},
                        {"generics", generics.empty() ? "" : "    generic map (" + generics + ")\n"},
-                       {"connections", list(bench.inputs, ", ", connection) + ", " +
+                       {"connections", list(bench.clocks, ", ", clock_connection) + ", " +
+                                           list(bench.inputs, ", ", connection) + ", " +
                                            list(bench.outputs, ", ", connection)},
                        {"variables", variables},
                        {"reads", reads},
@@ -232,13 +280,12 @@ std::string vhdl_bench(const Bench& bench) {
 
 }  // namespace
 
-RtlVectors::RtlVectors(sc_core::sc_module_name name, vp::Clock& clk, const std::string& ip,
-                       IpPorts ports, const std::string& folder)
-    : Clocked(name, clk),
+RtlVectors::RtlVectors(sc_core::sc_module_name name, const std::string& ip, IpPorts ports,
+                       const std::string& folder)
+    : PortWatcher(name, ports),
       ip_(ip),
       folder_(folder),
       ports_(std::move(ports)),
-      taps_(ports_, *this),
       stimulus_(folder + "/stimulus.hex"),
       response_(folder + "/response.hex") {
   const bool foreign_pins =
@@ -252,15 +299,25 @@ RtlVectors::RtlVectors(sc_core::sc_module_name name, vp::Clock& clk, const std::
                        "; use lock-step");
 }
 
-// The edge samples the inputs; what the one before it made of its own stands at the outputs.
-void RtlVectors::edge() {
-  if (clocks_ != 0) write_response();
+// Edges of several clocks at one time share a line.
+void RtlVectors::edge_of(std::size_t clock) {
+  const std::uint64_t now = this->clock().scheduler().now_ps();
+  if (lines_ == 0 || now != line_ps_) {
+    if (lines_ != 0) end_line();
+    begin_line();
+    line_ps_ = now;
+  }
+  rises_ |= 1u << (ports_.clocks.size() - 1 - clock);
+}
+
+// An edge samples the inputs; what the one before it made of its own stands at the outputs.
+void RtlVectors::begin_line() {
   was_reset_ = was_reset_ || in_reset();
-  line_.clear();
-  for (const IpPorts::Input& input : ports_.inputs) append_hex(line_, input.read(), input.bits);
-  line_.back() = '\n';
-  stimulus_.write(line_);
-  ++clocks_;
+  inputs_.clear();
+  for (const IpPorts::Input& input : ports_.inputs) append_hex(inputs_, input.read(), input.bits);
+  inputs_.back() = '\n';
+  rises_ = 0;
+  ++lines_;
 }
 
 // The system reset also resets what survives the other one.
@@ -274,23 +331,28 @@ bool RtlVectors::in_reset() const {
   return reset == ports_.inputs.end() || reset->read() != 0;
 }
 
-void RtlVectors::write_response() {
-  line_.clear();
+void RtlVectors::end_line() {
+  std::string line;
+  if (ports_.clocks.size() > 1)
+    append_hex(line, rises_, static_cast<unsigned>(ports_.clocks.size()));
+  stimulus_.write(line + inputs_);
+  line.clear();
   for (const IpPorts::Output& output : ports_.outputs) {
     if (output.optional) continue;
     if (was_reset_ && (!output.valid || output.valid())) {
-      append_hex(line_, output.port()->bits(), output.bits);
+      append_hex(line, output.port()->bits(), output.bits);
     } else {
-      line_.append((output.bits + 3) / 4, 'X') += ' ';
+      line.append((output.bits + 3) / 4, 'X') += ' ';
     }
   }
-  line_.back() = '\n';
-  response_.write(line_);
+  line.back() = '\n';
+  response_.write(line);
 }
 
 void RtlVectors::end_of_simulation() {
-  if (clocks_ != 0) write_response();
-  Bench bench{ip_, {}, {}, {}, clocks_};
+  if (lines_ != 0) end_line();
+  Bench bench{ip_, {}, {}, {}, {}, lines_};
+  for (const IpPorts::ClockPin& clock : ports_.clocks) bench.clocks.push_back(clock.name);
   std::copy_if(ports_.parameters.begin(), ports_.parameters.end(),
                std::back_inserter(bench.parameters),
                [](const IpPorts::Parameter& parameter) { return !parameter.usual; });

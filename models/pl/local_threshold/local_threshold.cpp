@@ -220,7 +220,7 @@ Models<GlobalThreshold>& LocalThreshold::models() {
       "local_threshold",
       {model<GlobalThreshold, LocalThresholdClocked>("clocked", by_pixel, by_pixel),
        model<GlobalThreshold, LocalThresholdTlm>("tlm", by_frame, by_frame)},
-      rtl_model<GlobalThreshold, LocalThresholdClocked, LocalThreshold>()};
+      rtl_model<GlobalThreshold, LocalThresholdClocked, RtlModel<LocalThreshold>>()};
   return models;
 }
 

@@ -10,7 +10,7 @@ Models<GlobalThreshold>& OtsuThreshold::models() {
       "otsu_threshold",
       {model<GlobalThreshold, OtsuThresholdClocked>("clocked", by_pixel, by_pixel),
        model<GlobalThreshold, OtsuThresholdTlm>("tlm", by_frame, by_frame)},
-      rtl_model<GlobalThreshold, OtsuThresholdClocked, OtsuThreshold>()};
+      rtl_model<GlobalThreshold, OtsuThresholdClocked, RtlModel<OtsuThreshold>>()};
   return models;
 }
 

@@ -148,7 +148,7 @@ void SensorInput::connect(IpPorts& ports) {
        nullptr},
       {"bram_en", 1,
        [this, watched](std::uint64_t enabled) { read_for_rtl(enabled != 0, watched); }, nullptr}};
-  ports.memory_inputs = {{nullptr, "bram_dout", 8, [this] { return rtl_.pixel; }}};
+  ports.memory_inputs = {{nullptr, "bram_dout", 8, [this] { return rtl_.pixel; }, {}}};
   ports.others_stand_still = [this] { return !rtl_.enabled; };
   ports.parameter("WIDTH", "pl.width", geometry_.width);
   ports.parameter("HEIGHT", "pl.height", geometry_.height);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <systemc>
 #include <vector>
 
+#include <pl/common/fidelity.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -11,6 +13,63 @@
 #include <vp/signal.h>
 
 namespace pl {
+
+class IpPorts;
+
+/// The side of a StreamCrossing that takes words.
+///
+/// A packet begins only when the one before has left the crossing and whoever takes it is ready, as
+/// seen from here: TREADY says what it says without the crossing, some clocks later.
+class CrossingEntry : public vp::Clocked {
+ public:
+  vp::In<bool> rst{"rst", this};  ///< drops the words that are on their way
+  vp::AxiStreamSlave s{"s", *this};
+  vp::In<bool> taker_ready{"taker_ready", this};  ///< TREADY of the other side
+
+ protected:
+  CrossingEntry(sc_core::sc_module_name name, vp::Clock& clk);
+};
+
+/// The side that gives them.
+class CrossingExit : public vp::Clocked {
+ public:
+  vp::AxiStreamMaster m{"m", *this};
+
+ protected:
+  CrossingExit(sc_core::sc_module_name name, vp::Clock& clk);
+};
+
+/// An AXI4-Stream from the pixel clock, which a gate may stop, to the clock of a DMA: a FIFO whose
+/// counts cross in Gray code. One model for both fidelities, and RTL. Throws vp::InputError for a
+/// depth that is no power of two.
+///
+///   crossing.entry().s(link_from_the_pixels);  crossing.m(link_to_the_dma);
+class StreamCrossing : public sc_core::sc_module, public vp::Ip {
+ public:
+  static Models<StreamCrossing>& models();
+
+  virtual CrossingEntry& entry() = 0;
+  virtual CrossingExit& exit() = 0;
+  /// Binds the side of the taker.
+  void m(vp::AxiStream& link);
+
+  vp::Parameter<std::uint32_t> depth{
+      "depth",
+      16,
+      vp::Unit::none,
+      {8, 256},
+      vp::Source::decision,
+      "words that may be on their way: what comes until both sides have seen of each other"};
+
+ protected:
+  /// Between `site.clk`, of the pixels, and `site.m_clk`.
+  StreamCrossing(sc_core::sc_module_name name, const Site& site);
+  /// All ports, as RTL in its place has them.
+  void connect(IpPorts& ports);
+
+ private:
+  vp::IpEstimate own_estimate() const override;
+};
 
 /// Words on their way from one clock to another: the memory of a StreamCrossing.
 class CrossingFifo {
@@ -46,19 +105,12 @@ class TwoRegisters {
   T first_{}, seen_{};
 };
 
-/// The side of a StreamCrossing that takes words.
-///
-/// A packet begins only when the one before has left the crossing and whoever takes it is ready, as
-/// seen from here: TREADY says what it says without the crossing, some clocks later.
-class CrossingEntry : public vp::Clocked {
+/// The side that takes words, clock by clock.
+class CrossingEntryClocked : public CrossingEntry {
  public:
-  CrossingEntry(sc_core::sc_module_name name, vp::Clock& clk, CrossingFifo& fifo);
+  CrossingEntryClocked(sc_core::sc_module_name name, vp::Clock& clk, CrossingFifo& fifo);
 
-  vp::In<bool> rst{"rst", this};  ///< drops the words that are on their way
-  vp::AxiStreamSlave s{"s", *this};
-  // From the other side.
-  vp::In<std::uint32_t> read_count{"read_count", this};
-  vp::In<bool> taker_ready{"taker_ready", this};
+  vp::In<std::uint32_t> read_count{"read_count", this};  ///< of the other side
   // For the other side.
   vp::Signal<std::uint32_t> write_count{"write_count"};
   vp::Signal<bool> flush{"flush"};
@@ -72,17 +124,15 @@ class CrossingEntry : public vp::Clocked {
   bool in_packet_ = false;
 };
 
-/// The side that gives them.
-class CrossingExit : public vp::Clocked {
+/// The side that gives them, clock by clock.
+class CrossingExitClocked : public CrossingExit {
  public:
-  CrossingExit(sc_core::sc_module_name name, vp::Clock& clk, CrossingFifo& fifo);
+  CrossingExitClocked(sc_core::sc_module_name name, vp::Clock& clk, CrossingFifo& fifo);
 
-  vp::AxiStreamMaster m{"m", *this};
-  // From the other side.
+  // Of the other side.
   vp::In<std::uint32_t> write_count{"write_count", this};
   vp::In<bool> flush{"flush", this};
-  // For the other side.
-  vp::Signal<std::uint32_t> read_count{"read_count"};
+  vp::Signal<std::uint32_t> read_count{"read_count"};  ///< for the other side
 
  private:
   void edge() override;
@@ -92,37 +142,18 @@ class CrossingExit : public vp::Clocked {
   TwoRegisters<bool> flush_;
 };
 
-/// An AXI4-Stream from the pixel clock, which a gate may stop, to the clock of a DMA: a FIFO whose
-/// counts cross in Gray code. One model for both fidelities. Throws vp::InputError for a depth that
-/// is no power of two.
-///
-///   crossing.s()(link_from_the_pixels);  crossing.m()(link_to_the_dma);
-class StreamCrossing : public sc_core::sc_module, public vp::Ip {
+/// The stream crossing clock by clock.
+class StreamCrossingClocked : public StreamCrossing {
  public:
-  StreamCrossing(sc_core::sc_module_name name, vp::Clock& pixel_clk, vp::Clock& clk);
+  StreamCrossingClocked(sc_core::sc_module_name name, const Site& site);
 
-  vp::In<bool>& rst() { return entry.rst; }
-  vp::AxiStreamSlave& s() { return entry.s; }
-  /// Binds the side of the taker.
-  void m(vp::AxiStream& link);
-
-  vp::Parameter<std::uint32_t> depth{
-      "depth",
-      16,
-      vp::Unit::none,
-      {8, 256},
-      vp::Source::decision,
-      "words that may be on their way: what comes until both sides have seen of each other"};
+  CrossingEntry& entry() override { return entry_; }
+  CrossingExit& exit() override { return exit_; }
 
  private:
   CrossingFifo fifo_{depth};
-
- public:
-  CrossingEntry entry;
-  CrossingExit exit;
-
- private:
-  vp::IpEstimate own_estimate() const override;
+  CrossingEntryClocked entry_;
+  CrossingExitClocked exit_;
 };
 
 }  // namespace pl

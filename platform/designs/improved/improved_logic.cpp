@@ -43,6 +43,8 @@ ImprovedFidelity::ImprovedFidelity(sc_core::sc_module_name name, pl::Fidelity ot
                                    const pl::Models<pl::GlobalThreshold>& thresholds)
     : sc_module(name),
       control_crossing(pl::ControlCrossing::models(), otherwise),
+      pixel_crossing("pixel_crossing", pl::StreamCrossing::models(), otherwise),
+      blob_crossing("blob_crossing", pl::StreamCrossing::models(), otherwise),
       pixel_stream(pl::PixelStream::models(), otherwise),
       blob_stream(pl::BlobStream::models(), otherwise),
       blob_labelling(pl::BlobLabelling::models(), otherwise),
@@ -74,19 +76,26 @@ ImprovedLogic::ImprovedLogic(sc_core::sc_module_name name, vp::Clock& clk, pl::F
       axi_dma_1("axi_dma_1", clk, packet_writer(::blob_stream::max_packet_bytes, burst_words)),
       concat("concat", 2) {
   control_block.set_logic_clock(clk);
-  if (&camera.pixel_clk() != &clk) {
-    crossing_.emplace(fidelity.control_crossing.make({camera_clk.clk(), geometry()}),
-                      camera.pixel_clk(), clk);
-  } else if (fidelity.control_crossing.is_file()) {
-    throw vp::InputError(std::string(fidelity.name()) +
-                         ".control_crossing: the camera has the clock of the buses, so nothing "
-                         "crosses; give " +
-                         camera_clk.name() + ".frequency, too");
-  }
+  make_crossing(clk);
   connect_bus();
   connect_streams();
   name_groups();
   count_work();
+}
+
+void ImprovedLogic::make_crossing(vp::Clock& clk) {
+  if (&camera.pixel_clk() != &clk) {
+    crossing_.emplace(fidelity, pl::Site{camera_clk.clk(), geometry()},
+                      pl::Site{camera.pixel_clk(), geometry(), &clk});
+    return;
+  }
+  for (const pl::ChoiceBase* choice : std::initializer_list<const pl::ChoiceBase*>{
+           &fidelity.control_crossing, &fidelity.pixel_crossing, &fidelity.blob_crossing}) {
+    if (!choice->is_file()) continue;
+    throw vp::InputError(choice->name() +
+                         ": the camera has the clock of the buses, so nothing crosses; give " +
+                         camera_clk.name() + ".frequency, too");
+  }
 }
 
 void ImprovedLogic::before_end_of_elaboration() {
@@ -181,13 +190,13 @@ void ImprovedLogic::connect_streams() {
   const auto connect = [this](pl::StreamCrossing& crossing, vp::AxiStreamMaster& from,
                               vp::AxiStream& before, vp::AxiStream& behind) {
     from(before);
-    crossing.s()(before);
+    crossing.entry().s(before);
     crossing.m(behind);
-    crossing.rst()(logic_rst());
+    crossing.entry().rst(logic_rst());
   };
-  connect(crossing_->pixel_crossing, pixel_stream.m, crossing_->pixels_before_crossing,
+  connect(*crossing_->pixel_crossing, pixel_stream.m, crossing_->pixels_before_crossing,
           pixel_stream_link);
-  connect(crossing_->blob_crossing, blob_stream.m, crossing_->blobs_before_crossing,
+  connect(*crossing_->blob_crossing, blob_stream.m, crossing_->blobs_before_crossing,
           blob_stream_link);
 }
 
@@ -201,8 +210,8 @@ void ImprovedLogic::name_groups() {
   group("data_bridge", {&pixel_stream, &blob_stream, &control_block, &axi_dma_0, &axi_dma_1,
                         &axi_gpio_0, &axi_interconnect, &axi_mem_interconnect, &proc_sys_reset});
   if (crossing_)
-    group("data_bridge", {crossing_->control_crossing.get(), &crossing_->pixel_crossing,
-                          &crossing_->blob_crossing});
+    group("data_bridge", {crossing_->control_crossing.get(), crossing_->pixel_crossing.get(),
+                          crossing_->blob_crossing.get()});
 }
 
 void ImprovedLogic::count_work() {
@@ -211,8 +220,8 @@ void ImprovedLogic::count_work() {
   pixel_stream.set_active_clocks(pixel_words);
   blob_stream.set_active_clocks(blob_words);
   if (crossing_) {
-    crossing_->pixel_crossing.set_active_clocks(pixel_words);
-    crossing_->blob_crossing.set_active_clocks(blob_words);
+    crossing_->pixel_crossing->set_active_clocks(pixel_words);
+    crossing_->blob_crossing->set_active_clocks(blob_words);
     crossing_->control_crossing->set_active_clocks([] { return 0; });
   }
   axi_mem_interconnect.set_active_clocks([=] { return pixel_words() + blob_words(); });

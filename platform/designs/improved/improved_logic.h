@@ -38,6 +38,7 @@ struct ImprovedFidelity : sc_core::sc_module {
                    const pl::Models<pl::GlobalThreshold>& thresholds);
 
   pl::Choice<pl::ControlCrossing> control_crossing;
+  pl::Choice<pl::StreamCrossing> pixel_crossing, blob_crossing;
   // Whoever feeds another one comes behind it.
   pl::Choice<pl::PixelStream> pixel_stream;
   pl::Choice<pl::BlobStream> blob_stream;
@@ -92,6 +93,7 @@ class ImprovedLogic : public sc_core::sc_module {
 
  private:
   void before_end_of_elaboration() override;
+  void make_crossing(vp::Clock& clk);
   void connect_control();
   template <class Control>
   void connect_control(Control& control, vp::Signal<bool>& por);
@@ -139,13 +141,14 @@ class ImprovedLogic : public sc_core::sc_module {
  private:
   /// Between the clock of pixels and that of buses.
   struct Crossing {
-    Crossing(std::unique_ptr<pl::ControlCrossing> made, vp::Clock& pixel_clk, vp::Clock& clk)
-        : control_crossing(std::move(made)),
-          pixel_crossing("pixel_crossing", pixel_clk, clk),
-          blob_crossing("blob_crossing", pixel_clk, clk) {}
+    /// `streams`: on either side of theirs.
+    Crossing(const ImprovedFidelity& fidelity, const pl::Site& control, const pl::Site& streams)
+        : control_crossing(fidelity.control_crossing.make(control)),
+          pixel_crossing(fidelity.pixel_crossing.make(streams)),
+          blob_crossing(fidelity.blob_crossing.make(streams)) {}
 
     const std::unique_ptr<pl::ControlCrossing> control_crossing;
-    pl::StreamCrossing pixel_crossing, blob_crossing;
+    const std::unique_ptr<pl::StreamCrossing> pixel_crossing, blob_crossing;
     vp::AxiStream pixels_before_crossing{"pixels_before_crossing"};
     vp::AxiStream blobs_before_crossing{"blobs_before_crossing"};
   };

@@ -157,6 +157,8 @@ class Signal : public SignalReader<T> {
 
   T get() const { return value_; }
   operator T() const { return value_; }
+  /// Where the value stands.
+  const T* place() const { return &value_; }
   /// What was written last, for the writer: others may not see it yet.
   T written() const { return this->queued_ ? next_ : value_; }
 

@@ -93,6 +93,7 @@ const RtlDescriptor descriptor = {RTL_INTERFACE,
                                   [](const char*) -> void* { return new CornerObject; },
                                   [](void* model) { delete &of(model); },
                                   [](void* model) { of(model).eval(); },
+                                  nullptr,
                                   pin,
                                   STATE ? sizeof(CornerObject::State) : 0,
                                   [](void* model) -> const void* { return &of(model).state; }};

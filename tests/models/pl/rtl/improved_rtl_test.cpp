@@ -3,7 +3,6 @@
 #include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_stream/blob_stream.h>
 #include <pl/camera/camera.h>
-#include <pl/control_crossing/control_crossing.h>
 #include <pl/global_threshold/global_threshold.h>
 #include <pl/local_threshold/local_threshold.h>
 #include <pl/otsu_threshold/otsu_threshold.h>
@@ -11,7 +10,6 @@
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
-#include <vp/report.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -128,15 +126,6 @@ const Bug bugs[] = {
      "1'b0 && is_frame_end && !below", "", 2},
 };
 
-/// Of what crosses to a pixel clock of the camera's own.
-const Bug control_bugs[] = {
-    {"one_register_only", "control_crossing", "control_crossing.sv", "second <= first",
-     "second <= {ena_in, rst_in, por_in, wr_thresh_in, threshold_in}", ""},
-    {"resets_swapped", "control_crossing", "control_crossing.sv", "assign {ena, rst, por,",
-     "assign {ena, por, rst,", "rst"},
-    {"threshold_lags", "control_crossing", "control_crossing.sv", "second <= first;",
-     "second <= {first[11:8], second[0], first[7:1]};", "threshold"}};
-
 /// What comes on an edge.
 const std::uint32_t groups[] = {1, 2, 4};
 
@@ -157,7 +146,6 @@ const pl::Models<pl::GlobalThreshold>& models_of(const std::string& threshold) {
 constexpr pl::Geometry size{64, 32, 32};
 
 std::string parameters(const std::string& ip, std::uint32_t pixels) {
-  if (ip == "control_crossing") return "";
   if (ip == "blob_stream") return "FIFO_DEPTH=20";
   std::string all = "WIDTH=64 HEIGHT=32 PIXELS_PER_CLOCK=" + std::to_string(pixels);
   if (ip == "blob_labelling") all += " LABELS=16 MINIMUM_SIDE=2 RUN_FIFO_DEPTH=12";
@@ -181,8 +169,6 @@ const RtlObjects& objects() {
           all.push_back({name, ip, parameters(ip, pixels)});
       }
     }
-    all.push_back({"control_crossing", "control_crossing", ""});
-    for (const Bug& bug : control_bugs) all.push_back({bug.name, bug.ip, "", &bug});
     for (const Bug& bug : bugs)
       all.push_back({bug.name, bug.ip, parameters(bug.ip, bug.pixels), &bug});
     return RtlObjects(all);
@@ -373,76 +359,9 @@ struct Chain : kit::Simulation {
       blob_sink{"blob_sink", chain.camera->pixel_clk()};
 };
 
-/// Software that writes at any time, and the pixel clock to which it crosses.
-struct ControlBench : kit::Simulation {
-  explicit ControlBench(const Strings& more) : settings(more) {
-    reports.redirect(warnings);  // of levels that are too short
-    crossing->ena_in(software.ena);
-    crossing->rst_in(software.rst);
-    crossing->por_in(software.por);
-    crossing->wr_thresh_in(software.wr_thresh);
-    crossing->threshold_in(software.threshold);
-  }
-  /// What leaves after each of some hundred writes.
-  std::string seen() {
-    std::string text;
-    for (int i = 0; i < 500; ++i) {
-      sc_core::sc_start(vp::from_ps(3'000 + random.below(60'000)));
-      scheduler.synchronise();
-      for (vp::Signal<bool>* level :
-           {&software.ena, &software.rst, &software.por, &software.wr_thresh})
-        *level = random.below(2) != 0;
-      software.threshold = static_cast<std::uint8_t>(random.below(256));
-      text += std::to_string(crossing->ena + 2 * crossing->rst + 4 * crossing->por +
-                             8 * crossing->wr_thresh + 16 * crossing->threshold) +
-              " ";
-    }
-    return text;
-  }
-  std::string failure() {
-    try {
-      seen();
-      sc_core::sc_stop();
-    } catch (const sc_core::sc_report& report) {
-      return report.get_msg();
-    }
-    return "";
-  }
-
-  struct Fidelity : sc_core::sc_module {
-    explicit Fidelity(sc_core::sc_module_name name) : sc_module(name) {}
-    pl::Choice<pl::ControlCrossing> control_crossing{pl::ControlCrossing::models(),
-                                                     pl::Fidelity::clocked};
-  };
-
-  harness::Settings settings;
-  harness::Random random{7};
-  vp::ClockScheduler scheduler{"scheduler"};
-  vp::Clock clk{"clk", scheduler, 25'175'000};
-  harness::ChainControl software;
-  Fidelity fidelity{"fidelity"};
-  std::unique_ptr<pl::ControlCrossing> crossing = fidelity.control_crossing.make({clk, size});
-  std::ostringstream warnings;
-  vp::ReportRouter reports;
-};
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(improved_rtl)
-
-BOOST_AUTO_TEST_CASE(control_crosses_as_in_the_model) {
-  BOOST_TEST(ControlBench({lockstep("control_crossing", "control_crossing")}).failure() == "");
-  const std::string models = ControlBench({}).seen();
-  const std::string file = objects().file("control_crossing");
-  BOOST_TEST(ControlBench({"fidelity.control_crossing=" + file}).seen() == models);
-  for (const Bug& bug : control_bugs) {
-    const std::string failure = ControlBench({lockstep("control_crossing", bug.name)}).failure();
-    const std::size_t ports = failure.find(": ", failure.find(", at "));
-    BOOST_TEST_REQUIRE(ports != std::string::npos, bug.name << ": " << failure);
-    BOOST_TEST(failure.compare(ports + 2, std::string(bug.port).size(), bug.port) == 0,
-               bug.name << ": " << failure);
-  }
-}
 
 BOOST_AUTO_TEST_CASE(the_rtl_as_it_is_never_differs) {
   for (const std::uint32_t pixels : groups) {

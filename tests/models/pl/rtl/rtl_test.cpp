@@ -105,6 +105,7 @@ const std::map<std::string, std::vector<Words>> improved = {
       {"PIXELS_PER_CLOCK=4"},
       {"PIXELS_PER_CLOCK=4", "WIDTH=2048", "HEIGHT=2048"}}},
     {"control_crossing", {{}}},
+    {"stream_crossing", {{}, {"DEPTH=8"}, {"DEPTH=256"}}},
     {"global_threshold",
      {{"PIXELS_PER_CLOCK=2"},
       {"PIXELS_PER_CLOCK=2", "WIDTH=2048", "HEIGHT=2048"},

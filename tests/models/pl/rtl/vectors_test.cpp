@@ -6,6 +6,7 @@
 #include <string>
 
 #include "child_process.h"
+#include "crossing_bench.h"
 #include "pipeline.h"
 
 namespace {
@@ -29,6 +30,15 @@ struct Vectors {
       pipeline.load(harness::noise(64, 32, seed));
       for (const harness::Word& word : pipeline.run_frame()) words += word.kind == 'C';
     }
+    sc_core::sc_stop();
+  }
+
+  /// What a stream saw and did on its way from one clock to another.
+  void write_crossing() {
+    harness::StreamBench bench({"fidelity.pixel_crossing=vectors:" + folder.path()},
+                               {130'000'000, 100'000'000, false});
+    bench.reset();
+    bench.play();
     sc_core::sc_stop();
   }
 
@@ -93,6 +103,24 @@ BOOST_AUTO_TEST_CASE(a_line_is_a_clock_and_a_column_a_port) {
   BOOST_TEST(stimulus.front().size() == std::string("1 0 00 000 000").size());
 }
 
+// Which clocks rise stands in front: of ten edges of one and thirteen of the other, one is common.
+BOOST_AUTO_TEST_CASE(edges_of_two_clocks_share_a_line_where_they_coincide) {
+  write_crossing();
+  const Strings stimulus = lines("stimulus.hex");
+  BOOST_TEST(stimulus.front().size() == std::string("2 0 00000000 0 0 0").size());
+  std::size_t first = 0, second = 0, both = 0;
+  for (const std::string& line : stimulus) {
+    first += line[0] != '1';
+    second += line[0] != '2';
+    both += line[0] == '3';
+  }
+  BOOST_TEST(first + second - both == stimulus.size());
+  BOOST_TEST(both > second / 10 - 2);
+  BOOST_TEST(both < second / 10 + 2);
+  BOOST_TEST(first * 10 / 13 + 2 > second);
+  BOOST_TEST(lines("response.hex").size() == stimulus.size());
+}
+
 #ifdef IVERILOG
 
 struct Verilog : Vectors {
@@ -125,6 +153,18 @@ BOOST_FIXTURE_TEST_CASE(icarus_finds_the_rtl_equal_and_a_bug_in_it, Verilog) {
   BOOST_TEST(outcome.exit_code != 0);
   BOOST_TEST(contains(outcome.out, "FAIL: behind clock "), outcome.out);
   BOOST_TEST(contains(outcome.out, " corner_data is "), outcome.out);
+}
+
+BOOST_FIXTURE_TEST_CASE(icarus_plays_two_clocks, Verilog) {
+  write_crossing();
+  copy_rtl("stream_crossing");
+  kit::Outcome outcome = simulate("stream_crossing");
+  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+  BOOST_TEST(contains(outcome.out, "PASS: equal on "), outcome.out);
+  replace("stream_crossing.sv", "written_seen  <= written_first", "written_seen  <= written_gray");
+  outcome = simulate("stream_crossing");
+  BOOST_TEST(outcome.exit_code != 0);
+  BOOST_TEST(contains(outcome.out, " m_tvalid is "), outcome.out);
 }
 
 BOOST_FIXTURE_TEST_CASE(icarus_does_not_pass_what_it_could_not_read, Verilog) {
@@ -163,9 +203,9 @@ struct Vhdl : Vectors {
     write("global_threshold");
     fs::copy(MARKERVP_SOURCE "/platform/template/rtl/global_threshold.vhd", folder.path());
   }
-  kit::Outcome simulate() const {
-    for (const Strings& step : {Strings{"-a", "--std=08", "global_threshold.vhd", "bench.vhd"},
-                                Strings{"-e", "--std=08", "bench"}}) {
+  kit::Outcome simulate(const std::string& file = "global_threshold.vhd") const {
+    for (const Strings& step :
+         {Strings{"-a", "--std=08", file, "bench.vhd"}, Strings{"-e", "--std=08", "bench"}}) {
       const kit::Outcome outcome = run(GHDL, step);
       BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.out + outcome.err);
     }
@@ -185,6 +225,53 @@ BOOST_FIXTURE_TEST_CASE(ghdl_finds_a_bug, Vhdl) {
   BOOST_TEST(outcome.exit_code != 0);
   BOOST_TEST(contains(outcome.out + outcome.err, "binary_out is 0, and not 1"),
              outcome.out + outcome.err);
+}
+
+// An entity that counts the edges of either clock, and takes no word.
+BOOST_FIXTURE_TEST_CASE(ghdl_plays_two_clocks, Vhdl) {
+  write_crossing();
+  kit::write_file(folder / "stream_crossing.vhd", R"(library ieee;
+use ieee.std_logic_1164.all;
+entity stream_crossing is
+  generic (DEPTH : positive);
+  port (clk, m_clk, rst, s_tvalid, s_tlast, m_tready : in std_logic;
+        s_tdata : in std_logic_vector(31 downto 0);
+        s_tready, m_tvalid, m_tlast : out std_logic;
+        m_tdata : out std_logic_vector(31 downto 0);
+        m_tkeep : out std_logic_vector(3 downto 0));
+end entity;
+architecture counts of stream_crossing is
+  signal edges, m_edges : natural := 0;
+begin
+  edges   <= edges + 1 when rising_edge(clk);
+  m_edges <= m_edges + 1 when rising_edge(m_clk);
+  s_tready <= '0';
+  m_tvalid <= '0';
+  m_tlast  <= '0';
+  m_tdata  <= (others => '0');
+  m_tkeep  <= "1111";
+  process (s_tvalid)
+  begin
+    if rising_edge(s_tvalid) then
+      report "first word behind " & integer'image(edges) & " and " & integer'image(m_edges);
+    end if;
+  end process;
+end architecture;
+)");
+  std::size_t first = 0, second = 0;
+  const Strings stimulus = lines("stimulus.hex");
+  for (const std::string& line : stimulus) {
+    if (line[line.size() - 5] == '1') break;  // TVALID
+    first += line[0] != '1';
+    second += line[0] != '2';
+  }
+  const kit::Outcome outcome = simulate("stream_crossing.vhd");
+  const std::string said = outcome.out + outcome.err;
+  BOOST_TEST(outcome.exit_code != 0);
+  BOOST_TEST(contains(said, "first word behind " + std::to_string(first) + " and " +
+                                std::to_string(second)),
+             said);
+  BOOST_TEST(contains(said, "s_tready is 0, and not 1"), said);
 }
 
 BOOST_FIXTURE_TEST_CASE(ghdl_does_not_pass_what_it_could_not_read, Vhdl) {

@@ -66,8 +66,8 @@ struct CrossedChain : kit::Simulation {
   void connect(pl::StreamCrossing& crossing, vp::AxiStreamMaster& from, vp::AxiStream& before,
                vp::AxiStream& behind, harness::StreamSink& sink) {
     from(before);
-    crossing.s()(before);
-    crossing.rst()(control.rst);
+    crossing.entry().s(before);
+    crossing.entry().rst(control.rst);
     crossing.m(behind);
     sink.s(behind);
   }
@@ -137,8 +137,9 @@ struct CrossedChain : kit::Simulation {
   harness::ChainControl software;
   harness::ImprovedChain chain;
   pl::ControlCrossingClocked control{"control_crossing", {camera_clk, small_frame}};
-  pl::StreamCrossing pixel_crossing{"pixel_crossing", chain.camera->pixel_clk(), bus};
-  pl::StreamCrossing blob_crossing{"blob_crossing", chain.camera->pixel_clk(), bus};
+  const pl::Site between{chain.camera->pixel_clk(), small_frame, &bus};
+  pl::StreamCrossingClocked pixel_crossing{"pixel_crossing", between};
+  pl::StreamCrossingClocked blob_crossing{"blob_crossing", between};
   vp::AxiStream pixels_before{"pixels_before"}, pixels{"pixels"}, blobs_before{"blobs_before"},
       blobs{"blobs"};
   harness::StreamSink pixel_sink{"pixel_sink", bus}, blob_sink{"blob_sink", bus};
@@ -274,16 +275,16 @@ BOOST_AUTO_TEST_CASE(a_sensor_of_640x480_gives_59_94_frames_a_second) {
 BOOST_AUTO_TEST_CASE(a_word_crosses_in_three_clocks) {
   struct Bench : kit::Simulation {
     Bench() {
-      crossing.rst()(rst);
+      crossing.entry().rst(rst);
       source.m_axis(before);
-      crossing.s()(before);
+      crossing.entry().s(before);
       crossing.m(behind);
       sink.s_axis(behind);
     }
     vp::ClockScheduler scheduler{"scheduler"};
     vp::Clock pixel{"pixel", scheduler, 100'000'000}, bus{"bus", scheduler, 100'000'000};
     vp::Signal<bool> rst{"rst"};
-    pl::StreamCrossing crossing{"crossing", pixel, bus};
+    pl::StreamCrossingClocked crossing{"crossing", {pixel, small_frame, &bus}};
     vp::AxiStream before{"before"}, behind{"behind"};
     vp::StreamSource source{"source", pixel};
     vp::StreamSink sink{"sink", bus};
@@ -300,6 +301,8 @@ BOOST_AUTO_TEST_CASE(a_word_crosses_in_three_clocks) {
     BOOST_TEST(bench.sink.beats[i].cycle == bench.sink.beats[0].cycle + i, "a word a clock");
   // The next packet waits until the one before is seen to have left.
   BOOST_TEST(bench.sink.beats[20].cycle > bench.sink.beats[19].cycle + 4);
+  // It waits from edge 43 on, as the first one did from edge 2 on.
+  BOOST_TEST(bench.before.stalls.get() == 23u - 2u + bench.sink.beats[20].cycle - 3u - 43u);
   BOOST_TEST(bench.sink.beats[20].last == false);
   BOOST_TEST(bench.sink.beats[39].last == true);
 }
@@ -332,7 +335,7 @@ BOOST_AUTO_TEST_CASE(what_no_camera_has_is_refused) {
       vp::Clock clk{"clk", scheduler, 100'000'000};
       pl::CameraClock camera_clk{"camera_clk", clk};
       const auto camera = pl::Camera::models().list().at(1).make("camera", {clk, small_frame});
-      pl::StreamCrossing crossing{"crossing", camera->pixel_clk(), clk};
+      pl::StreamCrossingClocked crossing{"crossing", {camera->pixel_clk(), small_frame, &clk}};
     } catch (const vp::InputError& error) {
       return std::string(error.what());
     }
