@@ -211,7 +211,10 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"pixel_stream", {{"FIFO_DEPTH", 512}, {"PIXELS_PER_CLOCK", 1}}},
           {"pixel_stream", {{"FIFO_DEPTH", 64}, {"PIXELS_PER_CLOCK", 2}}},
           {"pixel_stream", {{"FIFO_DEPTH", 64}, {"PIXELS_PER_CLOCK", 4}}},
-          {"sensor_input", {}}};
+          {"sensor_input", {}},
+          {"stream_crossing", {{"DEPTH", 16}}},
+          {"stream_crossing", {{"DEPTH", 64}}},
+          {"stream_crossing", {{"DEPTH", 256}}}};
 }
 
 double rounded(double value, double scale) {
