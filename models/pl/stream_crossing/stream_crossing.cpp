@@ -12,7 +12,7 @@ namespace {
 
 class RtlStreamCrossing final : public StreamCrossing {
  public:
-  RtlStreamCrossing(const char* name, const Site& site, const std::string& file)
+  RtlStreamCrossing(sc_core::sc_module_name name, const Site& site, const std::string& file)
       : StreamCrossing(name, site),
         entry_("entry", site.clk),
         exit_("exit", *site.m_clk),
