@@ -131,7 +131,8 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_of_improved) {
   BOOST_TEST(models["summary"]["detected"] >= 4);
   check_same(run("improved_clocked", with(inputs, {"--fidelity", "clocked"})), models);
   Words all = inputs;
-  for (const std::string ip : {"otsu_threshold", "blob_labelling", "pixel_stream", "blob_stream"}) {
+  for (const std::string ip :
+       {"camera", "otsu_threshold", "blob_labelling", "pixel_stream", "blob_stream"}) {
     const Words own = with(inputs, {"--fidelity", "clocked", "--set", setting(ip)});
     BOOST_TEST(run("improved_" + ip, own)["frames"] == models["frames"], ip);
     all = with(all, {"--set", setting(ip)});
@@ -161,7 +162,8 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_a_clock_of_the_camera) {
     check_same(run("own_clock_rtl", with(inputs, {"--set", crossing})), models);
     all = with(all, {"--set", crossing});
   }
-  for (const std::string ip : {"otsu_threshold", "blob_labelling", "pixel_stream", "blob_stream"})
+  for (const std::string ip :
+       {"camera", "otsu_threshold", "blob_labelling", "pixel_stream", "blob_stream"})
     all = with(all, {"--set", setting(ip)});
   check_same(run("own_clock_all_rtl", all), models);
   check_refused(installed.markervp({"run", "demo", "--design", "improved", "--output", "never",
@@ -194,7 +196,7 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_with_several_pixels_a_clock) 
 project(group_rtl LANGUAGES CXX)
 find_package(markervp REQUIRED COMPONENTS rtl)
 file(GLOB common ${markervp_RTL}/common/*.sv)
-foreach(ip otsu_threshold global_threshold local_threshold blob_labelling pixel_stream)
+foreach(ip camera otsu_threshold global_threshold local_threshold blob_labelling pixel_stream)
   file(GLOB sources ${markervp_RTL}/${ip}/*.sv)
   foreach(pixels 2 4)
     markervp_add_rtl(${ip}_${pixels} IP ${ip} TOP ${ip} SOURCES ${sources} ${common}
@@ -211,8 +213,8 @@ endforeach()
       const Json models = run(name, inputs);
       BOOST_TEST(models["summary"]["detected"] >= 4);
       Words all = inputs;
-      for (const std::string& ip :
-           {rule + "_threshold", std::string("blob_labelling"), std::string("pixel_stream")}) {
+      for (const std::string& ip : {std::string("camera"), rule + "_threshold",
+                                    std::string("blob_labelling"), std::string("pixel_stream")}) {
         all = with(all, {"--set", "pl.fidelity." + ip + "=" +
                                       installed.beside("group_rtl/" + ip + "_" + pixels + ".so")});
       }

@@ -1,6 +1,7 @@
 #include <pl/camera/camera.h>
 
 #include <pl/common/estimate.h>
+#include <pl/common/rtl_model.h>
 #include <vp/error.h>
 #include <vp/probe.h>
 
@@ -12,59 +13,40 @@ namespace pl {
 
 namespace {
 
-class CameraClocked final : public Camera {
+class CameraClocked : public Camera {
  public:
   CameraClocked(sc_core::sc_module_name name, const Site& site) : Camera(name, site) {}
 
  private:
   void edge() override;
-  void send_pixel();
+  void pass_pixels();
 
-  std::uint64_t blanking_ = 0;       ///< clocks until the first pixel leaves, exposure and all
-  std::uint32_t line_blanking_ = 0;  ///< clocks until the next line's first pixel leaves
-  std::uint16_t column_ = 0, row_ = 0;
-  bool running_ = false;
-  vp::Probe<std::uint64_t> blanking_probe_{"blanking", blanking_, 32};
+  vp::Probe<std::uint64_t> blanking_probe_{"blanking", sensor_.blanking(), 32};
 };
 
 void CameraClocked::edge() {
-  const bool starts = triggered(blanking_ != 0 || running_);
+  const bool starts = triggered(sensor_.active());
+  sensor_trigger = starts;
   if (rst) {
-    running_ = false;
-    blanking_ = 0;
-    line_blanking_ = 0;
+    sensor_.stop();
     open_gate(true);
     frame_ena = false;
     return sleep();
   }
-  frame_ena = running_;
-  open_gate(line_blanking_ == 0);
-  if (line_blanking_ != 0) {
-    --line_blanking_;
-  } else if (running_) {
-    send_pixel();
-  }
-  if (blanking_ != 0 && --blanking_ == 0) {
-    begin_frame();
-    running_ = true;
-    column_ = row_ = 0;
-  }
-  if (starts) blanking_ = clocks_to_frame();
-  if (blanking_ == 0 && !running_ && !frame_ena.written()) sleep();
+  frame_ena = sensor_.running();
+  open_gate(sensor_.valid() || !sensor_.running());
+  if (sensor_.valid()) pass_pixels();
+  if (sensor_.advance()) begin_frame();
+  if (starts) sensor_.expose(clocks_to_frame());
+  if (!sensor_.active() && !frame_ena.written()) sleep();
 }
 
-void CameraClocked::send_pixel() {
-  const std::uint8_t* group = &frame()[row_ * geometry_.width + column_];
+void CameraClocked::pass_pixels() {
+  const std::uint8_t* group = sent();
   pixel = *group;
   for (vp::Signal<std::uint8_t>& next : more_pixels) next = *++group;
-  pixel_x = column_;
-  pixel_y = row_;
-  column_ = static_cast<std::uint16_t>(column_ + geometry_.pixels_per_clock);
-  if (column_ == geometry_.width) {
-    column_ = 0;
-    running_ = ++row_ != geometry_.height;
-    if (running_) line_blanking_ = line_blanking;
-  }
+  pixel_x = sensor_.x();
+  pixel_y = sensor_.y();
 }
 
 /// frame_ena rises and falls at its clocks, and the gate moves; what passes between is in `frames`.
@@ -91,6 +73,7 @@ void CameraTlm::edge() {
   const std::uint64_t cycle = clock().cycle();
   const bool under_way = begin_ != vp::Clock::never && cycle <= begin_ + frame_;
   const bool starts = triggered(under_way);
+  sensor_trigger = starts;
   if (rst) {
     begin_ = vp::Clock::never;
     open_gate(true);
@@ -101,7 +84,7 @@ void CameraTlm::edge() {
   frame_ena = under_way && cycle > begin_;
   open_gate(!(under_way && is_blanked(cycle)));
   if (starts) begin_ = cycle + clocks_to_frame();
-  if (begin_ != vp::Clock::never) wake_at(next_change(cycle));
+  if (begin_ != vp::Clock::never) wake_at(starts ? cycle + 1 : next_change(cycle));
 }
 
 /// Of a frame under way.
@@ -124,8 +107,66 @@ std::uint64_t CameraTlm::next_change(std::uint64_t cycle) const {
 Models<Camera>& Camera::models() {
   static Models<Camera> models{"camera",
                                {model<Camera, CameraClocked>("clocked", no_image, both_ways),
-                                model<Camera, CameraTlm>("tlm", no_image, by_frame)}};
+                                model<Camera, CameraTlm>("tlm", no_image, by_frame)},
+                               rtl_model<Camera, CameraClocked>()};
   return models;
+}
+
+void Camera::connect(IpPorts& ports) {
+  for (vp::In<bool>* port : {&rst, &por, &ena, &hold}) ports.input(*port);
+  ports.input("sensor_valid", 1, [this] { return sensor_.valid(); });
+  for (std::uint32_t lane = 0; lane < most_pixels_per_clock; ++lane) {
+    const std::string name = lane == 0 ? "sensor_pixel" : lane_name("sensor_pixel", lane);
+    if (lane < geometry_.pixels_per_clock) {
+      ports.input(name.c_str(), 8, [this, lane] { return sensor_.valid() ? sent()[lane] : 0; });
+    } else {
+      ports.idle_pins.push_back({name, 8, false});
+    }
+  }
+  ports.output(sensor_trigger);
+  gate_ ? ports.output(pixel_ce) : ports.report(pixel_ce);
+  ports.output(frame_ena);
+  ports.output(frame_number);
+  ports.report(dropped_triggers);
+  ports.output(pixel, more_pixels, &frame_ena);
+  ports.output(pixel_x, &frame_ena);
+  ports.output(pixel_y, &frame_ena);
+  ports.parameter("WIDTH", "pl.width", geometry_.width);
+  ports.parameter("HEIGHT", "pl.height", geometry_.height);
+  ports.pixels_per_clock(geometry_.pixels_per_clock);
+  ports.others_stand_still = [this] { return !sensor_.active(); };
+  if (!ports.watched) ports.behind_edge = [this] { play_sensor(); };
+}
+
+// The port is RTL; the sensor behind its pins is ours.
+void Camera::play_sensor() {
+  if (rst) {
+    sensor_.stop();
+    frames.cut();
+  } else if (sensor_.advance()) {
+    begin_frame();
+  }
+  if (gate_) gate_->open(pixel_ce.written());
+  if (!sensor_trigger.written()) return;
+  expose();
+  sensor_.expose(clocks_to_frame());
+}
+
+bool Sensor::advance() {
+  if (blanked_ != 0) {
+    --blanked_;
+  } else if (running_) {
+    column_ = static_cast<std::uint16_t>(column_ + geometry_.pixels_per_clock);
+    if (column_ == geometry_.width) {
+      column_ = 0;
+      running_ = ++row_ != geometry_.height;
+      if (running_) blanked_ = line_blanking_;
+    }
+  }
+  if (blanking_ == 0 || --blanking_ != 0) return false;
+  running_ = true;
+  column_ = row_ = 0;
+  return true;
 }
 
 Camera::Camera(sc_core::sc_module_name name, const Site& site)
@@ -170,9 +211,13 @@ bool Camera::triggered(bool under_way) {
     return false;
   }
   frame_number = number;
+  expose();
+  return true;
+}
+
+void Camera::expose() {
   exposed_ = scene_;
   exposed_ps_ = clock().time_of(clock().cycle());
-  return true;
 }
 
 std::uint64_t Camera::clocks_to_frame() const {
@@ -188,15 +233,8 @@ void Camera::begin_frame() {
                geometry_.pixels_per_clock);
 }
 
-// The trigger's edge detection, two counters of 32 bits, and a register for each pin of the port.
 vp::IpEstimate Camera::own_estimate() const {
-  const auto more_pins = static_cast<std::uint32_t>(8 * more_pixels.size());
-  vp::IpEstimate e = small_ip("sensor_input", 80, 110 + more_pins, 148 * mhz);
-  e.source = "derived from the model's registers";
-  e.fmax_high_hz = 0;
-  e.fmax_origin = vp::FmaxOrigin::estimated;
-  e.fmax_documentation = "registers and counters, as in the RTL of sensor_input";
-  return e;
+  return synthesised_ip("camera", {{"PIXELS_PER_CLOCK", geometry_.pixels_per_clock}});
 }
 
 }  // namespace pl

@@ -15,6 +15,39 @@
 
 namespace pl {
 
+class IpPorts;
+
+/// What a sensor sends from a trigger on: when its pixels stand at the pins of the port, for those
+/// who go from edge to edge.
+class Sensor {
+ public:
+  Sensor(const Geometry& geometry, std::uint32_t line_blanking)
+      : geometry_(geometry), line_blanking_(line_blanking) {}
+
+  /// The first pixel comes behind as many edges, at least one.
+  void expose(std::uint64_t clocks) { blanking_ = clocks; }
+  void stop() { *this = Sensor(geometry_, line_blanking_); }
+  /// A frame is on its way, or will be.
+  bool active() const { return blanking_ != 0 || running_; }
+  bool running() const { return running_; }
+  /// This edge takes pixels, the first of them here; else a line is blanked, or nothing is sent.
+  bool valid() const { return running_ && blanked_ == 0; }
+  /// Clocks until the first pixel comes, exposure and all; 0: none is awaited.
+  const std::uint64_t& blanking() const { return blanking_; }
+  std::uint16_t x() const { return column_; }
+  std::uint16_t y() const { return row_; }
+  /// To the next edge; true: a frame begins there.
+  bool advance();
+
+ private:
+  Geometry geometry_;
+  std::uint32_t line_blanking_;
+  std::uint64_t blanking_ = 0;
+  std::uint32_t blanked_ = 0;  ///< clocks until the next line's first pixel comes
+  std::uint16_t column_ = 0, row_ = 0;
+  bool running_ = false;
+};
+
 /// A triggered sensor with a global shutter, behind a parallel port: a rise of `ena` exposes what
 /// it sees for `exposure`; `frame_blanking` clocks later its pixels come, line by line, as many a
 /// clock as the logic takes, with `line_blanking` clocks between two lines.
@@ -36,6 +69,7 @@ class Camera : public vp::Clocked, public vp::Ip {
   /// High while what the frame before became is not sent: a trigger is dropped, as it is while a
   /// frame is under way.
   vp::In<bool> hold{"hold", this};
+  vp::Signal<bool> sensor_trigger{"sensor_trigger"};  ///< for a clock
   vp::Signal<bool> frame_ena{"frame_ena"};
   /// Of the frame exposed last: counts triggers since the system reset, dropped ones too.
   vp::Signal<std::uint32_t> frame_number{"frame_number"};
@@ -45,6 +79,7 @@ class Camera : public vp::Clocked, public vp::Ip {
   Lanes<vp::Signal<std::uint8_t>> more_pixels;
   vp::Signal<std::uint16_t> pixel_x;
   vp::Signal<std::uint16_t> pixel_y;
+  vp::Signal<bool> pixel_ce{"pixel_ce", 1, true};  ///< lets the edges of pixel_clk() through
 
   vp::Parameter<std::uint64_t> exposure{
       "exposure",
@@ -84,6 +119,8 @@ class Camera : public vp::Clocked, public vp::Ip {
 
  protected:
   Camera(sc_core::sc_module_name name, const Site& site);
+  /// All ports but the clock, and the pins of the sensor, as RTL in its place has them.
+  void connect(IpPorts& ports);
 
   /// Looks at trigger and resets. True: a frame is exposed.
   bool triggered(bool under_way);
@@ -91,15 +128,22 @@ class Camera : public vp::Clocked, public vp::Ip {
   std::uint64_t clocks_to_frame() const;
   /// The first pixel leaves on the next edge.
   void begin_frame();
-  const std::vector<std::uint8_t>& frame() const { return *frame_; }
+  /// The pixel that this edge takes, with its neighbours to the right behind it.
+  const std::uint8_t* sent() const {
+    return frame_->data() + sensor_.y() * geometry_.width + sensor_.x();
+  }
   void open_gate(bool open) {
+    pixel_ce = open;
     if (gate_) gate_->open(open);
   }
 
   const Geometry geometry_;
+  Sensor sensor_{geometry_, line_blanking};
 
  private:
   vp::IpEstimate own_estimate() const override;
+  void expose();
+  void play_sensor();
 
   Image scene_, exposed_;         ///< what the sensor sees, and what it saw at the trigger
   Image frame_, before_;          ///< in the channel, and the frame that left it last
