@@ -287,8 +287,8 @@ std::string timing_line(const TimingReport& timing) {
         critical.fmax_high_mhz > critical.fmax_mhz
             ? fmt::format(", perhaps {:.0f} %", critical.most_margin_percent())
             : "";
-    return fmt::format("timing   met, {:.0f} % to spare{} ({})\n", critical.margin_percent, perhaps,
-                       critical.name);
+    return fmt::format("timing   met, {:.0f} % to spare ({}{})\n", critical.margin_percent,
+                       critical.name, perhaps);
   }
   const bool unknown = critical.unknown();
   const auto alike =

@@ -133,7 +133,7 @@ const char* to_string(Holds holds) {
 const TimingReport::Module& critical_module(const TimingReport& timing) {
   const auto rank = [](const TimingReport::Module& m) {
     const Holds holds = m.met ? Holds::yes : m.unknown() ? Holds::unknown : Holds::no;
-    return std::tuple(holds, m.unknown() ? m.margin_percent : m.most_margin_percent());
+    return std::tuple(holds, m.margin_percent);
   };
   return *std::min_element(timing.modules.begin(), timing.modules.end(),
                            [&](const auto& a, const auto& b) { return rank(a) < rank(b); });

@@ -48,9 +48,9 @@ struct Verdict {
 /// fast enough.
 Verdict verdict_of(const RunFacts& facts, const Summary& summary);
 
-/// The module that says most about the clocks: of those that miss the one that misses by most; else
-/// of those of which nobody knows the one furthest from what is known; if there are none, the one
-/// that is the first to fail as the clocks rise.
+/// The module that says most about the clocks: the one with the least margin, up to the clock at
+/// which it surely works; of those that miss theirs if there are any, else of those of which nobody
+/// knows. Verdict, console and page name it.
 /// `timing` has modules.
 const TimingReport::Module& critical_module(const TimingReport& timing);
 

@@ -209,6 +209,7 @@ test("a design says itself what its stages, counts and losses are", async () => 
   await open("foreign", async (page) => {
     const guidance = await page.locator("#guidance").textContent();
     assert.match(guidance, /Count takes 80 % of a frame: a bin a clock, at 80 MHz\./);
+    assert.match(guidance, /Histogram's Fmax of 82 MHz limits its clock, now 80 MHz/, "the module that the verdict names");
     assert.match(guidance, /7 bins overflowed: widen them \(1 frame, first roll2\)/);
     assert.doesNotMatch(await page.locator("#verdict").textContent(), /thesis \d/);
     assert.deepEqual([...new Set((await rowsOf(page, "Stages of a frame")).map((row) => row.slice(0, 2).join(" ")))], ["This run count"]);

@@ -121,6 +121,9 @@ function foreign() {
   Object.assign(result, { system: "histogram", design: "mine" });
   result.stages = [{ name: "count", part_of: "frame", clock: "ps.fclk_clk2", why: "a bin a clock" }, { name: "frame" }];
   result.configuration["ps.fclk_clk2.frequency"] = "80 MHz";
+  const module = { clock: "ps.fclk_clk2", frequency_mhz: 80, origin: "synthesised", met: true };
+  result.timing.modules = [{ ...module, name: "pl.adder", fmax_mhz: 84, fmax_high_mhz: 84, margin_percent: 5 }, { ...module, name: "pl.histogram", fmax_mhz: 82, fmax_high_mhz: 300, margin_percent: 2.5 }];
+  result.verdict.timing = { holds: "yes", margin_percent: 2.5, by: "pl.histogram" };
   for (const frame of result.frames) {
     frame.counts = { bins: 256, drops: frame.index === 2 ? 7 : 0, idle: 0 };
     frame.time_us = { count: 4000, frame: 5000 };

@@ -163,6 +163,10 @@ BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
   timing.modules[2].met = false;
   timing.modules[2].frequency_mhz = 140;
   BOOST_TEST(contains(text(), "timing   MISSED by c: 140 MHz, at most 130 MHz\n"), text());
+  timing = {true,
+            {{"a", "clk", 100, 108, 188, true, 8, "synthesised", ""},
+             {"b", "clk", 100, 106, 192, true, 6, "synthesised", ""}}};
+  BOOST_TEST(contains(text(), "timing   met, 6 % to spare (b, perhaps 92 %)\n"), text());
 }
 
 BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {

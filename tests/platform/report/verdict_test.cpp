@@ -42,7 +42,7 @@ struct Point {
     facts.resources->device = "xc7z010";
     facts.resources->total = {100, 50, 40, 0};
     facts.resources->available = {150, 150, 60, 80};
-    facts.timing = {true, {module("a", 110), module("b", 120), module("c", 100, true)}};
+    facts.timing = {true, {module("a", 110), module("b", 120), module("c", 130, true)}};
     facts.clocks.emplace();
     facts.clocks->device = "xc7z010-1";
     facts.clocks->clocks = {clock("ps.cpu_clk", 0.05), clock("ps.fclk_clk0", 150)};
@@ -181,6 +181,17 @@ BOOST_AUTO_TEST_CASE(timing_is_missed_or_unknown) {
   BOOST_TEST(*point.part("timing").margin_percent == -20, boost::test_tools::tolerance(1e-9));
   point.facts.timing->modules.push_back(module("d", 95));
   point.fails("timing", Holds::no, "timing missed by d");
+}
+
+// Up to where it may still work does not count: nobody knows.
+BOOST_AUTO_TEST_CASE(the_ip_with_the_least_margin_is_named) {
+  const auto nearest = [](std::vector<TimingReport::Module> modules) {
+    return critical_module({true, std::move(modules)}).name;
+  };
+  BOOST_TEST(nearest({module("a", 108), module("b", 106, true), module("c", 120)}) == "b");
+  BOOST_TEST(nearest({module("a", 105), module("b", 106, true), module("c", 120)}) == "a");
+  BOOST_TEST(nearest({module("a", 95), module("b", 90), module("c", 120)}) == "b", "both miss it");
+  BOOST_TEST(nearest({module("a", 95), module("b", 90, true)}) == "a", "b may work");
 }
 
 BOOST_AUTO_TEST_CASE(without_a_pl_nothing_must_fit_or_be_fast) {

@@ -5,17 +5,8 @@ import { partsOf, powerByModule, timingOf, warningsOf } from "./facts.js";
 
 const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
 
-function limitingModule(run) {
-  const modules = (run.result.timing?.modules ?? []).filter((m) => m.fmax_mhz > 0);
-  const worst = (list) => list.reduce((a, b) => (b.margin_percent < a.margin_percent ? b : a));
-  const missed = modules.filter((m) => timingOf(m) === "missed");
-  if (missed.length > 0) return worst(missed);
-  const unknown = modules.filter((m) => !m.met);
-  if (unknown.length > 0) return worst(unknown);
-  // The first to fail as the clocks rise.
-  const most = (m) => m.fmax_high_mhz / m.frequency_mhz;
-  return modules.length > 0 ? modules.reduce((a, b) => (most(b) < most(a) ? b : a)) : null;
-}
+/** The module that the verdict names. */
+const limitingModule = ({ result }) => result.timing?.modules.find((m) => m.name === result.verdict?.timing.by);
 
 function timing(run, say) {
   const module = limitingModule(run);
