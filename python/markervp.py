@@ -72,10 +72,11 @@ class Run:
 
 
 class Sweep:
-    """What stands in the folder of a sweep or a search. `points` are dictionaries: key, status, message, feasible, the swept
-    parameters as they were written, and the metrics that the study asks for as numbers, or None."""
+    """What stands in the folder of a sweep or a search. `points` are dictionaries: key, status, message, feasible, same_as
+    (the key of the point that it is, too), the swept parameters as they were written, and the metrics that the study asks for as
+    numbers, or None."""
 
-    _words = ("key", "status", "message", "feasible")
+    _words = ("key", "status", "message", "feasible", "same_as")
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)

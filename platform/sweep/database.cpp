@@ -25,7 +25,7 @@ constexpr const char* tables = R"(
 CREATE TABLE sweep(name TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE points(key TEXT, position INTEGER PRIMARY KEY, status TEXT, exit_code INTEGER,
                     signal INTEGER, message TEXT, program TEXT, inputs TEXT, feasible TEXT,
-                    has_metrics INTEGER);
+                    same_as TEXT, has_metrics INTEGER);
 CREATE TABLE parameters(key TEXT REFERENCES points(key), path TEXT, value TEXT, number REAL,
                         PRIMARY KEY(key, path)) WITHOUT ROWID;
 CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
@@ -254,14 +254,16 @@ void add_parameters(const Database& database, const Results& results,
 /// `measured` says which points have metrics. The index is made at once, of sorted keys.
 void add_points(Database& database, const Results& results, const std::vector<bool>& measured) {
   {
-    Insert points(database, "points", 10);
+    Insert points(database, "points", 11);
     for (std::size_t position = 0; position < results.rows.size(); ++position) {
       const ResultRow& row = results.rows[position];
-      points.row(
-          row.key, static_cast<std::int64_t>(position), std::string(row.failed ? "failed" : "done"),
-          std::int64_t{row.failed ? row.failure.exit_code : 0}, std::int64_t{row.failure.signal},
-          row.failure.message, row.program.text(), row.inputs.text(),
-          std::string(to_string(results.feasible(row))), std::int64_t{measured[position] ? 1 : 0});
+      points.row(row.key, static_cast<std::int64_t>(position),
+                 std::string(row.failed ? "failed" : "done"),
+                 std::int64_t{row.failed ? row.failure.exit_code : 0},
+                 std::int64_t{row.failure.signal}, row.failure.message, row.program.text(),
+                 row.inputs.text(), std::string(to_string(results.feasible(row))),
+                 row.same_as ? results.rows[*row.same_as].key : "",
+                 std::int64_t{measured[position] ? 1 : 0});
     }
   }
   database.execute("CREATE UNIQUE INDEX points_key ON points(key)");

@@ -168,7 +168,8 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   std::vector<std::vector<double>> figures;
   std::vector<RankedPoint*> ranked;
   for (RankedPoint& point : pareto.points) {
-    if (point.feasible != report::Holds::yes || point.figures.empty()) continue;
+    if (point.feasible != report::Holds::yes || point.figures.empty() || point.row->same_as)
+      continue;
     ranked.push_back(&point);
     figures.push_back(std::move(point.figures));
   }

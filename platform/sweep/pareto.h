@@ -32,7 +32,8 @@ struct RankedPoint {
   std::vector<double> figures;  ///< of each objective; empty: it has no value of one of them
   report::Holds feasible = report::Holds::yes;
   std::size_t front = 0;  ///< 1: nothing is better in all objectives; 2: once the first front
-                          ///< is taken away; … 0: not feasible, or without figures
+                          ///< is taken away; … 0: not feasible, without figures, or the same as
+                          ///< an earlier one
 };
 
 struct Pareto {
@@ -46,7 +47,7 @@ struct Pareto {
 /// better in one. The knee is the point of the first front nearest to the best value of every
 /// objective, each objective scaled to 0 … 1 over that front; a front of two has none. A point
 /// without a metric of an objective cannot be compared and is not ranked. Points that are not
-/// feasible are on no front.
+/// feasible are on no front, and one that an earlier one is, too, is not there again.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives);
 
 /// Of a study that names none: frame rate and power.

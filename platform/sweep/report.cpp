@@ -285,12 +285,14 @@ std::string ranked_text(const Results& results, const std::vector<Objective>& ob
   }
   std::string text = lines.text(good, "", [&](const ResultRow& row) {
     const auto found = words.find(&row);
-    return found == words.end() ? "" : found->second;
+    return found == words.end() ? repetition_text(results, row) : found->second;
   });
   if (good.empty()) text = why_no_point(results) + "\n";
   if (!bad.empty())
     text += "\nNot feasible:\n\n" + lines.text(bad, "why", [&](const ResultRow& row) {
-      return vp::join(results.reasons(row), "; ");
+      std::vector<std::string> why = results.reasons(row);
+      if (row.same_as) why.push_back(repetition_text(results, row));
+      return vp::join(why, "; ");
     });
   return text;
 }
@@ -358,6 +360,7 @@ Json point_json(const Results& results, const ResultRow& row, const std::vector<
   }
   json["failed"] = row.failed;
   json["reasons"] = results.reasons(row);
+  if (row.same_as) json["same_as"] = repetition_text(results, row);
   return json;
 }
 

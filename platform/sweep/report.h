@@ -42,7 +42,7 @@ std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 ///    "counts": {"points", "feasible", "failed"} of the whole sweep, "objectives": [{"metric",
 ///    "unit", "better": 1 or -1}], "constraints": [text…], "metrics": [{"path", "unit"}], "points":
 ///    [{"key", "swept": [value…], "metrics": [number or null…], "failed",
-///                "reasons": [text…], "front": 0 for none}]}
+///                "reasons": [text…], "same_as": text, "front": 0 for none}]}
 ///
 /// Of more than 20 000 points it has the first front and every so many of the others. "metrics" of
 /// a point that failed are those until then. `steps` is what one step of each parameter is worth at

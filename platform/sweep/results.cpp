@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <report/console.h>
@@ -49,6 +50,23 @@ bool has(const ResultRow& row, const std::string& name) {
   return row.metrics.find(name) || !row.value(name).empty();
 }
 
+/// Takes what was asked for of the clock "ps.fclk_clk0.frequency" out of the values of a point's
+/// figures, so that they say what it got alone. False if that is no clock.
+bool take_wish(const std::string& path, const Metrics& figures, std::vector<double>& values) {
+  constexpr std::string_view end = ".frequency";
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos || path.compare(dot, std::string::npos, end) != 0) return false;
+  const std::string clock = "clocks.list." + path.substr(0, dot);
+  bool is_clock = false;
+  for (const char* figure : {".wish_mhz", ".offset_percent"}) {
+    const std::size_t place = figures.place_of(clock + figure);
+    if (place == values.size()) continue;
+    values[place] = 0;
+    is_clock = true;
+  }
+  return is_clock;
+}
+
 }  // namespace
 
 const std::string* ResultRow::parameter(const std::string& path) const {
@@ -66,6 +84,26 @@ std::string ResultRow::value(const std::string& path) const {
                                                  : "";
 }
 
+std::optional<std::size_t> Repetitions::find(const Assignment& swept, const Metrics& figures,
+                                             std::size_t row) {
+  std::string known_by;
+  std::vector<double> values = figures.values();
+  bool has_wish = false;
+  for (const auto& [path, value] : swept) {
+    if (take_wish(path, figures, values)) {
+      has_wish = true;
+    } else {
+      known_by += value.text() + '\n';
+    }
+  }
+  if (!has_wish) return std::nullopt;
+  const auto* bytes = reinterpret_cast<const char*>(values.data());
+  known_by +=
+      std::to_string(std::hash<std::string_view>()({bytes, values.size() * sizeof(double)}));
+  const auto [known, is_new] = rows_.emplace(std::move(known_by), row);
+  return is_new ? std::nullopt : std::optional(known->second);
+}
+
 Results::Results(const Manifest& asked) {
   if (!asked.job.empty()) job.emplace(asked.job, asked.name);
   for (const std::string& text : asked.constraints) constraints.emplace_back(text, asked.name);
@@ -77,6 +115,8 @@ void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
         from.families[bases_.size()].configuration));
   ResultRow row;
   common_.add(outcome.metrics);
+  row.same_as = repetitions_.find(point.swept, outcome.metrics, rows.size());
+  if (selection_) outcome.metrics = selection_->of(outcome.metrics);
   static_cast<Outcome&>(row) = std::move(outcome);
   if (!rows.empty()) row.metrics.share_names(rows.back().metrics);
   row.key = std::move(point.key);
@@ -183,8 +223,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
                      const std::vector<vp::Expression>& more) {
   Results results(manifest);
   results.rows.reserve(manifest.points.size());
-  Selection selection(figures_of(manifest, more));
-  CommonFigures common;
+  results.selection_.emplace(figures_of(manifest, more));
   Metrics before;
   RunLogs::Block block;
   for (PlannedPoint& point : manifest.points) {
@@ -196,15 +235,13 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
     Metrics& metrics = outcome->metrics;
     metrics.share_names(before);
     before = metrics;
-    common.add(metrics);
-    metrics = selection.of(metrics);
     results.add(manifest, std::move(point), *std::move(outcome));
   }
   std::vector<PlannedPoint>().swap(manifest.points);  // and its room
+  results.repetitions_ = {};
   results.manifest = std::move(manifest);
   results.logs_ = std::move(logs);
-  results.names_ = selection.seen();
-  results.common_ = std::move(common);  // the rows have some figures only
+  results.names_ = results.selection_->seen();
   return results;
 }
 
@@ -315,7 +352,7 @@ constexpr std::size_t write_bytes = 1 << 18;
 void write_csv(const std::string& path, const Results& results) {
   vp::OutputFile file(path);
   const std::vector<std::string> metrics = results.chosen_metrics();
-  std::vector<std::string> fields{"key", "status", "message", "feasible"};
+  std::vector<std::string> fields{"key", "status", "message", "feasible", "same_as"};
   fields.insert(fields.end(), results.manifest.swept.begin(), results.manifest.swept.end());
   fields.insert(fields.end(), metrics.begin(), metrics.end());
   file.write(csv_line(fields));
@@ -324,7 +361,7 @@ void write_csv(const std::string& path, const Results& results) {
   std::string lines;
   for (const ResultRow& row : results.rows) {
     fields = {row.key, row.failed ? "failed" : "done", row.failure.message,
-              to_string(results.feasible(row))};
+              to_string(results.feasible(row)), row.same_as ? results.rows[*row.same_as].key : ""};
     for (const std::string& swept : results.manifest.swept) fields.push_back(row.value(swept));
     lines += csv_line(fields);
     lines.pop_back();
@@ -365,7 +402,18 @@ std::string verdicts_text(const Results& results) {
       "unknown");
   add(count([&](const ResultRow& row) { return !results.broken(row).empty(); }),
       "break a constraint");
+  add(count([](const ResultRow& row) { return row.same_as.has_value(); }), "the same as another");
   return text;
+}
+
+std::string repetition_text(const Results& results, const ResultRow& row) {
+  if (!row.same_as) return "";
+  const ResultRow& first = results.rows[*row.same_as];
+  std::vector<std::string> values;
+  for (const auto& [path, value] : first.swept) {
+    if (row.value(path) != value.text()) values.push_back(value);
+  }
+  return "same as " + vp::join(values, ", ");
 }
 
 }  // namespace platform::sweep

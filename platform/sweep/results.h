@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <report/verdict.h>
@@ -24,11 +25,26 @@ struct ResultRow : Outcome {
   Assignment changes;
   Word program;
   Word inputs;
+  /// Of a point that an earlier one is, too (Repetitions): the place of that among the rows.
+  std::optional<std::size_t> same_as;
 
   /// The text of a parameter of the effective configuration; null if there is none.
   const std::string* parameter(const std::string& path) const;
   /// The text of a swept value, or of any parameter; empty if the point has none.
   std::string value(const std::string& path) const;
+};
+
+/// Finds points that were there before: they differ in nothing but wishes of clocks of which the
+/// chip makes the same, so that their results are equal.
+class Repetitions {
+ public:
+  /// The row that a point is, too; `figures` are all that it has. None if it is a new one, which
+  /// becomes that `row`.
+  std::optional<std::size_t> find(const Assignment& swept, const Metrics& figures, std::size_t row);
+
+ private:
+  std::unordered_map<std::string, std::size_t>
+      rows_;  ///< by what decides and results, wishes apart
 };
 
 /// A sweep's results, in the order of its points.
@@ -42,7 +58,7 @@ struct Results {
   Results() = default;
   /// What a sweep asks of its points, without any.
   explicit Results(const Manifest& asked);
-  /// A point, which the same manifest has or had.
+  /// A point, which the same manifest has or had, with all its figures.
   void add(const Manifest& manifest, PlannedPoint point, Outcome outcome);
 
   std::uint64_t failed() const;
@@ -72,6 +88,8 @@ struct Results {
   std::shared_ptr<const RunLogs> logs_;  ///< which have all metrics; null: the rows have
   std::vector<std::string> names_;       ///< of all metrics in them
   CommonFigures common_;                 ///< of all metrics
+  std::optional<Selection> selection_;   ///< the figures that rows have; none: all
+  Repetitions repetitions_;
 };
 
 /// Reads the results of a manifest's points, which become the rows. Of a million points not all
@@ -93,17 +111,21 @@ vp::ExpressionValue value_in(const ResultRow& row, const std::string& name);
 /// it divides by zero.
 std::optional<double> figure_in(const ResultRow& row, const vp::Expression& expression);
 
-/// One line a point: key, status, message, the swept parameters, the metrics. Throws
-/// vp::OutputError.
+/// One line a point: key, status, message, feasible, same_as (the key of the point that it is,
+/// too), the swept parameters, the metrics. Throws vp::OutputError.
 void write_csv(const std::string& path, const Results& results);
 
 /// How many points are feasible, and how many fail each part of the verdict: "3 of 12 points
 /// feasible, 2 did not run, 7 miss timing".
 std::string verdicts_text(const Results& results);
 
+/// "same as 75 MHz": of a point that an earlier one is, too, the values in which that differs; else
+/// empty.
+std::string repetition_text(const Results& results, const ResultRow& row);
+
 /// Writes the results as a SQLite database, anew:
 ///
-///   points(key, position, status, exit_code, signal, message, program, inputs, feasible)
+///   points(key, position, status, exit_code, signal, message, program, inputs, feasible, same_as)
 ///   parameters(key, path, value, number)  those that differ between points; number in base units
 ///   constants(path, value)                those that all points share
 ///   metrics(key, name, value)             a view of metric_names, whose `value` all points that

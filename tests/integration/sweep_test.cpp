@@ -228,7 +228,8 @@ BOOST_FIXTURE_TEST_CASE(every_metric_has_a_meaning, Sweeps) {
   std::string head, name;
   std::getline(lines, head);
   std::istringstream names(head);
-  for (const char* column : {"key", "status", "message", "feasible", "system", "camera.rate"}) {
+  for (const char* column :
+       {"key", "status", "message", "feasible", "same_as", "system", "camera.rate"}) {
     std::getline(names, name, ',');
     BOOST_TEST(name == column);
   }
@@ -337,6 +338,18 @@ BOOST_FIXTURE_TEST_CASE(pareto_and_sensitivity_read_the_folder, Sweeps) {
   BOOST_TEST(run({"pareto", "nowhere"}).exit_code == 2);
   BOOST_TEST(contains(run({"pareto", "out/s", "--objective", "max summary.fps.men"}).err,
                       "did you mean 'summary.fps.mean'"));
+}
+
+// Of both wishes the PLLs make 76.923 MHz.
+BOOST_FIXTURE_TEST_CASE(wishes_of_one_real_clock_are_told_as_one_point, Sweeps) {
+  const std::string wishes = "parameters: {ps.fclk_clk0.frequency: [75 MHz, 76 MHz]}\n";
+  write("made.yaml", wishes);
+  write("exact.yaml", "set: {clocks: exact}\n" + wishes);
+  const std::string made = run({"sweep", "made.yaml"}).out;
+  BOOST_TEST(contains(made, "  same as 75 MHz\n"), made);
+  BOOST_TEST(contains(made, "2 of 2 points feasible, 1 the same as another\n"), made);
+  const std::string exact = run({"sweep", "exact.yaml"}).out;
+  BOOST_TEST(!contains(exact, "same as"), exact);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_shipped_study_with_a_point_without_marker_is_analysed, Sweeps) {

@@ -529,6 +529,9 @@ test("a sweep shows what its study asks for: the best points first, the others a
   const fronts = rates.map((key) => list.find((p) => p.key.startsWith(key)).front);
   assert.deepEqual(fronts, [...fronts].sort((a, b) => a - b));
   assert.equal(fronts[0], 1);
+  assert.match(await tables.nth(0).locator("thead").textContent(), /Same point/);
+  const front = list.filter((p) => p.front === 1).length;
+  assert.match(await page.locator("#trade-off").innerHTML(), new RegExp(`The front has ${front} points`), "no point twice");
   assert.match(await tables.nth(1).locator("tbody").textContent(), /misses timing|too large/);
   assert.match(await tables.nth(2).locator("tbody").textContent(), /the binary image timed out/);
 }));

@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(each_figure_of_each_point_stands_in_both_tables) {
   std::istringstream table(kit::read_file(csv));
   std::string line;
   for (std::getline(table, line); std::getline(table, line);) {
-    const std::size_t fields = 4 + folder.manifest().swept.size();  // before the figures
+    const std::size_t fields = 5 + folder.manifest().swept.size();  // before the figures
     std::size_t at = 0;
     for (std::size_t field = 1; field < fields; ++field) at = line.find(',', at) + 1;
     texts += line.substr(line.find(',', at)) + '\n';

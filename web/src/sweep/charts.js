@@ -27,6 +27,7 @@ function clipped(reason) {
 
 export const columnsOf = (sweep, selection, rows = sweep.points) => [
   ...sweep.parameters.map((p) => ({ title: p.name, value: (point) => (p.numeric ? p.of(point) : p.text(point)), show: (_, point) => p.text(point), number: p.numeric, csv: sweep.label(p) })),
+  ...(rows.some((p) => p.same_as) ? [{ title: "Same point", value: (point) => point.same_as ?? "" }] : []),
   ...(rows.some((p) => !selection.good(p)) ? [{ title: "Why not", value: (point) => selection.why(point).join("; "), show: clipped }] : []),
   ...sweep.metrics.map((m) => ({ title: m.name, unit: m.unit, csv: sweep.label(m), number: true, value: (point) => m.of(point), show: (v) => (Number.isFinite(v) ? tidy(v) : "") })),
 ];

@@ -153,7 +153,7 @@ function figureOf(sweep, selection, shown, frontIn, open) {
   const sort = () => {
     const good = [], outside = [], bad = [];
     for (const p of known) (p.faults.length > 0 ? bad : selection.keeps(p) ? good : outside).push(p);
-    const front = frontOf(good, frontIn()).sort((a, b) => x.axis.of(a) - x.axis.of(b) || y.axis.of(a) - y.axis.of(b));
+    const front = frontOf(good.filter((p) => !p.same_as), frontIn()).sort((a, b) => x.axis.of(a) - x.axis.of(b) || y.axis.of(a) - y.axis.of(b));
     const onFront = new Set(front);
     parts = { outside, bad, good: good.filter((p) => !onFront.has(p)), front };
     return parts;
