@@ -4,7 +4,7 @@
 #include <string>
 
 #include <sweep/manifest.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 
 /// libsystemc refers to it.
 extern "C" int sc_main(int, char**) {

@@ -11,7 +11,7 @@
 #include <sweep/engine.h>
 #include <sweep/plan.h>
 #include <sweep/results.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 #include <nlohmann/json.hpp>
 
 /// What commands that compute points have in common.

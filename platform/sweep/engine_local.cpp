@@ -15,7 +15,7 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 #include <sweep/worker.h>
 #include <vp/file.h>
 

@@ -10,7 +10,7 @@
 #include <report/verdict.h>
 #include <sweep/axes.h>
 #include <sweep/point.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 #include <vp/expression.h>
 
 namespace platform::sweep {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 
 #include "executable.h"
 

@@ -12,7 +12,7 @@
 
 #include <host/process.h>
 #include <sweep/engine.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"

@@ -11,7 +11,7 @@
 #include <report/verdict.h>
 #include <sweep/report.h>
 #include <sweep/results.h>
-#include <sweep/store.h>
+#include <sweep/run_log.h>
 
 #include "child_process.h"
 #include "sweep_kit.h"
