@@ -4,6 +4,7 @@
 #include <cli/program.h>
 #include <page/report_page.h>
 #include <report/console.h>
+#include <sweep/compare.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/report.h>

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include <sweep/metrics.h>
 #include <sweep/results.h>
 
 namespace platform::sweep {
@@ -55,18 +53,5 @@ std::vector<vp::Expression> page_figures();
 
 /// Writes report.html of a sweep into its folder. False if the program was built without the page.
 bool write_page(const Results& results, const std::string& folder, const Json& steps = nullptr);
-
-/// A run to compare: a result.json, or a point of a sweep.
-struct Comparable {
-  std::string name;
-  std::map<std::string, std::string> configuration;  ///< and system, inputs, profile
-  Metrics metrics;
-};
-
-/// Reads a result.json, a folder with one, or a point's file. Throws vp::InputError.
-Comparable read_comparable(const std::string& path);
-
-/// Configuration and metrics in which the two differ, as tables; says so if they differ in nothing.
-std::string compare(const Comparable& a, const Comparable& b);
 
 }  // namespace platform::sweep
