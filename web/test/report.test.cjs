@@ -23,6 +23,8 @@ const blocks = {
   const { sweep } = samples.sweep({ points: 30 });
   const failed = (point) => ({ ...point, failed: true, front: 0, reasons: ["failed: it stood"], metrics: point.metrics.map(() => null) });
   blocks.onePoint = samples.sweep({ points: 1 });
+  const best = sweep.points.find((p) => p.front === 1);
+  blocks.repeated = { sweep: { ...sweep, points: [...sweep.points, { ...best, key: "feedcafe", front: 0, same_as: "same as 75 MHz" }] } };
   blocks.noPoint = { sweep: { ...sweep, points: [] } };
   blocks.allFailed = { sweep: { ...sweep, points: sweep.points.map(failed) } };
   blocks.equal = { sweep: { ...sweep, points: sweep.points.map((point) => ({ ...point, metrics: point.metrics.map(() => 5) })) } };
@@ -529,11 +531,19 @@ test("a sweep shows what its study asks for: the best points first, the others a
   const fronts = rates.map((key) => list.find((p) => p.key.startsWith(key)).front);
   assert.deepEqual(fronts, [...fronts].sort((a, b) => a - b));
   assert.equal(fronts[0], 1);
-  assert.match(await tables.nth(0).locator("thead").textContent(), /Same point/);
-  const front = list.filter((p) => p.front === 1).length;
-  assert.match(await page.locator("#trade-off").innerHTML(), new RegExp(`The front has ${front} points`), "no point twice");
   assert.match(await tables.nth(1).locator("tbody").textContent(), /misses timing|too large/);
   assert.match(await tables.nth(2).locator("tbody").textContent(), /the binary image timed out/);
+}));
+
+test("a point that another one is, too, says so, and is not on the front again", () => open("repeated", async (page) => {
+  const front = blocks.repeated.sweep.points.filter((p) => p.front === 1);
+  assert.match(await page.locator("#trade-off").innerHTML(), new RegExp(`The front has ${front.length} points`));
+  const head = await page.locator("#points table").first().locator("thead").textContent();
+  assert.match(head, /Same point/);
+}));
+
+test("where no point is another one, too, no column says so", () => open("sweep", async (page) => {
+  assert.doesNotMatch(await page.locator("#points table").first().locator("thead").textContent(), /Same point/);
 }));
 
 for (const name of ["run", "comparison"]) {

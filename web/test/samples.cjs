@@ -172,9 +172,6 @@ function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
   const ranked = list.filter((p) => p.metrics[0] !== null && p.reasons.length === 0);
   const beats = (q, p) => q.metrics[0] >= p.metrics[0] && q.metrics[2] <= p.metrics[2] && (q.metrics[0] > p.metrics[0] || q.metrics[2] < p.metrics[2]);
   for (const p of list) p.front = ranked.includes(p) ? 1 + Number(ranked.some((q) => beats(q, p))) : 0;
-  // The best once more, of another wish.
-  const [first, last] = [list.find((p) => p.front === 1), list.at(-1)];
-  Object.assign(last, { metrics: first.metrics, reasons: [], failed: false, front: 0, same_as: `same as ${first.swept[0]}` });
   const objectives = [{ metric: "summary.fps.mean", unit: "1/s", better: 1 }, { metric: "power.total_w.nominal", unit: "W", better: -1 }];
   const paths = ["summary.fps.mean", "summary.latency_us.mean", "power.total_w.nominal", "summary.energy_per_frame_mj", "power.junction_c", "summary.detected", "summary.frames", "resources.total.lut", "resources.total.ff", "resources.total.bram36", "resources.total.dsp", "frames.error.corner_px.mean", "frames.error.translation_mm.mean", "frames.error.rotation_deg.mean"];
   return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, effects: [], missing: 3, points: list,
