@@ -1,0 +1,343 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pl/common/lanes.h>
+#include <pl/common/rtl_interface.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+#include <vp/signal.h>
+
+namespace pl {
+
+/// The pins of an IP as RTL in its place has them. Its function `connect(IpPorts&)` lists all but
+/// the clock, which is `clk`; an IP between two clocks names the other one, too.
+class IpPorts {
+ public:
+  struct ClockPin {
+    std::string name;
+    vp::Clock* clock;
+  };
+  struct Input {
+    const vp::InBase* port;  ///< null: a pin that is no port of the model
+    std::string name;
+    unsigned bits;
+    std::function<std::uint64_t()> read;
+    std::function<const void*()> place;  ///< of a port's value, known when all is bound
+  };
+  struct Output {
+    std::function<vp::SignalBase*()> port;  ///< known when all is bound
+    std::string name;
+    unsigned bits;
+    std::function<bool()> valid;  ///< whether the port means something now; null: it always does
+    bool optional;                ///< only reports and traces look at it: RTL may lack it
+    std::function<void(std::uint64_t)> write;
+    std::size_t clock = 0;  ///< on whose edges it changes
+  };
+  /// An output that a memory samples on each edge, as it stands before the edge.
+  struct MemoryOutput {
+    std::string name;
+    unsigned bits;
+    std::function<void(std::uint64_t)> take;
+    std::function<std::optional<std::uint64_t>()> expected;  ///< of the model; none: anything
+  };
+  struct Parameter {
+    std::string name;
+    std::string key;  ///< of the configuration
+    std::uint64_t value;
+    bool usual;  ///< what a module has that has no such parameter: benches do not name it
+  };
+  /// A pin for a pixel that does not come: RTL that may be built for more may have it. An input
+  /// stays 0, an output has no meaning.
+  struct IdlePin {
+    std::string name;
+    unsigned bits;
+    bool output;
+  };
+
+  /// `beside_model`: the RTL watches what the model sees and changes nothing.
+  IpPorts(bool beside_model, vp::Clock& clk) : watched(beside_model), clocks{{"clk", &clk}} {}
+  const bool watched;
+
+  /// Another clock: the outputs named from here on are its own.
+  void clock(const char* name, vp::Clock& clock) { clocks.push_back({name, &clock}); }
+
+  template <class T>
+  void input(const vp::In<T>& port, unsigned bits = vp::default_width<T>()) {
+    inputs.push_back({&port, last_name(port.name()), bits, [&port] { return port.read(); },
+                      [&port] { return port.signal()->place(); }});
+  }
+  /// A pin that the model has no port for.
+  void input(const char* name, unsigned bits, std::function<std::uint64_t()> read) {
+    inputs.push_back({nullptr, name, bits, std::move(read), {}});
+  }
+  /// The pixels that come on a clock.
+  template <class T>
+  void input(const vp::In<T>& port, const Lanes<vp::In<T>>& more) {
+    input(port);
+    for (const vp::In<T>& lane : more) input(lane);
+    add_idle(last_name(port.name()), more.size(), vp::default_width<T>(), false);
+  }
+  /// `valid`: the signal beside which the port means something; null: it always does.
+  template <class T>
+  void output(vp::Signal<T>& port, const vp::Signal<bool>* valid = nullptr) {
+    add(last_name(port.name()).c_str(), port, valid, false);
+  }
+  /// The pixels that leave on a clock.
+  template <class T>
+  void output(vp::Signal<T>& port, Lanes<vp::Signal<T>>& more, const vp::Signal<bool>* valid) {
+    output(port, valid);
+    for (vp::Signal<T>& lane : more) output(lane, valid);
+    add_idle(last_name(port.name()), more.size(), port.width(), true);
+  }
+  /// Under another name than the port's.
+  template <class T>
+  void output(const char* name, vp::Signal<T>& port) {
+    add(name, port, nullptr, false);
+  }
+  /// Of a link, which is known when all is bound.
+  template <class T>
+  void output(const char* name, unsigned bits, std::function<vp::Signal<T>&()> port,
+              std::function<bool()> valid = nullptr) {
+    outputs.push_back(
+        {[port]() -> vp::SignalBase* { return &port(); }, name, bits, std::move(valid), false,
+         [port](std::uint64_t value) { port() = static_cast<T>(value); }, clocks.size() - 1});
+  }
+  /// An output that only reports and traces look at: RTL may lack it, or have fewer bits.
+  template <class T>
+  void report(vp::Signal<T>& port) {
+    add(last_name(port.name()).c_str(), port, nullptr, true);
+  }
+  /// What the IP is configured for; RTL that has no such parameter is trusted to fit.
+  void parameter(const char* name, const std::string& key, std::uint64_t value) {
+    parameters.push_back({name, key, value, false});
+  }
+  void pixels_per_clock(std::uint32_t value) {
+    parameters.push_back({"PIXELS_PER_CLOCK", "pl.pixels_per_clock", value, value == 1});
+  }
+
+  std::vector<ClockPin> clocks;
+  std::vector<Input> inputs;
+  std::vector<Output> outputs;
+  std::vector<Parameter> parameters;
+  std::vector<IdlePin> idle_pins;
+  std::vector<MemoryOutput> memory_outputs;
+  std::vector<Input> memory_inputs;  ///< what the memory shows behind the edge
+  bool combinational = false;        ///< outputs follow inputs within the clock
+  /// Whether pins that are no ports of the model stand still until one of its ports changes; null:
+  /// there are none.
+  std::function<bool()> others_stand_still;
+  /// What the IP does besides on each edge of `clk` while RTL stands in its place; null: nothing.
+  std::function<void()> before_edge, behind_edge;
+
+ private:
+  static std::string last_name(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+  void add_idle(const std::string& pixel, std::size_t more, unsigned bits, bool output) {
+    for (auto lane = static_cast<std::uint32_t>(more) + 1; lane < most_pixels_per_clock; ++lane)
+      idle_pins.push_back({lane_name(pixel, lane), bits, output});
+  }
+  template <class T>
+  void add(const char* name, vp::Signal<T>& port, const vp::Signal<bool>* valid, bool optional) {
+    std::function<bool()> is_valid;
+    if (valid) is_valid = [valid] { return valid->get(); };
+    outputs.push_back({[&port]() -> vp::SignalBase* { return &port; }, name, port.width(),
+                       std::move(is_valid), optional,
+                       [&port](std::uint64_t bits) { port = static_cast<T>(bits); },
+                       clocks.size() - 1});
+  }
+};
+
+/// Adds the pins of a stream's master.
+void add_stream(IpPorts& ports, vp::AxiStreamMaster& m);
+
+/// Finds out when RTL has come to rest: an edge of each clock with the same inputs has left its
+/// whole state as it was, so all further ones will. It takes a copy of the state, less often the
+/// larger it is and the longer the RTL works on by itself.
+class RtlRest {
+ public:
+  RtlRest(std::size_t state_bytes, std::size_t clocks)
+      : state_(state_bytes), all_clocks_((1u << clocks) - 1), look_at_(first_look()) {}
+
+  void inputs_changed() {
+    same_ = 0;
+    look_at_ = first_look();
+  }
+  /// Behind each edge: whether reached() is to be asked.
+  bool due() { return ++same_ >= look_at_; }
+  /// Whether no further edge would change anything. `risen`: the clocks of this one, a bit for
+  /// each.
+  bool reached(const void* state, unsigned risen) {
+    if (same_ == look_at_) {
+      std::memcpy(state_.data(), state, state_.size());
+      clocks_seen_ = 0;
+      return false;
+    }
+    if (std::memcmp(state_.data(), state, state_.size()) != 0) {
+      look_at_ = 2 * same_;
+      return false;
+    }
+    clocks_seen_ |= risen;
+    return clocks_seen_ == all_clocks_;
+  }
+
+ private:
+  /// A copy takes less than the clocks before it.
+  std::uint64_t first_look() const { return 2 + state_.size() / 256; }
+
+  std::vector<unsigned char> state_;
+  unsigned all_clocks_, clocks_seen_ = 0;  ///< whose edges have changed nothing since the copy
+  std::uint64_t same_ = 0;                 ///< edges since an input changed
+  std::uint64_t look_at_;
+};
+
+/// The pins of a Verilated module, connected with the ports of the IP in whose place it stands.
+class RtlPins {
+ public:
+  /// Loads `file` once; it stays loaded. Throws vp::InputError for one that is no RTL, or that of
+  /// another IP than `ip`; for a port that is missing, of another width or direction, or that the
+  /// IP does not have; and for another parameter: file, line, port, and what the IP expects.
+  /// `instance`: the name of this one.
+  RtlPins(const std::string& file, const std::string& ip, const std::string& instance,
+          IpPorts ports);
+
+  /// An edge of a clock: what stands on the inputs is sampled, and the registers of the RTL change.
+  /// Clocks whose edges coincide rise together, as the first of them is called for. False: this one
+  /// has risen with another.
+  bool clock_edge(std::size_t clock = 0) {
+    if (levels_.size() > 1 && has_risen(clock)) return false;
+    take_inputs();
+    if (!memory_outputs_.empty()) ask_memory();
+    if (levels_.size() == 1) {
+      *levels_[0] = 1;
+    } else {
+      raise(clock);
+    }
+    rtl_.eval(model_.get());
+    for (std::size_t i = 0; i < memory_inputs_.size(); ++i)
+      store(memory_inputs_[i], ports_.memory_inputs[i].bits, ports_.memory_inputs[i].read());
+    lower();
+    return true;
+  }
+  /// What is logic follows the inputs, between two edges.
+  void settle() {
+    take_inputs();
+    rtl_.eval(model_.get());
+  }
+  /// Behind an edge: further ones would change nothing until an input changes.
+  bool at_rest() {
+    if (rtl_.state_bytes == 0 || !rest_.due()) return false;
+    if (ports_.others_stand_still && !ports_.others_stand_still()) {
+      rest_.inputs_changed();
+      return false;
+    }
+    return rest_.reached(rtl_.state(model_.get()), risen_);
+  }
+  /// The ports of a clock follow the outputs of the RTL: those that changed are written.
+  void drive(std::size_t clock = 0) {
+    for (OutputPin& pin : outputs_) {
+      const std::uint64_t now = load(pin.place, pin.bits);
+      if ((pin.value == now && pin.driven) || pin.clock != clock) continue;
+      pin.value = now;
+      pin.driven = true;
+      ports_.outputs[static_cast<std::size_t>(&pin - outputs_.data())].write(now);
+    }
+  }
+
+  /// Those that the RTL has, with its widths.
+  const IpPorts& ports() const { return ports_; }
+  /// What the RTL gives at output `i`.
+  std::uint64_t value(std::size_t i) const { return load(outputs_[i].place, outputs_[i].bits); }
+  /// At output `i` to a memory.
+  std::uint64_t memory_value(std::size_t i) const {
+    return load(memory_outputs_[i], ports_.memory_outputs[i].bits);
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  /// As rtl_interface.h says.
+  static void store(void* place, unsigned bits, std::uint64_t value) {
+    if (bits <= 8) {
+      *static_cast<std::uint8_t*>(place) = static_cast<std::uint8_t>(value);
+    } else if (bits <= 16) {
+      *static_cast<std::uint16_t*>(place) = static_cast<std::uint16_t>(value);
+    } else if (bits <= 32) {
+      *static_cast<std::uint32_t*>(place) = static_cast<std::uint32_t>(value);
+    } else {
+      *static_cast<std::uint64_t*>(place) = value;
+    }
+  }
+  static std::uint64_t load(const void* place, unsigned bits) {
+    if (bits <= 8) return *static_cast<const std::uint8_t*>(place);
+    if (bits <= 16) return *static_cast<const std::uint16_t*>(place);
+    if (bits <= 32) return *static_cast<const std::uint32_t*>(place);
+    return *static_cast<const std::uint64_t*>(place);
+  }
+  void take_inputs() {
+    if (!bound_) find_signals();
+    for (InputPin& pin : inputs_) {
+      const std::uint64_t now = pin.signal ? load(pin.signal, pin.bits) : (*pin.read)();
+      if (pin.value == now) continue;
+      pin.value = now;
+      store(pin.place, pin.bits, now);
+      rest_.inputs_changed();
+    }
+  }
+  // What a memory shows behind the edge may change outputs while the clock is high.
+  void lower() {
+    if (rtl_.lower && memory_inputs_.empty()) return rtl_.lower(model_.get());
+    for (std::uint8_t* level : levels_) *level = 0;
+    rtl_.eval(model_.get());
+  }
+  void find_signals();
+  void ask_memory();
+  std::uint64_t now_ps() const;
+  /// At this time, together with another one.
+  bool has_risen(std::size_t clock) const { return risen_ps_[clock] == now_ps(); }
+  void raise(std::size_t clock);
+  void reset();
+  void cycle_clocks();
+  const RtlPort* find(const std::string& name) const;
+  void* pin(const std::string& name, unsigned bits, bool output);
+  void leave_out_what_it_lacks();
+  void check(const IpPorts::Parameter& parameter) const;
+  [[noreturn]] void refuse(const std::string& place, const std::string& why) const;
+
+  const std::string file_;
+  const std::string ip_;
+  IpPorts ports_;
+  const RtlDescriptor& rtl_;
+  const std::unique_ptr<void, void (*)(void*)> model_;
+  std::vector<std::uint8_t*> levels_;    ///< of the clocks
+  std::vector<std::uint64_t> risen_ps_;  ///< when each rose last, where there are several
+  unsigned risen_ = 1;                   ///< on the last edge, a bit for each clock
+  std::vector<bool> connected_;          ///< by the number of the port
+  // Each clock goes through them: what it needs stands together.
+  struct InputPin {
+    void* place;
+    unsigned bits;
+    const std::function<std::uint64_t()>* read;
+    const void* signal = nullptr;  ///< where its value stands; null for a pin that is no port
+    std::uint64_t value = 0;
+  };
+  struct OutputPin {
+    const void* place;
+    unsigned bits;
+    std::size_t clock;
+    std::uint64_t value = 0;
+    bool driven = false;  ///< the port has `value`
+  };
+  std::vector<InputPin> inputs_;    ///< as in ports_
+  bool bound_ = false;              ///< their signals are known
+  std::vector<OutputPin> outputs_;  ///< as in ports_
+  std::vector<void*> memory_outputs_, memory_inputs_;
+  RtlRest rest_;
+};
+
+}  // namespace pl
