@@ -171,9 +171,18 @@ void AxiDma::start_of_simulation() {
 }
 
 void AxiDma::on_change(vp::SignalBase& signal, std::uint32_t id) {
-  if (id != reset_pin) return Clocked::on_change(signal, id);
+  if (id != reset_pin) {
+    if (beat_at_ != vp::Clock::never && s2mm_->beat_was_last()) return expect_no_beat();
+    return Clocked::on_change(signal, id);
+  }
   if (!axi_resetn) reset();
   s_axi_lite.hold_in_reset(!axi_resetn);
+}
+
+// The master withdraws, and the next edge has nothing to sample.
+void AxiDma::expect_no_beat() {
+  beat_at_ = vp::Clock::never;
+  wake_at(planned_);
 }
 
 bool AxiDma::watched() const {
@@ -231,13 +240,14 @@ void AxiDma::edge() {
   if (interrupts_differ()) next = cycle + 1;
   if (stopped_ && !was_stopped) next = cycle + 1;  // a channel that ran before the other failed
   planned_ = std::max(next, cycle + 1);
-  sleep_until(planned_);
+  beat_at_ = s2mm_ && s2mm_->expects_beat() ? cycle + 1 : vp::Clock::never;
+  sleep_until(std::min(planned_, beat_at_));
 }
 
 void AxiDma::plan_edge(std::uint64_t cycle) {
   if (cycle >= planned_) return;
   planned_ = cycle;
-  wake_at(cycle);
+  wake_at(std::min(planned_, beat_at_));
 }
 
 void AxiDma::plan_interrupts() {

@@ -111,6 +111,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   void build_scatter_gather();
   void drive(Interrupt& interrupt);
   bool interrupts_differ() const;
+  void expect_no_beat();
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();
 
@@ -121,6 +122,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   BufferCheck buffer_check_;
   std::vector<Interrupt> interrupts_;  ///< of the channels that are built
   std::uint64_t planned_ = 0;  ///< the next edge that runs, unless a signal wakes it earlier
+  std::uint64_t beat_at_ = vp::Clock::never;  ///< edge that runs for a beat of S2MM besides
   bool stopped_ = false;
   bool resetting_ = false;
   std::uint64_t reset_done_at_ = vp::Clock::never;

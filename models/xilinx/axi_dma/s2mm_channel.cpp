@@ -254,11 +254,12 @@ void S2mmChannel::completed() {
   length = received_;
 }
 
+// But for beats on the wires: TVALID wakes, see expects_beat().
 std::uint64_t S2mmChannel::next_edge(std::uint64_t cycle) {
   if (!m_axi.done()) return cycle + 1;
   const bool listening = cycle >= ready_from_ && !closed_;
-  if (listening && s_axis.tvalid) return cycle + 1;  // else wakes on tvalid, or by the source
-  if (listening && bus_ == Bus::busy && buffered_beats(cycle) >= fifo_beats_) return cycle + 1;
+  const bool full = listening && !s_axis.tready.written();
+  if (full && (bus_ == Bus::busy || s_axis.tvalid)) return cycle + 1;
   std::uint64_t next = cycle < ready_from_ ? ready_from_ : never;
   if (listening && s_axis.source()) {
     next = next_beat_of_interest(cycle);

@@ -23,6 +23,11 @@ class S2mmChannel : public DmaChannel {
   vp::AxiStreamSlave s_axis;
 
   bool quiet(std::uint64_t cycle) const override;
+  /// A beat may pass on the edge after the one that ran last: the master has offered one, and
+  /// TREADY is high.
+  bool expects_beat() const { return s_axis.tvalid && s_axis.tready.written(); }
+  /// A beat passed on the edge that ran last, and the master offers no other.
+  bool beat_was_last() const { return beat_ && !s_axis.tvalid; }
 
  private:
   /// A burst that is complete and waits for the bus, or is on it.
@@ -88,7 +93,7 @@ class S2mmChannel : public DmaChannel {
   std::uint64_t burst_start_ = 0, burst_end_ = 0;
   std::uint64_t bus_free_at_ = 0;  ///< edge from which the next burst may start
   bool draining_ = false;          ///< the transfer was dropped, its burst on the bus goes on
-  bool beat_ = false;              ///< a beat passed on this edge
+  bool beat_ = false;              ///< a beat passed on the edge that ran last
 };
 
 }  // namespace xilinx
