@@ -226,7 +226,6 @@ void S2mmChannel::end_burst(std::uint64_t cycle) {
   if (!transfers_.empty()) --transfers_.front().bursts;
   const std::uint32_t error = error_bit(m_axi.response());
   if (error == 0 || draining_) return;
-  if (s_axis.source()) take_from_source(cycle);  // what passed until now
   fail_transfer(cycle, error);
 }
 
