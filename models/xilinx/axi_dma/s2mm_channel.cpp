@@ -225,8 +225,7 @@ void S2mmChannel::end_burst(std::uint64_t cycle) {
   bursts_.pop_front();
   if (!transfers_.empty()) --transfers_.front().bursts;
   const std::uint32_t error = error_bit(m_axi.response());
-  if (error == 0 || draining_) return;
-  fail_transfer(cycle, error);
+  if (error != 0 && !draining_) fail_transfer(cycle, error);
 }
 
 // The oldest transfer is in memory.

@@ -9,7 +9,7 @@
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/router.h>
-#include <xilinx/axi_dma/dma_channel.h>
+#include <xilinx/axi_dma/memory_port.h>
 
 namespace xilinx {
 
