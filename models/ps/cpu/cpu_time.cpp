@@ -212,8 +212,9 @@ std::uint64_t Cpu::catch_up() {
 }
 
 // Work before an access and the way to the register are one stretch where nothing comes in between.
-[[gnu::always_inline]] inline bool Cpu::access_quietly(const Stretch& stretch, bool read, std::uint32_t address,
-                                std::uint32_t& value) {
+[[gnu::always_inline]] inline bool Cpu::access_quietly(const Stretch& stretch, bool read,
+                                                       std::uint32_t address,
+                                                       std::uint32_t& value) {
   vp::RegisterRoute* const route = routes_.find(address);
   vp::BusStage::Passage passage;
   if (!route || stretch.end_ps >= deadline_ps_ ||
