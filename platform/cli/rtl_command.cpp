@@ -10,6 +10,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <sstream>
@@ -33,7 +34,7 @@ std::string object_of(const std::string& rtl, const std::string& ip) {
                        " IP … TOP …), or name the .so itself");
 }
 
-/// Finds when a signal is first high.
+/// Finds when a signal is first high, and when its trace ends.
 class FirstHigh final : public trace::Replay::Listener {
  public:
   FirstHigh(trace::TraceFile& file, const std::string& signal)
@@ -42,12 +43,12 @@ class FirstHigh final : public trace::Replay::Listener {
   }
   /// 0: never.
   std::uint64_t ps() const { return ps_; }
+  std::uint64_t last_ps() const { return replay_.last_ps(); }
 
  private:
   bool instant(std::uint64_t ps) override {
-    if (!replay_.known(slot_) || replay_.bits(slot_) == 0) return true;
-    ps_ = ps;
-    return false;
+    if (ps_ == 0 && replay_.known(slot_) && replay_.bits(slot_) != 0) ps_ = ps;
+    return true;
   }
 
   trace::Replay replay_;
@@ -58,10 +59,12 @@ class FirstHigh final : public trace::Replay::Listener {
 /// A page for GTKWave with all signals of `ip` and its RTL, around the clock of the difference.
 void write_page(const std::string& trace_file, const std::string& ip,
                 const std::string& page_file) {
-  std::uint64_t seen_ps = 0;
+  std::uint64_t seen_ps = 0, last_ps = 0;
   {
     trace::TraceFile file(trace_file);
-    seen_ps = FirstHigh(file, "pl." + ip + ".rtl.differs").ps();
+    const FirstHigh differs(file, "pl." + ip + ".rtl.differs");
+    seen_ps = differs.ps();
+    last_ps = differs.last_ps();
   }
   trace::TraceFile file(trace_file);
   std::vector<std::string> model, rtl;
@@ -72,15 +75,22 @@ void write_page(const std::string& trace_file, const std::string& ip,
       model.push_back(path);
     }
   }
-  constexpr std::uint64_t around_ps = 1'000'000;  // 50 pixel clocks of the thesis
+  // 50 pixel clocks of the thesis, and some behind them. A window that ends behind the trace would
+  // begin where that begins: it is a little wider than was asked for.
+  constexpr std::uint64_t around_ps = 1'000'000, shown_ps = around_ps / 4 * 5,
+                          wide_ps = shown_ps / 20 * 21;
   trace::SaveFile page;
   page.comment = ip + ": the model, and the RTL beside it";
-  page.lines = trace::save_lines(file, model);
-  const auto beside = trace::save_lines(file, rtl);
-  page.lines.insert(page.lines.end(), beside.begin(), beside.end());
+  for (const auto& [title, paths] : {std::pair("model", model), std::pair("RTL", rtl)}) {
+    page.lines.emplace_back().path = title;
+    page.lines.back().title = true;
+    const auto lines = trace::save_lines(file, paths);
+    page.lines.insert(page.lines.end(), lines.begin(), lines.end());
+  }
   page.marker_ps = seen_ps;
-  page.start_ps = seen_ps > around_ps ? seen_ps - around_ps : 0;
-  page.end_ps = seen_ps + around_ps / 4;
+  page.start_ps =
+      std::min(seen_ps - std::min(seen_ps, around_ps), last_ps - std::min(last_ps, wide_ps));
+  page.end_ps = page.start_ps + shown_ps;
   page.timescale_fs = file.reader().timescale_fs();
   vp::write_file(page_file, trace::save_file_text(page));
 }

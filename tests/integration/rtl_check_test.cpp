@@ -63,8 +63,16 @@ BOOST_AUTO_TEST_CASE(a_difference_is_told_and_shown) {
   BOOST_TEST(contains(outcome.out, "gtkwave out/lockstep.vcd out/lockstep.gtkw"), outcome.out);
   const std::string page = kit::read_file(*this / "out/lockstep.gtkw");
   for (const char* signal : {"pl.corner_detection.corner_out", "pl.corner_detection.rtl.corner_out",
-                             "pl.corner_detection.rtl.corner_data"})
+                             "pl.corner_detection.rtl.corner_data", "-model", "-RTL"})
     BOOST_TEST(contains(page, signal), signal);
+  // The window and a little more ends before the trace: GTKWave would show its begin else.
+  const std::string start = "[timestart] ";
+  const std::uint64_t opens = std::stoull(page.substr(page.find(start) + start.size()));
+  const std::string trace = kit::read_file(*this / "out/lockstep.vcd");
+  const std::uint64_t ends = std::stoull(trace.substr(trace.rfind("\n#") + 2));
+  BOOST_TEST(opens + 1'250'000 * 104 / 100 < ends);
+  BOOST_TEST(opens + 1'250'000 > 112'220'000u, "where it was noticed");
+  BOOST_TEST(opens < 112'220'000u - 500'000u);
 }
 
 // A trace of an earlier difference does not outlive a check that finds none.

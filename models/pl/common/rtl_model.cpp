@@ -9,8 +9,8 @@ namespace pl {
 
 namespace {
 
-/// Behind the first difference, for a trace.
-constexpr std::uint64_t clocks_shown = 8;
+/// Behind the first difference, for a trace, with those of both clocks where there are two.
+constexpr std::uint64_t clocks_shown = 32;
 
 std::uint64_t mask(unsigned bits) {
   return bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
