@@ -72,15 +72,6 @@ struct StreamBench : kit::Simulation {
     rst = false;
     pass(60);
   }
-  std::string failure() {
-    try {
-      play();
-      sc_core::sc_stop();
-    } catch (const sc_core::sc_report& report) {
-      return report.get_msg();
-    }
-    return "";
-  }
   std::string seen() {
     const ChangeLog ready(before.tready, scheduler), valid(behind.tvalid, scheduler);
     play();

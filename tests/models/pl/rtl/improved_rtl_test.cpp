@@ -364,13 +364,7 @@ struct Chain : kit::Simulation {
   }
 
   std::string failure() {
-    try {
-      play();
-      sc_core::sc_stop();
-    } catch (const sc_core::sc_report& report) {
-      return report.get_msg();
-    }
-    return "";
+    return failure_of([this] { play(); });
   }
   std::string seen() {
     play();
@@ -456,10 +450,7 @@ BOOST_AUTO_TEST_CASE(each_bug_is_found_at_its_port) {
   for (const Bug& bug : bugs) {
     const std::string failure =
         Chain({lockstep(bug.ip, bug.name)}, threshold_beside(bug.ip), bug.pixels).failure();
-    const std::size_t ports = failure.find(": ", failure.find(", at "));
-    BOOST_TEST_REQUIRE(ports != std::string::npos, bug.name << ": " << failure);
-    BOOST_TEST(failure.compare(ports + 2, std::string(bug.port).size(), bug.port) == 0,
-               bug.name << ": " << failure);
+    check_port(bug, failure);
   }
 }
 

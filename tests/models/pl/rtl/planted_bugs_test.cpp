@@ -314,9 +314,7 @@ BOOST_AUTO_TEST_CASE(each_is_found_at_its_port_behind_its_clock) {
         Logic logic({fidelity(bug, "lockstep:")});
         failure = logic.failure();
       }
-      const std::size_t ports = failure.find(": ", failure.find(", at "));
-      BOOST_TEST_REQUIRE(ports != std::string::npos, failure);
-      BOOST_TEST(failure.compare(ports + 2, std::string(bug.port).size(), bug.port) == 0, failure);
+      check_port(bug, failure);
       if (!carries_words(bug)) continue;
       const auto wrong = first_wrong_word(fidelity(bug, ""));
       BOOST_TEST_REQUIRE(wrong.has_value());

@@ -1,5 +1,6 @@
 #include "rtl_objects.h"
 
+#include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <stdexcept>
 
@@ -19,6 +20,13 @@ void plant(const Bug& bug, const std::string& file) {
 }
 
 }  // namespace
+
+void check_port(const Bug& bug, const std::string& failure) {
+  const std::size_t ports = failure.find(": ", failure.find(", at "));
+  BOOST_TEST_REQUIRE(ports != std::string::npos, bug.name << ": " << failure);
+  BOOST_TEST(failure.compare(ports + 2, std::string(bug.port).size(), bug.port) == 0,
+             bug.name << ": " << failure);
+}
 
 RtlObjects::RtlObjects(const std::vector<Object>& objects) {
   std::string project =

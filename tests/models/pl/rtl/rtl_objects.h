@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <systemc>
 #include <vector>
 
 #include "child_process.h"
@@ -16,6 +17,21 @@ struct Bug {
   const char* port;          ///< that differs first
   std::uint32_t pixels = 1;  ///< a clock
 };
+
+/// How a bench fails while it plays, or when it stops; empty: not at all.
+template <class Play>
+std::string failure_of(Play play) {
+  try {
+    play();
+    sc_core::sc_stop();
+  } catch (const sc_core::sc_report& report) {
+    return report.get_msg();
+  }
+  return "";
+}
+
+/// Whether lock-step has found the bug at its port.
+void check_port(const Bug& bug, const std::string& failure);
 
 /// RTL of models/pl, as it is or with a bug, built in a folder that goes with this object.
 class RtlObjects {
