@@ -30,7 +30,7 @@ std::string object_of(const std::string& rtl, const std::string& ip) {
     if (fs::exists(file, ignored)) return fs::absolute(file).string();
   }
   throw vp::InputError("--rtl '" + rtl + "': there is no " + ip +
-                       ".so in it, nor in its build: " + "build it with markervp_add_rtl(" + ip +
+                       ".so in it, nor in its build: build it with markervp_add_rtl(" + ip +
                        " IP … TOP …), or name the .so itself");
 }
 
@@ -69,7 +69,7 @@ void write_page(const std::string& trace_file, const std::string& ip,
   trace::TraceFile file(trace_file);
   std::vector<std::string> model, rtl;
   for (const std::string& path : file.paths()) {
-    if (path.find(".rtl.") != std::string::npos) {
+    if (path.find(".rtl.") != std::string::npos && path.find(".rtl.model.") == std::string::npos) {
       rtl.push_back(path);
     } else if (path.find("pl." + ip + ".") == 0) {
       model.push_back(path);

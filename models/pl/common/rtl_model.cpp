@@ -56,10 +56,31 @@ PortWatcher::PortWatcher(sc_core::sc_module_name name, const IpPorts& ports)
 RtlShadow::RtlShadow(sc_core::sc_module_name name, RtlPins& pins)
     : PortWatcher(name, pins.ports()),
       pins_(pins),
+      model_("model", pins.ports()),
       last_edges_(pins.ports().clocks.size()),
       edges_left_(clocks_shown) {
   for (const IpPorts::Output& output : pins_.ports().outputs)
     outputs_.emplace_back(output.name.c_str(), output.bits);
+}
+
+RtlShadow::Wires::Wires(sc_core::sc_module_name name, const IpPorts& ports) : sc_module(name) {
+  for (const IpPorts::Output& output : ports.outputs) {
+    if (output.of_link) list.emplace_back(output.name.c_str(), output.bits);
+  }
+}
+
+void RtlShadow::end_of_elaboration() {
+  PortWatcher::end_of_elaboration();
+  std::uint32_t wire = 0;
+  for (const IpPorts::Output& output : pins_.ports().outputs) {
+    if (!output.of_link) continue;
+    model_.list[wire] = output.port()->bits();
+    output.port()->attach(*this, wire++);
+  }
+}
+
+void RtlShadow::on_change(vp::SignalBase& signal, std::uint32_t wire) {
+  model_.list[wire] = signal.bits();
 }
 
 void RtlShadow::edge_of(std::size_t clock) {

@@ -157,7 +157,8 @@ class PortWatcher : public vp::Clocked {
 
 /// RTL beside the model of its IP, on the same inputs. The first clock behind which an output
 /// differs ends the simulation, some clocks later: a trace then shows what came of it. One that
-/// ends before fails in sc_stop(). `rtl.<port>` is what the RTL gives.
+/// ends before fails in sc_stop(). `rtl.<port>` is what the RTL gives; `rtl.model.<port>` what the
+/// model does, where that is a wire outside of the IP.
 class RtlShadow final : public PortWatcher {
  public:
   /// All pins are connected.
@@ -166,8 +167,14 @@ class RtlShadow final : public PortWatcher {
   vp::Signal<bool> differs{"differs"};  ///< from the first difference on
 
  private:
+  struct Wires : sc_core::sc_module {
+    Wires(sc_core::sc_module_name name, const IpPorts& ports);
+    std::deque<vp::Signal<std::uint64_t>> list;
+  };
   void edge_of(std::size_t clock) override;
+  void end_of_elaboration() override;
   void end_of_simulation() override;
+  void on_change(vp::SignalBase& signal, std::uint32_t wire) override;
   void note_outputs(std::size_t clock);
   void compare(std::size_t clock);
   void compare(const std::string& port, unsigned bits, std::uint64_t model, std::uint64_t rtl);
@@ -178,6 +185,7 @@ class RtlShadow final : public PortWatcher {
   };
   RtlPins& pins_;
   std::deque<vp::Signal<std::uint64_t>> outputs_;  ///< as the pins have them
+  Wires model_;                                    ///< of links, as the model drives them
   std::vector<Edge> last_edges_;                   ///< of each clock, behind which they stand
   std::uint64_t edges_left_;
   std::string difference_;

@@ -40,6 +40,7 @@ class IpPorts {
     bool optional;                ///< only reports and traces look at it: RTL may lack it
     std::function<void(std::uint64_t)> write;
     std::size_t clock = 0;  ///< on whose edges it changes
+    bool of_link = false;   ///< it is a wire that lies outside of the IP
   };
   /// An output that a memory samples on each edge, as it stands before the edge.
   struct MemoryOutput {
@@ -108,7 +109,7 @@ class IpPorts {
               std::function<bool()> valid = nullptr) {
     outputs.push_back(
         {[port]() -> vp::SignalBase* { return &port(); }, name, bits, std::move(valid), false,
-         [port](std::uint64_t value) { port() = static_cast<T>(value); }, clocks.size() - 1});
+         [port](std::uint64_t value) { port() = static_cast<T>(value); }, clocks.size() - 1, true});
   }
   /// An output that only reports and traces look at: RTL may lack it, or have fewer bits.
   template <class T>

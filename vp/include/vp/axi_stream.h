@@ -159,7 +159,8 @@ class AxiStreamSlave {
 
   /// Once in every edge() of the slave: counts, and tells whether a beat passes on this edge. A
   /// slave that sleeps wakes on tvalid; the edges it slept through count as stalls where the master
-  /// waited.
+  /// waited. It does not sleep behind a beat, when the next one may wait already: TVALID would not
+  /// change.
   bool sample() {
     const bool valid = tvalid.read();
     const bool ready = tready.get();
