@@ -1,7 +1,7 @@
 #include "images.h"
 
-#include <scene/scene.h>
 #include <scene/renderer.h>
+#include <scene/scene.h>
 
 #include <algorithm>
 #include <cstdint>

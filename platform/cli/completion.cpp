@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include <cli/commands.h>
 #include <cli/app.h>
+#include <cli/commands.h>
 #include <cli/program.h>
 #include <scene/scene.h>
 #include <vp/text.h>

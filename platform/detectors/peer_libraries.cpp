@@ -79,8 +79,7 @@ class OpenCvPeer : public Peer {
     const cv::Matx33d intrinsic(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
     const std::vector<double> lens(camera.distortion.begin(), camera.distortion.end());
     cv::Vec3d turn, shift;
-    if (!cv::solvePnP(corners, points, intrinsic, lens, turn, shift, false,
-                      cv::SOLVEPNP_IPPE))
+    if (!cv::solvePnP(corners, points, intrinsic, lens, turn, shift, false, cv::SOLVEPNP_IPPE))
       return std::nullopt;
     cv::solvePnPRefineLM(corners, points, intrinsic, lens, turn, shift);
     cv::Matx33d rotation;

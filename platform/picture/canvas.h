@@ -15,7 +15,7 @@ inline const cv::Scalar sky_blue{86, 180, 233};
 inline const cv::Scalar bluish_green{0, 158, 115};
 inline const cv::Scalar yellow{240, 228, 66};
 inline const cv::Scalar blue{0, 114, 178};
-inline const cv::Scalar vermillion{213, 94, 0};
+inline const cv::Scalar vermilion{213, 94, 0};
 inline const cv::Scalar reddish_purple{204, 121, 167};
 
 inline const cv::Scalar ink{18, 20, 26};

@@ -95,7 +95,7 @@ std::vector<Entry> legend(const report::FrameReport& frame) {
     entries = {{"corner, tip north", palette::sky_blue, Entry::corner, 0, -1},
                {"corner, tip east", palette::bluish_green, Entry::corner, 1, 0},
                {"corner, tip south", palette::orange, Entry::corner, 0, 1},
-               {"corner, tip west", palette::vermillion, Entry::corner, -1, 0}};
+               {"corner, tip west", palette::vermilion, Entry::corner, -1, 0}};
   }
   if (!drawn.blobs.empty()) entries.push_back({"blob", palette::reddish_purple, Entry::thin, 0, 0});
   if (!drawn.candidates.empty())
@@ -181,7 +181,7 @@ Heading heading(marker::Direction direction) {
     case marker::Direction::east:
       return {1, 0, palette::bluish_green};
     default:
-      return {-1, 0, palette::vermillion};
+      return {-1, 0, palette::vermilion};
   }
 }
 
@@ -210,7 +210,7 @@ void draw_axes(Canvas& canvas, const Camera& camera, const Pose& pose) {
   };
   const std::array<Axis, 3> axes{{{"w", {0, 0, length}, palette::blue},
                                   {"v", {0, length, 0}, palette::bluish_green},
-                                  {"u", {length, 0, 0}, palette::vermillion}}};
+                                  {"u", {length, 0, 0}, palette::vermilion}}};
   const Eigen::Vector3d origin = transform(pose, {0, 0, 0});
   if (origin[2] < near_plane_m) return;
   for (const Axis& axis : axes) {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include <sweep/axes.h>
-#include <vp/unit.h>
 #include <vp/error.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 
 namespace platform::sweep {
 

@@ -290,8 +290,8 @@ void ClockScheduler::order_modules() {
     for (const Clock::Place& place : clock->places_) left.insert(left.begin(), place.module);
     while (!left.empty()) {
       auto bits = bits_read(left);
-      const auto next = std::min_element(
-          left.begin(), left.end(), [&](Clocked* a, Clocked* b) { return bits[a] < bits[b]; });
+      const auto next = std::min_element(left.begin(), left.end(),
+                                         [&](Clocked* a, Clocked* b) { return bits[a] < bits[b]; });
       order.push_back(*next);
       left.erase(next);
     }

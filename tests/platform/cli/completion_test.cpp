@@ -49,10 +49,11 @@ struct Completion : Terminal {
 BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
-  BOOST_TEST(offered({"markervp", "\"\""}) ==
-             "run history debug scenes designs config map report validate devices clocks power rtl trace "
-             "sweep explore metrics pareto sensitivity compare compare-detectors completion --help "
-             "--version ");
+  BOOST_TEST(
+      offered({"markervp", "\"\""}) ==
+      "run history debug scenes designs config map report validate devices clocks power rtl trace "
+      "sweep explore metrics pareto sensitivity compare compare-detectors completion --help "
+      "--version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config compare compare-detectors completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
              "--trace-window --trace-filter --trace-level --trace-clocks --trace-trigger "

@@ -46,8 +46,16 @@ FakeCamera::FakeCamera() {
 
 void FakeCamera::add_image(std::uint32_t width, std::uint32_t height) {
   auto& s = fake_hal::state();
-  s.frames.push_back({static_cast<std::uint32_t>(s.frames.size()), width, height, nullptr, 0,
-                      381.36, 381.36, width / 2.0, height / 2.0, {}});
+  s.frames.push_back({static_cast<std::uint32_t>(s.frames.size()),
+                      width,
+                      height,
+                      nullptr,
+                      0,
+                      381.36,
+                      381.36,
+                      width / 2.0,
+                      height / 2.0,
+                      {}});
 }
 
 void FakeCamera::Engine::take(const std::uint8_t* data, std::size_t size, std::size_t missing) {

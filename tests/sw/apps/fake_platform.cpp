@@ -54,9 +54,16 @@ void FakePlatform::add_frame(std::uint32_t width, std::uint32_t height) {
   for (std::uint32_t i = 0; i < width * height; ++i) {
     static_cast<std::uint8_t*>(buffer.data)[i] = static_cast<std::uint8_t>(i * 7 + i / 251);
   }
-  s.frames.push_back({static_cast<std::uint32_t>(s.frames.size()), width, height,
-                      static_cast<const std::uint8_t*>(buffer.data), buffer.bus_address, 381.36,
-                      381.36, width / 2.0, height / 2.0, {}});
+  s.frames.push_back({static_cast<std::uint32_t>(s.frames.size()),
+                      width,
+                      height,
+                      static_cast<const std::uint8_t*>(buffer.data),
+                      buffer.bus_address,
+                      381.36,
+                      381.36,
+                      width / 2.0,
+                      height / 2.0,
+                      {}});
 }
 
 void FakePlatform::connect(Engine& engine) {

@@ -2,12 +2,12 @@
 // that stands out from its background.
 const colours = {
   light: {
-    blue: "#0072b2", sky: "#3a9bd0", green: "#008a64", orange: "#d98c00", vermillion: "#cf5a00", purple: "#b85f93",
+    blue: "#0072b2", sky: "#3a9bd0", green: "#008a64", orange: "#d98c00", vermilion: "#cf5a00", purple: "#b85f93",
     yellow: "#b8a400", grey: "#8a9099",
     ink: "#16191d", soft: "#565d66", faint: "#8a9099", line: "#e3e5e8", page: "#ffffff", raised: "#f6f7f8",
   },
   dark: {
-    blue: "#4aa3df", sky: "#86c8ee", green: "#2fbf94", orange: "#eeb040", vermillion: "#f08050", purple: "#d894bb",
+    blue: "#4aa3df", sky: "#86c8ee", green: "#2fbf94", orange: "#eeb040", vermilion: "#f08050", purple: "#d894bb",
     yellow: "#e6d84a", grey: "#808892",
     ink: "#eceef1", soft: "#a9b0ba", faint: "#7c848f", line: "#2b3037", page: "#14171b", raised: "#1b1f24",
   },
@@ -34,8 +34,8 @@ export function toggleTheme() {
 media.addEventListener("change", () => chosen || apply());
 apply();
 
-const shades = ["blue", "sky", "orange", "green", "purple", "vermillion", "yellow", "grey", "soft"];
-const spare = ["blue", "orange", "green", "purple", "sky", "vermillion", "yellow", "grey"];
+const shades = ["blue", "sky", "orange", "green", "purple", "vermilion", "yellow", "grey", "soft"];
+const spare = ["blue", "orange", "green", "purple", "sky", "vermilion", "yellow", "grey"];
 const stages = [];
 
 /** Always the same colour for the same stage on a page. */

@@ -4,7 +4,7 @@ import { h } from "../kit/dom.js";
 import { counted, fixed, significant, time, words } from "../kit/format.js";
 import { isDark, palette } from "../kit/theme.js";
 
-const groupColours = { PL: "blue", DMA: "orange", Interrupts: "vermillion", PS: "green", Frame: "grey" };
+const groupColours = { PL: "blue", DMA: "orange", Interrupts: "vermilion", PS: "green", Frame: "grey" };
 const row = 26; // px
 const below = 96; // px of a counter's plot
 
@@ -95,7 +95,7 @@ export function gantt(run) {
           name: counter.name, type: "line", xAxisIndex: i + 1, yAxisIndex: i + 1, step: counter.step === false ? false : "end", symbol: "none", sampling: "max", data: held(counter.points, end),
           lineStyle: { width: 1.3, color: colour[i % 2 ? "purple" : "blue"] }, areaStyle: { opacity: 0.12, color: colour[i % 2 ? "purple" : "blue"] },
           markLine: counter.limit && Math.max(...counter.points.map((p) => p[1])) > counter.limit * 0.5
-            ? { silent: true, symbol: "none", data: [{ yAxis: counter.limit }], lineStyle: { color: colour.vermillion, type: "dashed" }, label: { formatter: `depth ${counter.limit}`, color: colour.soft, position: "insideEndTop" } } : undefined,
+            ? { silent: true, symbol: "none", data: [{ yAxis: counter.limit }], lineStyle: { color: colour.vermilion, type: "dashed" }, label: { formatter: `depth ${counter.limit}`, color: colour.soft, position: "insideEndTop" } } : undefined,
         }))],
     };
   };

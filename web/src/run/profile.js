@@ -60,7 +60,7 @@ function shortened(name, width) {
 
 function colourOf(f, colour) {
   if (f.index === 0) return colour.grey;
-  const shades = ["orange", "vermillion", "yellow", "green", "sky", "purple"];
+  const shades = ["orange", "vermilion", "yellow", "green", "sky", "purple"];
   return colour[shades[[...f.name].reduce((sum, c) => (sum * 31 + c.charCodeAt(0)) % 9973, 7) % shades.length]];
 }
 

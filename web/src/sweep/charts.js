@@ -78,7 +78,7 @@ export function parallel(sweep, selection) {
           nameTextStyle: { color: c.soft, fontSize: 11, lineHeight: 14 }, nameGap: 12, axisLine: { lineStyle: { color: c.faint } }, axisTick: { show: false },
           axisLabel: { color: c.ink, fontSize: 11, textBorderColor: c.page, textBorderWidth: 4 }, z: 4 } },
         parallelAxis: axes.map((a, dim) => ({ dim, areaSelectStyle: style(), name: a.parameter ? shortName(a, "\n") : `${a.name}\n${a.unit}`, scale: true, minInterval: points.every((p) => Number.isInteger(a.of(p))) ? 1 : undefined, type: a.numeric ? "value" : "category", data: a.numeric ? undefined : a.words })),
-        visualMap: { show: false, seriesIndex: 1, min: least, max: most, dimension: axes.length, inRange: { color: [c.green, c.yellow, c.vermillion] } },
+        visualMap: { show: false, seriesIndex: 1, min: least, max: most, dimension: axes.length, inRange: { color: [c.green, c.yellow, c.vermilion] } },
         series: [
           { ...lines, silent: true, lineStyle: { color: c.grey, width: 0.6, opacity: 0.12 }, activeOpacity: 0.12, inactiveOpacity: 0.12, data: spread(points, mostLines / 3).map(line) },
           { ...lines, lineStyle: { width: shown.length > 1000 ? 0.6 : 1.1 }, activeOpacity: shown.length > 1000 ? 0.35 : 0.6, inactiveOpacity: 0, data: shown.map(line) },
@@ -167,13 +167,13 @@ export function heatMap(sweep, selection, open) {
             text: [`${significant(most, 4)} ${z.unit}`, significant(least, 4)], textStyle: { color: c.soft }, inRange: { color: ramp() } },
           tooltip: { show: true, formatter: (p) => `${place(p.data.cell)}${p.seriesType === "custom" ? "no value" : `${z.name} ${significant(p.value[2], 4)} ${z.unit}`}${why(p.data.cell)}` },
           series: [{ type: "heatmap", label: { show: xs.length <= 12 && ys.length <= 24, formatter: (p) => significant(p.value[2], 4), fontSize: 11 },
-            data: data.map((cell) => ({ value: [...cell.key, cell.mean], cell, label: { color: cell.kept ? onRamp((cell.mean - least) / (most - least)) : c.soft }, itemStyle: { borderColor: cell.bad ? c.vermillion : c.page, borderWidth: outline, opacity: cell.kept ? 1 : 0.2 } })) },
+            data: data.map((cell) => ({ value: [...cell.key, cell.mean], cell, label: { color: cell.kept ? onRamp((cell.mean - least) / (most - least)) : c.soft }, itemStyle: { borderColor: cell.bad ? c.vermilion : c.page, borderWidth: outline, opacity: cell.kept ? 1 : 0.2 } })) },
           { type: "custom", data: failed.map((cell) => ({ value: cell.key, cell })), renderItem: (_, api) => {
             const [px, py] = api.coord([api.value(0), api.value(1)]);
             const [width, height] = api.size([1, 1]).map((size) => size - 2);
             const [left, top] = [px - width / 2, py - height / 2];
             const arm = Math.min(5, height / 3, width / 3);
-            const stroke = { stroke: c.vermillion, lineWidth: 1.2 };
+            const stroke = { stroke: c.vermilion, lineWidth: 1.2 };
             const cross = (sign) => ({ type: "line", shape: { x1: px - arm, y1: py - sign * arm, x2: px + arm, y2: py + sign * arm }, style: stroke });
             return { type: "group", children: [{ type: "rect", shape: { x: left, y: top, width, height }, style: { fill: c.raised } }, cross(1), cross(-1)] };
           } }],

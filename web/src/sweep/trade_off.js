@@ -164,7 +164,7 @@ function figureOf(sweep, selection, shown, frontIn, open) {
     return [
       { name: "Outside the limits", points: parts.outside, symbol: "circle", size: 5, style: { color: c.grey, opacity: 0.25 } },
       { name: "Feasible", points: parts.good, symbol: "circle", size: 6, style: { color: c.blue, opacity: 0.55 } },
-      faulty && { name: "Not feasible or not proven", points: parts.bad, symbol: "triangle", size: 7, style: { color: c.vermillion, opacity: 0.6 } },
+      faulty && { name: "Not feasible or not proven", points: parts.bad, symbol: "triangle", size: 7, style: { color: c.vermilion, opacity: 0.6 } },
       { name: "Pareto front", points: parts.front, symbol: "diamond", size: 10, style: { color: c.green } },
     ].filter(Boolean);
   };

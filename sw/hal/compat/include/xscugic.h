@@ -34,8 +34,8 @@ typedef struct {
   u32 UnhandledInterrupts;
 } XScuGic;
 
-/** By number or, as releases with SDT ask, by base address (of the distributor). NULL if there is no
- * such device. */
+/** By number or, as releases with SDT ask, by base address (of the distributor). NULL if there is
+ * no such device. */
 XScuGic_Config* XScuGic_LookupConfig(UINTPTR DeviceId);
 XScuGic_Config* XScuGic_LookupConfigBaseAddr(UINTPTR BaseAddress);
 
