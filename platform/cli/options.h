@@ -104,7 +104,7 @@ struct RtlCompareOptions {
 struct RtlOptions {
   std::string command;  ///< "check", "vectors", "compare", "synth"
   std::string ip;
-  std::string rtl;  ///< check: shared object, or a folder with <ip>.so in it or in its `build`
+  std::string rtl;  ///< check: shared object, or a folder with IP.so in it or in its `build`
   RunOptions run;
   RtlCompareOptions compare;
   RtlSynthOptions synth;

@@ -61,7 +61,7 @@ Model<Ip> model(std::string name, Passage takes, Passage gives) {
           }};
 }
 
-/// What `fidelity.<ip>` names besides models: "corner.so", RTL in place of the IP;
+/// What `fidelity.IP` names besides models: "corner.so", RTL in place of the IP;
 /// "lockstep:corner.so", RTL beside its clocked model, which it must equal; "vectors:folder", where
 /// its clocked model leaves stimulus and response for the benches of RTL.
 struct RtlFile {

@@ -117,7 +117,7 @@ struct IpEstimate {
   FmaxOrigin fmax_origin = FmaxOrigin::estimated;
   std::string fmax_documentation;
 
-  /// IP of one kind share the coefficient `ip.<kind>` of the power table, if it has one. Without
+  /// IP of one kind share the coefficient `ip.KIND` of the power table, if it has one. Without
   /// one, power follows from the primitives.
   std::string kind;
   /// How many times as large as the IP that the coefficient was read from.
