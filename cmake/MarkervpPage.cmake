@@ -17,11 +17,10 @@ set(MARKERVP_PAGE_FOLDER "${PROJECT_BINARY_DIR}/web")
 set(MARKERVP_PAGE_TEMPLATE "${MARKERVP_PAGE_FOLDER}/report-template.html")
 set(MARKERVP_PAGE_MODULES "${MARKERVP_PAGE_FOLDER}/node_modules")
 
-# Defines the rule that makes MARKERVP_PAGE_TEMPLATE. SOURCES: what it is made of, below web/.
+# Defines the rule that makes MARKERVP_PAGE_TEMPLATE. build.js lists the sources that it bundled in a dependency file, so
+# a change of any of them makes the page again.
 function(markervp_page_rule)
-  cmake_parse_arguments(PAGE "" "" "SOURCES" ${ARGN})
   set(web "${PROJECT_SOURCE_DIR}/web")
-  list(TRANSFORM PAGE_SOURCES PREPEND "${web}/")
   set(packages "")
   if(DEFINED BUILD_TESTING AND NOT BUILD_TESTING)
     set(packages --omit=dev)
@@ -39,8 +38,9 @@ function(markervp_page_rule)
     VERBATIM)
   add_custom_command(OUTPUT "${MARKERVP_PAGE_TEMPLATE}"
     COMMAND "${MARKERVP_NODE}" "${web}/build.js" "${MARKERVP_PAGE_TEMPLATE}" "${MARKERVP_PAGE_MODULES}"
-    DEPENDS "${installed}" "${web}/build.js" "${PROJECT_SOURCE_DIR}/data/published.csv"
-      "${PROJECT_SOURCE_DIR}/data/thesis_systems.csv" ${PAGE_SOURCES}
+      "${MARKERVP_PAGE_TEMPLATE}.d"
+    DEPENDS "${installed}" "${web}/build.js"
+    DEPFILE "${MARKERVP_PAGE_TEMPLATE}.d"
     COMMENT "Bundling report.html"
     VERBATIM)
 endfunction()

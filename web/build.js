@@ -1,8 +1,9 @@
 // Makes one HTML file of src/: script and style inlined, nothing to load.
-//   node build.js OUTPUT [MODULES]     MODULES: folder of the npm packages, if not beside this file
+//   node build.js OUTPUT [MODULES [DEPFILE]]
+// MODULES: folder of the npm packages, if not beside this file. DEPFILE: lists the sources, as a rule for make or ninja.
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { dirname, join, resolve } from "node:path";
+import { dirname, join, resolve, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -10,7 +11,7 @@ const output = resolve(process.argv[2] ?? "report-template.html");
 const modules = resolve(process.argv[3] ?? join(here, "node_modules"));
 const esbuild = createRequire(join(modules, "x.js"))("esbuild");
 
-const common = { bundle: true, write: false, minify: true, nodePaths: [modules], logLevel: "warning" };
+const common = { bundle: true, write: false, metafile: true, minify: true, nodePaths: [modules], logLevel: "warning" };
 const script = await esbuild.build({
   ...common,
   entryPoints: [join(here, "src/main.js")],
@@ -23,8 +24,17 @@ const style = await esbuild.build({ ...common, entryPoints: [join(here, "src/sty
 
 // Text inside <script> ends at the first "</script", and "<!--" changes how it is read.
 const inScript = (text) => text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
-const html = readFileSync(join(here, "src/page.html"), "utf8")
+const frame = join(here, "src/page.html");
+const html = readFileSync(frame, "utf8")
   .replace("/*STYLE*/", () => style.outputFiles[0].text.trim())
   .replace("/*SCRIPT*/", () => inScript(script.outputFiles[0].text.trim()));
 if (html.split("<!--DATA-->").length !== 2) throw new Error("the page must hold <!--DATA--> once");
 writeFileSync(output, html);
+
+if (process.argv[4]) {
+  const bundled = [script, style].flatMap(({ metafile }) => Object.keys(metafile.inputs).map((file) => resolve(file)));
+  // The packages are covered by the lock file.
+  const own = bundled.filter((file) => !file.startsWith(modules + sep));
+  const escaped = (file) => file.replace(/[ #]/g, "\\$&").replace(/\$/g, "$$$$");
+  writeFileSync(process.argv[4], `${escaped(output)}: ${[frame, ...own].map(escaped).join(" ")}\n`);
+}
