@@ -183,7 +183,6 @@ test("no rate is said for another clock where frames overlap", async () => {
 });
 
 test("a stage and its parts are not stacked", async () => {
-  const frame = samples.psOnly().result.frames[0].time_us.frame;
   await open("psOnly", async (page) => {
     const shares = await page.locator(".frame-side .keys li").evaluateAll((items) => items.map((item) => item.textContent));
     assert.deepEqual(shares.map((text) => text.match(/^\D*/)[0].trim()).slice(0, 4), ["capture", "corner detection", "threshold", "blob detection"]);
@@ -193,11 +192,33 @@ test("a stage and its parts are not stacked", async () => {
     assert.ok(!rows.some((row) => row[1] === "feature extraction"));
     assert.match(await page.locator("#guidance").textContent(), /Corner detection takes \d+ % of a frame/);
   });
+  // The same of two runs whose stages differ: of each its own, which make up its frame.
   await open("systems", async (page) => {
     const rows = await rowsOf(page, "Stages of a frame");
-    const parts = rows.filter((row) => row[0] !== "feature extraction").reduce((all, row) => all + number(row[2]), 0);
-    assert.ok(Math.abs(parts / frame - 1) < 0.1, `${parts} of ${frame}`);
+    const { result, "result-b": other } = blocks.systems;
+    for (const [which, { frames }] of Object.entries({ A: result, B: other })) {
+      const own = rows.filter((row) => row[0].startsWith(which));
+      const frame = frames.reduce((all, each) => all + each.time_us.frame, 0) / frames.length;
+      const sum = own.reduce((all, row) => all + number(row[2]), 0);
+      assert.ok(Math.abs(sum / frame - 1) < 0.001, `${which}: ${sum} of ${frame}`);
+    }
+    assert.ok(rows.some((row) => row[0].startsWith("A") && row[1] === "feature extraction"));
+    assert.ok(!rows.some((row) => row[0].startsWith("B") && row[1] === "feature extraction"));
   });
+});
+
+test("a figure that one of two runs lacks is a dash", async () => {
+  for (const name of ["systems", "nothingCompared"]) {
+    await open(name, async (page) => {
+      await scrollThrough(page);
+      for (const button of await page.getByRole("button", { name: "Table", exact: true }).all()) await button.press("Enter");
+      const row = page.locator("#figures tbody tr", { hasText: name === "systems" ? "Stage: capture" : "Frame rate" });
+      assert.ok((await row.locator("td").allTextContents()).includes("–"));
+      assert.doesNotMatch(await page.locator("main").innerHTML(), /\bNaN\b|Infinity|undefined/);
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#figures").getByRole("button", { name: /CSV$/ }).click()]);
+      assert.doesNotMatch(fs.readFileSync(await download.path(), "utf8"), /NaN/);
+    });
+  }
 });
 
 test("a design says itself what its stages, counts and losses are", async () => {

@@ -1,14 +1,15 @@
 // Two runs beside each other.
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
-import { fixed, significant, signed, tidy, time, words } from "../kit/format.js";
+import { significant, signed, tidy, time, words } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
-import { palette, seriesColour, stageColour } from "../kit/theme.js";
-import { countsOf, makeRun, partsOf } from "../run/facts.js";
+import { palette, seriesColour } from "../kit/theme.js";
+import { countsOf, makeRun } from "../run/facts.js";
 import { gantt } from "../run/gantt.js";
+import { stageBars, stagesOf } from "../run/stages.js";
 
 function figures(a, b) {
-  const pick = (title, unit, of, better) => ({ title, unit, a: of(a), b: of(b), better });
+  const pick = (title, unit, of, better) => ({ title, unit, a: of(a) ?? NaN, b: of(b) ?? NaN, better });
   const counts = (key) => (run) => run.frames.reduce((sum, f) => sum + (f.counts?.[key] ?? 0), 0) / run.frames.length;
   const stages = [...new Set([...a.stages, ...b.stages])];
   return [
@@ -24,24 +25,15 @@ function figures(a, b) {
 function deltaTable(rows, names) {
   const share = (r) => (Number.isFinite(r.a) && Number.isFinite(r.b) && r.a !== 0 ? 100 * (r.b / r.a - 1) : undefined);
   const mood = (r) => { const d = share(r) * r.better; return !Number.isFinite(d) || Math.abs(d) < 0.005 ? "" : d > 0 ? "good" : "bad"; };
-  const number = (v) => (Number.isFinite(v) ? tidy(v, 5) : "–");
+  const number = (v) => tidy(v, 5);
   return dataTable({ caption: "Figures of both runs", name: "comparison", exportable: true, rows, columns: [
     { title: "Figure", head: true, value: (r) => r.title }, { title: "Unit", value: (r) => r.unit }, { title: names[0], number: true, value: (r) => r.a, show: number }, { title: names[1], number: true, value: (r) => r.b, show: number },
     { title: "Change", unit: "%", csv: "Change percent", number: true, value: share, node: (r) => (share(r) === undefined ? "" : h("span", { class: "tag " + mood(r) }, `${signed(share(r), 2)} %`)) }] });
 }
 
-function stageBars(runs, names) {
-  const stages = [...new Set(runs.flatMap(partsOf))];
-  return chart({
-    name: "stages", title: "Stages of a frame, ms", height: 170, summary: runs.map((run, i) => `${names[i]}: ${time(run.stageMean("frame"))}`).join(", "),
-    option: () => ({
-      legend: { top: 0, left: 0, icon: "roundRect", itemWidth: 10, itemHeight: 10, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true },
-      xAxis: axis({ type: "value" }), yAxis: axis({ type: "category", data: names.slice().reverse(), splitLine: { show: false }, axisLabel: { width: 180, overflow: "truncate" } }),
-      tooltip: { show: true, formatter: (p) => `${p.seriesName}\n${time(p.value * 1e3)}` },
-      series: stages.map((name) => ({ name: words(name), type: "bar", stack: "all", barMaxWidth: 22, itemStyle: { color: stageColour(name) }, data: runs.slice().reverse().map((run) => (run.stageMean(name) || 0) / 1e3) })),
-    }),
-    table: () => ({ caption: "Stages", rows: stages, columns: [{ title: "Stage", value: (s) => s, show: words }, ...runs.map((run, i) => ({ title: names[i], unit: "µs", number: true, value: (s) => run.stageMean(s), show: (v) => fixed(v, 1) }))] }),
-  });
+function stageChart(runs, names) {
+  const rows = runs.map((run, i) => ({ name: names[i], stages: stagesOf(run) }));
+  return rows.some((row) => row.stages.length > 0) ? stageBars(rows) : null;
 }
 
 function latencies(runs, names) {
@@ -89,7 +81,7 @@ export function comparePage(first, firstExtras, second, secondExtras, folders) {
     sections: [
       section("configuration", "What differs", changed.length ? dataTable({ caption: "Parameters that differ", name: "changed", rows: changed, columns: [{ title: "Parameter", head: true, value: (r) => r.path }, { title: labels[0], value: (r) => r.a }, { title: labels[1], value: (r) => r.b }] }) : h("p", { class: "note" }, "The configurations are equal.")),
       section("figures", "Figures", deltaTable(figures(...runs), labels)),
-      section("time", "Time", stageBars(runs, labels), latencies(runs, labels), overlaid(runs, labels)),
+      section("time", "Time", stageChart(runs, labels), latencies(runs, labels), overlaid(runs, labels)),
     ],
   };
 }

@@ -1,7 +1,9 @@
 // Numbers as people read them: as many digits as matter, thin spaces between thousands.
+// What is no number is a dash: a figure that one of two runs lacks, a rate without results.
 const thin = "\u202f";
 
 export function fixed(value, places) {
+  if (!Number.isFinite(value)) return "–";
   const [whole, part] = Math.abs(value).toFixed(places).split(".");
   const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, thin) : whole;
   const sign = value < 0 && Number(value.toFixed(places)) !== 0 ? "\u2212" : "";
@@ -13,7 +15,7 @@ export const error = (value, places) => fixed(value, value > 0 && value * 10 ** 
 
 /** About `digits` significant digits. */
 export function significant(value, digits = 3) {
-  if (!Number.isFinite(value)) return "–";
+  if (!Number.isFinite(value)) return fixed(value, 0);
   if (value === 0) return "0";
   const places = Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value))));
   return fixed(value, Math.min(places, 9));
@@ -28,6 +30,7 @@ export function signed(value, places) {
 
 /** A time given in µs, in the unit that suits it. */
 export function time(us) {
+  if (!Number.isFinite(us)) return "–";
   const size = Math.abs(us);
   if (size >= 1e6) return significant(us / 1e6, 4) + " s";
   if (size >= 1e3) return significant(us / 1e3, 4) + " ms";
@@ -35,7 +38,7 @@ export function time(us) {
   return significant(us * 1e3, 3) + " ns";
 }
 
-export const percent = (share, places = 1) => fixed(100 * share, places) + " %";
+export const percent = (share, places = 1) => (Number.isFinite(share) ? fixed(100 * share, places) + " %" : "–");
 
 export const counted = (count, what) => `${fixed(count, 0)} ${what}${count === 1 ? "" : "s"}`;
 

@@ -11,7 +11,7 @@ const textOf = (column, row) => {
 
 function quoted(value) {
   // A cell that begins like a formula would be one in a spreadsheet.
-  let text = value === undefined || value === null ? "" : String(value);
+  let text = value === undefined || value === null || Number.isNaN(value) ? "" : String(value);
   if (typeof value === "string" && /^[=+\-@\t\r]/.test(text)) text = "'" + text;
   return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
