@@ -112,7 +112,7 @@ bench::Recording& recording() {
 class Replay {
  public:
   explicit Replay(const bench::Recording& recording)
-      : recording_(recording), model_(recording.rtl->create("alone"), recording.rtl->destroy) {
+      : recording_(recording), model_(recording.rtl->create("alone", 0), recording.rtl->destroy) {
     for (const bench::Recording::Input& input : recording.inputs) {
       pins_.push_back({recording.rtl->pin(model_.get(), input.port), input.bytes});
       bytes_ += input.bytes;

@@ -23,13 +23,13 @@ void* pin(void* model, uint32_t port) {
   return recording.rtl->pin(model, port);
 }
 
-void eval(void* model) {
+const RtlEnd* eval(void* model) {
   for (const bench::Recording::Input& input : recording.inputs) {
     const auto* bytes = static_cast<const unsigned char*>(input.place);
     recording.stimulus.insert(recording.stimulus.end(), bytes, bytes + input.bytes);
   }
   if (!recording.inputs.empty()) ++recording.evaluations;
-  recording.rtl->eval(model);
+  return recording.rtl->eval(model);
 }
 
 const RtlDescriptor* load() {

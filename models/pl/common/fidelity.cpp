@@ -19,6 +19,9 @@ bool goes(Passage given, Passage taken) {
   return (given.pixels && taken.pixels) || (given.frames && taken.frames);
 }
 
+/// Any but 0 and 1: random values, the same in every run.
+constexpr std::uint64_t usual_seed = 1000;
+
 std::string words(Passage image) {
   return image.pixels ? "pixels one by one" : "whole frames";
 }
@@ -65,9 +68,16 @@ ChoiceBase::ChoiceBase(const std::string& instance, std::vector<ModelTraits> tra
   // RTL has the pins of the clocked model.
   if (chosen_ == traits_.size()) {
     ModelTraits rtl{parameter_.get(), traits_.front().takes, traits_.front().gives};
-    const auto named = RtlFile::parse(rtl.name);
-    if (named && named->use == RtlFile::Use::in_place) rtl.takes.frames = rtl.gives.frames = false;
+    file_ = RtlFile::parse(rtl.name);
+    if (file_ && file_->use == RtlFile::Use::in_place) rtl.takes.frames = rtl.gives.frames = false;
     traits_.push_back(rtl);
+  }
+  if (file_ && file_->use != RtlFile::Use::vectors) {
+    seed_ = std::make_unique<vp::Parameter<std::uint64_t>>(
+        (instance + "_seed").c_str(), usual_seed, vp::Unit::none, vp::Source::decision,
+        "how registers without reset start in the RTL of " + instance +
+            ": 0 zeros, 1 ones, otherwise random values of this seed");
+    file_->seed = *seed_;
   }
   for (const ChoiceBase* other : feeds) check(*other);
 }

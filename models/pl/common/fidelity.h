@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -68,6 +69,8 @@ struct RtlFile {
   enum class Use { in_place, lockstep, vectors };
   std::string path;
   Use use = Use::in_place;
+  /// Start of registers without reset: 0 zeros, 1 ones, otherwise random values.
+  std::uint64_t seed = 0;
 
   /// None if `text` names no such thing: it has no folder in it, and does not end in .so.
   static std::optional<RtlFile> parse(const std::string& text);
@@ -126,7 +129,7 @@ class ChoiceBase {
   /// Its key.
   std::string name() const { return parameter_.name(); }
   /// No model of the list, but an RtlFile.
-  bool is_file() const { return RtlFile::parse(text()).has_value(); }
+  bool is_file() const { return file_.has_value(); }
 
  protected:
   /// `traits` is never empty.
@@ -134,6 +137,8 @@ class ChoiceBase {
              Fidelity otherwise, const Feeds& feeds);
   std::size_t chosen() const { return chosen_; }
   const std::string& text() const { return parameter_.get(); }
+  /// Empty for a model of the list.
+  const std::optional<RtlFile>& file() const { return file_; }
 
  private:
   std::string usual(Fidelity otherwise, const Feeds& feeds) const;
@@ -142,6 +147,8 @@ class ChoiceBase {
 
   std::vector<ModelTraits> traits_;
   ModelName parameter_;
+  std::unique_ptr<vp::Parameter<std::uint64_t>> seed_;  ///< null where no RTL runs
+  std::optional<RtlFile> file_;
   std::size_t chosen_ = 0;
 };
 
@@ -165,8 +172,9 @@ class Choice : public ChoiceBase {
     if (chosen() < models.list().size()) {
       make_ = models.list()[chosen()].make;
     } else {
-      make_ = [make = models.make_rtl, rtl = *RtlFile::parse(text())](
-                  const char* name, const Site& site) { return make(name, site, rtl); };
+      make_ = [make = models.make_rtl, rtl = *file()](const char* name, const Site& site) {
+        return make(name, site, rtl);
+      };
     }
   }
 

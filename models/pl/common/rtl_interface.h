@@ -5,7 +5,7 @@
 // What a shared object with Verilated RTL (cmake: markervp_add_rtl) says of itself: plain C, so
 // that it may be built with any compiler and Verilator.
 
-#define RTL_INTERFACE 3
+#define RTL_INTERFACE 4
 #define RTL_SYMBOL "markervp_rtl"
 
 struct RtlPort {
@@ -20,6 +20,12 @@ struct RtlParameter {
   uint64_t value;
 };
 
+// How the RTL ended itself.
+struct RtlEnd {
+  const char* why;    // "$finish", "Assertion failed in top.x: too many"
+  const char* place;  // file:line; "" if unknown
+};
+
 struct RtlDescriptor {
   uint32_t interface;  // RTL_INTERFACE; the rest holds only if it is the same
   const char* ip;      // the IP in whose place it stands
@@ -30,9 +36,15 @@ struct RtlDescriptor {
   uint32_t parameter_count;
   const RtlParameter* parameters;
 
-  void* (*create)(const char* name);
+  int assertions;  // 0: built without them
+
+  // Registers without reset start at 0 (seed 0), at 1 (seed 1), or at random. Inputs start at 0.
+  void* (*create)(const char* name, uint64_t seed);
   void (*destroy)(void* model);
-  void (*eval)(void* model);
+  // Null, unless the RTL ended itself: it can only be destroyed then.
+  const struct RtlEnd* (*eval)(void* model);
+  // Its `final` blocks, at the end of a simulation. As eval().
+  const struct RtlEnd* (*finish)(void* model);
   // All clocks are low again, as behind an eval() with them low, which is not needed: nothing in
   // the RTL waits for a clock to fall. Null: that is not known.
   void (*lower)(void* model);
@@ -43,3 +55,8 @@ struct RtlDescriptor {
   uint64_t state_bytes;
   const void* (*state)(void* model);
 };
+
+#ifdef VL_PRINTF
+// Inside the object: what Verilator's runtime prints with.
+int VL_PRINTF(const char* format, ...);
+#endif

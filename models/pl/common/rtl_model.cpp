@@ -53,14 +53,17 @@ PortWatcher::PortWatcher(sc_core::sc_module_name name, const IpPorts& ports)
   for (std::size_t i = 1; i < ports.clocks.size(); ++i) further_.emplace_back(*this, ports, i);
 }
 
-RtlShadow::RtlShadow(sc_core::sc_module_name name, RtlPins& pins)
-    : PortWatcher(name, pins.ports()),
-      pins_(pins),
-      model_("model", pins.ports()),
-      last_edges_(pins.ports().clocks.size()),
+RtlShadow::RtlShadow(sc_core::sc_module_name name, std::deque<RtlPins>& copies)
+    : PortWatcher(name, copies.front().ports()),
+      ports_(copies.front().ports()),
+      model_("model", ports_),
+      last_edges_(ports_.clocks.size()),
       edges_left_(clocks_shown) {
-  for (const IpPorts::Output& output : pins_.ports().outputs)
+  for (const IpPorts::Output& output : ports_.outputs)
     outputs_.emplace_back(output.name.c_str(), output.bits);
+  for (RtlPins& pins : copies)
+    copies_.push_back({&pins, std::vector<std::uint64_t>(outputs_.size())});
+  shown_ = &copies_.front();
 }
 
 RtlShadow::Wires::Wires(sc_core::sc_module_name name, const IpPorts& ports) : sc_module(name) {
@@ -72,7 +75,7 @@ RtlShadow::Wires::Wires(sc_core::sc_module_name name, const IpPorts& ports) : sc
 void RtlShadow::end_of_elaboration() {
   PortWatcher::end_of_elaboration();
   std::uint32_t wire = 0;
-  for (const IpPorts::Output& output : pins_.ports().outputs) {
+  for (const IpPorts::Output& output : ports_.outputs) {
     if (!output.of_link) continue;
     model_.list[wire] = output.port()->bits();
     output.port()->attach(*this, wire++);
@@ -89,9 +92,11 @@ void RtlShadow::edge_of(std::size_t clock) {
   } else if (--edges_left_ == 0) {
     fail();
   }
-  pins_.clock_edge(clock);
-  note_outputs(clock);
-  const vp::Clock& its = *pins_.ports().clocks[clock].clock;
+  for (Copy& copy : copies_) {
+    copy.pins->clock_edge(clock);
+    note_outputs(copy, clock);
+  }
+  const vp::Clock& its = *ports_.clocks[clock].clock;
   last_edges_[clock] = {its.cycle(), its.scheduler().now_ps()};
 }
 
@@ -99,36 +104,55 @@ void RtlShadow::edge_of(std::size_t clock) {
 void RtlShadow::end_of_simulation() {
   for (std::size_t i = 0; i < last_edges_.size() && difference_.empty(); ++i) compare(i);
   if (!difference_.empty()) fail();
+  for (Copy& copy : copies_) copy.pins->finish();
 }
 
-void RtlShadow::note_outputs(std::size_t clock) {
+void RtlShadow::note_outputs(Copy& copy, std::size_t clock) {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (pins_.ports().outputs[i].clock == clock) outputs_[i] = pins_.value(i);
+    if (ports_.outputs[i].clock == clock) copy.outputs[i] = copy.pins->value(i);
   }
+  if (&copy == shown_) show(copy);
+}
+
+void RtlShadow::show(const Copy& copy) {
+  shown_ = &copy;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = copy.outputs[i];
 }
 
 /// What stands behind the last edge of the clock.
 void RtlShadow::compare(std::size_t clock) {
-  const Edge& edge = last_edges_[clock];
-  if (edge.number == 0) return;
-  const IpPorts& ports = pins_.ports();
-  if (ports.combinational || !ports.memory_outputs.empty()) pins_.settle();
-  if (ports.combinational) note_outputs(clock);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    const IpPorts::Output& output = ports.outputs[i];
-    if (output.clock != clock || (output.valid && !output.valid())) continue;
-    compare(output.name, output.bits, output.port()->bits() & mask(output.bits), outputs_[i].get());
-  }
-  for (std::size_t i = 0; i < ports.memory_outputs.size(); ++i) {
-    const IpPorts::MemoryOutput& output = ports.memory_outputs[i];
-    const auto model = output.expected ? output.expected() : std::nullopt;
-    if (model) compare(output.name, output.bits, *model, pins_.memory_value(i));
+  if (last_edges_[clock].number == 0) return;
+  for (Copy& copy : copies_) {
+    compare(copy, clock);
+    if (!difference_.empty()) break;
   }
   differs = !difference_.empty();
+}
+
+void RtlShadow::compare(Copy& copy, std::size_t clock) {
+  RtlPins& pins = *copy.pins;
+  if (ports_.combinational || !ports_.memory_outputs.empty()) pins.settle();
+  if (ports_.combinational) note_outputs(copy, clock);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const IpPorts::Output& output = ports_.outputs[i];
+    if (output.clock != clock || (output.valid && !output.valid())) continue;
+    compare(output.name, output.bits, output.port()->bits() & mask(output.bits), copy.outputs[i]);
+  }
+  for (std::size_t i = 0; i < ports_.memory_outputs.size(); ++i) {
+    const IpPorts::MemoryOutput& output = ports_.memory_outputs[i];
+    const auto model = output.expected ? output.expected() : std::nullopt;
+    if (model) compare(output.name, output.bits, *model, pins.memory_value(i));
+  }
   if (difference_.empty()) return;
-  difference_ = "RTL '" + pins_.file() + "' differs from the model behind edge " +
-                std::to_string(edge.number) + " of " + ports.clocks[clock].clock->basename() +
+  show(copy);
+  const Edge& edge = last_edges_[clock];
+  difference_ = "RTL '" + pins.file() + "' differs from the model behind edge " +
+                std::to_string(edge.number) + " of " + ports_.clocks[clock].clock->basename() +
                 ", at " + vp::format_time(edge.ps) + ": " + difference_;
+  if (&copy != &copies_.front()) {
+    difference_ += ", when registers without reset start at " + pins.start() +
+                   " instead of 0: give them a reset";
+  }
 }
 
 void RtlShadow::compare(const std::string& port, unsigned bits, std::uint64_t model,

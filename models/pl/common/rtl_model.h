@@ -23,9 +23,9 @@ namespace pl {
 class RtlInPlace final : public vp::SignalListener {
  public:
   /// `modules`: that of each clock.
-  RtlInPlace(const std::string& file, const std::string& ip, const std::string& instance,
-             IpPorts ports, std::vector<vp::Clocked*> modules)
-      : pins_(file, ip, instance, std::move(ports)), modules_(std::move(modules)) {}
+  RtlInPlace(const RtlFile& file, const std::string& ip, const std::string& instance, IpPorts ports,
+             std::vector<vp::Clocked*> modules)
+      : pins_(file.path, file.seed, ip, instance, std::move(ports)), modules_(std::move(modules)) {}
 
   /// In edge() of a clock's module; true: it may sleep.
   bool edge(std::size_t clock = 0) {
@@ -49,6 +49,8 @@ class RtlInPlace final : public vp::SignalListener {
     pins_.settle();
     pins_.drive();
   }
+  /// At the end of the simulation.
+  void finish() { pins_.finish(); }
 
  private:
   void listen();
@@ -65,7 +67,7 @@ class RtlInPlace final : public vp::SignalListener {
 template <class Ip>
 class RtlModel final : public Ip {
  public:
-  RtlModel(const char* name, const Site& site, const std::string& file)
+  RtlModel(const char* name, const Site& site, const RtlFile& file)
       : Ip(name, site), rtl_(file, Ip::models().ip(), this->name(), ports(), {this}) {}
 
  private:
@@ -80,6 +82,10 @@ class RtlModel final : public Ip {
   void on_change(vp::SignalBase& signal, std::uint32_t id) override {
     Ip::on_change(signal, id);
     rtl_.settle();
+  }
+  void end_of_simulation() override {
+    Ip::end_of_simulation();
+    rtl_.finish();
   }
 
   RtlInPlace rtl_;
@@ -155,14 +161,18 @@ class PortWatcher : public vp::Clocked {
   std::deque<Further> further_;
 };
 
-/// RTL beside the model of its IP, on the same inputs. The first clock behind which an output
+/// RTL beside the model of its IP, on the same inputs: once for each start of its registers
+/// without reset (`starts`). The first clock behind which an output
 /// differs ends the simulation, some clocks later: a trace then shows what came of it. One that
 /// ends before fails in sc_stop(). `rtl.<port>` is what the RTL gives; `rtl.model.<port>` what the
 /// model does, where that is a wire outside of the IP.
 class RtlShadow final : public PortWatcher {
  public:
-  /// All pins are connected.
-  RtlShadow(sc_core::sc_module_name name, RtlPins& pins);
+  /// Seeds of the copies that run for RTL with `seed`: zeros, ones, and random values.
+  static std::vector<std::uint64_t> starts(std::uint64_t seed) { return {0, 1, seed, seed + 1}; }
+
+  /// All pins of the copies are connected. There is at least one.
+  RtlShadow(sc_core::sc_module_name name, std::deque<RtlPins>& copies);
 
   vp::Signal<bool> differs{"differs"};  ///< from the first difference on
 
@@ -175,16 +185,24 @@ class RtlShadow final : public PortWatcher {
   void end_of_elaboration() override;
   void end_of_simulation() override;
   void on_change(vp::SignalBase& signal, std::uint32_t wire) override;
-  void note_outputs(std::size_t clock);
+  struct Copy {
+    RtlPins* pins;
+    std::vector<std::uint64_t> outputs;  ///< behind the last edge of their clocks
+  };
+  void note_outputs(Copy& copy, std::size_t clock);
+  void show(const Copy& copy);
   void compare(std::size_t clock);
+  void compare(Copy& copy, std::size_t clock);
   void compare(const std::string& port, unsigned bits, std::uint64_t model, std::uint64_t rtl);
   [[noreturn]] void fail() const;
 
   struct Edge {
     std::uint64_t number = 0, ps = 0;  ///< 0: none
   };
-  RtlPins& pins_;
-  std::deque<vp::Signal<std::uint64_t>> outputs_;  ///< as the pins have them
+  const IpPorts& ports_;  ///< as the RTL has them
+  std::vector<Copy> copies_;
+  const Copy* shown_;                              ///< the first one, or that which differs
+  std::deque<vp::Signal<std::uint64_t>> outputs_;  ///< of the copy that is shown
   Wires model_;                                    ///< of links, as the model drives them
   std::vector<Edge> last_edges_;                   ///< of each clock, behind which they stand
   std::uint64_t edges_left_;
@@ -231,13 +249,14 @@ class WatchedModel final : public Clocked {
     if (rtl.use == RtlFile::Use::vectors) {
       watcher_ = std::make_unique<RtlVectors>("vectors", ip, std::move(ports), rtl.path);
     } else {
-      pins_.emplace(rtl.path, ip, this->name(), std::move(ports));
-      watcher_ = std::make_unique<RtlShadow>("rtl", *pins_);
+      for (const std::uint64_t seed : RtlShadow::starts(rtl.seed))
+        copies_.emplace_back(rtl.path, seed, ip, this->name(), ports);
+      watcher_ = std::make_unique<RtlShadow>("rtl", copies_);
     }
   }
 
  private:
-  std::optional<RtlPins> pins_;
+  std::deque<RtlPins> copies_;
   std::unique_ptr<PortWatcher> watcher_;
 };
 
@@ -248,7 +267,7 @@ typename Models<Ip>::MakeRtl rtl_model() {
   return [](const char* name, const Site& site, const RtlFile& rtl) -> std::unique_ptr<Ip> {
     if (rtl.use != RtlFile::Use::in_place)
       return std::make_unique<WatchedModel<Clocked>>(name, site, rtl);
-    return std::make_unique<InPlace>(name, site, rtl.path);
+    return std::make_unique<InPlace>(name, site, rtl);
   };
 }
 

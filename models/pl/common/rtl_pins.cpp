@@ -7,6 +7,8 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
+#include <vp/report.h>
+#include <vp/unit.h>
 
 namespace pl {
 
@@ -59,13 +61,15 @@ void add_stream(IpPorts& ports, vp::AxiStreamMaster& m) {
       "m_tlast", 1, [&m]() -> auto& { return m.link().tlast; });
 }
 
-RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::string& instance,
-                 IpPorts ports)
+RtlPins::RtlPins(const std::string& file, std::uint64_t seed, const std::string& ip,
+                 const std::string& instance, IpPorts ports)
     : file_(file),
+      seed_(seed),
       ip_(ip),
+      instance_(instance),
       ports_(std::move(ports)),
       rtl_(open(file)),
-      model_(rtl_.create(instance.c_str()), rtl_.destroy),
+      model_(rtl_.create(instance.c_str(), seed), rtl_.destroy),
       risen_ps_(ports_.clocks.size(), vp::Clock::never),
       connected_(rtl_.port_count),
       rest_(rtl_.state_bytes, ports_.clocks.size()) {
@@ -74,7 +78,7 @@ RtlPins::RtlPins(const std::string& file, const std::string& ip, const std::stri
   leave_out_what_it_lacks();
   for (const IpPorts::ClockPin& clock : ports_.clocks)
     levels_.push_back(static_cast<std::uint8_t*>(pin(clock.name, 1, false)));
-  rtl_.eval(model_.get());  // with the clocks low: the first edge would be none otherwise
+  evaluate();  // with the clocks low: the first edge would be none otherwise
   for (const IpPorts::Input& input : ports_.inputs)
     inputs_.push_back({pin(input.name, input.bits, false), input.bits, &input.read});
   for (const IpPorts::Output& output : ports_.outputs)
@@ -113,7 +117,7 @@ void RtlPins::reset() {
 void RtlPins::cycle_clocks() {
   for (const std::uint8_t value : {1, 0}) {
     for (std::uint8_t* level : levels_) *level = value;
-    rtl_.eval(model_.get());
+    evaluate();
   }
 }
 
@@ -124,6 +128,11 @@ void RtlPins::find_signals() {
     if (ports_.inputs[i].port) inputs_[i].signal = ports_.inputs[i].place();
   }
   bound_ = true;
+  const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
+  if (module && !ports_.watched) {
+    vp::info(*module, "/markervp/rtl/seed", "registers without reset start at " + start(),
+             sc_core::SC_LOW);
+  }
 }
 
 std::uint64_t RtlPins::now_ps() const {
@@ -165,7 +174,7 @@ void RtlPins::check(const IpPorts::Parameter& parameter) const {
 }
 
 void RtlPins::ask_memory() {
-  rtl_.eval(model_.get());  // address and enable may depend on inputs
+  evaluate();  // address and enable may depend on inputs
   for (std::size_t i = 0; i < memory_outputs_.size(); ++i) {
     if (ports_.memory_outputs[i].take) ports_.memory_outputs[i].take(memory_value(i));
   }
@@ -192,6 +201,21 @@ void* RtlPins::pin(const std::string& name, unsigned bits, bool output) {
   const auto index = static_cast<std::uint32_t>(port - rtl_.ports);
   connected_[index] = true;
   return rtl_.pin(model_.get(), index);
+}
+
+std::string RtlPins::start() const {
+  return seed_ < 2 ? std::to_string(seed_) : "random values (seed " + std::to_string(seed_) + ")";
+}
+
+void RtlPins::ended(const RtlEnd& end) const {
+  const vp::Clock& clk = *ports_.clocks.front().clock;
+  const std::string place = *end.place ? std::string(" (") + end.place + ")" : "";
+  const std::string text = "RTL '" + file_ + "' ended itself behind edge " +
+                           std::to_string(clk.cycle()) + " of " + clk.basename() + ", at " +
+                           vp::format_time(now_ps()) + ": " + end.why + place;
+  const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
+  if (module && sc_core::sc_is_running()) vp::error(*module, "/markervp/rtl/ended", text);
+  throw vp::ProtocolError(instance_ + ": " + text);
 }
 
 void RtlPins::refuse(const std::string& place, const std::string& why) const {

@@ -204,9 +204,10 @@ class RtlPins {
   /// Loads `file` once; it stays loaded. Throws vp::InputError for one that is no RTL, or that of
   /// another IP than `ip`; for a port that is missing, of another width or direction, or that the
   /// IP does not have; and for another parameter: file, line, port, and what the IP expects.
-  /// `instance`: the name of this one.
-  RtlPins(const std::string& file, const std::string& ip, const std::string& instance,
-          IpPorts ports);
+  /// `instance`: the name of this one. Registers without reset start as `seed` says
+  /// (rtl_interface.h).
+  RtlPins(const std::string& file, std::uint64_t seed, const std::string& ip,
+          const std::string& instance, IpPorts ports);
 
   /// An edge of a clock: what stands on the inputs is sampled, and the registers of the RTL change.
   /// Clocks whose edges coincide rise together, as the first of them is called for. False: this one
@@ -220,7 +221,7 @@ class RtlPins {
     } else {
       raise(clock);
     }
-    rtl_.eval(model_.get());
+    evaluate();
     for (std::size_t i = 0; i < memory_inputs_.size(); ++i)
       store(memory_inputs_[i], ports_.memory_inputs[i].bits, ports_.memory_inputs[i].read());
     lower();
@@ -229,7 +230,11 @@ class RtlPins {
   /// What is logic follows the inputs, between two edges.
   void settle() {
     take_inputs();
-    rtl_.eval(model_.get());
+    evaluate();
+  }
+  /// Its last word, behind the last edge.
+  void finish() {
+    if (const RtlEnd* end = rtl_.finish(model_.get())) ended(*end);
   }
   /// Behind an edge: further ones would change nothing until an input changes.
   bool at_rest() {
@@ -260,6 +265,8 @@ class RtlPins {
     return load(memory_outputs_[i], ports_.memory_outputs[i].bits);
   }
   const std::string& file() const { return file_; }
+  /// Of registers without reset: "0", "1", "random values (seed 1000)".
+  std::string start() const;
 
  private:
   /// As rtl_interface.h says.
@@ -294,8 +301,13 @@ class RtlPins {
   void lower() {
     if (rtl_.lower && memory_inputs_.empty()) return rtl_.lower(model_.get());
     for (std::uint8_t* level : levels_) *level = 0;
-    rtl_.eval(model_.get());
+    evaluate();
   }
+  void evaluate() {
+    if (const RtlEnd* end = rtl_.eval(model_.get())) ended(*end);
+  }
+  /// Throws sc_core::sc_report while the simulation runs, otherwise vp::ProtocolError.
+  [[noreturn]] void ended(const RtlEnd& end) const;
   void find_signals();
   void ask_memory();
   std::uint64_t now_ps() const;
@@ -311,7 +323,8 @@ class RtlPins {
   [[noreturn]] void refuse(const std::string& place, const std::string& why) const;
 
   const std::string file_;
-  const std::string ip_;
+  const std::uint64_t seed_;
+  const std::string ip_, instance_;
   IpPorts ports_;
   const RtlDescriptor& rtl_;
   const std::unique_ptr<void, void (*)(void*)> model_;

@@ -12,7 +12,7 @@ namespace {
 
 class RtlStreamCrossing final : public StreamCrossing {
  public:
-  RtlStreamCrossing(sc_core::sc_module_name name, const Site& site, const std::string& file)
+  RtlStreamCrossing(sc_core::sc_module_name name, const Site& site, const RtlFile& file)
       : StreamCrossing(name, site),
         entry_("entry", site.clk),
         exit_("exit", *site.m_clk),
@@ -25,6 +25,7 @@ class RtlStreamCrossing final : public StreamCrossing {
   CrossingExit& exit() override { return exit_; }
 
  private:
+  void end_of_simulation() override { rtl_.finish(); }
   IpPorts ports() {
     IpPorts ports(false, entry_.clock());
     connect(ports);

@@ -90,9 +90,14 @@ const RtlDescriptor descriptor = {RTL_INTERFACE,
                                   ports,
                                   0,
                                   nullptr,
-                                  [](const char*) -> void* { return new CornerObject; },
+                                  1,
+                                  [](const char*, std::uint64_t) -> void* { return new CornerObject; },
                                   [](void* model) { delete &of(model); },
-                                  [](void* model) { of(model).eval(); },
+                                  [](void* model) -> const RtlEnd* {
+                                    of(model).eval();
+                                    return nullptr;
+                                  },
+                                  [](void*) -> const RtlEnd* { return nullptr; },
                                   nullptr,
                                   pin,
                                   STATE ? sizeof(CornerObject::State) : 0,
