@@ -18,6 +18,7 @@
 #include <host/process.h>
 #include <sweep/bytes.h>
 #include <vp/error.h>
+#include <vp/file.h>
 
 namespace platform::sweep {
 
