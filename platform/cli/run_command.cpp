@@ -108,10 +108,9 @@ vp::TraceOptions trace_options(const RunOptions& options) {
   vp::TraceOptions trace;
   trace.file = *options.trace;
   const std::string format = trace.file.extension().string();
-  if (format != ".vcd" && (format != ".fst" || !vp::has_fst())) {
-    throw vp::InputError(
-        "--trace '" + *options.trace + "': the file's name must end in .vcd" +
-        (vp::has_fst() ? " or .fst" : "; this build has no FST (see scripts/setup)"));
+  if (format != ".vcd" && format != ".fst") {
+    throw vp::InputError("--trace '" + *options.trace +
+                         "': the file's name must end in .vcd or .fst");
   }
   if (options.trace_window) {
     const TimeWindow window = parse_trace_window(*options.trace_window);

@@ -366,7 +366,9 @@ void write_clocks(const PortComparison& comparison, const std::vector<std::strin
   const auto writer = vp::open_wave_writer(file);
   for (std::size_t i = 0; i < paths.size(); ++i)
     writer->add(paths[i], vp::WaveWriter::Kind::wire, widths[i]);
-  writer->begin(comparison.around.front().ours.ps, std::vector<std::uint64_t>(paths.size()));
+  vp::WaveWriter::WrittenValues none(paths.size());
+  std::fill_n(none.begin(), 4, "0");
+  writer->begin_written(comparison.around.front().ours.ps, none);
   for (const PortComparison::Clock& clock : comparison.around) {
     writer->set_time(clock.ours.ps);
     writer->change(0, 1);

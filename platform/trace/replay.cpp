@@ -10,7 +10,6 @@
 #include <vp/wave_writer.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <optional>
@@ -177,7 +176,7 @@ class Cutter final : public vp::WaveHandler {
     if (begun_) {
       write(net, value.kind, value.text);
     } else {
-      last_[net] = {value.kind, value.known, value.bits, value.real, std::string(value.text)};
+      last_[net] = std::string(value.text);
     }
   }
   void finish() {
@@ -194,18 +193,9 @@ class Cutter final : public vp::WaveHandler {
   }
 
  private:
-  struct Last {
-    Kind kind = Kind::bits;
-    bool known = false;
-    std::uint64_t bits = 0;
-    double real = 0;
-    std::optional<std::string> text;
-  };
-
   void add(std::uint32_t i) {
     const vp::WaveVariable& variable = file_.variable(i);
     file_.reader().select(variable.net);
-    last_[variable.net].kind = variable.kind;
     const auto kind = variable.kind == Kind::real   ? Writer::Kind::real
                       : variable.kind == Kind::text ? Writer::Kind::text
                                                     : Writer::Kind::wire;
@@ -223,23 +213,9 @@ class Cutter final : public vp::WaveHandler {
   void begin() {
     if (begun_) return;
     begun_ = true;
-    std::vector<std::uint64_t> values;
-    for (const std::uint32_t net : net_of_id_) {
-      values.push_back(last_[net].bits);
-      if (last_[net].kind == Kind::real) {
-        std::memcpy(&values.back(), &last_[net].real, sizeof(double));
-      }
-    }
-    writer_->begin(start_ps(), values);
-    for (std::uint32_t net = 0; net < ids_.size(); ++net) {
-      const Last& last = last_[net];
-      const bool wide = last.text && last.text->size() > 64;
-      if (last.kind == Kind::text) {
-        if (last.text) write(net, Kind::text, *last.text);
-      } else if (!last.known || wide) {
-        write(net, last.kind, last.text ? *last.text : last.kind == Kind::real ? "nan" : "x");
-      }
-    }
+    Writer::WrittenValues values;
+    for (const std::uint32_t net : net_of_id_) values.push_back(last_[net]);
+    writer_->begin_written(start_ps(), values);
   }
   void write(std::uint32_t net, Kind kind, std::string_view text) {
     for (const Writer::Id id : ids_[net]) {
@@ -256,7 +232,7 @@ class Cutter final : public vp::WaveHandler {
   std::unique_ptr<Writer> writer_;
   std::vector<std::vector<Writer::Id>> ids_;  ///< by net: a net may have several names
   std::vector<std::uint32_t> net_of_id_;
-  std::vector<Last> last_;
+  std::vector<std::optional<std::string>> last_;  ///< by net, before the window
   bool begun_ = false;
   std::optional<std::uint64_t> first_ps_;
   std::uint64_t now_ps_ = 0, end_ps_ = 0;

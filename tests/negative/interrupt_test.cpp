@@ -1,5 +1,4 @@
 // Ctrl-C in the middle of a run.
-#include <vp/wave_writer.h>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -66,17 +65,11 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_where_nobody_can_hang_up) {
   BOOST_TEST(result["frames"].size() == 300u);
 }
 
-/// fstapi writes a file with a name: it goes, too.
 BOOST_AUTO_TEST_CASE(a_signal_that_ends_it_at_once_leaves_no_part_file) {
-  if (!vp::has_fst()) return;
   Words arguments = long_run;
   arguments.insert(arguments.end(), {"--trace", "a.fst"});
   kit::ChildProcess run(MARKERVP_EXECUTABLE, arguments, path());
-  while (!run.ended() &&
-         entries() != Words{"a.fst.part-" + std::to_string(run.pid()),
-                            "a.fst.part-" + std::to_string(run.pid()) + ".hier", "out"}) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  await_frames(run);
   BOOST_TEST(!run.ended());
   run.send(SIGQUIT);
   BOOST_TEST(run.wait().signal == SIGQUIT);

@@ -226,6 +226,10 @@ void FrameGate::change(Id id, std::uint64_t bits) {
   put(bits);
 }
 
+void FrameGate::begin_written(std::uint64_t, const WrittenValues&) {
+  throw std::logic_error("FrameGate takes numbers, not digits");
+}
+
 void FrameGate::change_digits(Id, std::string_view) {
   throw std::logic_error("FrameGate takes numbers, not digits");
 }

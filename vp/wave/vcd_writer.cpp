@@ -2,7 +2,7 @@
 #include <vp/text.h>
 #include <vp/wave_writer.h>
 
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <memory>
@@ -18,15 +18,6 @@ namespace {
 constexpr std::size_t buffer_size = 256 * 1024;
 /// Longest line of a change: "b", 64 digits, suffix, written in steps of 8 bytes.
 constexpr std::size_t longest_line = 96;
-
-constexpr std::array<std::array<char, 8>, 256> make_digits_of_byte() {
-  std::array<std::array<char, 8>, 256> digits{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    for (unsigned bit = 0; bit < 8; ++bit) digits[byte][bit] = (byte >> (7 - bit) & 1) ? '1' : '0';
-  }
-  return digits;
-}
-constexpr auto digits_of_byte = make_digits_of_byte();
 
 /// Identifier codes use the 94 printable characters, the shortest first.
 std::string identifier_code(VcdWriter::Id id) {
@@ -72,8 +63,8 @@ VcdWriter::Id VcdWriter::add(std::string_view path, Kind kind, unsigned width) {
   return id;
 }
 
-void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) {
-  if (begun_ || values.size() != variables_.size()) {
+void VcdWriter::begin_dump(std::uint64_t ps, std::size_t values) {
+  if (begun_ || values != variables_.size()) {
     throw std::logic_error("VcdWriter::begin() wants one value per variable, once");
   }
   write_header();
@@ -81,7 +72,24 @@ void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values
   time_ps_ = ps;
   write_stamp();
   write_text("$dumpvars\n");
+}
+
+void VcdWriter::begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) {
+  begin_dump(ps, values.size());
   write_all(values);
+  write_text("$end\n");
+}
+
+void VcdWriter::begin_written(std::uint64_t ps, const WrittenValues& values) {
+  begin_dump(ps, values.size());
+  for (Id id = 0; id < values.size(); ++id) {
+    if (!values[id]) continue;
+    if (variables_[id].text) {
+      change_text(id, *values[id]);
+    } else {
+      change_digits(id, *values[id]);
+    }
+  }
   write_text("$end\n");
 }
 
@@ -133,7 +141,14 @@ void VcdWriter::change_digits(Id id, std::string_view digits) {
   if (stamp_due_) write_stamp();
   const Variable& variable = variables_[id];
   if (!variable.scalar) write_text(variable.real ? "r" : "b");
-  write_text(digits);
+  const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  if (std::any_of(digits.begin(), digits.end(), is_capital)) {
+    std::string small(digits);
+    for (char& c : small) c = static_cast<char>(is_capital(c) ? c - 'A' + 'a' : c);
+    write_text(small);
+  } else {
+    write_text(digits);
+  }
   write_text({variable.suffix, variable.suffix_length});
 }
 
@@ -233,14 +248,6 @@ void VcdWriter::finish() {
   file->commit();
 }
 
-bool has_fst() {
-#ifdef MARKERVP_FST
-  return true;
-#else
-  return false;
-#endif
-}
-
 std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file) {
   std::error_code ignored;
   const bool is_device = std::filesystem::exists(file, ignored) &&
@@ -250,13 +257,7 @@ std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file) 
   if (file.extension() != ".fst") {
     throw InputError("trace '" + file.string() + "': its name must end in .vcd or .fst");
   }
-#ifdef MARKERVP_FST
   return open_fst_writer(file);
-#else
-  throw InputError("trace '" + file.string() +
-                   "': this build has no FST; install Debian's package verilator and build again, "
-                   "or name a .vcd");
-#endif
 }
 
 }  // namespace vp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,13 +22,17 @@ class ByteSource {
   virtual ~ByteSource() = default;
   /// Up to `size` bytes; 0 at the end. Throws InputError.
   virtual std::size_t read(char* to, std::size_t size) = 0;
-  /// True if lines of the VCD are lines of the user's file.
-  virtual bool has_lines() const { return true; }
 };
 
-/// Checks the chain of blocks of an FST, and reads it in a process of its own: fstapi trusts its
-/// input, and a corrupt file must not take the program down.
-std::unique_ptr<ByteSource> open_fst_source(const std::filesystem::path& file);
+constexpr std::array<std::array<char, 8>, 256> make_digits_of_byte() {
+  std::array<std::array<char, 8>, 256> digits{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    for (unsigned bit = 0; bit < 8; ++bit) digits[byte][bit] = (byte >> (7 - bit) & 1) ? '1' : '0';
+  }
+  return digits;
+}
+/// A byte in binary.
+inline constexpr auto digits_of_byte = make_digits_of_byte();
 
 /// Words between white space, out of a window that slides over the file.
 class VcdTokens {
@@ -82,7 +87,6 @@ class VcdTokens {
   /// Of the byte after the word just read.
   std::uint64_t offset() const { return read_ - static_cast<std::uint64_t>(end_ - cursor_); }
   std::uint64_t bytes() const { return read_; }
-  bool has_lines() const { return source_->has_lines(); }
 
  private:
   /// Moves what is still needed, from `word` or the word kept before it, to the front, and reads
@@ -169,8 +173,8 @@ inline WaveDeclaration checked_declaration(std::string_view path, WaveWriter::Ki
   return {std::string(path), kind, width};
 }
 
-/// Writes GTKWave's FST through its own fstapi: some 30 times smaller than a VCD. Throws
-/// OutputError if the file cannot be written.
+/// Writes GTKWave's FST: some 30 times smaller than a VCD. Throws OutputError if the file cannot be
+/// written.
 std::unique_ptr<WaveWriter> open_fst_writer(const std::filesystem::path& file);
 
 }  // namespace vp

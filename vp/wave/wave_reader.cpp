@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fst_reader.h"
 #include "wave_input.h"
 
 namespace vp {
@@ -85,29 +86,26 @@ bool looks_like_fst(const std::filesystem::path& file) {
   return source.read(reinterpret_cast<char*>(&first), 1) == 1 && (first == 0 || first == 254);
 }
 
-/// An FST is turned into a VCD on the way. Throws InputError.
-std::unique_ptr<ByteSource> open_byte_source(const std::filesystem::path& file) {
-  if (!looks_like_fst(file)) return std::make_unique<FileSource>(file);
-#ifdef MARKERVP_FST
-  return open_fst_source(file);
-#else
-  throw InputError("trace '" + file.string() +
-                   "' is an FST (or no trace at all), which this build cannot read; install "
-                   "Debian's package verilator and build again, or convert it with fst2vcd");
-#endif
-}
-
 }  // namespace
 
-WaveReader::WaveReader(const std::filesystem::path& file)
-    : file_(file), tokens_(std::make_unique<VcdTokens>(open_byte_source(file))) {
-  read_header();
+WaveReader::WaveReader(const std::filesystem::path& file) : file_(file) {
+  if (looks_like_fst(file)) {
+    fst_ = std::make_unique<FstReader>(file);
+    read_fst_header();
+  } else {
+    tokens_ = std::make_unique<VcdTokens>(std::make_unique<FileSource>(file));
+    read_header();
+  }
 }
 
 WaveReader::~WaveReader() = default;
 
 std::uint64_t WaveReader::bytes() const {
-  return tokens_->bytes();
+  return fst_ ? fst_->bytes() : tokens_->bytes();
+}
+
+std::string WaveReader::remark() const {
+  return fst_ ? fst_->remark() : std::string();
 }
 
 const WaveVariable* WaveReader::find(const std::string& path) const {
@@ -116,12 +114,12 @@ const WaveVariable* WaveReader::find(const std::string& path) const {
 }
 
 void WaveReader::select_all() {
-  for (Net& net : nets_) net.selected = true;
+  for (const WaveVariable& variable : variables_) nets_[variable.net].selected = true;
 }
 
 void WaveReader::fail(const std::string& problem) const {
   std::string place;
-  if (tokens_->has_lines()) {
+  if (tokens_) {
     place = ", line " + std::to_string(tokens_->line()) + " (byte " +
             std::to_string(tokens_->offset()) + ")";
   }
@@ -167,6 +165,13 @@ void WaveReader::read_header() {
   }
   if (timescale_fs_ == 0) fail("the header has no $timescale");
   if (variables_.empty()) fail("the header declares no signal");
+}
+
+void WaveReader::read_fst_header() {
+  timescale_fs_ = fst_->timescale_fs();
+  for (const FstReader::Net& net : fst_->nets()) nets_.push_back({net.kind, net.width, false});
+  for (WaveVariable& variable : fst_->variables()) declare(std::move(variable));
+  if (variables_.empty()) fail("it declares no signal");
 }
 
 void WaveReader::read_timescale() {
@@ -226,14 +231,20 @@ void WaveReader::read_variable() {
       variable.width > widest || (is_bits && variable.width == 0)) {
     fail("the size " + shown(size) + " of signal " + shown(name) + " is none");
   }
-  const std::size_t range = name.find_last_of('[');
-  if (range != std::string::npos && range > 0 && name.back() == ']' &&
-      name.find(':', range) != std::string::npos) {
-    name.erase(range);
-  }
   for (const std::string& scope : scopes_) variable.path += scope + ".";
   variable.path += name;
   variable.net = declare_net(code, variable.kind, is_bits ? variable.width : 1);
+  declare(std::move(variable));
+}
+
+/// Its path may end with a range.
+void WaveReader::declare(WaveVariable variable) {
+  std::string& path = variable.path;
+  const std::size_t range = path.find_last_of('[');
+  if (range != std::string::npos && range > 0 && path[range - 1] != '.' && path.back() == ']' &&
+      path.find(':', range) != std::string::npos) {
+    path.erase(range);
+  }
   if (!by_path_.emplace(variable.path, variables_.size()).second) {
     fail("signal " + shown(variable.path) + " is declared twice");
   }
@@ -278,6 +289,12 @@ std::uint32_t WaveReader::net_of(std::string_view code) {
 }
 
 void WaveReader::read(WaveHandler& handler) {
+  if (fst_) {
+    std::vector<bool> selected;
+    for (const Net& net : nets_) selected.push_back(net.selected);
+    fst_->read(selected, [&](std::uint64_t steps) { return reach(steps, handler); }, handler);
+    return;
+  }
   for (;;) {
     const std::string_view word = tokens_->next();
     if (tokens_->too_long()) fail(too_long);
@@ -324,14 +341,21 @@ void WaveReader::read(WaveHandler& handler) {
 bool WaveReader::read_time(std::string_view digits, WaveHandler& handler) {
   std::uint64_t steps = 0;
   const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), steps);
-  constexpr std::uint64_t fs_per_ps = 1000;
-  const auto fs = static_cast<unsigned __int128>(steps) * timescale_fs_;
-  if (end.ec != std::errc() || end.ptr != digits.data() + digits.size() ||
-      fs / fs_per_ps > std::numeric_limits<std::int64_t>::max()) {
+  if (end.ec != std::errc() || end.ptr != digits.data() + digits.size()) {
     fail("the time " + shown(digits) + " is none");
   }
+  return reach(steps, handler);
+}
+
+/// In steps of the file's time. False: the handler has enough.
+bool WaveReader::reach(std::uint64_t steps, WaveHandler& handler) {
+  constexpr std::uint64_t fs_per_ps = 1000;
+  const auto fs = static_cast<unsigned __int128>(steps) * timescale_fs_;
+  if (fs / fs_per_ps > std::numeric_limits<std::int64_t>::max()) {
+    fail("the time " + std::to_string(steps) + " is too late: more than 106 days");
+  }
   const auto ps = static_cast<std::uint64_t>(fs / fs_per_ps);
-  if (started_ && ps < now_ps_) fail("the time falls to " + std::string(digits));
+  if (started_ && ps < now_ps_) fail("the time falls to " + std::to_string(steps));
   if (started_ && ps == now_ps_) return true;
   started_ = true;
   now_ps_ = ps;

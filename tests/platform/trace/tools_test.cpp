@@ -70,7 +70,6 @@ BOOST_AUTO_TEST_CASE(traces_without_common_signals_are_refused) {
 BOOST_AUTO_TEST_CASE(a_part_has_the_values_that_stood_before_it) {
   const Waves waves(signals, "#0 b1 ! b10 \"\n#10 b11 \"\n#20 b100 \"\n#30 1#\n#40\n");
   for (const char* name : {"part.vcd", "part.fst"}) {
-    if (std::string(name) == "part.fst" && !vp::has_fst()) continue;
     TraceFile file(waves.file);
     CutOptions options;
     options.from_ps = 15'000;
@@ -103,6 +102,15 @@ BOOST_AUTO_TEST_CASE(a_part_has_the_values_that_stood_before_it) {
   late.from_ps = 1'000'000;
   BOOST_TEST(complaint([&] { cut(file, waves / "late.vcd", late); }).find("before the window") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_conversion_invents_no_value) {
+  const Waves waves("pl.x 8, pl.bit 1", "#0\n#10 bXX !\n#20 X\"\n#30 b1 !\n#40\n");
+  TraceFile file(waves.file);
+  cut(file, waves / "all.vcd");
+  const std::string written = kit::read_file(waves / "all.vcd");
+  BOOST_TEST(written.substr(written.find("#0")) ==
+             "#0\n$dumpvars\n$end\n#10000\nbxx !\n#20000\nx\"\n#30000\nb1 !\n#40000\n");
 }
 
 // A trace that begins late, with a text that says nothing at first.

@@ -40,9 +40,7 @@ void write(const std::string& file) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(fst, *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
-                        return vp::has_fst();
-                      }))
+BOOST_AUTO_TEST_SUITE(fst)
 
 BOOST_AUTO_TEST_CASE(both_formats_say_the_same) {
   const kit::TemporaryFolder folder;
@@ -64,6 +62,72 @@ BOOST_AUTO_TEST_CASE(both_formats_say_the_same) {
     BOOST_TEST(text.value("top.word", 50).find("x1") != std::string::npos);
   }
   BOOST_TEST(folder.entries().size() == 2u);
+}
+
+// A block holds 16 MiB of changes; the reader asks for a few signals of many.
+BOOST_AUTO_TEST_CASE(blocks_follow_each_other_and_only_what_is_wanted_is_read) {
+  const kit::TemporaryFolder folder;
+  constexpr unsigned signals = 40, instants = 150'000;
+  {
+    const auto writer = vp::open_wave_writer(folder / "t.fst");
+    for (unsigned i = 0; i < signals; ++i) {
+      writer->add("s" + std::to_string(i), Kind::wire, 20 + i);
+    }
+    writer->begin(0, std::vector<std::uint64_t>(signals, 0));
+    for (unsigned at = 1; at < instants; ++at) {
+      writer->set_time(at);
+      for (unsigned i = 0; i < signals; ++i) writer->change(i, at * (i / 2 + 1));
+    }
+    writer->close(instants);
+  }
+  struct Reader : vp::WaveHandler {
+    bool at(std::uint64_t ps) override {
+      now = ps;
+      return true;
+    }
+    void change(std::uint32_t net, const vp::WaveValue& value) override {
+      good = good && net == 7 && value.known && value.bits == now * 4;
+      ++changes;
+    }
+    std::uint64_t now = 0, changes = 0;
+    bool good = true;
+  } handler;
+  vp::WaveReader reader(folder / "t.fst");
+  reader.select(7);
+  reader.read(handler);
+  BOOST_TEST(handler.good);
+  BOOST_TEST(handler.changes == instants);
+  BOOST_TEST(reader.now_ps() == instants);
+}
+
+// Until its writer is done, a file ends with an empty block, and its names are beside it.
+BOOST_AUTO_TEST_CASE(an_unfinished_file_is_read_with_its_names) {
+  const kit::TemporaryFolder folder;
+  write(folder / "t.fst");
+  std::string bytes = kit::read_file(folder / "t.fst");
+  const auto block_end = [&](std::size_t at) {
+    std::size_t length = 0;
+    for (std::size_t i = 1; i < 9; ++i) {
+      length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+    }
+    return at + 1 + length;
+  };
+  constexpr std::size_t header = 330;
+  bytes.resize(block_end(header));
+  kit::write_file(folder / "u.fst", bytes + '\xff' + std::string(8, '\0') + "half a block");
+  BOOST_CHECK_EXCEPTION(WaveText(folder / "u.fst"), vp::InputError, [](const auto& error) {
+    return std::string(error.what()).find("its names are missing") != std::string::npos;
+  });
+  using namespace std::string_literals;
+  const std::string names =
+      "\xfe\0top\0\0"s + "\x10\0flag\0\x01\0"s + "\x05\0word [11:0]\0\x0c\0"s +
+      "\x03\0watts\0\x08\0"s + "\x15\0state\0\0\0"s + "\xff";
+  kit::write_file(folder / "u.fst.hier", names);
+  const WaveText text(folder / "u.fst");
+  BOOST_TEST(text.declared == "top.flag top.word top.watts top.state ");
+  BOOST_TEST(std::stoul(text.value("top.word", 40), nullptr, 2) == 7u);
+  BOOST_TEST(text.end_ps == 99u);
+  BOOST_TEST(!vp::WaveReader(folder / "u.fst").remark().empty());
 }
 
 BOOST_AUTO_TEST_CASE(two_writes_give_the_same_bytes) {

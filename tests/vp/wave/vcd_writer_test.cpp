@@ -118,6 +118,37 @@ BOOST_AUTO_TEST_CASE(real_numbers_come_back_exactly) {
   }
 }
 
+// GTKWave's vcd2fst drops values with capital letters.
+BOOST_AUTO_TEST_CASE(letters_of_values_are_small) {
+  vp::VcdWriter writer(file);
+  writer.add("bit", Kind::wire, 1);
+  writer.add("word", Kind::wire, 8);
+  writer.begin(0, {0, 0});
+  writer.set_time(1);
+  writer.change_digits(0, "X");
+  writer.change_digits(1, "01ZXUWLH");
+  writer.set_time(2);
+  writer.change_digits(0, "Z");
+  writer.close(3);
+  const std::string written = text();
+  BOOST_TEST(written.substr(written.find("#1")) == "#1\nx!\nb01zxuwlh \"\n#2\nz!\n#3\n");
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_value_yet_gets_none) {
+  vp::VcdWriter writer(file);
+  writer.add("bit", Kind::wire, 1);
+  writer.add("text", Kind::text, 1);
+  writer.add("word", Kind::wire, 8);
+  writer.add("late", Kind::wire, 8);
+  writer.begin_written(5, {"1", "two words", "101", std::nullopt});
+  writer.set_time(6);
+  writer.change_digits(3, "0");
+  writer.close(7);
+  const std::string written = text();
+  BOOST_TEST(written.substr(written.find("#5")) ==
+             "#5\n$dumpvars\n1!\nstwo\\040words \"\nb101 #\n$end\n#6\nb0 $\n#7\n");
+}
+
 BOOST_AUTO_TEST_CASE(more_variables_than_short_identifiers_and_more_text_than_the_buffer) {
   constexpr unsigned count = 94 + 94 * 94 + 10;
   vp::VcdWriter writer(file);

@@ -115,6 +115,8 @@ class OutputFile {
   /// lost, and commit() throws.
   void write(std::string_view bytes);
   bool failed() const { return error_ != 0; }
+  /// Replaces bytes that were written before, for headers that say what follows.
+  void overwrite(std::uint64_t offset, std::string_view bytes);
 
   /// The file that a library is to write.
   const std::string& part() const { return part_ ? part_->path() : target_; }

@@ -37,6 +37,7 @@ class FrameGate final : public WaveWriter {
   Id add(std::string_view path, Kind kind, unsigned width) override;
   /// Throws InputError for a trigger on signals that were not added.
   void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) override;
+  void begin_written(std::uint64_t ps, const WrittenValues& values) override;
   bool begun() const override { return begun_; }
   void set_time(std::uint64_t ps) override;
   void change(Id id, std::uint64_t bits) override;

@@ -10,6 +10,7 @@
 
 namespace vp {
 
+class FstReader;
 class VcdTokens;
 
 /// A name in a trace. Several names may show one net.
@@ -39,8 +40,8 @@ class WaveHandler {
   virtual void change(std::uint32_t net, const WaveValue& value) = 0;
 };
 
-/// Reads a trace from front to back in constant memory: a VCD (IEEE 1364, 18), or an FST where this
-/// build has it (see has_fst()), told apart by what is in the file.
+/// Reads a trace from front to back in bounded memory: a VCD (IEEE 1364, 18), or GTKWave's FST, of
+/// which only the selected nets are unpacked. The file's content tells which it is.
 ///
 /// Nothing in a file makes it crash. What is wrong with it is an InputError with the line, or for
 /// an FST the byte: truncated, corrupt, no such format, a timescale that is none, an identifier
@@ -71,8 +72,10 @@ class WaveReader {
 
   /// The last time that was read, in ps.
   std::uint64_t now_ps() const { return now_ps_; }
-  /// Bytes of VCD that were read; of an FST what it would be.
+  /// Bytes that were read; of an FST its size.
   std::uint64_t bytes() const;
+  /// What a user should know of the file, as in "'t.fst' was not finished …"; empty if nothing.
+  std::string remark() const;
 
  private:
   struct Net {
@@ -84,6 +87,8 @@ class WaveReader {
   [[noreturn]] void fail(const std::string& problem) const;
   std::string_view next(const char* inside);
   void read_header();
+  void read_fst_header();
+  void declare(WaveVariable variable);
   void skip_to_end(const char* inside);
   void read_timescale();
   void read_scope();
@@ -91,6 +96,7 @@ class WaveReader {
   std::uint32_t declare_net(std::string_view code, WaveVariable::Kind kind, unsigned width);
   std::uint32_t net_of(std::string_view code);
   bool read_time(std::string_view digits, WaveHandler& handler);
+  bool reach(std::uint64_t steps, WaveHandler& handler);
   void read_scalar(std::string_view token, WaveHandler& handler);
   void read_vector(std::string_view token, WaveHandler& handler);
   void read_real(std::string_view token, WaveHandler& handler);
@@ -100,7 +106,8 @@ class WaveReader {
   std::uint64_t decode(std::string_view digits, bool& known) const;
 
   std::filesystem::path file_;
-  std::unique_ptr<VcdTokens> tokens_;
+  std::unique_ptr<VcdTokens> tokens_;  ///< of a VCD
+  std::unique_ptr<FstReader> fst_;     ///< of an FST
   std::vector<WaveVariable> variables_;
   std::vector<Net> nets_;
   std::unordered_map<std::string, std::size_t> by_path_;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@ class WaveWriter {
  public:
   using Id = std::uint32_t;
   enum class Kind : std::uint8_t { wire, reg, real, text };
+  using WrittenValues = std::vector<std::optional<std::string>>;
   static constexpr unsigned widest = 65536;  ///< bits; more than 64 for change_digits() only
 
   virtual ~WaveWriter() = default;
@@ -32,6 +34,9 @@ class WaveWriter {
   /// All variables are there: writes the header and all values standing at `ps`, one per variable:
   /// right-aligned bits, or the pattern of a double; texts are empty.
   virtual void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) = 0;
+  /// Like begin(), with values as change_digits() and change_text() take them. A variable without
+  /// one has no value before its first change.
+  virtual void begin_written(std::uint64_t ps, const WrittenValues& values) = 0;
   /// A value was written already.
   virtual bool begun() const = 0;
 
@@ -39,7 +44,8 @@ class WaveWriter {
   virtual void set_time(std::uint64_t ps) = 0;
   /// Writes nothing if the value is the last one.
   virtual void change(Id id, std::uint64_t bits) = 0;
-  /// A value as digits 0 1 x z, the most significant first, written as it is.
+  /// A value as digits 0 1 x z u w l h -, the most significant first. Capital letters become small
+  /// ones: GTKWave's vcd2fst drops values with capitals.
   virtual void change_digits(Id id, std::string_view digits) = 0;
   /// The new value of a text, written even if it is the last one: an access may repeat.
   virtual void change_text(Id id, std::string_view text) = 0;
@@ -59,11 +65,8 @@ class WaveWriter {
 
 /// A writer for the format that the name's extension tells: .vcd or .fst; a pipe or device takes a
 /// VCD. Opens the file. Throws OutputError if it cannot be written, InputError for another
-/// extension or for FST if this build has none.
+/// extension.
 std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file);
-
-/// True if this build writes and reads FST.
-bool has_fst();
 
 struct WaveDeclaration;
 struct WaveScope;
@@ -85,6 +88,7 @@ class VcdWriter final : public WaveWriter {
 
   Id add(std::string_view path, Kind kind, unsigned width) override;
   void begin(std::uint64_t ps, const std::vector<std::uint64_t>& values) override;
+  void begin_written(std::uint64_t ps, const WrittenValues& values) override;
   bool begun() const override { return begun_; }
   void set_time(std::uint64_t ps) override {
     stamp_due_ = stamp_due_ || ps != time_ps_;
@@ -116,6 +120,7 @@ class VcdWriter final : public WaveWriter {
     bool text;
   };
 
+  void begin_dump(std::uint64_t ps, std::size_t values);
   void write_header();
   void write_scope(const WaveScope& scope);
   void write_declaration(Id id, std::string_view leaf);

@@ -1,0 +1,360 @@
+#include "fst_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "wave_input.h"
+
+namespace vp {
+
+namespace {
+
+/// Bytes that are read at once: chains of one block lie side by side.
+constexpr std::uint64_t window_size = 1 << 18;
+
+std::uint64_t swapped(std::uint64_t bits, bool swap) {
+  return swap ? __builtin_bswap64(bits) : bits;
+}
+
+}  // namespace
+
+FstReader::FstReader(const std::filesystem::path& file) : file_(file) {
+  constexpr int femtoseconds = -15, hundred_seconds = 2;
+  const int scale = file_.timescale();
+  if (scale < femtoseconds || scale > hundred_seconds) {
+    constexpr std::uint64_t place = 73;
+    file_.fail("the time scale 1e" + std::to_string(scale) + " s is not 1 fs to 100 s", place);
+  }
+  for (int i = femtoseconds; i < scale; ++i) timescale_fs_ *= 10;
+  read_hierarchy();
+}
+
+std::string FstReader::remark() const {
+  if (file_.is_finished()) return {};
+  return "was not finished by its writer; it ends with the last whole block of changes";
+}
+
+[[noreturn]] void FstReader::corrupt_changes() const {
+  file_.fail("the changes of a signal are corrupt", file_.changes()[block_ - 1].at);
+}
+
+void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
+  for (;;) {
+    if (open_) {
+      if (!hand_over_block(at, selected, handler)) return;
+      open_ = false;
+    }
+    if (block_ == file_.changes().size()) break;
+    open_block(file_.changes()[block_++], selected);
+  }
+  const std::uint64_t end = file_.is_finished() ? file_.end_time() : block_end_;
+  if (!file_.changes().empty() && end > block_end_) at(end);
+}
+
+void FstReader::open_block(const fst::File::Section& section, const std::vector<bool>& selected) {
+  constexpr std::uint64_t fixed = 24, longest_numbers = 4 * 10 + 1;
+  const std::uint64_t table_end = read_times(section);
+  const std::string head = file_.read(section.at, std::min(section.size, fixed + longest_numbers));
+  fst::Cursor cursor(file_, head, section.at, "block of changes");
+  block_start_ = cursor.u64();
+  block_end_ = cursor.u64();
+  cursor.u64();  // what its writer thinks a reader needs
+  const std::uint64_t unpacked = cursor.varint(), packed = cursor.varint();
+  cursor.varint();  // handles in the frame
+  const std::uint64_t frame_at = cursor.offset();
+  if (packed > section.end() - frame_at) cursor.fail("is shorter than its first values");
+  frame_due_ = block_ == 1;
+  if (frame_due_) frame_ = file_.read_packed(frame_at, packed, unpacked);
+
+  const std::uint64_t behind = frame_at + packed;
+  const std::string numbers =
+      file_.read(behind, std::min(section.end() - behind, std::uint64_t{11}));
+  fst::Cursor next(file_, numbers, behind, "block of changes");
+  const std::uint64_t handles = next.varint();
+  const std::uint64_t changes_at = next.offset();
+  const char method = static_cast<char>(next.byte());
+  const auto places = read_places(section, changes_at, table_end, handles);
+  unpack_chains(places, method, selected);
+  instant_ = 0;
+  announced_ = false;
+  open_ = true;
+}
+
+std::uint64_t FstReader::read_times(const fst::File::Section& section) {
+  constexpr std::uint64_t tail_size = 24, length_size = 8;
+  if (section.size < tail_size + length_size) {
+    file_.fail("a block of changes is too short: the file is corrupt", section.at);
+  }
+  const std::string tail = file_.read(section.end() - tail_size, tail_size);
+  fst::Cursor cursor(file_, tail, section.end() - tail_size, "table of times");
+  const std::uint64_t unpacked = cursor.u64(), packed = cursor.u64(), count = cursor.u64();
+  if (packed > section.size - tail_size - length_size) cursor.fail("is longer than its block");
+  const std::uint64_t at = section.end() - tail_size - packed;
+  const std::string bytes = file_.read_packed(at, packed, unpacked);
+  if (count > bytes.size() || count > std::numeric_limits<std::uint32_t>::max()) {
+    cursor.fail("is shorter than it says");
+  }
+  fst::Cursor deltas(file_, bytes, at, "table of times");
+  times_.resize(count);
+  std::uint64_t now = 0;
+  for (std::uint64_t& time : times_) {
+    const std::uint64_t delta = deltas.varint();
+    if (delta > std::numeric_limits<std::uint64_t>::max() - now) deltas.fail("overflows");
+    time = now += delta;
+  }
+  return at - length_size;
+}
+
+// The table has an entry for each handle in turn: the distance to the next chain, or whose chain
+// it shares, or how many handles have none.
+std::vector<FstReader::Place> FstReader::read_places(const fst::File::Section& section,
+                                                     std::uint64_t changes_at,
+                                                     std::uint64_t table_end,
+                                                     std::uint64_t handles) const {
+  const std::string length = file_.read(table_end, 8);
+  const std::uint64_t size = fst::Cursor(file_, length, table_end, "table of chains").u64();
+  if (table_end < changes_at || size > table_end - changes_at) {
+    file_.fail("the table of chains is longer than its block: the file is corrupt", table_end);
+  }
+  const std::uint64_t table_at = table_end - size;
+  const std::string bytes = file_.read(table_at, size);
+  fst::Cursor cursor(file_, bytes, table_at, "table of chains");
+  handles = std::min<std::uint64_t>(handles, nets_.size());
+  std::vector<Place> places(handles);
+  std::uint64_t handle = 0, at = changes_at, last_alias = 0;
+  Place* last = nullptr;
+  const auto share = [&](std::uint64_t alias) {
+    if (alias == 0 || alias > handle) cursor.fail("names a chain that is not there");
+    places[handle++].same_as = static_cast<std::uint32_t>(alias);
+  };
+  const auto begin = [&](std::uint64_t distance) {
+    if (distance == 0 || distance >= table_at - at) cursor.fail("points out of its block");
+    at += distance;
+    if (last) last->size = at - last->at;
+    last = &places[handle++];
+    last->at = at;
+  };
+  while (!cursor.at_end() && handle < handles) {
+    if (section.type == fst::values_aliases_signed && (cursor.peek() & 1) != 0) {
+      const std::int64_t number = cursor.signed_varint() >> 1;
+      if (number > 0) {
+        begin(static_cast<std::uint64_t>(number));
+      } else {
+        if (number < 0) last_alias = -static_cast<std::uint64_t>(number);
+        share(last_alias);
+      }
+      continue;
+    }
+    const std::uint64_t number = cursor.varint();
+    if (number == 0 && section.type == fst::values_aliases) {
+      share(cursor.varint());
+    } else if ((number & 1) != 0) {
+      begin(number >> 1);
+    } else {
+      handle += std::min(number >> 1, handles - handle);
+    }
+  }
+  // Chains of handles that nothing names may follow.
+  if (last) last->size = table_at - last->at;
+  return places;
+}
+
+void FstReader::unpack_chains(const std::vector<Place>& places, char method,
+                              const std::vector<bool>& selected) {
+  chains_.assign(nets_.size(), {});
+  also_due_.assign(nets_.size(), 0);
+  due_.assign(times_.size(), 0);
+  std::vector<bool> wanted(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!selected[i]) continue;
+    wanted[places[i].same_as != 0 ? places[i].same_as - 1 : i] = true;
+  }
+  unpacked_.clear();
+  std::string window;
+  std::uint64_t window_at = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
+    if (!wanted[i] || place.at == 0) continue;
+    if (place.at < window_at || place.at + place.size > window_at + window.size()) {
+      window_at = place.at;
+      window = file_.read(window_at,
+                          std::max(place.size, std::min(window_size, file_.size() - window_at)));
+    }
+    const auto packed = std::string_view(window).substr(place.at - window_at, place.size);
+    fst::Cursor cursor(file_, packed, place.at, "chain of changes");
+    const std::uint64_t size = cursor.varint();
+    const std::string_view content = packed.substr(cursor.consumed());
+    std::string& chain = unpacked_.emplace_back();
+    if (size == 0) {
+      chain = content;
+    } else {
+      if (size > fst::most_unpacked(method, content.size())) cursor.fail("has an impossible size");
+      chain.resize(size);
+      if (!fst::unpack(method, content, chain.data(), chain.size())) {
+        cursor.fail("cannot be unpacked");
+      }
+    }
+    chains_[i] = {chain.data(), chain.data() + chain.size()};
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].same_as != 0) chains_[i] = chains_[places[i].same_as - 1];
+  }
+  for (std::size_t i = places.size(); i > 0; --i) {
+    if (selected[i - 1]) schedule(static_cast<std::uint32_t>(i - 1), 0);
+  }
+}
+
+std::uint64_t FstReader::varint(Chain& chain) const {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    if (chain.next == chain.end) corrupt_changes();
+    const auto byte = static_cast<unsigned char>(*chain.next++);
+    value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
+    if (byte < 0x80) return value;
+  }
+  corrupt_changes();
+}
+
+const char* FstReader::take(Chain& chain, std::uint64_t size) const {
+  if (size > static_cast<std::uint64_t>(chain.end - chain.next)) corrupt_changes();
+  return std::exchange(chain.next, chain.next + size);
+}
+
+/// Notes when the net changes next, counted from the instant `from`.
+void FstReader::schedule(std::uint32_t net, std::size_t from) {
+  Chain ahead = chains_[net];
+  if (ahead.next == ahead.end) return;
+  const std::uint64_t head = varint(ahead);
+  const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].width == 1;
+  const std::uint64_t delta = is_scalar ? head >> ((head & 1) != 0 ? 4 : 2) : head >> 1;
+  if (delta >= due_.size() - from) corrupt_changes();
+  std::uint32_t& first = due_[from + delta];
+  also_due_[net] = std::exchange(first, net + 1);
+}
+
+bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selected,
+                                WaveHandler& handler) {
+  if (frame_due_) {
+    if (!std::exchange(announced_, true) && !at(block_start_)) return false;
+    hand_over_frame(selected, handler);
+    frame_due_ = announced_ = false;
+  }
+  for (; instant_ < times_.size(); ++instant_, announced_ = false) {
+    if (!std::exchange(announced_, true) && !at(times_[instant_])) return false;
+    while (due_[instant_] != 0) {
+      const std::uint32_t net = due_[instant_] - 1;
+      due_[instant_] = also_due_[net];
+      hand_over(net, handler);
+      schedule(net, instant_);
+    }
+  }
+  return true;
+}
+
+/// The values at the start of the file. What is unknown has no value yet.
+void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler) {
+  const std::string_view frame = frame_;
+  std::size_t at = 0;
+  for (std::uint32_t net = 0; net < nets_.size(); ++net) {
+    if (nets_[net].kind == WaveVariable::Kind::text) continue;
+    const bool is_real = nets_[net].kind == WaveVariable::Kind::real;
+    const std::size_t size = is_real ? sizeof(double) : nets_[net].width;
+    if (size > frame.size() - at) return;  // it was declared later
+    const std::string_view value = frame.substr(at, size);
+    at += size;
+    if (!selected[net]) continue;
+    double real = 0;
+    if (is_real) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, value.data(), sizeof bits);
+      bits = swapped(bits, file_.is_swapped());
+      std::memcpy(&real, &bits, sizeof real);
+      if (!std::isnan(real)) hand_over_real(net, value.data(), handler);
+    } else if (value.find_first_not_of('x') != std::string_view::npos) {
+      hand_over_bits(net, value, handler);
+    }
+  }
+}
+
+void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
+  Chain& chain = chains_[net];
+  const std::uint64_t head = varint(chain);
+  const bool as_written = (head & 1) != 0;
+  const Net& form = nets_[net];
+  if (form.kind == WaveVariable::Kind::text) {
+    if (as_written) corrupt_changes();
+    WaveValue value;
+    value.kind = form.kind;
+    value.known = true;
+    const std::uint64_t size = varint(chain);
+    value.text = {take(chain, size), size};
+    handler.change(net, value);
+  } else if (form.kind == WaveVariable::Kind::real) {
+    if (as_written) {
+      hand_over_real(net, take(chain, sizeof(double)), handler);
+    } else {  // its eight bytes happen to be digits
+      hand_over_real(net, digits_of_byte[static_cast<unsigned char>(*take(chain, 1))].data(),
+                     handler);
+    }
+  } else if (form.width == 1) {
+    WaveValue value;
+    value.known = !as_written;
+    value.bits = as_written ? 0 : head >> 1 & 1;
+    value.text = as_written ? fst::letters.substr(head >> 1 & 7, 1)
+                            : std::string_view("01").substr(value.bits, 1);
+    handler.change(net, value);
+  } else if (as_written) {
+    hand_over_bits(net, {take(chain, form.width), form.width}, handler);
+  } else {
+    const unsigned count = (form.width + 7) / 8;
+    const char* bytes = take(chain, count);
+    text_.resize(std::size_t{count} * 8);
+    unsigned __int128 all = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      const auto byte = static_cast<unsigned char>(bytes[i]);
+      std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
+      all = all << 8 | byte;
+    }
+    WaveValue value;
+    value.known = true;
+    value.bits = static_cast<std::uint64_t>(all >> (count * 8 - form.width));
+    value.text = std::string_view(text_).substr(0, form.width);
+    handler.change(net, value);
+  }
+}
+
+void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler) {
+  WaveValue value;
+  value.known = true;
+  for (const char c : digits) {
+    value.bits = value.bits << 1 | (c & 1);
+    if (c == '0' || c == '1') continue;
+    if (std::string_view("xXzZuUwWlLhH-").find(c) == std::string_view::npos) corrupt_changes();
+    value.known = false;
+  }
+  if (!value.known) value.bits = 0;
+  value.text = digits;
+  handler.change(net, value);
+}
+
+void FstReader::hand_over_real(std::uint32_t net, const char* bytes, WaveHandler& handler) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  bits = swapped(bits, file_.is_swapped());
+  WaveValue value;
+  value.kind = WaveVariable::Kind::real;
+  std::memcpy(&value.real, &bits, sizeof bits);
+  value.known = std::isfinite(value.real);
+  constexpr std::size_t longest = 32;
+  text_.resize(longest);
+  const auto end = std::to_chars(text_.data(), text_.data() + longest, value.real).ptr;
+  value.text = std::isnan(value.real) ? std::string_view("nan")
+                                      : std::string_view(text_).substr(
+                                            0, static_cast<std::size_t>(end - text_.data()));
+  handler.change(net, value);
+}
+
+}  // namespace vp

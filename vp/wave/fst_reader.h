@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <vp/wave_reader.h>
+
+#include "fst_file.h"
+
+namespace vp {
+
+/// Reads an FST: only the chains of the nets that are asked for are unpacked, a block at a time.
+class FstReader {
+ public:
+  struct Net {
+    WaveVariable::Kind kind;
+    unsigned width;  ///< bits; 1 of a real or text
+  };
+  /// Takes a time in the file's steps; false: enough for now.
+  using Time = std::function<bool(std::uint64_t)>;
+
+  /// Reads the hierarchy. Throws InputError.
+  explicit FstReader(const std::filesystem::path& file);
+
+  const std::vector<Net>& nets() const { return nets_; }
+  /// In the order of the file; paths as they are in it, with ranges.
+  std::vector<WaveVariable>& variables() { return variables_; }
+  std::uint64_t timescale_fs() const { return timescale_fs_; }
+  std::uint64_t bytes() const { return file_.size(); }
+  /// What is odd about the file; empty if nothing is.
+  std::string remark() const;
+
+  /// Hands over the changes of the selected nets, from where the last call stopped to the end or
+  /// until `at` has enough. Throws InputError.
+  void read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler);
+
+ private:
+  /// The changes of a net in a block, of which those before `next` were handed over.
+  struct Chain {
+    const char* next = nullptr;
+    const char* end = nullptr;
+  };
+  /// Where the chain of a handle is among the bytes of a block.
+  struct Place {
+    std::uint64_t at = 0;  ///< in the file; 0: no changes
+    std::uint64_t size = 0;
+    std::uint32_t same_as = 0;  ///< handle + 1 of the chain that is also this one's; 0: its own
+  };
+  void read_hierarchy();
+  void read_variable(std::uint8_t type, fst::Cursor& cursor, const std::string& scope,
+                     bool has_geometry);
+
+  void open_block(const fst::File::Section& section, const std::vector<bool>& selected);
+  /// Returns where the table of chains ends.
+  std::uint64_t read_times(const fst::File::Section& section);
+  std::vector<Place> read_places(const fst::File::Section& section, std::uint64_t changes_at,
+                                 std::uint64_t table_end, std::uint64_t handles) const;
+  void unpack_chains(const std::vector<Place>& places, char method,
+                     const std::vector<bool>& selected);
+  void schedule(std::uint32_t net, std::size_t from);
+  void hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler);
+  bool hand_over_block(const Time& at, const std::vector<bool>& selected, WaveHandler& handler);
+  void hand_over(std::uint32_t net, WaveHandler& handler);
+  std::uint64_t varint(Chain& chain) const;
+  const char* take(Chain& chain, std::uint64_t size) const;
+  void hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler);
+  void hand_over_real(std::uint32_t net, const char* bytes, WaveHandler& handler);
+  [[noreturn]] void corrupt_changes() const;
+
+  fst::File file_;
+  std::vector<Net> nets_;
+  std::vector<WaveVariable> variables_;
+  std::uint64_t timescale_fs_ = 1;
+  std::uint64_t handles_ = 0;  ///< declared so far
+  std::uint64_t path_bytes_ = 0;
+
+  // The block that is being read.
+  std::size_t block_ = 0;  ///< counts the opened ones
+  bool open_ = false;
+  std::size_t instant_ = 0;  ///< its time was handed over if `announced_`
+  bool announced_ = false;
+  bool frame_due_ = false;  ///< the first block's values were not handed over
+  std::uint64_t block_start_ = 0, block_end_ = 0;
+  std::vector<std::uint64_t> times_;
+  std::string frame_;
+  std::deque<std::string> unpacked_;     ///< chains point into them
+  std::vector<Chain> chains_;            ///< by net
+  std::vector<std::uint32_t> due_;       ///< by instant: net + 1 of the first that changes in it
+  std::vector<std::uint32_t> also_due_;  ///< by net: net + 1 of the next in the same instant
+  std::string text_;
+};
+
+}  // namespace vp
