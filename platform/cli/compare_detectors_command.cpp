@@ -268,6 +268,7 @@ class Comparer {
     }
     for (const std::string& warning : source->warnings())
       err_ << "markervp: warning: " << warning << std::endl;
+    for (const std::string& note : source->notes()) err_ << "markervp: note: " << note << std::endl;
     for (std::size_t i = 0; i < peers.size(); ++i) {
       found[i].name = peers[i]->name();
       found[i].description = peers[i]->description();

@@ -68,6 +68,7 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
                         const Outputs& outputs) {
   report.input = input.name;
   report.truth = input.truth;
+  report.further_truth = input.further_truth;
   report.camera = input.camera;
   if (outputs.pictures) {
     write_png(picture::annotate(input.image, report),
@@ -76,6 +77,9 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
   if (outputs.page) outputs.page->add(input.image, report);
   outputs.result.add(report);
   if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
+  if (report.board && report.board->misfit.empty()) boards_fit_ = true;
+  if (report.board && misfit_.empty() && !report.board->misfit.empty())
+    misfit_ = input.name + ": " + report.board->misfit;
   warnings_ += report.warnings.size();
   ++frames_;
   if (progress_) progress_->update(frames_);

@@ -45,6 +45,8 @@ class FrameRunner {
   /// In the reports of all frames.
   std::uint64_t warnings() const { return warnings_; }
   std::uint64_t without_marker() const { return without_marker_; }
+  /// Why the first board was refused; empty if one fitted in any frame, or none was seen.
+  std::string misfit() const { return boards_fit_ ? std::string() : misfit_; }
   /// The first input in which no marker was found.
   const std::string& first_without_marker() const { return first_without_marker_; }
 
@@ -64,6 +66,8 @@ class FrameRunner {
   std::uint64_t warnings_ = 0;
   std::uint64_t without_marker_ = 0;
   std::string first_without_marker_;
+  std::string misfit_;
+  bool boards_fit_ = false;
 };
 
 }  // namespace platform::cli

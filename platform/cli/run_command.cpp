@@ -378,6 +378,10 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
         << facts.end->exit_code << std::endl;
     return run_failed;
   }
+  if (const std::string misfit = runner.misfit(); !misfit.empty()) {
+    err << "markervp: " << misfit << std::endl;
+    return host::wrong_input;
+  }
   if (options.require_marker && runner.without_marker() > 0) {
     err << "markervp: no marker in " << runner.without_marker() << " of "
         << report::counted(runner.frames(), "frame") << ", first in "
@@ -437,6 +441,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
     std::rethrow_exception(runner.error());
   }
   warner.print(source->warnings());
+  facts.notes = source->notes();
   if (!memory) facts.configuration = configuration.values();
   if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
   if (facts.clocks) warner.print(report::clock_warnings(*facts.clocks));

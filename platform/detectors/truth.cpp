@@ -3,7 +3,6 @@
 #include <host/document.h>
 #include <vp/error.h>
 
-#include <algorithm>
 
 namespace platform::detectors {
 
@@ -29,18 +28,6 @@ TrueMarker marker_from(const Json& json) {
     marker.pose = pose_from(json.at("pose"));
     validate(*marker.pose);
   }
-  return marker;
-}
-
-/// Programs take all markers to be as large as the scene's own: of others they cannot know the
-/// pose.
-TrueMarker true_marker(const Scene& scene, const Square& square, int id) {
-  TrueMarker marker;
-  marker.id = id;
-  Pose pose = ground_truth(scene).pose;
-  pose.translation = transform(pose, {square.u, square.v, 0});
-  marker.corners_px = project_marker(scene.camera, pose, square.side);
-  if (square.side == marker_side_m) marker.pose = pose;
   return marker;
 }
 
@@ -124,12 +111,10 @@ std::string Truth::json() const {
 }
 
 ImageTruth truth_of(const Scene& scene) {
-  std::vector<TrueMarker> markers{true_marker(scene, Square{}, scene.marker_id)};
-  const auto& words = dictionary();
-  for (const Square& square : scene.squares) {
-    const auto word = std::find(words.begin(), words.end(), square.word);
-    if (word != words.end())
-      markers.push_back(true_marker(scene, square, static_cast<int>(word - words.begin())));
+  std::vector<TrueMarker> markers;
+  for (const GroundTruth& truth : ground_truths(scene)) {
+    markers.push_back({truth.marker_id, truth.corners_px, {}});
+    if (truth.is_usual) markers.back().pose = truth.pose;
   }
   return {markers, {}};
 }

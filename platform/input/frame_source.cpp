@@ -8,8 +8,6 @@
 #include <scene/scene.h>
 #include <vp/error.h>
 #include <vp/text.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <cctype>
 #include <cmath>
@@ -17,75 +15,6 @@
 #include <set>
 
 namespace platform::input {
-
-namespace {
-
-bool same(ImageSize a, ImageSize b) {
-  return a.width == b.width && a.height == b.height;
-}
-
-std::string text(ImageSize size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-/// The part of the image that is kept.
-cv::Rect kept_part(ImageSize size, ImageSize target, Fit fit) {
-  ImageSize part = target;
-  if (fit == Fit::scale) {
-    const double aspect = static_cast<double>(target.width) / target.height;
-    part.width = std::clamp(static_cast<int>(std::lround(size.height * aspect)), 1, size.width);
-    part.height = std::clamp(static_cast<int>(std::lround(size.width / aspect)), 1, size.height);
-  }
-  return {(size.width - part.width) / 2, (size.height - part.height) / 2, part.width, part.height};
-}
-
-}  // namespace
-
-void check_fit(const std::string& name, ImageSize size, ImageSize target, Fit fit) {
-  if (std::max(size.width, size.height) > largest_side_px) {
-    throw vp::InputError("'" + name + "' is " + text(size) + " px: an image has at most " +
-                         std::to_string(largest_side_px) + " px a side");
-  }
-  if (same(size, target) || fit == Fit::scale) return;
-  const std::string problem =
-      "'" + name + "' is " + text(size) + " px, the platform takes " + text(target) + ": ";
-  if (fit == Fit::none) throw vp::InputError(problem + "use --fit crop or --fit scale");
-  if (size.width < target.width || size.height < target.height) {
-    throw vp::InputError(problem + "too small to crop, use --fit scale");
-  }
-}
-
-GreyImage fit_image(GreyImage image, ImageSize target, Fit fit) {
-  const ImageSize size{image.width, image.height};
-  if (same(size, target)) return image;
-  const cv::Mat whole(image.height, image.width, CV_8UC1, image.pixels.data());
-  const cv::Rect part = kept_part(size, target, fit);
-  GreyImage fitted{target.width, target.height, {}};
-  fitted.pixels.resize(static_cast<std::size_t>(target.width) *
-                       static_cast<std::size_t>(target.height));
-  cv::Mat result(target.height, target.width, CV_8UC1, fitted.pixels.data());
-  const bool grows = part.width < target.width || part.height < target.height;
-  // With one thread and the exact bilinear variant the pixels are the same on every host.
-  cv::setNumThreads(1);
-  cv::resize(whole(part), result, result.size(), 0, 0,
-             grows ? cv::INTER_LINEAR_EXACT : cv::INTER_AREA);
-  return fitted;
-}
-
-Camera fit_camera(const Camera& camera, ImageSize target, Fit fit) {
-  const ImageSize size{camera.width, camera.height};
-  if (same(size, target)) return camera;
-  const cv::Rect part = kept_part(size, target, fit);
-  const double sx = static_cast<double>(target.width) / part.width;
-  const double sy = static_cast<double>(target.height) / part.height;
-  return {target.width,
-          target.height,
-          camera.fx * sx,
-          camera.fy * sy,
-          (camera.cx - part.x) * sx,
-          (camera.cy - part.y) * sy,
-          camera.distortion};
-}
 
 Camera camera_of(const InputOptions& options, ImageSize size) {
   return options.camera ? camera_for(*options.camera, size)
@@ -262,7 +191,10 @@ SharedFrame share(InputFrame frame) {
 
 SharedFrame render_scene(const InputItem& item, const Camera& camera) {
   const Scene scene = make_scene(item.source, camera);
-  return share({item.name, render(scene), camera, ground_truth(scene)});
+  std::vector<GroundTruth> truths = ground_truths(scene);
+  const GroundTruth own = truths.front();
+  truths.erase(truths.begin());
+  return share({item.name, render(scene), camera, own, std::move(truths)});
 }
 
 std::size_t kept_bytes() {
@@ -323,6 +255,7 @@ class ListedFrames : public FrameSource {
   }
 
   const std::vector<std::string>& warnings() const override { return warnings_; }
+  const std::vector<std::string>& notes() const override { return notes_; }
 
  private:
   bool has(InputItem::Kind kind) const {
@@ -330,32 +263,41 @@ class ListedFrames : public FrameSource {
                        [kind](const InputItem& item) { return item.kind == kind; });
   }
 
-  void warn(const std::string& text) {
-    if (std::find(warnings_.begin(), warnings_.end(), text) == warnings_.end()) {
-      warnings_.push_back(text);
-    }
+  static void add_once(std::vector<std::string>& list, const std::string& text) {
+    if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end())
+      list.push_back(text);
   }
+  void warn(const std::string& text) { add_once(warnings_, text); }
+  void note(const std::string& text) { add_once(notes_, text); }
 
   void warn_of_camera() {
     const bool pictures = has(InputItem::Kind::image) || has(InputItem::Kind::video);
     if (pictures && !options_.camera) {
       warn("no --camera: poses assume the thesis' camera (focal length 381.36 px at 640 px width)");
     }
-    if (!pictures || !options_.camera || !has_distortion(*options_.camera)) return;
-    const std::string file = "camera file '" + options_.camera->name + "' has ";
+    if (!options_.camera) return;
+    const std::string file = "camera file '" + options_.camera->name + "' ";
+    for (const std::string& oddity : options_.camera->oddities) warn(file + oddity);
+    if (has(InputItem::Kind::scene)) tell_of_scenes(file);
+    if (!pictures) return;
+    if (!options_.camera->has_size)
+      note(file + "says no image size: it is taken to be for images as large as these");
+    if (!has_distortion(*options_.camera)) return;
     if (!options_.corrects_lens) {
       warn(file +
-           "lens distortion, which this design does not correct: poses are off towards the "
+           "has lens distortion, which this design does not correct: poses are off towards the "
            "edges");
     } else if (const auto reach = lens_reach_px(*options_.camera, options_.size)) {
-      warn(file + "lens distortion that folds back: no marker is found beyond " +
+      warn(file + "has lens distortion that folds back: no marker is found beyond " +
            std::to_string(static_cast<int>(*reach)) +
            " px from the middle; calibrate with points up to the corners");
-    } else if (has_more_distortion(*options_.camera)) {
-      warn(file +
-           "more than five coefficients of lens distortion, of which k1, k2, p1, p2, k3 are "
-           "corrected: poses are off towards the edges");
     }
+  }
+
+  void tell_of_scenes(const std::string& file) {
+    note("scenes are drawn as " + file + "says, not as the thesis' camera sees them");
+    if (has_distortion(*options_.camera))
+      warn(file + "has lens distortion, which scenes are drawn without");
   }
 
   /// The next frame of the item whose turn it is; none when it has no more, and the next item's
@@ -428,14 +370,25 @@ class ListedFrames : public FrameSource {
     const ImageSize size{image.width, image.height};
     check_fit(item.source, size, options_.size, options_.fit);
     const Camera camera = camera_of(options_, size);
-    return share({name, fit_image(std::move(image), options_.size, options_.fit),
-                  fit_camera(camera, options_.size, options_.fit), std::nullopt});
+    if (options_.camera && is_off_centre(camera)) {
+      warn("camera file '" + options_.camera->name +
+           "' has its principal point far from the middle of images of " +
+           std::to_string(size.width) + "x" + std::to_string(size.height) +
+           " px: is it for another size?");
+    }
+    note(fit_text(size, options_.size, options_.fit));
+    return share({name,
+                  fit_image(std::move(image), options_.size, options_.fit),
+                  fit_camera(camera, options_.size, options_.fit),
+                  std::nullopt,
+                  {},
+                  item.kind});
   }
 
   std::vector<InputItem> items_;
   InputOptions options_;
   std::vector<SharedFrame> kept_;  ///< by position; empty unless the list repeats
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, notes_;
   std::size_t position_ = 0;
   std::uint64_t round_ = 0;
   std::uint64_t given_ = 0;

@@ -8,31 +8,13 @@
 #include <vector>
 
 #include <input/camera_file.h>
+#include <input/fit.h>
 #include <input/image_file.h>
 #include <scene/grey_image.h>
 #include <scene/pose.h>
 #include <scene/scene.h>
 
 namespace platform::input {
-
-/// What to do with an image that has not the platform's resolution.
-enum class Fit {
-  none,   ///< refuse it
-  crop,   ///< take the middle; an image smaller than the platform's is refused
-  scale,  ///< take the largest middle part of the platform's aspect ratio, then resample it: every
-          ///< pixel the mean of the area it covers (bilinear where it must grow)
-};
-
-/// Throws vp::InputError, naming `name` and what to do, if an image of `size` cannot be made
-/// `target` by `fit`.
-void check_fit(const std::string& name, ImageSize size, ImageSize target, Fit fit);
-
-/// The image at the target's size, after check_fit().
-GreyImage fit_image(GreyImage image, ImageSize target, Fit fit);
-
-/// The camera that would have taken the fitted image: `camera` took one of its own size. Scaling
-/// moves focal lengths and principal point with the pixels, cropping moves the principal point.
-Camera fit_camera(const Camera& camera, ImageSize target, Fit fit);
 
 /// How inputs become frames.
 struct InputOptions {
@@ -72,7 +54,9 @@ struct InputFrame {
       name;  ///< scene, file ("photo.png") or file and picture number ("clip.avi#12"); no folders
   GreyImage image;
   Camera camera;
-  std::optional<GroundTruth> truth;  ///< of scenes
+  std::optional<GroundTruth> truth;             ///< of a scene: its own marker
+  std::vector<GroundTruth> further_truth = {};  ///< of a scene: its other markers
+  InputItem::Kind kind = InputItem::Kind::scene;
 };
 
 /// Whoever has it keeps it; none: there is no frame.
@@ -89,6 +73,8 @@ class FrameSource {
   virtual std::optional<std::uint64_t> size() const = 0;
   /// What the user should know and is no error, once each, complete after the last frame.
   virtual const std::vector<std::string>& warnings() const = 0;
+  /// What was assumed, and done to the inputs as the user asked for; the same way.
+  virtual const std::vector<std::string>& notes() const = 0;
 };
 
 /// Each input is the name of a scene or of a group of scenes, an image file, a folder (its image

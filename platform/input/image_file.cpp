@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <input/image_file.h>
+#include <input/image_kind.h>
 #include <input/media.h>
 #include <scene/grey_image.h>
 #include <vp/error.h>
@@ -132,6 +133,9 @@ ImageHeader check_png(const Bytes& bytes, const std::string& path) {
       if (type != "IHDR" || length != ihdr_size)
         refuse_image(path, "is damaged: it has no PNG header");
       read_ihdr(bytes, at + 8, header);
+    }
+    if (type == "acTL") {
+      refuse_image(path, "is an animated PNG: save its pictures one by one, or as a video (AVI)");
     }
     header.may_be_turned = header.may_be_turned || type == "eXIf";
     if (type == "IEND") return header;
@@ -292,7 +296,9 @@ ImageHeader check_image(const Bytes& bytes, const std::string& path) {
       header = check_pgm(bytes, path);
       break;
     case ImageHeader::Format::none:
+      return header;
     case ImageHeader::Format::other:
+      if (const std::string kind = unread_kind(bytes); !kind.empty()) refuse_image(path, kind);
       return header;
   }
   check_sides(header, path);

@@ -73,7 +73,7 @@ std::string error_line(const report::FrameReport& frame, const report::FoundMark
   if (const GroundTruth* truth = report::truth_of(frame, marker)) {
     return "error   " + report::error_text(marker, *truth);
   }
-  if (frame.truth) return fmt::format("another marker: the scene has {}", frame.truth->marker_id);
+  if (frame.truth) return report::another_marker_text(frame);
   if (!marker.reprojection_px) return {};
   return fmt::format("reprojection {:.2f} px", *marker.reprojection_px);
 }

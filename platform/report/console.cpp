@@ -58,7 +58,7 @@ std::string angles_text(const Eigen::Matrix3d& r) {
 std::string error_text(const FoundMarker& found, const GroundTruth& truth) {
   const MarkerError error = measure_error(found, truth);
   const std::string text = "corner " + error_figure(error.corner_px, 2) + " px";
-  if (!found.has_pose) return text;
+  if (!has_pose_error(found, truth)) return text;
   return text + pose_error_text(error.translation_mm, error.rotation_deg);
 }
 
@@ -86,12 +86,14 @@ std::string corners_text(const std::array<PixelPoint, 4>& corners) {
   return text;
 }
 
-std::string pose_text(const FoundMarker& found) {
-  const auto metres = [&](std::size_t axis) {
-    return vp::format_fixed(found.pose.translation[axis], 3);
-  };
-  std::string text = fmt::format("t ({}, {}, {}) m   {}", metres(0), metres(1), metres(2),
-                                 angles_text(found.pose.rotation));
+std::string pose_text(const Pose& pose) {
+  const auto metres = [&](std::size_t axis) { return vp::format_fixed(pose.translation[axis], 3); };
+  return fmt::format("t ({}, {}, {}) m   {}", metres(0), metres(1), metres(2),
+                     angles_text(pose.rotation));
+}
+
+std::string fit_text(const FoundMarker& found) {
+  std::string text;
   if (found.iterations) text += "   " + counted(*found.iterations, "iteration");
   if (found.reprojection_px) text += fmt::format(" to {:.2f} px", *found.reprojection_px);
   return text;
@@ -99,13 +101,25 @@ std::string pose_text(const FoundMarker& found) {
 
 std::string marker_text(const FrameReport& frame, const FoundMarker& found) {
   std::string text = line("corners px", corners_text(found.corners_px));
-  text += line("pose", found.has_pose ? pose_text(found) : "none: the corners admit no pose");
+  if (found.residual_px) {
+    text += line("on board", fmt::format("{:.2f} px from its place", *found.residual_px));
+  } else if (!frame.board || found.has_pose) {
+    text += line("pose", found.has_pose ? pose_text(found.pose) + fit_text(found)
+                                        : "none: the corners admit no pose");
+  }
   if (const GroundTruth* truth = truth_of(frame, found)) {
     text += line("error", error_text(found, *truth));
   } else if (frame.truth) {
-    text += line("error", fmt::format("another marker: the scene has {}", frame.truth->marker_id));
+    text += line("error", another_marker_text(frame));
   }
   return text;
+}
+
+std::string board_text(const FoundBoard& board) {
+  if (!board.misfit.empty()) return line("board", "refused: " + board.misfit);
+  std::string text = counted(board.markers, "marker") + "   " + pose_text(board.pose);
+  if (board.residual_px) text += fmt::format("   {:.2f} px from their places", *board.residual_px);
+  return line("board", text);
 }
 
 /// Stage names over their times; as many lines as the width demands.
@@ -227,6 +241,7 @@ std::string end_text(const RunFacts& facts) {
 std::string frame_text(const FrameReport& frame, std::optional<std::uint64_t> total) {
   std::string text = heading(frame, total);
   for (const FoundMarker& found : frame.markers) text += marker_text(frame, found);
+  if (frame.board) text += board_text(*frame.board);
   text += line("counts", counts_text(frame));
   for (const std::string& warning : frame.warnings) text += line("warning", warning);
   return text + times_text(frame.times);
@@ -252,6 +267,13 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
     text += design_text(*facts.power, *facts.resources, *facts.timing);
   }
   if (facts.clocks) text += clock_text(*facts.clocks);
+  if (summary.settled() > 0) {
+    text += fmt::format(
+        "settled  the images of {} were shown before, so that each has a threshold of its own; "
+        "that is in no time or energy\n",
+        counted(summary.settled(), "frame"));
+  }
+  for (const std::string& note : facts.notes) text += "note     " + note + "\n";
   if (summary.warned() > 0) {
     text +=
         fmt::format("warnings in {}, listed in result.json\n", counted(summary.warned(), "frame"));

@@ -203,6 +203,9 @@ struct FoundMarker {
   std::optional<std::uint32_t> iterations;
   std::optional<PoseCovariance> covariance;
   std::optional<PoseMotion> motion = {};
+  /// Of a board's marker: how far its corners are from where the board has them, px, root of the
+  /// mean square.
+  std::optional<double> residual_px = {};
 };
 
 /// The pose of several markers with known places to each other.
@@ -211,6 +214,10 @@ struct FoundBoard {
   Pose pose;
   PoseCovariance covariance{};
   std::optional<PoseMotion> motion = {};
+  std::optional<double> residual_px = {};  ///< the same of all its markers
+  /// Why the markers cannot be those of this board, so that its pose is wrong; empty: they fit.
+  std::string misfit = {};
+  std::vector<std::string> layouts = {};  ///< of a misfit: boards that the markers fit
 };
 
 /// What a picture shows besides the marker. Not part of result.json.
@@ -244,11 +251,16 @@ struct FrameReport {
   std::vector<FoundMarker> markers;
   std::optional<FoundBoard> board;   ///< where the program looks for one, and sees it
   std::optional<GroundTruth> truth;  ///< of the scene's marker, where known
+  std::vector<GroundTruth> further_truth = {};  ///< of the other markers in the scene
   std::vector<StageTime> times;      ///< in the order of the flow; "frame" and "upload" among them
   std::uint64_t start_ps = 0;  ///< simulated time at which work on the frame began, upload done
   std::uint64_t end_ps = 0;    ///< simulated time of its last result
   /// From the camera's image to its next one that the program took, where the camera has a rate.
   std::optional<vp::Interval> camera_period;
+  /// How often the image was shown before, so that the threshold in this frame is its own, and when
+  /// the last of these results came: the period of this frame begins there.
+  std::uint32_t settling_showings = 0;
+  std::uint64_t settled_ps = 0;
   std::uint64_t upload_ps = 0;      ///< time before `start_ps` in which the image was only uploaded
   std::string gave_up;              ///< why the software gave the frame up; empty: it has a result
   std::vector<GroupEnergy> energy;  ///< its period's, upload excluded; empty: not known
@@ -299,6 +311,7 @@ struct RunFacts {
   std::optional<TimingReport> timing = std::nullopt;
   std::optional<ClockReport> clocks = std::nullopt;
   std::vector<std::string> warnings = {};  ///< that belong to no frame
+  std::vector<std::string> notes = {};     ///< what was assumed of the inputs, or done to them
 };
 
 /// Everything that may differ between two runs of the same design point on the same inputs.

@@ -22,6 +22,7 @@ void add_run(Json& json, const RunFacts& facts) {
 
 void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& warnings) {
   if (!warnings.empty()) json["warnings"] = warnings;
+  if (!facts.notes.empty()) json["notes"] = facts.notes;
   if (facts.incomplete) json["incomplete"] = *facts.incomplete;
   if (facts.end) json["program_end"] = to_json(*facts.end);
 }
@@ -113,9 +114,15 @@ Json motion_json(const PoseMotion& motion) {
 }
 
 Json board_json(const FoundBoard& board) {
-  Json json = {{"markers", board.markers},
-               {"pose", to_json(board.pose)},
-               {"covariance", covariance_json(board.covariance)}};
+  Json json = {{"markers", board.markers}};
+  if (board.residual_px) json["residual_px"] = rounded(*board.residual_px, px_places);
+  if (!board.misfit.empty()) {
+    json["refused"] = board.misfit;
+    json["layouts"] = board.layouts;
+    return json;
+  }
+  json["pose"] = to_json(board.pose);
+  json["covariance"] = covariance_json(board.covariance);
   if (board.motion) json["motion"] = motion_json(*board.motion);
   return json;
 }
@@ -124,7 +131,7 @@ Json error_json(const FoundMarker& found, const GroundTruth& truth) {
   const MarkerError error = measure_error(found, truth);
   Json json;
   json["corner_px"] = rounded(error.corner_px, px_places);
-  if (!found.has_pose) return json;
+  if (!has_pose_error(found, truth)) return json;
   json["translation_mm"] = rounded(error.translation_mm, mm_places);
   json["rotation_deg"] = rounded(error.rotation_deg, degree_places);
   return json;
@@ -142,9 +149,10 @@ Json marker_json(const FrameReport& frame, const FoundMarker& found) {
     if (found.covariance) json["covariance"] = covariance_json(*found.covariance);
     if (found.motion) json["motion"] = motion_json(*found.motion);
   }
+  if (found.residual_px) json["residual_px"] = rounded(*found.residual_px, px_places);
   if (const GroundTruth* truth = truth_of(frame, found)) {
     json["truth"]["corners_px"] = to_json(truth->corners_px);
-    json["truth"]["pose"] = to_json(truth->pose);
+    if (truth->is_usual) json["truth"]["pose"] = to_json(truth->pose);
     json["error"] = error_json(found, *truth);
   }
   return json;
@@ -170,8 +178,11 @@ Json to_json(const FrameReport& frame) {
   json["input"] = frame.input;
   json["index"] = frame.index;
   json["threshold"] = frame.threshold;
+  if (frame.settling_showings > 0) json["settling_showings"] = frame.settling_showings;
   if (!frame.delivered()) json["gave_up"] = frame.gave_up;
   if (frame.truth) json["scene_marker"] = frame.truth->marker_id;
+  for (const GroundTruth& truth : frame.further_truth)
+    json["further_scene_markers"].push_back(truth.marker_id);
   json["counts"] = counts_json(frame.counts);
   json["markers"] = Json::array();
   for (const FoundMarker& found : frame.markers)

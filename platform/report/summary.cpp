@@ -31,15 +31,34 @@ MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth) {
     const PixelPoint &a = found.corners_px[i], &b = truth.corners_px[i];
     error.corner_px += Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() / 4;
   }
-  if (found.has_pose) {
+  if (has_pose_error(found, truth)) {
     error.translation_mm = translation_error_mm(found.pose, truth.pose);
     error.rotation_deg = rotation_error_deg(found.pose, truth.pose);
   }
   return error;
 }
 
+bool has_pose_error(const FoundMarker& found, const GroundTruth& truth) {
+  return found.has_pose && truth.is_usual;
+}
+
 const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found) {
-  return frame.truth && frame.truth->marker_id == found.id ? &*frame.truth : nullptr;
+  const GroundTruth* nearest = nullptr;
+  const auto consider = [&](const GroundTruth& truth) {
+    if (truth.marker_id != found.id) return;
+    const bool is_nearer = !nearest || measure_error(found, truth).corner_px <
+                                           measure_error(found, *nearest).corner_px;
+    if (is_nearer) nearest = &truth;
+  };
+  if (frame.truth) consider(*frame.truth);
+  for (const GroundTruth& truth : frame.further_truth) consider(truth);
+  return nearest;
+}
+
+std::string another_marker_text(const FrameReport& frame) {
+  std::string text = "another marker: the scene has " + std::to_string(frame.truth->marker_id);
+  const std::size_t more = frame.further_truth.size();
+  return more == 0 ? text : text + " and " + std::to_string(more) + " more";
 }
 
 std::vector<vp::Interval> FramePeriods::next(const FrameReport& frame) {
@@ -48,6 +67,7 @@ std::vector<vp::Interval> FramePeriods::next(const FrameReport& frame) {
     return {*frame.camera_period};
   }
   std::vector<vp::Interval> period;
+  if (end_ps_) end_ps_ = std::max(*end_ps_, frame.settled_ps);
   if (end_ps_) {
     const std::uint64_t upload = frame.start_ps - std::min(frame.start_ps, frame.upload_ps);
     period.push_back({*end_ps_, std::max(*end_ps_, upload)});
@@ -74,6 +94,7 @@ void Statistic::add(double value) {
 void Summary::add(const FrameReport& frame) {
   ++frames_;
   if (!frame.warnings.empty()) ++warned_;
+  if (frame.settling_showings > 0) ++settled_;
   if (frame.counts.lost() != 0) ++lossy_;
   for (const vp::Interval& part : periods_.next(frame)) open_ps_ += part.to_ps - part.from_ps;
   if (!frame.delivered()) return;
@@ -103,20 +124,21 @@ void Summary::add_stages(const FrameReport& frame) {
 
 void Summary::add_markers(const FrameReport& frame) {
   if (!frame.markers.empty()) ++detected_;
-  bool right = false;
+  bool right = false, wrong = false;
   for (const FoundMarker& found : frame.markers) {
     const GroundTruth* truth = truth_of(frame, found);
+    if (truth == nullptr) wrong = true;
     if (truth == nullptr) continue;
-    right = true;
+    if (truth->marker_id == frame.truth->marker_id) right = true;
     const MarkerError error = measure_error(found, *truth);
     corner_px_.add(error.corner_px);
-    if (!found.has_pose) continue;
+    if (!has_pose_error(found, *truth)) continue;
     translation_mm_.add(error.translation_mm);
     rotation_deg_.add(error.rotation_deg);
   }
   const bool overlooked = frame.truth && !right;
   if (overlooked) ++overlooked_;
-  if (overlooked && !frame.markers.empty()) ++mistaken_;
+  if (overlooked && wrong) ++mistaken_;
   if (!overlooked && frame.counts.lost() == 0) ++fulfilled_;
 }
 

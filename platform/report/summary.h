@@ -17,17 +17,26 @@ struct MarkerError {
   double rotation_deg = 0;    ///< angle of the rotation between the two
 };
 
-/// Translation and rotation are meaningless for a marker without pose.
+/// Translation and rotation are meaningless unless has_pose_error().
 MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth);
 
-/// The truth of this marker: null if none is known or the marker is another one.
+/// False: the marker has no pose, or none that could be right, for it is larger or smaller than the
+/// program knows.
+bool has_pose_error(const FoundMarker& found, const GroundTruth& truth);
+
+/// The truth of this marker: of those with its ID the one that is nearest. Null if the scene has
+/// none, or is not known.
 const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found);
+
+/// For a marker that the scene does not have: "another marker: the scene has 0 and 9 more".
+std::string another_marker_text(const FrameReport& frame);
 
 /// Cuts a run into the periods of its frames, for whoever divides by time: the frame rate and the
 /// power use the same ones.
 ///
 /// A period reaches from the end of the frame before it (its own start, for the first) to its own
-/// end, without the time in which its image was only uploaded (thesis 5.5: images are preloaded).
+/// end, without the time in which its image was only uploaded (thesis 5.5: images are preloaded) or
+/// shown for the threshold to settle (settled_ps).
 /// With a camera of a fixed rate it reaches from image to image, the wait for the next included.
 class FramePeriods {
  public:
@@ -81,7 +90,7 @@ class Summary {
   std::uint64_t delivered() const { return latency_us_.count(); }
   /// Frames in which a marker was identified.
   std::uint64_t detected() const { return detected_; }
-  /// Frames with ground truth in which another marker was identified, and not the true one.
+  /// Frames in which a marker was identified that the scene does not have, and not the scene's own.
   std::uint64_t mistaken() const { return mistaken_; }
   /// Frames in which something was lost.
   std::uint64_t lossy() const { return lossy_; }
@@ -90,6 +99,8 @@ class Summary {
   /// Frames that did their job: a result, nothing lost, and the marker of the scene, if it is
   /// known.
   std::uint64_t fulfilled() const { return fulfilled_; }
+  /// Frames whose image was shown before, so that the threshold is its own.
+  std::uint64_t settled() const { return settled_; }
   /// Frames with warnings.
   std::uint64_t warned() const { return warned_; }
   /// Results per second from the first frame's start to the last result; 0 without any.
@@ -114,6 +125,7 @@ class Summary {
   std::uint64_t overlooked_ = 0;
   std::uint64_t fulfilled_ = 0;
   std::uint64_t warned_ = 0;
+  std::uint64_t settled_ = 0;
   std::uint64_t busy_ps_ = 0;  ///< until the last result
   std::uint64_t open_ps_ = 0;  ///< since then
   FramePeriods periods_;

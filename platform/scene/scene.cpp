@@ -142,20 +142,64 @@ double exposure_time(const Scene& scene, double y_px) {
   return scene.time_s + scene.shutter.readout_s * (y_px / scene.camera.height - 0.5);
 }
 
-GroundTruth ground_truth(const Scene& scene) {
-  validate(scene);
+namespace {
+
+/// A square as the camera sees it when the pose of the scene's marker is `pose`.
+std::array<PixelPoint, 4> seen_square(const Scene& scene, Pose pose, const Square& square) {
+  pose.translation = transform(pose, {square.u, square.v, 0});
+  return project_marker(scene.camera, pose, square.side);
+}
+
+/// False: a part of it is behind the camera while the picture is taken, so it is not seen whole.
+bool is_in_front(const Scene& scene, const Square& square) {
+  const double half_s = (scene.shutter.readout_s + scene.shutter.exposure_s) / 2;
+  for (const double time_s : {scene.time_s - half_s, scene.time_s, scene.time_s + half_s}) {
+    for (const double u : {square.u, square.u + square.side}) {
+      for (const double v : {square.v, square.v + square.side})
+        if (!(transform(pose_at(scene, time_s), {u, v, 0}).z() > 0)) return false;
+    }
+  }
+  return true;
+}
+
+GroundTruth truth_of(const Scene& scene, const Square& square, int id) {
+  GroundTruth truth;
+  truth.marker_id = id;
+  truth.is_usual = square.side == marker_side_m;
   const Pose pose = pose_at(scene, scene.time_s);
-  GroundTruth truth{scene.marker_id, project_marker(scene.camera, pose), pose};
+  truth.pose = pose;
+  truth.pose.translation = transform(pose, {square.u, square.v, 0});
+  truth.corners_px = seen_square(scene, pose, square);
   if (!scene.motion.any() || scene.shutter.readout_s == 0) return truth;
   // A corner's row decides when it is seen, and when decides the row: a few rounds settle it, since
   // no row is passed as fast as rows are read.
   constexpr int rounds = 20;
   for (std::size_t i = 0; i < truth.corners_px.size(); ++i) {
     PixelPoint& corner = truth.corners_px[i];
-    for (int round = 0; round < rounds; ++round)
-      corner = project_marker(scene.camera, pose_at(scene, exposure_time(scene, corner.y)))[i];
+    for (int round = 0; round < rounds; ++round) {
+      const Pose then = pose_at(scene, exposure_time(scene, corner.y));
+      corner = seen_square(scene, then, square)[i];
+    }
   }
   return truth;
+}
+
+}  // namespace
+
+GroundTruth ground_truth(const Scene& scene) {
+  validate(scene);
+  return truth_of(scene, Square{}, scene.marker_id);
+}
+
+std::vector<GroundTruth> ground_truths(const Scene& scene) {
+  std::vector<GroundTruth> truths{ground_truth(scene)};
+  const auto& words = dictionary();
+  for (const Square& square : scene.squares) {
+    const auto word = std::find(words.begin(), words.end(), square.word);
+    if (word != words.end() && is_in_front(scene, square))
+      truths.push_back(truth_of(scene, square, static_cast<int>(word - words.begin())));
+  }
+  return truths;
 }
 
 namespace {

@@ -95,7 +95,8 @@ struct GroundTruth {
   /// Clockwise from the marker's own top left, each where it is in the middle of the exposure of
   /// its row.
   std::array<PixelPoint, 4> corners_px;
-  Pose pose;  ///< at the picture's time
+  Pose pose;              ///< at the picture's time
+  bool is_usual = true;   ///< as large as programs take all markers to be: they can find its pose
 };
 
 /// The marker's pose at a time, s.
@@ -112,6 +113,9 @@ void validate(const Scene& scene);
 
 /// Corners may lie outside the picture. Throws vp::InputError like validate().
 GroundTruth ground_truth(const Scene& scene);
+
+/// The same of each marker of the dictionary in front of the camera; the scene's own comes first.
+std::vector<GroundTruth> ground_truths(const Scene& scene);
 
 /// Scenes that belong to one test of the thesis.
 struct SceneGroup {

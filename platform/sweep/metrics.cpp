@@ -110,7 +110,7 @@ void find_in_frames(const Json& frames, const Found& found) {
         }
       } else if (name == "time_us" && frame.contains("gave_up")) {
         continue;  // stages that were not reached
-      } else if (name != "index" && name != "scene_marker") {
+      } else if (name != "index" && name != "scene_marker" && name != "further_scene_markers") {
         gather(value, "frames." + name, all);
       }
     }

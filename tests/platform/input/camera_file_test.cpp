@@ -157,6 +157,149 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
                 "no calibration in YAML, XML or JSON");
 }
 
+/// A camera file of ROS with one line in place of another.
+std::string ros_with(const std::string& line, const std::string& other) {
+  std::string text = ros;
+  text.replace(text.find(line), line.size(), other);
+  return text;
+}
+
+BOOST_AUTO_TEST_CASE(other_lens_models_are_refused_by_name) {
+  const TemporaryFolder folder;
+  for (const char* model : {"equidistant", "fisheye", "nonsense", "kannala_brandt", "omni", "ds",
+                            "inverse_brown_conrady", "fov", "equi", "double_sphere"}) {
+    const std::string text =
+        ros_with("distortion_model: plumb_bob", std::string("distortion_model: ") + model);
+    CHECK_REFUSED(read(folder, text), std::string("says 'distortion_model: ") + model +
+                                          "': a lens model that is not supported. plumb_bob");
+    kit::write_file(folder / "camera.xml",
+                    "<?xml version=\"1.0\"?>\n<opencv_storage><K>500 0 320 0 500 240 0 0 1</K>"
+                    "<lens_model>\"" +
+                        std::string(model) + "\"</lens_model></opencv_storage>");
+    CHECK_REFUSED(read_camera_file(folder / "camera.xml"), "a lens model that is not supported");
+  }
+  CHECK_REFUSED(read(folder, std::string(ros) + "fisheye_model: 1\n"), "'fisheye_model: 1'");
+  CHECK_REFUSED(read(folder, std::string(ros) + "camera_model: omni\n"), "'camera_model: omni'");
+  check_camera(read(folder, std::string(ros) + "fisheye_model: 0\n"));
+  check_camera(read(folder, std::string(ros) + "camera_model: pinhole\n"));
+  for (const char* model : {"radtan", "Plumb_Bob", "brown_conrady", "\"\""}) {
+    check_camera(read(folder, ros_with("distortion_model: plumb_bob",
+                                       std::string("distortion_model: ") + model)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(coefficients_must_be_those_of_the_model) {
+  const TemporaryFolder folder;
+  const std::string k = "K: [500, 0, 320, 0, 510, 240, 0, 0, 1]\n";
+  const auto kept = [&](const std::string& d) { return read(folder, k + d).distortion.size(); };
+  BOOST_TEST(kept("D: []\n") == 0u);
+  BOOST_TEST(kept("D: [0.1, 0, 0, 0]\n") == 4u);
+  BOOST_TEST(kept("D: [0.1, 0, 0, 0, 0.1, 0, 0, 0]\n") == 8u);
+  const std::map<std::string, std::string> cases{
+      {"D: [0.1]\n", "has 1 coefficients of lens distortion"},
+      {"D: [0.1, 0.1, 0]\n", "has 3 coefficients"},
+      {"D: [0.1, 0, 0, 0, 0, 0]\n", "has 6 coefficients"},
+      {"D: [0.1, 0, 0, 0, 0, 0.01, 0, 0]\n", "beyond k1, k2, p1, p2, k3"},
+      {"distortion_model: plumb_bob\nD: [0.1, 0, 0, 0, 0, 0, 0, 0]\n", "has 8 coefficients"},
+      {"distortion_model: rational_polynomial\nD: [0.1, 0, 0, 0, 0]\n", "has 5 coefficients"},
+      {"distortion_model: none\nD: [0.1, 0, 0, 0, 0]\n", "has 5 coefficients"},
+      {"D: {rows: 2, cols: 2, data: [0.1, 0, 0, 0]}\n", "neither a row nor a column"},
+      {"D: {rows: 1, cols: 5, data: [0.1, 0, 0, 0]}\n", "not rows times cols numbers"},
+      {"D: [a, b, c, d]\n", "whose values are not numbers"},
+      {"D:\n", "not a list of numbers: 'D'"},
+      {"D: {k1: 0.1, k2: 0}\n", "'D.k1', which looks like lens distortion"},
+      {"D: [0.1, 0, 0, 0]\nD: [0.2, 0, 0, 0]\n", "says 'D' and 'D', which differ"},
+      {"D: [0.1, 0, 0, 0]\ndist_coeffs: [0, 0, 0, 0]\n", "says 'D' and 'dist_coeffs'"},
+  };
+  for (const auto& [d, problem] : cases) CHECK_REFUSED(read(folder, k + d), problem);
+  BOOST_TEST(kept("D: [0.1, 0, 0, 0]\ndist_coeffs: [0.1, 0, 0, 0]\n") == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(distortion_under_another_name_is_refused) {
+  const TemporaryFolder folder;
+  const std::string k = "K: [500, 0, 320, 0, 510, 240, 0, 0, 1]\n";
+  for (const char* entry :
+       {"distortion_vec: [-0.3, 0, 0, 0, 0]", "dist_coeff: [-0.3, 0, 0, 0]", "dist: [-0.3]",
+        "camera_dist: {rows: 1, cols: 5, data: [-0.3, 0.1, 0, 0, 0]}", "k1: -0.3", "kc: [-0.3, 0]",
+        "lens: {distortion: [-0.3, 0, 0, 0]}", "lens: [-0.3, 0, 0, 0]", "radial: [-0.3]",
+        "extra: [{k1: -0.3}]", "RadialDistortion: [0.1, 0]", "coeffs: [-0.3, 0, 0, 0]"}) {
+    CHECK_REFUSED(read(folder, k + entry + "\n"), "looks like lens distortion and is not read");
+  }
+  BOOST_TEST(read(folder, k + "working_distance: 0.5\n").oddities.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(entries_that_are_not_read_are_named) {
+  const TemporaryFolder folder;
+  BOOST_TEST(read(folder, ros).oddities.empty());
+  const auto odd = read(folder, std::string(ros) + "focus: 3\nowner: {who: me}\n").oddities;
+  BOOST_TEST_REQUIRE(odd.size() == 1u);
+  BOOST_TEST(odd[0] == "has entries that are not read: focus, owner.who");
+}
+
+/// R and P are of rectified images; binning and a region move the pixels.
+BOOST_AUTO_TEST_CASE(entries_of_ros_are_heeded) {
+  const TemporaryFolder folder;
+  const std::string same_p =
+      "projection_matrix: {rows: 3, cols: 4, data: [600.5, 0, 319.5, 0, 0, 601.25, 239.5, 0, 0, 0, "
+      "1, 0]}\n";
+  const std::string unit_r = "rectification_matrix: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n";
+  const std::string whole =
+      "binning_x: 0\nbinning_y: 1\nroi: {x_offset: 0, y_offset: 0, height: 0, width: 0, "
+      "do_rectify: false}\n";
+  BOOST_TEST(read(folder, ros + same_p + unit_r + whole).oddities.empty());
+  const auto odd = read(folder, std::string(ros) +
+                                    "P: [590, 0, 319.5, 0, 0, 601.25, 239.5, 0, 0, "
+                                    "0, 1, 0]\n")
+                       .oddities;
+  BOOST_TEST_REQUIRE(odd.size() == 1u);
+  BOOST_TEST(odd[0].find("has a 'P' other than its camera_matrix") == 0u);
+  const std::map<std::string, std::string> cases{
+      {"R: [0.99, 0.1, 0, -0.1, 0.99, 0, 0, 0, 1]\n", "rectifies the images by a turn"},
+      {"R: [1, 0, 0]\n", "'R' that is not 3x3 numbers"},
+      {"P: [.nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\n", "'P' with values that are no numbers"},
+      {"binning_x: 2\n", "binned images"},
+      {"roi: {x_offset: 10, y_offset: 0, height: 0, width: 0}\n", "a part of the images"},
+      {"roi: {x_offset: 0, y_offset: 0, height: 240, width: 320}\n", "a part of the images"},
+      {"skew: 0.5\n", "has skew"},
+      {"camera_resolution: [1280, 960]\n", "two image sizes"},
+      {"width: 1280\n", "says 'image_width' and 'width'"},
+  };
+  for (const auto& [more, problem] : cases)
+    CHECK_REFUSED(read(folder, std::string(ros) + more), problem);
+}
+
+BOOST_AUTO_TEST_CASE(a_size_may_be_one_entry) {
+  const TemporaryFolder folder;
+  const CalibratedCamera camera =
+      read(folder, "cameraResolution: [640, 480]\nK: [500, 0, 320, 0, 510, 240, 0, 0, 1]\n");
+  BOOST_TEST(camera.has_size);
+  BOOST_TEST(camera.camera.width == 640);
+}
+
+BOOST_AUTO_TEST_CASE(files_of_other_programs_are_refused_by_name) {
+  const TemporaryFolder folder;
+  const std::map<std::string, std::string> cases{
+      {"# oST version 5.0 parameters\n\n[image]\n\nwidth\n640\n", "is an oST file"},
+      {"cam0:\n  camera_model: pinhole\n  intrinsics: [500, 500, 320, 240]\n  distortion_model: "
+       "radtan\n  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [640, 480]\n",
+       "looks like a camchain of Kalibr (it has 'cam0.distortion_coeffs')"},
+      {"Camera.type: \"PinHole\"\nCamera.fx: 500\n", "looks like a settings file of ORB-SLAM"},
+      {"model_type: PINHOLE\nprojection_parameters: {fx: 500}\n",
+       "looks like a camera file of VINS"},
+      {"RadialDistortion: [0, 0]\n", "looks like MATLAB's cameraParameters"},
+      {"% Calib_Results\nfc = [ 500 ; 500 ];\n", "is a script of MATLAB"},
+      {"M1: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nD1: [0, 0, 0, 0]\n", "a stereo calibration"},
+      {"left: {camera_matrix: [500, 0, 320, 0, 510, 240, 0, 0, 1]}\n",
+       "inside another entry ('left.camera_matrix')"},
+      {"K: [500, 0, 0, 0, 510, 0, 320, 240, 1]\n", "a transposed camera_matrix"},
+      {"K: [0.6, 0, 0.5, 0, 0.8, 0.5, 0, 0, 1]\n", "focal length below 10 px"},
+      {"K: [0, 0, 0, 0, 0, 0, 0, 0, 0]\n", "not calibrated"},
+      {"K: {rows: 9, cols: 1, data: [500, 0, 320, 0, 510, 240, 0, 0, 1]}\n", "not 3x3"},
+  };
+  for (const auto& [text, problem] : cases) CHECK_REFUSED(read(folder, text), problem);
+  CHECK_REFUSED(read(folder, std::string("MATLAB 5.0 MAT-file\0", 20)), "is a MAT-file of MATLAB");
+}
+
 /// OpenCV's own parser overran the stack on the first, and readers of its trees on the others.
 BOOST_AUTO_TEST_CASE(hostile_files_are_refused) {
   const auto repeated = [](const std::string& part, std::size_t times) {

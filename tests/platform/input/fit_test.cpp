@@ -61,16 +61,45 @@ BOOST_AUTO_TEST_CASE(scale_averages_areas) {
   BOOST_TEST(scaled.at(3, 3) == 10);
 }
 
-BOOST_AUTO_TEST_CASE(scale_keeps_the_aspect_ratio_and_cuts_the_sides) {
-  // 160x60 to 40x30: the middle 80x60 is halved.
-  cv::Mat whole(60, 160, CV_8UC1, cv::Scalar(0));
-  whole(cv::Rect(40, 0, 80, 60)) = cv::Scalar(200);
+BOOST_AUTO_TEST_CASE(scale_takes_the_whole_image_and_fills_with_bars) {
+  // 160x60 to 40x30: a quarter of the size, 40x15, with bars of 7 and 8 rows.
+  cv::Mat whole(60, 160, CV_8UC1, cv::Scalar(40));
+  whole(cv::Rect(0, 0, 80, 60)) = cv::Scalar(200);
   const GreyImage scaled = fit_image(image_of(whole), {40, 30}, Fit::scale);
-  BOOST_TEST(same(scaled, cv::Mat(30, 40, CV_8UC1, cv::Scalar(200))));
+  cv::Mat expected(30, 40, CV_8UC1, cv::Scalar(200));
+  expected(cv::Rect(20, 7, 20, 15)) = cv::Scalar(40);
+  BOOST_TEST(same(scaled, expected), "bars are as bright as the bright half");
   const Camera camera = fit_camera({160, 60, 100, 100, 80, 30}, {40, 30}, Fit::scale);
-  BOOST_TEST(camera.fx == 50.0);
+  BOOST_TEST(camera.fx == 25.0);
+  BOOST_TEST(camera.fy == 25.0);
   BOOST_TEST(camera.cx == 20.0);
-  BOOST_TEST(camera.cy == 15.0);
+  BOOST_TEST(camera.cy == 14.5);
+}
+
+/// A point of the whole image is where its camera says in the fitted one.
+BOOST_AUTO_TEST_CASE(the_camera_follows_the_pixels) {
+  cv::Mat whole(720, 1280, CV_8UC1, cv::Scalar(10));
+  whole(cv::Rect(1240, 8, 4, 4)) = cv::Scalar(250);
+  const GreyImage scaled = fit_image(image_of(whole), {640, 480}, Fit::scale);
+  BOOST_TEST(scaled.at(620, 64) == 250, "half the size, and 60 rows lower");
+  BOOST_TEST(scaled.at(622, 64) == 10);
+  const Camera camera = fit_camera({1280, 720, 900, 910, 600, 350}, {640, 480}, Fit::scale);
+  BOOST_TEST(camera.cx == 300.0);
+  BOOST_TEST(camera.cy == 235.0);
+  BOOST_TEST(camera.fy == 455.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_lost_is_said) {
+  BOOST_TEST(fit_text({640, 480}, {640, 480}, Fit::scale) == "");
+  BOOST_TEST(fit_text({1280, 720}, {640, 480}, Fit::scale) ==
+             "images of 1280x720 px are scaled to 640x360 px (50 %), whole, with bars of 120 px in "
+             "all above and below");
+  BOOST_TEST(fit_text({480, 640}, {640, 480}, Fit::scale) ==
+             "images of 480x640 px are scaled to 360x480 px (75 %), whole, with bars of 280 px in "
+             "all at their sides");
+  BOOST_TEST(fit_text({1280, 720}, {640, 480}, Fit::crop) ==
+             "images of 1280x720 px are cropped to their middle 640x480 px: 67 % of each is cut "
+             "off");
 }
 
 BOOST_AUTO_TEST_CASE(scale_enlarges_small_images) {

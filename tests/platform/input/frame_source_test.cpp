@@ -165,6 +165,10 @@ BOOST_AUTO_TEST_CASE(fitting_adapts_the_camera) {
   frame = *open_inputs({folder / "big.png"}, options)->next();
   BOOST_TEST(frame.camera.fx == 2 * 381.36);
   BOOST_TEST(frame.camera.cx == 320.0);
+  const auto source = open_inputs({folder / "big.png"}, options);
+  source->next();
+  BOOST_TEST_REQUIRE(source->notes().size() == 1u);
+  BOOST_TEST(contains(source->notes()[0], "75 % of each is cut off"));
 }
 
 BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
@@ -177,8 +181,11 @@ BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
   const InputFrame scene = *source->next();
   BOOST_TEST(scene.camera.cx == 33.0);
   BOOST_TEST(scene.truth->corners_px[0].x == 33.0, "the axis passes through the marker's corner");
-  BOOST_TEST_REQUIRE(source->warnings().size() == 1u);
-  BOOST_TEST(contains(source->warnings()[0], "lens distortion"));
+  BOOST_TEST_REQUIRE(source->warnings().size() == 2u);
+  BOOST_TEST(contains(source->warnings()[0], "lens distortion, which scenes are drawn without"));
+  BOOST_TEST(contains(source->warnings()[1], "lens distortion, which this design"));
+  BOOST_TEST_REQUIRE(source->notes().size() == 1u);
+  BOOST_TEST(contains(source->notes()[0], "scenes are drawn as camera file 'c.yaml' says"));
   BOOST_TEST(scene.camera.distortion[0] == 0, "scenes are drawn without a lens");
   options.corrects_lens = true;
   const auto corrected = open_inputs({folder / "p.png"}, options);
@@ -188,11 +195,20 @@ BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
   options.camera->distortion = {-1};
   BOOST_TEST(contains(open_inputs({folder / "p.png"}, options)->warnings()[0],
                       "folds back: no marker is found beyond 19 px from the middle"));
-  options.camera->distortion = {0.1, 0, 0, 0, 0, 0.01};
-  const auto rational = open_inputs({folder / "p.png"}, options);
-  rational->next();
-  BOOST_TEST_REQUIRE(rational->warnings().size() == 1u);
-  BOOST_TEST(contains(rational->warnings()[0], "more than five coefficients"));
+  options.camera->distortion = {};
+  options.camera->oddities = {"has entries that are not read: focus"};
+  const auto odd = open_inputs({folder / "p.png"}, options);
+  BOOST_TEST_REQUIRE(odd->warnings().size() == 1u);
+  BOOST_TEST(odd->warnings()[0] == "camera file 'c.yaml' has entries that are not read: focus");
+  options.camera->oddities = {};
+  options.camera->has_size = false;
+  options.camera->camera.cx = 55;
+  const auto another = open_inputs({folder / "p.png"}, options);
+  another->next();
+  BOOST_TEST_REQUIRE(another->warnings().size() == 1u);
+  BOOST_TEST(contains(another->warnings()[0], "principal point far from the middle"));
+  BOOST_TEST(contains(another->notes()[0], "says no image size"));
+  options.camera->has_size = true;
   options.camera->camera.width = 65;
   CHECK_REFUSED(open_inputs({folder / "p.png"}, options), "is for images of 65x32 px, not 64x32");
   CHECK_REFUSED(open_inputs({"z1.0"}, options), "is for images of 65x32 px, not 64x32");

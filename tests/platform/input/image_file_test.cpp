@@ -50,6 +50,34 @@ BOOST_AUTO_TEST_CASE(colour_alpha_and_16_bits_become_grey_as_in_opencv) {
   for (const std::string& name : folder.entries()) check_same_as_opencv(folder / name);
 }
 
+/// Codecs call them damaged, or give the first picture alone.
+BOOST_AUTO_TEST_CASE(images_that_are_not_read_are_refused_by_kind) {
+  const TemporaryFolder folder;
+  const auto refuses = [&](const char* name, const char* problem) {
+    CHECK_REFUSED(read_image(folder / name), problem);
+    CHECK_REFUSED(inspect_image(folder / name), problem);
+  };
+  cv::Mat floating;
+  pattern(48, 32).convertTo(floating, CV_32F, 1.0 / 255);
+  cv::imwrite(folder / "float.tiff", floating);
+  refuses("float.tiff", "is a TIFF with floating-point samples: save it with 8 or 16 bits");
+  cv::imwritemulti(folder / "pages.tiff", std::vector<cv::Mat>{pattern(48, 32), pattern(48, 32)});
+  refuses("pages.tiff", "is a TIFF with several pages: save each");
+  const std::string vp8x("VP8X\x0A\0\0\0\x02\0\0\0\x2F\0\0\x1F\0\0", 18);
+  kit::write_file(folder / "moves.webp", "RIFF" + std::string("\x16\0\0\0", 4) + "WEBP" + vp8x);
+  refuses("moves.webp", "is an animated WebP: save its pictures one by one");
+  cv::imwrite(folder / "a.png", pattern(48, 32));
+  std::string png = kit::read_file(folder / "a.png");
+  const std::string control(
+      "\0\0\0\x08"
+      "acTL"
+      "\0\0\0\x01\0\0\0\0",
+      16);
+  png.insert(33, control + std::string("\xB4\x2D\xE9\xA0", 4));
+  kit::write_file(folder / "moves.png", png);
+  refuses("moves.png", "is an animated PNG: save its pictures one by one");
+}
+
 BOOST_AUTO_TEST_CASE(plain_files_hold_the_pixels_exactly) {
   const TemporaryFolder folder;
   const cv::Mat picture = pattern(640, 480);

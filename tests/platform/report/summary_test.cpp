@@ -52,6 +52,61 @@ BOOST_AUTO_TEST_CASE(a_period_begins_with_the_last_one_and_leaves_the_upload_out
   BOOST_TEST(periods.end_ps() == 30 * ms);
 }
 
+BOOST_AUTO_TEST_CASE(showings_that_settle_the_threshold_are_in_no_period) {
+  const auto settled = [](report::FrameReport frame, std::uint64_t settled_ms) {
+    frame.settling_showings = 1;
+    frame.settled_ps = settled_ms * ms;
+    return frame;
+  };
+  report::FramePeriods periods;
+  // The first one counts from its own start, as ever.
+  BOOST_TEST(length(periods.next(settled(frame(10, 18, 0), 12))) == 8 * ms);
+  // The next one was shown until 40 ms, and its own result came 3 ms later.
+  BOOST_TEST(length(periods.next(settled(frame(38, 43, 0), 40))) == 3 * ms);
+  BOOST_TEST(length(periods.next(frame(43, 50, 0))) == 7 * ms);
+  report::Summary summary;
+  summary.add(settled(frame(10, 18, 0), 12));
+  summary.add(frame(18, 20, 0));
+  BOOST_TEST(summary.settled() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(every_marker_of_a_scene_has_its_truth) {
+  report::FrameReport frame = found_frame("z1.0");
+  const auto truths = platform::ground_truths(platform::make_scene("z2.0@markers=10"));
+  BOOST_TEST_REQUIRE(truths.size() == 10u);
+  frame.truth = truths.front();
+  frame.further_truth = {truths.begin() + 1, truths.end()};
+  frame.markers.clear();
+  for (const platform::GroundTruth& truth : truths) {
+    report::FoundMarker& found = frame.markers.emplace_back();
+    found.id = truth.marker_id;
+    found.corners_px = truth.corners_px;
+    found.pose = truth.pose;
+    BOOST_TEST_REQUIRE(report::truth_of(frame, found) != nullptr);
+    BOOST_TEST(report::measure_error(found, *report::truth_of(frame, found)).corner_px == 0);
+  }
+  report::Summary summary;
+  summary.add(frame);
+  BOOST_TEST(summary.corner_px().count() == 10u);
+  BOOST_TEST(summary.mistaken() == 0u);
+  frame.markers.erase(frame.markers.begin());
+  summary.add(frame);
+  BOOST_TEST(summary.overlooked() == 1u, "the scene's own one decides");
+  BOOST_TEST(summary.mistaken() == 0u);
+  frame.markers[0].id = 200;
+  BOOST_TEST(report::truth_of(frame, frame.markers[0]) == nullptr);
+  BOOST_TEST(report::another_marker_text(frame) == "another marker: the scene has 0 and 9 more");
+  summary.add(frame);
+  BOOST_TEST(summary.mistaken() == 1u);
+  // Of two with one ID the nearer one is meant; of one of another size the pose says nothing.
+  frame.further_truth[0].marker_id = frame.further_truth[1].marker_id;
+  frame.markers[1].id = frame.further_truth[1].marker_id;
+  frame.markers[1].corners_px = frame.further_truth[1].corners_px;
+  BOOST_TEST(report::truth_of(frame, frame.markers[1]) == &frame.further_truth[1]);
+  frame.further_truth[1].is_usual = false;
+  BOOST_TEST(!report::has_pose_error(frame.markers[1], frame.further_truth[1]));
+}
+
 BOOST_AUTO_TEST_CASE(a_frame_given_up_counts_as_time_and_not_as_result) {
   report::Summary summary;
   summary.add(frame(0, 8, 0));
