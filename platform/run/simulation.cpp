@@ -82,6 +82,9 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
       std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
                                         zynq_->ps.cpu_clk.start_hz(), *camera_, zynq_->design());
   costs_ = profiles::load_cost_profile(*profile_name_, software_options_->optimisation());
+  const hal_program& program = program_->description();
+  for (std::uint32_t i = 0; i < program.option_count; ++i)
+    zynq_->design().note_option(program.options[i].name, software_options_->value(i));
   bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *software_options_, reports_);
   power_ = std::make_unique<ZynqPower>(
       "power", *zynq_, design_->draws_power,
@@ -186,12 +189,12 @@ void Simulation::run_until(std::uint64_t ps) {
 
 std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
-      [this, next = std::move(next)] {
+      [this] {
         folder_.restore();
         zynq_->settle();
         power_->frame_begins();
-        return next();
       },
+      std::move(next),
       [this, done = std::move(done)](report::FrameReport&& frame) {
         folder_.restore();
         power_->frame_ends(frame);

@@ -135,9 +135,17 @@ class Design {
   /// The value of a program's option that the logic decides, and no user; in the option's unit.
   virtual std::optional<double> program_option(const std::string& /*name*/) const { return {}; }
 
+  /// A program's option as it is in this run, in the option's unit: each, before the program runs.
+  virtual void note_option(const std::string& /*name*/, double /*value*/) {}
+  /// How often an image that has nothing to do with the one before it must be shown until the
+  /// logic's threshold is its own: the frames until then do not count.
+  virtual std::uint32_t settling_showings() const { return 0; }
+
   /// Fills in a frame: times, counts, markers, features, and warnings of what was lost. False: no
   /// program of this design publishes such a thing.
   virtual bool report(const Publication& publication, report::FrameReport& frame) = 0;
+  /// Looks over a frame whose `camera` is known by now, too.
+  virtual void check(report::FrameReport& /*frame*/) {}
   /// The run is over, perhaps in the middle of a frame: watchers warn of what they still know.
   virtual void finish() {}
 

@@ -24,12 +24,14 @@ FrameBench::FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOpt
   frame_.pixels = zynq_.ps.ddr.at(*address, pixels);
 }
 
-void FrameBench::start(NextFrame next, FrameDone done) {
+void FrameBench::start(FrameBegins begins, NextFrame next, FrameDone done) {
+  begins_ = std::move(begins);
   next_ = std::move(next);
   done_ = std::move(done);
 }
 
-// The image after the last one that the program took at the earliest; it was busy since then.
+// The image after the last one that the program took at the earliest; it was busy since then. One
+// that settles stays before the camera.
 std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
   if (!camera_.has_rate()) return now_ps;
   if (!first_ps_) {
@@ -37,20 +39,20 @@ std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
     return now_ps;
   }
   const std::uint64_t after = awaited_ + 1;
-  busy_ps_.add(static_cast<double>(now_ps - came_ps(awaited_)));
+  const bool settles = showings_left_ > 0;
+  if (!settles) busy_ps_.add(static_cast<double>(now_ps - came_ps(awaited_)));
   awaited_ = std::max(after, camera_.first_after(now_ps - *first_ps_));
-  missed_ = awaited_ - after;
+  missed_ = settles ? 0 : awaited_ - after;
   dropped_ += missed_;
   return came_ps(awaited_);
 }
 
 const hal_frame* FrameBench::next_frame(std::uint64_t) {
   if (camera_.has_rate()) hand_over(came_ps(awaited_));
-  input::SharedFrame frame = next_image();
-  for (; frame && missed_ > 0; --missed_) frame = next_image();
-  if (!frame) return nullptr;
-  place(frame);
-  ++taken_;
+  begins_();
+  if (showings_left_ == 0 && !take_image()) return nullptr;
+  --showings_left_;
+  place(image_);
   return &frame_;
 }
 
@@ -58,6 +60,24 @@ input::SharedFrame FrameBench::next_image() {
   input::SharedFrame frame = stop_ ? nullptr : next_();
   if (frame) ++images_;
   return frame;
+}
+
+/// False: there is none.
+bool FrameBench::take_image() {
+  input::SharedFrame frame = next_image();
+  for (; frame && missed_ > 0; --missed_) frame = next_image();
+  if (!frame) return false;
+  showings_left_ = 1 + (settles(*frame) ? zynq_.design().settling_showings() : 0);
+  image_ = std::move(frame);
+  ++taken_;
+  return true;
+}
+
+bool FrameBench::settles(const input::InputFrame& frame) const {
+  using Kind = input::InputItem::Kind;
+  const bool is_behind_still = image_ && image_->kind == Kind::image;
+  if (frame.kind != Kind::image && !(frame.kind == Kind::scene && is_behind_still)) return false;
+  return !image_ || image_->image.pixels != frame.image.pixels;
 }
 
 std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
@@ -70,7 +90,10 @@ void FrameBench::place(const input::SharedFrame& frame) {
   const std::vector<std::uint8_t>& pixels = frame->image.pixels;
   std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, pixels.size()), pixels.data(), pixels.size());
   cache_contract_.placed(frame_.bus_address, pixels.size());
-  frame_.index = images_ - 1;
+  const bool counts = showings_left_ == 0;
+  frame_.index = images_ - 1 + settling_showings_;
+  shown_.push_back({frame, frame_.index, images_ - 1, counts});
+  if (!counts) ++settling_showings_;
   const Camera& camera = frame->camera;
   frame_.fx = camera.fx;
   frame_.fy = camera.fy;
@@ -89,13 +112,30 @@ bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
         "marker headers of this version" +
         zynq_.ps.cpu.where());
   }
+  const Shown shown = published(report.index);
+  report.index = shown.index;
+  report.camera = shown.frame->camera;
+  zynq_.design().check(report);
   take_new_warnings(report.warnings);
   const bool delivered = report.delivered();
-  ++published_;
+  if (shown.counts) ++published_;
   if (waiting_) hand_over(waiting_->end_ps);
   waiting_ = std::move(report);
+  waiting_counts_ = shown.counts;
   if (!camera_.has_rate()) hand_over(std::nullopt);
   return delivered;
+}
+
+/// A program may leave out images, but not go back or ahead.
+FrameBench::Shown FrameBench::published(std::uint32_t number) {
+  while (!shown_.empty() && shown_.front().number < number) shown_.pop_front();
+  if (shown_.empty() || shown_.front().number != number) {
+    throw vp::ProtocolError("the program reported frame " + std::to_string(number) +
+                            ", which it was not given or reported already" + zynq_.ps.cpu.where());
+  }
+  Shown shown = std::move(shown_.front());
+  shown_.pop_front();
+  return shown;
 }
 
 /// The period of the frame that waits for it ends at `until_ps`; none: with its result.
@@ -106,7 +146,25 @@ void FrameBench::hand_over(std::optional<std::uint64_t> until_ps) {
     period_from_ps_ = *until_ps;
   }
   report::FrameReport report = *std::exchange(waiting_, std::nullopt);
+  if (!waiting_counts_) return keep_settling(report);
+  if (settling_.index == report.index && settling_.settling_showings > 0) {
+    report.settling_showings = settling_.settling_showings;
+    report.settled_ps = settling_.end_ps;
+    report.warnings.insert(report.warnings.begin(), settling_.warnings.begin(),
+                           settling_.warnings.end());
+  }
+  settling_ = {};
   stop_ = !done_(std::move(report)) || stop_;
+}
+
+/// Of a showing that does not count: what its frame needs to know.
+void FrameBench::keep_settling(const report::FrameReport& report) {
+  if (settling_.index != report.index) settling_ = {};
+  settling_.index = report.index;
+  settling_.end_ps = report.end_ps;
+  ++settling_.settling_showings;
+  settling_.warnings.insert(settling_.warnings.end(), report.warnings.begin(),
+                            report.warnings.end());
 }
 
 std::optional<report::CameraReport> FrameBench::camera_report() const {
@@ -142,6 +200,7 @@ std::vector<std::string> FrameBench::finish() {
   if (waiting_) hand_over(waiting_->end_ps);
   zynq_.design().finish();
   std::vector<std::string> list;
+  if (settling_.settling_showings > 0) list = std::move(settling_.warnings);
   take_new_warnings(list);
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,18 +27,25 @@ namespace platform {
 /// With a camera of a fixed rate the program sleeps until the next image; those that came while it
 /// was busy are lost, whole. A frame is handed over when its period is over: when the program takes
 /// the next image, or there is none.
+///
+/// The logic's threshold comes from the frame before, which of a still image says nothing. So an
+/// image file that is not the picture before it, and a scene behind one, is shown first as often as
+/// the design needs (Design::settling_showings). What comes of that is not handed over, but for its
+/// warnings, and its time and energy are in no period. Pictures of a video are shown once.
 class FrameBench : public ps::TestBench {
  public:
   using NextFrame = std::function<input::SharedFrame()>;
   using FrameDone = std::function<bool(report::FrameReport&&)>;
+  using FrameBegins = std::function<void()>;
 
   /// What is passed must outlive the bench. Memory for the image is taken from the DDR's DMA
   /// memory.
   FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
              const vp::ReportRouter& reports);
 
-  /// Where frames come from and reports go to, for one run.
-  void start(NextFrame next, FrameDone done);
+  /// Where frames come from and reports go to, for one run; `begins` is called whenever the program
+  /// wants an image.
+  void start(FrameBegins begins, NextFrame next, FrameDone done);
   /// The run is over, however it ended. Returns the warnings that stand in no frame's report.
   std::vector<std::string> finish();
 
@@ -57,9 +65,21 @@ class FrameBench : public ps::TestBench {
   std::optional<std::uint32_t> xparameter(const char* name) override;
 
  private:
+  /// An image as the program has it, until it publishes what it found.
+  struct Shown {
+    input::SharedFrame frame;
+    std::uint32_t number;  ///< that the program knows it by
+    std::uint32_t index;   ///< in reports
+    bool counts;           ///< false: the threshold settles
+  };
+
   input::SharedFrame next_image();
+  bool take_image();
+  bool settles(const input::InputFrame& frame) const;
   std::uint64_t came_ps(std::uint64_t number) const;
   void place(const input::SharedFrame& frame);
+  Shown published(std::uint32_t number);
+  void keep_settling(const report::FrameReport& report);
   void hand_over(std::optional<std::uint64_t> until_ps);
   void take_new_warnings(std::vector<std::string>& list);
 
@@ -68,12 +88,19 @@ class FrameBench : public ps::TestBench {
   const CameraTiming& camera_;
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
+  FrameBegins begins_;
   NextFrame next_;
   FrameDone done_;
   hal_frame frame_{};
   std::uint32_t images_ = 0;  ///< that there were, lost ones too
+  std::deque<Shown> shown_;
+  input::SharedFrame image_;             ///< before the camera
+  std::uint32_t showings_left_ = 0;      ///< of it; the last one counts
+  std::uint32_t settling_showings_ = 0;  ///< of all images
+  report::FrameReport settling_;         ///< of the image that settles: warnings, end and number
   std::uint64_t taken_ = 0, published_ = 0;
   std::optional<report::FrameReport> waiting_;  ///< for the end of its period
+  bool waiting_counts_ = true;
 
   // Of a camera with a rate.
   std::optional<std::uint64_t> first_ps_;  ///< when its first image came

@@ -208,4 +208,74 @@ BOOST_AUTO_TEST_CASE(scale_keeps_the_view) {
   }
 }
 
+/// A picture and the same in a fifth of its light, which the threshold of the first one makes dark.
+struct Light : Workplace {
+  Light() {
+    const cv::Mat bright = scene_picture("z1.0");
+    write_picture(*this / "bright.png", bright);
+    write_picture(*this / "dim.png", bright * 0.2);
+  }
+};
+
+BOOST_AUTO_TEST_CASE(still_images_have_a_threshold_of_their_own) {
+  const Light place;
+  for (const char* design : {"improved", "thesis"}) {
+    const Json alone = frames_of(place, {"dim.png", "--design", design})[0];
+    check_marker(alone, 0);
+    BOOST_TEST(alone["settling_showings"] == 1);
+    const Json frames = frames_of(place, {"bright.png", "dim.png", "dim.png", "--design", design});
+    BOOST_TEST_REQUIRE(frames.size() == 3u);
+    for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(frames[i]["index"] == i);
+    check_marker(frames[1], 0);
+    BOOST_TEST(frames[1]["threshold"] == alone["threshold"]);
+    BOOST_TEST(frames[1]["settling_showings"] == 1);
+    BOOST_TEST(!frames[2].contains("settling_showings"), "it is the picture before it");
+    BOOST_TEST(frames[2]["threshold"] == alone["threshold"]);
+    BOOST_TEST(frames[0]["threshold"] > frames[1]["threshold"]);
+    const Json clocked = frames_of(
+        place, {"bright.png", "dim.png", "dim.png", "--design", design, "--fidelity", "clocked"});
+    BOOST_TEST(clocked == frames, "both fidelities settle alike");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(settling_is_in_no_rate_and_no_energy) {
+  const Light place;
+  const auto summary = [&](const Arguments& arguments) {
+    frames_of(place, arguments);
+    return place.result()["summary"];
+  };
+  const Arguments design{"--design", "improved", "--set", "profile=a9-O2"};
+  const auto with = [&](Arguments inputs) {
+    inputs.insert(inputs.end(), design.begin(), design.end());
+    return inputs;
+  };
+  // Each of two pictures in turn, and one all the time: they take the same work.
+  const Json turns = summary(with({"bright.png", "dim.png", "--repeat", "5"}));
+  const Json steady = summary(with({"bright.png", "--repeat", "10"}));
+  BOOST_TEST(turns["frames"] == 10);
+  BOOST_TEST(turns["fps"]["mean"].get<double>() == steady["fps"]["mean"].get<double>(),
+             boost::test_tools::tolerance(0.02));
+  BOOST_TEST(
+      turns["energy_per_frame_mj"].get<double>() == steady["energy_per_frame_mj"].get<double>(),
+      boost::test_tools::tolerance(0.02));
+}
+
+BOOST_AUTO_TEST_CASE(at_a_rate_an_image_waits_until_it_has_settled) {
+  const Light place;
+  const Json frames = frames_of(place, {"bright.png", "dim.png", "--design", "improved", "--rate",
+                                        "20 fps", "--set", "profile=a9-O2"});
+  BOOST_TEST_REQUIRE(frames.size() == 2u);
+  check_marker(frames[1], 0);
+  const Json camera = place.result()["camera"];
+  BOOST_TEST(camera["dropped"] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(scenes_do_not_settle_unless_behind_an_image) {
+  const Light place;
+  for (const Json& frame : frames_of(place, {"z1.0", "z1.5@light=0.3", "--design", "improved"}))
+    BOOST_TEST(!frame.contains("settling_showings"));
+  const Json frames = frames_of(place, {"dim.png", "z1.0", "--design", "improved"});
+  BOOST_TEST(frames[1]["settling_showings"] == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

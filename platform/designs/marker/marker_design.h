@@ -90,6 +90,8 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   void show_image(const std::shared_ptr<const GreyImage>& image) override;
   void settle() override { ProgrammableLogic::settle(); }
   std::optional<double> program_option(const std::string& name) const override;
+  /// The threshold in use is that of the frame before.
+  std::uint32_t settling_showings() const override { return 1; }
   bool report(const Publication& publication, report::FrameReport& frame) override;
   void finish() override { handshake_.finish_frame(); }
 
