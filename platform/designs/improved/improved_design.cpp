@@ -1,4 +1,7 @@
+#include <designs/improved/board_check.h>
 #include <designs/improved/improved_design.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -9,6 +12,7 @@
 #include <marker_logic.h>
 #include <report/result.h>
 #include <vp/clock.h>
+#include <vp/text.h>
 
 namespace platform {
 
@@ -182,6 +186,65 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
   frame.features.blobs = std::move(sent.blobs);
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
   frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, "", ""));
+}
+
+namespace {
+
+/// As the program reads them: sw/apps/improved/options.cpp.
+marker::Board board_of(const std::map<std::string, double>& options) {
+  const auto value = [&](const char* name) {
+    const auto found = options.find(name);
+    return found == options.end() ? 0 : found->second;
+  };
+  const auto whole = [&](const char* name) { return static_cast<std::uint32_t>(value(name)); };
+  marker::Board board;
+  board.kind = static_cast<marker::Board::Kind>(whole("board"));
+  board.marker_side = value("marker_side");
+  board.grid = {whole("board_columns"), whole("board_rows"), board.marker_side, value("board_gap"),
+                whole("board_first_id")};
+  board.charuco = {whole("board_columns"), whole("board_rows"), value("board_square"),
+                   board.marker_side, value("board_white_first") >= 0.5};
+  return board;
+}
+
+std::string board_text(const BoardFit& fit, const std::vector<std::string>& layouts) {
+  const std::string off =
+      fmt::format("its corners are {:.1f} px ({:.0f} % of a side) from where it has them",
+                  fit.residual_px, 100 * fit.share);
+  std::string text = "the board does not fit its markers: " + off;
+  if (fit.is_good()) {
+    text = fit.strangers > 0 ? "markers beside the board: " + std::to_string(fit.strangers)
+                             : "the board fits badly: " + off;
+  }
+  return layouts.empty() ? text + "; no other columns, squares or gaps explain them"
+                         : text + "; what fits all: " + vp::join(layouts, ", or ");
+}
+
+}  // namespace
+
+void ImprovedDesign::check(report::FrameReport& frame) {
+  if (!frame.board) return;
+  std::vector<BoardMarker> markers;
+  for (std::uint32_t i = 0; i < result_.found.count; ++i) {
+    const marker::DetectedMarker& m = result_.found.markers[i].marker;
+    BoardMarker& seen = markers.emplace_back();
+    seen.id = m.id;
+    for (std::size_t k = 0; k < 4; ++k) seen.ideal_px[k] = {m.fit.ideal[k].x, m.fit.ideal[k].y};
+  }
+  const marker::Board board = board_of(options_);
+  const BoardFit fit = check_board(board, frame.camera, frame.board->pose, markers);
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    frame.markers[i].residual_px = markers[i].residual_px;
+  frame.board->residual_px = fit.residual_px;
+  if (!fit.is_odd() && fit.strangers == 0) return;
+  const std::vector<std::string> layouts = fitting_layouts(board, markers);
+  const bool explains_strangers = fit.strangers > 0 && !layouts.empty();
+  if (!fit.is_odd() && !explains_strangers) return;
+  frame.warnings.push_back(board_text(fit, layouts));
+  // A single marker fits any place.
+  if (fit.is_good() && !(explains_strangers && frame.board->markers == 1)) return;
+  frame.board->misfit = frame.warnings.back();
+  frame.board->layouts = layouts;
 }
 
 ImprovedDesign::Dropped ImprovedDesign::counters() const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,7 +30,13 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
     camera.show({image, &image->pixels});
   }
   void settle() override { settle_counters(); }
+  void note_option(const std::string& name, double value) override { options_[name] = value; }
+  /// A threshold of each pixel's own knows no frame before.
+  std::uint32_t settling_showings() const override {
+    return threshold_rule.get() == "local" ? 0 : 1;
+  }
   bool report(const Publication& publication, report::FrameReport& frame) override;
+  void check(report::FrameReport& frame) override;
 
   vp::Signal<bool>* busy() override { return &camera.frame_ena; }
   std::vector<std::string> groups() const override { return {"feature_extraction", "data_bridge"}; }
@@ -63,6 +70,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   Dropped counted_{};         ///< what the counters of the logic showed last
   Dropped dropped_{};         ///< since the last frame was reported
   marker::DetectionResult result_;
+  std::map<std::string, double> options_;  ///< of the program
 };
 
 /// The words of the design's signals.
