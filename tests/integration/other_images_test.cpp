@@ -219,19 +219,21 @@ struct Light : Workplace {
 
 BOOST_AUTO_TEST_CASE(still_images_have_a_threshold_of_their_own) {
   const Light place;
-  for (const char* design : {"improved", "thesis"}) {
+  for (const auto& [design, showings] : {std::pair("improved", 2), std::pair("thesis", 1)}) {
+    // The thesis' peaks lie on both sides of 127, so its threshold is never below 64.
+    const bool finds = design == std::string("improved");
     const Json alone = frames_of(place, {"dim.png", "--design", design})[0];
-    check_marker(alone, 0);
-    BOOST_TEST(alone["settling_showings"] == 1);
+    if (finds) check_marker(alone, 0);
+    BOOST_TEST(alone["settling_showings"] == showings);
     const Json frames = frames_of(place, {"bright.png", "dim.png", "dim.png", "--design", design});
     BOOST_TEST_REQUIRE(frames.size() == 3u);
     for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(frames[i]["index"] == i);
-    check_marker(frames[1], 0);
+    if (finds) check_marker(frames[1], 0);
     BOOST_TEST(frames[1]["threshold"] == alone["threshold"]);
-    BOOST_TEST(frames[1]["settling_showings"] == 1);
+    BOOST_TEST(frames[1]["settling_showings"] == showings);
     BOOST_TEST(!frames[2].contains("settling_showings"), "it is the picture before it");
     BOOST_TEST(frames[2]["threshold"] == alone["threshold"]);
-    BOOST_TEST(frames[0]["threshold"] > frames[1]["threshold"]);
+    if (finds) BOOST_TEST(frames[0]["threshold"] > frames[1]["threshold"]);
     const Json clocked = frames_of(
         place, {"bright.png", "dim.png", "dim.png", "--design", design, "--fidelity", "clocked"});
     BOOST_TEST(clocked == frames, "both fidelities settle alike");
@@ -275,7 +277,7 @@ BOOST_AUTO_TEST_CASE(scenes_do_not_settle_unless_behind_an_image) {
   for (const Json& frame : frames_of(place, {"z1.0", "z1.5@light=0.3", "--design", "improved"}))
     BOOST_TEST(!frame.contains("settling_showings"));
   const Json frames = frames_of(place, {"dim.png", "z1.0", "--design", "improved"});
-  BOOST_TEST(frames[1]["settling_showings"] == 1);
+  BOOST_TEST(frames[1]["settling_showings"] == 2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -222,6 +222,15 @@ std::string board_text(const BoardFit& fit, const std::vector<std::string>& layo
 
 }  // namespace
 
+// A threshold of each pixel's own knows no frame before. Where the logic takes a frame while the
+// software works on the one before, its period depends on that work, too: the second showing makes
+// it the image's own, as in a steady stream.
+std::uint32_t ImprovedDesign::settling_showings() const {
+  if (threshold_rule.get() == "local") return 0;
+  const auto overlap = options_.find("overlap");
+  return overlap != options_.end() && overlap->second >= 0.5 ? 2 : 1;
+}
+
 void ImprovedDesign::check(report::FrameReport& frame) {
   if (!frame.board) return;
   std::vector<BoardMarker> markers;

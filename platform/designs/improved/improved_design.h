@@ -31,10 +31,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   }
   void settle() override { settle_counters(); }
   void note_option(const std::string& name, double value) override { options_[name] = value; }
-  /// A threshold of each pixel's own knows no frame before.
-  std::uint32_t settling_showings() const override {
-    return threshold_rule.get() == "local" ? 0 : 1;
-  }
+  std::uint32_t settling_showings() const override;
   bool report(const Publication& publication, report::FrameReport& frame) override;
   void check(report::FrameReport& frame) override;
 
