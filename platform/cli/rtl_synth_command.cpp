@@ -66,18 +66,27 @@ std::string name_of(const Figures& figures) {
 
 constexpr const char* row = "{:<34} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
 
+/// "97 to 176 MHz"; at the limit of the chip "464 MHz, the limit of the global clock buffer (BUFG)".
+std::string mhz_text(const synthesis::Fmax& fmax) {
+  const std::string high = fmt::format("{:.0f} MHz", fmax.mhz.high);
+  const std::string range =
+      fmax.mhz.low < fmax.mhz.high ? fmt::format("{:.0f} to {}", fmax.mhz.low, high) : high;
+  return range + (fmax.limited_by.empty() ? "" : ", the limit of the " + fmax.limited_by);
+}
+
 void print_row(const Figures& figures, const synthesis::PathTiming& timing, std::ostream& out) {
   const synthesis::Cells& c = figures.netlist.cells;
   std::string fmax = "no path";
-  if (const std::optional<synthesis::Path>& path = figures.netlist.longest) {
-    const synthesis::FmaxRange range = timing.fmax(*path);
-    fmax = fmt::format("{:.0f} to {:.0f} MHz, cells {:.2f} ns, {} nets, fan-out {}, {} to {}",
-                       range.low, range.high, path->cells_ns, path->nets, path->fan_out, path->from,
-                       path->to);
+  if (const std::optional<synthesis::Fmax> range = figures.netlist.fmax(timing)) {
+    const synthesis::Path& path = *figures.netlist.longest;
+    fmax = fmt::format("{}, cells {:.2f} ns, {} nets, fan-out {}, {} to {}", mhz_text(*range),
+                       path.cells_ns, path.nets, path.fan_out, path.from, path.to);
   }
   out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_pairs, c.lut_memory,
-                     c.lut_through, c.ff, c.carry4, c.ramb18, c.ramb36, c.dsp, fmax)
-      << std::flush;
+                     c.lut_through, c.ff, c.carry4, c.ramb18, c.ramb36, c.dsp, fmax);
+  for (const std::string& what : figures.netlist.not_covered)
+    out << "  not covered by Fmax: " << what << '\n';
+  out << std::flush;
 }
 
 /// As many at a time as there are processors, for Yosys uses one. A row is printed as soon as those

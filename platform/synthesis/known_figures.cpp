@@ -35,6 +35,7 @@ Point point_of(const nlohmann::json& entry) {
     };
     point.fmax_hz = hz("low");
     point.fmax_high_hz = hz("high");
+    point.limited_by = entry.value("limited_by", "");
   }
   for (const auto& [name, value] : entry.at("parameters").items()) {
     point.at += (point.at.empty() ? "" : " ") + name + "=" + std::to_string(value.get<int>());
@@ -154,8 +155,10 @@ void KnownFigures::apply(vp::IpEstimate& e) const {
   e.source = "synthesised from its RTL (" + tool_ + ")" + where;
   if (point->fmax_hz == 0) return;
   const bool limits_known = e.fmax_hz != 0 && e.fmax_hz == e.fmax_high_hz;
-  const std::string range = "synthesis of its RTL" + where + ": " + mhz(point->fmax_hz) + " to " +
-                            mhz(point->fmax_high_hz) + " MHz";
+  const std::string range =
+      "synthesis of its RTL" + where + ": " + mhz(point->fmax_hz) + " to " +
+      mhz(point->fmax_high_hz) + " MHz" +
+      (point->limited_by.empty() ? "" : ", the limit of the " + point->limited_by);
   const std::string known = e.fmax_documentation;
   e.fmax_documentation = limits_known    ? known + "; " + range
                          : known.empty() ? range

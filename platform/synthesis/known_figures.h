@@ -20,6 +20,7 @@ class KnownFigures {
     double lut = 0, ff = 0, bram36 = 0, dsp = 0;
     std::uint64_t fmax_hz = 0, fmax_high_hz = 0;  ///< 0: no path from register to register
     std::string at;                               ///< "LABELS=64"; "between … and …"
+    std::string limited_by;  ///< what of the chip is no faster than `fmax_high_hz`; may be empty
     bool beyond = false;  ///< outside of what was synthesised: the last two points, continued
   };
 

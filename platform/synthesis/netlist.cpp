@@ -1,14 +1,14 @@
 #include <synthesis/netlist.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
 
 #include <host/document.h>
+#include <synthesis/cell_kinds.h>
+#include <synthesis/clocks.h>
+#include <synthesis/lut_pairs.h>
 #include <vp/error.h>
 
 namespace platform::synthesis {
@@ -19,44 +19,13 @@ using Json = nlohmann::json;
 
 constexpr unsigned none = ~0u;
 
-bool starts_with(const std::string& text, const char* begin) {
-  return text.rfind(begin, 0) == 0;
-}
-
-// ---- kinds of cells
-
-enum class Kind { lut, inverter, mux, carry, ff, bram, lutram, shift, dsp, outside, unknown };
-
-Kind kind_of(const std::string& type) {
-  if (type == "INV") return Kind::inverter;
-  if (type == "CARRY4") return Kind::carry;
-  if (type == "DSP48E1") return Kind::dsp;
-  if (type == "MUXF7" || type == "MUXF8") return Kind::mux;
-  if (type == "FDRE" || type == "FDSE" || type == "FDCE" || type == "FDPE") return Kind::ff;
-  if (type.size() == 4 && starts_with(type, "LUT")) return Kind::lut;
-  if (starts_with(type, "RAMB")) return Kind::bram;
-  if (starts_with(type, "RAM")) return Kind::lutram;
-  if (starts_with(type, "SRL")) return Kind::shift;
-  for (const char* other : {"IBUF", "OBUF", "BUFG", "VCC", "GND"}) {
-    if (type == other) return Kind::outside;
-  }
-  return Kind::unknown;
-}
-
-/// LUT that a distributed memory takes.
-unsigned luts_of(const std::string& type) {
-  if (type == "RAM32M" || type == "RAM64M" || type == "RAM128X1D") return 4;
-  if (type == "RAM32X1D" || type == "RAM64X1D" || type == "RAM128X1S") return 2;
-  if (type == "RAM256X1S") return 4;
-  return 1;
-}
-
 void count(const std::string& type, Cells& cells) {
   switch (kind_of(type)) {
     case Kind::lut:
       ++cells.lut;
       break;
     case Kind::ff:
+    case Kind::latch:
       ++cells.ff;
       break;
     case Kind::carry:
@@ -76,74 +45,6 @@ void count(const std::string& type, Cells& cells) {
       break;
   }
 }
-
-// ---- two LUT in one
-
-/// Joins LUT that share most inputs, larger ones first: not the most pairs that there are, but
-/// about those that a placer finds near each other.
-class LutPairs {
- public:
-  explicit LutPairs(const Json& cells) {
-    std::map<unsigned, unsigned> before_inverter;
-    for (const auto& [name, cell] : cells.items()) {
-      const Json& ports = cell.at("connections");
-      if (kind_of(cell.at("type")) == Kind::inverter && ports.at("I")[0].is_number())
-        before_inverter[ports.at("O")[0]] = ports.at("I")[0];
-    }
-    for (const auto& [name, cell] : cells.items()) {
-      if (kind_of(cell.at("type")) != Kind::lut) continue;
-      std::set<unsigned> inputs;
-      for (const auto& [port, value] : cell.at("connections").items()) {
-        if (port == "O" || !value[0].is_number()) continue;
-        const auto found = before_inverter.find(value[0]);
-        inputs.insert(found == before_inverter.end() ? value[0].get<unsigned>() : found->second);
-      }
-      if (inputs.size() <= most_inputs) luts_.push_back(std::move(inputs));
-    }
-    std::stable_sort(luts_.begin(), luts_.end(),
-                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
-    for (std::size_t i = 0; i < luts_.size(); ++i) {
-      for (const unsigned input : luts_[i]) readers_[input].push_back(i);
-    }
-  }
-
-  std::uint32_t count() const {
-    std::vector<bool> taken(luts_.size());
-    std::uint32_t pairs = 0;
-    for (std::size_t i = 0; i < luts_.size(); ++i) {
-      if (taken[i]) continue;
-      const std::optional<std::size_t> partner = best_partner(i, taken);
-      if (!partner) continue;
-      taken[i] = taken[*partner] = true;
-      ++pairs;
-    }
-    return pairs;
-  }
-
- private:
-  static constexpr std::size_t most_inputs = 5;
-
-  std::optional<std::size_t> best_partner(std::size_t i, const std::vector<bool>& taken) const {
-    std::optional<std::size_t> best;
-    std::size_t most_shared = 0;
-    for (const unsigned input : luts_[i]) {
-      for (const std::size_t j : readers_.at(input)) {
-        if (j == i || taken[j]) continue;
-        const auto shared = static_cast<std::size_t>(
-            std::count_if(luts_[j].begin(), luts_[j].end(),
-                          [&](unsigned bit) { return luts_[i].count(bit) != 0; }));
-        if (luts_[i].size() + luts_[j].size() - shared > most_inputs) continue;
-        if (shared < most_shared || (shared == most_shared && best && *best <= j)) continue;
-        best = j;
-        most_shared = shared;
-      }
-    }
-    return best;
-  }
-
-  std::vector<std::set<unsigned>> luts_;  ///< the inputs of each, largest first
-  std::unordered_map<unsigned, std::vector<std::size_t>> readers_;
-};
 
 // ---- the graph of what waits for what
 
@@ -273,10 +174,6 @@ class Graph {
   static bool is_input(const Json& cell, const std::string& port) {
     return cell.at("port_directions").at(port) == "input";
   }
-  static bool is_clock(const std::string& port) {
-    return port == "C" || port == "CLK" || port == "WCLK" || starts_with(port, "CLKA") ||
-           starts_with(port, "CLKB");
-  }
 
   /// Yosys' number of a bit, or a constant, as our own; none for a constant.
   unsigned bit(const Json& value) {
@@ -293,7 +190,7 @@ class Graph {
       const bool input = is_input(cell, port);
       for (const Json& value : values) {
         const unsigned i = bit(value);
-        if (i == none || (input && is_clock(port))) continue;
+        if (i == none || (input && is_clock(kind, port))) continue;
         if (input) {
           ++bits_[i].fan_out;
           if (kind == Kind::carry && port == "S") entrances_.push_back(i);
@@ -316,6 +213,7 @@ class Graph {
       case Kind::carry:
         return port == "CI" ? driver != Kind::carry : driver != Kind::lut;
       case Kind::ff:
+      case Kind::latch:
         return port != "D" || !(logic || driver == Kind::carry);
       default:
         return true;
@@ -351,7 +249,8 @@ class Graph {
     const Json& ports = cell.at("connections");
     if (!ports.contains(port)) return;
     const Kind kind = kind_of(cell.at("type"));
-    const unsigned output = kind == Kind::ff ? bit(ports.at("Q")[0]) : none;
+    const bool has_name = kind == Kind::ff || kind == Kind::latch;
+    const unsigned output = has_name ? bit(ports.at("Q")[0]) : none;
     for (const Json& value : ports[port]) {
       const unsigned i = bit(value);
       if (i != none) ends_.push_back({i, setup_ns, leaves_slice(i, kind, port), output});
@@ -360,8 +259,9 @@ class Graph {
 
   /// A clocked cell: from its clock to all outputs, and from all inputs to its clock.
   void add_clocked(const Json& cell, double out_ns, double setup_ns) {
+    const Kind kind = kind_of(cell.at("type"));
     for (const auto& [port, values] : cell.at("connections").items()) {
-      if (is_clock(port)) continue;
+      if (is_clock(kind, port)) continue;
       if (is_input(cell, port)) {
         add_end(cell, port, setup_ns);
       } else {
@@ -382,6 +282,7 @@ class Graph {
         add_carry(cell);
         break;
       case Kind::ff:
+      case Kind::latch:
         add_flip_flop(cell);
         break;
       case Kind::bram:
@@ -450,7 +351,7 @@ class Graph {
   void add_flip_flop(const Json& cell) {
     add_start(cell, "Q", timing_["ff_out"]);
     add_end(cell, "D", timing_["ff_data"]);
-    add_end(cell, "CE", timing_["ff_enable"]);
+    for (const char* enable : {"CE", "GE"}) add_end(cell, enable, timing_["ff_enable"]);
     for (const char* reset : {"R", "S", "CLR", "PRE"}) add_end(cell, reset, timing_["ff_reset"]);
   }
 
@@ -459,7 +360,7 @@ class Graph {
     for (const auto& [port, values] : cell.at("connections").items()) {
       const bool only_read =
           starts_with(port, "DPRA") || port == "ADDRA" || port == "ADDRB" || port == "ADDRC";
-      if (is_clock(port) || only_read) continue;
+      if (is_clock(Kind::lutram, port) || only_read) continue;
       if (is_input(cell, port)) {
         add_end(cell, port, timing_["lutram_setup"]);
       } else {
@@ -553,6 +454,14 @@ class Graph {
 
 }  // namespace
 
+std::optional<Fmax> Netlist::fmax(const PathTiming& timing) const {
+  if (!longest) return std::nullopt;
+  const FmaxRange range = timing.fmax(*longest);
+  const auto capped = [this](double mhz) { return std::min(mhz, limit.mhz); };
+  return Fmax{{capped(range.low), capped(range.nominal), capped(range.high)},
+              range.high > limit.mhz ? limit.of : ""};
+}
+
 Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
                      const PathTiming& timing) {
   const Json json = host::read_json<Json>(file, "netlist", host::largest_result);
@@ -575,6 +484,12 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
     if (!netlist.longest || timing.fmax(*path).nominal < timing.fmax(*netlist.longest).nominal) {
       netlist.longest = path;
     }
+  }
+  netlist.limit = clock_limit(module, timing);
+  netlist.not_covered = clocks_not_covered(module);
+  if (netlist.longest && netlist.longest->nets <= 1) {
+    netlist.not_covered.push_back(
+        "the longest path is a single net: how far a placer puts its ends apart is not known");
   }
   return netlist;
 }

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <synthesis/clocks.h>
 #include <synthesis/path_timing.h>
 
 /// What Yosys makes of RTL for the 7 series: `synth_xilinx -flatten -abc9`, then `write_json`.
@@ -20,16 +22,27 @@ struct Cells {
   /// That nothing but let a signal through, to a carry chain: it has no other entrance. Yosys does
   /// not count them.
   std::uint32_t lut_through = 0;
-  std::uint32_t ff = 0;
+  std::uint32_t ff = 0;  ///< and latches, which take the same place
   std::uint32_t carry4 = 0;
   std::uint32_t ramb18 = 0;
   std::uint32_t ramb36 = 0;
   std::uint32_t dsp = 0;
 };
 
+/// How fast a design may be clocked.
+struct Fmax {
+  FmaxRange mhz;
+  std::string limited_by;  ///< what of the chip lowers the range; empty: only the longest path
+};
+
 struct Netlist {
   Cells cells;
   std::optional<Path> longest;  ///< none: there is no path from register to register
+  ClockLimit limit;
+  std::vector<std::string> not_covered;  ///< by Fmax, a phrase each
+
+  /// That of the longest path, and no more than the limit; none without a path.
+  std::optional<Fmax> fmax(const PathTiming& timing) const;
 };
 
 /// Reads the module `top`. Throws vp::InputError: no such file or module, a cell

@@ -17,6 +17,7 @@ using Json = nlohmann::json;
 
 constexpr double ns_per_us = 1e3;
 constexpr double longest_ns = 100;
+constexpr double highest_mhz = 2000;
 
 constexpr const char* net_names[] = {"per_net_ns", "fan_out_ns", "slack_share", "most_slack_ns",
                                      "low",        "high",       "skew_ns",     "uncertainty_ns"};
@@ -26,9 +27,15 @@ constexpr const char* cell_names[] = {
     "bram_out",    "bram_setup",  "lutram_out",  "lutram_read", "lutram_setup", "shift_out",
     "shift_setup", "dsp_out",     "dsp_through", "dsp_setup"};
 
+constexpr const char* limit_names[] = {
+    "global_buffer",   "regional_buffer", "bram", "bram_read_first", "bram_cascaded", "dsp",
+    "dsp_without_mreg"};
+
+/// The numbers of a section: between -`most` and `most`, which `of` says with the unit.
 template <std::size_t count>
 std::map<std::string, double> numbers(const Json& json, const std::string& key,
-                                      const char* const (&names)[count], const std::string& what) {
+                                      const char* const (&names)[count], const std::string& what,
+                                      double most = longest_ns, const char* of = "ns up to 100") {
   const auto section = json.find(key);
   if (section == json.end() || !section->is_object()) {
     throw vp::InputError(what + ": '" + key + "' is missing");
@@ -37,8 +44,8 @@ std::map<std::string, double> numbers(const Json& json, const std::string& key,
   for (const std::string name : names) {
     const auto number = section->find(name);
     if (number == section->end() || !number->is_number() ||
-        std::abs(number->get<double>()) > longest_ns) {
-      throw vp::InputError(what + ": '" + key + "." + name + "' is to be a number of ns up to 100");
+        std::abs(number->get<double>()) > most) {
+      throw vp::InputError(what + ": '" + key + "." + name + "' is to be a number of " + of);
     }
     found[name] = *number;
   }
@@ -63,6 +70,11 @@ PathTiming PathTiming::load(const std::filesystem::path& file) {
   PathTiming timing;
   timing.nets_ = numbers(json, "nets", net_names, what);
   timing.cells_ = numbers(json, "cells_ns", cell_names, what);
+  timing.limits_ = numbers(json, "limits_mhz", limit_names, what, highest_mhz, "MHz up to 2000");
+  for (const auto& [name, mhz] : timing.limits_) {
+    if (mhz <= 0)
+      throw vp::InputError(what + ": 'limits_mhz." + name + "' is to be a number of MHz above 0");
+  }
   const auto between = [&](const char* name, double least, double most) {
     const double value = timing.nets_.at(name);
     if (value < least || value > most) {
@@ -82,6 +94,12 @@ PathTiming PathTiming::load(const std::filesystem::path& file) {
 double PathTiming::operator[](const std::string& name) const {
   const auto found = cells_.find(name);
   if (found == cells_.end()) throw std::logic_error("no delay '" + name + "'");
+  return found->second;
+}
+
+double PathTiming::limit_mhz(const std::string& name) const {
+  const auto found = limits_.find(name);
+  if (found == limits_.end()) throw std::logic_error("no limit '" + name + "'");
   return found->second;
 }
 

@@ -40,6 +40,10 @@ class PathTiming {
   /// std::logic_error if there is none of that name.
   double operator[](const std::string& name) const;
 
+  /// The highest clock of a part of the chip, by its name in the file. Throws std::logic_error if
+  /// there is none of that name.
+  double limit_mhz(const std::string& name) const;
+
   /// What one net adds where no time is to spare, ns.
   double net_ns() const { return nets_.at("per_net_ns") / (1 - nets_.at("slack_share")); }
   /// What all nets of a path take at its highest clock, ns.
@@ -49,6 +53,7 @@ class PathTiming {
  private:
   std::map<std::string, double> nets_;
   std::map<std::string, double> cells_;
+  std::map<std::string, double> limits_;
 };
 
 }  // namespace platform::synthesis

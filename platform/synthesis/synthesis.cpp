@@ -79,7 +79,7 @@ std::string script_of(const Design& design, const Scratch& scratch) {
   script += "\nhierarchy -check -top " + design.top;
   for (const auto& [name, value] : design.parameters)
     script += fmt::format(" -chparam {} {}", name, value);
-  script += "\ntee -q -o " + (scratch / "proc.txt").string() + " proc";
+  script += "\nproc";
   script += "\ntee -q -o " + (scratch / "check.txt").string() + " check";
   script += "\nsynth_xilinx -family xc7 -flatten -abc9 -run prepare: -top " + design.top;
   if (!design.dsp) script += " -nodsp";
@@ -135,15 +135,6 @@ std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
                          (modules.empty() ? "" : ": name " + vp::one_of(modules)));
   }
   refuse(design, where + what);
-}
-
-void refuse_latches(const Design& design, const std::string& proc) {
-  static const std::regex latch(
-      R"(Latch inferred for signal `\\[^']*\.\\([^']*)' from process `[^']*\$([^'$]+:\d+)\$)");
-  std::smatch found;
-  if (!std::regex_search(proc, found, latch)) return;
-  refuse(design, found[2].str() + ": a latch holds '" + found[1].str() +
-                     "': assign it on every way through the block, or use always_ff");
 }
 
 void refuse_loops(const Design& design, const std::string& check) {
@@ -268,7 +259,7 @@ std::vector<Design> own_designs(const std::vector<std::string>& only) {
   for (const auto& [ip, parameters] : own_variants()) {
     if (std::find(names.begin(), names.end(), ip) == names.end()) names.push_back(ip);
     if (only.empty() || std::find(only.begin(), only.end(), ip) != only.end()) {
-      designs.push_back({ip, ip, needed_by(ip, sources), parameters});
+      designs.push_back({ip, ip, needed_by(ip, sources), parameters, true, true});
     }
   }
   for (const std::string& name : only) {
@@ -307,13 +298,12 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   file.write(script_of(design, scratch));
   file.commit();
   const host::CommandEnd end = host::run_command({"yosys", "-q", "-s", script.string()});
-  refuse_latches(design, log_of(scratch / "proc.txt"));
   refuse_loops(design, log_of(scratch / "check.txt"));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
   try {
     return {design.ip, design.parameters,
-            read_netlist(scratch / "netlist.json", design.top, timing)};
+            read_netlist(scratch / "netlist.json", design.top, timing), design.own};
   } catch (const vp::InputError& error) {
     refuse(design, error.what());
   }
@@ -336,19 +326,21 @@ std::string to_json(const std::vector<Figures>& figures, const std::string& tool
                {"ramb18", cells.ramb18},
                {"ramb36", cells.ramb36},
                {"dsp", cells.dsp}};
-    if (const std::optional<Path>& path = f.netlist.longest) {
-      const FmaxRange fmax = timing.fmax(*path);
-      entry["longest_path"] = {{"from", path->from},
-                               {"to", path->to},
-                               {"levels", path->cells.size()},
-                               {"cells_ns", rounded(path->cells_ns, 1e3)},
-                               {"nets", path->nets},
-                               {"fan_out", path->fan_out},
-                               {"setup_ns", rounded(path->setup_ns, 1e3)}};
-      entry["fmax_mhz"] = {{"low", rounded(fmax.low, 10)},
-                           {"nominal", rounded(fmax.nominal, 10)},
-                           {"high", rounded(fmax.high, 10)}};
+    if (const std::optional<Fmax> fmax = f.netlist.fmax(timing)) {
+      const Path& path = *f.netlist.longest;
+      entry["longest_path"] = {{"from", path.from},
+                               {"to", path.to},
+                               {"levels", path.cells.size()},
+                               {"cells_ns", rounded(path.cells_ns, 1e3)},
+                               {"nets", path.nets},
+                               {"fan_out", path.fan_out},
+                               {"setup_ns", rounded(path.setup_ns, 1e3)}};
+      entry["fmax_mhz"] = {{"low", rounded(fmax->mhz.low, 10)},
+                           {"nominal", rounded(fmax->mhz.nominal, 10)},
+                           {"high", rounded(fmax->mhz.high, 10)}};
+      if (!fmax->limited_by.empty()) entry["limited_by"] = fmax->limited_by;
     }
+    if (!f.own && !f.netlist.not_covered.empty()) entry["not_covered"] = f.netlist.not_covered;
     entries.push_back(entry);
   }
   return Json{{"version", 1}, {"tool", tool}, {"entries", entries}}.dump(2) + "\n";

@@ -21,13 +21,17 @@ struct Design {
   std::string top;
   std::vector<std::filesystem::path> sources;  ///< .v and .sv
   Parameters parameters;
-  bool dsp = true;  ///< multiplications may become DSP48E1; else all of them are LUT
+  bool dsp = true;   ///< multiplications may become DSP48E1; else all of them are LUT
+  bool own = false;  ///< comes with markervp
 };
 
 struct Figures {
   std::string ip;
   Parameters parameters;
   Netlist netlist;
+  /// Comes with markervp: the file leaves out what Fmax does not cover. Its crossings between clocks
+  /// are built for that, and their tests say so.
+  bool own = false;
 };
 
 /// What Yosys calls itself: "Yosys 0.23". Throws vp::InputError if it is not installed.
@@ -49,7 +53,7 @@ std::vector<std::filesystem::path> needed_by(const std::string& top,
                                              const std::vector<std::filesystem::path>& sources);
 
 /// Flat, for the 7 series. Throws vp::InputError with file and line: what cannot be read or
-/// synthesised, a latch, a combinational loop, no module or parameter of that name.
+/// synthesised, a combinational loop, no module or parameter of that name.
 Figures synthesise(const Design& design, const PathTiming& timing);
 
 /// The figures as a file of data: rtl/synthesis.json.

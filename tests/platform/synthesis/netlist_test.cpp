@@ -1,60 +1,11 @@
 // Paths of small netlists, as Yosys writes them: cells and nets to the last digit.
-#include <synthesis/netlist.h>
-
 #include <boost/test/unit_test.hpp>
-#include <nlohmann/json.hpp>
 
-#include <vp/error.h>
-
-#include "temporary_files.h"
+#include "netlist_module.h"
 
 using namespace platform::synthesis;
-using Json = nlohmann::ordered_json;
-
-namespace {
-
-const PathTiming timing = PathTiming::load(std::string(MARKERVP_DATA) + "/rtl/xc7.json");
-
-/// A module `top` that grows cell by cell. Bits are numbers from 2.
-struct Module {
-  Json cells = Json::object(), names = Json::object();
-
-  void add(const std::string& type, const Json& inputs, const Json& outputs) {
-    Json directions = Json::object(), ports = Json::object();
-    for (const auto& [port, bits] : inputs.items()) {
-      directions[port] = "input";
-      ports[port] = bits;
-    }
-    for (const auto& [port, bits] : outputs.items()) {
-      directions[port] = "output";
-      ports[port] = bits;
-    }
-    cells["$" + std::to_string(cells.size())] = {{"type", type},
-                                                 {"parameters", Json::object()},
-                                                 {"port_directions", directions},
-                                                 {"connections", ports}};
-  }
-  void flip_flop(int d, int q) { add("FDRE", {{"C", {1}}, {"D", {d}}}, {{"Q", {q}}}); }
-  void lut(int in, int out) { add("LUT1", {{"I0", {in}}}, {{"O", {out}}}); }
-  void name(int bit, const std::string& as) { names[as] = {{"bits", {bit}}}; }
-
-  Netlist read() const {
-    const kit::TemporaryFolder folder;
-    const Json json{{"modules", {{"top", {{"cells", cells}, {"netnames", names}}}}}};
-    kit::write_file(folder / "netlist.json", json.dump());
-    return read_netlist(folder / "netlist.json", "top", timing);
-  }
-  std::string refusal() const {
-    try {
-      read();
-    } catch (const vp::InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
-};
-
-}  // namespace
+using kit::Module;
+using kit::timing;
 
 BOOST_AUTO_TEST_SUITE(netlist, *boost::unit_test::tolerance(1e-9))
 

@@ -64,6 +64,16 @@ BOOST_AUTO_TEST_CASE(fmax_is_a_range_of_the_data_path_and_ends_are_added) {
   BOOST_TEST(fmax.high == 1000 / 6.0, boost::test_tools::tolerance(1e-12));
 }
 
+// No figure that is kept is beyond what a clock buffer of the chip can do.
+BOOST_AUTO_TEST_CASE(no_committed_figure_is_above_the_limit_of_a_clock_buffer) {
+  const double most = PathTiming::load(committed).limit_mhz("global_buffer");
+  const Json figures =
+      Json::parse(std::ifstream(std::string(MARKERVP_DATA) + "/rtl/synthesis.json"));
+  for (const Json& entry : figures["entries"]) {
+    if (entry.contains("fmax_mhz")) BOOST_TEST(entry["fmax_mhz"]["high"] <= most, entry["ip"]);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_committed_is_read) {
   const PathTiming timing = PathTiming::load(committed);
   BOOST_TEST(timing["ff_out"] == 0.456);
@@ -107,6 +117,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_by_name) {
   json = simple();
   json.erase("cells_ns");
   BOOST_TEST(refusal(json).find("'cells_ns' is missing") != std::string::npos);
+  json = simple();
+  json["limits_mhz"].erase("bram");
+  BOOST_TEST(refusal(json).find("'limits_mhz.bram' is to be a number") != std::string::npos);
+  json = simple();
+  json["limits_mhz"]["dsp"] = 0;
+  BOOST_TEST(refusal(json).find("'limits_mhz.dsp'") != std::string::npos);
   BOOST_TEST(refusal(Json::array()).find("not a JSON object") != std::string::npos);
   BOOST_CHECK_THROW(PathTiming::load("not/there.json"), vp::InputError);
 }
