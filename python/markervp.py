@@ -10,12 +10,14 @@
         board.wait_for("axi_gpio_0.GPIO_DATA == 0x100", timeout="1 ms")
 
 The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a markervp.Error with its message. Nothing is computed
-here: every figure comes from result.json or a sweep's files.
+here but the metrics of a run: every figure comes from result.json or a sweep's files.
 """
 import collections
 import csv
+import difflib
 import functools
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -54,21 +56,126 @@ def _call(arguments, good=(0,)):
 
 
 class Run:
-    """A run's result.json: `run["summary.fps.mean"]`, `run.result` for the whole of it."""
+    """A run's result.json: `run["summary.fps.mean"]`, `run.result` for the whole of it.
+
+    A path is a metric (`markervp metrics`), or leads to a member: members of a list are named by their `name`, or counted. A
+    metric is a number: `run["verdict.feasible"]` is 1, 0.5 or 0, and run.result["verdict"]["feasible"] the word."""
 
     def __init__(self, folder):
         folder = pathlib.Path(folder)
         self.file = folder if folder.is_file() else folder / "result.json"
         self.result = json.loads(self.file.read_text(encoding="utf-8"))
 
+    @functools.cached_property
+    def metrics(self):
+        """Every metric of the run by name, as sweeps have them."""
+        return _metrics(self.result)
+
     def __getitem__(self, path):
-        value = self.result
-        for name in path.split("."):
-            value = value[int(name)] if isinstance(value, list) else value[name]
-        return value
+        member = _member(self.result, path)
+        if path in self.metrics:
+            value = self.metrics[path]
+            return member if isinstance(member, (int, float)) and member == value else value
+        if member is _missing:
+            near = difflib.get_close_matches(path, self.metrics, 1)
+            raise KeyError(f"'{path}' is neither a metric nor a member of {self.file}" + (f"; did you mean '{near[0]}'?" if near else ""))
+        return member
 
     def __repr__(self):
         return f"markervp.read({str(self.file.parent)!r})"
+
+
+_missing = object()
+
+
+def _member(value, path):
+    """What a path leads to; names on it may have dots."""
+    if isinstance(value, dict):
+        members = value.items()
+    elif isinstance(value, list):
+        members = [(name, item) for i, item in enumerate(value) for name in {str(i), _name_of(item) or str(i)}]
+    else:
+        return _missing
+    for name, item in members:
+        if path == name:
+            return item
+        found = _member(item, path[len(name) + 1:]) if path.startswith(name + ".") else _missing
+        if found is not _missing:
+            return found
+    return _missing
+
+
+def _name_of(item):
+    name = item.get("name") if isinstance(item, dict) else None
+    return name if isinstance(name, str) else None
+
+
+def _numbers(value, path):
+    """Each number and truth below a value, with its path: in C++ walk() of platform/sweep/metrics.cpp."""
+    if isinstance(value, (int, float)):
+        if math.isfinite(value):
+            yield path, float(value)
+    elif isinstance(value, dict):
+        for name, item in value.items():
+            yield from _numbers(item, f"{path}.{name}")
+    elif isinstance(value, list):
+        for i, item in enumerate(value):
+            yield from _numbers(item, f"{path}.{_name_of(item) or i}")
+
+
+def _numbers_of_frame(frame):
+    for name, value in frame.items():
+        if name == "markers":
+            yield "frames.markers", float(len(value))
+            for marker in value:
+                for figure in ("error", "reprojection_px", "iterations"):
+                    yield from _numbers(marker.get(figure), f"frames.{figure}")
+        elif name not in ("index", "scene_marker") and not (name == "time_us" and "gave_up" in frame):
+            yield from _numbers(value, f"frames.{name}")
+
+
+def _metrics_of_frames(frames):
+    gathered = {}
+    for frame in frames:
+        for name, value in _numbers_of_frame(frame):
+            gathered.setdefault(name, []).append(value)
+    for name, values in gathered.items():
+        yield name + ".mean", functools.reduce(lambda total, value: total + value, values, 0.0) / len(values)
+        yield name + ".max", max(values)
+    found = [any(marker.get("id") == frame["scene_marker"] for marker in frame.get("markers", [])) for frame in frames
+             if "scene_marker" in frame]
+    if found:
+        yield "summary.detection_rate", sum(found) / len(found)
+
+
+def _metrics_of_timing(modules):
+    missed = [module for module in modules if not module.get("met", True)]
+    unknown = sum(module.get("frequency_mhz", 0) <= module.get("fmax_high_mhz", 0) for module in missed)
+    yield "timing.failed", float(len(missed) - unknown)
+    yield "timing.unknown", float(unknown)
+
+
+def _metrics_of_verdict(verdict):
+    for name, part in verdict.items():
+        path, holds = ("verdict.feasible", part) if name == "feasible" else (f"verdict.{name}.holds", part.get("holds"))
+        if isinstance(holds, str):
+            yield path, {"yes": 1.0, "unknown": 0.5}.get(holds, 0.0)
+
+
+def _metrics(result):
+    """What metrics_of() of platform/sweep/metrics.cpp makes of a result; a test compares the two. Those of one name are added up."""
+    found = {}
+    for name, value in result.items():
+        if name in ("provenance", "configuration", "schema"):
+            continue
+        figures = list(_metrics_of_frames(value) if name == "frames" else _numbers(value, name))
+        if name == "timing" and "modules" in value:
+            figures += _metrics_of_timing(value["modules"])
+        if name == "verdict":
+            figures += _metrics_of_verdict(value)
+        for path, figure in figures:
+            found[path] = found[path] + figure if path in found else figure
+    return found
 
 
 class Sweep:

@@ -31,6 +31,30 @@ class Module(unittest.TestCase):
         self.assertEqual(run["summary.fps.mean"], markervp.read("slow")["summary.fps.mean"])
         self.assertGreater(markervp.run(output="usual", options=["--no-pictures"])["summary.fps.mean"], run["summary.fps.mean"])
 
+    def test_every_metric_is_read_by_its_name(self):
+        for design, inputs, parameters in (("thesis", ["demo", "z1.0"], {"ps.fclk_clk1.frequency": ["60 MHz"]}),
+                                           ("ps-only", ["squares3"], {"ps.cpu_clk.frequency": ["600 MHz"]}),
+                                           ("improved", ["roll0", "z4.5", "z2.0@markers=2"], {"camera.rate": ["60 fps"]})):
+            with self.subTest(design):
+                sweep = markervp.sweep({"inputs": inputs, "parameters": parameters, "set": {"design": design}, "metrics": ["summary.fps.mean"]},
+                                       output=design)
+                run = sweep.run(sweep.points[0], design + "-run")
+                metrics = dict(sweep.sql("select name, value from metrics"))
+                self.assertGreater(len(metrics), 100)
+                self.assertEqual({name: run[name] for name in metrics}, metrics)
+                self.assertEqual(run.metrics, metrics)
+
+    def test_members_have_names_with_dots_and_what_there_is_not_is_named(self):
+        run = markervp.run(["demo"], options=["--no-pictures", "--no-report"])
+        self.assertEqual(run["configuration.pl.width"], "640 px")
+        self.assertIn("RTL", run["resources.modules.pl.blob_detection.source"])
+        self.assertEqual(run["power.modules.pl.blob_detection.w"],
+                         sum(entry["w"] for entry in run.result["power"]["modules"] if entry["name"] == "pl.blob_detection"))
+        with self.assertRaisesRegex(KeyError, "did you mean 'frames.counts.corners.mean'"):
+            run["frames.counts.corner.mean"]
+        self.assertEqual(run["summary.detected"], 1)
+        self.assertIsInstance(run["summary.detected"], int)
+
     def test_a_sweep_is_read(self):
         sweep = markervp.sweep(CLOCKS, output="out/clocks")
         self.assertEqual([point["ps.fclk_clk1.frequency"] for point in sweep], ["25 MHz", "50 MHz", "100 MHz"])
