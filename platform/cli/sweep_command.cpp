@@ -280,9 +280,9 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
     const sweep::Tally tally = compute_all(options, store, manifest, pending, err);
     const std::size_t before = manifest.points.size() - pending.size();
     return conclude(options, store, logs, std::move(manifest), tally, before, out, err);
-  } catch (const vp::OutputError& error) {
-    throw vp::OutputError(std::string(error.what()) +
-                          "; what was computed is kept: run the sweep again");
+  } catch (const vp::HostError& error) {
+    throw vp::HostError(std::string(error.what()) +
+                        "; what was computed is kept: run the sweep again");
   }
 }
 

@@ -71,12 +71,22 @@ Json built(vp::Configuration& configuration, const std::optional<std::string>& p
 
 Json made_apart(const std::function<Json(std::ostream& err)>& work) {
   host::Child child([&](std::ostream& out, std::ostream& err) {
-    out << "\n" << work(err).dump(-1, ' ', false, Json::error_handler_t::replace);
-    return done;
+    const auto hand_over = [&](const Json& json) {
+      out << "\n" << json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    try {
+      hand_over(work(err));
+      return done;
+    } catch (const vp::ParameterError& error) {
+      hand_over({{"parameter", error.path()}, {"message", error.what()}});
+      return wrong_input;
+    }
   });
   const host::ChildEnd end = child.wait();
   Json document = Json::parse(last_line(end.out), nullptr, false);
   if (end.exit_code == done && document.is_object()) return document;
+  if (end.exit_code == wrong_input && document.is_object())
+    throw vp::ParameterError(document.at("parameter"), document.at("message"));
   const std::string name = "markervp: ";
   std::string message(vp::trim(end.err));
   message = last_line(message);

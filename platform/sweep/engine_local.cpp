@@ -158,8 +158,8 @@ class Pool {
 
   void take(const PointMessage& message) {
     switch (message.kind) {
-      case PointMessage::Kind::no_storage:
-        throw vp::OutputError(message.failure.message);
+      case PointMessage::Kind::no_host:
+        throw vp::HostError(message.failure.message);
       case PointMessage::Kind::interrupted:
         stop();
         break;

@@ -101,9 +101,11 @@ bool check_values(const AxisValues& axis, const std::vector<Base>& bases,
       try {
         if (changes_others(platform.elaborate(build, axis.where()), base.table, axis.path()))
           influences = true;
-      } catch (const vp::InputError& error) {
-        // Other errors come from values together; such a point fails, and says why.
-        if (std::string(error.what()).rfind(axis.path() + ":", 0) == 0) throw;
+      } catch (const vp::ParameterError& error) {
+        if (error.path() == axis.path()) throw;
+        influences = true;
+      } catch (const vp::InputError&) {
+        // Values that do not go together: such a point fails, and says why.
         influences = true;
       }
     }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <exception>
 #include <new>
 #include <sstream>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include <host/process.h>
 #include <sweep/bytes.h>
 #include <sweep/worker.h>
+#include <vp/error.h>
 #include <vp/file.h>
 
 namespace platform::sweep {
@@ -114,15 +116,6 @@ std::string last_warning(const Json& result) {
   return "";
 }
 
-/// True if the message is one of a full or failing disk: a run that ends with it says nothing about
-/// its point.
-bool is_storage_problem(const std::string& message) {
-  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE};
-  return std::any_of(std::begin(reasons), std::end(reasons), [&](int reason) {
-    return message.find(std::strerror(reason)) != std::string::npos;
-  });
-}
-
 /// The first parameter that the platform had with another value than the point is named after, or
 /// that only one of them has.
 std::string difference(const Manifest& manifest, const PlannedPoint& point,
@@ -163,8 +156,8 @@ bool PointWorker::complete(std::size_t item) {
   PointMessage message;
   try {
     message = compute(item);
-  } catch (const vp::OutputError& error) {
-    message.kind = PointMessage::Kind::no_storage;
+  } catch (const vp::HostError& error) {
+    message.kind = PointMessage::Kind::no_host;
     message.failure.message = error.what();
   }
   message.item = item;
@@ -186,12 +179,30 @@ PointMessage PointWorker::compute(std::size_t item) {
   return message;
 }
 
+int PointWorker::run(const PlannedPoint& point, PointResult& result, std::ostream& said) const {
+  const PointRun asked = run_of(list_.manifest, point);
+  std::exception_ptr host_error;
+  const auto run = [&] {
+    try {
+      return list_.run(asked, result, said);
+    } catch (const vp::HostError&) {
+      host_error = std::current_exception();
+    } catch (const std::system_error& error) {
+      if (!vp::HostError::is_cause(error.code())) throw;
+      host_error = std::make_exception_ptr(vp::HostError(error.what()));
+    }
+    return static_cast<int>(host::run_failed);
+  };
+  const int code = host::exit_code_of(run, said);
+  if (host_error) std::rethrow_exception(host_error);
+  return code;
+}
+
 void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& message) {
   const double start = cpu_seconds();
-  const PointRun asked = run_of(list_.manifest, point);
   PointResult found;
   std::ostringstream said;
-  const int code = host::exit_code_of([&] { return list_.run(asked, found, said); }, said);
+  const int code = run(point, found, said);
   message.cpu_s = cpu_seconds() - start;
   clean_ = code == host::done;
   std::string text = clean_ ? "" : last_line(said.str());
@@ -199,7 +210,6 @@ void PointWorker::compute_claimed(const PlannedPoint& point, PointMessage& messa
     message.kind = PointMessage::Kind::interrupted;
     return;
   }
-  if (!clean_ && is_storage_problem(text)) throw vp::OutputError(text);
   if (!clean_) {
     message.failed = true;
     Json result;

@@ -60,7 +60,7 @@ struct PointMessage : Outcome {
     there,        ///< its file was there: somebody else's, or an earlier attempt's
     interrupted,  ///< by a signal to the process
     fault,        ///< of the program itself: `failure` says which
-    no_storage    ///< its file cannot be written: the failure's message says why
+    no_host       ///< the machine failed, not the point: the failure's message says why
   };
   Kind kind = Kind::computed;
   std::uint64_t item = 0;  ///< of the engine's list
@@ -117,6 +117,8 @@ class PointWorker {
   /// Whether the process is as it was before.
   bool complete(std::size_t item);
   PointMessage compute(std::size_t item);
+  /// The exit code of the run. Throws vp::HostError if the machine failed, not the run.
+  int run(const PlannedPoint& point, PointResult& result, std::ostream& said) const;
   void compute_claimed(const PlannedPoint& point, PointMessage& message);
   void finish(const PointRecord& record, PointMessage& message);
   void tell(const PointMessage& message);

@@ -21,7 +21,7 @@ const device::Device& chosen(const vp::Parameter<std::string>& name) {
   try {
     return device::find_device(name);
   } catch (const vp::InputError& error) {
-    throw vp::InputError(std::string(name.name()) + ": " + error.what());
+    throw vp::ParameterError(name.name(), std::string(name.name()) + ": " + error.what());
   }
 }
 
@@ -62,7 +62,8 @@ device::ClockPlanner planner_of(const Chip& chip, const ps::Slcr& slcr) {
   try {
     return {chip.data, slcr.ps_clk};
   } catch (const vp::InputError& error) {
-    throw vp::InputError(std::string(slcr.ps_clk.name()) + ": " + error.what());
+    const std::string path = slcr.ps_clk.name();
+    throw vp::ParameterError(path, path + ": " + error.what());
   }
 }
 

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -24,7 +25,7 @@ InputFile::InputFile(const std::filesystem::path& path, std::string what)
     : path_(path), what_(std::move(what)) {
   // Opening a pipe would wait for somebody to write into it.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(std::strerror(errno));
+  if (descriptor_ < 0) fail(errno);
   struct stat facts {};
   std::string problem;
   if (::fstat(descriptor_, &facts) != 0) {
@@ -50,12 +51,17 @@ void InputFile::fail(const std::string& reason) const {
   throw InputError("cannot read " + what_ + " '" + path_.string() + "': " + reason);
 }
 
+void InputFile::fail(int reason) const {
+  if (!HostError::is_cause({reason, std::generic_category()})) fail(std::strerror(reason));
+  throw HostError("cannot read " + what_ + " '" + path_.string() + "': " + std::strerror(reason));
+}
+
 void InputFile::wait_for_bytes(HostClock::time_point deadline) const {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(deadline - HostClock::now());
   pollfd end{descriptor_, POLLIN, 0};
   const int ready = ::poll(&end, 1, static_cast<int>(std::max(left, milliseconds(0)).count()));
-  if (ready < 0 && errno != EINTR) fail(std::strerror(errno));
+  if (ready < 0 && errno != EINTR) fail(errno);
   if (ready == 0) {
     fail("it is a pipe, and its end did not come within " + std::to_string(patience.count()) +
          " s: name a file");
@@ -69,7 +75,7 @@ std::size_t InputFile::read(char* to, std::size_t size, HostClock::time_point de
     if (count >= 0) return static_cast<std::size_t>(count);
     // A few regular files of /proc have nothing to read yet, too.
     if (errno == EAGAIN && is_regular_) wait_for_bytes(deadline);
-    if (errno != EINTR && errno != EAGAIN) fail(std::strerror(errno));
+    if (errno != EINTR && errno != EAGAIN) fail(errno);
   }
 }
 
@@ -238,8 +244,15 @@ std::string part_of(const fs::path& target) {
 
 }  // namespace
 
+bool HostError::is_cause(const std::error_code& code) {
+  if (code.category() != std::generic_category() && code.category() != std::system_category())
+    return false;
+  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE};
+  return std::find(std::begin(reasons), std::end(reasons), code.value()) != std::end(reasons);
+}
+
 OutputError::OutputError(const std::string& path, int reason)
-    : InputError("cannot write '" + path + "': " + std::strerror(reason) + advice(reason)) {}
+    : HostError("cannot write '" + path + "': " + std::strerror(reason) + advice(reason)) {}
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), slot_(-1) {
   if (path_.size() >= sizeof Slot::path) return;

@@ -146,9 +146,7 @@ void ReportRouter::route(const sc_core::sc_report& report) {
   const bool stops = report.get_severity() >= sc_core::SC_ERROR;
   const bool prints = stops || repeats <= repeat_limit;
   if (!prints && !(warns && warning_listener_)) return;
-  // A message that says its place itself is left alone.
-  const bool wants_place = report.get_severity() != sc_core::SC_INFO && place_ &&
-                           entry.message.find(", pc 0x") == std::string::npos;
+  const bool wants_place = report.get_severity() != sc_core::SC_INFO && place_;
   const Line line{report.get_severity(), std::move(entry), wants_place, prints,
                   !stops && repeats == repeat_limit};
   std::optional<std::string> place;

@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
+#include <exception>
 #include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
+#include <system_error>
 
 #include <host/process.h>
 #include <sweep/engine.h>
 #include <sweep/run_log.h>
+#include <vp/error.h>
+#include <vp/file.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"
@@ -312,6 +317,42 @@ BOOST_AUTO_TEST_CASE(nothing_follows_a_run_that_failed_in_its_process) {
   BOOST_TEST(platform.record(1).outcome.at("failure").at("message") == "it does not fit");
   BOOST_TEST(platform.outcome(1).failure.message == "it does not fit");
   BOOST_TEST(platform.outcome(1).failure.exit_code == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_program_named_like_an_error_of_the_disk_ends_its_own_point_only) {
+  Platform platform(3);
+  const Tally tally = platform.compute({1}, [](int number, int, std::ostream& err) {
+    if (number == 1) err << "markervp: program 'Input/output error test' ended with exit code 1\n";
+    return number == 1 ? 1 : 0;
+  });
+  BOOST_TEST(tally.computed == 3u);
+  BOOST_TEST(platform.record(1).failed());
+  BOOST_TEST(platform.outcome(1).failure.message ==
+             "program 'Input/output error test' ended with exit code 1");
+  for (const int number : {0, 2}) BOOST_TEST(!platform.record(number).failed());
+}
+
+BOOST_AUTO_TEST_CASE(a_machine_that_fails_ends_the_sweep_and_leaves_the_point_open) {
+  const auto fail = [](const std::exception_ptr& how) {
+    return [how](int number, int, std::ostream&) {
+      if (number == 1) std::rethrow_exception(how);
+      return 0;
+    };
+  };
+  for (const std::exception_ptr& how :
+       {std::make_exception_ptr(vp::OutputError("x", EIO)),
+        std::make_exception_ptr(vp::HostError("cannot read camera 'c': Too many open files")),
+        std::make_exception_ptr(
+            std::system_error(EMFILE, std::generic_category(), "cannot start a process"))}) {
+    Platform platform(3);
+    BOOST_CHECK_THROW(platform.compute({1}, fail(how)), vp::HostError);
+    BOOST_TEST(!platform.store().has(platform.key(1)));
+    BOOST_TEST(!platform.record(0).failed(), "what was computed is kept");
+  }
+  Platform platform(3);
+  platform.compute({1}, fail(std::make_exception_ptr(
+                            std::system_error(EINVAL, std::generic_category(), "no"))));
+  BOOST_TEST(platform.record(1).failed(), "an error of the run is one of its point");
 }
 
 BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {

@@ -39,6 +39,8 @@ class InputFile {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const;
+  /// The same for an errno. Throws HostError if the machine is the cause.
+  [[noreturn]] void fail(int reason) const;
   void wait_for_bytes(HostClock::time_point deadline) const;
 
   std::filesystem::path path_;
@@ -61,9 +63,9 @@ std::string read_text(const std::filesystem::path& path, const std::string& what
 std::string load_problem(const std::string& path, std::string_view said);
 
 /// Something could not be written: the disk is full, a pipe lost its reader, a folder is missing.
-class OutputError : public InputError {
+class OutputError : public HostError {
  public:
-  using InputError::InputError;
+  using HostError::HostError;
   /// "cannot write 'PATH': REASON; ADVICE" for an errno.
   OutputError(const std::string& path, int reason);
 };

@@ -58,7 +58,7 @@ class ParameterBase : public sc_core::sc_object {
   /// Position of the chosen name. Throws InputError with the nearest match if it is none of
   /// `names`.
   std::size_t choice(const Setting& setting, const std::vector<std::string>& names) const;
-  /// Throws the error of a setting: key, value, where it was set, and `problem`.
+  /// Throws ParameterError for a setting: key, value, where it was set, and `problem`.
   [[noreturn]] void refuse(const Setting& setting, const std::string& problem) const;
   /// Throws std::logic_error: the code declares the parameter wrongly.
   [[noreturn]] void misdeclared(const std::string& problem) const;
