@@ -139,7 +139,8 @@ std::string shell_quoted(const std::string& text);
 /// written there.
 CommandEnd draw_with_gnuplot(const std::string& file, const std::string& script);
 
-/// Text in single quotes for gnuplot.
+/// Any text as a string of gnuplot, which no text can leave: all but letters and blanks are octal
+/// numbers in it. Control characters are shown (vp::visible).
 std::string gnuplot_quoted(const std::string& text);
 
 /// How work in a process of its own ended.

@@ -125,6 +125,52 @@ std::string hex(std::uint64_t value) {
   return text;
 }
 
+namespace {
+
+/// The code of a control character, or of a mark of direction, that begins with these bytes, and
+/// how many bytes it has; none has 0.
+std::pair<unsigned, std::size_t> control_at(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  if (byte(0) < 0x20 || byte(0) == 0x7f) return {byte(0), 1};
+  if (byte(0) == 0xc2 && byte(1) >= 0x80 && byte(1) < 0xa0) return {byte(1), 2};
+  if (byte(0) != 0xe2 || (byte(1) != 0x80 && byte(1) != 0x81)) return {0, 0};
+  const unsigned code = 0x2000 + ((byte(1) & 0x3f) << 6) + (byte(2) & 0x3f);
+  const bool turns = (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) ||
+                     code == 0x200e || code == 0x200f;
+  return {code, turns ? 3 : 0};
+}
+
+std::string escape_of(unsigned code) {
+  if (code == '\n') return "\\n";
+  if (code == '\t') return "\\t";
+  char text[16];
+  std::snprintf(text, sizeof text, code < 0x100 ? "\\x%02x" : "\\u%04x", code);
+  return text;
+}
+
+std::string visible_but(std::string_view text, char kept) {
+  std::string result;
+  while (!text.empty()) {
+    const auto [code, size] = control_at(text);
+    const bool stays = size == 0 || (kept != 0 && text.front() == kept);
+    result += stays ? std::string(1, text.front()) : escape_of(code);
+    text.remove_prefix(stays ? 1 : size);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string visible(std::string_view text) {
+  return visible_but(text, 0);
+}
+
+std::string visible_lines(std::string_view text) {
+  return visible_but(text, '\n');
+}
+
 std::string excerpt(std::string_view text) {
   constexpr std::size_t longest = 200;
   if (text.size() <= longest) return std::string(text);
