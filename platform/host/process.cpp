@@ -1,8 +1,9 @@
 #include <host/process.h>
 
+#include <host/guard.h>
+
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
@@ -246,44 +247,36 @@ std::string read_all(int pipe) {
 
 }  // namespace
 
-CommandEnd run_command(const std::vector<std::string>& arguments) {
+CommandEnd run_command(const std::vector<std::string>& arguments, const std::string& temporary) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "no pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  // What we ignore would be ignored by the command, too.
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  sigaddset(&usual, SIGXFSZ);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  pid_t process = 0;
-  const int error = ::posix_spawnp(&process, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  ::close(ends[1]);
+  const auto become = [&] {
+    ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    ::dup2(ends[1], STDOUT_FILENO);
+    ::dup2(ends[1], STDERR_FILENO);
+    if (!temporary.empty()) ::setenv("TMPDIR", temporary.c_str(), 1);
+    ::execvp(argv[0], argv.data());
+    return errno;
+  };
   CommandEnd end;
-  if (error == 0) {
+  try {
+    ProcessTree command(become);
+    ::close(std::exchange(ends[1], -1));
     end.out = read_all(ends[0]);
-    int status = 0;
-    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+    const int status = command.wait();
     if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  } catch (const std::system_error& error) {
+    for (const int descriptor : ends) ::close(descriptor);
+    const int reason = error.code().value();
+    if (reason != ENOENT && reason != EACCES) throw;
+    end.exit_code = no_such_command;
+    return end;
   }
   ::close(ends[0]);
-  if (error == ENOENT || error == EACCES)
-    end.exit_code = no_such_command;
-  else if (error != 0)
-    throw std::system_error(error, std::generic_category(), argv[0]);
   return end;
 }
 

@@ -1,7 +1,6 @@
 #include <synthesis/synthesis.h>
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include <host/document.h>
+#include <host/guard.h>
 #include <host/process.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -21,29 +21,6 @@ namespace platform::synthesis {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for Yosys' files that goes with this object.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "markervp-synth-XXXXXX").string();
-    if (!mkdtemp(name.data())) {
-      throw vp::OutputError("cannot make a folder in '" + fs::temp_directory_path().string() + "'");
-    }
-    folder_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  fs::path operator/(const char* name) const { return folder_ / name; }
-
- private:
-  fs::path folder_;
-};
 
 /// In a script of Yosys.
 std::string quoted(const fs::path& path) {
@@ -67,7 +44,7 @@ void check_name(const std::string& name, const char* what) {
                        ": give one of letters, digits and _");
 }
 
-std::string script_of(const Design& design, const Scratch& scratch) {
+std::string script_of(const Design& design, const host::ScratchFolder& scratch) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
   // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
   // for there each pass goes through all of its 800 cells.
@@ -292,12 +269,13 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
 Figures synthesise(const Design& design, const PathTiming& timing) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
-  const Scratch scratch;
+  const host::ScratchFolder scratch("synth");
   const fs::path script = scratch / "synthesise.ys";
   vp::OutputFile file(script.string());
   file.write(script_of(design, scratch));
   file.commit();
-  const host::CommandEnd end = host::run_command({"yosys", "-q", "-s", script.string()});
+  const host::CommandEnd end =
+      host::run_command({"yosys", "-q", "-s", script.string()}, scratch.path());
   refuse_loops(design, log_of(scratch / "check.txt"));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);

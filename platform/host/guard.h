@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <sys/types.h>
+
+namespace platform::host {
+
+/// A process, forked from this one, that waits for this one to end: then, or when this object does,
+/// it ends what it started and removes its folder. So nothing is left, even of a killed run.
+class Guard {
+ public:
+  /// Becomes a command by exec(), in a process group of its own, where no signal is blocked or
+  /// ignored. Returns errno if that fails.
+  using Become = std::function<int()>;
+
+  /// Starts a command if there is one; `folder` may be empty. Throws std::system_error if the host
+  /// has no process left, or for what `become` returns.
+  Guard(const Become& become, const std::string& folder);
+  ~Guard();
+  Guard(const Guard&) = delete;
+  Guard& operator=(const Guard&) = delete;
+
+ protected:
+  /// The end of a process of the command's, its status as waitpid() tells it.
+  struct Note {
+    pid_t process;
+    int status;
+  };
+  /// The next one; none: there is none yet, or, when it `waits`, the guard is gone.
+  std::optional<Note> next_note(bool waits);
+
+ private:
+  [[noreturn]] void watch(const Become& become, const std::string& folder, int theirs) const;
+
+  pid_t process_ = 0;
+  int socket_ = -1;
+};
+
+/// A command of the host and all that it starts, sessions of their own included. Nothing of it
+/// outlives this object or this process.
+class ProcessTree : private Guard {
+ public:
+  explicit ProcessTree(const Become& become);
+
+  using Guard::Become;
+  using End = Guard::Note;
+
+  /// The command's own process.
+  pid_t first() const { return first_; }
+  /// A process that ended whose parent did not wait for it: first(), and those whose parent ended
+  /// before. None: none has ended since the last call.
+  std::optional<End> next_end() { return next_note(false); }
+  /// The status of first(), after its end.
+  int wait();
+
+ private:
+  pid_t first_ = 0;
+};
+
+/// A new folder for temporary files, in $TMPDIR. It outlives neither this object nor this process.
+class ScratchFolder {
+ public:
+  /// "markervp-NAME-XXXXXX". Throws std::filesystem::filesystem_error if the host has no room.
+  explicit ScratchFolder(const std::string& name);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+  std::optional<Guard> guard_;
+};
+
+}  // namespace platform::host
