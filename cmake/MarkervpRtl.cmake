@@ -42,10 +42,10 @@ function(markervp_add_rtl NAME)
   markervp_rtl_run(${NAME} "${advice}" "${VERILATOR_BIN}" --lint-only --top-module ${RTL_TOP} ${parameters} ${sources})
   markervp_rtl_run(${NAME} "${advice}" "${VERILATOR_BIN}" --xml-only --xml-output "${folder}/top.xml" --Mdir "${folder}"
     --top-module ${RTL_TOP} ${parameters} ${sources})
-  set(assertions 1)
+  set(check check)
   set(assert --assert)
   if(RTL_NO_ASSERTIONS)
-    set(assertions 0)
+    set(check nullptr)
     set(assert --noassert)
   endif()
   markervp_rtl_glue(${NAME} "${folder}/top.xml" "${folder}/glue.cpp" "${generics}")
@@ -110,6 +110,9 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS)
   endif()
   # The types of VHDL have seen to widths; GHDL writes initial values and multiplexers with delayed assignments.
   file(READ "${FILE}" text)
+  # Assertions stop in reset like those of SystemVerilog, and say where they are in the VHDL.
+  string(REGEX REPLACE "/\\* ([^ ]+) +\\*/\n  always @\\*\n    if \\(!([a-z0-9_]+)\\)\n      \\$fatal\\(1, \"[^\"]*\"\\);"
+    "always @* assert (\\2) else $error(\"VHDL assertion at \\1\");" text "${text}")
   file(WRITE "${FILE}" "/* verilator lint_off WIDTH */\n/* verilator lint_off INITIALDLY */\n/* verilator lint_off COMBDLY */\n${text}")
 endfunction()
 

@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 #include <host/process.h>
 #include <vp/error.h>
-#include <vp/file.h>
+#include <vp/foreign_object.h>
 #include <vp/text.h>
 #include <zynq/design_plugin.h>
 
@@ -39,14 +39,14 @@ void check(const std::string& file, const DesignDescriptor& descriptor) {
 }
 
 DesignInfo open(const std::string& file) {
-  const std::string path = fs::absolute(file).string();
-  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) refuse(file, "cannot be loaded: " + vp::load_problem(path, ::dlerror()));
+  void* handle = vp::load_object(vp::design_object, file);
   const auto* descriptor = static_cast<const DesignDescriptor*>(::dlsym(handle, symbol));
   if (!descriptor)
-    refuse(file, std::string("is none: it has no '") + symbol + "'; write MARKERVP_DESIGN(…)");
+    refuse(file, std::string("is not a design: it has no '") + symbol + "'; write MARKERVP_DESIGN(…)");
+  vp::keep_object(vp::design_object, file, handle);
   check(file, *descriptor);
-  DesignInfo info = descriptor->info();
+  DesignInfo info;
+  vp::call_objects([&] { info = descriptor->info(); });
   if (info.name.empty() || !info.make || !info.words)
     refuse(file, "is incomplete: its DesignInfo needs a name, words and a function that makes it");
   if (info.programs.empty())

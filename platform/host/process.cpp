@@ -94,6 +94,8 @@ int exit_code_of(const std::function<int()>& work, std::ostream& err) {
                 wrong_input);
   } catch (const std::exception& error) {
     return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+  } catch (...) {
+    return fail(err, "the model failed: it threw an exception of an unknown type", protocol_broken);
   }
 }
 
@@ -112,7 +114,7 @@ void prepare_signals() {
 }
 
 // Nothing but system calls, as it comes from a signal handler. Not _exit(), which ends a PS
-// program that runs (ps/cpu/fault_trap.cpp).
+// program that runs (vp/foreign/fault_trap.cpp).
 void end_by(int signal) {
   vp::remove_part_files();
   if (signal == SIGQUIT) end_as_the_system_does(signal);
@@ -383,12 +385,7 @@ void Child::become(const Work& work, pid_t parent) {
   if (::getppid() != parent) ::_exit(run_failed);
   ::dup2(out_, STDOUT_FILENO);
   ::dup2(err_, STDERR_FILENO);
-  int code = run_failed;
-  try {
-    code = exit_code_of([&] { return work(std::cout, std::cerr); }, std::cerr);
-  } catch (...) {
-    std::cerr << "markervp: unknown error\n";
-  }
+  const int code = exit_code_of([&] { return work(std::cout, std::cerr); }, std::cerr);
   std::cout.flush();
   std::cerr.flush();
   // Without destructors of static objects: those are the parent's to end.

@@ -110,7 +110,7 @@ int LinuxRun::serve_to_end() {
         place_ = application_.end_for_time();
       });
     }
-    if (ps::ProgramWatch::stop != Stop::none) ps::FaultTrap::leave_at_stop();
+    if (ps::ProgramWatch::stop != Stop::none) vp::FaultTrap::leave_at_stop();
     const std::optional<Asked> asked = application_.next();
     if (asked) {
       serve(*asked);

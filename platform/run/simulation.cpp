@@ -1,14 +1,20 @@
 #include <run/simulation.h>
 
 #include <designs/designs.h>
+#include <pl/common/rtl_pins.h>
+#include <ps/cpu/program_watch.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/foreign_object.h>
 #include <vp/systemc_pins.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
 #include <zynq/profiler.h>
+#include <vp/unit.h>
+#include <algorithm>
 #include <numeric>
 #include <ostream>
+#include <string_view>
 #include <utility>
 
 namespace platform {
@@ -23,6 +29,15 @@ struct ConsoleFlush {
     ps.uart1.console.flush();
   }
 };
+
+/// ", pc 0x1a2b edge(…) (median.cpp:12)": where the function of an object ended the process.
+std::string place_in_object(const vp::Fault& fault) {
+  const std::vector<std::uintptr_t> calls(fault.frames, fault.frames + fault.frame_count);
+  const auto inside = std::find_if(calls.begin(), calls.end(), vp::foreign_object_at);
+  if (inside == calls.end()) return {};
+  const ps::CodeLocator code(reinterpret_cast<const void*>(*inside));
+  return ", " + code.path(calls);
+}
 
 /// What the user sets wins.
 void set_defaults(const DesignInfo& design) {
@@ -65,6 +80,10 @@ void Simulation::connect_consoles() {
 }
 
 Simulation::Simulation(const SimulationOptions& options) : options_(options) {
+  vp::call_objects([this] { build(); }, {});
+}
+
+void Simulation::build() {
   choose_design();
   folder_.restore();
   // Waveforms show what happens clock by clock, unless the user wants otherwise.
@@ -98,10 +117,10 @@ Simulation::Simulation(const SimulationOptions& options) : options_(options) {
   zynq_->ps.cpu.connect(*bench_);
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);
-  for (const TerminalOptions& terminal : options.terminals) {
+  for (const TerminalOptions& terminal : options_.terminals) {
     terminals_.push_back(
         std::make_unique<Terminal>(("terminal_" + terminal.uart).c_str(), *zynq_, terminal));
-    if (options.console) *options.console << terminals_.back()->introduction() << std::endl;
+    if (options_.console) *options_.console << terminals_.back()->introduction() << std::endl;
   }
   connect_consoles();
 }
@@ -187,6 +206,25 @@ void Simulation::run_until(std::uint64_t ps) {
   if (ps < most && zynq_->ps.cpu.state() == ps::Cpu::State::running) interrupt();
 }
 
+void Simulation::start() {
+  if (options_.history) run_until(options_.history->before_ps);
+  sc_core::sc_start();
+  if (control_) control_->finish();
+  zynq_->ps.cpu.check();
+  // Modules may have a last word: end_of_simulation().
+  if (sc_core::sc_get_status() != sc_core::SC_STOPPED) sc_core::sc_stop();
+}
+
+// In a signal handler.
+std::uint64_t Simulation::progress(const void* simulation) {
+  return static_cast<const Simulation*>(simulation)->zynq_->scheduler.now_ps();
+}
+
+std::string Simulation::frame_text() const {
+  return bench_->taken() == 0 ? "before the first frame"
+                              : "in frame " + std::to_string(bench_->taken());
+}
+
 std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   bench_->start(
       [this] {
@@ -211,14 +249,15 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
   std::exception_ptr error;
   try {
     vp::settle_foreign_modules();
-    if (options_.history) run_until(options_.history->before_ps);
-    sc_core::sc_start();
-    if (control_) control_->finish();
-    zynq_->ps.cpu.check();
-    // Modules may have a last word: end_of_simulation().
-    if (sc_core::sc_get_status() != sc_core::SC_STOPPED) sc_core::sc_stop();
+    vp::call_objects([this] { start(); }, {&Simulation::progress, this, &Simulation::interrupt});
   } catch (const sc_core::sc_report& report) {  // of a model: vp::error()
-    error = std::make_exception_ptr(vp::ProtocolError(report.get_msg()));
+    const bool ended = report.get_msg_type() == std::string_view(pl::rtl_ended);
+    error = std::make_exception_ptr(
+        vp::ProtocolError(report.get_msg() + (ended ? ", " + frame_text() : "")));
+  } catch (const vp::ObjectEnd& end) {
+    error = std::make_exception_ptr(vp::ProtocolError(
+        std::string(end.what()) + place_in_object(end.fault()) + ", at " +
+        vp::format_time(zynq_->scheduler.now_ps()) + ", " + frame_text()));
   } catch (...) {
     error = std::current_exception();
   }

@@ -97,9 +97,14 @@ class Simulation {
   const vp::ReportRouter& reports() const { return reports_; }
 
  private:
+  void build();
   void choose_design();
   void connect_consoles();
+  void start();
   void run_until(std::uint64_t ps);
+  static std::uint64_t progress(const void* simulation);
+  /// "in frame 3": the one that the program works on.
+  std::string frame_text() const;
   /// The error that ended it; null for none.
   std::exception_ptr simulate(FrameBench::NextFrame next, FrameBench::FrameDone done);
 

@@ -51,6 +51,8 @@ class FrameBench : public ps::TestBench {
 
   CacheContract& cache_contract() { return cache_contract_; }
 
+  /// Images that the program took.
+  std::uint64_t taken() const { return taken_; }
   /// Images that the program took and of which it published nothing.
   std::uint64_t unpublished() const { return taken_ - std::min(published_, taken_); }
   /// None: the camera has no rate, or the program never asked for a second image.

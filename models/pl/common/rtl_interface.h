@@ -36,13 +36,13 @@ struct RtlDescriptor {
   uint32_t parameter_count;
   const RtlParameter* parameters;
 
-  int assertions;  // 0: built without them
-
   // Registers without reset start at 0 (seed 0), at 1 (seed 1), or at random. Inputs start at 0.
   void* (*create)(const char* name, uint64_t seed);
   void (*destroy)(void* model);
   // Null, unless the RTL ended itself: it can only be destroyed then.
   const struct RtlEnd* (*eval)(void* model);
+  // Whether its assertions are checked from here on; at first they are. Null: it was built without.
+  void (*check)(void* model, int on);
   // Its `final` blocks, at the end of a simulation. As eval().
   const struct RtlEnd* (*finish)(void* model);
   // All clocks are low again, as behind an eval() with them low, which is not needed: nothing in

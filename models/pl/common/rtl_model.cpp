@@ -74,6 +74,10 @@ RtlShadow::Wires::Wires(sc_core::sc_module_name name, const IpPorts& ports) : sc
 
 void RtlShadow::end_of_elaboration() {
   PortWatcher::end_of_elaboration();
+  std::string starts;
+  for (const Copy& copy : copies_) starts += (starts.empty() ? "" : ", ") + copy.pins->start();
+  vp::info(*this, "/markervp/rtl/seed", "registers without reset start at " + starts,
+           sc_core::SC_LOW);
   std::uint32_t wire = 0;
   for (const IpPorts::Output& output : ports_.outputs) {
     if (!output.of_link) continue;

@@ -3,10 +3,10 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
+#include <vp/foreign_object.h>
 #include <vp/report.h>
 #include <vp/unit.h>
 
@@ -14,22 +14,26 @@ namespace pl {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* rebuild = "build it with markervp_add_rtl() of this markervp";
 
 const RtlDescriptor& open(const std::string& file) {
   const std::string whose = "RTL '" + file + "' ";
-  void* library = ::dlopen(fs::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!library) throw vp::InputError(whose + "cannot be loaded: " + ::dlerror());
+  void* library = vp::load_object(vp::rtl_object, file);
   void* symbol = ::dlsym(library, RTL_SYMBOL);
-  if (!symbol) throw vp::InputError(whose + "is none: it has no '" RTL_SYMBOL "'; " + rebuild);
-  const RtlDescriptor& rtl = *reinterpret_cast<const RtlDescriptor* (*)()>(symbol)();
-  if (rtl.interface != RTL_INTERFACE) {
-    throw vp::InputError(whose + "has interface " + std::to_string(rtl.interface) + ", this is " +
+  if (!symbol) throw vp::InputError(whose + "is not RTL: it has no '" RTL_SYMBOL "'; " + rebuild);
+  vp::keep_object(vp::rtl_object, file, library);
+  const RtlDescriptor* rtl = nullptr;
+  std::uint32_t interface = 0;
+  const std::string stopped = vp::stopped_by([&] {
+    rtl = reinterpret_cast<const RtlDescriptor* (*)()>(symbol)();
+    interface = rtl->interface;
+  });
+  if (!stopped.empty()) throw vp::ProtocolError(whose + "is damaged: " + stopped + "; " + rebuild);
+  if (interface != RTL_INTERFACE) {
+    throw vp::InputError(whose + "has interface " + std::to_string(interface) + ", this is " +
                          std::to_string(RTL_INTERFACE) + ": " + rebuild);
   }
-  return rtl;
+  return *rtl;
 }
 
 /// Of the peripherals by Processor System Reset (PG164).
@@ -109,9 +113,12 @@ void RtlPins::reset() {
       if (name == "rst" || name == "por") store(inputs_[i].place, inputs_[i].bits, level);
     }
   };
+  // What has no reset yet is unknown.
+  if (rtl_.check) rtl_.check(model_.get(), 0);
   set_resets(1);
   for (unsigned edge = 0; edge < reset_clocks; ++edge) cycle_clocks();
   set_resets(0);
+  if (rtl_.check) rtl_.check(model_.get(), 1);
 }
 
 void RtlPins::cycle_clocks() {
@@ -130,7 +137,8 @@ void RtlPins::find_signals() {
   bound_ = true;
   const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
   if (module && !ports_.watched) {
-    vp::info(*module, "/markervp/rtl/seed", "registers without reset start at " + start(),
+    vp::info(*module, "/markervp/rtl/seed", "registers without reset start at " + start() +
+                 (rtl_.check ? "" : "; built with NO_ASSERTIONS"),
              sc_core::SC_LOW);
   }
 }
@@ -211,10 +219,10 @@ void RtlPins::ended(const RtlEnd& end) const {
   const vp::Clock& clk = *ports_.clocks.front().clock;
   const std::string place = *end.place ? std::string(" (") + end.place + ")" : "";
   const std::string text = "RTL '" + file_ + "' ended itself behind edge " +
-                           std::to_string(clk.cycle()) + " of " + clk.basename() + ", at " +
+                           std::to_string(clk.cycle()) + " of " + clk.name() + ", at " +
                            vp::format_time(now_ps()) + ": " + end.why + place;
   const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
-  if (module && sc_core::sc_is_running()) vp::error(*module, "/markervp/rtl/ended", text);
+  if (module && sc_core::sc_is_running()) vp::error(*module, rtl_ended, text);
   throw vp::ProtocolError(instance_ + ": " + text);
 }
 

@@ -198,6 +198,9 @@ class RtlRest {
   std::uint64_t look_at_;
 };
 
+/// Id of the report with which RTL that ends itself ends the simulation.
+inline constexpr const char* rtl_ended = "/markervp/rtl/ended";
+
 /// The pins of a Verilated module, connected with the ports of the IP in whose place it stands.
 class RtlPins {
  public:

@@ -83,11 +83,11 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu* first)
       clock_(clock),
       scheduler_(clock.scheduler()),
       poll_elision_(first == nullptr),
-      trap_(static_cast<std::size_t>(settings_.stack_size) + FaultTrap::gap) {
+      trap_(static_cast<std::size_t>(settings_.stack_size) + vp::FaultTrap::gap) {
   SC_HAS_PROCESS(Cpu);
   SC_THREAD(run);
   cores_->all.push_back(this);
-  set_stack_size(static_cast<std::size_t>(settings_.stack_size) + FaultTrap::gap);
+  set_stack_size(static_cast<std::size_t>(settings_.stack_size) + vp::FaultTrap::gap);
   payload_.set_data_ptr(data_);
   payload_.set_data_length(sizeof data_);
   payload_.set_streaming_width(sizeof data_);
@@ -172,14 +172,15 @@ void Cpu::end(State state) {
 
 // The run ends with another core.
 void Cpu::freeze() {
+  watch_.disarm();
   trap_.abandon();
   if (asleep && state_ == State::running) activity_.idle(now_ps() - dozes_since_ps_);
 }
 
 void Cpu::on_failure(FailureListener listener) {
   failure_listener_ = std::move(listener);
-  trap_.on_fault([this](const Fault& fault) {
-    if (fault.kind != Fault::Kind::interrupted) failure_listener_(fault.text() + where());
+  trap_.on_fault([this](const vp::Fault& fault) {
+    if (fault.kind != vp::Fault::Kind::interrupted) failure_listener_(fault.text() + where());
   });
 }
 
@@ -247,7 +248,7 @@ Cpu::Counted Cpu::counted() const {
 }
 
 void Cpu::nothing_runs(const char* call) {
-  if (FaultTrap::can_leave()) FaultTrap::leave(Fault::Kind::no_hal, call);
+  if (vp::FaultTrap::can_leave()) vp::FaultTrap::leave(vp::Fault::Kind::no_hal, call);
   throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
 }
 

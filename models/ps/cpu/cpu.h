@@ -16,7 +16,6 @@
 #include <hal/hal.h>
 #include <ps/cpu/console.h>
 #include <ps/cpu/cpu_time.h>
-#include <ps/cpu/fault_trap.h>
 #include <ps/cpu/poll.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
@@ -293,7 +292,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   int call_program();
   void go_on();
   void take_turn();
-  [[noreturn]] void report(const Fault& fault);
+  [[noreturn]] void report(const vp::Fault& fault);
   void call_handler();
   void check_acknowledged();
   void look_at(const void* data, std::size_t size) const;
@@ -478,7 +477,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   } last_look_;
   bool loop_jumps_ = false;  ///< time passes because of a loop without a call of the HAL
 
-  FaultTrap trap_;
+  vp::FaultTrap trap_;
+  HostWatch watch_;
   std::optional<CodeLocator> code_;          ///< of a plug-in
   std::vector<std::uintptr_t> fault_calls_;  ///< under way in the fault that ended it
 

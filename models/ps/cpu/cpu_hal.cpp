@@ -273,7 +273,7 @@ void __sanitizer_cov_trace_pc(void) {
   using Watch = ps::ProgramWatch;
   if (--Watch::blocks_left != 0 || !Watch::runs) return;
   if (Watch::stop != Watch::Stop::none) {
-    if (ps::FaultTrap::can_leave()) ps::FaultTrap::leave_at_stop();
+    if (vp::FaultTrap::can_leave()) vp::FaultTrap::leave_at_stop();
     return;
   }
   if (Watch::block_counts &&

@@ -22,10 +22,6 @@ constexpr std::uint64_t blocks_at_once = 64;
 
 }  // namespace
 
-volatile bool ProgramWatch::runs = false;
-volatile std::uint64_t ProgramWatch::blocks_left = ~std::uint64_t{0};
-volatile std::uint64_t ProgramWatch::blocks_limit = ~std::uint64_t{0};
-volatile ProgramWatch::Stop ProgramWatch::stop = ProgramWatch::Stop::none;
 volatile unsigned ProgramWatch::suspicions_ = 0;
 ProgramWatch::BlockCounts* ProgramWatch::block_counts = nullptr;
 std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::uint64_t{0};
@@ -41,7 +37,8 @@ int Cpu::call_program() {
   const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
                         this};
   ProgramWatch::start(settings_.block_cycles == 0 ? settings_.loop_blocks.get() : blocks_at_once);
-  const Fault* fault = trap_.call(
+  watch_.arm(limit);
+  const vp::Fault* fault = trap_.call(
       [](void* context) {
         Call& call = *static_cast<Call*>(context);
         if (call.entry) {
@@ -51,7 +48,8 @@ int Cpu::call_program() {
           call.result = call.program();
         }
       },
-      &call, limit);
+      &call);
+  watch_.disarm();
   spend_blocks();
   ProgramWatch::end();
   if (number_ == 0) LineGuard::program_is_over();
@@ -76,11 +74,12 @@ std::uint64_t Cpu::progress(const void* cpu) {
 
 void Cpu::interrupt_program() {
   if (!running_) return;
-  ProgramWatch::stop_program(ProgramWatch::Stop::interrupted);
+  ProgramWatch::ask_to_stop(ProgramWatch::Stop::interrupted);
   sc_core::sc_pause();
 }
 
-void Cpu::report(const Fault& fault) {
+void Cpu::report(const vp::Fault& fault) {
+  using vp::Fault;
   if (fault.kind == Fault::Kind::interrupted) stop(nullptr);
   std::string text = fault.text();
   if (fault.kind == Fault::Kind::exit) {

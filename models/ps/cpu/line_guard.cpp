@@ -80,10 +80,12 @@ LineGuard::LineGuard(std::uintptr_t first, std::uintptr_t end, unsigned steps, L
   sigemptyset(&action.sa_mask);
   sigaction(SIGTRAP, &action, &old_trap_);
   active_ = this;
+  vp::FaultTrap::on_access = &LineGuard::on_fault;
 }
 
 LineGuard::~LineGuard() {
   stop();
+  vp::FaultTrap::on_access = nullptr;
   active_ = nullptr;
   sigaction(SIGTRAP, &old_trap_, nullptr);
 }

@@ -20,7 +20,7 @@ namespace ps {
 /// buffers in parts: what was guarded with such a page is left alone from then on.
 ///
 /// Whoever is not the program uses another view of the memory, or takes the guard of the page away.
-/// The faults come through FaultTrap: it works while a program runs. One in a process at a time.
+/// The faults come through vp::FaultTrap: it works while a program runs. One in a process at a time.
 class LineGuard {
  public:
   static constexpr std::uintptr_t line = DmaAllocator::cache_line;

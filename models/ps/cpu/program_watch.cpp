@@ -57,9 +57,9 @@ bool ProgramWatch::count_block(std::uintptr_t address) {
   return true;
 }
 
-void HostWatch::arm(const HostLimit& limit, Leave leave) {
+void HostWatch::arm(const HostLimit& limit) {
+  if (limit.ns == 0) return;
   limit_ = limit;
-  leave_ = leave;
   spent_ns_ = progress_ = 0;
   told_ = false;
   vp::HostTicks::add(*this);
@@ -73,10 +73,10 @@ void HostWatch::on_host_tick(std::uint64_t spent_ns, void* context) {
   count(spent_ns);
   const bool runs = ProgramWatch::runs;
   const bool told_before = told_;
-  if (runs && told_before) return leave_(context);
+  if (runs && told_before) return vp::FaultTrap::leave_from_signal(context);
   told_ = ProgramWatch::stop != ProgramWatch::Stop::none;
   // Each call of the HAL sets the number of basic blocks anew.
-  if (told_) ProgramWatch::stop_program(ProgramWatch::stop);
+  if (told_) ProgramWatch::ask_to_stop(ProgramWatch::stop);
   // It is in a HAL call, between which it may be hardly ever.
   if (told_before) vp::HostTicks::hurry();
   if (runs) leave_empty_loop(context);
@@ -90,7 +90,7 @@ void HostWatch::count(std::uint64_t spent_ns) {
   if (in_one_call) return;
   spent_ns_ += spent_ns;
   if (spent_ns_ >= limit_.ns && ProgramWatch::stop == ProgramWatch::Stop::none) {
-    ProgramWatch::stop_program(ProgramWatch::Stop::host_time);
+    ProgramWatch::ask_to_stop(ProgramWatch::Stop::host_time);
   }
 }
 

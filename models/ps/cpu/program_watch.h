@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <ps/cpu/line_guard.h>
+#include <vp/fault_trap.h>
 #include <vp/host_ticks.h>
 
 struct backtrace_state;
@@ -17,20 +18,11 @@ namespace ps {
 
 /// What the processor has to know of the program's own statements, which it does not see: whether
 /// one runs at all, and for how long none has called the HAL. Written on every HAL call.
-struct ProgramWatch {
-  /// The program's code runs; false: the simulator's does, in a HAL call or elsewhere.
-  static volatile bool runs;
-  /// Basic blocks of the program until somebody looks at it: a loop without HAL call is suspected.
-  static volatile std::uint64_t blocks_left;
-  static volatile std::uint64_t blocks_limit;
+struct ProgramWatch : vp::ForeignCode {
   /// How often each basic block ran, by the address behind its call of
   /// __sanitizer_cov_trace_pc(). Null: nobody counts. To be set before the program starts.
   using BlockCounts = std::unordered_map<std::uintptr_t, std::uint64_t>;
   static BlockCounts* block_counts;
-
-  /// Why the program is to end at its next basic block.
-  enum class Stop : std::uint8_t { none, host_time, interrupted };
-  static volatile Stop stop;
 
   static void enter_hal() { runs = false; }
   static void leave_hal() {
@@ -42,20 +34,12 @@ struct ProgramWatch {
   }
   /// The program's code is about to run; `blocks` without HAL call are a suspicion.
   static void start(std::uint64_t blocks) {
-    stop = Stop::none;
     counted_limit_ = blocks;
-    blocks_limit = block_counts ? 1 : blocks;
+    ForeignCode::start(block_counts ? 1 : blocks);
     leave_hal();
   }
   /// No program runs any more.
   static void end() { runs = false; }
-
-  /// Ends the program at its next basic block. May be called in a signal handler.
-  static void stop_program(Stop why) {
-    stop = why;
-    blocks_limit = 1;
-    if (runs) blocks_left = 1;
-  }
 
   /// Basic blocks since the last call, or HAL call.
   static std::uint64_t take_blocks() {
@@ -105,7 +89,7 @@ struct HostLimit {
 /// Looks now and then, by the host's time, at the code of a program that runs.
 ///
 /// It ends one that takes host time without progress, whatever it calls: first by
-/// ProgramWatch::stop_program(), which the next instrumented basic block obeys; code that has none
+/// ForeignCode::ask_to_stop(), which the next instrumented basic block obeys; code that has none
 /// (the C library) is left where a later tick finds it. Time inside one HAL call is the
 /// simulator's, and does not count.
 ///
@@ -115,10 +99,8 @@ struct HostLimit {
 /// result depends on when that is. Only on x86-64.
 class HostWatch : private vp::HostTicks::Listener {
  public:
-  /// Ends the code that stands at a signal's `context` (a ucontext_t).
-  using Leave = void (*)(const void* context);
-
-  void arm(const HostLimit& limit, Leave leave);
+  /// Before the program's code runs in a FaultTrap. A limit of 0 ns is none.
+  void arm(const HostLimit& limit);
   void disarm();
 
  private:
@@ -126,7 +108,6 @@ class HostWatch : private vp::HostTicks::Listener {
   void count(std::uint64_t spent_ns);
 
   HostLimit limit_;
-  Leave leave_ = nullptr;
   std::uint64_t spent_ns_ = 0;  ///< since the last progress
   std::uint64_t progress_ = 0;
   bool told_ = false;  ///< the program was to stop at the last tick

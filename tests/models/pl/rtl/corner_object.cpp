@@ -90,13 +90,13 @@ const RtlDescriptor descriptor = {RTL_INTERFACE,
                                   ports,
                                   0,
                                   nullptr,
-                                  1,
                                   [](const char*, std::uint64_t) -> void* { return new CornerObject; },
                                   [](void* model) { delete &of(model); },
                                   [](void* model) -> const RtlEnd* {
                                     of(model).eval();
                                     return nullptr;
                                   },
+                                  nullptr,
                                   [](void*) -> const RtlEnd* { return nullptr; },
                                   nullptr,
                                   pin,

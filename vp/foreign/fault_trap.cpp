@@ -6,17 +6,19 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-#include <ps/cpu/fault_trap.h>
-#include <ps/cpu/line_guard.h>
-#include <ps/cpu/program_watch.h>
+#include <vp/fault_trap.h>
+#include <vp/file.h>
+#include <vp/foreign_object.h>
 #include <vp/text.h>
+#include <atomic>
 #include <cstdlib>
+#include <string_view>
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>
 #endif
 
-namespace ps {
+namespace vp {
 
 namespace {
 
@@ -83,24 +85,24 @@ const char* arithmetic_text(int code) {
 
 }  // namespace
 
-std::string Fault::text() const {
+std::string Fault::text(const std::string& who) const {
   switch (kind) {
     case Kind::terminated:
-      return "the program called std::terminate()";
+      return who + " called std::terminate()";
     case Kind::exit:
-      return std::string("the program called ") + call + "(" + std::to_string(code) + ")";
+      return who + " called " + call + "(" + std::to_string(code) + ")";
     case Kind::forbidden:
-      return std::string("the program called ") + call + "()";
+      return who + " called " + call + "()";
     case Kind::no_hal:
-      return std::string("the program called ") + call + "() outside of its entry function";
+      return who + " called " + call + "() outside of its entry function";
     case Kind::host_time:
-      return "the program takes the host's time and lets no simulated time pass";
+      return who + " takes the host's time and lets no simulated time pass";
     case Kind::interrupted:
       return "interrupted";
     default:
       break;
   }
-  if (signal == SIGABRT) return "the program called abort()";
+  if (signal == SIGABRT) return who + " called abort()";
   if (signal == SIGILL) return "illegal instruction";
   if (signal == SIGFPE) return std::string("arithmetic trap: ") + arithmetic_text(code);
   if (stack_overflow) return "stack overflow";
@@ -134,10 +136,32 @@ void Fault::add_callers() {
   for (int i = 0; i < count; ++i) add_frame(reinterpret_cast<std::uintptr_t>(walked[i]) - 1);
 }
 
-FaultTrap* FaultTrap::active_ = nullptr;
-FaultTrap::Changed FaultTrap::changed_;
+namespace {
 
-FaultTrap::FaultTrap(std::size_t stack_size) : stack_size_(stack_size) {}
+/// Of the thread that waits for the end.
+Fault stray_fault;
+std::atomic<bool> stray_taken{false}, stray_known{false};
+
+bool in_object(const Fault& fault) {
+  for (std::size_t i = 0; i < fault.frame_count; ++i) {
+    if (foreign_object_at(fault.frames[i])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+volatile bool ForeignCode::runs = false;
+volatile ForeignCode::Stop ForeignCode::stop = ForeignCode::Stop::none;
+volatile std::uint64_t ForeignCode::blocks_left = ~std::uint64_t{0};
+volatile std::uint64_t ForeignCode::blocks_limit = ~std::uint64_t{0};
+
+FaultTrap* FaultTrap::active_ = nullptr;
+FaultTrap* FaultTrap::objects_ = nullptr;
+FaultTrap::Changed FaultTrap::changed_;
+bool (*FaultTrap::on_access)(std::uintptr_t address, void* context) = nullptr;
+
+FaultTrap::FaultTrap(std::size_t stack_size, Of of) : stack_size_(stack_size), of_(of) {}
 
 FaultTrap::~FaultTrap() {
   disarm();
@@ -152,14 +176,12 @@ __attribute__((noinline)) void FaultTrap::call_below(void (*code)(void* context)
   room[gap - 1] = room[0];
 }
 
-const Fault* FaultTrap::call(void (*code)(void* context), void* context, const HostLimit& limit) {
+const Fault* FaultTrap::call(void (*code)(void* context), void* context) {
   char here = 0;
   stack_top_ = reinterpret_cast<std::uintptr_t>(&here);
   landed_ = false;
   fault_ = Fault();
   arm();
-  watched_ = limit.ns != 0;
-  if (watched_) watch_.arm(limit, &FaultTrap::leave_from_signal);
   if (sigsetjmp(landing_, 1) == 0) {
     try {
       call_below(code, context);
@@ -182,7 +204,11 @@ const Fault* FaultTrap::call(void (*code)(void* context), void* context, const H
 
 void FaultTrap::arm() {
   armed_ = true;
-  active_ = this;
+  if (of_ == Of::objects) {
+    outer_ = std::exchange(objects_, this);
+  } else {
+    active_ = this;
+  }
   if (changed_.traps++ != 0) return;
   void* first[1];
   backtrace(first, 1);  // loads what it needs now, not in the signal handler
@@ -199,14 +225,16 @@ void FaultTrap::arm() {
     sigaction(signals[i], &action, &changed_.old_actions[i]);
   changed_.old_terminate = std::set_terminate(&FaultTrap::on_terminate);
   changed_.thread = pthread_self();
+  static const int registered = std::atexit(&FaultTrap::on_exit);
+  static_cast<void>(registered);
 }
 
 void FaultTrap::disarm() {
   if (!armed_) return;
   armed_ = false;
-  if (watched_) watch_.disarm();
+  if (of_ == Of::objects) objects_ = outer_;
+  if (active_ == this) active_ = nullptr;
   if (--changed_.traps != 0) return;
-  active_ = nullptr;
   std::set_terminate(changed_.old_terminate);
   for (std::size_t i = 0; i < signal_count; ++i)
     sigaction(signals[i], &changed_.old_actions[i], nullptr);
@@ -225,20 +253,25 @@ void FaultTrap::give_back(int signal) {
   }
 }
 
-// A second fault comes from walking a stack that the program destroyed.
+// A second fault comes from walking a stack that the foreign code destroyed.
 void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
-  FaultTrap& trap = *active_;
-  Fault& fault = trap.fault_;
   const bool sent = info->si_code <= 0;
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
-  if (signal == SIGSEGV && !sent && LineGuard::on_fault(address, context)) return;
+  if (signal == SIGSEGV && !sent && on_access && on_access(address, context)) return;
+  const bool by_code = can_leave();
+  FaultTrap* const trap = by_code ? active_ : objects_;
   const bool by_others = sent && info->si_pid != getpid();
-  if (trap.landed_ || !can_leave() || by_others) {
-    trap.give_back(signal);
+  const auto give_back_now = [&] {
+    give_back(signal);
     if (sent) raise(signal);
-    return;
+  };
+  if (!trap || trap->landed_ || by_others) return give_back_now();
+  Fault noted;  // in a thread of its own
+  Fault& fault = in_own_thread() ? noted : trap->fault_;
+  if (fault.kind != Fault::Kind::none) {
+    if (by_code || vp::in_object(fault)) trap->land();
+    return give_back_now();
   }
-  if (fault.kind != Fault::Kind::none) trap.land();
   fault.kind = Fault::Kind::signal;
   fault.signal = signal;
   fault.code = info->si_code;
@@ -246,21 +279,30 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   fault.address = address;
   fault.address_known = info->si_code > 0 && info->si_code != SI_KERNEL;
   fault.stack_overflow = signal != SIGILL && signal != SIGFPE && signal != SIGABRT &&
-                         fault.address_known && trap.is_stack_overflow(fault.address);
+                         fault.address_known && trap->is_stack_overflow(fault.address);
   fault.add_frame(instruction_of(context));
   if (fault.access == Fault::Access::execute) fault.add_frame(caller_of_nothing(context) - 1);
   fault.add_callers();
-  trap.land();
+  if (!by_code && !vp::in_object(fault)) {
+    fault = Fault();
+    return give_back_now();
+  }
+  if (in_own_thread()) wait_for_end(fault);
+  trap->land();
 }
 
 void FaultTrap::land() {
-  ProgramWatch::end();
+  ForeignCode::runs = false;
   if (const auto listener = std::exchange(listener_, nullptr)) listener(fault_);
   siglongjmp(landing_, 1);
 }
 
+bool FaultTrap::in_own_thread() {
+  return pthread_equal(changed_.thread, pthread_self()) == 0;
+}
+
 bool FaultTrap::can_leave() {
-  return active_ && ProgramWatch::runs && pthread_equal(changed_.thread, pthread_self()) != 0;
+  return active_ && ForeignCode::runs && !in_own_thread();
 }
 
 // A fault while it is being recorded comes from a stack that the program destroyed: it lands, too.
@@ -274,8 +316,52 @@ void FaultTrap::leave(Fault::Kind kind, const char* call, int code) {
 }
 
 void FaultTrap::leave_at_stop() {
-  leave(ProgramWatch::stop == ProgramWatch::Stop::interrupted ? Fault::Kind::interrupted
-                                                              : Fault::Kind::host_time);
+  leave(ForeignCode::stop == ForeignCode::Stop::interrupted ? Fault::Kind::interrupted
+                                                            : Fault::Kind::host_time);
+}
+
+void FaultTrap::leave_if_foreign(Fault::Kind kind, const char* call, int code) {
+  if (can_leave()) leave(kind, call, code);
+  if (!objects_ || objects_->landed_ || !has_kept_objects()) return;
+  Fault fault;
+  fault.kind = kind;
+  fault.call = call;
+  fault.code = code;
+  fault.add_callers();
+  if (!vp::in_object(fault)) return;
+  if (in_own_thread()) wait_for_end(fault);
+  objects_->fault_ = fault;
+  objects_->land();
+}
+
+bool FaultTrap::in_object(const void* context) {
+  if (!has_kept_objects()) return false;
+  Fault fault;
+  fault.add_frame(instruction_of(context));
+  fault.add_callers();
+  return vp::in_object(fault);
+}
+
+void FaultTrap::leave_object_from_signal(const void* context) {
+  if (!objects_ || objects_->landed_ || in_own_thread() || !in_object(context)) return;
+  Fault& fault = objects_->fault_;
+  fault.kind = Fault::Kind::host_time;
+  fault.add_frame(instruction_of(context));
+  fault.add_callers();
+  objects_->land();
+}
+
+// The platform may be anywhere in its own code, so it is not interrupted here.
+void FaultTrap::wait_for_end(const Fault& fault) {
+  if (!stray_taken.exchange(true)) {
+    stray_fault = fault;
+    stray_known = true;
+  }
+  while (true) ::pause();
+}
+
+const Fault* FaultTrap::stray() {
+  return stray_known ? &stray_fault : nullptr;
 }
 
 void FaultTrap::leave_from_signal(const void* context) {
@@ -285,13 +371,30 @@ void FaultTrap::leave_from_signal(const void* context) {
 }
 
 void FaultTrap::on_terminate() {
-  if (can_leave()) leave(Fault::Kind::terminated);
+  leave_if_foreign(Fault::Kind::terminated);
   std::abort();
 }
 
-}  // namespace ps
+// A call inside the C library ends the process, which came around the functions below.
+void FaultTrap::on_exit() {
+  if (!objects_ || objects_->landed_) return;
+  remove_part_files();
+  constexpr std::string_view text =
+      "markervp: a function of the C library that a program, an RTL or a design called ended the "
+      "process: call none that does (err(), daemon())\n";
+  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+  constexpr int protocol_broken = 3;
+  end_process(protocol_broken);
+}
 
-// Calls of the C library that would end the whole process, or double it. A program that makes one
+// Without a look at the loader's tables: it is called in signal handlers.
+void end_process(int code) {
+  while (true) ::syscall(SYS_exit_group, code);
+}
+
+}  // namespace vp
+
+// Calls of the C library that would end the whole process, or double it. Foreign code that makes one
 // is ended as by a fault; for everybody else they are what they always are.
 //
 // Defined here rather than wrapped when a program is linked: the loader looks into the executable
@@ -312,20 +415,19 @@ template <class... Argument>
 }
 
 void leave_program(const char* name, int code) {
-  if (ps::FaultTrap::can_leave()) ps::FaultTrap::leave(ps::Fault::Kind::exit, name, code);
-}
-
-// Without a look at the loader's tables: it is called in signal handlers.
-[[noreturn]] void end_process(int code) {
-  while (true) ::syscall(SYS_exit_group, code);
+  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::exit, name, code);
 }
 
 pid_t fork_by(const char* name) {
-  if (ps::FaultTrap::can_leave()) ps::FaultTrap::leave(ps::Fault::Kind::forbidden, name);
+  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::forbidden, name);
   return the_real<pid_t()>("fork")();
 }
 
 }  // namespace
+
+void vp::run_exit_handlers(int code) {
+  end("exit", code);
+}
 
 extern "C" {
 
@@ -336,12 +438,12 @@ extern "C" {
 
 [[noreturn]] void _exit(int code) {
   leave_program("_exit", code);
-  end_process(code);
+  vp::end_process(code);
 }
 
 [[noreturn]] void _Exit(int code) noexcept {
   leave_program("_Exit", code);
-  end_process(code);
+  vp::end_process(code);
 }
 
 [[noreturn]] void quick_exit(int code) noexcept {
@@ -359,9 +461,7 @@ pid_t vfork(void) noexcept {
 }
 
 [[noreturn]] void pthread_exit(void* value) {
-  if (ps::FaultTrap::can_leave()) {
-    ps::FaultTrap::leave(ps::Fault::Kind::forbidden, "pthread_exit");
-  }
+  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::forbidden, "pthread_exit");
   end("pthread_exit", value);
 }
 

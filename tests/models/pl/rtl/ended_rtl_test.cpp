@@ -1,0 +1,103 @@
+// Verilated RTL that ends itself, and registers without reset.
+#include <systemc>
+
+#include <vp/error.h>
+#include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
+
+#include "pipeline.h"
+#include "rtl_objects.h"
+
+namespace {
+
+/// What frame_status gets besides: a counter, and what happens when it has counted to 1000.
+#define AT_1000(statement)                                                           \
+  "logic started;\n  logic [19:0] n;\n  always_ff @(posedge clk) if (rst) n <= '0; " \
+  "else begin n <= n + 20'd1; " statement " end"
+
+const Bug endings[] = {
+    {"finish", "frame_status", "frame_status.sv", "logic started;",
+     AT_1000("if (n == 1000) $finish;"), "$finish ("},
+    {"stop", "frame_status", "frame_status.sv", "logic started;", AT_1000("if (n == 1000) $stop;"),
+     "$stop ("},
+    {"fatal", "frame_status", "frame_status.sv", "logic started;",
+     AT_1000("if (n == 1000) $fatal(1, \"too many\");"), "too many ("},
+    {"error", "frame_status", "frame_status.sv", "logic started;",
+     AT_1000("if (n == 1000) $error(\"too many\");"), "too many ("},
+    {"assertion", "frame_status", "frame_status.sv", "logic started;",
+     AT_1000("assert (n < 1000) else $error(\"%0d are too many\", n);"), "1000 are too many ("},
+    {"last_word", "frame_status", "frame_status.sv", "logic started;",
+     AT_1000("") "\n  final assert (n < 1000) else $error(\"too many\");", "too many ("},
+    {"ring", "frame_status", "frame_status.sv", "logic started;",
+     "logic started;\n  /* verilator lint_off UNOPTFLAT */\n  logic ring;\n  assign ring = "
+     "started && !ring;",
+     "did not converge"},
+};
+const Bug no_reset = {"no_reset", "frame_status",  "frame_status.sv",
+                      "      started <= 1'b0;\n", "", "busy"};
+
+const RtlObjects& objects() {
+  static const RtlObjects built([] {
+    std::vector<RtlObjects::Object> list;
+    for (const Bug& bug : endings) list.push_back({bug.name, bug.ip, "", &bug});
+    list.push_back({no_reset.name, no_reset.ip, "", &no_reset});
+    return list;
+  }());
+  return built;
+}
+
+struct Frame : harness::Pipeline {
+  explicit Frame(const std::string& fidelity)
+      : Pipeline({}, [&fidelity] {
+          std::vector<std::string> settings = harness::frame_size(64, 32);
+          settings.push_back("pl.fidelity.frame_status=" + fidelity);
+          return settings;
+        }()) {
+    load(harness::noise(64, 32, 7));
+  }
+
+  std::string failure() {
+    try {
+      run_frame();
+      sc_core::sc_stop();
+    } catch (const sc_core::sc_report& report) {
+      return report.get_msg();
+    } catch (const vp::ProtocolError& error) {
+      return error.what();
+    }
+    return "nothing failed";
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(ended_rtl)
+
+BOOST_AUTO_TEST_CASE(each_end_is_told_with_its_place) {
+  for (const Bug& bug : endings) {
+    for (const char* use : {"", "lockstep:"}) {
+      Frame frame(use + objects().file(bug.name));
+      const std::string failure = frame.failure();
+      BOOST_TEST_CONTEXT(use << bug.name << ": " << failure) {
+        BOOST_TEST(contains(failure, "pl.frame_status: RTL '" + objects().file(bug.name) +
+                                         "' ended itself behind edge "));
+        BOOST_TEST(contains(failure, bug.port));
+        BOOST_TEST(contains(failure, "frame_status.sv:"));
+      }
+    }
+  }
+}
+
+// In the place of the model nothing shows it.
+BOOST_AUTO_TEST_CASE(a_register_without_reset_is_found) {
+  Frame frame("lockstep:" + objects().file(no_reset.name));
+  const std::string failure = frame.failure();
+  BOOST_TEST(contains(failure, "when registers without reset start at 1 instead of 0"), failure);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
