@@ -82,7 +82,8 @@ std::string problem_of_machine(const ObjectKind& kind, const Elf64_Ehdr& header)
 }
 
 /// The loader maps a file as its headers say; touching what a truncated one lacks is a bus error
-/// (SIGBUS). What is no ELF file at all is left to the loader's own message.
+/// (SIGBUS), and what lacks its sections tells too little of itself. What is no ELF file at all is
+/// left to the loader's own message.
 std::string problem_of_file(const ObjectKind& kind, const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file.tellg();
@@ -91,7 +92,8 @@ std::string problem_of_file(const ObjectKind& kind, const std::string& path) {
   const Elf64_Ehdr& header = *found;
   const std::string other_machine = problem_of_machine(kind, header);
   if (!other_machine.empty()) return other_machine;
-  std::uint64_t end = header.e_phoff;
+  std::uint64_t end = std::max(
+      header.e_phoff, header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize);
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));

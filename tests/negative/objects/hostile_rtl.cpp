@@ -26,7 +26,7 @@ void end(const std::string& way) {
   if (way == "abort") std::abort();
   if (way == "terminate") std::terminate();
   if (way == "fault") *nowhere = 1;
-  if (way == "division") zero = 1 / zero;
+  if (way == "division") zero = 100 / zero;
   if (way == "illegal") __builtin_trap();
   if (way == "fork") static_cast<void>(::fork());
   if (way == "throw") throw 5;
@@ -65,6 +65,7 @@ constexpr unsigned fatal_edge = 500'000;
 const RtlEnd* eval(void* model) {
   Status& s = of(model);
   if (s.clk && !s.before) {
+    if (s.rst) s.edges = 0;
     if (s.rst || s.frame_ena) {
       s.drain = 15;
       s.started = !s.rst;
