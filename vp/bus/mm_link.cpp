@@ -138,8 +138,8 @@ void MmLink::remove_observer(MmObserver& observer) {
   take_back();
 }
 
-// Direct access was given for the observers that were there. Before the sockets are bound nobody
-// has any.
+// Direct access was granted with the previous observers in mind. Before the sockets are bound, none
+// has been granted.
 void MmLink::take_back() {
   if (sc_core::sc_get_status() >= sc_core::SC_END_OF_ELABORATION) {
     invalidate(0, ~sc_dt::uint64{0});

@@ -19,17 +19,17 @@ using Wide = unsigned __int128;
 
 void EdgeTimes::restart(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   hertz_ = hertz;
-  stands_ = hertz == 0;
+  stopped_ = hertz == 0;
   origin_ = anchor_ = {cycles, ps, hertz / 2};
   reach_ps_ = 0;
-  if (stands()) return;
+  if (stopped()) return;
   period_ps_ = ps_per_second / hertz_;
   period_remainder_ = ps_per_second % hertz_;
   reach_ps_ = (std::uint64_t{1} << 62) / hertz_;
 }
 
 void EdgeTimes::halt(std::uint64_t cycles, std::uint64_t ps) {
-  stands_ = true;
+  stopped_ = true;
   origin_ = anchor_ = {cycles, ps, 0};
   reach_ps_ = 0;
 }
@@ -64,14 +64,14 @@ inline std::uint64_t EdgeTimes::edges_from_anchor(std::uint64_t ps) const {
 }
 
 std::uint64_t EdgeTimes::cycle_at_or_after(std::uint64_t ps) const {
-  if (stands()) return never;
+  if (stopped()) return never;
   if (ps <= origin_.ps) return origin_.cycle + 1;
   const std::uint64_t n = edges_from_anchor(ps);
   return std::max(anchor_.cycle + n, origin_.cycle + 1);
 }
 
 EdgeTimes::Moment EdgeTimes::far_edge_at_or_after(std::uint64_t ps) const {
-  if (stands()) return {origin_.cycle, never};
+  if (stopped()) return {origin_.cycle, never};
   const std::uint64_t first = origin_.cycle + 1;
   if (ps <= origin_.ps) return {first, edge(first).ps};
   const std::uint64_t n = edges_from_anchor(ps);
@@ -113,7 +113,7 @@ void Earliest::look() {
 inline void Clock::plan_alarm(std::uint64_t before, std::uint64_t cycle) {
   if (next_.ps != never && cycle >= next_.cycle) {
     if (before == next_.cycle) plan_next(scheduler_.now_ps());
-  } else if (cycle != never && !times_.stands()) {
+  } else if (cycle != never && !times_.stopped()) {
     next_ = times_.edge(cycle);
     scheduler_.reschedule(*this);
   }
@@ -197,7 +197,7 @@ void Clock::start(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz) {
   times_.restart(cycles, ps, hertz);
   ahead_ = {0, never};
   next_ = {cycles + 1, never, 0};
-  if (!times_.stands()) next_ = times_.edge(cycles + 1);
+  if (!times_.stopped()) next_ = times_.edge(cycles + 1);
 }
 
 void Clock::halt() {
@@ -259,7 +259,7 @@ inline void Clock::run_alarm(std::size_t at) {
 }
 
 inline void Clock::go_to_alarm(std::uint64_t cycle) {
-  if (cycle == never || times_.stands()) {
+  if (cycle == never || times_.stopped()) {
     next_.ps = never;
   } else {
     next_ = times_.edge(cycle);
@@ -303,7 +303,7 @@ void Clock::plan_next(std::uint64_t after_ps) {
   // run_edge() plans when all modules have run; an edge of this very instant that is still to come
   // is not passed over.
   if (in_edge_ || next_.ps == after_ps) return;
-  if (awake_ > 0 && !times_.stands()) {
+  if (awake_ > 0 && !times_.stopped()) {
     next_ = times_.edge(times_.cycle_at_or_after(after_ps + 1));
   } else {
     go_to_alarm(alarms_.time());

@@ -130,7 +130,7 @@ inline std::uint64_t ClockScheduler::find_horizon() {
 }
 
 std::uint64_t ClockScheduler::look_for_horizon() {
-  // Our own wake-up is no reason to stop: the edges it stands for are run here.
+  // Our own wake-up is no reason to stop: its edges are run here.
   wake_up_.cancel();
   const std::uint64_t pending =
       to_ps(sc_core::sc_time_to_pending_activity(sc_core::sc_get_curr_simcontext()));

@@ -23,7 +23,7 @@ namespace vp {
 
 InputFile::InputFile(const std::filesystem::path& path, std::string what)
     : path_(path), what_(std::move(what)) {
-  // Opening a pipe would wait for somebody to write into it.
+  // A blocking open of a pipe would wait for a writer.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno);
   struct stat facts {};
@@ -112,7 +112,7 @@ bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-/// What stands behind `mark`, up to a blank or a comma.
+/// The text after `mark`, up to a space or a comma.
 std::string word_behind(std::string_view text, std::string_view mark) {
   const std::string_view rest = text.substr(text.find(mark) + mark.size());
   return std::string(rest.substr(0, rest.find_first_of(" ,")));
@@ -185,9 +185,9 @@ fs::path folder_of(const fs::path& file) {
 /// Where bytes for a path have to go.
 struct Place {
   fs::path target;               ///< with links followed
-  bool in_place = false;         ///< nothing is there that could be replaced
-  int descriptor = -1;           ///< the path stands for one that this process has open
-  std::optional<unsigned> mode;  ///< of the regular file that is there
+  bool in_place = false;         ///< a device or a pipe: written in place, not replaced
+  int descriptor = -1;           ///< the open descriptor of this process that the path names
+  std::optional<unsigned> mode;  ///< of the existing regular file
   int problem = 0;               ///< errno
 };
 

@@ -13,8 +13,8 @@ std::string_view last_part(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-/// True if so few edits can be a misspelling. Texts without a common letter are none, however
-/// short.
+/// True if so few edits can be a misspelling. Texts without a common letter never count as one,
+/// however short.
 bool near(std::size_t distance, std::string_view word, std::string_view candidate) {
   return distance <= std::max<std::size_t>(2, word.size() / 3) &&
          distance < std::max(word.size(), candidate.size());

@@ -43,7 +43,7 @@ class Inspection final : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const Size size = anchor < named_.size() ? named_[anchor] : Size();
     if (size.values == 0)
-      fail_in_yaml(origin_, mark, "an alias inside what it stands for: write the values out");
+      fail_in_yaml(origin_, mark, "an alias inside its own anchor: write the values out");
     add(mark, YAML::NullAnchor, size);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
@@ -159,7 +159,7 @@ void YamlReader::for_each(const YAML::Node& map, const Keys& keys, const std::st
                             (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
                             "there are " + join(names, ", "));
     }
-    if (!seen.insert(key).second) fail(entry.first, "'" + key + "' stands there twice");
+    if (!seen.insert(key).second) fail(entry.first, "'" + key + "' is listed twice");
     found->second(entry.second);
   }
 }

@@ -256,7 +256,7 @@ class ExpressionParser {
     }
     return value;
   }
-  /// The unit that stands behind a number; empty if there is none.
+  /// The unit after a number, or empty.
   std::string unit_name() {
     if (take("%")) return "%";
     skip();

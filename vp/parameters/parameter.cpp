@@ -117,7 +117,7 @@ Parameter<std::string>::Parameter(const char* name, std::string default_value,
                                   std::string documentation)
     : ParameterBase(name, Unit::none, source, std::move(documentation)), value_(default_value) {
   if (std::find(choices.begin(), choices.end(), default_value) == choices.end()) {
-    misdeclared("its default is none of its choices");
+    misdeclared("its default is not one of its choices");
   }
   if (const Setting* given = setting()) value_ = choices[choice(*given, choices)];
   publish(value_, std::move(default_value), one_of(choices));

@@ -1,7 +1,7 @@
 // Only in builds with the address sanitizer. libsystemc 2.3.4 tells the sanitizer when it enters a
 // thread's stack, but not the bounds of the main stack when it returns, nor that a thread has
-// ended. A throw on the main stack then leaves poisoned memory behind, which is reported later as
-// an overflow that is none. This sets the bounds right before a throw.
+// ended. A throw on the main stack then leaves poisoned memory behind, which is later reported as
+// an overflow by mistake. This sets the bounds right before a throw.
 #if defined(__SANITIZE_ADDRESS__)
 #include <dlfcn.h>
 #include <pthread.h>

@@ -89,7 +89,7 @@ void HostTicks::hurry() {
   plan_tick(period_ns / 100);
 }
 
-// A tick on its way finds nobody.
+// A tick already in flight finds no listener.
 void HostTicks::remove(Listener& listener) {
   for (auto& place : listeners) {
     Listener* expected = &listener;

@@ -31,8 +31,7 @@ class Reporting {
   const sc_core::sc_object* outer_;
 };
 
-/// The text carries the name too: whoever catches the report, or runs without a router, sees who it
-/// was.
+/// The text also carries the name, for code that catches the report or runs without a router.
 std::string prefix(const sc_core::sc_object& where) {
   return std::string(where.name()) + ": ";
 }
@@ -78,7 +77,7 @@ void warn(const sc_core::sc_object& where, const char* id, const std::string& me
 
 void error(const sc_core::sc_object& where, const char* id, const std::string& message) {
   send(where, sc_core::SC_ERROR, id, message, sc_core::SC_NONE);
-  // Only if somebody took the throw away from SC_ERROR; no model goes on after one.
+  // Reached only if SC_ERROR was configured not to throw; no model continues after an error.
   throw std::runtime_error(prefix(where) + message);
 }
 

@@ -253,7 +253,7 @@ void Tracer::enter(std::uint64_t ps) {
   }
 }
 
-// In the order of the ids, whoever changed first.
+// In the order of the ids, not of the changes.
 void Tracer::flush() {
   if (vcd_) {
     flush_to(*vcd_);
@@ -379,7 +379,7 @@ std::vector<Clock*> find_clocks(const ClockScheduler& scheduler) {
 ProbeBase::ProbeBase(const char* name, unsigned width, const void* address, std::size_t byte_count)
     : SignalBase(name), width_(width), address_(address), byte_count_(byte_count) {}
 
-// Nobody writes through a probe.
+// A probe is never written.
 void ProbeBase::commit() {}
 
 }  // namespace vp

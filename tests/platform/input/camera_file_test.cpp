@@ -311,7 +311,7 @@ BOOST_AUTO_TEST_CASE(hostile_files_are_refused) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> cases{
       {"<?xml version=", "is not whole XML"},
-      {"camera_matrix: &a [*a]", "an alias inside what it stands for"},
+      {"camera_matrix: &a [*a]", "an alias inside its own anchor"},
       {"K: " + repeated("[", 100'000), "nested more than 32 levels"},
       {"{\"K\": " + repeated("[", 100'000), "nested more than 32 levels"},
       {"%YAML:1.0\n---\nK: " + repeated("[", 100'000), "nested more than 32 levels"},

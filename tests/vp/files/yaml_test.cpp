@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_yaml_is_told_in_our_words) {
 }
 
 BOOST_AUTO_TEST_CASE(an_anchor_inside_itself_is_refused) {
-  const std::string inside = "an alias inside what it stands for: write the values out";
+  const std::string inside = "an alias inside its own anchor: write the values out";
   BOOST_TEST(refusal("camera_matrix: &a [*a]") == "f.yaml:1:20: " + inside);
   BOOST_TEST(refusal("a: &self\n  b: *self") == "f.yaml:2:6: " + inside);
   BOOST_TEST(refusal("&a {*a : 1}").find(inside) != std::string::npos);

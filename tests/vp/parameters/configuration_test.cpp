@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(an_unknown_key_without_a_near_one) {
 BOOST_AUTO_TEST_CASE(a_module_is_not_a_parameter) {
   configuration.set("pl.blob_detection=3");
   BOOST_TEST(unused() ==
-             "unknown key 'pl.blob_detection' (--set): it stands for several, such as "
+             "unknown key 'pl.blob_detection' (--set): it is a group of parameters, such as "
              "'pl.blob_detection.threshold'");
 }
 

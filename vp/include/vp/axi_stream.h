@@ -33,7 +33,7 @@ class BeatSource {
   virtual Beats take(std::uint64_t cycle) = 0;
 };
 
-/// A slave that takes whole bursts while its TREADY is high and nobody looks at single beats.
+/// A slave that takes whole bursts while its TREADY is high and single beats are not observed.
 class BurstSink {
  public:
   virtual ~BurstSink() = default;

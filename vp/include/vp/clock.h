@@ -14,33 +14,34 @@ namespace vp {
 
 /// When the edges of a clock fall: edge n at round(n · 10¹² / f) ps after the clock's last change.
 ///
-/// Invariant: the anchor is an edge since that change, its time exact down to what was cut off.
-/// Edges up to `reach_cycles` or `reach_ps_` behind it follow in 64 bits; a question about any
-/// other moves the anchor, which takes divisions of 128 bits.
+/// Invariant: the anchor is an edge since that change; its time and remainder are exact. Edges up
+/// to `reach_cycles` or `reach_ps_` after it are computed in 64 bits. A query for any other edge
+/// moves the anchor, which takes 128-bit divisions.
 class EdgeTimes {
  public:
   static constexpr std::uint64_t never = ~std::uint64_t{0};
   static constexpr std::uint64_t ps_per_second = 1'000'000'000'000;
 
-  /// An edge and what was cut off its time, in 1 / f ps.
+  /// An edge, its time rounded down, and the remainder of the time in 1 / f ps.
   struct Edge {
     std::uint64_t cycle;
     std::uint64_t ps;
     std::uint64_t remainder;
   };
 
-  /// `cycles` edges have been; the next one comes one period after `ps`. 0 Hz: the clock stands.
+  /// Restarts the clock after `cycles` edges; the next one comes one period after `ps`. 0 Hz stops
+  /// the clock.
   void restart(std::uint64_t cycles, std::uint64_t ps, std::uint64_t hertz);
-  /// `cycles` edges have been, the last one at or before `ps`: no more come. hertz() stays.
+  /// Stops the clock after `cycles` edges, the last one at or before `ps`. hertz() is unchanged.
   void halt(std::uint64_t cycles, std::uint64_t ps);
-  /// `cycles` edges have been: those to come are the ones of `source` behind its edge number
-  /// `source_cycle`, which is no earlier than its last change.
+  /// Continues after `cycles` edges with the edges of `source` after its edge `source_cycle`, which
+  /// must not be earlier than the last change of `source`.
   void join(std::uint64_t cycles, const EdgeTimes& source, std::uint64_t source_cycle);
 
   std::uint64_t hertz() const { return hertz_; }
-  bool stands() const { return stands_; }
+  bool stopped() const { return stopped_; }
 
-  /// Edge number `cycle`, since the last change of a clock that runs.
+  /// Edge number `cycle`, which must not precede the last change. The clock must be running.
   Edge edge(std::uint64_t cycle) const;
   /// The edge after `edge`, without a division.
   Edge after(Edge edge) const;
@@ -49,13 +50,13 @@ class EdgeTimes {
     std::uint64_t cycle;
     std::uint64_t ps;
   };
-  /// The first edge at or after `ps`; at `never` if the clock stands.
+  /// The first edge at or after `ps`; at `never` if the clock is stopped.
   Moment edge_at_or_after(std::uint64_t ps) const;
   /// Its number.
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const;
-  /// How many edges there were until `ps`, one at `ps` included.
+  /// Number of edges up to and including `ps`.
   std::uint64_t cycles_until(std::uint64_t ps) const {
-    return stands() || ps < origin_.ps ? origin_.cycle : cycle_at_or_after(ps + 1) - 1;
+    return stopped() || ps < origin_.ps ? origin_.cycle : cycle_at_or_after(ps + 1) - 1;
   }
 
  private:
@@ -71,47 +72,47 @@ class EdgeTimes {
   }
 
   std::uint64_t hertz_ = 0;
-  bool stands_ = true;
-  Edge origin_{0, 0, 0};                ///< the last change: no edge, but they count from there
+  bool stopped_ = true;
+  Edge origin_{0, 0, 0};                ///< the last change: not an edge, but edges count from it
   std::uint64_t period_ps_ = 0;         ///< rounded down
-  std::uint64_t period_remainder_ = 0;  ///< what that cut off, in 1 / f ps
-  std::uint64_t reach_ps_ = 0;          ///< 0 while the clock stands
+  std::uint64_t period_remainder_ = 0;  ///< remainder of the rounding, in 1 / f ps
+  std::uint64_t reach_ps_ = 0;          ///< 0 while the clock is stopped
   mutable Edge anchor_{0, 0, 0};
 };
 
-/// Numbered times, of which mostly the first one moves while the others wait: the alarms of a
+/// The minimum of numbered times, for use where mostly the earliest one changes: the alarms of a
 /// clock's modules, the next edges of several clocks.
 ///
-/// Invariant: no time but that of `first_` lies before `others_`. So a move costs a store and a
-/// comparison, and all times are looked at only when the first one has passed the others.
+/// Invariant: `others_` is a lower bound on every time except that of `first_`. Updating a time is
+/// therefore O(1); all times are rescanned only when the earliest passes `others_`.
 class Earliest {
  public:
   static constexpr std::uint64_t never = EdgeTimes::never;
 
-  /// A place more, behind the others.
+  /// Appends a place.
   void push(std::uint64_t time);
-  /// A place less; those behind it move up.
+  /// Removes a place; later places move down by one.
   void erase(std::size_t place);
   void set(std::size_t place, std::uint64_t time);
   std::uint64_t operator[](std::size_t place) const { return times_[place]; }
 
-  /// The earliest time; never if there is none.
+  /// The earliest time, or `never`.
   std::uint64_t time() {
     if (times_[first_] > others_) look();
     return times_[first_];
   }
-  /// Where time() was found when it was last called; after a set() the place of an earlier time, if
-  /// that was one.
+  /// The place of the earliest time, as of the last call of time(); a set() of an earlier time
+  /// updates it.
   std::size_t place() const { return first_; }
-  /// No time but that of place() is at or before `time`.
+  /// True if every time except that of place() is after `time`.
   bool others_are_after(std::uint64_t time) const { return others_ > time; }
-  /// No time at all lies before this one.
+  /// A lower bound on all times.
   std::uint64_t bound() const { return std::min(others_, times_[first_]); }
 
  private:
   void look();
 
-  std::vector<std::uint64_t> times_{never};  ///< one more than there are places
+  std::vector<std::uint64_t> times_{never};  ///< the last one is a sentinel, not a place
   std::size_t first_ = 0;
   std::uint64_t others_ = 0;
 };
@@ -139,8 +140,8 @@ inline EdgeTimes::Edge EdgeTimes::after(Edge edge) const {
   return edge;
 }
 
-// From an anchor near before it; its own edge and those of a clock that has just changed are left
-// to the general way. Each access to a register asks.
+// The fast path, for an anchor shortly before `ps`. The anchor's own edge, and the first edge of a
+// clock that has just changed, take the general path. Called for every register access.
 [[gnu::always_inline]] inline EdgeTimes::Moment EdgeTimes::edge_at_or_after(
     std::uint64_t ps) const {
   const std::uint64_t ahead = ps - anchor_.ps;
@@ -164,7 +165,7 @@ class ClockScheduler;
 
 /// A module that does something on the rising edges of one clock.
 ///
-/// edge() samples inputs (what stood before the edge) and writes outputs. A module that would do
+/// edge() samples inputs (their values before the edge) and writes outputs. A module that would do
 /// nothing on further edges with the same inputs calls sleep(); it wakes when a signal it listens
 /// to changes, or at an alarm.
 class Clocked : public sc_core::sc_module, public SignalListener {
@@ -177,8 +178,8 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   /// Runs edge() from the next edge of the clock on.
   void wake();
   /// Runs edge() on edge number `cycle` (as Clock::cycle() counts) even if asleep. Clock::never: no
-  /// alarm. Throws std::logic_error if that edge lies in the past: a model that keeps stamps looks
-  /// whether one has passed.
+  /// alarm. Throws std::logic_error if that edge lies in the past: a model that keeps stamps must
+  /// check whether one has passed.
   void wake_at(std::uint64_t cycle);
   /// Wakes the module when a bound input changes.
   void wake_on(InBase& input);
@@ -190,10 +191,10 @@ class Clocked : public sc_core::sc_module, public SignalListener {
 
   virtual void edge() = 0;
   void sleep();
-  /// In edge(): its number, Clock::cycle() without a look at the time.
+  /// The number of the current edge, for use in edge(): Clock::cycle() without the time query.
   std::uint64_t this_edge() const;
-  /// At the end of edge(): sleeps until edge number `cycle`, which comes later; Clock::never: until
-  /// it is woken.
+  /// At the end of edge(): sleeps until edge number `cycle`, a later one. Clock::never: until
+  /// woken.
   void sleep_until(std::uint64_t cycle);
   void on_change(SignalBase& signal, std::uint32_t id) override;
   void end_of_elaboration() override;
@@ -207,13 +208,13 @@ class Clocked : public sc_core::sc_module, public SignalListener {
   std::vector<InBase*> wake_inputs_;
 };
 
-/// Told when the frequency of a clock changes: who keeps times that follow from it.
+/// Called when the frequency of a clock changes: for models that keep times derived from it.
 class ClockListener {
  public:
   virtual ~ClockListener() = default;
-  /// All edges up to now have run; the old frequency still stands.
+  /// All edges up to now have run; the old frequency is still in effect.
   virtual void before_change(Clock& clock) = 0;
-  /// The new frequency stands.
+  /// The new frequency is in effect.
   virtual void after_change(Clock& clock) = 0;
 };
 
@@ -231,23 +232,23 @@ class Clock : public sc_core::sc_object {
   /// Changes the frequency now: the next edge comes one new period from now. 0 stops the clock.
   void set_frequency(std::uint64_t hertz);
   void add_listener(ClockListener& listener) { listeners_.push_back(&listener); }
-  /// The clock as a signal of SystemC, for the ports of foreign modules: high for the first half of
-  /// each period, low while it stands. It costs nothing unless somebody asks for it, during
-  /// elaboration. Processes on it see our signals as they stood before the edge.
+  /// The clock as a SystemC signal, for the ports of foreign modules: high for the first half of
+  /// each period, low while stopped. Call during elaboration; it costs nothing if never called.
+  /// Processes sensitive to it see our signals as they were before the edge.
   const sc_core::sc_signal_in_if<bool>& pin();
 
-  /// Number of edges so far, those slept through included. Inside edge(): the number of this edge,
+  /// Number of edges so far, including those slept through. Inside edge(): the number of this edge;
   /// the first one is 1.
   std::uint64_t cycle() const;
-  /// Time of edge number `cycle` in ps, if the frequency stays; cycle > cycles before the last
-  /// change.
+  /// Time of edge number `cycle` in ps, assuming that the frequency does not change. The edge must
+  /// come after the last change.
   std::uint64_t time_of(std::uint64_t cycle) const {
-    return times_.stands() ? never : times_.edge(cycle).ps;
+    return times_.stopped() ? never : times_.edge(cycle).ps;
   }
   /// Number of the first edge at or after `ps` (not before the clock's last change).
   std::uint64_t cycle_at_or_after(std::uint64_t ps) const { return times_.cycle_at_or_after(ps); }
-  /// Time in ps of the first edge at or after `ps`; `never` if the clock stands. Its number is
-  /// kept: who waits for an edge asks for cycle() there.
+  /// Time in ps of the first edge at or after `ps`; `never` if the clock is stopped. The edge's
+  /// number is cached, because callers that wait for an edge then call cycle().
   std::uint64_t edge_at_or_after(std::uint64_t ps) const {
     ahead_ = times_.edge_at_or_after(ps);
     return ahead_.ps;
@@ -258,20 +259,20 @@ class Clock : public sc_core::sc_object {
   ClockScheduler& scheduler() const { return scheduler_; }
   /// Edges on which at least one module ran, for performance reports.
   std::uint64_t edges_run() const { return edges_run_; }
-  /// The clock whose edges these are: itself, unless a gate stands between.
+  /// The clock whose edges these are: this one, unless it is a gated clock.
   virtual const Clock& source() const { return *this; }
 
  protected:
-  /// No edge comes after now.
+  /// Stops the clock now.
   void halt();
-  /// The edges after now are those of `source`.
+  /// From now on, the edges are those of `source`.
   void join(const Clock& source);
 
  private:
   friend class ClockScheduler;
   friend class Clocked;
 
-  /// A module in running order. Its alarm stands in alarms_.
+  /// A module in running order. Its alarm is in alarms_.
   struct Place {
     Clocked* module;
     bool awake = true;
@@ -295,9 +296,9 @@ class Clock : public sc_core::sc_object {
   std::size_t number_ = 0;  ///< among the scheduler's clocks that have modules
   EdgeTimes times_;
   EdgeTimes::Edge next_{1, never, 0};          ///< the next edge that runs; at `never` while asleep
-  mutable std::uint64_t cycle_ps_ = never;     ///< the time that was last asked for,
-  mutable std::uint64_t cycle_ = 0;            ///< and the number of edges then
-  mutable EdgeTimes::Moment ahead_{0, never};  ///< the edge that edge_at_or_after() found last
+  mutable std::uint64_t cycle_ps_ = never;     ///< the time of the last query,
+  mutable std::uint64_t cycle_ = 0;            ///< and the number of edges at that time
+  mutable EdgeTimes::Moment ahead_{0, never};  ///< the last result of edge_at_or_after()
   std::uint64_t edges_run_ = 0;
   std::size_t awake_ = 0;  ///< modules that run on every edge
   bool in_edge_ = false;
@@ -330,7 +331,7 @@ inline std::uint64_t Clocked::this_edge() const {
   return clock_.cycle_;
 }
 
-// The clock looks at alarms when the edge is over.
+// The clock checks alarms at the end of the edge.
 inline void Clocked::sleep_until(std::uint64_t cycle) {
   Clock::Place& place = clock_.places_[place_];
   if (place.awake) --clock_.awake_;

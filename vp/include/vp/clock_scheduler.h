@@ -26,8 +26,8 @@ class ClockScheduler : public sc_core::sc_module {
  public:
   explicit ClockScheduler(sc_core::sc_module_name name);
 
-  /// Runs all edges up to and including the present simulation time. Whoever reads or writes
-  /// clocked state from another process calls it first: what he writes is seen by later edges only.
+  /// Runs all edges up to and including the present simulation time. A process must call it before
+  /// it reads or writes clocked state: its writes are then seen by later edges only.
   void synchronise() { synchronised_ps(); }
   /// The same; returns the present time.
   std::uint64_t synchronised_ps() {
@@ -95,7 +95,7 @@ class ClockScheduler : public sc_core::sc_module {
   /// Lets SystemC's time catch up with now_ps().
   void rejoin();
 
-  /// Of processes that pass_until() brings to the same time, the one that calls goes on last.
+  /// Of processes that pass_until() brings to the same time, the calling one resumes last.
   void come_last() { last_ = sc_core::sc_get_current_process_handle(); }
   /// For that process: all others that are due now have their turn, and those that a clock edge of
   /// this time wakes.

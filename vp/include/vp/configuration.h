@@ -7,12 +7,12 @@
 
 namespace vp {
 
-/// Where a number comes from. Stands in `markervp config` and in reports.
+/// Where a number comes from. Shown by `markervp config` and in reports.
 enum class Source {
   measured,   ///< measured on the thesis' board
   published,  ///< stated by the thesis, a product guide or a data sheet
   derived,    ///< computed from published or measured values
-  assumed,    ///< an estimate; nobody stated it
+  assumed,    ///< an estimate without a source
   decision,   ///< a choice of this project where the thesis is silent
 };
 
@@ -39,13 +39,12 @@ struct ParameterDescription {
 ///
 /// Later files win over earlier ones and `set` over all files, whatever the order of the calls.
 /// While a platform is built inside a Scope, each vp::Parameter looks up its full name here and
-/// registers itself; check_unused() then finds the keys nobody asked for. All failures are
-/// vp::InputError.
+/// registers itself; check_unused() then finds the unused keys. All failures are vp::InputError.
 class Configuration {
  public:
   /// Reads a YAML file of nested maps or dotted keys; the leaves are scalars.
   void load_file(const std::string& path);
-  /// The same for text; `origin` stands for the file name in messages.
+  /// The same for text; messages name `origin` instead of a file.
   void load_text(const std::string& yaml, const std::string& origin);
   /// One `--set` argument, "path=value".
   void set(std::string_view assignment);

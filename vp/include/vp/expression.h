@@ -10,8 +10,8 @@
 
 namespace vp {
 
-/// What an expression, or a name in it, stands for: a number with its dimension, a text, or a
-/// number that is not known.
+/// The value of an expression or of a name in it: a number with its dimension, a text, or a number
+/// that is unknown.
 struct ExpressionValue {
   ExpressionValue() = default;
   /// 64 bits of mantissa hold every vector of a trace and every double exactly.
@@ -35,7 +35,7 @@ struct ExpressionValue {
 class ExpressionValues {
  public:
   virtual ~ExpressionValues() = default;
-  /// The value that stands now, and the one before this instant.
+  /// The present value, and the one before this instant.
   virtual ExpressionValue now(std::uint32_t name) const = 0;
   virtual ExpressionValue before(std::uint32_t name) const = 0;
 };
@@ -132,7 +132,7 @@ class Expression {
   std::string text_;
   std::string where_;
   std::vector<std::string> names_;
-  std::vector<std::uint32_t> columns_;  ///< where each name stands first
+  std::vector<std::uint32_t> columns_;  ///< of each name's first use
   std::vector<std::uint32_t> bound_;
   std::vector<ExpressionValue> constants_;
   std::vector<Node> nodes_;

@@ -13,7 +13,7 @@
 namespace vp {
 
 /// A file that a user named, open for reading: a regular file or a pipe (`<(…)`, /dev/stdin).
-/// Neither opening nor reading waits for ever, whatever stands behind the name.
+/// Neither opening nor reading blocks for ever, whatever the name refers to.
 class InputFile {
  public:
   using HostClock = std::chrono::steady_clock;

@@ -4,11 +4,11 @@
 
 namespace vp {
 
-/// Ticks of the host, ten a second, for those who must notice that something takes too long,
-/// whatever code runs. Nobody listens: no tick.
+/// Ticks of the host, ten a second, for listeners that must notice when something takes too long,
+/// whatever code runs. Without a listener there are no ticks.
 ///
-/// Ticks come from a signal (SIGALRM, ITIMER_REAL) in the main thread, so they cost the code that
-/// runs nothing. They do not go on in a forked process.
+/// Ticks come from a signal (SIGALRM, ITIMER_REAL) in the main thread, so they cost the running
+/// code nothing. They do not continue in a forked process.
 class HostTicks {
  public:
   static constexpr std::uint64_t period_ns = 100'000'000;

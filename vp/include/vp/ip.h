@@ -80,10 +80,10 @@ inline void begin_fresh_context() {
 
 /// Where a range of Fmax comes from.
 enum class FmaxOrigin {
-  published,    ///< somebody built it and said so
-  derived,      ///< follows from what was published: it works there at that clock
-  synthesised,  ///< from what synthesis makes of its RTL
-  estimated,    ///< from its structure; nobody built it
+  published,    ///< reported by those who built it
+  derived,      ///< follows from a published design in which it works at that clock
+  synthesised,  ///< from synthesis of its RTL
+  estimated,    ///< from its structure; it was never built
 };
 
 const char* to_string(FmaxOrigin origin);
@@ -104,7 +104,7 @@ struct IpEstimate {
   /// memories that are not given here; and the range of Fmax becomes theirs, within the limits that
   /// are given here.
   struct Rtl {
-    std::string module;  ///< empty: there is none
+    std::string module;  ///< empty: no RTL
     std::map<std::string, std::int64_t> parameters;
     /// Of the module that the coefficient of power was read from: `size` follows. Empty: it is 1.
     std::map<std::string, std::int64_t> measured;
@@ -112,8 +112,8 @@ struct IpEstimate {
   Rtl rtl;
 
   // Its highest clock in the slowest speed grade, as far as it is known.
-  std::uint64_t fmax_hz = 0;       ///< up to this clock it works
-  std::uint64_t fmax_high_hz = 0;  ///< above this it does not; 0: nobody knows
+  std::uint64_t fmax_hz = 0;       ///< works up to this clock
+  std::uint64_t fmax_high_hz = 0;  ///< fails above this clock; 0: unknown
   FmaxOrigin fmax_origin = FmaxOrigin::estimated;
   std::string fmax_documentation;
 
@@ -151,7 +151,7 @@ class Ip {
   IpEstimate estimate() const;
   /// The part of the design that it belongs to, for reports.
   const std::string& group() const { return group_; }
-  /// Where it stands in reports: by this number, then in the order of the hierarchy.
+  /// Its position in reports: sorted by this number, then by the order of the hierarchy.
   unsigned place() const { return place_; }
 
   // What only the design knows.

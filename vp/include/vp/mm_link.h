@@ -38,9 +38,10 @@ class MemoryTarget : public sc_core::sc_module {
   virtual tlm::tlm_response_status check(const tlm::tlm_generic_payload&) const {
     return tlm::TLM_OK_RESPONSE;
   }
-  /// A transaction was answered, its status stands: counts it, and adds its time to `delay`.
+  /// Called when a transaction was answered and its status is set: counts it, and adds its time to
+  /// `delay`.
   virtual void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) = 0;
-  /// For who uses direct access; 0 if the memory does not count its time.
+  /// For users of direct access; 0 if the memory does not count its time.
   virtual sc_core::sc_time latency(bool /*read*/) const { return sc_core::SC_ZERO_TIME; }
 
   virtual void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
@@ -62,8 +63,8 @@ class MmLink;
 class MmObserver {
  public:
   virtual ~MmObserver() = default;
-  /// True: direct memory access is refused, so that every access is a transaction. False: for those
-  /// who only want to know what was accessed.
+  /// True: direct memory access is refused, so that every access is a transaction. False: for
+  /// observers that only need to know what was accessed.
   virtual bool needs_transactions() const { return true; }
   virtual void before(MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& /*delay*/) {}
   virtual void after(MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& /*delay*/) {}

@@ -40,7 +40,7 @@ class ParameterBase : public sc_core::sc_object {
   /// Says that the default was computed from `others`, their paths: `markervp config` shows such a
   /// default, but does not write it down as a value.
   void follows(const std::string& others) const;
-  /// The value as it stands in the effective configuration, with its unit.
+  /// The value as the effective configuration shows it, with its unit.
   const std::string& text() const { return text_; }
 
  protected:
@@ -50,13 +50,13 @@ class ParameterBase : public sc_core::sc_object {
   const Setting* setting();
   /// Registers the parameter, once its value is known.
   void publish(std::string value, std::string default_value, std::string allowed);
-  /// The whole number `setting` stands for. Throws InputError if it is none, or outside min … max.
+  /// The value of `setting` as a whole number. Throws InputError if it is not one, or outside
+  /// min … max.
   Decimal::Whole whole_value(const Setting& setting, Decimal::Whole min, Decimal::Whole max) const;
   /// The same for real numbers.
   double real_value(const Setting& setting, double min, double max) const;
   bool truth_value(const Setting& setting) const;
-  /// Position of the chosen name. Throws InputError with the nearest match if it is none of
-  /// `names`.
+  /// Position of the chosen name. Throws InputError with the nearest match if it is not in `names`.
   std::size_t choice(const Setting& setting, const std::vector<std::string>& names) const;
   /// Throws ParameterError for a setting: key, value, where it was set, and `problem`.
   [[noreturn]] void refuse(const Setting& setting, const std::string& problem) const;
@@ -186,7 +186,7 @@ class Parameter<E, std::enable_if_t<std::is_enum_v<E>>> : public ParameterBase {
       names.push_back(text);
       if (value == default_value) default_name = text;
     }
-    if (default_name.empty()) misdeclared("its default is none of its choices");
+    if (default_name.empty()) misdeclared("its default is not one of its choices");
     std::string value_name = default_name;
     if (const Setting* given = setting()) {
       const std::size_t chosen = choice(*given, names);

@@ -9,8 +9,8 @@
 
 namespace vp {
 
-/// A quantity that stands for a while and then changes: the frequency of a clock, whether something
-/// runs. Keeps its history, so that what it amounted to between two times can be asked for later.
+/// A quantity that is constant for a while and then changes: the frequency of a clock, whether
+/// something runs. Keeps its history, so that its integral between two times can be queried later.
 class PiecewiseConstant {
  public:
   struct Step {
@@ -29,9 +29,9 @@ class PiecewiseConstant {
   /// Value · seconds between the two times. 0 if `to_ps` is not after `from_ps`.
   double integral(std::uint64_t from_ps, std::uint64_t to_ps) const;
 
-  /// The changes, oldest first. The first one stands for all that was before.
+  /// The changes, oldest first. The first one holds for all earlier times.
   const std::vector<Step>& steps() const { return steps_; }
-  /// What was before `ps` will not be asked for.
+  /// Drops the history before `ps`, which will not be queried again.
   void forget_before(std::uint64_t ps);
 
  private:
@@ -87,8 +87,8 @@ struct EnergyEntry {
   Band joules;
 };
 
-/// Where energy went. Every joule stands in exactly one entry, so the sums by module, rail, group
-/// and kind are all the total.
+/// Where energy went. Every joule is in exactly one entry, so the sums by module, rail, group and
+/// kind all equal the total.
 class EnergyLedger {
  public:
   /// Adds to the entry of the same module, rail and kind.
@@ -173,8 +173,9 @@ struct StaticPoint {
   double static_w = 0;
 };
 
-/// Static power heats, and heat makes static power: the fixed point of both at `dynamic_w`, found
-/// from below, so it is the stable one. Throws InputError for thermal runaway: there is none.
+/// Static power heats the chip, and heat raises static power: finds the fixed point of both at
+/// `dynamic_w`, from below, so it is the stable one. Throws InputError if none exists (thermal
+/// runaway).
 StaticPoint find_static_point(const LeakageCurve& leakage, const ThermalPath& path,
                               double dynamic_w);
 

@@ -15,8 +15,8 @@
 
 namespace vp {
 
-/// An internal register that a trace can show. It costs nothing while it is not traced: nobody
-/// tells it of changes, a tracer looks at it at the end of every instant in which a clock edge ran.
+/// An internal register that a trace can show. It costs nothing while it is not traced: it does not
+/// signal changes; a tracer samples it at the end of every instant in which a clock edge ran.
 class ProbeBase : public SignalBase {
  public:
   const char* kind() const override { return "vp::Probe"; }

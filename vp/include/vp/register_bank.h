@@ -95,7 +95,7 @@ class Register {
   std::uint32_t read();
   void write(std::uint32_t word);
   void apply_policy(std::uint32_t word);
-  /// What stands there already nobody misses: drivers write back what they read.
+  /// A write of the current value is not reported: drivers write back what they read.
   bool ignores(std::uint32_t word) const {
     return info_.access == Access::read_only && word != seen();
   }

@@ -16,8 +16,8 @@
 
 namespace vp {
 
-/// A part of a bus on which accesses take time: a port, an interconnect. It says when an access
-/// passes it; whoever brings the access through lets the time pass.
+/// A part of a bus on which accesses take time: a port, an interconnect. It computes when an access
+/// passes; the caller lets the time pass.
 class BusStage {
  public:
   virtual ~BusStage() = default;
@@ -49,9 +49,9 @@ class BusStage {
 /// does, at the same times, but without them.
 ///
 /// It is found by get_direct_mem_ptr() with an extension: each part that knows the extension adds
-/// itself and passes the call on. A link that somebody observes, a foreign interconnect and a
-/// foreign target do not, and are reached through their sockets. As with direct memory,
-/// invalidate_direct_mem_ptr() takes it back.
+/// itself and passes the call on. An observed link, a foreign interconnect and a foreign target do
+/// not, and are reached through their sockets. As with direct memory, invalidate_direct_mem_ptr()
+/// revokes it.
 class RegisterRoute {
  public:
   /// The way from `first` on, which may turn out not to be known.
@@ -104,14 +104,14 @@ class RegisterRoute {
   /// Reads or writes `word` at the register, on a route of one stage.
   Answer arrive(const BusStage::Passage& passage, bool read, std::uint32_t& word);
   /// Lets time pass until the access reaches the register, and reads or writes `word` there. From
-  /// an SC_THREAD. Throws ProtocolError if a clock on the way stands.
+  /// an SC_THREAD. Throws ProtocolError if a clock on the way is stopped.
   Answer complete(Access& access, std::uint32_t& word);
 
   // For polls.
   /// How long a read takes, where that does not depend on when it begins.
   std::optional<std::uint64_t> read_time_ps() const;
   /// When a read that leaves the initiator at `start_ps` reaches the register, as the clocks run
-  /// now; Clock::never if one stands.
+  /// now; Clock::never if one is stopped.
   std::uint64_t arrival_ps(std::uint64_t start_ps) const;
   /// Reads before this time return peek(), if the inputs of the device stay as they are now. 0 if
   /// the device does not tell.

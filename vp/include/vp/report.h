@@ -20,9 +20,9 @@ namespace vp {
 /// Reports of the models, through SystemC's report system. `id` is a stable literal:
 /// "/markervp/axi_dma/decode".
 ///
-/// info: progress for those who ask for it. warn: software programmed something illegal, the run
-/// goes on. error: the model or its configuration is wrong; throws sc_core::sc_report. Do not build
-/// the message on a hot path.
+/// info: progress, printed on request. warn: software programmed something illegal; the run
+/// continues. error: the model or its configuration is wrong; throws sc_core::sc_report. Do not
+/// build the message on a hot path.
 void info(const sc_core::sc_object& where, const char* id, const std::string& message,
           int verbosity = sc_core::SC_MEDIUM);
 void warn(const sc_core::sc_object& where, const char* id, const std::string& message);
@@ -59,18 +59,18 @@ class ReportRouter {
   /// Where the simulation time in ps is taken from; default: sc_time_stamp(). For models that run
   /// ahead of it.
   void set_time_source(std::function<std::uint64_t()> now_ps) { now_ps_ = std::move(now_ps); }
-  /// What the software is at, for the lines that are printed; empty: nothing, or it is not running.
-  /// None: it waits meanwhile, and says so when it goes on; until then lines wait, too.
+  /// Where the software is, for the printed lines; empty: nowhere, or it is not running. nullopt:
+  /// the software waits and its place is unknown until it resumes; lines are held until then.
   using PlaceSource = std::function<std::optional<std::string>()>;
   void set_place_source(PlaceSource place) { place_ = std::move(place); }
-  /// To be called where software may have waited and goes on: prints the lines that wait for it.
+  /// Call wherever software may resume after a wait: prints the lines held for it.
   static void software_goes_on() {
     if (lines_wait_) print_waiting_lines();
   }
-  /// Prints the lines that wait: nobody goes on any more.
+  /// Prints the held lines. Call when the simulation has ended.
   void finish();
-  /// Told of each warning, after it was printed, where it is given, or where the software goes on
-  /// if it waited. Null: nobody is.
+  /// Called for each warning after it is printed: at once, or when the waiting software resumes.
+  /// May be null.
   using WarningListener = std::function<void(const Warning&)>;
   void on_warning(WarningListener listener) { warning_listener_ = std::move(listener); }
   /// Warnings throw too: for tests, in which nothing may be warned of.

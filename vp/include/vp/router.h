@@ -62,7 +62,7 @@ class Router : public sc_core::sc_module, private BusStage {
 
   /// The address map, by address.
   const std::vector<Region>& regions() const { return regions_; }
-  /// The region that holds `address`; null if there is none.
+  /// The region that holds `address`, or null.
   const Region* find(std::uint64_t address) const;
 
  private:

@@ -18,7 +18,7 @@ class SignalBase;
 class SignalListener {
  public:
   virtual ~SignalListener() = default;
-  /// The new value stands already. `id` is what the listener gave when it attached.
+  /// The signal already has its new value. `id` is what the listener passed when it attached.
   virtual void on_change(SignalBase& signal, std::uint32_t id) = 0;
 };
 
@@ -66,7 +66,7 @@ class SignalBase : public sc_core::sc_object {
   /// none.
   sc_core::sc_event& event_of(EventKind kind) const;
 
-  mutable bool observed_ = false;  ///< somebody listens, or writes are deferred: off the fast path
+  mutable bool observed_ = false;  ///< has listeners, or writes are deferred: off the fast path
   bool deferred_ = false;  ///< a consumer runs after the writer in the same instant: writes wait
                            ///< for the instant's end
   bool queued_ = false;
@@ -120,9 +120,9 @@ class SignalReader<bool> : public SignalBase, public sc_core::sc_signal_in_if<bo
   using SignalBase::SignalBase;
 };
 
-/// A register's output: reading is a plain load, writing a plain store while nobody listens.
+/// A register's output: reading is a plain load; without listeners, writing is a plain store.
 ///
-/// Written by one module. Inside an instant, modules see what stood before the clock edge: the
+/// Written by one module. Inside an instant, modules see the value from before the clock edge: the
 /// scheduler runs consumers before producers, and defers the writes where that is not possible.
 ///
 /// It implements sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can
@@ -157,9 +157,9 @@ class Signal : public SignalReader<T> {
 
   T get() const { return value_; }
   operator T() const { return value_; }
-  /// Where the value stands.
+  /// The address of the value.
   const T* place() const { return &value_; }
-  /// What was written last, for the writer: others may not see it yet.
+  /// The last value written, for the writer: others may not see it yet.
   T written() const { return this->queued_ ? next_ : value_; }
 
   unsigned width() const override { return width_; }

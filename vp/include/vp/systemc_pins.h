@@ -48,10 +48,11 @@ class ClockPin : public sc_core::sc_module, private ClockListener {
   bool high_ = false;
 };
 
-/// Starts the simulation and lets foreign modules come to rest before time passes; nothing if there
-/// are none. Throws InputError with the ports on a combinational ring that goes on changing: a
-/// foreign module does not say which inputs its outputs follow at once, so this is how it shows. A
-/// ring that rests at time zero is found when it changes (Follower).
+/// Starts the simulation and lets foreign modules settle before time passes; does nothing without
+/// foreign modules. Throws InputError with the ports on a combinational loop that keeps changing: a
+/// foreign module does not declare which inputs its outputs follow combinationally, so loops are
+/// found only when they oscillate. A loop that is stable at time zero is found when it changes
+/// (Follower).
 void settle_foreign_modules();
 
 /// A value of a SystemC signal as one of ours; sc_logic, sc_uint, sc_bv and their like included.
@@ -85,8 +86,8 @@ class FollowerBase : public sc_core::sc_module {
   unsigned changes_ = 0;  ///< at that time
 };
 
-/// Drives a signal of ours with what one of SystemC has: an output of ours behind which a foreign
-/// module stands.
+/// Drives one of our signals with the value of a SystemC signal: an output of ours that a foreign
+/// module produces.
 template <class T, class U>
 class Driver : public FollowerBase {
  public:

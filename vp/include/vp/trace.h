@@ -62,10 +62,9 @@ class Tracer : public sc_core::sc_module, private SignalListener, private Instan
   ~Tracer() override;
 
   /// Ends the trace and gives the file its name. Call it when the run is over, also after an error
-  /// (what was traced until then is a complete file), while the platform still stands. Throws
-  /// InputError if the file could not be written; then no file is left. False if nothing was
-  /// written, with a warning: the run ended before the window began, or no frame held what the
-  /// trigger waits for.
+  /// (the trace up to then is a complete file), while the platform still exists. Throws InputError
+  /// if the file could not be written; then no file is left. Returns false, with a warning, if
+  /// nothing was written: the run ended before the window began, or the trigger never fired.
   bool close();
 
   /// Signals, probes and clocks in the trace; known when the simulation has started.
