@@ -240,7 +240,8 @@ std::string Configuration::unknown_key(const std::string& key, const Setting& se
     paths.push_back(parameter.path);
     if (parameter.path.compare(0, key.size() + 1, key + ".") == 0) inside.push_back(parameter.path);
   }
-  if (!inside.empty()) return start + "it is a group of parameters, such as '" + inside.front() + "'";
+  if (!inside.empty())
+    return start + "it is a group of parameters, such as '" + inside.front() + "'";
   const std::string nearest = nearest_match(key, paths);
   if (nearest.empty()) {
     return start + "the configuration has nothing like it; `markervp config` prints its keys";

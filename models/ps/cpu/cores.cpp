@@ -43,7 +43,7 @@ std::optional<RaceDetector::Access> RaceDetector::access(std::uintptr_t first, s
   std::optional<Access> race;
   for (std::uintptr_t at = first; at < end;) {
     auto cell = cells_.lower_bound(at);
-    if (cell == cells_.end() || cell->first != at) {  // nobody was here yet
+    if (cell == cells_.end() || cell->first != at) {  // not accessed before
       const std::uintptr_t gap_end = cell == cells_.end() ? end : std::min(end, cell->first);
       cell = cells_.emplace(at, Cell{gap_end, {}, {}}).first;
     }
@@ -246,7 +246,7 @@ std::uint32_t Cpu::load_exclusive(const volatile std::uint32_t* word) {
   return monitor_.value;
 }
 
-// Stores of the other core that are not the HAL's nobody sees: a changed word tells of them.
+// The other core's stores outside the HAL are not observed; they show only as a changed word.
 bool Cpu::store_exclusive(volatile std::uint32_t* word, std::uint32_t value) {
   check_word("hal_store_exclusive", word);
   barrier();
@@ -264,7 +264,8 @@ void Cpu::acquire(hal_lock& lock) {
     if (!taken && store_exclusive(&lock.taken, 1)) break;
     if (!taken) continue;
     if (cores_->holders.count(&lock) == 0)
-      misuse("hal_lock_acquire(): " + name_of(lock) + " is taken, but by nobody: start with {0}");
+      misuse("hal_lock_acquire(): " + name_of(lock) +
+             " is taken, but no core took it: initialise it with {0}");
     const hal_lock* const outer = std::exchange(awaited_lock_, &lock);
     doze_until_event();
     awaited_lock_ = outer;

@@ -31,19 +31,19 @@
 
 namespace ps {
 
-/// What stands around a program in a run: gives it images and options, takes its results. The
+/// The environment of a program in a run: gives it images and options, takes its results. The
 /// platform implements it. Times are simulation times of the call in ps; the calls take none.
 class TestBench {
  public:
   virtual ~TestBench() = default;
 
-  /// When the next image comes, or it is known that there is none. The program wants it now, and
-  /// sleeps until then.
+  /// When the next image comes, or when it is known that no more come. The program asks for it now
+  /// and sleeps until then.
   virtual std::uint64_t next_frame_ps(std::uint64_t now_ps) { return now_ps; }
   /// The next image, or null when the run is over. Valid until the next call.
   virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
-  /// What came of a frame; `data` is valid during the call only. False: no result, the program gave
-  /// the frame up.
+  /// Takes the result of a frame; `data` is valid during the call only. False: no result, the
+  /// program gave up the frame.
   virtual bool publish(std::uint32_t kind, const void* data, std::size_t size,
                        std::uint64_t now_ps) = 0;
   /// The value of the program's option number `option`.
@@ -58,21 +58,21 @@ struct Cores;
 /// A core without instruction set: one thread that runs a program natively and gives it the HAL.
 ///
 /// The program's own statements take no time; the work it counts does, through the cost table, and
-/// so does what the HAL does for it. The processor may be ahead of the simulation, but catches up
-/// before each register access, barrier, cache operation, interrupt check, and call of the test
-/// bench. An interrupt that comes while it catches up runs its handler at exactly that time, and
-/// the work goes on afterwards. So no result depends on how far ahead it may be (`quantum`).
+/// so do HAL calls. The processor may be ahead of the simulation, but catches up before each
+/// register access, barrier, cache operation, interrupt check, and call of the test bench. An
+/// interrupt that comes while it catches up runs its handler at exactly that time, and the work
+/// continues afterwards. So no result depends on how far ahead it may be (`quantum`).
 ///
 /// When something ends the run early (a bus error, a mistake of the program, the time-out), the
-/// program is frozen where it stands: its stack is never unwound, no destructor runs and no
-/// exception passes its code, as on a chip that hangs in an abort handler. The simulation goes on
-/// without it, or pauses. A fault of the program (segmentation fault, abort, …) ends it so, too.
+/// program is frozen where it is: its stack is never unwound, no destructor runs and no exception
+/// passes through its code, as on a chip that hangs in an abort handler. The simulation continues
+/// without it, or pauses. A fault of the program (segmentation fault, abort, …) acts alike.
 ///
-/// A second core runs a function of the same program once the first has started it. What both do
-/// at the same simulated time the first one does first, unless the second one woke it then. While
-/// the second is awake nobody runs ahead of the simulation. A program's own accesses to memory
+/// A second core runs a function of the same program once the first has started it. When both act
+/// at the same simulated time, the first one acts first, unless the second one woke it then. While
+/// the second is awake, neither runs ahead of the simulation. A program's own accesses to memory
 /// happen up to 10 us before the time of its work, whatever `quantum` is; those through the HAL
-/// (locks, words, events) at their time. The run ends with the first core's program.
+/// (locks, words, events) happen at their time. The run ends with the first core's program.
 class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::ClockListener {
  public:
   Cpu(sc_core::sc_module_name name, vp::Clock& clock);
@@ -119,17 +119,17 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// 0: the first core.
   unsigned number() const { return number_; }
 
-  // What stands around the processor: to be set before the simulation starts, at the first core.
-  // What is passed must outlive it.
+  // The processor's environment: set it at the first core before the simulation starts. Whatever is
+  // passed must outlive the core.
   /// Throws vp::InputError if `costs` lacks a unit of work of the program.
   void load(Program& program, const CostTable& costs);
   void connect(TestBench& bench) { bench_ = &bench; }
   void connect(DmaAllocator& dma_memory) { dma_memory_ = &dma_memory; }
-  /// Names the device at an address in messages; "" if there is none.
+  /// Names the device at an address in messages, or returns "".
   void name_devices(std::function<std::string(std::uint32_t)> device) {
     device_ = std::move(device);
   }
-  /// Says what a register holds: "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1)"; "" if there is none.
+  /// Describes a register's value, "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1)", or returns "".
   void describe_registers(
       std::function<std::string(std::uint32_t address, std::uint32_t value)> d) {
     describe_register_ = std::move(d);
@@ -143,34 +143,33 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     describe_request_ = std::move(describe);
   }
   enum class CacheCall { flush, invalidate };
-  /// Told of each cache operation of the program, on whatever core, when it is over. Null: nobody
-  /// is.
+  /// Called after each cache operation of the program, on either core. May be null.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
   void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
-  /// Points in the program's course at which a profiler looks at it, called on its stack.
+  /// Points in the program's course at which a profiler samples it, on the program's stack.
   enum class Moment {
     call_over,       ///< a call of the HAL is over, or the program is
     handler_begins,  ///< an interrupt was taken: what follows is the handler's
     handler_over,
   };
-  /// For each core its own. Null: nobody is told.
+  /// One per core. May be null.
   using MomentListener = std::function<void(Moment)>;
   void on_moment(MomentListener listener) { moment_listener_ = std::move(listener); }
-  /// Calls `look` once, on the program's stack, when the simulation comes to `ps`: in the HAL call
-  /// in which that time passes. No time and no result depends on it. Before the simulation starts.
+  /// Calls `look` once, on the program's stack, when the simulation reaches `ps`: in the HAL call
+  /// in which that time passes. No time or result depends on it. Set before the simulation starts.
   void call_at(std::uint64_t ps, std::function<void()> look) {
     call_at_ps_ = ps;
     called_at_ = std::move(look);
   }
-  /// Says where the program is, in place of the processor: of one that only stands for another,
-  /// elsewhere. For program_counter().
+  /// Replaces the processor's own program_counter(), for a program that only represents one that
+  /// runs elsewhere.
   void locate_program(std::function<std::string()> locate) { locate_program_ = std::move(locate); }
-  /// Told why the program is stopped, as check() throws it, while its calls are under way: in a
-  /// signal handler if it is a fault. Null: nobody is.
+  /// Called with the reason when the program is stopped, as check() throws it, while its call stack
+  /// still exists: in a signal handler if it is a fault. May be null.
   using FailureListener = std::function<void(const std::string& problem)>;
   void on_failure(FailureListener listener);
-  /// When all that the program has done so far will be over, in ps: its own time, of which the
-  /// simulation may be behind. In a handler that of the handler.
+  /// When everything that the program has done so far will be over, in ps: its own time, which may
+  /// be ahead of the simulation. In a handler, the time of the handler.
   std::uint64_t program_time_ps() const { return reached_ps() + local_time_.ps_after(0); }
   /// The loaded program's code; null if it is part of the process.
   const CodeLocator* code() const { return code_ ? &*code_ : nullptr; }
@@ -179,15 +178,15 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// "pc …" as CodeLocator::path() has it, while the program or a HAL call of it is under way;
   /// otherwise empty.
   std::string program_counter() const;
-  /// The same; none where it is not the program that looks, but something that happens while it
-  /// waits.
+  /// The same; nullopt if called by something that happens while the program waits, rather than by
+  /// the program.
   std::optional<std::string> place() const;
-  /// Ends the program because of a mistake, when what it did before is over. In guarded() only.
+  /// Ends the program because of a mistake, once its earlier work is over. In guarded() only.
   [[noreturn]] void misuse(const std::string& problem);
   /// False: polls make every read. Default: those that cannot see anything new only take their
   /// time, and are counted like the others.
   void set_poll_elision(bool elide) { poll_elision_ = elide; }
-  /// False: the simulation goes on when the program has ended. Default: it pauses (sc_pause).
+  /// False: the simulation continues when the program has ended. Default: it pauses (sc_pause).
   void set_pause_at_end(bool pause) { pause_at_end_ = pause; }
   Console console;
 
@@ -458,10 +457,10 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t skipped_polls_ = 0;
   tlm::tlm_generic_payload payload_;
   unsigned char data_[4] = {};
-  /// The register that the program looked at last, and what it saw.
+  /// The register that the program read last, and its value.
   struct Look {
     std::uint32_t address = 0, value = 0;
-    enum class By { nobody, read, poll } by = By::nobody;
+    enum class By { none, read, poll } by = By::none;
     std::uint64_t again = 0;    ///< reads of it, one after the other, since the first
     std::uint32_t changed = 0;  ///< bits that differed between two of them
 
@@ -504,7 +503,7 @@ inline void Cpu::spend_blocks() {
   if (settings_.block_cycles != 0) spend_timed_blocks();
 }
 
-// The program's code goes on, after a call in which the other core's may have run.
+// Resumes the program's code after a call in which the other core's may have run.
 inline void Cpu::go_on() {
   if (running_ != this) take_turn();
   ProgramWatch::leave_hal();
@@ -527,7 +526,7 @@ auto Cpu::guarded(Call call) {
       return result;
     }
   } catch (const sc_core::sc_unwind_exception&) {
-    throw;  // somebody kills the process
+    throw;  // the process is being killed
   } catch (...) {
     error_ = std::current_exception();
   }

@@ -13,7 +13,7 @@ constexpr std::uint64_t first_jump_ps = 10'000;
 constexpr unsigned most_doublings = 40;
 /// 10 us: it may wait for what the other core writes.
 constexpr unsigned most_beside_other = 10;
-/// Handlers in a row after which an interrupt looks as if nobody acknowledged it (decision).
+/// Handlers in a row after which an interrupt is taken to be unacknowledged (decision).
 constexpr unsigned many_handlers = 1'000;
 constexpr std::uint64_t ps_per_ns = 1'000;
 /// Where basic blocks take time, that of so many passes at once (decision): the longest that an

@@ -350,7 +350,7 @@ std::uint64_t Cpu::pass(std::uint64_t ps) {
   return now - start + (left == 0 || interrupt_due() ? 0 : pass(left));
 }
 
-// The time-out, or only call_at()'s: then all goes on.
+// Handles the time-out, or only the deadline of call_at(), after which the program continues.
 void Cpu::meet_deadline(const char* what, const std::string& hint) {
   if (now_ps() < timeout_ps_) {
     call_at_ps_ = vp::Clock::never;
@@ -369,7 +369,7 @@ std::string Cpu::last_look() const {
   if (loop_jumps_) {
     return "; it loops without a call of the HAL, as one does that waits for a variable";
   }
-  if (last_look_.by == Look::By::nobody) return {};
+  if (last_look_.by == Look::By::none) return {};
   std::string text =
       describe_register_ ? describe_register_(last_look_.address, last_look_.value) : std::string();
   if (text.empty()) text = vp::hex(last_look_.address) + ": " + vp::hex(last_look_.value);
@@ -425,17 +425,17 @@ void Cpu::wait_for_interrupt() {
   if (!masked_ && !in_handler_now_ && !slept_unmasked_) {
     slept_unmasked_ = true;
     vp::warn(*this, "/markervp/cpu/sleeps_unmasked",
-             "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes after the last "
-             "look at what it changes, and before the sleep, wakes nobody; mask IRQ before the "
-             "look, with hal_interrupt_enable(false)");
+             "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes between the last "
+             "check of what it changes and the sleep does not wake the CPU; mask IRQ before the "
+             "check, with hal_interrupt_enable(false)");
   }
   catch_up();
   sleep();
   take_interrupts();
 }
 
-// While the second core is awake nobody runs ahead, so that what happens at one time happens in
-// one order.
+// While the second core is awake, neither core runs ahead, so that simultaneous actions have a
+// defined order.
 void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) {
   const std::uint64_t start = dozes_since_ps_ = now_ps();
   asleep = true;

@@ -17,8 +17,8 @@ struct WorkCost {
   double stall_ns = 0;  ///< memory stalls in ns that do not scale with the CPU's clock, 0 to 10⁹
 };
 
-/// The cost of each unit of work that programs count (hal_program.work), by name. Data: it says
-/// nothing of how it was found; `profile` names that, and stands in every report.
+/// The cost of each unit of work that programs count (hal_program.work), by name. It does not say
+/// how the costs were measured; `profile` names their origin, and every report shows it.
 class CostTable {
  public:
   explicit CostTable(std::string profile) : profile_(std::move(profile)) {}

@@ -245,7 +245,7 @@ void LineGuard::end_step(void* context) {
 
 void LineGuard::on_trap(int signal, siginfo_t*, void* context) {
   if (active_ && active_->trap_is_set_) return active_->end_step(context);
-  // Somebody else's: it comes again, to whom it belongs.
+  // Not ours: raise it again for the previous handler.
   sigaction(signal, active_ ? &active_->old_trap_ : nullptr, nullptr);
   raise(signal);
 }

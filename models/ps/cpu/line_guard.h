@@ -11,21 +11,22 @@
 
 namespace ps {
 
-/// Notices that the program reads a guarded cache line, at the very instruction.
+/// Detects reads of guarded cache lines by the program, at the reading instruction.
 ///
-/// The pages of guarded lines lose their access rights. An access faults: a read of a guarded line
-/// is told, a write takes its line out. What lies beside guarded lines in their page may be
-/// accessed: the page is opened for that one instruction (the processor's trap flag, x86-64). That
-/// takes some 20 us, so it is done `steps` times in a run at most. Who does it more often releases
-/// buffers in parts: what was guarded with such a page is left alone from then on.
+/// The pages of guarded lines lose their access rights, so accesses fault: a read of a guarded line
+/// is reported, a write removes the guard of its line. For an access to the rest of such a page,
+/// the page is opened for that one instruction (the processor's trap flag, x86-64). This takes some
+/// 20 us, so it is done at most `steps` times in a run. A program that needs more releases buffers
+/// in parts: ranges guarded together with such a page are no longer guarded from then on.
 ///
-/// Whoever is not the program uses another view of the memory, or takes the guard of the page away.
-/// The faults come through vp::FaultTrap: it works while a program runs. One in a process at a time.
+/// Code other than the program must use another view of the memory, or remove the guard of the
+/// page. Faults come through vp::FaultTrap, so this works while a program runs. One per process at
+/// a time.
 class LineGuard {
  public:
   static constexpr std::uintptr_t line = DmaAllocator::cache_line;
 
-  /// Told of a read at `address`. The program stands at the instruction and goes on with it.
+  /// Called for a read at `address`, before the program executes the instruction.
   using Listener = std::function<void(std::uintptr_t address)>;
 
   /// For memory in [first, end), whole pages. Guards nothing with 0 steps, nor under a debugger,
@@ -94,7 +95,7 @@ class LineGuard {
   std::size_t used_from_ = SIZE_MAX, used_ = 0;
   std::uint32_t closings_ = 0;
   std::deque<Range> ranges_;  ///< that were guarded last: those of the devices that write
-  /// Opened for the instruction at which the program stands. One may access that many pages.
+  /// Pages opened for the program's current instruction, which may access that many.
   std::array<std::size_t, 4> stepping_{};
   std::size_t stepping_count_ = 0;
   bool trap_is_set_ = false;

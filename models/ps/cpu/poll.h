@@ -46,9 +46,9 @@ class PollGrid {
 
 /// Lets the time of a poll pass without making the reads that cannot see anything new.
 ///
-/// It goes on until a read has to be made: the first that may return another word, or the last one;
-/// and stops where something else happens: an interrupt, a change of a clock, SystemC's turn. What
-/// the processor is at then, between two reads or in one, follows from the grid.
+/// It continues until a read has to be made (the first that may return another word, or the last
+/// one), and stops where something else happens: an interrupt, a change of a clock, SystemC's turn.
+/// The grid tells whether the processor is then between two reads or in one.
 class PollSkip {
  public:
   /// `last`: the read that is made whatever happens. `interrupt`: what stops it besides; may be

@@ -34,9 +34,9 @@ namespace ps {
 
 namespace {
 
-/// The writable static memory of a loaded shared object (.data, .bss, without what the loader made
-/// read-only), as it stands when the object is constructed: right after loading, constructors of
-/// static objects included.
+/// A copy of the writable static memory of a loaded shared object (.data, .bss, without what the
+/// loader made read-only), taken on construction: right after loading, when the constructors of
+/// static objects have run.
 ///
 /// Heap memory that static objects own is not part of it.
 class StaticImage {

@@ -15,8 +15,8 @@ std::vector<std::string> option_names(const hal_option_info& option);
 /// A PS program that a Cpu can run.
 class Program {
  public:
-  /// Loads a plug-in. Throws vp::InputError with one line if the file is missing, is no shared
-  /// object, needs symbols that nobody has, describes no program, or was built for another HAL;
+  /// Loads a plug-in. Throws vp::InputError with one line if the file is missing, is not a shared
+  /// object, needs undefined symbols, describes no program, or was built for another HAL;
   /// vp::ProtocolError if a constructor of its static objects does what ends a program in a run.
   static std::unique_ptr<Program> load(const std::string& path);
   /// A program that is part of this executable; reset() does nothing. Throws vp::InputError as
@@ -34,11 +34,12 @@ class Program {
   /// Absolute path of the plug-in; empty if linked.
   const std::string& path() const { return path_; }
 
-  /// May it start the second core? It refers to hal_cpu_start(); nobody knows of a linked one.
+  /// True if it may start the second core, because it refers to hal_cpu_start(). Unknown, and
+  /// therefore false, for a linked program.
   virtual bool may_start_core() const { return false; }
 
-  /// What stands for the board's boot code, and runs before the entry function: `markervp_boot` of
-  /// its libraries. Null: nothing.
+  /// The substitute for the board's boot code, which runs before the entry function:
+  /// `markervp_boot` of its libraries. May be null.
   virtual void (*boot() const)(void) { return nullptr; }
 
   /// Makes its static variables what they were after loading: before each run. Variables inside

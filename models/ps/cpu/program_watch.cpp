@@ -21,7 +21,7 @@ namespace ps {
 namespace {
 
 #if defined(__x86_64__)
-/// Where an empty loop goes on. A leaf function may stand in one with any stack pointer.
+/// Where an empty loop continues. A leaf function may be in one with any stack pointer.
 __attribute__((noinline, force_align_arg_pointer)) void loop_with_call() {
   while (true) __sanitizer_cov_trace_pc();
 }
@@ -260,7 +260,7 @@ std::string CodeLocator::path(const std::vector<std::uintptr_t>& calls) const {
   return levels > most ? text + ", …" : text;
 }
 
-// What a signal interrupted stands at its instruction; who called, behind it.
+// The first address is that of the interrupted instruction; the others are return addresses.
 std::vector<std::uintptr_t> return_addresses() {
   std::vector<std::uintptr_t> addresses;
   const auto take = [](_Unwind_Context* frame, void* list) {

@@ -19,8 +19,8 @@ namespace ps {
 /// What the processor has to know of the program's own statements, which it does not see: whether
 /// one runs at all, and for how long none has called the HAL. Written on every HAL call.
 struct ProgramWatch : vp::ForeignCode {
-  /// How often each basic block ran, by the address behind its call of
-  /// __sanitizer_cov_trace_pc(). Null: nobody counts. To be set before the program starts.
+  /// How often each basic block ran, by the address after its call of
+  /// __sanitizer_cov_trace_pc(). Null: not counted. Set before the program starts.
   using BlockCounts = std::unordered_map<std::uintptr_t, std::uint64_t>;
   static BlockCounts* block_counts;
 
@@ -78,28 +78,28 @@ struct ProgramWatch : vp::ForeignCode {
   static std::uint64_t counted_, counted_limit_;  ///< blocks, while they are counted
 };
 
-/// How much of the host's time code of a program may take while nothing progresses.
+/// How much host time a program's code may take without progress.
 struct HostLimit {
   std::uint64_t ns = 0;  ///< processor time of the process, or time in which the program waits
-  /// What changes with each progress; null: nothing ever does.
+  /// A value that changes with each progress; null: there is no progress.
   std::uint64_t (*progress)(const void* context) = nullptr;
   const void* context = nullptr;
 };
 
-/// Looks now and then, by the host's time, at the code of a program that runs.
+/// Checks the running code of a program at intervals of host time.
 ///
-/// It ends one that takes host time without progress, whatever it calls: first by
-/// ForeignCode::ask_to_stop(), which the next instrumented basic block obeys; code that has none
-/// (the C library) is left where a later tick finds it. Time inside one HAL call is the
-/// simulator's, and does not count.
+/// It ends a program that takes host time without progress, whatever it calls: first by
+/// ForeignCode::ask_to_stop(), which the next instrumented basic block obeys; code without
+/// instrumentation (the C library) is left where a later tick interrupts it. Time inside one HAL
+/// call is the simulator's, and does not count.
 ///
-/// And it lets time pass in loops without a statement, `while (true);`. The compiler puts no call
-/// of __sanitizer_cov_trace_pc() into them: they have no basic block but the jump to itself. From
-/// there the program goes on in a loop that makes the call. Since the jump leads nowhere else, no
-/// result depends on when that is. Only on x86-64.
+/// It also lets time pass in loops without a statement, `while (true);`. The compiler puts no call
+/// of __sanitizer_cov_trace_pc() into them: their only basic block is the jump to itself. The watch
+/// moves the program into a loop that makes the call. Since the jump leads nowhere else, no result
+/// depends on when that happens. Only on x86-64.
 class HostWatch : private vp::HostTicks::Listener {
  public:
-  /// Before the program's code runs in a FaultTrap. A limit of 0 ns is none.
+  /// Call before the program's code runs in a FaultTrap. A limit of 0 ns disables it.
   void arm(const HostLimit& limit);
   void disarm();
 
@@ -120,7 +120,7 @@ class CodeLocator {
   explicit CodeLocator(const void* inside);
 
   bool contains(std::uintptr_t address) const;
-  /// Where `address`, which it contains, stands in the file.
+  /// The offset in the file of `address`, which it must contain.
   std::uintptr_t place(std::uintptr_t address) const { return address - base_; }
   /// "0x1a2b make(Mistake)+0x1c": the place in the file, as addr2line takes it, and the function
   /// around it. Only the place if the file was stripped. Looked up in the file once: a trace asks
@@ -143,7 +143,7 @@ class CodeLocator {
   bool knows_line(std::uintptr_t address) const { return !lines(address).empty(); }
 
  private:
-  /// A line of the source, and the function that it stands in.
+  /// A line of the source, and the function that contains it.
   struct Line {
     std::string function, place;
   };
@@ -151,7 +151,7 @@ class CodeLocator {
   std::vector<Line> lines(std::uintptr_t address) const;
 
   std::string file_;
-  mutable std::vector<char> content_;  ///< of the file, once somebody asked
+  mutable std::vector<char> content_;  ///< of the file, read on first use
   std::uintptr_t base_ = 0;
   mutable std::map<std::uintptr_t, std::string> texts_;
   mutable backtrace_state* debug_ = nullptr;  ///< debug information of the process; never freed

@@ -121,8 +121,7 @@ class InterruptLogic {
 /// and CPU interface around InterruptLogic. Combinational: an input that rises lowers nIRQ at the
 /// same time.
 ///
-/// CPU 0 has all inputs. That of CPU 1 stands beside it, has the private inputs of its own, and
-/// shares the rest.
+/// The Gic of CPU 0 has all inputs. That of CPU 1 has its own private inputs and shares the rest.
 class Gic : public sc_core::sc_module, public vp::SignalListener {
  public:
   Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
@@ -150,15 +149,15 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   /// Sets the level at interrupt `id` from outside, until the signal wired to it changes next.
   void set_wire(std::uint32_t id, bool level);
 
-  /// Told when software on this CPU raises an interrupt. Null: nobody is.
+  /// Called when software on this CPU raises an interrupt. May be null.
   void on_software_interrupt(std::function<void()> listener) {
     software_interrupt_listener_ = std::move(listener);
   }
 
   const InterruptLogic& logic() const { return logic_; }
 
-  /// The interrupt that is signalled to the CPU, and when its line rose last or software raised it;
-  /// `id` is gic::spurious_id if there is none.
+  /// The interrupt that is signalled to the CPU, and when its line last rose or software raised it;
+  /// `id` is gic::spurious_id if no interrupt is signalled.
   struct Request {
     std::uint32_t id = gic::spurious_id;
     std::uint64_t since_ps = 0;

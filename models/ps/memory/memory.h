@@ -35,8 +35,8 @@ class FixedMapping {
   FixedMapping& operator=(const FixedMapping&) = delete;
 
   unsigned char* data() const { return data_; }
-  /// The same bytes at other addresses: there they stay accessible when somebody takes the access
-  /// rights of pages of data() away (ps::LineGuard).
+  /// The same bytes at other addresses, where they stay accessible when pages of data() lose their
+  /// access rights (ps::LineGuard).
   unsigned char* second_view() const { return second_view_; }
   std::uint64_t size() const { return size_; }
   /// The file; -1: none.
@@ -81,7 +81,7 @@ class SparseArray {
 /// given back one by one.
 class DmaAllocator {
  public:
-  /// The CPU's cache line: buffers share none, so that cache maintenance of one cannot touch
+  /// The CPU's cache line: buffers never share one, so that cache maintenance of one cannot affect
   /// another.
   static constexpr std::uint32_t cache_line = 32;
 

@@ -151,8 +151,8 @@ void PrivateTimer::update() {
     if (watchdog_mode_) {
       reset_status_.set_bits(pt::reset_status::Reset_Flag);
       vp::warn(*this, "/markervp/private_timer/watchdog",
-               "the watchdog expired: on the chip it resets the processor; the program goes on "
-               "here");
+               "the watchdog expired: on the chip it resets the processor; here the program "
+               "continues");
     } else {
       watchdog_status_.set_bits(pt::status::Event_Flag);
     }

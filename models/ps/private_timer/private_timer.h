@@ -44,13 +44,13 @@ class DownCounter {
   std::uint32_t running_control_ = 0;  ///< control as the counter runs with since origin_
   std::uint32_t base_ = 0;             ///< counter at origin_
   std::uint64_t origin_ = 0;           ///< cycle
-  bool expired_ = true;                ///< stands at 0 and has told of it
+  bool expired_ = true;                ///< stopped at 0, which has been reported
 };
 
 /// Private timer and watchdog of a Cortex-A9. No process counts.
 ///
-/// A watchdog that expires resets the CPU on the chip. Here it is warned of, `watchdog_reset` rises
-/// until software clears WDT_RESET_STATUS, and the program goes on.
+/// On the chip, a watchdog that expires resets the CPU. Here it causes a warning, `watchdog_reset`
+/// is high until software clears WDT_RESET_STATUS, and the program continues.
 class PrivateTimer : public vp::Clocked {
  public:
   /// `cpu_clock`: a count is two of its cycles.

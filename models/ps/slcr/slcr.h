@@ -40,7 +40,7 @@ class LevelShifters : public vp::MmObserver {
 
   std::vector<vp::MmLink*> links_;
   std::uint32_t value_ = 0;
-  bool on_ = true;  ///< nobody watches
+  bool on_ = true;  ///< not observable
   bool started_ = false;
 };
 

@@ -235,7 +235,7 @@ void Slcr::fclk_written(unsigned number) {
                  " Hz): divide by more");
   } else if (hertz == 0) {
     vp::warn(*this, "/markervp/slcr/fclk_without_source",
-             clock + " has a PLL as its source that is off: the clock stands");
+             clock + " has a PLL as its source that is off: the clock is stopped");
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace axi_dma;
 
-constexpr std::uint32_t reset_pin = 1;  // what a listener is told of, besides streams (0)
+constexpr std::uint32_t reset_pin = 1;  // listener id; 0: a stream
 
 vp::RegisterBankOptions bank_options() {
   vp::RegisterBankOptions options;

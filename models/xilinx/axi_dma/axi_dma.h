@@ -67,9 +67,9 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   /// The engine that moves descriptors. Throws std::logic_error if the build does not have it.
   ScatterGather& scatter_gather();
 
-  /// Asked of each transfer and descriptor before it begins: the mistake in where it goes, as a
-  /// message continues ("leaves its buffer …"); "" if there is none. `who`: "MM2S", "S2MM" …. Null:
-  /// nobody is asked.
+  /// Called before each transfer and descriptor begins. Returns what is wrong with its address
+  /// range, as the end of a message ("leaves its buffer …"), or "". `who`: "MM2S", "S2MM" …. May be
+  /// null.
   using BufferCheck = std::function<std::string(const std::string& who, std::uint32_t address,
                                                 std::uint32_t bytes)>;
   void check_buffers(BufferCheck check) { buffer_check_ = std::move(check); }

@@ -13,7 +13,7 @@ constexpr std::size_t queue_size = 4;
 /// Two registers between the count and the status bit (HDL of v7.1).
 constexpr std::uint64_t timer_registers = 2;
 
-/// The error bit of DMASR for a bus response to the engine; 0 if it is none.
+/// The error bit of DMASR for a bus response to the engine; 0 for OK.
 std::uint32_t error_bit(tlm::tlm_response_status response) {
   if (response == tlm::TLM_OK_RESPONSE) return 0;
   return response == tlm::TLM_ADDRESS_ERROR_RESPONSE ? dmasr::SGDecErr : dmasr::SGSlvErr;
@@ -114,7 +114,7 @@ void DescriptorRing::begin_update(std::uint64_t cycle, bool cyclic) {
   if (engine.m_axi.done()) complete_access(cycle, cyclic);
 }
 
-// Nobody looks at the status of a cyclic descriptor, which software may be taking back meanwhile.
+// The status of a cyclic descriptor is not checked: software may be taking it back meanwhile.
 void DescriptorRing::begin_fetch(std::uint64_t cycle, bool cyclic) {
   access_ = Access::fetch;
   fetch_began_ = cycle;

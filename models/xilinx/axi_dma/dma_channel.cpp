@@ -341,7 +341,7 @@ bool DmaChannel::ring_rests() const {
   return !in_order_ && ring_->drained() && ring_->coalescing.delay_ends() == never;
 }
 
-// RS fell: what has begun to move goes on.
+// RS fell: transfers that have begun continue.
 void DmaChannel::pause_ring(std::uint64_t cycle) {
   ring_->flush();
   const unsigned unused = withdraw_unused();

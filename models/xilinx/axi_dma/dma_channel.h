@@ -85,10 +85,10 @@ class DmaChannel {
     virtual bool in_soft_reset() const = 0;
     /// An error was reported and the core was not reset since.
     virtual bool stopped() const = 0;
-    /// Somebody watches every edge.
+    /// Every edge is observed.
     virtual bool watched() const = 0;
     virtual void warn(const char* id, const std::string& message) const = 0;
-    /// `who` is about to move so many bytes: warns if they lie in no memory made for it.
+    /// Called before `who` moves that many bytes: warns if they are outside memory made for it.
     virtual void check_buffer(const std::string& who, std::uint32_t address,
                               std::uint32_t bytes) const = 0;
   };
@@ -119,9 +119,9 @@ class DmaChannel {
   /// configure().
   void use(ScatterGather& engine);
 
-  /// Told when a transfer is accepted (true) and when its end shows in the status register (false),
-  /// at these very times; with descriptors, when the first of a row begins to move and when the
-  /// last has moved. Null: nobody is.
+  /// Called when a transfer is accepted (true) and when its end shows in the status register
+  /// (false), at exactly these times; with descriptors, when the first of a row begins to move and
+  /// when the last has moved. May be null.
   using TransferListener = std::function<void(bool begins)>;
   void on_transfer(TransferListener listener) { transfer_listener_ = std::move(listener); }
 
@@ -131,8 +131,8 @@ class DmaChannel {
   std::uint64_t edge(std::uint64_t cycle);
   /// The end of the transfer is known and not shown yet.
   bool finishing() const { return finish_at_ != never; }
-  /// Shows an end up to edge `cycle`. Where an interrupt follows, it is shown on the edge of that,
-  /// unless somebody looks before.
+  /// Shows an end up to edge `cycle`. An end that raises an interrupt is shown on the edge of the
+  /// interrupt, or when the register is read before that.
   void bring_up_to(std::uint64_t cycle) {
     if (finishing() && cycle >= finish_at_) report_status(finish_at_);
   }
@@ -166,7 +166,7 @@ class DmaChannel {
   virtual std::uint64_t move(std::uint64_t cycle) = 0;
   /// The part of an edge that always runs: sampling the stream.
   virtual void sample(std::uint64_t cycle) = 0;
-  /// Forgets the transfer and takes the stream's outputs to rest; what is on the bus goes on.
+  /// Drops the transfer and idles the stream's outputs; bursts on the bus continue.
   virtual void abandon() = 0;
   virtual void forget_bursts() = 0;
   /// The transfer has reached memory or stream.
@@ -182,7 +182,7 @@ class DmaChannel {
     finish_at_ = cycle;
     error_ = error;
   }
-  /// The error bit for a bus response; 0 if it is none.
+  /// The error bit for a bus response; 0 for OK.
   static std::uint32_t error_bit(tlm::tlm_response_status response);
   bool keyhole() const { return dmacr.any(axi_dma::dmacr::Keyhole); }
 

@@ -146,7 +146,7 @@ void Mm2sChannel::end_segment(std::uint64_t cycle) {
   begin_descriptors(cycle);
 }
 
-// Offers the next beat if its data has come. False if there is none to offer.
+// Offers the next beat if its data has arrived. Returns false if no beat can be offered.
 bool Mm2sChannel::offer(std::uint64_t cycle) {
   if (to_send_ == 0 || next_beat_at() > cycle) return false;
   const unsigned bytes = std::min<std::uint32_t>(to_send_, word_bytes);

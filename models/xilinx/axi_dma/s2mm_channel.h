@@ -92,7 +92,7 @@ class S2mmChannel : public DmaChannel {
   Bus bus_ = Bus::free;
   std::uint64_t burst_start_ = 0, burst_end_ = 0;
   std::uint64_t bus_free_at_ = 0;  ///< edge from which the next burst may start
-  bool draining_ = false;          ///< the transfer was dropped, its burst on the bus goes on
+  bool draining_ = false;          ///< the transfer was dropped, its burst on the bus continues
   bool beat_ = false;              ///< a beat passed on the edge that ran last
 };
 

@@ -24,7 +24,7 @@ using namespace axi_gpio;
 
 constexpr std::uint32_t all_ones = 0xFFFFFFFF;
 
-// What a listener is told of: pins of channel 1, pins of channel 2, the reset.
+// Listener ids: pins of channel 1, pins of channel 2, the reset.
 constexpr std::uint32_t pins_1 = 1, pins_2 = 2, reset_pin = 3;
 
 vp::RegisterBankOptions bank_options() {

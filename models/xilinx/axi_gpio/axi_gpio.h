@@ -53,9 +53,9 @@ class AxiGpioChannel {
   /// The pins changed after edge `cycle`, as the input has it now. `track`: take_changes() is to
   /// tell of it.
   void record(std::uint64_t cycle, bool track);
-  /// What stands behind `latency` flip-flops after edge `cycle`.
+  /// The pins behind `latency` flip-flops after edge `cycle`.
   std::uint32_t delayed(std::uint64_t cycle, std::uint64_t latency) const;
-  /// The first edge after `cycle` on which that may be another; vp::Clock::never if the pins have
+  /// The first edge after `cycle` on which delayed() may change; vp::Clock::never if the pins have
   /// not changed since.
   std::uint64_t next_delayed(std::uint64_t cycle, std::uint64_t latency) const;
 

@@ -72,7 +72,7 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
   /// All bytes in port B's order, for tests.
   std::vector<std::uint8_t>& contents() { return bytes_; }
 
-  /// Hands over the memory as it stands, at its place; the Bram goes on with a copy.
+  /// Returns the present memory without moving it; the Bram continues with a copy.
   std::vector<std::uint8_t> fork();
 
   // At most one of each.

@@ -18,7 +18,7 @@ class Concat : public sc_core::sc_module, private vp::SignalListener {
   Concat(sc_core::sc_module_name name, unsigned inputs);
   const char* kind() const override { return "xilinx::Concat"; }
 
-  /// Input number `i`. Throws std::out_of_range if there is none.
+  /// Input number `i`. Throws std::out_of_range if it does not exist.
   vp::In<bool>& in(unsigned i) { return in_.at(i); }
   /// Connects `line` to input `i`. Throws vp::InputError if there is no such input, or another line
   /// has it.

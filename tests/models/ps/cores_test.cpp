@@ -627,7 +627,7 @@ BOOST_AUTO_TEST_CASE(locks_that_are_not_held_or_not_words) {
     hal_lock_acquire(&nameless);
     return 0;
   });
-  BOOST_TEST(says(error, "is taken, but by nobody"));
+  BOOST_TEST(says(error, "is taken, but no core took it"));
 }
 
 BOOST_AUTO_TEST_CASE(a_word_at_an_odd_or_null_address) {

@@ -106,7 +106,8 @@ inline constexpr vp::RegisterField dmacr_fields[] = {
      "scatter-gather: time from a packet's end to Dly_Irq, 125 clocks each; 0: none"},
 };
 inline constexpr vp::RegisterField dmasr_fields[] = {
-    {"Halted", dmasr::Halted, vp::Access::read_only, "the channel stands: LENGTH starts nothing"},
+    {"Halted", dmasr::Halted, vp::Access::read_only,
+     "the channel is halted: writing LENGTH starts nothing"},
     {"Idle", dmasr::Idle, vp::Access::read_only,
      "the last transfer is complete; 0 from RS = 1 until the first one is"},
     {"SGIncld", dmasr::SGIncld, vp::Access::read_only, "1: built with the scatter-gather engine"},
