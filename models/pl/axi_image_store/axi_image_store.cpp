@@ -16,8 +16,8 @@ class AxiImageStoreClocked : public AxiImageStore {
   void edge() override { store_beat(); }
 };
 
-/// Takes whole bursts, but beat by beat while somebody reads the memory and when `ena` or `rst`
-/// changes in the middle of one.
+/// Takes whole bursts, but single beats while the memory is being read and when `ena` or `rst`
+/// changes in the middle of a burst.
 class AxiImageStoreTlm final : public AxiImageStore,
                                private vp::BurstSink,
                                private xilinx::Bram::Writer {

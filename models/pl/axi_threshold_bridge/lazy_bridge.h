@@ -13,7 +13,7 @@
 namespace pl {
 
 /// The threshold bridge and its clock crossing without an event for each word: the registers are
-/// brought up to date when somebody looks, edge by edge where something happens.
+/// brought up to date when they are read, simulating only the edges on which something happens.
 class LazyBridge {
  public:
   /// `fifo_depth` words besides the output register, `burst_words` words a packet.

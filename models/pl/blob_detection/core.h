@@ -99,8 +99,8 @@ class LabelPool {
 
   void reset();
 
-  /// A new blob at clock `now`: the next free label, active from now on and never to expire unless
-  /// told; 0 if there is none. `retired(label, clock)` is called as by retire().
+  /// A new blob at clock `now`: returns the next free label, active from now on and without an
+  /// expiry, or 0. `retired(label, clock)` is called as by retire().
   template <class Retired>
   Label take(std::uint64_t now, Retired retired);
 
@@ -117,7 +117,7 @@ class LabelPool {
   void forget_expiries();
   /// Retires an active label at clock `now`, whether it expired or not.
   void retire_now(Label label, std::uint64_t now) { give_back(label, now); }
-  /// The active label of the lowest index, 0 if there is none.
+  /// The active label of the lowest index, or 0.
   Label lowest_active() const;
   std::uint32_t active() const { return active_.count(); }
 

@@ -14,8 +14,8 @@ namespace pl {
 ///
 /// - the run above passes, where it ends before the present one touches it;
 /// - it is touched, and passes if it ends no later than the present run does;
-/// - the present run ends, touching the run above if that goes on;
-/// - behind the last run of both, the row is over.
+/// - the present run ends, touching the run above if that continues;
+/// - after the last run of both, the row is over.
 ///
 /// So a row takes a clock for each of its runs, for each of the row above, and one more. Where
 /// more come for longer than the FIFO lasts, as in noise, runs that find no room are lost: they are

@@ -50,13 +50,13 @@ class Extremes {
   std::array<std::uint32_t, blob_stream::words_per_blob> keys_{};
 };
 
-/// The labels that nobody has. The next one is read ahead, so one that comes back may be taken two
-/// clocks later.
+/// The free labels. The next one is read ahead, so a returned label can be taken again two clocks
+/// later.
 class FreeLabels {
  public:
   using Label = std::uint16_t;
 
-  /// `labels`: 0, which stands for none, included.
+  /// `labels` includes 0, which means no label.
   explicit FreeLabels(std::uint32_t labels) : labels_(labels) { reset(); }
   void reset();
   /// One clock: whether the next label was taken, and the one that comes back (0: none does).

@@ -55,9 +55,8 @@ class Sensor {
 /// While a line is blanked the gate of pixel_clk() is closed: the logic behind it sees a frame
 /// without a gap, and only the times of its edges differ.
 ///
-/// The sensor stands outside of the chip: its image needs no memory there, and the test bench says
-/// what it sees. In the chip is the port, which drops triggers that come too early, and counts
-/// them.
+/// The sensor is outside the chip: its image needs no memory there, and the test bench says what it
+/// sees. The chip has the port, which drops triggers that come too early and counts them.
 class Camera : public vp::Clocked, public vp::Ip {
  public:
   static Models<Camera>& models();

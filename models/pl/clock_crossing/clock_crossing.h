@@ -46,8 +46,8 @@ class CrossingRegister : public sc_core::sc_module {
   const vp::Signal<bool>* seen_ = nullptr;
 };
 
-/// What the crossing offers the system side in place of the binary words: their frames, and the
-/// count of those that are lost on a way that whoever takes them works out itself.
+/// What the crossing offers the system side in place of the binary words: their frames, and a
+/// counter for words that the receiver computes to be lost on the way.
 class FrameCrossing : public virtual sc_core::sc_interface {
  public:
   /// Null if the words come one by one.

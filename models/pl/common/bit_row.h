@@ -26,9 +26,9 @@ class BitRow {
     }
   }
 
-  /// The first set bit from `from` on; capacity() if there is none.
+  /// The first set bit from `from` on, or capacity().
   std::uint32_t next_set(std::uint32_t from) const { return next<false>(from); }
-  /// The first clear bit from `from` on; capacity() if there is none.
+  /// The first clear bit from `from` on, or capacity().
   std::uint32_t next_clear(std::uint32_t from) const { return next<true>(from); }
 
   std::uint32_t count() const {

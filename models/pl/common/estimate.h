@@ -9,8 +9,8 @@
 #include <xilinx/bram/bram.h>
 
 /// What the estimates of the IP share. The thesis' utilisation is in figures 4.26, 4.29 and 4.31,
-/// whose numbers are not in its text: counts come from synthesis of the IP's RTL, or are derived
-/// from the structure where there is none.
+/// whose numbers are not in its text: counts come from synthesis of the IP's RTL or, without RTL,
+/// from the structure.
 namespace pl {
 
 constexpr std::uint64_t mhz = 1'000'000;

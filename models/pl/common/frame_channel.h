@@ -28,10 +28,10 @@ class FrameListener {
 /// What an IP offers at transaction level in place of its pixel ports: the frame that passes, as a
 /// whole. Its enable signal rises and falls as at clocked fidelity.
 ///
-/// Pixels that left the IP stand as they were then, the others as they are going to leave if
-/// nothing else happens; listeners are told when that changes. `Element`: std::uint8_t for a grey
-/// pixel, std::uint32_t for 32 pixels of a binary image (bit i of word w is pixel 32w + i, 1 is
-/// dark).
+/// Pixels that have left the IP keep the value that they had then; the others have the value with
+/// which they will leave if nothing else happens, and listeners are called when that changes.
+/// `Element`: std::uint8_t for a grey pixel, std::uint32_t for 32 pixels of a binary image (bit i
+/// of word w is pixel 32w + i, 1 is dark).
 template <class Element>
 class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_interface {
  public:
@@ -61,7 +61,7 @@ class FrameChannel : public sc_core::sc_object, public virtual sc_core::sc_inter
   vp::Clock& clock() const { return clock_; }
   void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
-  // Of a source that can send one by one, too: somebody wants that only until all have frames.
+  // For a source that can also send single elements: set once every receiver takes frames.
   void take_whole() { taken_whole_ = true; }
   bool taken_whole() const { return taken_whole_; }
 

@@ -16,9 +16,9 @@ class IpPorts;
 /// What software says to the logic, on its way from the bus clock to the pixel clock: each wire
 /// through two registers. One model for both fidelities, and RTL.
 ///
-/// The threshold crosses beside `wr_thresh`, bit by bit: that is a level, and loads again on each
-/// clock, so what was torn stands for a clock at most. A level that does not last until an edge of
-/// the pixel clock is lost, and warned of.
+/// The threshold crosses beside `wr_thresh`, bit by bit: `wr_thresh` is a level and reloads on each
+/// clock, so a torn value lasts one clock at most. A level that does not last until an edge of the
+/// pixel clock is lost, with a warning.
 class ControlCrossing : public vp::Clocked, public vp::Ip {
  public:
   static Models<ControlCrossing>& models();

@@ -25,19 +25,19 @@
 
 namespace pl {
 
-/// How each IP is modelled that can be modelled in more than one way.
+/// The chosen model of each IP that has more than one.
 struct FidelityChoice : sc_core::sc_module {
-  /// `otherwise`: where nothing is configured. `filter`: null if there is none.
+  /// `otherwise`: the default. `filter`: may be null.
   FidelityChoice(sc_core::sc_module_name name, Fidelity otherwise,
                  const Models<PixelFilter>* filter);
 
-  // Whoever feeds another one comes behind it.
+  // Producers come after their consumers.
   Choice<AxiImageStore> axi_image_store;
   Choice<AxiThresholdBridge> axi_threshold_bridge;
   Choice<BlobDetection> blob_detection;
   Choice<GlobalThreshold> global_threshold;
   Choice<CornerDetection> corner_detection;
-  std::unique_ptr<Choice<PixelFilter>> filter;  ///< null: there is none
+  std::unique_ptr<Choice<PixelFilter>> filter;  ///< may be null
   Choice<SensorInput> sensor_input;
   Choice<FrameStatus> frame_status;
   Choice<ClockCrossing> clock_crossing;
@@ -49,7 +49,7 @@ struct FidelityChoice : sc_core::sc_module {
 class FeatureExtraction : public sc_core::sc_module {
  public:
   /// `otherwise`: the fidelity of the IP for which no other is configured. `filter`: the models of
-  /// one between sensor and detectors; null: there is none.
+  /// a filter between sensor and detectors; may be null.
   FeatureExtraction(sc_core::sc_module_name name, vp::Clock& system_clk, vp::Clock& pixel_clk,
                     Fidelity otherwise = Fidelity::clocked,
                     const Models<PixelFilter>* filter = nullptr);
@@ -80,7 +80,7 @@ class FeatureExtraction : public sc_core::sc_module {
   vp::AxiStreamMaster& binary_stream() { return axi_threshold_bridge.m; }
   const vp::Signal<std::uint32_t>& feature() const { return feature_packaging.feature; }
 
-  /// Brings memories and counters up to now, for whoever looks at them from outside.
+  /// Brings memories and counters up to date, for access from outside.
   void settle() {
     axi_image_store.settle();
     sensor_input.settle();
@@ -118,7 +118,7 @@ class FeatureExtraction : public sc_core::sc_module {
   SensorInput& sensor_input = *sensor_input_;
   const std::unique_ptr<AxiImageStore> axi_image_store_;
   AxiImageStore& axi_image_store = *axi_image_store_;
-  const std::unique_ptr<PixelFilter> filter;  ///< null: there is none
+  const std::unique_ptr<PixelFilter> filter;  ///< may be null
   const std::unique_ptr<CornerDetection> corner_detection_;
   CornerDetection& corner_detection = *corner_detection_;
   const std::unique_ptr<GlobalThreshold> global_threshold_;

@@ -66,7 +66,7 @@ class ThresholdCore {
   std::uint8_t threshold_ = default_threshold;
 };
 
-/// A threshold that is searched behind a frame, while nobody counts pixels.
+/// A threshold that is searched after a frame, while no pixels are counted.
 class ThresholdSearch {
  public:
   /// What a frame gives is there on edge `due`, if it gives anything. What was not found until now

@@ -105,7 +105,7 @@ class GlobalThresholdClocked : public GlobalThreshold {
 /// Global Threshold at transaction level: a frame's binary image when it begins, the next threshold
 /// when it ends.
 ///
-/// Words leave one by one on `thresh_out`, too, unless whoever takes them has `binary_frames`.
+/// Words also leave one by one on `thresh_out`, unless the receiver takes `binary_frames`.
 class GlobalThresholdTlm : public GlobalThreshold, private FrameListener {
  public:
   GlobalThresholdTlm(sc_core::sc_module_name name, const Site& site);

@@ -52,9 +52,9 @@ void PixelStreamClocked::edge() {
   if (!frame && core_.rests(m.tready)) sleep();
 }
 
-/// Takes the words from the frame itself, and tells the slave when they pass; the core runs up to
-/// now when somebody looks, edge by edge where something happens. Where the slave wants single
-/// beats, it is shown each.
+/// Takes the words from the frame itself and tells the slave when they pass. The core catches up
+/// with the present when it is read, simulating only the edges on which something happens. A slave
+/// that wants single beats is shown each one.
 class PixelStreamTlm final : public PixelStream, private vp::BeatSource, private FrameListener {
  public:
   PixelStreamTlm(sc_core::sc_module_name name, const Site& site) : PixelStream(name, site) {}

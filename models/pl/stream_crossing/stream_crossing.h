@@ -18,8 +18,8 @@ class IpPorts;
 
 /// The side of a StreamCrossing that takes words.
 ///
-/// A packet begins only when the one before has left the crossing and whoever takes it is ready, as
-/// seen from here: TREADY says what it says without the crossing, some clocks later.
+/// A packet begins only when the previous one has left the crossing and the receiver is ready, as
+/// seen from here: TREADY has the value that it has without the crossing, some clocks later.
 class CrossingEntry : public vp::Clocked {
  public:
   vp::In<bool> rst{"rst", this};  ///< drops the words that are on their way
@@ -81,7 +81,7 @@ class CrossingFifo {
 
   explicit CrossingFifo(std::uint32_t depth) : words_(depth) {}
   std::uint32_t depth() const { return static_cast<std::uint32_t>(words_.size()); }
-  /// Where the word of this number stands; numbers count on from 0.
+  /// The place of word `number`; words are numbered from 0.
   Word& at(std::uint32_t number) { return words_[number % words_.size()]; }
 
  private:

@@ -31,7 +31,7 @@ module blob_detection #(
   localparam logic [X_BITS-1:0] LAST = X_BITS'(WIDTH - 1);
 
   // The neighbours' labels in the order in which the first of equally wide ones wins: left near and
-  // far, above from left to right. 0 where there is none.
+  // far, above from left to right. 0 without a neighbour.
   logic [BITS-1:0] left_1, left_2, above_m2, above_m1, above_0, above_p1, above_p2;
   wire below_top = y != Y_BITS'(0);
   wire [NEIGHBOURS*BITS-1:0] neighbours = {
@@ -49,7 +49,7 @@ module blob_detection #(
   logic [Y_BITS-1:0] tops[0:LABELS-1];     // Sy
   logic [Y_BITS-1:0] bottoms[0:LABELS-1];  // Ey
 `ifndef SYNTHESIS
-  initial columns[0] = '0;  // label 0 has no blob: a simulator would compare what nobody ever writes
+  initial columns[0] = '0;  // label 0 has no blob: a simulator would compare an entry that is never written
 `endif
 
   // The widest one: a tree, each node of which keeps the earlier of equally wide ones. Ex - Sx is one less

@@ -1,7 +1,7 @@
 // The runs of dark pixels that end in the pixels of a clock, two clocks behind the port: three of them at
 // most, from left to right, and whether the row does.
 //
-// Runs are told by their first column and by the one behind their last.
+// A run is given by its first column and the column after its last.
 module group_runs #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,

@@ -45,8 +45,8 @@ module leaving_blobs #(
   logic [KEYS-1:0] keys;
   logic [2:0] spacing;
 
-  // A stage takes the next label when it is empty: one label in two clocks, and no stage has to know
-  // of another one. The output is empty while it is shown, and stands still.
+  // A stage takes the next label when it is empty: one label in two clocks, and no stage depends on
+  // another. While a blob is shown, the output stage counts as empty and holds its value.
   wire pop = !address_valid && queued;
   wire to_memory = !memory_valid && address_valid;
   wire to_keys = !keys_valid && memory_valid;

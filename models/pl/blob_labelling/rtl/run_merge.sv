@@ -1,5 +1,5 @@
-// Takes the runs of a row and those of the row above from left to right, one in a clock: which of both
-// ends first, and whether they touch, was compared in the clock before. What happens is told a clock
+// Takes the runs of a row and those of the row above from left to right, one per clock. Which of the
+// two ends first, and whether they touch, was compared one clock earlier. Results appear one clock
 // later.
 module run_merge #(
     parameter int RUNS = 324,   // places in the ring of runs

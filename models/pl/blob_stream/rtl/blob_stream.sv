@@ -72,7 +72,7 @@ module blob_stream #(
 
   always_ff @(posedge clk) begin
     frame_before <= frame_ena;
-    if (!under_way) begin  // what stands when a frame begins: fewer have to wait for `opens`
+    if (!under_way) begin  // sampled until a frame begins: fewer have to wait for `opens`
       number          <= frame_number;
       threshold_used  <= threshold;
       overflow_before <= label_overflow;
@@ -101,7 +101,7 @@ module blob_stream #(
       end
       lost <= lost + (takes_trailer ? label_overflow - overflow_before : 32'(loses_blob));
     end
-    // While nothing is sent it does not matter what stands here.
+    // While nothing is sent these values do not matter.
     if (sender_free) begin
       place      <= 3'd0;
       at_last    <= 1'b0;

@@ -63,7 +63,7 @@ module camera #(
   logic [Y_BITS-1:0] row;
   wire line_ends = column == LAST_COLUMN;
   wire in_frame = frame_ena && busy;
-  wire takes = sensor_valid && busy;  // what a sensor still sends of a frame that was cut is none
+  wire takes = sensor_valid && busy;  // ignores what a sensor still sends of a cut frame
   always_ff @(posedge clk) begin
     pixel_ce  <= rst || takes || !in_frame;
     frame_ena <= !rst && (takes || in_frame);

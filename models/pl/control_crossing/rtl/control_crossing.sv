@@ -1,8 +1,8 @@
 // What software says to the logic, on its way from the bus clock to the pixel clock: each wire through
 // two registers of the pixel clock. Companion of ControlCrossing (control_crossing.h).
 //
-// Nobody resets it: the reset itself crosses here. The threshold crosses beside `wr_thresh`, bit by bit:
-// that is a level, and loads again on each clock, so what was torn stands for a clock at most.
+// It has no reset: the reset itself crosses here. The threshold crosses beside `wr_thresh`, bit by bit:
+// `wr_thresh` is a level and reloads on each clock, so a torn value lasts one clock at most.
 module control_crossing (
     input  logic       clk,           // pixel clock
     input  logic       ena_in,        // of the bus clock

@@ -54,6 +54,6 @@ module score_grid_thesis #(
     end
   end
 
-  // Of the other eight nobody asks.
+  // The directions of the other eight points are unused.
   wire unused = &{1'b0, directions[17:10], directions[7:0]};
 endmodule

@@ -1,5 +1,5 @@
-// The clock at which each grey level came last, of two frames in turn. What nobody counted holds the
-// clock of an earlier frame.
+// The clock at which each grey level came last, of two frames in turn. A level that did not occur
+// holds the clock of an earlier frame.
 module last_seen #(
     parameter int BITS = 18  // of a clock's number
 ) (

@@ -73,8 +73,8 @@ module otsu_threshold #(
       end
     end
 
-  // Pixels, and their sum, are counted one clock behind the port; what the frame had stands one clock
-  // behind its end.
+  // Pixels and their sum are counted one clock behind the port; the totals of a frame are valid one
+  // clock after its end.
   localparam int SEVERAL = PIXELS_PER_CLOCK > 1 ? 1 : 0;
   localparam int LEVELS = 7 + $clog2(2 * PIXELS_PER_CLOCK);  // bits of the sum of a clock's levels
   logic ended, counts, bank;  // `bank`: the histogram that counts

@@ -12,7 +12,7 @@ module stream_crossing #(
     input  logic        s_tvalid,
     input  logic        s_tlast,
     output logic        s_tready,
-    input  logic        m_clk,     // of whoever takes the words
+    input  logic        m_clk,     // of the receiver
     output logic [31:0] m_tdata,
     output logic [ 3:0] m_tkeep,
     output logic        m_tvalid,

@@ -316,7 +316,7 @@ inline constexpr vp::RegisterInfo distributor_registers[] = {
                       "Priority, a byte per interrupt", icdipr_fields),
     GIC_SPI_BYTES(ICDIPR, 0x00000000, vp::Access::read_write, 0xF8F8F8F8,
                   "Priority, a byte per interrupt", icdipr_fields),
-    GIC_PRIVATE_TARGETS("Target of private interrupts: the CPU that reads; 0 where there is none"),
+    GIC_PRIVATE_TARGETS("Target of private interrupts: the CPU that reads; 0 if not implemented"),
     GIC_SPI_BYTES(ICDIPTR, 0x00000000, vp::Access::read_write, 0x03030303,
                   "Targets, a byte per interrupt, a bit per CPU", icdiptr_fields),
     {"ICDICFR0", ICDICFR(0), 0xAAAAAAAA, vp::Access::read_only, 0x00000000,
