@@ -1,5 +1,5 @@
 // The clocked models of the feature extraction, both clock domains, driven like the RTL.
-//   --mode=ports      every port can be observed, nobody does (the usual one)
+//   --mode=ports      every port is observable, none is observed (the usual one)
 //   --mode=registers  and a tracer follows all registers of the detectors
 //   --mode=vcd        and a tracer writes the detectors' ports into a VCD in memory
 #include <vp/trace.h>

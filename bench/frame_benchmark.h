@@ -10,7 +10,7 @@
 
 namespace bench {
 
-/// What a benchmark program of whole frames is told besides Google Benchmark's own options.
+/// Options of the whole-frame benchmark programs, in addition to Google Benchmark's own.
 struct Arguments {
   std::string image = "demo";         ///< --image=NAME
   int frames = 10;                    ///< --frames=N, timed

@@ -73,8 +73,7 @@ class PlainFunction {
   explicit PlainFunction(const pl::Geometry& geometry)
       : geometry_(geometry), detector_(geometry), memory_(std::make_unique<Memory>()) {}
 
-  /// The pose of the first marker in the image; nothing if there is none. The threshold adapts from
-  /// frame to frame.
+  /// The pose of the first marker in the image, if any. The threshold adapts from frame to frame.
   std::optional<marker::Pose> run(const std::uint8_t* image, const marker::Camera& camera);
 
   /// Of the last frame.

@@ -3,8 +3,8 @@
 
     bench/search_quality.py build/release/bin/markervp FOLDER [SPACE.yaml...]
 
-computes each space of bench/spaces whole (about 10^5 points, some minutes on two cores; it may be stopped and goes on), then lets
-ten searches, ten Sobol and ten random samples have at most 2 % of the points, and compares the hypervolumes of the feasible points:
+computes every point of each space of bench/spaces (about 10^5 points, some minutes on two cores; it can be stopped and resumed), then
+lets ten searches, ten Sobol and ten random samples use at most 2 % of the points, and compares the hypervolumes of the feasible points:
 the part that they dominate of the box between the best and the worst feasible figures, a tenth wider at the worst end. Prints a
 table in Markdown. The hypervolume is not computed by the library that the search uses.
 """

@@ -1,6 +1,6 @@
 // 130 signals that change as in the platform, for 10 000 clocks a round; what a trace of them
 // costs.
-//   --mode=untraced       nobody looks
+//   --mode=untraced       no trace
 //   --mode=own            vp::Tracer
 //   --mode=sc_trace       SystemC's own
 // with "-busy" behind it half of the signals change in every clock, as inside a detector; otherwise

@@ -1,4 +1,4 @@
-// RTL in place of an IP that notes what stands at its pins on each evaluation: an object of
+// RTL in place of an IP that records the values at its pins on each evaluation. An object of
 // markervp_add_rtl(), named by the variable BENCH_RTL, does the work.
 #include "recorder.h"
 

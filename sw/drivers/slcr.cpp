@@ -44,7 +44,7 @@ std::uint32_t divisor(std::uint32_t clk_ctrl, std::uint32_t mask, unsigned shift
   return value == 0 ? 1 : value;
 }
 
-/// The larger of two divisors that make `product`, as alike as possible; 0 if there are none.
+/// The larger of two divisors whose product is `product`, as alike as possible; 0 if impossible.
 std::uint32_t larger_divisor(std::uint32_t product) {
   for (std::uint32_t large = 1; large <= largest_divisor; ++large) {
     if (large * large >= product && product % large == 0) return large;
@@ -132,7 +132,7 @@ std::uint32_t Slcr::cpu_clock() const {
                        divisor(control, slcr::clk_ctrl::DIVISOR0, slcr::clk_ctrl::DIVISOR0_shift));
 }
 
-// A throttle of 1 clock that nobody starts: the way Linux gates these clocks.
+// A throttle of 1 clock that is never started: the way Linux gates these clocks.
 void Slcr::gate_pl_clock(unsigned number, bool stop) const {
   if (number >= pl_clock_count) return;
   Unlocked().write(of_clock(slcr::FPGA0_THR_CNT, number), stop ? 1 : 0);

@@ -18,7 +18,7 @@ class PrivateTimer {
 
   /// Runs for `counts` (1 …): the event comes then; a periodic timer has it every `counts`.
   void start(std::uint32_t counts) const;
-  /// Stands where it is.
+  /// Stops at the present count.
   void stop() const;
   /// Counts until the event.
   std::uint32_t remaining() const;

@@ -1,5 +1,5 @@
 /* A Linux application as one writes it for a Zynq: blinks an output of AXI GPIO 0 through /dev/mem.
- * The output is one that nobody looks at: the threshold field of the control packet, without
+ * The output is one without effect: the threshold field of the control packet, without
  * wr_thresh. */
 #include <fcntl.h>
 #include <stdint.h>

@@ -225,7 +225,7 @@ class Corners {
     auto& [solution, normal, error, is_seen] = descent;
     for (unsigned step = 0; step < most_steps; ++step) {
       Vector6d move = -normal.factor().solve(normal.gradient());
-      // What the step gains where the corners move in proportion. So near nobody looks again.
+      // Gain in the linear model. So small a step is taken without another evaluation.
       const double gain = -normal.gradient().dot(move);
       if (gain < least_gain * (1 + error)) {
         solution = moved(solution, move);

@@ -20,7 +20,7 @@ class OpenBlobs {
     return forgotten + 1;
   }
 
-  /// Takes the start of blob `number` out; false if there is none.
+  /// Removes the start of blob `number`; false if not found.
   bool close(std::uint16_t number, BoundingBox* start) {
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (boxes_[i].number != number) continue;

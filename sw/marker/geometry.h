@@ -23,7 +23,7 @@ constexpr double dot(Point a, Point b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// Four corners; the order stands with each use.
+/// Four corners; each use states their order.
 using Quad = std::array<Point, 4>;
 
 /// Twice the signed area of the triangle a, b, c; positive when they turn clockwise on the screen

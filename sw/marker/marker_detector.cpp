@@ -49,7 +49,7 @@ Extremes extremes_of(const std::uint32_t* words) {
   return extremes;
 }
 
-/// True if a side runs along the border of the picture: nobody sees what is beyond it.
+/// True if a side runs along the border of the picture: what is beyond it is not visible.
 bool is_cut(const Quad& quad, const GreyImage& image) {
   for (unsigned i = 0; i < 4; ++i) {
     const Point a = quad[i], b = quad[(i + 1) % 4];

@@ -26,7 +26,7 @@ struct Board {
   GridBoard grid{};
   CharucoBoard charuco{};
 
-  /// The corners of a marker on the board. False if the board does not have it, or there is none.
+  /// The corners of a marker on the board. False if the board does not have it, or without a board.
   bool find(std::uint32_t id, Places& places) const;
 };
 
@@ -83,8 +83,8 @@ inline void clear(Detections& found) {
 
 /// From the blobs of a frame to its markers, and from those to poses.
 ///
-/// What can be told from a blob's words is told before a pixel is read: a picture in DMA memory
-/// costs a cache line for each that is looked at.
+/// What a blob's words can decide is decided before a pixel is read: in a picture in DMA memory,
+/// each pixel read costs a cache line.
 class MarkerDetector {
  public:
   /// The dictionary must outlive the detector.
@@ -93,8 +93,8 @@ class MarkerDetector {
   /// Finds the markers; `found` has no poses yet. The words may hold anything.
   void find_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
 
-  /// The pose of each marker, or of the board. Where an ID is seen more than once nobody knows
-  /// which one is the board's: none of them counts.
+  /// The pose of each marker, or of the board. If an ID is seen more than once, it is unknown which
+  /// one is the board's: none of them counts.
   void find_poses(const Camera& camera, Detections& found);
 
  private:

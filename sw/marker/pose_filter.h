@@ -43,7 +43,7 @@ class PoseTrack {
 };
 
 /// Follows each ID of a dictionary and the board from frame to frame. An ID that a frame shows
-/// more than once is left as it is: nobody knows which is which.
+/// more than once is left as it is: the occurrences cannot be told apart.
 class PoseFilter {
  public:
   /// For static memory, all zero.

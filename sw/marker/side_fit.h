@@ -47,7 +47,7 @@ struct EdgeLine {
 struct FitPass {
   double reach, depth;      ///< px across the edge
   std::uint32_t crossings;  ///< of a side, at most
-  bool is_last;             ///< nobody asks for the transition any more
+  bool is_last;             ///< the transition is no longer needed
 };
 
 /// A side with fewer crossings is not measured.

@@ -1,5 +1,5 @@
 /* Written as for a board support package: includes and names as there, nothing of markervp. Blinks
- * an output that nobody looks at (the threshold field of the control packet, without wr_thresh) and
+ * an output that has no effect (the threshold field of the control packet, without wr_thresh) and
  * measures its own period with the global timer; the timer's alarm counts in an interrupt. */
 #include <sleep.h>
 #include <xgpio.h>

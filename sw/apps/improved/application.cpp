@@ -57,7 +57,7 @@ bool Application::initialise() {
   return false;
 }
 
-/// The filter's seconds are those of the clock that the processors have, whoever set it.
+/// The filter's seconds follow from the processors' actual clock, whatever code set it.
 void Application::open_filter() {
   drivers::Slcr slcr;
   slcr.initialise({});
@@ -86,7 +86,7 @@ Status Application::admit(const Slot& slot) {
   if (!is_legal_size(slot.frame) || picture_bytes(slot.frame) > capture_.max_picture_bytes()) {
     return Status::unsupported_size;
   }
-  // Those of the next frame, too: nobody makes room while a frame waits to be worked on.
+  // The next frame's as well: no room can be made while a frame waits to be processed.
   for (Slot& each : slots_) {
     if (!each.buffers.reserve(picture_bytes(slot.frame))) return Status::no_memory;
   }

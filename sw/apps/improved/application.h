@@ -47,7 +47,7 @@ class Application {
   Options options_;
   std::array<Slot, 2> slots_;
   std::uint32_t next_slot_;
-  bool knows_camera_frame_;     ///< after a frame that went wrong nobody knows
+  bool knows_camera_frame_;     ///< false after a failed frame
   std::uint32_t camera_frame_;  ///< the number of the last one
   marker::MarkerDetector detector_;
   marker::PoseFilter pose_filter_;

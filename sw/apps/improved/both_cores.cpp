@@ -57,7 +57,7 @@ void BothCores::find(const marker::CameraFrame& frame, const marker::BlobList& b
   merge(found);
 }
 
-/// The next piece that nobody has. False: there is none.
+/// Takes the next free piece. False: no piece is left.
 bool BothCores::take(std::uint32_t& piece) {
   hal_lock_acquire(&lock_);
   hal_shared_write(&next_, sizeof next_);

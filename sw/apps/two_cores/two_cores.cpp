@@ -41,7 +41,7 @@ volatile bool second_done, rested;
 const drivers::GlobalTimer global_timer;
 drivers::PrivateTimer second_timer;
 
-/// Takes an item off the list, and adds what the one before came to. False: there is none.
+/// Takes an item off the list, and adds the result of the previous one. False: the list is empty.
 bool take(std::uint32_t& item, std::uint32_t result) {
   hal_lock_acquire(&list_lock);
   hal_shared_write(&list, sizeof list);

@@ -76,7 +76,7 @@ void describe(Fault fault) {
       describe_data_abort();
       break;
     case Fault::fiq:
-      chip::print("fast interrupt, which nobody uses");
+      chip::print("unexpected fast interrupt: nothing uses FIQ");
       break;
   }
 }

@@ -31,7 +31,7 @@ HAL_EXPORT void markervp_boot() {
 }
 
 char inbyte(void) {
-  markervp_boot();  // where nobody has: on the chip without boot code, or in a linked program
+  markervp_boot();  // if not done yet: on the chip without boot code, or in a linked program
   while (hal_read32(stdin_at(uart::SR)) & uart::sr::REMPTY) {
   }
   return static_cast<char>(hal_read32(stdin_at(uart::FIFO)));

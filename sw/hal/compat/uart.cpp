@@ -20,7 +20,7 @@ void replace_mode(const XUartPs* instance, std::uint32_t mask, std::uint32_t bit
   write(instance, uart::MR, (read(instance, uart::MR) & ~mask) | bits);
 }
 
-/// Where an option of XUartPs_SetOptions stands.
+/// The register bit of an option of XUartPs_SetOptions.
 struct Option {
   u16 option;
   std::uint32_t offset, bit;
@@ -66,7 +66,7 @@ void serve_receiver(XUartPs* instance, u32 event) {
   XUartPsBuffer& buffer = instance->ReceiveBuffer;
   if (buffer.RemainingBytes != 0) receive_some(instance);
   const u32 received = buffer.RequestedBytes - buffer.RemainingBytes;
-  // A time-out whose bytes were the last that were asked for is none.
+  // A time-out that delivers the last requested bytes counts as received data.
   if (buffer.RemainingBytes == 0 && event == XUARTPS_EVENT_RECV_TOUT)
     event = XUARTPS_EVENT_RECV_DATA;
   if (buffer.RemainingBytes == 0 || event != XUARTPS_EVENT_RECV_DATA)

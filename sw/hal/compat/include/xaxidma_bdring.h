@@ -92,7 +92,7 @@ typedef struct {
 #define XAxiDma_BdRingAckIrq(RingPtr, Mask) \
   XAxiDma_WriteReg((RingPtr)->ChanBase, XAXIDMA_SR_OFFSET, (Mask)&XAXIDMA_IRQ_ALL_MASK)
 
-/** Where the ring goes on when it is started again. */
+/** Where the ring resumes when it is started again. */
 #define XAxiDma_BdRingSnapShotCurrBd(RingPtr) \
   ((void)((RingPtr)->BdaRestart = XAxiDma_BdRingGetCurrBd(RingPtr)))
 /** The software's part of cyclic mode: descriptors stay with the hardware when they are taken from

@@ -1,7 +1,7 @@
 #ifndef XDEBUG_H
 #define XDEBUG_H
 
-/* Messages for whoever debugs: printed where DEBUG is defined. */
+/* Debug messages: printed where DEBUG is defined. */
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 #ifndef XIL_SPINLOCK_H
 #define XIL_SPINLOCK_H
 
-/* One CPU runs: nobody else waits for a lock. */
+/* Only one CPU runs, so a lock is always free. */
 
 #include <xil_types.h>
 

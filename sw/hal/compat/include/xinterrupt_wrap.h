@@ -36,12 +36,12 @@ enum XIntrType { XSPI, XPPI, XSGI };
 #define XGetEncodedIntcBaseAddr(IntParent, IntcType) ((IntParent) | (IntcType))
 
 /** Connects `IntrHandler`, which gets `DriverInstance`, and enables the interrupt, at the
- * controller and at the CPU. Sets up the controller when called first. XST_FAILURE if `IntcParent`
- * is none. */
+ * controller and at the CPU. The first call sets up the controller. XST_FAILURE if `IntcParent` is
+ * not a controller. */
 int XSetupInterruptSystem(void* DriverInstance, void* IntrHandler, u32 IntrId, UINTPTR IntcParent,
                           u16 Priority);
 
-/** The steps of it. XST_FAILURE if the controller is none, or was not set up. */
+/** Its steps. XST_FAILURE if `IntcParent` is not a controller, or was not set up. */
 int XConfigInterruptCntrl(UINTPTR IntcParent);
 int XConnectToInterruptCntrl(u32 IntrId, void* IntrHandler, void* CallBackRef, UINTPTR IntcParent);
 /** It is started when it is set up. */

@@ -45,7 +45,7 @@ extern "C" {
 #define XUARTPS_FORMAT_1_5_STOP_BIT 1U
 #define XUARTPS_FORMAT_2_STOP_BIT 2U
 
-/* What a handler is told of. */
+/* Events passed to a handler. */
 #define XUARTPS_EVENT_RECV_DATA 1U  /**< all that was asked for has come */
 #define XUARTPS_EVENT_RECV_TOUT 2U  /**< nothing came for the receive time-out */
 #define XUARTPS_EVENT_SENT_DATA 3U  /**< all has been handed to the FIFO, which is empty */

@@ -126,8 +126,8 @@ void hal_store_release(volatile uint32_t* word, uint32_t value);
 /** hal_load_acquire() that opens the core's exclusive monitor (LDREX). */
 uint32_t hal_load_exclusive(const volatile uint32_t* word);
 
-/** hal_store_release() if nobody wrote to the word since this core's hal_load_exclusive() (STREX).
- * False: it was not written, load it again. */
+/** hal_store_release() if the word was not written since this core's hal_load_exclusive() (STREX).
+ * False: nothing was stored; load the word again. */
 bool hal_store_exclusive(volatile uint32_t* word, uint32_t value);
 
 /** A spin lock between the cores. Not for a handler that may interrupt who holds it. */
@@ -214,8 +214,8 @@ void hal_work(uint32_t item, uint64_t count);
  * They nest. */
 void hal_function_enter(uint32_t function);
 void hal_function_leave(void);
-/** The program reads, or writes, `size` bytes that both cores use. The platform warns where nothing
- * orders it against an access of the other core that is told of, too: no lock, no word that one
+/** Declares that the program reads, or writes, `size` bytes that both cores use. The platform warns
+ * if nothing orders this against a declared access of the other core: no lock, no word that one
  * releases and the other acquires, no event, no software interrupt. Takes no time. */
 void hal_shared_read(const volatile void* data, size_t size);
 void hal_shared_write(volatile void* data, size_t size);
