@@ -3,8 +3,8 @@
 //   --mode=upload   software uploads each image by DMA, as the thesis' system does (the usual one)
 //   --mode=preload  the test bench puts it into the image memory; it is the camera of a design that
 //   has one
-//   --mode=alone    the RTL that --set=pl.fidelity.<ip>=FILE names, without platform, on what stood
-//   at its pins in a frame of `preload`
+//   --mode=alone    the RTL that --set=pl.fidelity.<ip>=FILE names, without platform, with the
+//   values that its pins had in a frame of `preload`
 // Options such as --set=fidelity=clocked choose the platform.
 #include <dlfcn.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 
 namespace bench {
 
-/// What stood at the input pins of Verilated RTL on each of its evaluations.
+/// The values at the input pins of Verilated RTL on each of its evaluations.
 struct Recording {
   struct Input {
     std::uint32_t port;

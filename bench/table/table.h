@@ -11,7 +11,7 @@ namespace bench {
 /// One thing measured once.
 struct Sample {
   double cpu_ms = 0;                       ///< processor time of a frame, or of a process
-  std::map<std::string, double> counters;  ///< what else the program told
+  std::map<std::string, double> counters;  ///< other values that the program reported
   std::string label;                       ///< a hash of what it computed; may be empty
 };
 

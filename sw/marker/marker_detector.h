@@ -67,7 +67,7 @@ struct Detection {
 struct Detections {
   BlobCounts blobs;
   BoardPoses board;             ///< not valid: no board was asked for, or none is seen
-  std::uint32_t board_markers;  ///< of which its pose was made
+  std::uint32_t board_markers;  ///< used for its pose
   PoseMotion board_motion;
   std::uint32_t count;
   std::array<Detection, max_detections> markers;  ///< in the order of the blobs

@@ -8,7 +8,7 @@
 
 namespace marker {
 
-/// The work of a fit, told in one go.
+/// The work of a fit, counted in one call.
 struct FitEffort {
   std::uint64_t passes = 0, sides = 0, strips = 0, crossings = 0, level_pixels = 0;
   std::uint64_t transitions = 0, refitted = 0, level_reads = 0, corners = 0;

@@ -181,7 +181,7 @@ void ClockScheduler::let_others_go_first() {
   synchronise();
 }
 
-// Wakes all who wait for a condition; those whose own does not hold go on waiting.
+// Wakes all that wait for a condition; those whose condition does not hold keep waiting.
 void ClockScheduler::check_condition() {
   for (const auto& [condition, context] : waiting_) {
     if (condition(context)) {

@@ -54,7 +54,7 @@ std::uintptr_t instruction_of(const void* context) {
 #endif
 }
 
-/// Who jumped to nowhere: his return address is on top of the stack.
+/// The caller of an invalid address: its return address is on top of the stack.
 std::uintptr_t caller_of_nothing(const void* context) {
 #if defined(__x86_64__)
   return *reinterpret_cast<const std::uintptr_t*>(
@@ -246,7 +246,7 @@ bool FaultTrap::is_stack_overflow(std::uintptr_t address) const {
   return address < end + overflow_slack && address > end - overflow_range;
 }
 
-// The signal comes again, to whom it belongs.
+// Raises the signal again for its previous handler.
 void FaultTrap::give_back(int signal) {
   for (std::size_t i = 0; i < signal_count; ++i) {
     if (signals[i] == signal) sigaction(signal, &changed_.old_actions[i], nullptr);

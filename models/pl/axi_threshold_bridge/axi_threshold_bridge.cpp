@@ -196,7 +196,7 @@ void AxiThresholdBridge::pass_words() {
   }
   if (arrived) {
     thresh_seen = thresh_in;
-    // Room is judged by what stood before this clock, as the RTL's full flag does.
+    // Room is judged by the state before this clock, as the RTL's full flag does.
     if (waiting < fifo_depth) {
       fifo_.push(thresh_data);
     } else {

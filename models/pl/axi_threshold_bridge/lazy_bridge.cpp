@@ -122,7 +122,7 @@ void LazyBridge::advance(std::uint64_t cycle) {
   cycle_ = std::max(cycle_, cycle);
 }
 
-// One edge of the bridge: what stood before it decides.
+// One edge of the bridge, computed from the state before it.
 void LazyBridge::step(std::uint64_t edge) {
   const std::uint32_t waiting = fifo_.count();
   cycle_ = edge;

@@ -28,7 +28,7 @@ class LazyBridge {
   /// that arrive are not taken.
   void hold_in_reset(bool hold);
   /// Counts words that were overwritten up to now, too, where no edge of the system clock has
-  /// followed. For who looks from outside, between instants.
+  /// followed. For access from outside, between instants.
   void settle();
 
   /// Before and after a change of either clock's frequency.

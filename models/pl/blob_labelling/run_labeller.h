@@ -85,8 +85,8 @@ class FreeLabels {
 /// passed. If no pixel of the present row has touched the component by then, it is complete: its
 /// label waits for its turn to be shown, and is free again.
 ///
-/// A run without a label counts as bright, and its pixels as lost. Who derives from it says in
-/// which clock what happens.
+/// A run without a label counts as bright, and its pixels as lost. Derived classes decide in which
+/// clock each step happens.
 class RunLabeller {
  public:
   using Label = FreeLabels::Label;

@@ -53,7 +53,7 @@ void BlobStreamClocked::edge() {
   const bool frame = frame_ena, begins = frame && !frame_before_;
   frame_before_ = frame;
   if (rst) return reset();
-  // What stood before this clock decides.
+  // Decided by the state before this clock.
   const std::size_t waits = fifo_.size();
   const bool room = waits < fifo_depth, moves = !sender_.empty() && room;
   const bool free = m.tready && !m.tvalid.get() && fifo_.empty();

@@ -17,8 +17,8 @@ namespace pl {
 
 class IpPorts;
 
-/// What a sensor sends from a trigger on: when its pixels stand at the pins of the port, for those
-/// who go from edge to edge.
+/// What a sensor sends from a trigger on: when its pixels are at the pins of the port, for models
+/// that run edge by edge.
 class Sensor {
  public:
   Sensor(const Geometry& geometry, std::uint32_t line_blanking)

@@ -13,7 +13,7 @@
 
 namespace pl {
 
-/// Told of the frames that pass a channel.
+/// Called for the frames that pass a channel.
 class FrameListener {
  public:
   virtual ~FrameListener() = default;

@@ -15,7 +15,7 @@ void PixelStreamCore::step(const Input& input, bool ready) {
   take(input, ready, empty, room);
 }
 
-// Room is judged by what stood before this clock, as a full flag does.
+// Room is judged by the state before this clock, as a full flag does.
 void PixelStreamCore::take(const Input& input, bool ready, bool empty, bool room) {
   const bool closed = closing_ && room;
   if (closed) {

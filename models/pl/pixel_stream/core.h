@@ -23,7 +23,7 @@ class PixelStreamCore {
   PixelStreamCore(std::uint32_t frame_words, std::uint32_t fifo_depth)
       : frame_words_(frame_words), fifo_depth_(fifo_depth) {}
 
-  /// One edge with what stood before it: the slave was ready, or not.
+  /// One edge; whether the slave was ready before it.
   void step(const Input& input, bool ready);
   void reset();
   /// What an edge does without input: nothing, unless a beat moves or the packet has to be closed.

@@ -68,7 +68,7 @@ class WordFormat {
   constexpr unsigned strength_shift() const { return direction_shift() + 2; }
   constexpr unsigned strength_bits() const { return 31 - strength_shift(); }
 
-  /// `strength` 12 bits, of which the upper ones travel; `direction` N 0, S 1, E 2, W 3.
+  /// `strength` 12 bits; the upper ones are sent; `direction` N 0, S 1, E 2, W 3.
   constexpr std::uint32_t corner(std::uint32_t strength, std::uint32_t direction, std::uint32_t x,
                                  std::uint32_t y) const {
     return corner_flag |

@@ -92,7 +92,7 @@ class CrossingFifo {
 template <class T>
 class TwoRegisters {
  public:
-  /// One edge, with what stood before it.
+  /// One edge, with the state before it.
   void sample(T value) {
     seen_ = first_;
     first_ = value;

@@ -22,7 +22,7 @@ class RaceDetector {
  public:
   static constexpr unsigned cores = 2;
 
-  /// Who acquires `key` later sees what `core` did until now.
+  /// A core that acquires `key` later sees what `core` did until now.
   void release(unsigned core, const volatile void* key);
   void acquire(unsigned core, const volatile void* key);
 

@@ -31,7 +31,7 @@ bool is_jump_to_itself(std::uintptr_t instruction) {
   return bytes[0] == 0xEB && bytes[1] == 0xFE;
 }
 
-// As if the jump were a call: who walks the stack finds the loop. What lies below the stack pointer
+// As if the jump were a call: a stack walk finds the loop. What lies below the stack pointer
 // is of no use any more.
 void leave_empty_loop(void* context) {
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
@@ -47,7 +47,7 @@ void leave_empty_loop(void*) {}
 
 }  // namespace
 
-// Who ends the program from outside must not do so in the middle of this.
+// The program must not be ended from outside in the middle of this.
 bool ProgramWatch::count_block(std::uintptr_t address) {
   runs = false;
   ++(*block_counts)[address];

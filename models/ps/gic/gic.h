@@ -25,8 +25,8 @@ class InterruptLogic {
   /// The state after reset.
   InterruptLogic();
 
-  /// Takes over what all CPUs share from the logic of another one: shared interrupts, but for
-  /// whom they go to.
+  /// Copies what all CPUs share from the logic of another one: the shared interrupts, except
+  /// their targets.
   void share(const InterruptLogic& other);
 
   /// A bit for each interrupt, as the distributor's registers show them.

@@ -28,7 +28,7 @@ namespace ps {
 class FixedMapping {
  public:
   /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
-  /// memory, and who occupies the range.
+  /// memory, and what occupies the range.
   FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size);
   ~FixedMapping();
   FixedMapping(const FixedMapping&) = delete;
@@ -141,7 +141,7 @@ class Ddr : public vp::MemoryTarget {
   using MemoryTarget::end;
   /// Host pointer of a bus address; the same number. Throws vp::ProtocolError if it is outside.
   unsigned char* at(std::uint32_t address, std::uint64_t bytes = 1) const;
-  /// The same byte for who is not the program: devices and the test bench.
+  /// The same byte for accesses not by the program: devices and the test bench.
   unsigned char* behind(std::uint32_t address, std::uint64_t bytes = 1) const;
   /// A file with all of it, for another process to map; -1: the host allows none of that size.
   int descriptor() const { return memory_.descriptor(); }

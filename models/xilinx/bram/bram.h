@@ -25,7 +25,7 @@ double block_ram_36(std::uint64_t depth, std::uint32_t width, bool parity = true
 /// a fault of the module at the port: it is warned of, a write is dropped, a read returns 0.
 class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::sc_interface {
  public:
-  /// A model at port B that looks at many bytes at once: told of what port A does.
+  /// A model at port B that reads many bytes at once: called for accesses of port A.
   class Reader {
    public:
     virtual ~Reader() = default;

@@ -86,7 +86,7 @@ bool describing = false;
 }  // namespace
 
 /// Called by the vectors. `status` is the program status of what was interrupted, `caller` its link
-/// register: register accesses all happen inside the HAL, and who called it matters more.
+/// register: register accesses all happen inside the HAL, and its caller matters more.
 extern "C" [[noreturn]] void chip_fault(Fault fault, std::uint32_t pc, std::uint32_t status,
                                         std::uint32_t caller) {
   if (describing) chip::end(chip::fault_exit_code);  // the description itself went wrong

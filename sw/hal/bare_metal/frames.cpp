@@ -147,7 +147,7 @@ extern "C" const hal_frame* hal_frame_next(void) {
 
 extern "C" {
 
-/// Results go to the console. Who knows what they mean defines this (sw/chip).
+/// Results go to the console. Defined by code that knows their meaning (sw/chip).
 __attribute__((weak)) bool chip_print_result(uint32_t, const void*, size_t) {
   return false;
 }

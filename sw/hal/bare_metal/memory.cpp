@@ -97,7 +97,7 @@ constexpr std::uint32_t l2_auxiliary = 0x7276'0000;
 void enable_l2() {
   device_register(slcr::base + slcr::SLCR_UNLOCK) = slcr::unlock_key;
   device_register(slcr_l2c_ram) = l2c_ram_value;
-  if (device_register(pl310::control) & 1u) {  // left on by who started us: nothing of it is dirty
+  if (device_register(pl310::control) & 1u) {  // left on by the boot code: nothing in it is dirty
     device_register(pl310::control) = 0;
     barrier();
   }

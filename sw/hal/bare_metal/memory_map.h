@@ -2,7 +2,7 @@
 #define MARKERVP_CHIP_MEMORY_MAP_H
 
 /*
- * Who uses which part of DDR. Plain numbers: the linker script, the start-up code and C++ read
+ * The uses of the parts of DDR. Plain numbers: the linker script, the start-up code and C++ read
  * them. Borders of sections of 1 MiB, the unit of the translation table.
  *
  *   program       code, data, small stacks of the exceptions

@@ -5,7 +5,7 @@ namespace {
 
 constexpr u32 rising_edge = 1, falling_edge = 2;  // of an IntrId
 
-/// Shared by all who set up interrupts in this way. Of it only what the vendor's XScuGic has at the
+/// Shared by all code that sets up interrupts in this way. Of it only what the vendor's XScuGic has at the
 /// same place is used: the vendor's driver may stand behind the functions.
 XScuGic controller = {};
 

@@ -19,7 +19,7 @@ class InstantObserver {
 
 /// Runs the edges of all clocks of a simulation in the order of time, in one SystemC process.
 ///
-/// At coincident edges every module samples what stood before the edge, whatever the order of the
+/// At coincident edges every module samples the values from before the edge, whatever the order of the
 /// clocks. While nothing else can happen (no SystemC event before), it runs many edges in one
 /// activation.
 class ClockScheduler : public sc_core::sc_module {
@@ -64,7 +64,7 @@ class ClockScheduler : public sc_core::sc_module {
   void pass_until(std::uint64_t ps, Condition condition = nullptr, const void* context = nullptr) {
     pass_from(now_ps(), ps, condition, context);
   }
-  /// pass_until() for who knows the present time.
+  /// pass_until() for callers that know the present time.
   void pass_from(std::uint64_t now_ps, std::uint64_t ps, Condition condition = nullptr,
                  const void* context = nullptr) {
     if (ps > now_ps && !pass_quietly(ps)) pass_instants(now_ps, ps, condition, context);
@@ -207,7 +207,7 @@ class ClockScheduler : public sc_core::sc_module {
   bool started_ = false;
 };
 
-// The clock's next edge has moved. Who has run ahead wakes us when it waits.
+// The clock's next edge has moved. A process that ran ahead wakes us when it waits.
 inline void ClockScheduler::reschedule(const Clock& clock) {
   if (!started_ || clock.places_.empty()) return;
   edges_.set(clock.number_, clock.next_.ps);

@@ -27,7 +27,7 @@ class HostTicks {
   /// At most four at a time. Both may be called in signal handlers.
   static void add(Listener& listener);
   static void remove(Listener& listener);
-  /// For who listens: the next tick comes after a hundredth of the period.
+  /// For listeners: the next tick comes after a hundredth of the period.
   static void hurry();
 };
 

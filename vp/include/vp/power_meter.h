@@ -24,7 +24,7 @@ class PiecewiseConstant {
   /// instant the last one counts.
   void set(std::uint64_t ps, double value);
   double value() const { return steps_.back().value; }
-  /// What stood at `ps`; not before the history begins.
+  /// The value at `ps`, which must not precede the history.
   double at(std::uint64_t ps) const;
   /// Value · seconds between the two times. 0 if `to_ps` is not after `from_ps`.
   double integral(std::uint64_t from_ps, std::uint64_t to_ps) const;

@@ -156,7 +156,7 @@ class RegisterBank : public sc_core::sc_module {
   /// All registers, in the table's order.
   const std::deque<Register>& registers() const { return registers_; }
 
-  /// Called before software reads or writes a register: who keeps state that follows from the time
+  /// Called before software reads or writes a register: a model whose state follows from the time
   /// brings it up to date.
   void before_access(std::function<void()> effect) { before_access_ = std::move(effect); }
 

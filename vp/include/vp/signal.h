@@ -14,7 +14,7 @@ class ClockScheduler;
 class Clocked;
 class SignalBase;
 
-/// Told when a signal changes: a tracer, a combinational function, a sleeping module.
+/// Called when a signal changes: a tracer, a combinational function, a sleeping module.
 class SignalListener {
  public:
   virtual ~SignalListener() = default;
@@ -127,7 +127,7 @@ class SignalReader<bool> : public SignalBase, public sc_core::sc_signal_in_if<bo
 ///
 /// It implements sc_signal_in_if, so that standard SystemC ports, sc_trace and foreign modules can
 /// bind to it. They see it as an sc_signal: the new value comes after the delta cycles in which
-/// processes that Clock::pin() wakes run, so these sample what stood before the edge, too.
+/// processes that Clock::pin() wakes run, so these also sample the old value.
 template <class T>
 class Signal : public SignalReader<T> {
  public:

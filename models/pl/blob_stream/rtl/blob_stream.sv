@@ -49,7 +49,7 @@ module blob_stream #(
   wire pop = free && waits;
   wire [COUNT_BITS-1:0] next_count = fifo_count + COUNT_BITS'(push) - COUNT_BITS'(pop);
 
-  // The frame. What stood before this clock decides on a new one, but for the end of the packet.
+  // The frame. The state before this clock decides on a new one, except for the end of the packet.
   logic frame_before, dropping, mixed, full;
   logic [31:0] number, lost, overflow_before;
   logic [7:0] threshold_used;

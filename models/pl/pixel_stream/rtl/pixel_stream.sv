@@ -59,7 +59,7 @@ module pixel_stream #(
   wire takes = m_tready && !waits && !m_tvalid && !(closing && (WHOLE || !room));
   wire passes = starts ? takes : passing;
   wire cut = passes && ((ena_before && !ena) || (word_full && !(WHOLE && starts) && !room));
-  wire store = word_full && (WHOLE && starts ? takes : passes && room);  // who takes has room
+  wire store = word_full && (WHOLE && starts ? takes : passes && room);  // `takes` implies room
   wire at_last = last && !(WHOLE && starts);
   always_ff @(posedge clk)
     if (rst) begin

@@ -130,7 +130,7 @@ uint32_t hal_load_exclusive(const volatile uint32_t* word);
  * False: nothing was stored; load the word again. */
 bool hal_store_exclusive(volatile uint32_t* word, uint32_t value);
 
-/** A spin lock between the cores. Not for a handler that may interrupt who holds it. */
+/** A spin lock between the cores. Not for a handler that may interrupt the holder. */
 typedef struct hal_lock {
   volatile uint32_t taken; /**< 0 at first */
   const char* name;        /**< for messages; may be NULL */
