@@ -76,7 +76,8 @@ BOOST_AUTO_TEST_CASE(split_and_join) {
 
 BOOST_AUTO_TEST_CASE(control_characters_are_shown) {
   BOOST_TEST(vp::visible("a\n!b\t\x1b[2J\x7f\r") == R"(a\n!b\t\x1b[2J\x7f\x0d)");
-  BOOST_TEST(vp::visible("\u009b1m \u202egpj \u2066 \u2028") == R"(\x9b1m \u202egpj \u2066 \u2028)");
+  BOOST_TEST(vp::visible("\u009b1m \u202egpj \u2066 \u2028") ==
+             R"(\x9b1m \u202egpj \u2066 \u2028)");
   BOOST_TEST(vp::visible(std::string("\0", 1)) == R"(\x00)");
   for (const char* text : {"", "50 MHz, 2 µs – “½” √ 画像", "\xe2\x80", "\xff\xc2", R"(a\nb)"})
     BOOST_TEST(vp::visible(text) == text);

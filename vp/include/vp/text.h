@@ -30,8 +30,8 @@ std::string format_fixed(double value, int decimals);
 std::string hex(std::uint64_t value);
 /// A text that a user wrote, for messages: of more than 200 characters the beginning and "...".
 std::string excerpt(std::string_view text);
-/// A text from outside as one line that commands nothing: control characters, which move a cursor or
-/// end a line, and marks that turn the direction of writing become "\\n", "\\x1b", "\\u202e".
+/// A text from outside as one line that commands nothing: control characters, which move a cursor
+/// or end a line, and marks that turn the direction of writing become "\\n", "\\x1b", "\\u202e".
 std::string visible(std::string_view text);
 /// The same of a text of several lines: line feeds stay.
 std::string visible_lines(std::string_view text);
