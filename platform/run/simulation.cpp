@@ -7,10 +7,10 @@
 #include <vp/file.h>
 #include <vp/foreign_object.h>
 #include <vp/systemc_pins.h>
+#include <vp/unit.h>
 #include <zynq/debugger.h>
 #include <zynq/hardware_map.h>
 #include <zynq/profiler.h>
-#include <vp/unit.h>
 #include <algorithm>
 #include <numeric>
 #include <ostream>
@@ -255,9 +255,9 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
     error = std::make_exception_ptr(
         vp::ProtocolError(report.get_msg() + (ended ? ", " + frame_text() : "")));
   } catch (const vp::ObjectEnd& end) {
-    error = std::make_exception_ptr(vp::ProtocolError(
-        std::string(end.what()) + place_in_object(end.fault()) + ", at " +
-        vp::format_time(zynq_->scheduler.now_ps()) + ", " + frame_text()));
+    error = std::make_exception_ptr(
+        vp::ProtocolError(std::string(end.what()) + place_in_object(end.fault()) + ", at " +
+                          vp::format_time(zynq_->scheduler.now_ps()) + ", " + frame_text()));
   } catch (...) {
     error = std::current_exception();
   }

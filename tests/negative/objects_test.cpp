@@ -17,12 +17,15 @@ struct Objects : CommandLine {
     ::unsetenv("HOSTILE");
   }
 
-  static std::string in_place(const std::string& file) { return "pl.fidelity.frame_status=" + file; }
+  static std::string in_place(const std::string& file) {
+    return "pl.fidelity.frame_status=" + file;
+  }
 
   kit::Outcome run(const std::string& way, const Words& more = {}) const {
     ::setenv("HOSTILE", way.c_str(), 1);
     std::filesystem::remove_all(*this / "out");
-    Words arguments{"run", "z1.0", "z1.5", "--output", "out", "--set", in_place(MARKERVP_HOSTILE_RTL)};
+    Words arguments{
+        "run", "z1.0", "z1.5", "--output", "out", "--set", in_place(MARKERVP_HOSTILE_RTL)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return start(arguments);
   }

@@ -58,9 +58,8 @@ BOOST_AUTO_TEST_CASE(programs_that_cannot_be_loaded) {
   run_refuses({"--program", "empty.so"}, {"empty.so"});
   // The loader itself would touch what is missing and die of it.
   const std::size_t size = std::filesystem::file_size(MARKERVP_FAULTY);
-  for (const std::size_t bytes :
-       {std::size_t{4}, std::size_t{64}, std::size_t{100}, std::size_t{3000}, size / 8,
-                                  size - 100}) {
+  for (const std::size_t bytes : {std::size_t{4}, std::size_t{64}, std::size_t{100},
+                                  std::size_t{3000}, size / 8, size - 100}) {
     kit::write_part(MARKERVP_FAULTY, *this / "half.so", bytes);
     const bool known = bytes >= 64;  // as a shared object
     run_refuses({"--program", "half.so"}, {"half.so", known ? "truncated" : "no shared object"});

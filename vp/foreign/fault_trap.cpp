@@ -394,8 +394,8 @@ void end_process(int code) {
 
 }  // namespace vp
 
-// Calls of the C library that would end the whole process, or double it. Foreign code that makes one
-// is ended as by a fault; for everybody else they are what they always are.
+// Calls of the C library that would end the whole process, or double it. Foreign code that makes
+// one is ended as by a fault; for everybody else they are what they always are.
 //
 // Defined here rather than wrapped when a program is linked: the loader looks into the executable
 // first, so it holds for whatever a program consists of. What the C library calls inside itself

@@ -92,8 +92,8 @@ std::string problem_of_file(const ObjectKind& kind, const std::string& path) {
   const Elf64_Ehdr& header = *found;
   const std::string other_machine = problem_of_machine(kind, header);
   if (!other_machine.empty()) return other_machine;
-  std::uint64_t end = std::max(
-      header.e_phoff, header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize);
+  std::uint64_t end =
+      std::max(header.e_phoff, header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize);
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));
@@ -156,8 +156,8 @@ int take_range(dl_phdr_info* info, std::size_t, void* data) {
   for (int i = 0; i < info->dlpi_phnum; ++i) {
     const ElfW(Phdr)& header = info->dlpi_phdr[i];
     if (header.p_type == PT_LOAD)
-      object.end = std::max<std::uintptr_t>(object.end,
-                                            info->dlpi_addr + header.p_vaddr + header.p_memsz);
+      object.end =
+          std::max<std::uintptr_t>(object.end, info->dlpi_addr + header.p_vaddr + header.p_memsz);
   }
   return 1;
 }
@@ -302,9 +302,9 @@ void call_objects(const std::function<void()>& code) {
   const Fault* const stray_before = FaultTrap::stray();
   const Fault* fault = nullptr;
   try {
-    fault = trap.call(
-        [](void* context) { (*static_cast<const std::function<void()>*>(context))(); },
-        const_cast<std::function<void()>*>(&code));
+    fault =
+        trap.call([](void* context) { (*static_cast<const std::function<void()>*>(context))(); },
+                  const_cast<std::function<void()>*>(&code));
   } catch (...) {
     // It stopped because of the stray thread.
     if (FaultTrap::stray() == stray_before) throw;

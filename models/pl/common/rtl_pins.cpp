@@ -137,7 +137,8 @@ void RtlPins::find_signals() {
   bound_ = true;
   const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
   if (module && !ports_.watched) {
-    vp::info(*module, "/markervp/rtl/seed", "registers without reset start at " + start() +
+    vp::info(*module, "/markervp/rtl/seed",
+             "registers without reset start at " + start() +
                  (rtl_.check ? "" : "; built with NO_ASSERTIONS"),
              sc_core::SC_LOW);
   }

@@ -80,11 +80,10 @@ const RtlEnd* eval(void* model) {
   return nullptr;
 }
 
-const RtlPort ports[] = {
-    {"clk", 1, 0, "status.sv:1"},        {"rst", 1, 0, "status.sv:2"},
-    {"frame_ena", 1, 0, "status.sv:3"},  {"idle", 1, 0, "status.sv:4"},
-    {"corner_out", 1, 0, "status.sv:5"}, {"blob_out", 1, 0, "status.sv:6"},
-    {"busy", 1, 1, "status.sv:7"},       {"done", 1, 1, "status.sv:8"}};
+const RtlPort ports[] = {{"clk", 1, 0, "status.sv:1"},        {"rst", 1, 0, "status.sv:2"},
+                         {"frame_ena", 1, 0, "status.sv:3"},  {"idle", 1, 0, "status.sv:4"},
+                         {"corner_out", 1, 0, "status.sv:5"}, {"blob_out", 1, 0, "status.sv:6"},
+                         {"busy", 1, 1, "status.sv:7"},       {"done", 1, 1, "status.sv:8"}};
 
 const RtlDescriptor descriptor = {
     INTERFACE,

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
-#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -15,7 +14,8 @@
 
 namespace vp {
 
-/// Code that the platform does not answer for: of a PS program, or of a shared object's constructors.
+/// Code that the platform does not answer for: of a PS program, or of a shared object's
+/// constructors.
 struct ForeignCode {
   /// It runs, and a fault is its own; false: the platform's code does.
   static volatile bool runs;

@@ -82,26 +82,27 @@ void* pin(void* model, std::uint32_t port) {
   return places[port];
 }
 
-const RtlDescriptor descriptor = {RTL_INTERFACE,
-                                  "corner_detection",
-                                  "corner",
-                                  "corner.sv:1",
-                                  sizeof ports / sizeof *ports,
-                                  ports,
-                                  0,
-                                  nullptr,
-                                  [](const char*, std::uint64_t) -> void* { return new CornerObject; },
-                                  [](void* model) { delete &of(model); },
-                                  [](void* model) -> const RtlEnd* {
-                                    of(model).eval();
-                                    return nullptr;
-                                  },
-                                  nullptr,
-                                  [](void*) -> const RtlEnd* { return nullptr; },
-                                  nullptr,
-                                  pin,
-                                  STATE ? sizeof(CornerObject::State) : 0,
-                                  [](void* model) -> const void* { return &of(model).state; }};
+const RtlDescriptor descriptor = {
+    RTL_INTERFACE,
+    "corner_detection",
+    "corner",
+    "corner.sv:1",
+    sizeof ports / sizeof *ports,
+    ports,
+    0,
+    nullptr,
+    [](const char*, std::uint64_t) -> void* { return new CornerObject; },
+    [](void* model) { delete &of(model); },
+    [](void* model) -> const RtlEnd* {
+      of(model).eval();
+      return nullptr;
+    },
+    nullptr,
+    [](void*) -> const RtlEnd* { return nullptr; },
+    nullptr,
+    pin,
+    STATE ? sizeof(CornerObject::State) : 0,
+    [](void* model) -> const void* { return &of(model).state; }};
 
 }  // namespace
 

@@ -34,8 +34,8 @@ const Bug endings[] = {
      "  assign busy = ring || started",
      "did not converge"},
 };
-const Bug no_reset = {"no_reset", "frame_status",  "frame_status.sv",
-                      "      started <= 1'b0;\n", "", "busy"};
+const Bug no_reset = {"no_reset", "frame_status", "frame_status.sv", "      started <= 1'b0;\n",
+                      "",         "busy"};
 
 const RtlObjects& objects() {
   static const RtlObjects built([] {
@@ -56,7 +56,6 @@ struct Frame : harness::Pipeline {
         }()) {
     load(harness::noise(64, 32, 7));
   }
-
 };
 
 /// From the construction of the logic to the end of the simulation.
