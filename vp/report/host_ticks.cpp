@@ -42,8 +42,8 @@ void plan_tick(std::uint64_t ns) {
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-// Little use of the processor may mean that others had it: a waiting thread gave it away. A tick that
-// comes late says that the process was stopped, as by a debugger.
+// Little use of the processor may mean that others had it: a waiting thread gave it away. A tick
+// that comes late says that the process was stopped, as by a debugger.
 std::uint64_t spent(const Times& from, const Times& to) {
   const std::uint64_t processor = to.processor_ns - from.processor_ns;
   const std::uint64_t passed = to.passed_ns - from.passed_ns;

@@ -5,8 +5,8 @@ namespace {
 
 constexpr u32 rising_edge = 1, falling_edge = 2;  // of an IntrId
 
-/// Shared by all code that sets up interrupts in this way. Of it only what the vendor's XScuGic has at the
-/// same place is used: the vendor's driver may stand behind the functions.
+/// Shared by all code that sets up interrupts in this way. Of it only what the vendor's XScuGic has
+/// at the same place is used: the functions may call the vendor's driver.
 XScuGic controller = {};
 
 bool is_controller(UINTPTR parent) {

@@ -19,8 +19,8 @@ class InstantObserver {
 
 /// Runs the edges of all clocks of a simulation in the order of time, in one SystemC process.
 ///
-/// At coincident edges every module samples the values from before the edge, whatever the order of the
-/// clocks. While nothing else can happen (no SystemC event before), it runs many edges in one
+/// At coincident edges every module samples the values from before the edge, whatever the order of
+/// the clocks. While nothing else can happen (no SystemC event before), it runs many edges in one
 /// activation.
 class ClockScheduler : public sc_core::sc_module {
  public:

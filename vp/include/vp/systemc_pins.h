@@ -19,8 +19,8 @@
 ///   ours.in(wire);                a vp::In takes an sc_signal that a foreign sc_out drives
 ///   vp::Driver d{"d", wire, ours.out};  a vp::Signal has what that drives
 ///
-/// All of them sample the values from before an edge, so a module can be replaced by a foreign one of
-/// the same function and nothing changes.
+/// All of them sample the values from before an edge, so a module can be replaced by a foreign one
+/// of the same function and nothing changes.
 namespace vp {
 
 /// The signal behind Clock::pin().
