@@ -90,8 +90,8 @@ class FaultTrap {
  public:
   enum class Of { code, objects };
 
-  /// The thread that will call() needs that much more stack than the program: what a program
-  /// writes beyond its own frames by mistake then harms nobody.
+  /// Extra stack that the thread that will call() needs beyond the program's: it absorbs writes
+  /// beyond the program's own frames.
   static constexpr std::size_t gap = 16 * 1024;
 
   /// `stack_size` of the thread that will call().
@@ -100,13 +100,13 @@ class FaultTrap {
   FaultTrap(const FaultTrap&) = delete;
   FaultTrap& operator=(const FaultTrap&) = delete;
 
-  /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Exceptions pass.
+  /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Lets exceptions pass.
   const Fault* call(void (*code)(void* context), void* context);
-  /// Told of a fault before its code is left, in a signal handler if a signal was it; once.
+  /// Called once, before the faulting code is left: in a signal handler if the fault was a signal.
   void on_fault(std::function<void(const Fault&)> listener) { listener_ = std::move(listener); }
-  /// The code that runs now is that of its call().
+  /// The code of its call() runs now.
   void resume() { active_ = this; }
-  /// The code of its call() never goes on.
+  /// The code of its call() never resumes.
   void abandon() { disarm(); }
 
   /// Foreign code runs in this thread: it can be left.
@@ -123,7 +123,7 @@ class FaultTrap {
   static void leave_if_foreign(Fault::Kind kind, const char* call = "", int code = 0);
 
   /// In a signal handler with this `context`: ends the object's function that is under way in this
-  /// thread because it takes too long. Returns where there is none.
+  /// thread because it takes too long. Returns if no function is under way.
   static void leave_object_from_signal(const void* context);
   /// A function of an object is under way at the `context` of a signal.
   static bool in_object(const void* context);
