@@ -91,7 +91,7 @@ foreach(folder designs device input report scene trace zynq)
   markervp_install_headers(platform/${folder} platform)
 endforeach()
 
-install(TARGETS hybrid improved ps-only blink two-cores LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
+install(TARGETS hybrid improved ps-only blink two-cores exercise LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
 install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
 install(DIRECTORY sw/linux/ DESTINATION "${data_folder}/linux")

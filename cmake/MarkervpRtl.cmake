@@ -1,11 +1,11 @@
-# markervp_add_rtl(NAME IP ip TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS])
+# markervp_add_rtl(NAME IP ip TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE])
 # RTL in place of an IP: a shared object for `markervp run --set pl.fidelity.<ip>=FILE`. Verilator compiles the module `TOP`,
 # GHDL turns VHDL into Verilog for it, `TOP` then is an entity. The object knows its ports and parameters; markervp compares them with those of the
 # IP when it loads it. Its assertions run, and end the run, but with NO_ASSERTIONS. Needs neither markervp's headers nor its compiler, so it serves every markervp of the same interface.
 function(markervp_add_rtl NAME)
-  cmake_parse_arguments(RTL "NO_ASSERTIONS" "IP;TOP" "SOURCES;PARAMETERS" ${ARGN})
+  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE" "IP;TOP" "SOURCES;PARAMETERS" ${ARGN})
   if(NOT RTL_IP OR NOT RTL_TOP OR NOT RTL_SOURCES OR RTL_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "markervp_add_rtl(${NAME} IP ip TOP module SOURCES file… [PARAMETERS NAME=VALUE…] [NO_ASSERTIONS]): got '${ARGN}'")
+    message(FATAL_ERROR "markervp_add_rtl(${NAME} IP ip TOP module SOURCES file… [PARAMETERS NAME=VALUE…] [NO_ASSERTIONS] [COVERAGE]): got '${ARGN}'")
   endif()
   find_package(verilator 5 HINTS "$ENV{VERILATOR_ROOT}" /usr/share/verilator)
   if(NOT verilator_FOUND)
@@ -48,11 +48,17 @@ function(markervp_add_rtl NAME)
     set(check nullptr)
     set(assert --noassert)
   endif()
+  markervp_rtl_hashes("${folder}/top.xml" hashes ${vhdl})
   markervp_rtl_glue(${NAME} "${folder}/top.xml" "${folder}/glue.cpp" "${generics}")
 
   add_library(${NAME} MODULE "${folder}/glue.cpp")
   target_include_directories(${NAME} PRIVATE "${markervp_rtl_include}")
-  verilate(${NAME} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
+  # Counting lines and toggles makes RTL slow: for `markervp rtl check`.
+  set(coverage "")
+  if(RTL_COVERAGE)
+    set(coverage COVERAGE)
+  endif()
+  verilate(${NAME} ${coverage} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
     VERILATOR_ARGS -O3 --x-assign fast --x-initial unique ${assert} ${parameters})
   # The glue has these functions (MarkervpRtl.cpp.in).
   target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_PRINTF=markervp_rtl_print)
@@ -60,7 +66,9 @@ function(markervp_add_rtl NAME)
   target_compile_options(${NAME} PRIVATE $<IF:$<CONFIG:Debug>,-O0,-O3> -w)
   set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
     PREFIX "" SUFFIX .so CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  markervp_rtl_share_runtime(${NAME})
+  if(NOT RTL_COVERAGE)
+    markervp_rtl_share_runtime(${NAME})
+  endif()
 endfunction()
 
 # Verilator's runtime takes longer to compile than an IP: once is enough for all objects. Each still has its own.
@@ -114,6 +122,23 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS)
   string(REGEX REPLACE "/\\* ([^ ]+) +\\*/\n  always @\\*\n    if \\(!([a-z0-9_]+)\\)\n      \\$fatal\\(1, \"[^\"]*\"\\);"
     "always @* assert (\\2) else $error(\"VHDL assertion at \\1\");" text "${text}")
   file(WRITE "${FILE}" "/* verilator lint_off WIDTH */\n/* verilator lint_off INITIALDLY */\n/* verilator lint_off COMBDLY */\n${text}")
+endfunction()
+
+# Of each file that Verilator read, and of those given.
+function(markervp_rtl_hashes XML RESULT)
+  file(STRINGS "${XML}" files REGEX "<file id=")
+  list(TRANSFORM files REPLACE ".*filename=\"([^\"]+)\".*" "\\1")
+  list(APPEND files ${ARGN})
+  list(REMOVE_DUPLICATES files)
+  set(hashes "")
+  foreach(file IN LISTS files)
+    if(IS_ABSOLUTE "${file}" AND EXISTS "${file}")
+      file(SHA256 "${file}" hash)
+      string(APPEND hashes "    \"${hash}\",\n")
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+    endif()
+  endforeach()
+  set(${RESULT} "${hashes}" PARENT_SCOPE)
 endfunction()
 
 # What the object says of itself, from Verilator's description of the top module. `parameters`: those that it does not know.

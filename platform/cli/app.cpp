@@ -33,8 +33,10 @@ rule.)";
 
 constexpr const char* rtl_check_help =
     R"(  markervp rtl check corner_detection --rtl build demo z2.0 noise.png
-Both get the same inputs in the running system. The first output that differs ends it: port, clock
-and both values are told, and lockstep.vcd and lockstep.gtkw show the clocks around it.)";
+Both get the same inputs in the running system: those named, and stimuli that are hard on the logic.
+The first output that differs ends it: port, clock and both values are printed, and lockstep.vcd and
+lockstep.gtkw show the clocks around it. Else a table says what was exercised; outputs that never
+changed are NOT EXERCISED, and the check has not passed (1).)";
 
 constexpr const char* rtl_vectors_help =
     R"(  markervp rtl vectors corner_detection demo noise.png -o vectors
@@ -243,6 +245,7 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   check->add_option("--rtl", target.rtl, "what markervp_add_rtl() built, or the folder it lies in")
       ->type_name("FILE")
       ->required();
+  check->add_flag("--no-stimuli", target.no_stimuli, "play only these inputs, no hard stimuli");
   add_input_options(*check, target.run);
   add_design_option(*check, target.run.configuration);
   add_configuration_options(*check, target.run.configuration);

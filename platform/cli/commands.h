@@ -100,6 +100,9 @@ int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments
 /// Synthesises RTL with Yosys: primitives, and Fmax as a range.
 int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out);
 
+/// RTL in lock-step with its model, in processes of their own.
+int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
+
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out);
 

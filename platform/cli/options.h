@@ -105,6 +105,7 @@ struct RtlOptions {
   std::string command;  ///< "check", "vectors", "compare", "synth"
   std::string ip;
   std::string rtl;  ///< check: shared object, or a folder with IP.so in it or in its `build`
+  bool no_stimuli = false;  ///< check: only what the user names
   RunOptions run;
   RtlCompareOptions compare;
   RtlSynthOptions synth;

@@ -263,8 +263,8 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   if (facts.camera) text += camera_text(*facts.camera);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
   text += verdict_text(verdict_of(facts, summary));
-  if (facts.power && facts.resources && facts.timing) {
-    text += design_text(*facts.power, *facts.resources, *facts.timing);
+  if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {
+    text += design_text(facts.power, *facts.resources, *facts.timing);
   }
   if (facts.clocks) text += clock_text(*facts.clocks);
   if (summary.settled() > 0) {
@@ -294,7 +294,10 @@ std::string mhz(double value) {
   return text + " MHz";
 }
 
-std::string power_line(const PowerReport& power) {
+std::string power_line(const std::optional<PowerReport>& known, const ResourceReport& resources) {
+  if (!known)
+    return "power    unknown, as the figures of " + vp::join(resources.unknown, ", ") + " are\n";
+  const PowerReport& power = *known;
   std::string text =
       fmt::format("power    {:.2f} W ({:.2f} to {:.2f})", power.total_w, power.low_w, power.high_w);
   if (power.per_frame) text += fmt::format("   {:.1f} mJ per frame", power.energy_per_frame_mj);
@@ -317,6 +320,8 @@ std::string timing_line(const TimingReport& timing) {
       std::count_if(timing.modules.begin(), timing.modules.end(),
                     [&](const auto& m) { return unknown ? m.unknown() : m.missed(); });
   const std::string others = alike > 1 ? fmt::format(" and {} more", alike - 1) : "";
+  if (!critical.known)
+    return fmt::format("timing   unknown: no Fmax of {}{}\n", critical.name, others);
   const std::string reachable = critical.reachable_mhz > 0
                                     ? fmt::format("; the chip has {}", mhz(critical.reachable_mhz))
                                     : "";
@@ -328,6 +333,13 @@ std::string timing_line(const TimingReport& timing) {
 
 std::string resource_line(const ResourceReport& resources) {
   if (resources.modules.empty()) return "";
+  if (!resources.unknown.empty() && resources.over.empty()) {
+    std::string text = "fits     unknown\n";
+    for (const ResourceReport::Module& module : resources.modules) {
+      if (!module.known) text += fmt::format("         {}: {}\n", module.name, module.source);
+    }
+    return text;
+  }
   std::string text = resources.over.empty() ? "fits     " : "TOO BIG  ";
   for (const Primitive& p : primitives) {
     text += fmt::format("{}{} {:.0f} of {:.0f}", &p == primitives ? "" : "   ", p.text,
@@ -344,6 +356,7 @@ std::vector<std::string> timing_warnings(const TimingReport& timing) {
   std::map<std::pair<std::string, double>, std::vector<std::string>> unknown;
   for (const auto& module : timing.modules) {
     if (module.met) continue;
+    if (!module.known) continue;  // the console's own lines say so
     if (module.unknown()) {
       unknown[{module.clock + " runs at " + mhz(module.frequency_mhz), module.fmax_mhz}].push_back(
           module.name);
@@ -417,9 +430,9 @@ std::string clock_text(const ClockReport& report) {
   return text;
 }
 
-std::string design_text(const PowerReport& power, const ResourceReport& resources,
+std::string design_text(const std::optional<PowerReport>& power, const ResourceReport& resources,
                         const TimingReport& timing) {
-  return power_line(power) + timing_line(timing) + resource_line(resources);
+  return power_line(power, resources) + timing_line(timing) + resource_line(resources);
 }
 
 }  // namespace platform::report

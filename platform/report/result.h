@@ -60,6 +60,7 @@ struct ResourceReport {
     Amount amount;
     unsigned uncertainty_percent = 0;
     std::string source;
+    bool known = true;  ///< false: `source` says why, and `total` lacks it
   };
 
   std::string device;
@@ -67,6 +68,7 @@ struct ResourceReport {
   Amount total;
   Amount available;
   std::vector<std::string> over;  ///< "lut", "ff", "bram36", "dsp": what there is not enough of
+  std::vector<std::string> unknown;  ///< modules of which it is not known what they take
 };
 
 /// What logic is built of.
@@ -93,9 +95,10 @@ struct TimingReport {
     std::string origin;         ///< of the range: "published", "derived", …, "configuration"
     std::string source;
     double reachable_mhz = 0;  ///< the highest clock up to fmax that the chip makes; 0: not known
+    bool known = true;         ///< false: there is no fmax, and so no margin; `source` says why
 
     /// Clocked above what it can do.
-    bool missed() const { return !met && frequency_mhz > fmax_high_mhz; }
+    bool missed() const { return !met && known && frequency_mhz > fmax_high_mhz; }
     /// Clocked above what it is known to reach: it may work or not.
     bool unknown() const { return !met && !missed(); }
     /// By how much the clock could rise at most.
@@ -150,7 +153,7 @@ std::vector<std::string> resource_warnings(const ResourceReport& resources);
 std::vector<std::string> power_warnings(const PowerReport& power);
 
 /// "power", "timing" and "fits" for the console, a line each.
-std::string design_text(const PowerReport& power, const ResourceReport& resources,
+std::string design_text(const std::optional<PowerReport>& power, const ResourceReport& resources,
                         const TimingReport& timing);
 
 /// What a design counts of a frame, in the order of reports. Names are keys in `counts` of

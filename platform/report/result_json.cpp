@@ -330,15 +330,19 @@ Json to_json(const ResourceReport& resources) {
   for (const ResourceReport::Module& module : resources.modules) {
     Json entry;
     entry["name"] = module.name;
-    entry.update(amount_json(module.amount));
-    entry["uncertainty_percent"] = module.uncertainty_percent;
+    if (module.known) {
+      entry.update(amount_json(module.amount));
+      entry["uncertainty_percent"] = module.uncertainty_percent;
+    }
     entry["source"] = module.source;
     json["modules"].push_back(entry);
   }
-  json["total"] = amount_json(resources.total);
+  const bool known = resources.unknown.empty();
+  if (known) json["total"] = amount_json(resources.total);
   json["available"] = amount_json(resources.available);
-  json["fits"] = resources.over.empty();
+  if (known || !resources.over.empty()) json["fits"] = resources.over.empty();
   json["over"] = resources.over;
+  if (!known) json["unknown"] = resources.unknown;
   return json;
 }
 

@@ -72,7 +72,14 @@ Part fits(const std::optional<ResourceReport>& resources) {
     if (used > 0)
       narrow(part, 100 * (resources->available.*primitive.amount / used - 1), primitive.key);
   }
-  if (resources->over.empty()) return part;
+  if (resources->over.empty() && resources->unknown.empty()) return part;
+  if (resources->over.empty()) {
+    part.margin_percent.reset();
+    part.by.clear();
+    part.holds = Holds::unknown;
+    part.why = fmt::format("what {} takes is not known", vp::join(resources->unknown, ", "));
+    return part;
+  }
   part.holds = Holds::no;
   part.why =
       fmt::format("too big for an {} ({})", resources->device, vp::join(resources->over, ", "));
@@ -103,7 +110,7 @@ Part timing(const std::optional<TimingReport>& report) {
   Part part{"timing"};
   if (report->modules.empty()) return part;
   const TimingReport::Module& critical = critical_module(*report);
-  part.margin_percent = critical.margin_percent;
+  if (critical.known) part.margin_percent = critical.margin_percent;
   part.by = critical.name;
   if (critical.met) return part;
   const bool unknown = critical.unknown();

@@ -33,7 +33,8 @@ struct Verdict {
   /// "job": each frame has a result, nothing was lost in buffers, and the marker was found wherever
   ///        the scene has one; a camera of a fixed rate lost no frame. The margin is the share of
   ///        such frames, less 100 %.
-  /// "fits": LUT, flip-flops, block memories and DSP of the device.
+  /// "fits": LUT, flip-flops, block memories and DSP of the device; unknown where those of a part
+  ///         are, unless the others alone are too many.
   /// "clocks": CPU, DDR and FCLK are within the speed grade, and PLLs and dividers make them.
   /// "timing": no IP is clocked above its Fmax; unknown inside the range where that lies.
   std::vector<Part> parts;

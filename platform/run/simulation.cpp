@@ -111,7 +111,7 @@ void Simulation::build() {
   timing_ = std::make_unique<TimingClosure>("timing", power_->parts(), zynq_->chip.data);
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options_.timeline_frames);
   power_->record_timeline(recorder_->records());
-  if (options_.trace) power_->follow();
+  if (options_.trace && power_->is_known()) power_->follow();
   if (linux_run_) linux_run_->connect(*zynq_, bench_->cache_contract());
   zynq_->ps.cpu.load(*program_, linux_run_ ? linux_run_->costs(costs_->costs) : costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
@@ -142,7 +142,7 @@ report::RunFacts Simulation::facts() const {
     facts.unpublished = bench_->unpublished();
   }
   facts.camera = bench_->camera_report();
-  facts.power = power_->power_report(zynq_->scheduler.now_ps());
+  if (power_->is_known()) facts.power = power_->power_report(zynq_->scheduler.now_ps());
   facts.resources = power_->resource_report();
   facts.timing = power_->timing_report(*timing_);
   facts.clocks = power_->clock_report();

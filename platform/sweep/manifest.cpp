@@ -1,10 +1,10 @@
 #include <sweep/manifest.h>
 
+#include <host/digest.h>
 #include <host/document.h>
 #include <host/process.h>
 #include <input/camera_file.h>
 #include <input/frame_source.h>
-#include <openssl/evp.h>
 #include <scene/scene.h>
 #include <sweep/point.h>
 #include <vp/error.h>
@@ -200,7 +200,7 @@ std::string Identities::of(const PlannedPoint& point) {
 }
 
 std::string key_of(std::string_view identity) {
-  return content_hash(identity).substr(0, key_digits);
+  return host::content_hash(identity).substr(0, key_digits);
 }
 
 namespace {
@@ -334,67 +334,6 @@ Manifest read_manifest(const std::string& file) {
 
 namespace {
 
-class Digest {
- public:
-  Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), sha_256(), nullptr) == 1);
-  }
-
-  void add(std::string_view bytes) {
-    check(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
-  }
-
-  std::string digits() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-    unsigned size = 0;
-    check(EVP_DigestFinal_ex(context_.get(), bytes.data(), &size) == 1);
-    std::string text;
-    for (unsigned i = 0; i < size; ++i) {
-      text += "0123456789abcdef"[bytes[i] >> 4];
-      text += "0123456789abcdef"[bytes[i] & 15];
-    }
-    return text;
-  }
-
- private:
-  /// Looked up once: EVP_sha256() is, for each digest.
-  static const EVP_MD* sha_256() {
-    static const std::unique_ptr<EVP_MD, decltype(&EVP_MD_free)> found(
-        EVP_MD_fetch(nullptr, "SHA256", nullptr), EVP_MD_free);
-    check(found != nullptr);
-    return found.get();
-  }
-
-  static void check(bool ok) {
-    if (!ok) throw std::runtime_error("SHA-256 is not available");
-  }
-
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
-
-}  // namespace
-
-std::string content_hash(std::string_view bytes) {
-  Digest digest;
-  digest.add(bytes);
-  return digest.digits();
-}
-
-std::string file_hash(const std::string& path) {
-  vp::InputFile file(path, "file");
-  // What is hashed is read once more, to be used.
-  if (!file.is_regular())
-    throw vp::InputError("'" + path + "' is a pipe, which can be read only once: name a file");
-  const auto deadline = vp::InputFile::HostClock::now() + vp::InputFile::patience;
-  Digest digest;
-  std::array<char, 1 << 16> block;
-  while (const std::size_t count = file.read(block.data(), block.size(), deadline))
-    digest.add({block.data(), count});
-  return digest.digits();
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -454,7 +393,7 @@ void add_named_tables(const fs::path& file, Json& contents) {
     const fs::path table = file.parent_path() / (name.get<std::string>() + ".json");
     std::error_code ignored;
     if (fs::is_regular_file(table, ignored))
-      contents[table.filename().string()] = file_hash(table.string());
+      contents[table.filename().string()] = host::file_hash(table.string());
   }
 }
 
@@ -465,7 +404,7 @@ Json program_identity(const std::string& version, const std::string& revision) {
   json["version"] = version;
   json["revision"] = revision;
   if (revision.empty() || ends_with(revision, "-dirty"))
-    json["executable"] = file_hash("/proc/self/exe");
+    json["executable"] = host::file_hash("/proc/self/exe");
   return json;
 }
 
@@ -480,7 +419,7 @@ Json table_contents() {
     }
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files)
-      json[file.generic_string()] = file_hash((fs::path(folder) / file).string());
+      json[file.generic_string()] = host::file_hash((fs::path(folder) / file).string());
     if (!files.empty()) break;
   }
   return json;
@@ -490,12 +429,12 @@ Json file_contents(const std::string& program_file,
                    const std::map<std::string, std::string>& configuration) {
   Json json;
   json["program"] = fs::path(program_file).stem().string();
-  json["program_file"] = program_file.empty() ? "" : file_hash(program_file);
+  json["program_file"] = program_file.empty() ? "" : host::file_hash(program_file);
   json["files"] = Json::object();
   for (const auto& [path, value] : configuration) {
     std::error_code ignored;
     if (fs::path(value).extension().empty() || !fs::is_regular_file(value, ignored)) continue;
-    json["files"][path] = file_hash(value);
+    json["files"][path] = host::file_hash(value);
     add_named_tables(value, json["files"]);
   }
   return json;
@@ -511,13 +450,13 @@ Json input_contents(const std::vector<std::string>& inputs, const InputChoice& c
     entry["name"] = item.name;
     if (item.kind == input::InputItem::Kind::scene) {
       const Scene scene = make_scene(item.source, camera_of(options, size));
-      entry["scene"] = content_hash(scene_json(scene).dump());
+      entry["scene"] = host::content_hash(scene_json(scene).dump());
     } else {
-      entry["file"] = file_hash(item.source);
+      entry["file"] = host::file_hash(item.source);
     }
     json.push_back(entry);
   }
-  if (choice.camera) json.push_back({{"camera", file_hash(*choice.camera)}});
+  if (choice.camera) json.push_back({{"camera", host::file_hash(*choice.camera)}});
   return json;
 }
 

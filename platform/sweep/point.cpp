@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <host/digest.h>
 #include <host/document.h>
 #include <sweep/manifest.h>
 #include <sweep/point.h>
@@ -88,7 +89,7 @@ std::string point_text(const PointRecord& record) {
   text += ",\n\"key\":" + json_text(record.key);
   text += ",\n\"identity\":" + record.identity;
   text += ",\n\"run\":" + json_text(record.run);
-  text += ",\n\"digest\":" + json_text(content_hash(outcome));
+  text += ",\n\"digest\":" + json_text(host::content_hash(outcome));
   text += ",\n\"outcome\":" + outcome + "}\n";
   return text;
 }
@@ -111,8 +112,9 @@ PointRecord read_point(const std::string& path, bool verify) {
   try {
     PointRecord record{json.at("key").get<std::string>(), json_text(json.at("identity")),
                        std::move(json.at("run")), std::move(json.at("outcome"))};
-    const bool whole = !verify || (key_of(record.identity) == record.key &&
-                                   content_hash(json_text(record.outcome)) == json.at("digest"));
+    const bool whole =
+        !verify || (key_of(record.identity) == record.key &&
+                    host::content_hash(json_text(record.outcome)) == json.at("digest"));
     if (whole && (record.failed() || record.outcome.contains("result"))) return record;
   } catch (const Json::exception&) {
   }

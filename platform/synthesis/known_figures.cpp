@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <host/digest.h>
 #include <host/document.h>
 #include <host/process.h>
+#include <synthesis/synthesis.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -15,8 +17,31 @@ namespace {
 using Point = KnownFigures::Point;
 
 constexpr double hz_per_mhz = 1e6;
+/// No logic is faster than the clock buffer: 2.155 ns in public timing reports of -1.
+constexpr std::uint64_t clock_buffer_hz = 464'000'000;
 /// Of LUT and flip-flops, against what Vivado makes of the same RTL (docs/rtl.md).
 constexpr unsigned uncertainty_percent = 40, uncertainty_beyond_percent = 60;
+
+/// "; not covered by it: two clocks"
+std::string not_covered_by(const nlohmann::json& entry) {
+  std::string text;
+  for (const nlohmann::json& what : entry.value("not_covered", nlohmann::json::array()))
+    text += (text.empty() ? "; not covered by it: " : "; ") + what.get<std::string>();
+  return text;
+}
+
+std::uint32_t count(double number) {
+  return static_cast<std::uint32_t>(std::llround(number));
+}
+
+/// All primitives.
+void take(const KnownFigures::Point& point, vp::IpEstimate& e) {
+  e.lut = count(point.lut);
+  e.ff = count(point.ff);
+  e.dsp = count(point.dsp);
+  if (e.bram36 == 0) e.bram36 = point.bram36;
+  e.uncertainty_percent = point.beyond ? uncertainty_beyond_percent : uncertainty_percent;
+}
 
 std::string mhz(std::uint64_t hz) {
   return vp::format_fixed(static_cast<double>(hz) / hz_per_mhz, 0);
@@ -88,7 +113,10 @@ KnownFigures KnownFigures::load(const std::filesystem::path& file) {
   try {
     figures.tool_ = json.at("tool");
     for (const nlohmann::json& entry : json.at("entries")) {
-      figures.entries_.push_back({entry.at("ip"), entry.at("parameters"), point_of(entry)});
+      figures.entries_.push_back({entry.at("ip"), entry.at("parameters"),
+                                  entry.value("built_with", Entry().built_with),
+                                  entry.value("sources", Entry().sources),
+                                  not_covered_by(entry), point_of(entry)});
     }
   } catch (const nlohmann::json::exception& error) {
     throw vp::InputError("'" + file.string() +
@@ -137,21 +165,113 @@ std::optional<Point> KnownFigures::find(const vp::IpEstimate::Rtl& rtl) const {
   return found.front()->point;
 }
 
-void KnownFigures::apply(vp::IpEstimate& e) const {
+namespace {
+
+/// What is known of the model is not so of other RTL.
+void forget(vp::IpEstimate& e) {
+  e.lut = e.ff = e.dsp = e.uncertainty_percent = 0;
+  e.bram36 = 0;
+  e.size = 1;
+  e.fmax_hz = e.fmax_high_hz = 0;
+  e.kind.clear();
+  e.includes_memory = false;
+  e.memory_reads = nullptr;
+}
+
+bool is_among(const std::vector<std::string>& hashes, const std::string& hash) {
+  return std::find(hashes.begin(), hashes.end(), hash) != hashes.end();
+}
+
+/// It is built from the RTL that comes with markervp, as it is installed.
+bool is_own(const vp::IpEstimate& e) {
+  try {
+    const std::vector<std::filesystem::path> sources = own_designs({e.rtl.module}).at(0).sources;
+    return std::all_of(sources.begin(), sources.end(), [&e](const std::filesystem::path& source) {
+      return is_among(e.foreign.sources, host::file_hash(source.string()));
+    });
+  } catch (const vp::InputError&) {
+    return false;  // no such IP, or no RTL installed
+  }
+}
+
+std::string beside(const std::string& object) {
+  return std::filesystem::path(object).replace_extension(".figures.json").string();
+}
+
+}  // namespace
+
+std::string KnownFigures::Entry::mismatch(const vp::IpEstimate::Foreign& foreign) const {
+  if (sources.empty()) return "it does not say which sources it is of";
+  for (const auto& [name, hash] : sources) {
+    if (!is_among(foreign.sources, hash))
+      return "its " + name + " is none of the sources that the object is built from";
+  }
+  for (const auto& [name, value] : built_with) {
+    const auto built = foreign.parameters.find(name);
+    if (built == foreign.parameters.end() || built->second == value) continue;
+    return name + " is " + std::to_string(value) + " there, and " + std::to_string(built->second) +
+           " in the object";
+  }
+  return "";
+}
+
+std::string KnownFigures::apply_to_foreign(vp::IpEstimate& e, const std::string& file) const {
+  std::string why = "it has no entry";
+  for (const Entry& entry : entries_) {
+    why = entry.mismatch(e.foreign);
+    if (!why.empty()) continue;
+    take(entry.point, e);
+    e.source = "synthesised from '" + e.foreign.file + "' (" + tool_ + "), '" + file + "'";
+    e.fmax_origin = vp::FmaxOrigin::synthesised;
+    e.fmax_hz = entry.point.fmax_hz;
+    e.fmax_high_hz = entry.point.fmax_high_hz;
+    if (e.fmax_hz == 0) e.fmax_hz = e.fmax_high_hz = clock_buffer_hz;  // no path
+    e.fmax_documentation = "synthesis of '" + e.foreign.file + "': " + mhz(e.fmax_hz) + " to " +
+                           mhz(e.fmax_high_hz) + " MHz" + entry.not_covered;
+    return "";
+  }
+  return why;
+}
+
+void KnownFigures::apply(vp::IpEstimate& e, const std::string& module) const {
+  if (e.foreign.file.empty()) return apply_to_model(e);
+  const std::string key = module + ".figures";
+  const bool named = !e.foreign.figures.empty();
+  const std::string file = named ? e.foreign.figures : beside(e.foreign.file);
+  std::string why = "it was not synthesised";
+  if (named || std::filesystem::exists(file)) {
+    vp::IpEstimate own = e;
+    forget(own);
+    why = load(file).apply_to_foreign(own, file);
+    if (why.empty()) {
+      e = own;
+      return;
+    }
+    why = "'" + file + "' is of other RTL than '" + e.foreign.file + "': " + why;
+    if (named)
+      throw vp::InputError(key + ": " + why + "; synthesise it again: markervp rtl synth --output");
+  } else if (is_own(e)) {
+    for (const auto& [name, value] : e.foreign.parameters)
+      e.rtl.parameters[name] = static_cast<std::int64_t>(value);
+    return apply_to_model(e);
+  }
+  forget(e);
+  e.known = false;
+  e.source = "not known of RTL '" + e.foreign.file + "': " + why +
+             "; run 'markervp rtl synth --rtl DIR --top MODULE --output FILE' and give --set " +
+             key + "=FILE";
+}
+
+void KnownFigures::apply_to_model(vp::IpEstimate& e) const {
   const std::optional<Point> point = find(e.rtl);
   if (!point) return;
-  const auto count = [](double number) { return static_cast<std::uint32_t>(std::llround(number)); };
-  e.lut = count(point->lut);
-  e.ff = count(point->ff);
-  e.dsp = count(point->dsp);
-  if (e.bram36 == 0) e.bram36 = point->bram36;
+  take(*point, e);
   if (!e.rtl.measured.empty()) {
     if (const auto measured = find({e.rtl.module, e.rtl.measured, {}})) {
       e.size = point->lut / measured->lut;
     }
   }
   const std::string where = point->at.empty() ? "" : ", " + point->at;
-  e.uncertainty_percent = point->beyond ? uncertainty_beyond_percent : uncertainty_percent;
   e.source = "synthesised from its RTL (" + tool_ + ")" + where;
   if (point->fmax_hz == 0) return;
   const bool limits_known = e.fmax_hz != 0 && e.fmax_hz == e.fmax_high_hz;

@@ -36,14 +36,28 @@ class KnownFigures {
   std::optional<Point> find(const vp::IpEstimate::Rtl& rtl) const;
 
   /// Puts the figures into an estimate with RTL (vp::IpEstimate::Rtl); others stay as they are.
-  void apply(vp::IpEstimate& estimate) const;
+  ///
+  /// Where a user's RTL is in the place of the model, they are those of a file of its own
+  /// synthesis, made of the same sources with the same parameters; or these here, if it is the RTL
+  /// that comes along; else they are not known. `module` is its name. Throws vp::InputError for a
+  /// file that the user names and that is of other RTL.
+  void apply(vp::IpEstimate& estimate, const std::string& module) const;
 
  private:
   struct Entry {
     std::string module;
     std::map<std::string, std::int64_t> parameters;
+    std::map<std::string, std::uint64_t> built_with;  ///< all of them
+    std::map<std::string, std::string> sources;       ///< hash by name; empty: not noted
+    std::string not_covered;                          ///< by Fmax, for people
     Point point;
+
+    /// Empty: it is of that RTL; else why not.
+    std::string mismatch(const vp::IpEstimate::Foreign& foreign) const;
   };
+  void apply_to_model(vp::IpEstimate& estimate) const;
+  /// Empty: an entry is of the RTL of the estimate, which has its figures now; else why none is.
+  std::string apply_to_foreign(vp::IpEstimate& estimate, const std::string& file) const;
 
   std::string tool_;
   std::vector<Entry> entries_;

@@ -452,6 +452,20 @@ class Graph {
   std::vector<End> ends_;
 };
 
+/// Yosys writes bits.
+std::map<std::string, std::uint64_t> parameters_of(const Json& module) {
+  std::map<std::string, std::uint64_t> parameters;
+  const auto values = module.find("parameter_default_values");
+  if (values == module.end()) return parameters;
+  for (const auto& [name, value] : values->items()) {
+    const std::string bits = value.is_string() ? value.get<std::string>() : "";
+    if (bits.empty() || bits.size() > 64 || bits.find_first_not_of("01") != std::string::npos)
+      continue;
+    parameters[name] = std::stoull(bits, nullptr, 2);
+  }
+  return parameters;
+}
+
 }  // namespace
 
 std::optional<Fmax> Netlist::fmax(const PathTiming& timing) const {
@@ -471,6 +485,7 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
   }
   const Json& module = (*modules)[top];
   Netlist netlist;
+  netlist.parameters = parameters_of(module);
   for (const auto& [name, cell] : module.at("cells").items()) count(cell.at("type"), netlist.cells);
   const Graph graph(module, timing);
   netlist.cells.lut_pairs = LutPairs(module.at("cells")).count();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct Fmax {
 
 struct Netlist {
   Cells cells;
+  /// All that the top has, as it was built; those of more than 64 bits are left out.
+  std::map<std::string, std::uint64_t> parameters;
   std::optional<Path> longest;  ///< none: there is no path from register to register
   ClockLimit limit;
   std::vector<std::string> not_covered;  ///< by Fmax, a phrase each

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include <host/digest.h>
 #include <host/document.h>
 #include <host/guard.h>
 #include <host/process.h>
@@ -44,7 +45,40 @@ void check_name(const std::string& name, const char* what) {
                        ": give one of letters, digits and _");
 }
 
-std::string script_of(const Design& design, const host::ScratchFolder& scratch) {
+// In the scratch folder, where Yosys runs: `tee` takes no name with a space in it.
+constexpr const char *check_log = "check.txt",
+                     *netlist_file = "netlist.json", *instance_file = "instance.v";
+
+bool has_negative(const Parameters& parameters) {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const auto& parameter) { return parameter.second < 0; });
+}
+
+/// A module with one instance of the design's top, with its parameters.
+std::string instance_of(const Design& design) {
+  std::string values;
+  for (const auto& [name, value] : design.parameters)
+    values += fmt::format("{}.{}({})", values.empty() ? "" : ", ", name, value);
+  return fmt::format("module markervp_instance;\n  {} #({}) top();\nendmodule\n", design.top,
+                     values);
+}
+
+/// Makes the top with its parameters. `-chparam` knows no sign, so one below zero comes from an
+/// instance, which goes again.
+std::string elaboration_of(const Design& design) {
+  if (has_negative(design.parameters)) {
+    return std::string("read_verilog ") + instance_file +
+           "\nhierarchy -check -top markervp_instance\ndelete markervp_instance\n"
+           "hierarchy -auto-top\nrename -top " +
+           design.top;
+  }
+  std::string command = "hierarchy -check -top " + design.top;
+  for (const auto& [name, value] : design.parameters)
+    command += fmt::format(" -chparam {} {}", name, value);
+  return command;
+}
+
+std::string script_of(const Design& design) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
   // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
   // for there each pass goes through all of its 800 cells.
@@ -52,16 +86,12 @@ std::string script_of(const Design& design, const host::ScratchFolder& scratch) 
       "read_verilog -lib -specify +/xilinx/cells_sim.v\n"
       "read_verilog -lib -defer +/xilinx/cells_xtra.v\n"
       "read_verilog -sv -defer";
-  for (const fs::path& source : design.sources) script += " " + quoted(source);
-  script += "\nhierarchy -check -top " + design.top;
-  for (const auto& [name, value] : design.parameters)
-    script += fmt::format(" -chparam {} {}", name, value);
-  script += "\nproc";
-  script += "\ntee -q -o " + (scratch / "check.txt").string() + " check";
+  for (const fs::path& source : design.sources) script += " " + quoted(fs::absolute(source));
+  script += "\n" + elaboration_of(design) + "\nproc";
+  script += std::string("\ntee -q -o ") + check_log + " check";
   script += "\nsynth_xilinx -family xc7 -flatten -abc9 -run prepare: -top " + design.top;
   if (!design.dsp) script += " -nodsp";
-  script += "\nwrite_json " + (scratch / "netlist.json").string() + "\n";
-  return script;
+  return script + "\nwrite_json " + netlist_file + "\n";
 }
 
 std::string parameters_of(const Design& design) {
@@ -192,6 +222,26 @@ double rounded(double value, double scale) {
   return std::round(value * scale) / scale;
 }
 
+/// The sources that the top needs, and what those include.
+std::map<std::string, std::string> hashes_of(const Design& design) {
+  static const std::regex include(R"re(`include\s+"([^"]+)")re");
+  std::vector<fs::path> open = needed_by(design.top, design.sources);
+  std::map<std::string, std::string> hashes;
+  while (!open.empty()) {
+    const fs::path source = open.back();
+    open.pop_back();
+    const bool fresh =
+        hashes.emplace(source.filename().string(), host::file_hash(source.string())).second;
+    if (!fresh) continue;
+    const std::string text = vp::read_text(source.string(), "source");
+    for (std::sregex_iterator m(text.begin(), text.end(), include), end; m != end; ++m) {
+      const fs::path file = source.parent_path() / (*m)[1].str();
+      if (fs::exists(file)) open.push_back(file);
+    }
+  }
+  return hashes;
+}
+
 }  // namespace
 
 std::string yosys_version() {
@@ -270,18 +320,18 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
   const host::ScratchFolder scratch("synth");
-  const fs::path script = scratch / "synthesise.ys";
-  vp::OutputFile file(script.string());
-  file.write(script_of(design, scratch));
-  file.commit();
+  constexpr const char* script = "synthesise.ys";
+  vp::write_file((scratch / script).string(), script_of(design));
+  vp::write_file((scratch / instance_file).string(), instance_of(design));
   const host::CommandEnd end =
-      host::run_command({"yosys", "-q", "-s", script.string()}, scratch.path());
-  refuse_loops(design, log_of(scratch / "check.txt"));
+      host::run_command({"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script},
+                        scratch.path());
+  refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
   try {
-    return {design.ip, design.parameters,
-            read_netlist(scratch / "netlist.json", design.top, timing), design.own};
+    return {design.ip, design.parameters, hashes_of(design),
+            read_netlist(scratch / netlist_file, design.top, timing), design.own};
   } catch (const vp::InputError& error) {
     refuse(design, error.what());
   }
@@ -318,7 +368,11 @@ std::string to_json(const std::vector<Figures>& figures, const std::string& tool
                            {"high", rounded(fmax->mhz.high, 10)}};
       if (!fmax->limited_by.empty()) entry["limited_by"] = fmax->limited_by;
     }
-    if (!f.own && !f.netlist.not_covered.empty()) entry["not_covered"] = f.netlist.not_covered;
+    if (!f.own) {  // for `pl.<ip>.figures`
+      entry["built_with"] = f.netlist.parameters;
+      entry["sources"] = f.sources;
+      if (!f.netlist.not_covered.empty()) entry["not_covered"] = f.netlist.not_covered;
+    }
     entries.push_back(entry);
   }
   return Json{{"version", 1}, {"tool", tool}, {"entries", entries}}.dump(2) + "\n";

@@ -15,8 +15,14 @@ constexpr std::uint64_t slowest_hz = 1'000'000, fastest_hz = 1'000'000'000;
 /// No logic is faster than the clock buffer: 2.155 ns in public timing reports of -1.
 constexpr std::uint64_t clock_buffer_hz = 464'000'000;
 
+/// Of a part whose Fmax is not known it is 0.
+vp::Range<std::uint64_t> limits(const vp::IpEstimate& e) {
+  return {e.known ? slowest_hz : 0, fastest_hz};
+}
+
 /// Where Fmax comes from.
 std::string explanation(const vp::IpEstimate& e, const device::Device& device) {
+  if (!e.known) return e.source;
   const double factor = device.fmax_factor.value;
   if (factor == 1) return e.fmax_documentation;
   return e.fmax_documentation + "; x" + vp::format_fixed(factor, 2) + " for " + device.name();
@@ -65,7 +71,7 @@ std::vector<Part> parts_of(const sc_core::sc_object& pl) {
     const vp::Clock& clock = ip->logic_clock();
     parts.push_back(
         {object.name(), object.basename(), ip->group(), &clock, name_of(clock), ip->estimate()});
-    synthesis::KnownFigures::installed().apply(parts.back().estimate);
+    synthesis::KnownFigures::installed().apply(parts.back().estimate, object.name());
   }
   return parts;
 }
@@ -81,7 +87,8 @@ report::ResourceReport resource_report(const std::vector<Part>& parts,
     const report::ResourceReport::Amount amount{static_cast<double>(e.lut),
                                                 static_cast<double>(e.ff), e.bram36,
                                                 static_cast<double>(e.dsp)};
-    report.modules.push_back({ip.module, amount, e.uncertainty_percent, e.source});
+    report.modules.push_back({ip.module, amount, e.uncertainty_percent, e.source, e.known});
+    if (!e.known) report.unknown.push_back(ip.module);
     total.lut += amount.lut;
     total.ff += amount.ff;
     total.bram36 += amount.bram36;
@@ -97,10 +104,10 @@ TimingClosure::Limit::Limit(sc_core::sc_module_name name, const Part& described,
                             const device::Device& device)
     : sc_module(name),
       ip(described),
-      fmax("fmax", scaled(ip.estimate.fmax_hz, device), vp::Unit::frequency,
-           {slowest_hz, fastest_hz}, source_of(origin_of(ip.estimate, device)),
+      fmax("fmax", scaled(ip.estimate.fmax_hz, device), vp::Unit::frequency, limits(ip.estimate),
+           source_of(origin_of(ip.estimate, device)),
            "clock up to which it works: " + explanation(ip.estimate, device)),
-      fmax_high("fmax_high", usual_high(device), vp::Unit::frequency, {slowest_hz, fastest_hz},
+      fmax_high("fmax_high", usual_high(device), vp::Unit::frequency, limits(ip.estimate),
                 source_of(origin_of(ip.estimate, device)),
                 "clock above which it does not; between the two nobody knows") {
   fmax.follows("device");
@@ -113,6 +120,7 @@ TimingClosure::Limit::Limit(sc_core::sc_module_name name, const Part& described,
 /// A limit of the user's own is one.
 std::uint64_t TimingClosure::Limit::usual_high(const device::Device& device) const {
   if (fmax.is_changed()) return fmax;
+  if (!ip.estimate.known) return 0;
   const std::uint64_t high = ip.estimate.fmax_high_hz;
   return std::max(scaled(high != 0 ? high : clock_buffer_hz, device), fmax.get());
 }
@@ -135,12 +143,16 @@ report::TimingReport TimingClosure::report(
     module.frequency_mhz = mhz(hz);
     module.fmax_mhz = mhz(limit.fmax);
     module.fmax_high_mhz = mhz(limit.fmax_high);
-    module.reachable_mhz =
-        made_below_hz(*limit.ip.clock, static_cast<double>(limit.fmax)) / device::hz_per_mhz;
-    module.met = hz <= limit.fmax;
+    module.known = limit.fmax > 0;
+    if (module.known)
+      module.reachable_mhz =
+          made_below_hz(*limit.ip.clock, static_cast<double>(limit.fmax)) / device::hz_per_mhz;
+    module.met = module.known && hz <= limit.fmax;
     module.margin_percent = hz == 0 ? 0 : 100 * (module.fmax_mhz / module.frequency_mhz - 1);
     const bool own = limit.fmax.is_changed() || limit.fmax_high.is_changed();
-    module.origin = own ? "configuration" : vp::to_string(origin_of(limit.ip.estimate, device_));
+    module.origin = own            ? "configuration"
+                    : module.known ? vp::to_string(origin_of(limit.ip.estimate, device_))
+                                   : "unknown";
     module.source =
         own ? module.origin : module.origin + ": " + explanation(limit.ip.estimate, device_);
     report.met = report.met && module.met;

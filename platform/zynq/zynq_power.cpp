@@ -44,6 +44,9 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl, Pow
       table_(power::PowerTable::load(options.table)),
       static_scale_(power::static_scale(zynq.chip.data)),
       parts_(parts_of(zynq.pl())),
+      is_known_(!options.pl_design ||
+                std::all_of(parts_.begin(), parts_.end(),
+                            [](const Part& part) { return part.estimate.known; })),
       groups_(groups_of(zynq.design(), parts_)),
       states_(zynq) {
   for (vp::PowerSource& source : power_sources(zynq, options, table_, parts_, states_)) {
@@ -103,6 +106,7 @@ void ZynqPower::deliver(report::FrameReport& frame) {
   const vp::EnergyLedger ledger = with_static(open_, open_seconds_, junction_c);
   const auto sums = ledger.by_group();
   for (const std::string& group : groups_) {
+    if (!is_known_) break;
     frame.energy.push_back({group, nominal(sums, group) * mj_per_j});
   }
   static_w_ = nominal(sums, "static") / open_seconds_;

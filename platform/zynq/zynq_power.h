@@ -57,13 +57,17 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   /// Keeps the signals above up to date. Default: they show the start.
   void follow() { follows_ = true; }
   /// Keeps the power over time from here on, which grows with the run; or stops.
-  void record_timeline(bool record = true) { records_ = record; }
+  void record_timeline(bool record = true) { records_ = record && is_known_; }
   const PowerTimeline& timeline() const { return timeline_; }
 
   /// The program takes an image: events from here on are its frame's.
   void frame_begins() { meter_.mark(); }
   /// The program published a result, now: fills in `energy`, unless it gave the frame up.
   void frame_ends(report::FrameReport& frame);
+
+  /// The figures of all parts are. If not, frames get no energy, and there is nothing to report or
+  /// to follow.
+  bool is_known() const { return is_known_; }
 
   // The run so far.
   /// `end_ps` of the run, for one without frames.
@@ -88,6 +92,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   power::PowerTable table_;
   double static_scale_;  ///< of the device
   std::vector<Part> parts_;
+  bool is_known_;
   std::vector<std::string> groups_;  ///< "ps", those of the design, "static"
   PowerStates states_;
   vp::PowerMeter meter_;

@@ -48,6 +48,12 @@ struct Rtl {
          installed.beside("photograph_z1.0.png"), "--camera", installed.beside("camera.yaml")},
         more);
   }
+  /// Of VHDL that was not synthesised power is not known.
+  static Json without_power(Json result) {
+    for (Json& frame : result["frames"]) frame.erase("energy_mj");
+    for (const char* figure : {"power_w", "energy_per_frame_mj"}) result["summary"].erase(figure);
+    return result;
+  }
   static void check_same(const Json& a, const Json& b) {
     for (const char* part : {"frames", "summary", "power", "verdict"})
       BOOST_TEST(a[part] == b[part], part);
@@ -107,7 +113,15 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
     // The binary image goes from one to the other pixel by pixel.
     if (ip == "global_threshold")
       arguments.insert(arguments.end(), {"--set", "pl.fidelity.blob_detection=clocked"});
-    BOOST_TEST(run("rtl_" + ip, arguments)["frames"] == models["frames"], ip);
+    const Json result = run("rtl_" + ip, arguments);
+    if (ip == "global_threshold") {
+      BOOST_TEST(without_power(result)["frames"] == without_power(models)["frames"]);
+      BOOST_TEST(result["resources"]["unknown"] == Json{"pl.global_threshold"});
+      BOOST_TEST(result["verdict"]["fits"]["holds"] == "unknown");
+    } else {
+      BOOST_TEST(result["frames"] == models["frames"], ip);
+      BOOST_TEST(result["resources"] == models["resources"], ip);
+    }
   }
   for (const std::string ip : {"axi_image_store", "axi_threshold_bridge", "clock_crossing",
                                "feature_packaging", "frame_status"}) {
@@ -117,12 +131,14 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
   }
   Words all = inputs;
   for (const std::string& ip : detectors) all.insert(all.end(), {"--set", setting(ip)});
-  BOOST_TEST(run("rtl_detectors", all)["frames"] == models["frames"]);
+  const Json expected = without_power(models);
+  BOOST_TEST(without_power(run("rtl_detectors", all))["frames"] == expected["frames"]);
   for (const std::string ip : {"sensor_input", "axi_image_store", "axi_threshold_bridge",
                                "clock_crossing", "feature_packaging", "frame_status"})
     all.insert(all.end(), {"--set", setting(ip)});
-  const Json pipeline = run("rtl_all", all);
-  check_same(pipeline, models);
+  const Json pipeline = without_power(run("rtl_all", all));
+  for (const char* part : {"frames", "summary"})
+    BOOST_TEST(pipeline[part] == expected[part], part);
 }
 
 BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_of_improved) {

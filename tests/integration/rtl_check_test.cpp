@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "executable.h"
 
@@ -29,6 +30,10 @@ struct Check : Workplace {
     all.insert(all.end(), more.begin(), more.end());
     return kit::run_process(MARKERVP_EXECUTABLE, all, path());
   }
+  /// Only that picture.
+  kit::Outcome check_noise(const std::string& ip, const std::string& rtl) const {
+    return check(ip, rtl, {"--no-stimuli"});
+  }
 
   bool has(const std::string& file) const { return std::filesystem::exists(*this / file); }
 };
@@ -50,13 +55,88 @@ BOOST_AUTO_TEST_CASE(equal_rtl_leaves_a_result_and_no_trace) {
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
   BOOST_TEST(!contains(outcome.err, "trace"), outcome.err);
   BOOST_TEST(contains(outcome.out, "equal: corner_detection"), outcome.out);
-  BOOST_TEST(contains(outcome.out, "every clock of 1 frame"), outcome.out);
   BOOST_TEST(has("out/result.json"));
   BOOST_TEST(!has("out/lockstep.vcd"));
 }
 
+BOOST_AUTO_TEST_CASE(a_check_says_what_was_exercised) {
+  const kit::Outcome outcome = check("corner_detection", object("equal"));
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  for (const char* part : {"played noise.pgm, 'exercise' (20 pictures), 'slow_bus' (4 pictures)",
+                           "corner_out", "32 of 32", "not counted"})
+    BOOST_TEST(contains(outcome.out, part), outcome.out);
+  const auto report = nlohmann::json::parse(kit::read_file(*this / "out/check.json"));
+  const auto port = [&report](const std::string& name) {
+    for (const auto& port : report["ports"]) {
+      if (port["name"] == name) return port;
+    }
+    return nlohmann::json();
+  };
+  BOOST_TEST(port("ena")["rises"] > 40, "frames");
+  BOOST_TEST(port("rst")["rises"] > 20, "resets");
+  BOOST_TEST(port("corner_data")["clocks"] > 1000, "corners");
+  BOOST_TEST(report["not_exercised"].empty());
+  BOOST_TEST(has("out/stimuli/noise.pgm"));
+}
+
+// RTL that gives 0 for ever equals its model on a black picture.
+BOOST_AUTO_TEST_CASE(what_never_moved_is_not_equal) {
+  kit::write_file(*this / "noise.pgm", "P5\n64 32\n255\n" + std::string(64 * 32, '\0'));
+  for (const char* rtl : {"equal", "silent"}) {
+    const kit::Outcome outcome = check_noise("corner_detection", object(rtl));
+    BOOST_TEST(outcome.exit_code == 1);
+    BOOST_TEST(contains(outcome.out, "NOT EXERCISED: corner_out, corner_data"), outcome.out);
+    BOOST_TEST(!contains(outcome.out, "equal: "), outcome.out);
+    BOOST_TEST(contains(outcome.err, "corner_out, corner_data never changed"), outcome.err);
+  }
+  const kit::Outcome outcome = check("corner_detection", object("silent"));
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "in the play 'exercise'"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "corner_out is 1, and 0 in the RTL"), outcome.err);
+  BOOST_TEST(has("out/exercise/lockstep.vcd"));
+}
+
+BOOST_AUTO_TEST_CASE(a_check_that_plays_nothing_is_refused) {
+  const kit::Outcome outcome = kit::run_process(
+      MARKERVP_EXECUTABLE,
+      {"rtl", "check", "corner_detection", "--rtl", object("equal"), "--no-stimuli"}, path());
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(contains(outcome.err, "leaves nothing to play"), outcome.err);
+}
+
+// Nothing is known of what it takes; no number of the model's stands for it.
+BOOST_AUTO_TEST_CASE(a_run_with_rtl_that_was_not_synthesised_has_no_figures_of_it) {
+  const auto run = [this](const Arguments& more) {
+    Arguments all{
+        "run",   "noise.pgm",       "--set", "pl.width=64 px",
+        "--set", "pl.height=32 px", "--set", "pl.fidelity.corner_detection=" + object("equal")};
+    all.insert(all.end(), more.begin(), more.end());
+    return kit::run_process(MARKERVP_EXECUTABLE, all, path());
+  };
+  kit::Outcome outcome = run({});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "fits     unknown"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "timing   unknown: no Fmax of pl.corner_detection"),
+             outcome.out);
+  BOOST_TEST(contains(outcome.out, "--set pl.corner_detection.figures=FILE"), outcome.out);
+  auto result = nlohmann::json::parse(kit::read_file(*this / "out/result.json"));
+  BOOST_TEST(result["verdict"]["feasible"] == "unknown");
+  for (const char* part : {"fits", "timing"})
+    BOOST_TEST(result["verdict"][part]["holds"] == "unknown", part);
+  BOOST_TEST(!result.contains("power"));
+  BOOST_TEST(!result["summary"].contains("energy_per_frame_mj"));
+  BOOST_TEST(!result["resources"].contains("total"));
+  BOOST_TEST(result["resources"]["unknown"] == nlohmann::json{"pl.corner_detection"});
+  outcome = run({"--set", "timing.corner_detection.fmax=97 MHz"});
+  result = nlohmann::json::parse(kit::read_file(*this / "out/result.json"));
+  BOOST_TEST(result["verdict"]["timing"]["holds"] == "yes");
+  outcome = run({"--set", "pl.corner_detection.figures=none.json"});
+  BOOST_TEST(outcome.exit_code == 2);
+  BOOST_TEST(contains(outcome.err, "none.json"), outcome.err);
+}
+
 BOOST_AUTO_TEST_CASE(a_difference_is_told_and_shown) {
-  const kit::Outcome outcome = check("corner_detection", object("late"));
+  const kit::Outcome outcome = check_noise("corner_detection", object("late"));
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "pl.corner_detection.rtl: RTL"), outcome.err);
   BOOST_TEST(contains(outcome.err, "corner_out is 1, and 0 in the RTL"), outcome.err);
@@ -77,8 +157,8 @@ BOOST_AUTO_TEST_CASE(a_difference_is_told_and_shown) {
 
 // A trace of an earlier difference does not outlive a check that finds none.
 BOOST_AUTO_TEST_CASE(a_folder_shows_the_last_check) {
-  check("corner_detection", object("late"));
-  BOOST_TEST(check("corner_detection", object("equal")).exit_code == 0);
+  check_noise("corner_detection", object("late"));
+  BOOST_TEST(check_noise("corner_detection", object("equal")).exit_code == 0);
   BOOST_TEST(!has("out/lockstep.vcd"));
   BOOST_TEST(!has("out/lockstep.gtkw"));
 }

@@ -39,6 +39,7 @@ const Clock& Ip::logic_clock() const {
 IpEstimate Ip::estimate() const {
   IpEstimate estimate = own_estimate();
   if (clocks_) estimate.active_clocks = clocks_;
+  estimate.foreign = foreign_;
   return estimate;
 }
 

@@ -54,6 +54,14 @@ struct RtlDescriptor {
   // does. 0 bytes: nobody knows them all, and state() is not asked.
   uint64_t state_bytes;
   const void* (*state)(void* model);
+
+  // SHA-256 of each source, 64 hexadecimal digits: figures of synthesis are those of the same ones.
+  uint32_t source_count;
+  const char* const* sources;
+
+  // Writes what was counted of lines and toggles, as verilator_coverage reads it. Null: it was
+  // built without.
+  void (*write_coverage)(void* model, const char* file);
 };
 
 #ifdef VL_PRINTF

@@ -5,6 +5,8 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <algorithm>
+
 namespace pl {
 
 namespace {
@@ -64,6 +66,37 @@ RtlShadow::RtlShadow(sc_core::sc_module_name name, std::deque<RtlPins>& copies)
   for (RtlPins& pins : copies)
     copies_.push_back({&pins, std::vector<std::uint64_t>(outputs_.size())});
   shown_ = &copies_.front();
+  for (const IpPorts::Input& input : ports_.inputs)
+    use_.ports.push_back({input.name, input.bits, false, false});
+  for (const IpPorts::Output& output : ports_.outputs)
+    use_.ports.push_back({output.name, output.bits, true, output.fixed});
+  for (const IpPorts::MemoryOutput& output : ports_.memory_outputs)
+    use_.ports.push_back({output.name, output.bits, true, !output.expected});
+  find_streams();
+}
+
+void RtlShadow::find_streams() {
+  struct Wire {
+    std::string name;
+    std::size_t clock;
+    std::function<std::uint64_t()> read;
+  };
+  std::vector<Wire> wires;
+  for (const IpPorts::Input& input : ports_.inputs) wires.push_back({input.name, 0, input.read});
+  for (const IpPorts::Output& output : ports_.outputs)
+    wires.push_back({output.name, output.clock, [port = output.port] { return port()->bits(); }});
+  const std::string valid = "_tvalid";
+  for (const Wire& wire : wires) {
+    const std::size_t end = wire.name.size() - std::min(wire.name.size(), valid.size());
+    if (wire.name.substr(end) != valid) continue;
+    const std::string stream = wire.name.substr(0, end);
+    const auto ready = std::find_if(wires.begin(), wires.end(), [&](const Wire& other) {
+      return other.name == stream + "_tready";
+    });
+    if (ready == wires.end()) continue;
+    use_.streams.push_back({stream});
+    handshakes_.push_back({std::max(wire.clock, ready->clock), wire.read, ready->read});
+  }
 }
 
 RtlShadow::Wires::Wires(sc_core::sc_module_name name, const IpPorts& ports) : sc_module(name) {
@@ -91,6 +124,7 @@ void RtlShadow::on_change(vp::SignalBase& signal, std::uint32_t wire) {
 }
 
 void RtlShadow::edge_of(std::size_t clock) {
+  note_use(clock);
   if (difference_.empty()) {
     compare(clock);
   } else if (--edges_left_ == 0) {
@@ -107,8 +141,43 @@ void RtlShadow::edge_of(std::size_t clock) {
 // Nobody looked behind the last edges yet.
 void RtlShadow::end_of_simulation() {
   for (std::size_t i = 0; i < last_edges_.size() && difference_.empty(); ++i) compare(i);
+  lockstep_use() = use_;
+  if (!lockstep_coverage().empty()) copies_.front().pins->write_coverage(lockstep_coverage());
   if (!difference_.empty()) fail();
   for (Copy& copy : copies_) copy.pins->finish();
+}
+
+/// What this edge samples. Inputs are noted on the edges of the first clock.
+void RtlShadow::note_use(std::size_t clock) {
+  for (std::size_t i = 0; i < handshakes_.size(); ++i) {
+    const Handshake& handshake = handshakes_[i];
+    if (handshake.clock != clock || handshake.valid() == 0) continue;
+    ++(handshake.ready() != 0 ? use_.streams[i].beats : use_.streams[i].stalls);
+  }
+  if (clock != 0) return;
+  ++use_.clocks;
+  for (std::size_t i = 0; i < ports_.inputs.size(); ++i)
+    use_.ports[i].note(ports_.inputs[i].read() & mask(ports_.inputs[i].bits));
+}
+
+void LockstepUse::Port::note(std::uint64_t value) {
+  if (clocks++ > 0 && value != last) {
+    ++changes;
+    rises += value & ~last & 1;
+  }
+  last = value;
+  high |= value;
+  low |= ~value & mask(bits);
+}
+
+std::string& lockstep_coverage() {
+  static std::string file;
+  return file;
+}
+
+std::optional<LockstepUse>& lockstep_use() {
+  static std::optional<LockstepUse> use;
+  return use;
 }
 
 void RtlShadow::note_outputs(Copy& copy, std::size_t clock) {
@@ -140,12 +209,17 @@ void RtlShadow::compare(Copy& copy, std::size_t clock) {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const IpPorts::Output& output = ports_.outputs[i];
     if (output.clock != clock || (output.valid && !output.valid())) continue;
-    compare(output.name, output.bits, output.port()->bits() & mask(output.bits), copy.outputs[i]);
+    const std::uint64_t model = output.port()->bits() & mask(output.bits);
+    if (&copy == &copies_.front()) use_.ports[ports_.inputs.size() + i].note(model);
+    compare(output.name, output.bits, model, copy.outputs[i]);
   }
   for (std::size_t i = 0; i < ports_.memory_outputs.size(); ++i) {
     const IpPorts::MemoryOutput& output = ports_.memory_outputs[i];
     const auto model = output.expected ? output.expected() : std::nullopt;
-    if (model) compare(output.name, output.bits, *model, pins.memory_value(i));
+    if (!model) continue;
+    if (&copy == &copies_.front())
+      use_.ports[ports_.inputs.size() + ports_.outputs.size() + i].note(*model);
+    compare(output.name, output.bits, *model, pins.memory_value(i));
   }
   if (difference_.empty()) return;
   show(copy);

@@ -6,13 +6,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <pl/common/fidelity.h>
 #include <pl/common/rtl_pins.h>
+#include <pl/common/rtl_use.h>
 #include <vp/clock.h>
 #include <vp/file.h>
+#include <vp/parameter.h>
 #include <vp/signal.h>
 
 namespace pl {
@@ -26,6 +29,19 @@ class RtlInPlace final : public vp::SignalListener {
   RtlInPlace(const RtlFile& file, const std::string& ip, const std::string& instance, IpPorts ports,
              std::vector<vp::Clocked*> modules)
       : pins_(file.path, file.seed, ip, instance, std::move(ports)), modules_(std::move(modules)) {}
+
+  /// Of an IP that is a part of reports: what it is built from, and the figures that the user
+  /// gives. Call it once, while the IP is built.
+  vp::IpEstimate::Foreign foreign() {
+    vp::IpEstimate::Foreign foreign = pins_.foreign();
+    foreign.figures =
+        figures_
+            .emplace("figures", "", vp::Source::decision,
+                     "what synthesis makes of this RTL: a file of 'markervp rtl synth --output'; "
+                     "by default <name>.figures.json beside the object")
+            .get();
+    return foreign;
+  }
 
   /// In edge() of a clock's module; true: it may sleep.
   bool edge(std::size_t clock = 0) {
@@ -58,6 +74,7 @@ class RtlInPlace final : public vp::SignalListener {
   void on_change(vp::SignalBase&, std::uint32_t) override;
 
   RtlPins pins_;
+  std::optional<vp::Parameter<std::string>> figures_;
   const std::vector<vp::Clocked*> modules_;
   bool listening_ = false;
   bool sleeping_ = false;  ///< listening, and no input has changed since
@@ -68,7 +85,9 @@ template <class Ip>
 class RtlModel final : public Ip {
  public:
   RtlModel(const char* name, const Site& site, const RtlFile& file)
-      : Ip(name, site), rtl_(file, Ip::models().ip(), this->name(), ports(), {this}) {}
+      : Ip(name, site), rtl_(file, Ip::models().ip(), this->name(), ports(), {this}) {
+    if constexpr (std::is_base_of_v<vp::Ip, Ip>) this->set_foreign(rtl_.foreign());
+  }
 
  private:
   IpPorts ports() {
@@ -193,6 +212,7 @@ class RtlShadow final : public PortWatcher {
   void show(const Copy& copy);
   void compare(std::size_t clock);
   void compare(Copy& copy, std::size_t clock);
+  void note_use(std::size_t clock);
   void compare(const std::string& port, unsigned bits, std::uint64_t model, std::uint64_t rtl);
   [[noreturn]] void fail() const;
 
@@ -205,6 +225,13 @@ class RtlShadow final : public PortWatcher {
   std::deque<vp::Signal<std::uint64_t>> outputs_;  ///< of the copy that is shown
   Wires model_;                                    ///< of links, as the model drives them
   std::vector<Edge> last_edges_;                   ///< of each clock, behind which they stand
+  LockstepUse use_;                                ///< inputs, outputs, outputs to memories
+  struct Handshake {
+    std::size_t clock;
+    std::function<std::uint64_t()> valid, ready;
+  };
+  std::vector<Handshake> handshakes_;  ///< of use_.streams
+  void find_streams();
   std::uint64_t edges_left_;
   std::string difference_;
 };

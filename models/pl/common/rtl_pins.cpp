@@ -59,6 +59,7 @@ void add_stream(IpPorts& ports, vp::AxiStreamMaster& m) {
       "m_tdata", 32, [&m]() -> auto& { return m.link().tdata; }, valid);
   ports.output<Lanes>(
       "m_tkeep", 4, [&m]() -> auto& { return m.link().tkeep; }, valid);
+  ports.outputs.back().fixed = true;
   ports.output<bool>(
       "m_tvalid", 1, [&m]() -> auto& { return m.link().tvalid; });
   ports.output<bool>(
@@ -103,6 +104,15 @@ RtlPins::RtlPins(const std::string& file, std::uint64_t seed, const std::string&
   }
   reset();
   for (InputPin& pin : inputs_) pin.value = load(pin.place, pin.bits);
+}
+
+vp::IpEstimate::Foreign RtlPins::foreign() const {
+  vp::IpEstimate::Foreign foreign;
+  foreign.file = file_;
+  foreign.sources.assign(rtl_.sources, rtl_.sources + rtl_.source_count);
+  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i)
+    foreign.parameters[rtl_.parameters[i].name] = rtl_.parameters[i].value;
+  return foreign;
 }
 
 // As a system reset does before time 0, after which models begin: all other inputs are 0.

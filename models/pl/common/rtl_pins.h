@@ -13,6 +13,7 @@
 #include <pl/common/rtl_interface.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
+#include <vp/ip.h>
 #include <vp/signal.h>
 
 namespace pl {
@@ -41,6 +42,7 @@ class IpPorts {
     std::function<void(std::uint64_t)> write;
     std::size_t clock = 0;  ///< on whose edges it changes
     bool of_link = false;   ///< it is a wire that lies outside of the IP
+    bool fixed = false;     ///< the model never changes it
   };
   /// An output that a memory samples on each edge, as it stands before the edge.
   struct MemoryOutput {
@@ -270,6 +272,12 @@ class RtlPins {
   const std::string& file() const { return file_; }
   /// Of registers without reset: "0", "1", "random values (seed 1000)".
   std::string start() const;
+  /// Nothing for RTL that counts none.
+  void write_coverage(const std::string& file) const {
+    if (rtl_.write_coverage) rtl_.write_coverage(model_.get(), file.c_str());
+  }
+  /// What it is built from.
+  vp::IpEstimate::Foreign foreign() const;
 
  private:
   /// As rtl_interface.h says.

@@ -226,6 +226,10 @@ Models<GlobalThreshold>& LocalThreshold::models() {
 
 void LocalThreshold::connect(IpPorts& ports) {
   GlobalThreshold::connect(ports);
+  for (IpPorts::Output& output : ports.outputs) {
+    // No words leave this one.
+    output.fixed = output.name == "thresh_out" || output.name == "thresh_data";
+  }
   ports.parameter("RADIUS", radius.name(), radius);
   ports.parameter("OFFSET", offset.name(), offset);
 }

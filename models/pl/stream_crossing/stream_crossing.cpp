@@ -19,6 +19,7 @@ class RtlStreamCrossing final : public StreamCrossing {
         rtl_(file, models().ip(), this->name(), ports(), {&entry_, &exit_}) {
     entry_.play(rtl_, 0);
     exit_.play(rtl_, 1);
+    set_foreign(rtl_.foreign());
   }
 
   CrossingEntry& entry() override { return entry_; }

@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
   timing.modules = {{"a", "clk", 120, 100, 400, false, -16.7, "published", ""},
                     {"b", "clk", 120, 100, 400, false, -16.7, "published", ""},
                     {"c", "clk", 120, 130, 130, true, 8.3, "published", ""}};
-  const auto text = [&] { return report::design_text({}, {}, timing); };
+  const auto text = [&] { return report::design_text(report::PowerReport{}, {}, timing); };
   BOOST_TEST(
       contains(text(), "timing   unknown for a and 1 more: 120 MHz, known to work up to 100 MHz\n"),
       text());

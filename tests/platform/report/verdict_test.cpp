@@ -194,6 +194,25 @@ BOOST_AUTO_TEST_CASE(the_ip_with_the_least_margin_is_named) {
   BOOST_TEST(nearest({module("a", 95), module("b", 90, true)}) == "a", "b may work");
 }
 
+// RTL of a user's that was not synthesised: no number takes the place of what is not known.
+BOOST_AUTO_TEST_CASE(a_part_without_figures_makes_fits_and_timing_unknown) {
+  Point point;
+  point.facts.resources->unknown = {"pl.mine"};
+  point.fails("fits", Holds::unknown, "what pl.mine takes is not known");
+  BOOST_TEST(!point.part("fits").margin_percent.has_value());
+  point.facts.resources->over = {"lut"};  // of the others alone
+  BOOST_TEST((point.part("fits").holds == Holds::no));
+
+  Point slow;
+  TimingReport::Module mine = module("pl.mine", 1);
+  mine.known = false;
+  slow.facts.timing = {false, {module("a", 110), mine}};
+  slow.fails("timing", Holds::unknown, "timing unknown for pl.mine");
+  BOOST_TEST(!slow.part("timing").margin_percent.has_value());
+  slow.facts.timing->modules.push_back(module("b", 95));
+  slow.fails("timing", Holds::no, "timing missed by b");
+}
+
 BOOST_AUTO_TEST_CASE(without_a_pl_nothing_must_fit_or_be_fast) {
   Point point;
   point.facts.resources->total = {};

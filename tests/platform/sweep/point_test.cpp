@@ -1,3 +1,4 @@
+#include <host/digest.h>
 #include <sweep/manifest.h>
 #include <sweep/metrics.h>
 #include <sweep/point.h>
@@ -38,7 +39,7 @@ PointRecord record_of(const Manifest& manifest) {
 BOOST_AUTO_TEST_SUITE(points)
 
 BOOST_AUTO_TEST_CASE(the_hash_is_sha_256) {
-  BOOST_TEST(content_hash("abc") ==
+  BOOST_TEST(platform::host::content_hash("abc") ==
              "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 

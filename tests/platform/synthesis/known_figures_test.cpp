@@ -1,6 +1,8 @@
 // What estimates take from the figures of synthesis: between them, beyond them, and within what is
 // known otherwise.
+#include <host/digest.h>
 #include <synthesis/known_figures.h>
+#include <synthesis/synthesis.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cstdint>
@@ -36,7 +38,7 @@ vp::IpEstimate tree(std::int64_t labels) {
 }
 
 vp::IpEstimate applied(vp::IpEstimate e) {
-  figures().apply(e);
+  figures().apply(e, "pl.tree");
   return e;
 }
 
@@ -176,6 +178,107 @@ BOOST_AUTO_TEST_CASE(a_file_of_another_kind_is_refused) {
       return has(error.what(), "markervp rtl synth --output");
     });
   }
+}
+
+namespace {
+
+/// RTL of a user in the place of a tree whose model says other things.
+struct Mine {
+  Mine() { kit::write_file(folder / "mine.json", text("aaa", 640)); }
+
+  static std::string text(const std::string& hash, int width) {
+    return R"({"version": 1, "tool": "Yosys 0.23", "entries": [{"ip": "mine", "parameters": {},)"
+           R"( "built_with": {"WIDTH": )" +
+           std::to_string(width) + R"(}, "sources": {"mine.sv": ")" + hash +
+           R"("}, "lut": 100, "lut_memory": 0, "lut_through": 55, "ff": 20, "ramb18": 0, "ramb36": 2,)"
+           R"( "dsp": 1, "fmax_mhz": {"low": 97, "nominal": 120, "high": 176}}]})";
+  }
+  vp::IpEstimate estimate() const {
+    vp::IpEstimate e = tree(64);
+    e.kind = "tree";
+    e.bram36 = 9;
+    e.size = 7;
+    e.fmax_hz = e.fmax_high_hz = 55 * mhz;
+    e.foreign.file = folder / "mine.so";
+    e.foreign.sources = {"bbb", "aaa"};
+    e.foreign.parameters = {{"WIDTH", 640}, {"LABELS", 64}};
+    return e;
+  }
+  vp::IpEstimate applied(const std::string& figures_file = "") const {
+    vp::IpEstimate e = estimate();
+    e.foreign.figures = figures_file;
+    figures().apply(e, "pl.tree");
+    return e;
+  }
+
+  kit::TemporaryFolder folder;
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(of_a_users_rtl_nothing_is_known_by_itself, Mine) {
+  const vp::IpEstimate e = applied();
+  BOOST_TEST(!e.known);
+  BOOST_TEST(e.lut + e.ff + e.dsp == 0u);
+  BOOST_TEST(e.bram36 == 0);
+  BOOST_TEST(e.fmax_hz == 0u);
+  for (const char* part : {"mine.so", "rtl synth --rtl DIR", "--set pl.tree.figures=FILE"})
+    BOOST_TEST(has(e.source, part), e.source);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_users_rtl_has_the_figures_of_its_own_synthesis, Mine) {
+  const auto check = [](const vp::IpEstimate& e) {
+    BOOST_TEST(e.known);
+    BOOST_TEST(e.lut == 155u);
+    BOOST_TEST(e.ff == 20u);
+    BOOST_TEST(e.bram36 == 2.0);
+    BOOST_TEST(e.dsp == 1u);
+    BOOST_TEST(e.size == 1.0);
+    BOOST_TEST(e.kind == "", "no coefficient of the thesis' IP");
+    BOOST_TEST(e.fmax_hz == 97 * mhz);
+    BOOST_TEST(e.fmax_high_hz == 176 * mhz);
+    BOOST_TEST(has(e.source, "mine.so"), e.source);
+  };
+  check(applied(folder / "mine.json"));
+  kit::write_file(folder / "mine.figures.json", text("aaa", 640));
+  check(applied());
+}
+
+BOOST_FIXTURE_TEST_CASE(figures_of_other_sources_or_parameters_are_not_taken, Mine) {
+  const auto refused = [this](const std::string& text, const std::string& why) {
+    kit::write_file(folder / "mine.json", text);
+    BOOST_CHECK_EXCEPTION(applied(folder / "mine.json"), vp::InputError,
+                          [&](const vp::InputError& error) {
+                            return has(error.what(), "pl.tree.figures") && has(error.what(), why);
+                          });
+    // That beside the object may be an old one.
+    kit::write_file(folder / "mine.figures.json", text);
+    const vp::IpEstimate e = applied();
+    BOOST_TEST(!e.known);
+    BOOST_TEST(has(e.source, why), e.source);
+  };
+  refused(text("ccc", 640), "mine.sv is none of the sources");
+  refused(text("aaa", 320), "WIDTH is 320 there, and 640 in the object");
+  refused(simple, "does not say which sources");
+}
+
+// Built by the user as it is installed, with parameters of its own.
+BOOST_FIXTURE_TEST_CASE(the_rtl_that_comes_along_is_recognised, Mine) {
+  const auto lut = [this](std::uint64_t lean, bool changed = false) {
+    vp::IpEstimate e = estimate();
+    e.rtl = {"corner_detection", {{"LEAN", 0}}, {}};
+    e.foreign.sources.clear();
+    for (const auto& source : own_designs({"corner_detection"}).front().sources)
+      e.foreign.sources.push_back(platform::host::file_hash(source.string()));
+    if (changed) e.foreign.sources.front() = "of another text";
+    e.foreign.parameters = {{"LEAN", lean}, {"WIDTH", 640}};
+    KnownFigures::load(MARKERVP_DATA "/rtl/synthesis.json").apply(e, "pl.corner_detection");
+    return e.lut;
+  };
+  BOOST_TEST(lut(0) > 4000u);
+  BOOST_TEST(lut(1) < 1000u);
+  BOOST_TEST(lut(1) > 500u);
+  BOOST_TEST(lut(0, true) == 0u);
 }
 
 // What the models compute themselves is what synthesis makes of it.

@@ -1,7 +1,12 @@
 // Small modules through Yosys: figures, and what is refused with file and line.
 #include <synthesis/synthesis.h>
 
+#include <stdlib.h>
+
+#include <host/digest.h>
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -89,6 +94,59 @@ BOOST_AUTO_TEST_CASE(figures_become_a_file) {
   BOOST_TEST(entry["parameters"]["BITS"] == 12);
   BOOST_TEST(entry["ff"] == 12);
   BOOST_TEST(entry["fmax_mhz"]["low"].get<double>() < entry["fmax_mhz"]["high"].get<double>());
+}
+
+BOOST_AUTO_TEST_CASE(figures_say_what_they_are_of) {
+  kit::write_file(folder / "width.svh", "`define STEP 1'b1\n");
+  const Design whole = design(
+      "`include \"width.svh\"\nmodule own #(parameter int BITS = 8, parameter OFFSET = 3) (\n"
+      "  input logic clk, output logic [BITS-1:0] count);\n"
+      "  always_ff @(posedge clk) count <= count + `STEP;\nendmodule\n",
+      "own", {{"BITS", 12}});
+  const Figures figures = synthesise(whole, timing);
+  BOOST_TEST(figures.netlist.parameters.at("BITS") == 12u);
+  BOOST_TEST(figures.netlist.parameters.at("OFFSET") == 3u, "its default");
+  BOOST_TEST(figures.sources.at("own.sv") == platform::host::file_hash(folder / "own.sv"));
+  BOOST_TEST(figures.sources.count("width.svh") == 1u);
+  const auto entry =
+      nlohmann::json::parse(to_json({figures}, "Yosys 0.0", timing))["entries"].at(0);
+  BOOST_TEST(entry["built_with"]["BITS"] == 12);
+  BOOST_TEST(entry["sources"]["own.sv"] == figures.sources.at("own.sv"));
+}
+
+// Of a type or of none: -5 is less than 0 in both.
+BOOST_AUTO_TEST_CASE(a_parameter_may_be_negative) {
+  for (const std::string type : {"", "int "}) {
+    const std::string text =
+        "module own #(parameter " + type +
+        "SHIFT = 1, parameter BITS = 3) (input logic clk, d, output logic [7:0] q);\n"
+        "  if (SHIFT < 0) begin\n    logic [BITS-1:0] taps;\n"
+        "    always_ff @(posedge clk) begin taps <= {taps, d}; q <= {8{^taps}}; end\n"
+        "  end else begin\n    always_ff @(posedge clk) q <= {8{d}};\n  end\nendmodule\n";
+    const auto ff = [&](const Parameters& parameters) {
+      return synthesise(design(text, "own", parameters), timing).netlist.cells.ff;
+    };
+    BOOST_TEST(ff({{"SHIFT", -5}, {"BITS", 4}}) == ff({{"BITS", 4}}) + 4u, type);
+    BOOST_TEST(
+        synthesise(design(text, "own", {{"SHIFT", -5}}), timing).netlist.parameters.at("SHIFT") ==
+        0xFFFF'FFFBu);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_for_temporary_files_may_have_a_space) {
+  const std::string place = folder / "a place";
+  std::filesystem::create_directory(place);
+  const char* const before = std::getenv("TMPDIR");
+  const std::string was = before ? before : "";
+  ::setenv("TMPDIR", place.c_str(), 1);
+  const Figures figures = synthesise(design(counter, "own"), timing);
+  const std::string latch = refusal(
+      "module own(input logic e, d, output logic q);\n"
+      "  always @* if (e) q = d;\nendmodule\n");
+  before ? ::setenv("TMPDIR", was.c_str(), 1) : ::unsetenv("TMPDIR");
+  BOOST_TEST(figures.netlist.cells.ff == 8u);
+  check_says(latch, {"own.sv:2", "latch"});
+  BOOST_TEST(std::filesystem::is_empty(place));
 }
 
 BOOST_AUTO_TEST_CASE(a_latch_is_named_with_its_line) {

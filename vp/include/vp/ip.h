@@ -111,6 +111,17 @@ struct IpEstimate {
   };
   Rtl rtl;
 
+  /// A user's RTL in the place of the model: what the model says of size and speed is not its own.
+  struct Foreign {
+    std::string file;                  ///< empty: it is the model
+    std::string figures;               ///< of its synthesis, as the user names the file
+    std::vector<std::string> sources;  ///< SHA-256 of each file that it is built from
+    std::map<std::string, std::uint64_t> parameters;  ///< with which it is built
+  };
+  Foreign foreign;
+  /// Resources and Fmax are; if not, `source` says why.
+  bool known = true;
+
   // Its highest clock in the slowest speed grade, as far as it is known.
   std::uint64_t fmax_hz = 0;       ///< works up to this clock
   std::uint64_t fmax_high_hz = 0;  ///< fails above this clock; 0: unknown
@@ -154,6 +165,9 @@ class Ip {
   /// Its position in reports: sorted by this number, then by the order of the hierarchy.
   unsigned place() const { return place_; }
 
+  /// A user's RTL runs in its place.
+  void set_foreign(IpEstimate::Foreign foreign) { foreign_ = std::move(foreign); }
+
   // What only the design knows.
   void set_logic_clock(const Clock& clock) { clock_ = &clock; }
   void set_group(std::string group, unsigned place) {
@@ -174,6 +188,7 @@ class Ip {
   std::string group_ = "pl";
   unsigned place_ = ~0u;
   std::function<std::uint64_t()> clocks_;
+  IpEstimate::Foreign foreign_;
 };
 
 /// The parts below `top`, in the order of reports.

@@ -14,6 +14,7 @@ function timing(run, say) {
   const fmax = tidy(module.fmax_mhz);
   const now = tidy(module.frequency_mhz);
   if (timingOf(module) === "unknown") {
+    if (module.fmax_mhz === undefined) return say("bad", `Whether ${plain(module.name)} meets timing is not known: there are no figures of its RTL.`);
     say("bad", `${plain(module.name)} is known to work up to ${fmax} MHz, and its clock is ${now} MHz: nobody knows whether timing is met.`);
     return;
   }
@@ -66,7 +67,7 @@ function budgets(run, say) {
   const { resources, power } = run.result;
   for (const kind of resources?.over ?? []) {
     const name = typeof kind === "string" ? kind : kind.name;
-    say("bad", `The design needs more ${name.toUpperCase()} than ${resources.device} has: ${significant(resources.total[name], 4)} of ${significant(resources.available[name], 4)}.`);
+    say("bad", `The design needs more ${name.toUpperCase()} than ${resources.device} has${resources.total ? `: ${significant(resources.total[name], 4)} of ${significant(resources.available[name], 4)}` : ""}.`);
   }
   const modules = powerByModule(power);
   const total = run.summary.power_w?.total;

@@ -102,7 +102,10 @@ const RtlDescriptor descriptor = {
     nullptr,
     pin,
     STATE ? sizeof(CornerObject::State) : 0,
-    [](void* model) -> const void* { return &of(model).state; }};
+    [](void* model) -> const void* { return &of(model).state; },
+    0,
+    nullptr,
+    nullptr};
 
 }  // namespace
 
