@@ -54,13 +54,16 @@ Json to_json(const TimingReport& timing) {
     entry["name"] = module.name;
     entry["clock"] = module.clock;
     entry["frequency_mhz"] = rounded(module.frequency_mhz, clock_mhz_places);
-    entry["fmax_mhz"] = rounded(module.fmax_mhz, clock_mhz_places);
-    entry["fmax_high_mhz"] = rounded(module.fmax_high_mhz, clock_mhz_places);
+    if (module.known) {
+      entry["fmax_mhz"] = rounded(module.fmax_mhz, clock_mhz_places);
+      entry["fmax_high_mhz"] = rounded(module.fmax_high_mhz, clock_mhz_places);
+    }
     entry["origin"] = module.origin;
     if (module.reachable_mhz > 0)
       entry["reachable_mhz"] = rounded(module.reachable_mhz, clock_mhz_places);
     entry["met"] = module.met;
-    entry["margin_percent"] = rounded(module.margin_percent, clock_percent_places);
+    if (module.known)
+      entry["margin_percent"] = rounded(module.margin_percent, clock_percent_places);
     entry["source"] = module.source;
     json["modules"].push_back(entry);
   }
