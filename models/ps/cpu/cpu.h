@@ -251,7 +251,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void enter_function(std::uint32_t number);
   void leave_function();
 
-  // The HAL between two cores: cpu_cores.cpp
+  // The HAL between two cores: cores.cpp
   void start_core(unsigned number, void (*entry)(void));
   void wait_for_event();
   void send_event();
@@ -351,7 +351,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void sleep_until(std::uint64_t ps);
   void doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition);
 
-  // Two cores: cpu_cores.cpp
+  // Two cores: cores.cpp
   void await_start();
   void sleep_for_good();
   bool beside_other() const;
