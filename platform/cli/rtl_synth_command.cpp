@@ -66,7 +66,8 @@ std::string name_of(const Figures& figures) {
 
 constexpr const char* row = "{:<34} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>4}  {}\n";
 
-/// "97 to 176 MHz"; at the limit of the chip "464 MHz, the limit of the global clock buffer (BUFG)".
+/// "97 to 176 MHz"; at the limit of the chip "464 MHz, the limit of the global clock buffer
+/// (BUFG)".
 std::string mhz_text(const synthesis::Fmax& fmax) {
   const std::string high = fmt::format("{:.0f} MHz", fmax.mhz.high);
   const std::string range =

@@ -3,7 +3,6 @@
 #include <host/document.h>
 #include <vp/error.h>
 
-
 namespace platform::detectors {
 
 using report::Json;

@@ -127,9 +127,9 @@ struct CommandEnd {
   std::string out;     ///< what it printed, errors too
 };
 
-/// Runs a command of the host and waits for it. Ctrl-C does not reach it; it and what it started end
-/// with this process. `temporary` is a folder for its own temporary files ($TMPDIR), if not empty.
-/// Throws std::system_error if the host has no process left.
+/// Runs a command of the host and waits for it. Ctrl-C does not reach it; it and what it started
+/// end with this process. `temporary` is a folder for its own temporary files ($TMPDIR), if not
+/// empty. Throws std::system_error if the host has no process left.
 CommandEnd run_command(const std::vector<std::string>& arguments,
                        const std::string& temporary = {});
 

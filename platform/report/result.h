@@ -67,7 +67,7 @@ struct ResourceReport {
   std::vector<Module> modules;
   Amount total;
   Amount available;
-  std::vector<std::string> over;  ///< "lut", "ff", "bram36", "dsp": what there is not enough of
+  std::vector<std::string> over;     ///< "lut", "ff", "bram36", "dsp": what there is not enough of
   std::vector<std::string> unknown;  ///< modules of which it is not known what they take
 };
 
@@ -252,12 +252,12 @@ struct FrameReport {
   std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
   Counts counts;
   std::vector<FoundMarker> markers;
-  std::optional<FoundBoard> board;   ///< where the program looks for one, and sees it
-  std::optional<GroundTruth> truth;  ///< of the scene's marker, where known
+  std::optional<FoundBoard> board;              ///< where the program looks for one, and sees it
+  std::optional<GroundTruth> truth;             ///< of the scene's marker, where known
   std::vector<GroundTruth> further_truth = {};  ///< of the other markers in the scene
-  std::vector<StageTime> times;      ///< in the order of the flow; "frame" and "upload" among them
-  std::uint64_t start_ps = 0;  ///< simulated time at which work on the frame began, upload done
-  std::uint64_t end_ps = 0;    ///< simulated time of its last result
+  std::vector<StageTime> times;  ///< in the order of the flow; "frame" and "upload" among them
+  std::uint64_t start_ps = 0;    ///< simulated time at which work on the frame began, upload done
+  std::uint64_t end_ps = 0;      ///< simulated time of its last result
   /// From the camera's image to its next one that the program took, where the camera has a rate.
   std::optional<vp::Interval> camera_period;
   /// How often the image was shown before, so that the threshold in this frame is its own, and when

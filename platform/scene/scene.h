@@ -95,8 +95,8 @@ struct GroundTruth {
   /// Clockwise from the marker's own top left, each where it is in the middle of the exposure of
   /// its row.
   std::array<PixelPoint, 4> corners_px;
-  Pose pose;              ///< at the picture's time
-  bool is_usual = true;   ///< as large as programs take all markers to be: they can find its pose
+  Pose pose;             ///< at the picture's time
+  bool is_usual = true;  ///< as large as programs take all markers to be: they can find its pose
 };
 
 /// The marker's pose at a time, s.

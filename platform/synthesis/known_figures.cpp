@@ -113,10 +113,9 @@ KnownFigures KnownFigures::load(const std::filesystem::path& file) {
   try {
     figures.tool_ = json.at("tool");
     for (const nlohmann::json& entry : json.at("entries")) {
-      figures.entries_.push_back({entry.at("ip"), entry.at("parameters"),
-                                  entry.value("built_with", Entry().built_with),
-                                  entry.value("sources", Entry().sources),
-                                  not_covered_by(entry), point_of(entry)});
+      figures.entries_.push_back(
+          {entry.at("ip"), entry.at("parameters"), entry.value("built_with", Entry().built_with),
+           entry.value("sources", Entry().sources), not_covered_by(entry), point_of(entry)});
     }
   } catch (const nlohmann::json::exception& error) {
     throw vp::InputError("'" + file.string() +

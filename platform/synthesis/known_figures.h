@@ -21,7 +21,7 @@ class KnownFigures {
     std::uint64_t fmax_hz = 0, fmax_high_hz = 0;  ///< 0: no path from register to register
     std::string at;                               ///< "LABELS=64"; "between … and …"
     std::string limited_by;  ///< what of the chip is no faster than `fmax_high_hz`; may be empty
-    bool beyond = false;  ///< outside of what was synthesised: the last two points, continued
+    bool beyond = false;     ///< outside of what was synthesised: the last two points, continued
   };
 
   /// What is installed, read once. Throws vp::InputError if it is not there.

@@ -27,9 +27,9 @@ constexpr const char* cell_names[] = {
     "bram_out",    "bram_setup",  "lutram_out",  "lutram_read", "lutram_setup", "shift_out",
     "shift_setup", "dsp_out",     "dsp_through", "dsp_setup"};
 
-constexpr const char* limit_names[] = {
-    "global_buffer",   "regional_buffer", "bram", "bram_read_first", "bram_cascaded", "dsp",
-    "dsp_without_mreg"};
+constexpr const char* limit_names[] = {"global_buffer",   "regional_buffer", "bram",
+                                       "bram_read_first", "bram_cascaded",   "dsp",
+                                       "dsp_without_mreg"};
 
 /// The numbers of a section: between -`most` and `most`, which `of` says with the unit.
 template <std::size_t count>

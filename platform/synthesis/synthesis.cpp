@@ -46,8 +46,8 @@ void check_name(const std::string& name, const char* what) {
 }
 
 // In the scratch folder, where Yosys runs: `tee` takes no name with a space in it.
-constexpr const char *check_log = "check.txt",
-                     *netlist_file = "netlist.json", *instance_file = "instance.v";
+constexpr const char *check_log = "check.txt", *netlist_file = "netlist.json",
+                     *instance_file = "instance.v";
 
 bool has_negative(const Parameters& parameters) {
   return std::any_of(parameters.begin(), parameters.end(),
@@ -323,9 +323,8 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   constexpr const char* script = "synthesise.ys";
   vp::write_file((scratch / script).string(), script_of(design));
   vp::write_file((scratch / instance_file).string(), instance_of(design));
-  const host::CommandEnd end =
-      host::run_command({"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script},
-                        scratch.path());
+  const host::CommandEnd end = host::run_command(
+      {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, scratch.path());
   refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);

@@ -30,8 +30,8 @@ struct Figures {
   Parameters parameters;
   std::map<std::string, std::string> sources;  ///< that it is made of: host::file_hash() by name
   Netlist netlist;
-  /// Comes with markervp: the file leaves out what Fmax does not cover. Its crossings between clocks
-  /// are built for that, and their tests say so.
+  /// Comes with markervp: the file leaves out what Fmax does not cover. Its crossings between
+  /// clocks are built for that, and their tests say so.
   bool own = false;
 };
 

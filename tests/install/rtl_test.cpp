@@ -137,8 +137,7 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
                                "clock_crossing", "feature_packaging", "frame_status"})
     all.insert(all.end(), {"--set", setting(ip)});
   const Json pipeline = without_power(run("rtl_all", all));
-  for (const char* part : {"frames", "summary"})
-    BOOST_TEST(pipeline[part] == expected[part], part);
+  for (const char* part : {"frames", "summary"}) BOOST_TEST(pipeline[part] == expected[part], part);
 }
 
 BOOST_AUTO_TEST_CASE(the_same_result_as_the_models_of_improved) {

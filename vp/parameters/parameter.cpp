@@ -83,8 +83,8 @@ std::size_t ParameterBase::choice(const Setting& setting,
 }
 
 void ParameterBase::refuse(const Setting& setting, const std::string& problem) const {
-  throw ParameterError(name(), std::string(name()) + ": '" + setting.text + "' (" +
-                                   setting.origin + ") " + problem);
+  throw ParameterError(
+      name(), std::string(name()) + ": '" + setting.text + "' (" + setting.origin + ") " + problem);
 }
 
 void ParameterBase::misdeclared(const std::string& problem) const {

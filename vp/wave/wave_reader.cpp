@@ -292,7 +292,8 @@ void WaveReader::read(WaveHandler& handler) {
   if (fst_) {
     std::vector<bool> selected;
     for (const Net& net : nets_) selected.push_back(net.selected);
-    fst_->read(selected, [&](std::uint64_t steps) { return reach(steps, handler); }, handler);
+    fst_->read(
+        selected, [&](std::uint64_t steps) { return reach(steps, handler); }, handler);
     return;
   }
   for (;;) {

@@ -50,8 +50,8 @@ struct Folder : kit::TemporaryFolder {
   /// of `name`. They would run for ever.
   std::string endless(const std::string& name) const {
     const std::string self = *this / name, other = *this / (name + "_session");
-    return "echo $$ > " + self + "; (setsid sh -c 'echo $$ > " + other +
-           ".new; mv " + other + ".new " + other + "; sleep 1000; true' &); sleep 1000; true";
+    return "echo $$ > " + self + "; (setsid sh -c 'echo $$ > " + other + ".new; mv " + other +
+           ".new " + other + "; sleep 1000; true' &); sleep 1000; true";
   }
   bool runs(const std::string& name) const {
     const int process = std::atoi(kit::read_file(*this / name).c_str());

@@ -350,8 +350,8 @@ BOOST_AUTO_TEST_CASE(a_machine_that_fails_ends_the_sweep_and_leaves_the_point_op
     BOOST_TEST(!platform.record(0).failed(), "what was computed is kept");
   }
   Platform platform(3);
-  platform.compute({1}, fail(std::make_exception_ptr(
-                            std::system_error(EINVAL, std::generic_category(), "no"))));
+  platform.compute(
+      {1}, fail(std::make_exception_ptr(std::system_error(EINVAL, std::generic_category(), "no"))));
   BOOST_TEST(platform.record(1).failed(), "an error of the run is one of its point");
 }
 

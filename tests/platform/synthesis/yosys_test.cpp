@@ -169,8 +169,8 @@ BOOST_AUTO_TEST_CASE(a_divided_clock_is_named_and_no_faster_than_the_chip) {
       "module own(input logic clk, d, output logic q);\n  logic h, p;\n"
       "  always_ff @(posedge clk) begin h <= !h; p <= d; end\n"
       "  always_ff @(posedge h) q <= p;\nendmodule\n";
-  check_says(not_covered(text), {"the clock 'h' is made by a register (own.sv:3)", "several clocks",
-                                 "single net"});
+  check_says(not_covered(text),
+             {"the clock 'h' is made by a register (own.sv:3)", "several clocks", "single net"});
   const Figures figures = synthesise(design(text, "own"), timing);
   BOOST_TEST(figures.netlist.fmax(timing)->mhz.high <= timing.limit_mhz("global_buffer"));
   const auto entry = nlohmann::json::parse(to_json({figures}, "any", timing)).at("entries").at(0);

@@ -119,9 +119,9 @@ BOOST_AUTO_TEST_CASE(an_unfinished_file_is_read_with_its_names) {
     return std::string(error.what()).find("its names are missing") != std::string::npos;
   });
   using namespace std::string_literals;
-  const std::string names =
-      "\xfe\0top\0\0"s + "\x10\0flag\0\x01\0"s + "\x05\0word [11:0]\0\x0c\0"s +
-      "\x03\0watts\0\x08\0"s + "\x15\0state\0\0\0"s + "\xff";
+  const std::string names = "\xfe\0top\0\0"s + "\x10\0flag\0\x01\0"s +
+                            "\x05\0word [11:0]\0\x0c\0"s + "\x03\0watts\0\x08\0"s +
+                            "\x15\0state\0\0\0"s + "\xff";
   kit::write_file(folder / "u.fst.hier", names);
   const WaveText text(folder / "u.fst");
   BOOST_TEST(text.declared == "top.flag top.word top.watts top.state ");
