@@ -104,7 +104,7 @@ int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out);
 int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
 
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
-int ask_trace(const TraceCommandOptions& options, std::ostream& out);
+int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
 
 int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
 

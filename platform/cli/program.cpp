@@ -63,7 +63,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
     return line.power.design.empty() ? print_power_table(line.power, out)
                                      : print_power_estimate(line.power, out);
   if (command == "rtl") return ask_rtl(line.rtl, arguments, out, err);
-  if (command == "trace") return ask_trace(line.trace, out);
+  if (command == "trace") return ask_trace(line.trace, out, err);
   if (command == "explore") return explore_points(line.explore, out, err);
   if (command == "sweep") return sweep_points(line.sweep, out, err);
   if (command == "sweep-worker") return sweep_worker(line.sweep_worker, err);

@@ -13,6 +13,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <filesystem>
 #include <optional>
 
 namespace platform::cli {
@@ -287,9 +288,15 @@ int gtkw(const TraceCommandOptions& options, std::ostream& out) {
   return done;
 }
 
-}  // namespace
+/// Says what is odd about a file that was read: an FST whose writer did not finish it.
+void warn_of(const std::string& file, std::ostream& err) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return;
+  const std::string remark = vp::WaveReader(file).remark();
+  if (!remark.empty()) err << "markervp: warning: trace '" << file << "' " << remark << std::endl;
+}
 
-int ask_trace(const TraceCommandOptions& options, std::ostream& out) {
+int answer(const TraceCommandOptions& options, std::ostream& out) {
   if (options.command == "list") return list(options, out);
   if (options.command == "stats") return stats(options, out);
   if (options.command == "check") return check(options, out);
@@ -297,6 +304,15 @@ int ask_trace(const TraceCommandOptions& options, std::ostream& out) {
   if (options.command == "plot") return plot(options, out);
   if (options.command == "gtkw") return gtkw(options, out);
   return cut(options, out);  // and convert, which takes no part
+}
+
+}  // namespace
+
+int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  const int code = answer(options, out);
+  warn_of(options.file, err);
+  if (options.command == "diff") warn_of(options.other, err);
+  return code;
 }
 
 }  // namespace platform::cli

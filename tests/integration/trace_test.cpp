@@ -116,6 +116,31 @@ BOOST_AUTO_TEST_CASE(a_trace_converted_and_back_is_the_same) {
   }
 }
 
+// A simulator that was killed leaves an empty last block, and the names beside the file.
+BOOST_AUTO_TEST_CASE(a_file_that_was_not_finished_is_read_with_a_warning) {
+  using namespace std::string_literals;
+  kit::write_file(*this / "one.vcd",
+                  "$timescale 1ps $end $var wire 1 ! flag $end $enddefinitions $end #0 0! #5 1! ");
+  BOOST_TEST(ask({"convert", "one.vcd", "one.fst"}).exit_code == 0);
+  BOOST_TEST(ask({"list", "one.fst"}).err.empty());
+  std::string bytes = kit::read_file(*this / "one.fst");
+  constexpr std::size_t block = 330;
+  std::size_t length = 0;
+  for (std::size_t i = 1; i < 9; ++i) {
+    length = length << 8 | static_cast<unsigned char>(bytes[block + i]);
+  }
+  bytes.resize(block + 1 + length);
+  kit::write_file(*this / "cut.fst", bytes + '\xff' + std::string(8, '\0'));
+  const kit::Outcome nameless = ask({"list", "cut.fst"});
+  BOOST_TEST(nameless.exit_code == 2);
+  BOOST_TEST(nameless.err.find("its names are missing") != std::string::npos, nameless.err);
+  kit::write_file(*this / "cut.fst.hier", "\x10\0flag\0\x01\0"s);
+  const kit::Outcome outcome = ask({"diff", "one.fst", "cut.fst"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(outcome.err.find("warning: trace 'cut.fst' was not finished") != std::string::npos,
+             outcome.err);
+}
+
 // A trace from before the first frame: most checks find nothing to look at, which is no pass.
 BOOST_AUTO_TEST_CASE(checks_that_look_at_nothing_are_counted_apart) {
   record({"z1.0", "--trace-window", "100us:101us"});
