@@ -105,6 +105,9 @@ const RtlDescriptor descriptor = {
     nullptr,
     [](void* model, uint32_t port) -> void* { return &of(model).clk + port; },
     0,
+    nullptr,
+    0,
+    nullptr,
     nullptr};
 
 }  // namespace
