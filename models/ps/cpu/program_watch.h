@@ -99,6 +99,11 @@ struct HostLimit {
 /// depends on when that happens. Only on x86-64.
 class HostWatch : private vp::HostTicks::Listener {
  public:
+  HostWatch() = default;
+  ~HostWatch() { disarm(); }  // a simulation may end in the middle of the program
+  HostWatch(const HostWatch&) = delete;
+  HostWatch& operator=(const HostWatch&) = delete;
+
   /// Call before the program's code runs in a FaultTrap. A limit of 0 ns disables it.
   void arm(const HostLimit& limit);
   void disarm();
