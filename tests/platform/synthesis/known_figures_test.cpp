@@ -268,7 +268,8 @@ BOOST_FIXTURE_TEST_CASE(the_rtl_that_comes_along_is_recognised, Mine) {
     vp::IpEstimate e = estimate();
     e.rtl = {"corner_detection", {{"LEAN", 0}}, {}};
     e.foreign.sources.clear();
-    for (const auto& source : own_designs({"corner_detection"}).front().sources)
+    const auto designs = own_designs({"corner_detection"});
+    for (const auto& source : designs.front().sources)
       e.foreign.sources.push_back(platform::host::file_hash(source.string()));
     if (changed) e.foreign.sources.front() = "of another text";
     e.foreign.parameters = {{"LEAN", lean}, {"WIDTH", 640}};
