@@ -31,7 +31,7 @@ class RtlInPlace final : public vp::SignalListener {
       : pins_(file.path, file.seed, ip, instance, std::move(ports)), modules_(std::move(modules)) {}
 
   /// Of an IP that is a part of reports: what it is built from, and the figures that the user
-  /// gives. Call it once, while the IP is built.
+  /// gives. Call it once, while the IP is built and is the parent of what is made.
   vp::IpEstimate::Foreign foreign() {
     vp::IpEstimate::Foreign foreign = pins_.foreign();
     foreign.figures =
@@ -86,7 +86,10 @@ class RtlModel final : public Ip {
  public:
   RtlModel(const char* name, const Site& site, const RtlFile& file)
       : Ip(name, site), rtl_(file, Ip::models().ip(), this->name(), ports(), {this}) {
-    if constexpr (std::is_base_of_v<vp::Ip, Ip>) this->set_foreign(rtl_.foreign());
+    if constexpr (std::is_base_of_v<vp::Ip, Ip>) {
+      const vp::HierarchyScope inside(*this);
+      this->set_foreign(rtl_.foreign());
+    }
   }
 
  private:
