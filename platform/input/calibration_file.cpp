@@ -174,8 +174,10 @@ class Collection {
     const double channels = type.empty() ? 1 : number(type.substr(0, type.size() - 1)).value_or(1);
     const auto count = static_cast<double>(entry.rows * entry.columns) * channels;
     if (count > 0 && !entry.numbers.empty() && count != static_cast<double>(entry.numbers.size())) {
-      throw vp::InputError(what_ + ", '" + vp::excerpt(name) +
-                           "': its data are not rows times cols numbers");
+      throw vp::InputError(
+          what_ + ", '" + vp::excerpt(name) +
+          "': its data are not rows times cols numbers: " + std::to_string(entry.numbers.size()) +
+          ", not " + std::to_string(entry.rows) + "x" + std::to_string(entry.columns));
     }
     entry.text = text_in_place_of(entry, data);
     entries_.push_back(std::move(entry));

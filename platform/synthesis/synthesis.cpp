@@ -323,8 +323,9 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   constexpr const char* script = "synthesise.ys";
   vp::write_file((scratch / script).string(), script_of(design));
   vp::write_file((scratch / instance_file).string(), instance_of(design));
+  // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
   const host::CommandEnd end = host::run_command(
-      {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, scratch.path());
+      {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, ".");
   refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
