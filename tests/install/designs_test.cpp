@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(mistakes_are_refused_before_the_simulation) {
   check_refused(mistake("unbound_port"), {"pl.part.enable", "connected to nothing", "bind it"});
   check_refused(mistake("part_outside"), {"'memory'", "outside of 'pl'", "sc_module_name"});
   check_refused(mistake("no_descriptor"), {"no_descriptor.so", "MARKERVP_DESIGN"});
-  check_refused(mistake("missing"), {"missing.so", "cannot be loaded"});
+  check_refused(mistake("missing"), {"missing.so", "cannot load design"});
   BOOST_TEST(!std::filesystem::exists(installed.beside("never")));
 }
 

@@ -114,10 +114,12 @@ BOOST_AUTO_TEST_CASE(the_same_result_as_the_models) {
     if (ip == "global_threshold")
       arguments.insert(arguments.end(), {"--set", "pl.fidelity.blob_detection=clocked"});
     const Json result = run("rtl_" + ip, arguments);
-    if (ip == "global_threshold") {
-      BOOST_TEST(without_power(result)["frames"] == without_power(models)["frames"]);
+    BOOST_TEST(without_power(result)["frames"] == without_power(models)["frames"], ip);
+    if (ip == "global_threshold") {  // VHDL of the template's own
       BOOST_TEST(result["resources"]["unknown"] == Json{"pl.global_threshold"});
       BOOST_TEST(result["verdict"]["fits"]["holds"] == "unknown");
+    } else if (ip == "corner_detection") {  // built with LEAN=1, which has figures of its own
+      BOOST_TEST(result["resources"]["total"]["lut"] < models["resources"]["total"]["lut"]);
     } else {
       BOOST_TEST(result["frames"] == models["frames"], ip);
       BOOST_TEST(result["resources"] == models["resources"], ip);
@@ -296,10 +298,10 @@ BOOST_AUTO_TEST_CASE(another_ip_another_size_and_no_rtl_are_refused) {
                          "pl.width=320 px"}),
                 {"WIDTH is 640", "pl.width", "PARAMETERS WIDTH=320"});
   check_refused(refused({"pl.fidelity.corner_detection=./none.so"}),
-                {"none.so", "cannot be loaded"});
+                {"none.so", "cannot load RTL"});
   check_refused(
       refused({"pl.fidelity.corner_detection=" + (installed / "lib/markervp/programs/hybrid.so")}),
-      {"hybrid.so", "is none", "markervp_add_rtl"});
+      {"hybrid.so", "is not RTL", "markervp_add_rtl"});
 }
 
 BOOST_AUTO_TEST_CASE(what_verilator_refuses_is_told_when_it_is_configured) {
