@@ -88,37 +88,38 @@ std::vector<std::pair<std::string, Picture>> pictures(int w, int h) {
   Random random(7);
   const auto any = [&](std::uint32_t limit) { return static_cast<int>(random.below(limit)); };
   all.reserve(32);
+  // The first ones are played longest, and the last ones are left out where there are many pixels.
   add("boxes", 200);
   boxes(all.back().second, 3, w * h / 400 + 8);
-  add("noise", 0).fill([&](int, int) { return any(256); });
-  add("few_levels", 0).fill([&](int, int) { return any(4) * 70; });
-  add("dots", 210);
-  for (int i = 0; i < w * h / 60; ++i) {
-    const int x = any(static_cast<std::uint32_t>(w));
-    all.back().second.at(x, any(static_cast<std::uint32_t>(h))) = 15;
-  }
-  add("comb", 200).fill([&](int x, int y) { return x % 4 < 2 && y >= h * 5 / 8 ? 20 : 200; });
-  add("checkerboard", 0).fill([](int x, int y) { return (x + y) % 2 != 0 ? 230 : 25; });
-  add("wedges", 0).fill([w](int x, int y) { return in_wedge(x, y, w < 320 ? 16 : 48) ? 30 : 220; });
-  add("soft_noise", 0).fill([&](int x, int y) {
-    return 60 + (x * 120) / w + (y * 40) / h + any(30);
+  const int period = w < 320 ? 5 : 32, dark = w < 320 ? 3 : 26;
+  add("grid", 200).fill([=](int x, int y) {
+    return x % period < dark && y % period < dark ? 20 : 200;
   });
-  add("lines", 0).fill([](int x, int y) { return x % 8 == 0 || y % 16 == 0 ? 40 : 170; });
-  add("squares", 0).fill([](int x, int y) { return (x / 7 + y / 5) % 2 != 0 ? 190 : 45; });
+  add("few_levels", 0).fill([&](int, int) { return any(4) * 70; });
+  add("noise", 0).fill([&](int, int) { return any(256); });
+  add("bars", 200).fill([=](int x, int y) { return x % period < dark && y > h / 2 ? 20 : 200; });
   // As many of one level as of another, of which the first counts; then more than there were
   // before.
   add("equal_levels", 0).fill([](int x, int) { return std::array{20, 60, 180, 240}[x % 4]; });
   add("dark_majority", 0).fill([h](int, int y) { return y < h * 45 / 100 ? 30 : 70; });
   add("bright_majority", 0).fill([h](int, int y) { return y < h * 45 / 100 ? 200 : 240; });
-  const int period = w < 320 ? 5 : 32, dark = w < 320 ? 3 : 26;
-  add("bars", 200).fill([=](int x, int y) { return x % period < dark && y > h / 2 ? 20 : 200; });
-  add("grid", 200).fill([=](int x, int y) {
-    return x % period < dark && y % period < dark ? 20 : 200;
-  });
   add("edges", 200).fill([w](int x, int y) { return touches_edge(x, y, w) ? 20 : 200; });
+  add("comb", 200).fill([&](int x, int y) { return x % 4 < 2 && y >= h * 5 / 8 ? 20 : 200; });
+  add("checkerboard", 0).fill([](int x, int y) { return (x + y) % 2 != 0 ? 230 : 25; });
+  add("dots", 210);
+  for (int i = 0; i < w * h / 60; ++i) {
+    const int x = any(static_cast<std::uint32_t>(w));
+    all.back().second.at(x, any(static_cast<std::uint32_t>(h))) = 15;
+  }
+  add("wedges", 0).fill([w](int x, int y) { return in_wedge(x, y, w < 320 ? 16 : 48) ? 30 : 220; });
   add("black", 0);
   add("boxes_on_black", 3);
   boxes(all.back().second, 11, w * h / 800 + 4);
+  add("soft_noise", 0).fill([&](int x, int y) {
+    return 60 + (x * 120) / w + (y * 40) / h + any(30);
+  });
+  add("lines", 0).fill([](int x, int y) { return x % 8 == 0 || y % 16 == 0 ? 40 : 170; });
+  add("squares", 0).fill([](int x, int y) { return (x / 7 + y / 5) % 2 != 0 ? 190 : 45; });
   add("white", 255);
   add("border", 220).fill([&](int x, int y) {
     return x < 2 || y < 2 || x >= w - 2 || y >= h - 2 || (x % 32 == 31) ? 10 : 220;

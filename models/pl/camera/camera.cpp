@@ -127,6 +127,7 @@ void Camera::connect(IpPorts& ports) {
   gate_ ? ports.output(pixel_ce) : ports.report(pixel_ce);
   ports.output(frame_ena);
   ports.output(frame_number);
+  ports.means_nothing_until_written();
   ports.report(dropped_triggers);
   ports.output(pixel, more_pixels, &frame_ena);
   ports.output(pixel_x, &frame_ena);

@@ -29,11 +29,15 @@ void ClockCrossing::connect(IpPorts& ports) {
   ports.input("binary_seen", 1, [this] { return binary.seen(); });
   ports.output("corner_toggle", corner.toggle);
   ports.output("corner_word", corner.word);
+  ports.means_nothing_until_written();
   ports.output("blob_toggle", blob.toggle);
   ports.output("blob_word", blob.word);
+  ports.means_nothing_until_written();
   ports.output("blob_second_word", blob.second_word);
+  ports.means_nothing_until_written();
   ports.output("binary_toggle", binary.toggle);
   ports.output("binary_word", binary.word);
+  ports.means_nothing_until_written();
   ports.report(crossing_overflow);
   ports.others_stand_still = [this] { return corner.idle() && blob.idle() && binary.idle(); };
 }

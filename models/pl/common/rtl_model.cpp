@@ -210,7 +210,9 @@ void RtlShadow::compare(Copy& copy, std::size_t clock) {
     const IpPorts::Output& output = ports_.outputs[i];
     if (output.clock != clock || (output.valid && !output.valid())) continue;
     const std::uint64_t model = output.port()->bits() & mask(output.bits);
-    if (&copy == &copies_.front()) use_.ports[ports_.inputs.size() + i].note(model);
+    LockstepUse::Port& use = use_.ports[ports_.inputs.size() + i];
+    if (&copy == &copies_.front()) use.note(model);
+    if (&copy != &copies_.front() && output.unwritten && use.high == 0) continue;
     compare(output.name, output.bits, model, copy.outputs[i]);
   }
   for (std::size_t i = 0; i < ports_.memory_outputs.size(); ++i) {

@@ -40,9 +40,10 @@ class IpPorts {
     std::function<bool()> valid;  ///< whether the port means something now; null: it always does
     bool optional;                ///< only reports and traces look at it: RTL may lack it
     std::function<void(std::uint64_t)> write;
-    std::size_t clock = 0;  ///< on whose edges it changes
-    bool of_link = false;   ///< it is a wire that lies outside of the IP
-    bool fixed = false;     ///< the model never changes it
+    std::size_t clock = 0;   ///< on whose edges it changes
+    bool of_link = false;    ///< it is a wire that lies outside of the IP
+    bool fixed = false;      ///< the model never changes it
+    bool unwritten = false;  ///< no reset gives it a value: it means something once it is written
   };
   /// An output that a memory samples on each edge, as it stands before the edge.
   struct MemoryOutput {
@@ -100,6 +101,8 @@ class IpPorts {
     for (vp::Signal<T>& lane : more) output(lane, valid);
     add_idle(last_name(port.name()), more.size(), port.width(), true);
   }
+  /// The last output is a register that needs no reset: its readers wait until it is written.
+  void means_nothing_until_written() { outputs.back().unwritten = true; }
   /// Under another name than the port's.
   template <class T>
   void output(const char* name, vp::Signal<T>& port) {
