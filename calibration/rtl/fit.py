@@ -198,6 +198,8 @@ def figures_markdown(path):
             p, f = e["longest_path"], e["fmax_mhz"]
             where = f"{p['levels']} cells of {p['cells_ns']:.2f} ns, {p['nets']} nets, fan-out {p['fan_out']}"
             fmax = f"{f['nominal']:.0f} ({f['low']:.0f} to {f['high']:.0f})"
+            if "limited_by" in e:
+                fmax = f"{f['nominal']:.0f}, the limit of the {e['limited_by']}"
         counts = (e["lut"], e["lut_pairs"] or "–", e["lut_memory"] or "–", e["lut_through"] or "–", e["ff"], e["carry4"], e["ramb18"] or "–", e["ramb36"] or "–",
                   e["dsp"] or "–")
         lines.append(f"| `{e['ip']}`{parameters} | {' | '.join(map(str, counts))} | {where} | {fmax} |")

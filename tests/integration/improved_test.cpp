@@ -91,6 +91,19 @@ int grey_of_marker(int id, int x, int y, int side) {
 
 const Arguments scenes{"demo", "squares15", "roll30", "front7", "z4.5", "z0.5"};
 
+/// Eight markers of 60 px, 60 px apart, seen from the front.
+Arguments board_in(const kit::TemporaryFolder& folder) {
+  Arguments board{picture_in(folder, "board", [](int x, int y) {
+    const int u = x - 80, v = y - 120;
+    if (u < 0 || u >= 480 || v < 0 || v >= 240) return 220;
+    return grey_of_marker(u / 120 + v / 120 * 4, u % 120, v % 120, 60);
+  })};
+  for (const char* setting : {"sw.board=grid", "sw.board_columns=4", "sw.board_rows=2",
+                              "sw.marker_side=0.1 m", "sw.board_gap=0.1 m"})
+    board = with(board, setting);
+  return board;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(improved)
@@ -316,17 +329,10 @@ BOOST_AUTO_TEST_CASE(poses_follow_a_motion) {
              0.02);
 }
 
-// Eight markers of 60 px, 60 px apart, seen from the front: one pose, of the first one's corner.
+// One pose, of the first marker's corner.
 BOOST_AUTO_TEST_CASE(a_board_has_one_pose) {
   const kit::TemporaryFolder folder;
-  Arguments board{picture_in(folder, "board", [](int x, int y) {
-    const int u = x - 80, v = y - 120;
-    if (u < 0 || u >= 480 || v < 0 || v >= 240) return 220;
-    return grey_of_marker(u / 120 + v / 120 * 4, u % 120, v % 120, 60);
-  })};
-  for (const char* setting : {"sw.board=grid", "sw.board_columns=4", "sw.board_rows=2",
-                              "sw.marker_side=0.1 m", "sw.board_gap=0.1 m"})
-    board = with(board, setting);
+  const Arguments board = board_in(folder);
   BOOST_TEST(difference(board) == "");
   const Json frame = run_of(board)["frames"][0];
   BOOST_TEST(frame["markers"].size() == 8u);
@@ -591,9 +597,11 @@ BOOST_AUTO_TEST_CASE(two_cores_are_the_same_at_both_fidelities_and_with_a_board)
   const Arguments both = with({"z2.0@markers=10", "demo", "squares15"}, "sw.second_core=1");
   BOOST_TEST(difference(both) == "");
   BOOST_TEST(difference(with(both, "ps.cpu.quantum=0 s")) == "");
-  const Arguments board = with(with({"z2.0@markers=10"}, "sw.board=grid"), "sw.board_columns=5");
+  const kit::TemporaryFolder folder;
+  const Arguments board = board_in(folder);
   const Json alone = run_of(board), shared = run_of(with(board, "sw.second_core=1"));
   BOOST_TEST(alone["frames"][0]["markers"] == shared["frames"][0]["markers"]);
+  BOOST_TEST(alone["frames"][0]["board"]["markers"] == 8);
   BOOST_TEST(alone["frames"][0]["board"] == shared["frames"][0]["board"]);
 }
 
