@@ -35,7 +35,11 @@ BOOST_AUTO_TEST_CASE(a_breakpoint_with_live_registers) {
       MARKERVP_GDB, {"-nx", "-batch", "-x", installed / "share/markervp/markervp.gdb", "-x",
                      "session.gdb", "--args", installed / "bin/markervp", "run", "--program",
                      installed.beside("template/first.so"), "--output", "gdb_out"});
-  BOOST_TEST(outcome.exit_code == 0);
+  if (contains(outcome.err, "Couldn't write extended state status")) {
+    BOOST_TEST_MESSAGE("left out: gdb is older than the processor and cannot restore its vectors");
+    return;
+  }
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
   std::size_t at = 0;
   for (const char* part : {
            "#0", "on_tick", "main.cpp",           // stopped in the handler
