@@ -144,7 +144,7 @@ Guard::~Guard() {
   while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-// It holds no file of the platform's open, so that nobody waits for it at the end of a pipe.
+// It holds no file of the platform's open, so that no reader of a pipe waits for it.
 void Guard::watch(const Become& become, const std::string& folder, int theirs) const {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);

@@ -64,7 +64,7 @@ std::string machine_problem(const Elf64_Ehdr& header) {
          ": build it for this one, x86-64 (gcc, not a cross compiler)";
 }
 
-/// The loader, which is what loads the shim; "": there is none.
+/// The path of its loader, which also loads the shim; "" if it has no loader.
 std::string loader_of(std::istream& file, const Elf64_Ehdr& header) {
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
@@ -172,6 +172,16 @@ int move_away(int descriptor) {
   return ::fcntl(descriptor, F_DUPFD_CLOEXEC, linux_app::memory_descriptor + 1);
 }
 
+/// Where the application's process has them; false: errno says why not.
+bool place_descriptors(int socket, int memory, int output) {
+  const int ask = move_away(socket), ddr = move_away(memory);
+  if (ask < 0 || ddr < 0 || ::dup2(ask, linux_app::socket_descriptor) < 0 ||
+      ::dup2(ddr, linux_app::memory_descriptor) < 0 || ::dup2(output, STDOUT_FILENO) < 0)
+    return false;
+  return ::isatty(STDIN_FILENO) == 0 ||
+         ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO) == STDIN_FILENO;
+}
+
 }  // namespace
 
 LinuxApplication::LinuxApplication(const LinuxOptions& options)
@@ -210,12 +220,7 @@ void LinuxApplication::start(const std::string& folder, int memory, Print print)
   std::vector<std::string> variables = environment(shim_, folder);
   const std::vector<char*> argv = pointers(words), envp = pointers(variables);
   const auto become = [&] {
-    const int ask = move_away(sockets[1]), ddr = move_away(memory);
-    if (ask < 0 || ddr < 0 || ::dup2(ask, linux_app::socket_descriptor) < 0 ||
-        ::dup2(ddr, linux_app::memory_descriptor) < 0 || ::dup2(pipes[1], STDOUT_FILENO) < 0)
-      return errno;
-    if (::isatty(STDIN_FILENO) != 0)
-      ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    if (!place_descriptors(sockets[1], memory, pipes[1])) return errno;
     ::execve(path_.c_str(), argv.data(), envp.data());
     return errno;
   };

@@ -112,8 +112,8 @@ int LinuxRun::serve_to_end() {
     }
     if (ps::ProgramWatch::stop == Stop::host_time && application_.left_copy())
       fail(
-          "the application's process has ended, and a copy of it that fork() made runs on without "
-          "using a device: end it before the application ends");
+          "the application's process has ended, and a copy of it that fork() made runs on and "
+          "lets no simulated time pass: end it, or let it sleep or use a device");
     if (ps::ProgramWatch::stop != Stop::none) vp::FaultTrap::leave_at_stop();
     const std::optional<Asked> asked = application_.next();
     if (asked) {
@@ -315,7 +315,7 @@ void LinuxRun::map(const Request& request) {
   if (!cached) caches_->placed(request.a, std::min(request.b, zynq_->ps.ddr.end() - request.a));
 }
 
-// As uio_pdrv_genirq: an interrupt masks itself, whoever handles it unmasks it again.
+// As uio_pdrv_genirq: an interrupt masks itself, and its handler unmasks it again.
 void LinuxRun::on_interrupt(void* context) {
   Uio& uio = *static_cast<Uio*>(context);
   ++uio.count;

@@ -37,7 +37,7 @@ enum class What : std::uint32_t {
   wait,       ///< until the time `a`, or any uio has interrupts: their sum is not `b`
   clock,      ///< the time
   store,      ///< buffer `a`: the text "sync_for_cpu 1"
-  missing,    ///< a device file that is none was opened: the text names it
+  missing,    ///< a device file that does not exist was opened: the text names it
   refused,    ///< an error that tells too little: the text says what was wrong
   place,      ///< answers Reply::Kind::where: the text is where the application is
   failure,    ///< the run cannot continue: the text says why, then a line that says where

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_copy_that_had_the_hosts_time) {
 }
 
 BOOST_AUTO_TEST_CASE(daemons_work_to_their_end) {
-  for (const std::string what : {"becomes_daemon", "daemon_by_hand"}) {
+  for (const std::string what : {"becomes_daemon", "daemon_by_hand", "daemon_of_a_busy_parent"}) {
     works(what, {"--log-bus", "bus.log"});
     BOOST_TEST(has_access("bus.log", lit), kit::read_file(*this / "bus.log"));
     BOOST_TEST(result()["program_end"]["exit_code"] == 0);

@@ -206,7 +206,7 @@ __attribute__((constructor)) void begin() {
   is_one = true;
   tree = ::strdup(::getenv(linux_app::folder_variable));
   user = &own;
-  // A line is read when it is written, though nobody looks from a terminal.
+  // A line is read when it is written, although it does not go to a terminal.
   ::setvbuf(stdout, nullptr, _IOLBF, 0);
   prepare_to_locate();
   prepare_turns();

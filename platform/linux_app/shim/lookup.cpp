@@ -22,7 +22,7 @@ namespace {
 
 using Use = Path::Use;
 
-/// The name and the descriptor of a call like fstatat().
+/// Of the flags of a call like fstatat().
 Use use_at(int flags) {
   return (flags & AT_SYMLINK_NOFOLLOW) != 0 ? Use::link : Use::follow;
 }
@@ -45,7 +45,7 @@ int shown(int result, dev_t device, struct statx* status) {
   return result;
 }
 
-/// The device at a path, or that a descriptor stands for.
+/// The device at a path, or behind a descriptor.
 dev_t device_of(const Path& path, int folder, const char* text) {
   if (text && text[0] == '\0') return device_open_at(folder);
   return path.is_ours() ? device_at(path.name()) : 0;

@@ -49,7 +49,7 @@ bool is_of_buffers(const char* path);
 /// The number in the name of a device or its folder; 0: none.
 unsigned long number_in(const char* path);
 
-/// As stat() tells it of a device; 0: it is none.
+/// The device number that stat() reports; 0 if the name is not that of a device.
 dev_t device_at(const char* name);
 
 /// A path of the folder becomes what the application sees; null stays null.

@@ -77,8 +77,8 @@ void prepare_turns() {
   ::pthread_atfork(before_fork, nullptr, begin_copy);
 }
 
-// A copy goes on from the moment of its fork: it may take a turn if nothing was asked since. One
-// that asked before takes it back from a copy that it has waited for.
+// A copy may take a turn if nothing was asked since its fork. A process that asked before takes the
+// turn back from a copy that it has waited for.
 bool take_turn() {
   notice_fork();
   std::uint64_t now = shared->turn;
@@ -127,8 +127,8 @@ bool sleeps(pid_t process) {
   return name_end && ::strncmp(name_end, ") S", 3) == 0;
 }
 
-/// A copy that becomes a session of its own is about to go on alone: what it does next comes behind
-/// the end of the process that it was made from, unless that one goes on.
+/// A copy that becomes a session of its own is usually a daemon: it waits for the end of its
+/// parent, so that it has the run's time from now on. It does not wait for a parent that stays.
 void await_turn() {
   constexpr timespec pause{0, 1'000'000};
   constexpr int most_pauses = 2000, most_in_sleep = 20;

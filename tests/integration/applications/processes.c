@@ -85,7 +85,7 @@ static void time_of_a_copy(void) {
   await(child);
 }
 
-/* It uses no device, and the other one goes on: nothing is wrong with that. */
+/* It uses no device while the other one does: nothing is wrong with that. */
 static void helper(void) {
   volatile uint32_t* const words = memory();
   int ends[2];
@@ -198,6 +198,17 @@ static void dying_daemon(void) {
   EXPECT(daemon(0, 1) == 0);
   work(0x100);
   abort();
+}
+
+/* Its parent takes its time to end. */
+static void daemon_of_a_busy_parent(void) {
+  memory()[0] = 1;
+  if (fork() != 0) {
+    for (volatile unsigned spins = 0; spins < 100000000; ++spins) continue;
+    _exit(0);
+  }
+  EXPECT(setsid() > 0);
+  work(0x100);
 }
 
 /* As books have it. */
@@ -366,6 +377,7 @@ int main(int count, char** words) {
                {"failing_daemon", failing_daemon},
                {"dying_daemon", dying_daemon},
                {"daemon_by_hand", daemon_by_hand},
+               {"daemon_of_a_busy_parent", daemon_of_a_busy_parent},
                {"endless_daemon", endless_daemon},
                {"idle", until_ended},
                {"leaves_a_session", leaves_a_session},
