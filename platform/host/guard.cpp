@@ -86,6 +86,18 @@ pid_t parent_of(const fs::path& process) {
   return parent;
 }
 
+// Before its number is free: what is gone has been noted.
+void note_ends() {
+  siginfo_t info{};
+  while (::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0) {
+    const bool exited = info.si_code == CLD_EXITED;
+    const Guard::Note note{info.si_pid, exited ? info.si_status << 8 : info.si_status};
+    static_cast<void>(::send(STDIN_FILENO, &note, sizeof note, MSG_NOSIGNAL));
+    ::waitpid(info.si_pid, nullptr, 0);
+    info.si_pid = 0;
+  }
+}
+
 void kill_children() {
   const pid_t self = ::getpid();
   std::error_code ignored;
@@ -132,7 +144,7 @@ Guard::~Guard() {
   while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-// It holds no file of the platform's open, so that nobody waits for it at the end of a pipe.
+// It holds no file of the platform's open, so that no reader of a pipe waits for it.
 void Guard::watch(const Become& become, const std::string& folder, int theirs) const {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -152,9 +164,7 @@ void Guard::watch(const Become& become, const std::string& folder, int theirs) c
     ::poll(events, 2, -1);
     signalfd_siginfo ignored{};
     while (::read(events[1].fd, &ignored, sizeof ignored) > 0) continue;
-    Note note{};
-    while ((note.process = ::waitpid(-1, &note.status, WNOHANG)) > 0)
-      static_cast<void>(::send(STDIN_FILENO, &note, sizeof note, MSG_NOSIGNAL));
+    note_ends();
   }
   end_tree();
   std::error_code none;

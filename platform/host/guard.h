@@ -24,12 +24,13 @@ class Guard {
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
 
- protected:
   /// The end of a process of the command's, its status as waitpid() tells it.
   struct Note {
     pid_t process;
     int status;
   };
+
+ protected:
   /// The next one; none: there is none yet, or, when it `waits`, the guard is gone.
   std::optional<Note> next_note(bool waits);
 
@@ -52,7 +53,7 @@ class ProcessTree : private Guard {
   /// The command's own process.
   pid_t first() const { return first_; }
   /// A process that ended whose parent did not wait for it: first(), and those whose parent ended
-  /// before. None: none has ended since the last call.
+  /// before. It is noted before its number is free. None: none has ended since the last call.
   std::optional<End> next_end() { return next_note(false); }
   /// The status of first(), after its end.
   int wait();

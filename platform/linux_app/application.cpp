@@ -1,5 +1,6 @@
 #include <linux_app/application.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <csignal>
@@ -12,10 +13,11 @@
 
 #include <elf.h>
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <host/process.h>
@@ -42,6 +44,9 @@ std::string find_shim() {
   for (const std::string& folder : folders) {
     const std::string file = (fs::path(folder) / shim_name).string();
     if (!fs::exists(file, ignored)) continue;
+    if (::access(file.c_str(), R_OK) != 0)
+      throw vp::InputError("--linux: '" + file + "' cannot be read (" + std::strerror(errno) +
+                           "), and the application would run without it: install markervp whole");
     if (file.find_first_of(": ") == std::string::npos) return file;
     throw vp::InputError("--linux: '" + file +
                          "' has a space or a colon in its path, and LD_PRELOAD takes neither "
@@ -59,15 +64,29 @@ std::string machine_problem(const Elf64_Ehdr& header) {
          ": build it for this one, x86-64 (gcc, not a cross compiler)";
 }
 
-/// The loader is what loads the shim.
-bool has_loader(std::istream& file, const Elf64_Ehdr& header) {
+/// The path of its loader, which also loads the shim; "" if it has no loader.
+std::string loader_of(std::istream& file, const Elf64_Ehdr& header) {
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));
-    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) return false;
-    if (segment.p_type == PT_INTERP) return true;
+    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) return {};
+    if (segment.p_type != PT_INTERP) continue;
+    std::string path(std::min<std::size_t>(segment.p_filesz, PATH_MAX), '\0');
+    file.seekg(static_cast<std::streamoff>(segment.p_offset));
+    file.read(path.data(), static_cast<std::streamsize>(path.size()));
+    return path.c_str();
   }
-  return false;
+  return {};
+}
+
+/// What Linux gives a program that its user does not have; it loads no library of the user's then.
+std::string privilege_of(const std::string& path, const struct stat& status) {
+  if ((status.st_mode & (S_ISUID | S_ISGID)) != 0)
+    return "is setuid or setgid, and Linux loads no shim into such a program: chmod ug-s";
+  if (::getxattr(path.c_str(), "security.capability", nullptr, 0) > 0)
+    return "has file capabilities, and Linux loads no shim into such a program, which would reach "
+           "this computer's own devices: setcap -r";
+  return {};
 }
 
 /// Why the shim cannot be loaded into it, as the end of a sentence; "" if it can.
@@ -77,8 +96,8 @@ std::string problem_of(const std::string& path) {
     return std::string("cannot be opened: ") + std::strerror(errno);
   if (!S_ISREG(status.st_mode)) return "is no file: name an executable";
   if (::access(path.c_str(), X_OK) != 0) return "may not be executed: chmod +x";
-  if ((status.st_mode & (S_ISUID | S_ISGID)) != 0)
-    return "is setuid or setgid, and Linux loads no shim into such a program: chmod ug-s";
+  const std::string privilege = privilege_of(path, status);
+  if (!privilege.empty()) return privilege;
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header{};
   if (!file.read(reinterpret_cast<char*>(&header), sizeof header) ||
@@ -87,9 +106,24 @@ std::string problem_of(const std::string& path) {
            "its first argument";
   const std::string machine = machine_problem(header);
   if (!machine.empty()) return machine;
-  if (!has_loader(file, header))
+  const std::string loader = loader_of(file, header);
+  if (loader.empty())
     return "is linked statically, and nothing loads the shim into it: link it without -static";
+  if (fs::path(loader).filename().string().rfind("ld-linux", 0) != 0)
+    return "is linked with another C library than glibc ('" + loader +
+           "'), which the shim replaces functions of: build it with this computer's gcc";
   return {};
+}
+
+/// Those of the shim lie behind those of the application.
+void check_descriptors() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_NOFILE, &limit);
+  if (limit.rlim_cur >= linux_app::fewest_descriptors) return;
+  throw vp::InputError("--linux: this shell allows " + std::to_string(limit.rlim_cur) +
+                       " open files, and the application needs " +
+                       std::to_string(linux_app::fewest_descriptors) + " to reach the platform: " +
+                       "'ulimit -n " + std::to_string(linux_app::fewest_descriptors) + "' or more");
 }
 
 std::string absolute(const std::string& file) {
@@ -97,22 +131,26 @@ std::string absolute(const std::string& file) {
   return ::realpath(file.c_str(), path) ? path : file;
 }
 
-/// The environment with the shim before what is preloaded anyway.
+/// The environment with the shim before what is preloaded anyway. AddressSanitizer wants to be
+/// first there, and need not be: what the shim replaces calls its functions.
 std::vector<std::string> environment(const std::string& shim, const std::string& folder) {
+  constexpr const char *preload = "LD_PRELOAD=", *sanitizer = "ASAN_OPTIONS=";
   std::vector<std::string> variables;
-  const auto begins = [](const std::string& text, const std::string& with) {
-    return text.rfind(with, 0) == 0;
-  };
-  std::string preloaded = shim;
+  std::string preloaded = shim, options;
   for (char** at = environ; *at; ++at) {
     const std::string variable = *at;
-    if (begins(variable, "LD_PRELOAD=")) {
-      preloaded += ":" + variable.substr(variable.find('=') + 1);
-    } else if (!begins(variable, linux_app::folder_variable + std::string("="))) {
+    const std::string value = variable.substr(variable.find('=') + 1);
+    const auto is = [&](const std::string& name) { return variable.rfind(name, 0) == 0; };
+    if (is(preload)) {
+      preloaded += ":" + value;
+    } else if (is(sanitizer)) {
+      options = value + ":";
+    } else if (!is(linux_app::folder_variable + std::string("="))) {
       variables.push_back(variable);
     }
   }
-  variables.push_back("LD_PRELOAD=" + preloaded);
+  variables.push_back(preload + preloaded);
+  variables.push_back(sanitizer + options + "verify_asan_link_order=0");
   variables.push_back(linux_app::folder_variable + std::string("=") + folder);
   return variables;
 }
@@ -125,7 +163,23 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }
 
 [[noreturn]] void no_process(int error) {
-  throw std::system_error(error, std::generic_category(), "no process for the application");
+  throw vp::InputError(std::string("--linux: the host has no process for the application (") +
+                       std::strerror(error) + "): raise 'ulimit -u' or 'ulimit -n', or end others");
+}
+
+/// The same file with a number that no descriptor of the application's has.
+int move_away(int descriptor) {
+  return ::fcntl(descriptor, F_DUPFD_CLOEXEC, linux_app::memory_descriptor + 1);
+}
+
+/// Where the application's process has them; false: errno says why not.
+bool place_descriptors(int socket, int memory, int output) {
+  const int ask = move_away(socket), ddr = move_away(memory);
+  if (ask < 0 || ddr < 0 || ::dup2(ask, linux_app::socket_descriptor) < 0 ||
+      ::dup2(ddr, linux_app::memory_descriptor) < 0 || ::dup2(output, STDOUT_FILENO) < 0)
+    return false;
+  return ::isatty(STDIN_FILENO) == 0 ||
+         ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO) == STDIN_FILENO;
 }
 
 }  // namespace
@@ -137,13 +191,11 @@ LinuxApplication::LinuxApplication(const LinuxOptions& options)
       shim_(find_shim()) {
   const std::string problem = problem_of(path_);
   if (!problem.empty()) throw vp::InputError("--linux: '" + options.file + "' " + problem);
+  check_descriptors();
 }
 
 LinuxApplication::~LinuxApplication() {
-  if (process_ > 0) {
-    ::kill(-process_, SIGKILL);
-    if (!status_) ::waitpid(process_, nullptr, 0);
-  }
+  tree_.reset();
   for (const int descriptor : {socket_, output_}) {
     if (descriptor >= 0) ::close(descriptor);
   }
@@ -155,43 +207,33 @@ void LinuxApplication::start(const std::string& folder, int memory, Print print)
   print_ = std::move(print);
   int sockets[2], pipes[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0) no_process(errno);
-  if (::pipe2(pipes, O_CLOEXEC) != 0) no_process(errno);
   socket_ = sockets[0];
+  if (::pipe2(pipes, O_CLOEXEC) != 0) no_process(errno);
   output_ = pipes[0];
   ::fcntl(output_, F_SETFL, O_NONBLOCK);
   ::fcntl(output_, F_SETPIPE_SZ, room_for_output);
   const timeval longest{0, longest_wait_us};
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, sockets[1], linux_app::socket_descriptor);
-  posix_spawn_file_actions_adddup2(&actions, memory, linux_app::memory_descriptor);
-  posix_spawn_file_actions_adddup2(&actions, pipes[1], STDOUT_FILENO);
-  if (::isatty(STDIN_FILENO) != 0)
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  ::sigfillset(&signals);
-  posix_spawnattr_setsigdefault(&attributes, &signals);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::vector<std::string> words{options_.file};
   words.insert(words.end(), options_.arguments.begin(), options_.arguments.end());
   std::vector<std::string> variables = environment(shim_, folder);
-  const int error = ::posix_spawn(&process_, path_.c_str(), &actions, &attributes,
-                                  pointers(words).data(), pointers(variables).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
+  const std::vector<char*> argv = pointers(words), envp = pointers(variables);
+  const auto become = [&] {
+    if (!place_descriptors(sockets[1], memory, pipes[1])) return errno;
+    ::execve(path_.c_str(), argv.data(), envp.data());
+    return errno;
+  };
+  int error = 0;
+  try {
+    tree_.emplace(become);
+    process_ = user_ = tree_->first();
+  } catch (const std::system_error& problem) {
+    error = problem.code().value();
+  }
   ::close(sockets[1]);
   ::close(pipes[1]);
-  if (error != 0) {
-    process_ = 0;
-    no_process(error);
-  }
+  if (error != 0) no_process(error);
 }
 
 void LinuxApplication::print_output() {
@@ -225,18 +267,32 @@ std::optional<LinuxApplication::Asked> LinuxApplication::next() {
   }
   print_output();
   if (asked && asked->request.what == What::died) {
-    death_ = {static_cast<int>(asked->request.a), asked->request.b, asked->text};
+    note_death(*asked);
     asked.reset();
+  } else if (asked && asked->request.what != What::failure) {
+    user_ = static_cast<pid_t>(asked->request.process);
   }
   if (!asked) look_for_end();
   return asked;
 }
 
+void LinuxApplication::note_death(const Asked& asked) {
+  const std::size_t end = std::min(asked.text.find('\n'), asked.text.size());
+  deaths_[static_cast<pid_t>(asked.request.process)] = {
+      static_cast<int>(asked.request.a), asked.request.b, asked.text.substr(0, end),
+      asked.text.substr(std::min(end + 1, asked.text.size()))};
+}
+
+// A copy whose own parent waited for it was that one's matter. What has gone has been noted.
 void LinuxApplication::look_for_end() {
-  int status = 0;
-  if (::waitpid(process_, &status, WNOHANG) != process_) return;
+  const bool user_has_gone = ::kill(user_, 0) != 0 && errno == ESRCH;
+  while (const std::optional<host::ProcessTree::End> end = tree_->next_end())
+    ends_[end->process] = end->status;
+  if (!silent_ || ends_.count(process_) == 0 || !user_has_gone) return;
   print_output();
-  status_ = status;
+  const bool by_copy = ends_[process_] == 0 && ends_.count(user_) != 0;
+  ended_ = by_copy ? user_ : process_;
+  status_ = ends_[ended_];
 }
 
 void LinuxApplication::answer(const linux_app::Reply& reply) {
@@ -259,10 +315,14 @@ std::string LinuxApplication::place() {
 // It answers at once, unless it has a handler of its own for that signal.
 std::string LinuxApplication::end_for_time() {
   constexpr int most_waits = 500;  // it reads debug information, on a computer that may be busy
-  ::kill(process_, linux_app::out_of_time);
+  look_for_end();
+  if (ends_.count(user_) != 0) return {};
+  ::kill(user_, linux_app::out_of_time);
   for (int i = 0; i < most_waits && !silent_; ++i) {
     const std::optional<Asked> asked = receive();
-    if (asked && asked->request.what == What::died) return asked->text;
+    if (!asked || asked->request.what != What::died) continue;
+    note_death(*asked);
+    return deaths_[static_cast<pid_t>(asked->request.process)].place;
   }
   return {};
 }
@@ -274,15 +334,18 @@ int LinuxApplication::exit_code() const {
 std::optional<LinuxApplication::Death> LinuxApplication::death() const {
   if (!status_ || !WIFSIGNALED(*status_)) return std::nullopt;
   const int signal = WTERMSIG(*status_);
-  if (death_ && death_->signal == signal) return death_;
-  return Death{signal, 0, {}};
+  const auto told = deaths_.find(ended_);
+  if (told != deaths_.end() && told->second.signal == signal) return told->second;
+  return Death{signal, linux_app::no_address, {}, {}};
 }
 
-bool LinuxApplication::was_replaced() const {
-  if (!silent_ || status_) return false;
+// The kernel closes descriptors after it has taken the file away of what ends.
+std::optional<std::string> LinuxApplication::replacement() const {
+  if (!silent_ || status_) return std::nullopt;
   std::error_code ignored;
-  const fs::path now = fs::read_symlink("/proc/" + std::to_string(process_) + "/exe", ignored);
-  return !now.empty() && now != path_;  // empty: it is about to end
+  const fs::path now = fs::read_symlink("/proc/" + std::to_string(user_) + "/exe", ignored);
+  if (now.empty()) return std::nullopt;
+  return now.string();
 }
 
 }  // namespace platform

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <vp/error.h>
 #include <vp/text.h>
@@ -82,56 +75,34 @@ constexpr const char* folder_name = "markervp-linux-";
                        reason + "): let TMPDIR name one that takes files");
 }
 
-fs::path temporary_folder() {
-  std::error_code problem;
-  const fs::path folder = fs::temp_directory_path(problem);
-  if (problem) no_folder(problem.message());
-  return folder;
-}
-
-/// Of a folder, which is locked; -1: somebody else has it, or there is none.
-int lock_folder(const std::string& path, int how) {
-  const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  struct stat status {};
-  const bool locked = folder >= 0 && ::flock(folder, LOCK_EX | how) == 0 &&
-                      ::fstat(folder, &status) == 0 && status.st_nlink != 0;
-  if (locked || folder < 0) return folder;
-  ::close(folder);
-  return -1;
-}
-
-/// Folders of processes that were killed.
-void remove_left_over() {
+/// What the host has in a folder, but for its own devices of those kinds.
+void link_entries(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(temporary_folder(), ignored)) {
-    if (entry.path().filename().string().rfind(folder_name, 0) != 0) continue;
-    const int folder = lock_folder(entry.path(), LOCK_NB);
-    if (folder < 0) continue;
-    fs::remove_all(entry.path(), ignored);
-    ::close(folder);
+  for (const auto& entry : fs::directory_iterator(from, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const auto begins = [&](const char* with) { return name.rfind(with, 0) == 0; };
+    if (name == "mem" || begins("uio") || begins("udmabuf") || begins("u-dma-buf")) continue;
+    fs::create_symlink(entry.path(), to / name, ignored);
   }
 }
 
 }  // namespace
 
-// One that is not locked yet may be removed by somebody else: then there is another.
 LinuxFolder::LinuxFolder() {
-  remove_left_over();
-  while (lock_ < 0) {
-    path_ = temporary_folder() / (std::string(folder_name) + "XXXXXX");
-    if (!::mkdtemp(path_.data())) no_folder(std::strerror(errno));
-    lock_ = lock_folder(path_, 0);
+  try {
+    folder_.emplace("linux");
+    path_ = fs::canonical(folder_->path()).string();
+  } catch (const std::system_error& error) {
+    no_folder(error.code().message());
   }
+  link_entries("/dev", path_ + "/dev");
+  link_entries("/sys/class", path_ + "/sys/class");
   // What older releases of the driver call it.
   const fs::path classes = fs::path(path_) / "sys/class";
+  fs::create_directories(classes / "uio");
   fs::create_directories(classes / "u-dma-buf");
   fs::create_directory_symlink("u-dma-buf", classes / "udmabuf");
-}
-
-LinuxFolder::~LinuxFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-  ::close(lock_);
 }
 
 void LinuxFolder::write(const std::string& file, const std::string& text) const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include <host/guard.h>
 #include <linux_app/protocol.h>
 #include <report/result.h>
 #include <vp/parameter.h>
@@ -39,15 +41,12 @@ class LinuxDevices final : public sc_core::sc_module {
   std::vector<Uio> uios_;
 };
 
-/// A folder with /dev and /sys/class as an application sees them, for as long as it lives. Where a
-/// process is killed, its folder is removed with the next one that is made.
+/// A folder with /dev and /sys/class as an application sees them. It outlives neither this object
+/// nor this process.
 class LinuxFolder {
  public:
   /// Throws vp::InputError if the host has no room for it.
   LinuxFolder();
-  ~LinuxFolder();
-  LinuxFolder(const LinuxFolder&) = delete;
-  LinuxFolder& operator=(const LinuxFolder&) = delete;
 
   const std::string& path() const { return path_; }
   /// A file in it, "/dev/mem"; its folders are made.
@@ -55,8 +54,8 @@ class LinuxFolder {
   void add(const LinuxDevices::Uio& uio, std::size_t number) const;
 
  private:
-  std::string path_;
-  int lock_ = -1;  ///< the folder, locked
+  std::optional<host::ScratchFolder> folder_;
+  std::string path_;  ///< without links
 };
 
 }  // namespace platform

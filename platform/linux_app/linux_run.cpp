@@ -49,7 +49,7 @@ std::optional<std::uint64_t> number_in(const std::string& text) {
 /// Not where the host put things, which is elsewhere in each run.
 std::string address_text(std::uint64_t address) {
   constexpr std::uint64_t first_page = 4096;
-  if (address >> 32 != 0) return {};
+  if (address >> 32 != 0) return {};  // or it is not known
   return ": access to " + vp::hex(static_cast<std::uint32_t>(address)) +
          (address < first_page ? ", a null pointer" : "");
 }
@@ -110,16 +110,24 @@ int LinuxRun::serve_to_end() {
         place_ = application_.end_for_time();
       });
     }
+    if (ps::ProgramWatch::stop == Stop::host_time && application_.left_copy())
+      fail(
+          "the application's process has ended, and a copy of it that fork() made runs on and "
+          "lets no simulated time pass: end it, or let it sleep or use a device");
     if (ps::ProgramWatch::stop != Stop::none) vp::FaultTrap::leave_at_stop();
     const std::optional<Asked> asked = application_.next();
     if (asked) {
       serve(*asked);
     } else if (application_.ended()) {
       return end();
-    } else if (application_.was_replaced()) {
-      fail(
-          "the application became another program, by exec(), which does not reach the platform: "
-          "start that one, with --linux");
+    } else if (const std::optional<std::string> program = application_.replacement()) {
+      fail(*program == application_.path()
+               ? "the application closed the descriptor by which it reaches the platform with a "
+                 "system call of its own, or started itself again, by exec(), which does not reach "
+                 "the platform: call functions of the C library, and start it once"
+               : "the application became another program, by exec(), which does not reach the "
+                 "platform: start that one ('" +
+                     *program + "'), with --linux");
     }
   }
 }
@@ -145,7 +153,11 @@ void LinuxRun::boot() {
     print("linux: /dev/udmabuf" + std::to_string(i) + " has " + std::to_string(buffers_[i].size) +
           " bytes at " + vp::hex(static_cast<std::uint32_t>(buffers_[i].base)));
   }
-  application_.start(folder_->path(), zynq_->ps.ddr.descriptor(), &hal_console_write);
+  // On the platform's side: the processes that guard it are copies of this one, where an exit is
+  // not the program's.
+  ps::Cpu::running("a Linux application").guarded([&] {
+    application_.start(folder_->path(), zynq_->ps.ddr.descriptor(), &hal_console_write);
+  });
 }
 
 void LinuxRun::make_buffers() {
@@ -165,14 +177,15 @@ int LinuxRun::end() {
   const std::optional<LinuxApplication::Death> death = application_.death();
   if (death) {
     place_ = death->place;
-    const bool at_address = death->signal == SIGSEGV || death->signal == SIGBUS;
+    if (!death->reason.empty()) fail("the application " + death->reason);
     const char* const name = ::sigabbrev_np(death->signal);
     fail(std::string("the application was ended by SIG") + (name ? name : "?") + " (" +
-         ::strsignal(death->signal) + ")" + (at_address ? address_text(death->address) : ""));
+         ::strsignal(death->signal) + ")" + address_text(death->address));
   }
   if (!connected_)
     fail("the application ended with exit code " + std::to_string(application_.exit_code()) +
-         " before the shim was loaded into it: is it linked with another C library than glibc?");
+         " before the shim was loaded into it: its loader says why, above, or its C library is not "
+         "glibc");
   return application_.exit_code();
 }
 
@@ -302,7 +315,7 @@ void LinuxRun::map(const Request& request) {
   if (!cached) caches_->placed(request.a, std::min(request.b, zynq_->ps.ddr.end() - request.a));
 }
 
-// As uio_pdrv_genirq: an interrupt masks itself, whoever handles it unmasks it again.
+// As uio_pdrv_genirq: an interrupt masks itself, and its handler unmasks it again.
 void LinuxRun::on_interrupt(void* context) {
   Uio& uio = *static_cast<Uio*>(context);
   ++uio.count;

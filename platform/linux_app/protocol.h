@@ -10,6 +10,8 @@ namespace linux_app {
 /// What the application's process finds open. Behind what applications open themselves.
 constexpr int socket_descriptor = 198;
 constexpr int memory_descriptor = 199;  ///< the DDR, from its first byte on
+/// How many descriptors the host must allow it, those of the shim included.
+constexpr unsigned fewest_descriptors = 256;
 /// The environment variable that names the folder with /dev and /sys as the application sees them.
 constexpr const char* folder_variable = "MARKERVP_LINUX";
 
@@ -18,6 +20,7 @@ constexpr int out_of_time = SIGXCPU;
 
 constexpr unsigned most_uio = 16;  ///< as many as there are lines IRQ_F2P
 constexpr std::uint64_t forever = ~std::uint64_t{0};
+constexpr std::uint64_t no_address = ~std::uint64_t{0};
 
 /// A device file.
 enum class Device : std::uint32_t { memory, uio, buffer };
@@ -34,11 +37,12 @@ enum class What : std::uint32_t {
   wait,       ///< until the time `a`, or any uio has interrupts: their sum is not `b`
   clock,      ///< the time
   store,      ///< buffer `a`: the text "sync_for_cpu 1"
-  missing,    ///< a device file that is none was opened: the text names it
+  missing,    ///< a device file that does not exist was opened: the text names it
   refused,    ///< an error that tells too little: the text says what was wrong
   place,      ///< answers Reply::Kind::where: the text is where the application is
-  failure,    ///< nobody can go on: the text says why, then a line that says where
-  died,       ///< of signal `a` at address `b`; the text says where. Not answered
+  failure,    ///< the run cannot continue: the text says why, then a line that says where
+  died,       ///< of signal `a` at address `b`; the text as of a failure, without why: empty line.
+              ///< Not answered
 };
 
 enum MapFlags : std::uint64_t {
@@ -49,6 +53,7 @@ enum MapFlags : std::uint64_t {
 struct Request {
   What what;
   std::uint32_t size;
+  std::int64_t process;  ///< that asks: the one that was started, or a copy by fork()
   std::uint64_t a, b, c;
 };
 

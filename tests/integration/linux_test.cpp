@@ -101,6 +101,62 @@ BOOST_AUTO_TEST_CASE(ways_to_wait) {
   loops("waiting");
 }
 
+BOOST_AUTO_TEST_CASE(interrupts_of_a_copy) {
+  loops("copied");
+}
+
+BOOST_AUTO_TEST_CASE(ways_to_a_device_file) {
+  std::filesystem::create_directory(*this / "links");
+  const kit::Outcome outcome = works("paths", {*this / "links"});
+  BOOST_TEST(contains(outcome.out, "linux: /dev/uio7 is not there"), outcome.out);
+}
+
+/// Nothing of what a shell sets is needed.
+BOOST_AUTO_TEST_CASE(an_empty_environment) {
+  std::filesystem::create_directory(*this / "links");
+  const kit::Outcome outcome =
+      kit::run_process("/usr/bin/env",
+                       {"-i", MARKERVP_EXECUTABLE, "run", "--linux", MARKERVP_APPLICATIONS "paths",
+                        "--no-report", "--", *this / "links"},
+                       path());
+  BOOST_TEST(outcome.exit_code == 0, outcome.out << outcome.err);
+}
+
+/// AddressSanitizer reports its findings, and those of the platform are as they were.
+BOOST_AUTO_TEST_CASE(an_application_with_a_sanitizer) {
+  const auto sanitized = [this](const std::string& name) {
+    const std::string file = *this / name;
+    const kit::Outcome built = kit::run_process(
+        MARKERVP_C_COMPILER,
+        {"-g", "-fsanitize=address", MARKERVP_APPLICATION_SOURCES + name + ".c", "-o", file},
+        path());
+    BOOST_TEST_REQUIRE(built.exit_code == 0, built.err);
+    return file;
+  };
+  const auto start = [this](const std::string& file, const std::string& design,
+                            const Arguments& arguments) {
+    Arguments all{"--linux", file, "--no-report", "--design", design, "--"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return run(all);
+  };
+  const std::string works = sanitized("works");
+  for (const std::string what : {"tree", "strings", "cached_loop", "waiting", "copied", "times"}) {
+    const kit::Outcome outcome = start(works, MARKERVP_LOOP_DESIGN, {what});
+    BOOST_TEST(outcome.exit_code == 0, what << ": " << outcome.out << outcome.err);
+    BOOST_TEST(outcome.err == "");
+  }
+  const std::string mistakes = sanitized("mistakes");
+  kit::Outcome outcome = start(mistakes, "thesis", {"beyond_an_array"});
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "AddressSanitizer: heap-buffer-overflow"), outcome.err);
+  outcome = start(mistakes, "thesis", {"null_pointer"});
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "AddressSanitizer: SEGV on unknown address"), outcome.err);
+  outcome = start(mistakes, "thesis", {"unmapped"});
+  BOOST_TEST(outcome.exit_code == 3);
+  BOOST_TEST(contains(outcome.err, "data abort: write to 0x50000000"), outcome.err);
+}
+
 BOOST_AUTO_TEST_CASE(the_memory_is_the_one_that_the_engine_sees) {
   loops("memory");
 }

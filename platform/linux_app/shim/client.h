@@ -31,13 +31,15 @@ using linux_app::What;
 const char* folder();
 /// This process is the application, or a copy of it by fork(). False in what it started by exec().
 bool is_application();
-/// The time of whoever calls is the platform's: of the one thread that uses devices.
+/// The caller's time is the platform's: it is the one thread that uses devices.
 bool is_in_lock_step();
 /// Calls of the one thread that uses devices; the first to open one is it.
 void take_devices();
+/// The thread that calls is the one that uses devices.
+void become_user();
 
-/// Asks the platform and waits for its answer; no signal handler runs meanwhile. Another thread, or
-/// a copy by fork(), is refused.
+/// Asks the platform and waits for its answer; no signal handler runs meanwhile. Another thread is
+/// refused, and a process that has no turn.
 Reply ask(What what, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0,
           const char* text = nullptr);
 /// The same of `size` bytes, in a handler of a signal, which others do not interrupt.
@@ -51,8 +53,34 @@ void warn_of_invalid(const char* format, ...) __attribute__((format(printf, 1, 2
 
 /// Ends the run with a message: what went wrong, as printf() writes it. Where is added.
 [[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
-/// Tells that a signal ends the application.
-void tell_death(int signal, std::uint64_t address);
+/// Tells that a signal ends the application; `reason` may be empty.
+void tell_death(int signal, std::uint64_t address, const char* reason);
+
+/// Where the number of a descriptor of the shim's is kept, which the application does not see;
+/// null: the descriptor is the application's.
+int* own_descriptor(int descriptor);
+/// The descriptor of the DDR.
+int memory_file();
+
+// ---- turn.cpp
+/// To be called once, in the process that was started.
+void prepare_turns();
+/// Before each question: false if another process of the application uses the devices.
+bool take_turn();
+/// With the answer.
+void end_turn(const Reply& reply);
+/// The process that calls uses the devices, or would be the next.
+bool may_take_turn();
+/// Once: this process has its turn, and was refused the run's time before.
+bool had_other_time();
+
+// ---- stack.cpp
+/// Faults of the thread that calls are handled on a stack of their own from now on.
+void prepare_stack();
+/// "the stack of its main thread overflowed ...", if an access to `address` with this stack pointer
+/// did that; else "".
+void describe_overflow(std::uintptr_t address, std::uintptr_t stack_pointer, char* text,
+                       std::size_t size);
 
 /// The instruction at which the application stands in the one that is made now, where that is not
 /// what its stack says: 0.
@@ -68,6 +96,10 @@ void prepare_to_locate();
 void set_memory(std::uint64_t first, std::uint64_t end);
 /// Some uio is open: an interrupt may end a wait.
 bool may_be_interrupted();
+/// The device that a descriptor is of, as stat() tells it; 0: none.
+dev_t device_open_at(int descriptor);
+/// Another process used the devices last, which knew of so many `interrupts`.
+void resume_interrupts(const std::uint32_t* interrupts);
 
 // ---- registers.cpp
 /// mmap() of device registers: pages without access rights. Each access of the application faults,

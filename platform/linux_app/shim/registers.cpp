@@ -169,16 +169,22 @@ void end_step(ucontext_t& context) {
   stand_at(0);
 }
 
-/// What the application wants done with the signals of ours.
+/// What the application, or its sanitizer, wants done with the signals of ours.
 struct sigaction wanted[2];  // SIGSEGV, SIGTRAP
 
 struct sigaction* wanted_of(int signal) {
   return signal == SIGSEGV ? &wanted[0] : signal == SIGTRAP ? &wanted[1] : nullptr;
 }
 
-void die_by(int signal, const siginfo_t& info) {
+void die_by(int signal, const siginfo_t& info, const ucontext_t& context) {
+  const bool has_address = (signal == SIGSEGV || signal == SIGBUS) && info.si_code > 0;
   const auto address = reinterpret_cast<std::uintptr_t>(info.si_addr);
-  if (is_in_lock_step()) tell_death(signal, info.si_code > 0 ? address : 0);
+  char reason[256] = "";
+  if (has_address)
+    describe_overflow(address, static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RSP]),
+                      reason, sizeof reason);
+  tell_death(signal, has_address && info.si_code != SI_KERNEL ? address : linux_app::no_address,
+             reason);
   struct sigaction usual {};
   REAL(sigaction)(signal, &usual, nullptr);
   ::raise(
@@ -198,7 +204,7 @@ void on_signal(int signal, siginfo_t* info, void* data) {
     } else if (own && own->sa_handler != SIG_DFL && own->sa_handler != SIG_IGN) {
       own->sa_handler(signal);
     } else {
-      die_by(signal, *info);
+      die_by(signal, *info, context);
     }
   }
   errno = error;
@@ -211,7 +217,13 @@ void catch_faults() {
   action.sa_sigaction = &on_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   ::sigfillset(&action.sa_mask);
-  for (const int signal : faults) REAL(sigaction)(signal, &action, nullptr);
+  for (const int signal : faults) {
+    struct sigaction before {};
+    REAL(sigaction)(signal, nullptr, &before);
+    struct sigaction* const own = wanted_of(signal);
+    if (own) *own = before;
+    if (own || before.sa_handler == SIG_DFL) REAL(sigaction)(signal, &action, nullptr);
+  }
   REAL(sigaction)(linux_app::out_of_time, &action, nullptr);
 }
 

@@ -124,8 +124,13 @@ static void threads(void) {
 static void forks(void) {
   volatile uint32_t* const registers = gpio();
   registers[TRI] = 0;
-  if (fork() == 0) registers[DATA] = 1;
+  if (fork() == 0) {
+    registers[DATA] = 1;
+    _exit(0);
+  }
+  registers[DATA] = 2;
   wait(NULL);
+  registers[DATA] = 3;
 }
 
 static void starts(void) {
@@ -164,7 +169,6 @@ static void beyond(void) {
   usleep(100);
 }
 
-/* Waits for a signal in a child, too: nothing of it may be left. */
 static void no_device(void) {
   if (open("/dev/uio9", O_RDWR) >= 0 || errno != ENOENT) exit(1);
 }
@@ -175,6 +179,7 @@ static void beyond_a_map(void) {
   if (mmap(NULL, 4096, PROT_READ, MAP_SHARED, file, 4096) != MAP_FAILED || errno != EINVAL) exit(1);
 }
 
+/* Waits for a signal in a child, too: nothing of it may be left. */
 static void two_processes(void) {
   volatile uint32_t* const registers = gpio();
   if (fork() == 0) {
@@ -189,6 +194,14 @@ static void leaves_a_copy(void) {
   if (fork() == 0) {
     while (1) pause();
   }
+}
+
+/* Only a sanitizer sees it. */
+static void beyond_an_array(void) {
+  volatile char* const bytes = malloc(8);
+  gpio()[TRI] = 0;
+  bytes[8] = 1;
+  free((void*)bytes);
 }
 
 static void leaks(void) {
@@ -226,6 +239,7 @@ int main(int count, char** words) {
                   {"beyond_a_map", beyond_a_map},
                   {"two_processes", two_processes},
                   {"leaks", leaks},
+                  {"beyond_an_array", beyond_an_array},
                   {"leaves_a_copy", leaves_a_copy}};
   for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
     if (count == 2 && strcmp(words[1], mistakes[i].name) == 0) {

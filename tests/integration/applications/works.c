@@ -14,6 +14,7 @@
 #include <sys/mman.h>
 #include <sys/select.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -345,6 +346,33 @@ static int waiting(void) {
   return 0;
 }
 
+/* A copy takes an interrupt; what comes behind is the other's, with the same descriptor. */
+static int copied(void) {
+  const struct loop l = begin(O_SYNC, O_NONBLOCK);
+  start(&l);
+  struct pollfd wanted = {l.uio, POLLIN, 0};
+  for (uint32_t i = 1; i <= 5; i += 2) {
+    copy(&l);
+    EXPECT(poll(&wanted, 1, 5) == 1);
+    const pid_t child = fork();
+    if (child == 0) {
+      EXPECT(await(&l) == i);
+      acknowledge(&l);
+      unmask(&l);
+      _exit(0);
+    }
+    int status = 0;
+    EXPECT(waitpid(child, &status, 0) == child && status == 0);
+    EXPECT(poll(&wanted, 1, 1) == 0);
+    copy(&l);
+    EXPECT(poll(&wanted, 1, 5) == 1 && await(&l) == i + 1);
+    acknowledge(&l);
+    unmask(&l);
+  }
+  compare(&l);
+  return 0;
+}
+
 /* The DDR through /dev/mem is what the engine reads. */
 static int memory(void) {
   const struct loop l = begin(O_SYNC, 0);
@@ -435,6 +463,7 @@ int main(int count, char** words) {
   if (strcmp(what, "cached_loop") == 0) return cached_loop();
   if (strcmp(what, "stream_loop") == 0) return stream_loop();
   if (strcmp(what, "waiting") == 0) return waiting();
+  if (strcmp(what, "copied") == 0) return copied();
   if (strcmp(what, "memory") == 0) return memory();
   if (strcmp(what, "times") == 0) return times();
   if (strcmp(what, "signals") == 0) return signals();
