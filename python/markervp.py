@@ -130,7 +130,7 @@ def _numbers_of_frame(frame):
             for marker in value:
                 for figure in ("error", "reprojection_px", "iterations"):
                     yield from _numbers(marker.get(figure), f"frames.{figure}")
-        elif name not in ("index", "scene_marker") and not (name == "time_us" and "gave_up" in frame):
+        elif name not in ("index", "scene_marker", "further_scene_markers") and not (name == "time_us" and "gave_up" in frame):
             yield from _numbers(value, f"frames.{name}")
 
 

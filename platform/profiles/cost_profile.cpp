@@ -366,6 +366,11 @@ CostProfile load_cost_profile(const std::string& name, std::optional<Optimisatio
   const ProfileFile file(profile_path(name));
   if (file.root().find("tables") == file.root().end()) return read_cost_table(file, optimisation);
   return read_scaled(file, optimisation.value_or(Optimisation::o0));
+bool holds_for_both(const std::string& name) {
+  const ProfileFile file(profile_path(name));
+  return file.root().find("tables") != file.root().end();
+}
+
 }
 
 }  // namespace platform::profiles

@@ -37,6 +37,9 @@ inline constexpr std::size_t max_fitted = 8;
 /// read.
 Optimisation optimisation_of(const std::string& name);
 
+/// The profile holds for software compiled either way, as sw.opt says.
+bool holds_for_both(const std::string& name);
+
 /// Reads a profile. `name` is that of an installed one ("thesis", "a9-O0", …) or a file, which ends
 /// in .json. `optimisation`: none is optimisation_of(name).
 /// Throws vp::InputError that names file and entry: no such profile, another version, a kernel or

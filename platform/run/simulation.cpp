@@ -108,6 +108,7 @@ void Simulation::build() {
   power_ = std::make_unique<ZynqPower>(
       "power", *zynq_, design_->draws_power,
       camera_->has_rate() ? PowerMode::activity : PowerMode::vivado_default);
+  zynq_->design().note_option("unoptimised", software_options_->is_unoptimised() ? 1 : 0);
   timing_ = std::make_unique<TimingClosure>("timing", power_->parts(), zynq_->chip.data);
   recorder_ = std::make_unique<TimelineRecorder>(*zynq_, options_.timeline_frames);
   power_->record_timeline(recorder_->records());
