@@ -75,6 +75,14 @@ int fail(std::ostream& err, const std::string& message, ExitCode code) {
   return code;
 }
 
+namespace {
+
+int fail_as_model(std::ostream& err, const std::exception& error) {
+  return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+}
+
+}  // namespace
+
 int exit_code_of(const std::function<int()>& work, std::ostream& err) {
   try {
     return work();
@@ -90,10 +98,16 @@ int exit_code_of(const std::function<int()>& work, std::ostream& err) {
         wrong_input);
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string file = error.path1().string();
-    return fail(err, (file.empty() ? "" : "'" + file + "': ") + error.code().message(),
-                wrong_input);
+    return fail(
+        err,
+        (file.empty() ? "" : "'" + file + "': ") + error.code().message() +
+            (vp::HostError::is_cause(error.code()) ? vp::advice_for(error.code().value()) : ""),
+        wrong_input);
+  } catch (const std::system_error& error) {
+    if (!vp::HostError::is_cause(error.code())) return fail_as_model(err, error);
+    return fail(err, error.what() + vp::advice_for(error.code().value()), wrong_input);
   } catch (const std::exception& error) {
-    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+    return fail_as_model(err, error);
   } catch (...) {
     return fail(err, "the model failed: it threw an exception of an unknown type", protocol_broken);
   }

@@ -20,6 +20,7 @@
 
 #include <host/process.h>
 #include <vp/error.h>
+#include <vp/file.h>
 
 namespace platform {
 
@@ -125,7 +126,10 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }
 
 [[noreturn]] void no_process(int error) {
-  throw std::system_error(error, std::generic_category(), "no process for the application");
+  const std::error_code code(error, std::generic_category());
+  if (!vp::HostError::is_cause(code))
+    throw std::system_error(code, "no process for the application");
+  throw vp::HostError("no process for the application: " + code.message() + vp::advice_for(error));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>
@@ -141,7 +142,7 @@ void LinuxFolder::write(const std::string& file, const std::string& text) const 
   std::ofstream stream(path, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw std::system_error(errno, std::generic_category(), path);
+  if (!stream) throw vp::OutputError(path, errno);
 }
 
 // Documentation/driver-api/uio-howto.rst of Linux.

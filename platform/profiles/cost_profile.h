@@ -46,6 +46,10 @@ bool holds_for_both(const std::string& name);
 /// unit that is missing, unknown, negative or absurd, or an optimisation that it is not for.
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
 
+/// Refuses the profiles and optimisations that load_cost_profile() does, but not a table that lacks
+/// units or has bad ones: for those who only ask what there is.
+void check_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
+
 }  // namespace platform::profiles
 namespace platform::profiles {
 
