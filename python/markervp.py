@@ -13,6 +13,7 @@ The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a marker
 here but the metrics of a run: every figure comes from result.json or a sweep's files.
 """
 import collections
+import contextlib
 import csv
 import difflib
 import functools
@@ -309,6 +310,25 @@ def _time(value):
 Beat = collections.namedtuple("Beat", "cycle data last keep")
 
 
+class _ScratchFolder:
+    """A folder that a process beside this one removes: at remove(), or once this process and those that have `token` are gone,
+    killed ones included."""
+
+    def __init__(self):
+        self.name = tempfile.mkdtemp(prefix="markervp-")
+        reading, self.token = os.pipe()
+        self._remover = subprocess.Popen(["/bin/sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", self.name], stdin=reading,
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        os.close(reading)
+
+    def remove(self):
+        if self._remover.returncode is None:
+            with contextlib.suppress(BrokenPipeError):
+                os.write(self.token, b"\n")
+            os.close(self.token)
+            self._remover.wait()
+
+
 class Session:
     """A run that a test leads: it lets time pass or waits, reads and writes from outside, and looks at what came of it.
 
@@ -320,7 +340,7 @@ class Session:
     """
 
     def __init__(self, program_file=None, inputs=(), set=None, output=None, options=(), wall_time=60):
-        self._folder = None if output else tempfile.TemporaryDirectory(prefix="markervp-")
+        self._folder = None if output else _ScratchFolder()
         self.output = pathlib.Path(output or self._folder.name)
         self.console = []  #: lines that the program and the UARTs printed
         self.time = 0.0  #: simulated, s
@@ -335,8 +355,8 @@ class Session:
         for path, value in (set or {}).items():
             arguments += ["--set", f"{path}={_text(value)}"]
         self._messages = tempfile.TemporaryFile("w+")
-        self._process = subprocess.Popen(arguments, pass_fds=[theirs.fileno()], stdout=subprocess.DEVNULL,
-                                         stderr=self._messages, text=True)
+        passed = [theirs.fileno()] + ([self._folder.token] if self._folder else [])
+        self._process = subprocess.Popen(arguments, pass_fds=passed, stdout=subprocess.DEVNULL, stderr=self._messages, text=True)
         theirs.close()
         try:
             self._ask("run", **{"for": "0 ps"})
@@ -358,7 +378,7 @@ class Session:
         self._process.wait()
         self._messages.close()
         if self._folder:
-            self._folder.cleanup()
+            self._folder.remove()
 
     def _failed(self, what):
         self._process.kill()

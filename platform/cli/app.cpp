@@ -316,6 +316,8 @@ void add_designs(CLI::App& app, DesignsOptions& target) {
 
 void add_config(CLI::App& app, ConfigOptions& target) {
   CLI::App* command = app.add_subcommand("config", "print every parameter as it is in effect");
+  command->add_option("PATH", target.path, "only this parameter, or this group: pl, ps.cpu")
+      ->type_name("");
   add_platform_options(*command, target);
   add_design_option(*command, target.configuration);
   add_configuration_options(*command, target.configuration);

@@ -428,14 +428,36 @@ std::unique_ptr<Simulation> build(vp::Configuration& configuration,
   return simulation;
 }
 
+namespace {
+
+/// Those at `path` or below it.
+vp::Configuration part_of(const vp::Configuration& all, const std::string& path) {
+  vp::Configuration part;
+  std::vector<std::string> known;
+  for (const vp::ParameterDescription& parameter : all.parameters()) {
+    if (parameter.path == path || parameter.path.rfind(path + ".", 0) == 0) part.add(parameter);
+    known.push_back(parameter.path);
+    const std::string group = parameter.path.substr(0, parameter.path.rfind('.'));
+    if (group != known.back()) known.push_back(group);
+  }
+  if (!part.parameters().empty()) return part;
+  const std::string nearest = vp::nearest_match(path, known);
+  throw vp::InputError(
+      "no parameter or group '" + vp::excerpt(path) + "': " +
+      (nearest.empty() ? "'markervp config' prints all" : "did you mean '" + nearest + "'?"));
+}
+
+}  // namespace
+
 int print_configuration(const ConfigOptions& options, std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
   choose_platform(options, configuration);
   SimulationOptions asked;
   asked.program = options.program;
+  asked.is_only_shown = true;
   build(configuration, asked);
-  out << configuration.to_yaml();
+  out << (options.path.empty() ? configuration : part_of(configuration, options.path)).to_yaml();
   return done;
 }
 

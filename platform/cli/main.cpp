@@ -5,6 +5,7 @@
 
 #include <cli/program.h>
 #include <host/process.h>
+#include <host/stack_limit.h>
 #include <vp/foreign_object.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
@@ -14,6 +15,13 @@ extern "C" int sc_main(int, char**) {
 
 int main(int argc, char* argv[]) {
   platform::host::fill_standard_descriptors();
+  const int ready = platform::host::exit_code_of(
+      [&] {
+        platform::host::ensure_stack(argv);
+        return platform::host::done;
+      },
+      std::cerr);
+  if (ready != platform::host::done) return ready;
   platform::host::prepare_signals();
   ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -340,7 +340,9 @@ void print_overview(const HardwareMap& map, bool registers, std::ostream& out) {
 int print_map(const MapOptions& options, std::ostream& out) {
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
-  const HardwareMap map = hardware_map(build(configuration, {})->zynq());
+  SimulationOptions asked;
+  asked.is_only_shown = true;
+  const HardwareMap map = hardware_map(build(configuration, asked)->zynq());
   if (options.markdown) {
     out << map_as_markdown(map);
   } else if (options.xparameters) {

@@ -133,6 +133,7 @@ struct MetricsOptions {
 
 /// `markervp config`.
 struct ConfigOptions : PlatformOptions {
+  std::string path;  ///< a parameter, or a group of them; empty: all
   ConfigurationOptions configuration;
 };
 

@@ -121,8 +121,12 @@ bool prepare_output_folder(const std::string& folder) {
       (fs::path(folder) / (".markervp-" + std::to_string(::getpid()))).string();
   const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    throw vp::InputError("output folder '" + folder + "' is not writable: " + std::strerror(errno) +
-                         choose_another);
+    const int reason = errno;
+    const std::string problem =
+        "output folder '" + folder + "' is not writable: " + std::strerror(reason);
+    if (vp::HostError::is_cause({reason, std::generic_category()}))
+      throw vp::HostError(problem + vp::advice_for(reason));
+    throw vp::InputError(problem + choose_another);
   }
   ::close(descriptor);
   ::unlink(probe.c_str());

@@ -75,6 +75,14 @@ int fail(std::ostream& err, const std::string& message, ExitCode code) {
   return code;
 }
 
+namespace {
+
+int fail_as_model(std::ostream& err, const std::exception& error) {
+  return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+}
+
+}  // namespace
+
 int exit_code_of(const std::function<int()>& work, std::ostream& err) {
   try {
     return work();
@@ -90,10 +98,16 @@ int exit_code_of(const std::function<int()>& work, std::ostream& err) {
         wrong_input);
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string file = error.path1().string();
-    return fail(err, (file.empty() ? "" : "'" + file + "': ") + error.code().message(),
-                wrong_input);
+    return fail(
+        err,
+        (file.empty() ? "" : "'" + file + "': ") + error.code().message() +
+            (vp::HostError::is_cause(error.code()) ? vp::advice_for(error.code().value()) : ""),
+        wrong_input);
+  } catch (const std::system_error& error) {
+    if (!vp::HostError::is_cause(error.code())) return fail_as_model(err, error);
+    return fail(err, error.what() + vp::advice_for(error.code().value()), wrong_input);
   } catch (const std::exception& error) {
-    return fail(err, std::string("the model failed: ") + error.what(), protocol_broken);
+    return fail_as_model(err, error);
   } catch (...) {
     return fail(err, "the model failed: it threw an exception of an unknown type", protocol_broken);
   }
@@ -379,9 +393,34 @@ void Child::end() {
   ::waitpid(process_, nullptr, 0);
 }
 
+namespace {
+
+/// Ends this process some time after its parent, whatever it is at: SIGTERM lets a point end.
+class ParentWatch final : private vp::HostTicks::Listener {
+ public:
+  explicit ParentWatch(pid_t parent) : parent_(parent) { vp::HostTicks::add(*this); }
+  ~ParentWatch() { vp::HostTicks::remove(*this); }
+  ParentWatch(const ParentWatch&) = delete;
+  ParentWatch& operator=(const ParentWatch&) = delete;
+
+ private:
+  void on_host_tick(std::uint64_t spent_ns, void*) override {
+    constexpr std::uint64_t patience_ns = 2'000'000'000;
+    if (::getppid() == parent_) return;
+    alone_ns_ += spent_ns;
+    if (alone_ns_ >= patience_ns) end_by(SIGTERM);
+  }
+
+  pid_t parent_;
+  std::uint64_t alone_ns_ = 0;
+};
+
+}  // namespace
+
 void Child::become(const Work& work, pid_t parent) {
   // Not SIGKILL: it would leave part files.
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const ParentWatch watch(parent);
   if (::getppid() != parent) ::_exit(run_failed);
   ::dup2(out_, STDOUT_FILENO);
   ::dup2(err_, STDERR_FILENO);

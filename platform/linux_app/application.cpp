@@ -22,6 +22,7 @@
 
 #include <host/process.h>
 #include <vp/error.h>
+#include <vp/file.h>
 
 namespace platform {
 
@@ -163,8 +164,10 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }
 
 [[noreturn]] void no_process(int error) {
-  throw vp::InputError(std::string("--linux: the host has no process for the application (") +
-                       std::strerror(error) + "): raise 'ulimit -u' or 'ulimit -n', or end others");
+  const std::error_code code(error, std::generic_category());
+  if (!vp::HostError::is_cause(code))
+    throw std::system_error(code, "no process for the application");
+  throw vp::HostError("no process for the application: " + code.message() + vp::advice_for(error));
 }
 
 /// The same file with a number that no descriptor of the application's has.

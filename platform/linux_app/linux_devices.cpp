@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <zynq/hardware_map.h>
@@ -112,7 +113,7 @@ void LinuxFolder::write(const std::string& file, const std::string& text) const 
   std::ofstream stream(path, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw std::system_error(errno, std::generic_category(), path);
+  if (!stream) throw vp::OutputError(path, errno);
 }
 
 // Documentation/driver-api/uio-howto.rst of Linux.

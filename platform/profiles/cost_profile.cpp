@@ -242,17 +242,21 @@ void read_other_units(const ProfileFile& file, ps::CostTable& costs) {
   read_units(file, units, names, "other_units", costs);
 }
 
+void check_optimisation(const ProfileFile& file, std::optional<Optimisation> optimisation) {
+  const std::string built = file.text(file.root(), "optimisation", "the profile");
+  if (optimisation && built != name_of(*optimisation)) {
+    file.refuse("it is for code compiled with -" + built + ", and sw.opt asks for " +
+                name_of(*optimisation));
+  }
+}
+
 CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation> optimisation) {
   const Json& root = file.root();
   file.only(
       root,
       {"version", "profile", "optimisation", "origin", "date", "kernels", "other_units", "memory"},
       "the profile");
-  const std::string built = file.text(root, "optimisation", "the profile");
-  if (optimisation && built != name_of(*optimisation)) {
-    file.refuse("it is for code compiled with -" + built + ", and sw.opt asks for " +
-                name_of(*optimisation));
-  }
+  check_optimisation(file, optimisation);
   CostProfile profile{ps::CostTable(file.text(root, "profile", "the profile")),
                       file.text(root, "origin", "the profile"),
                       file.text(root, "date", "the profile"),
@@ -362,10 +366,20 @@ Optimisation optimisation_of(const std::string& name) {
   return is_o2 ? Optimisation::o2 : Optimisation::o0;
 }
 
+bool holds_for_both(const std::string& name) {
+  const ProfileFile file(profile_path(name));
+  return file.root().find("tables") != file.root().end();
+}
+
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation) {
   const ProfileFile file(profile_path(name));
   if (file.root().find("tables") == file.root().end()) return read_cost_table(file, optimisation);
   return read_scaled(file, optimisation.value_or(Optimisation::o0));
+}
+
+void check_cost_profile(const std::string& name, std::optional<Optimisation> optimisation) {
+  const ProfileFile file(profile_path(name));
+  if (file.root().find("tables") == file.root().end()) check_optimisation(file, optimisation);
 }
 
 }  // namespace platform::profiles

@@ -37,11 +37,18 @@ inline constexpr std::size_t max_fitted = 8;
 /// read.
 Optimisation optimisation_of(const std::string& name);
 
+/// The profile holds for software compiled either way, as sw.opt says.
+bool holds_for_both(const std::string& name);
+
 /// Reads a profile. `name` is that of an installed one ("thesis", "a9-O0", …) or a file, which ends
 /// in .json. `optimisation`: none is optimisation_of(name).
 /// Throws vp::InputError that names file and entry: no such profile, another version, a kernel or
 /// unit that is missing, unknown, negative or absurd, or an optimisation that it is not for.
 CostProfile load_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
+
+/// Refuses the profiles and optimisations that load_cost_profile() does, but not a table that lacks
+/// units or has bad ones: for those who only ask what there is.
+void check_cost_profile(const std::string& name, std::optional<Optimisation> optimisation);
 
 }  // namespace platform::profiles
 namespace platform::profiles {

@@ -209,6 +209,13 @@ std::string fps_text(const Summary& summary, bool has_camera) {
       latency.mean() / us_per_ms, latency.max() / us_per_ms);
 }
 
+/// What sets the rate, and below it what raises the rate.
+std::string limit_text(const Limit& limit) {
+  const std::string levers = limit.levers_text();
+  return "limit    " + limit.text() + "\n" +
+         (levers.empty() ? "" : "         faster with " + levers + "\n");
+}
+
 std::string mean_error_text(const Summary& summary) {
   return "error    corner " + error_figure(summary.corner_px().mean(), 2) + " px" +
          pose_error_text(summary.translation_mm().mean(), summary.rotation_deg().mean()) +
@@ -261,6 +268,7 @@ std::string summary_text(const Summary& summary, const RunFacts& facts) {
   text += point;
   text += fps_text(summary, facts.camera.has_value());
   if (facts.camera) text += camera_text(*facts.camera);
+  if (const std::optional<Limit> limit = summary.limit()) text += limit_text(*limit);
   if (summary.corner_px().count() > 0) text += mean_error_text(summary);
   text += verdict_text(verdict_of(facts, summary));
   if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {

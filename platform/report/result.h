@@ -239,6 +239,8 @@ struct StageTime {
   std::string part_of = {};    ///< the stage whose time contains this one's; empty: none
   std::string clock = {};      ///< "ps.fclk_clk1": it lasts so many cycles of it; empty: none alone
   std::string why = {};        ///< why it takes its time, for who asks what limits a frame
+  std::vector<std::string> levers = {};  ///< settings with which it takes less: "sw.second_core=1"
+  bool waits = false;  ///< it only waits for other stages, and so never limits the frame rate
 };
 
 /// True if other stages of the list are parts of `stage`: what is shown as parts of a whole leaves
@@ -260,6 +262,9 @@ struct FrameReport {
   std::uint64_t end_ps = 0;      ///< simulated time of its last result
   /// From the camera's image to its next one that the program took, where the camera has a rate.
   std::optional<vp::Interval> camera_period;
+  /// Images that came in it while the program was busy; 0: the program waited for the next one.
+  /// None: no next image came.
+  std::optional<std::uint64_t> camera_missed = {};
   /// How often the image was shown before, so that the threshold in this frame is its own, and when
   /// the last of these results came: the period of this frame begins there.
   std::uint32_t settling_showings = 0;

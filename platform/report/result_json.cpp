@@ -30,6 +30,7 @@ void add_end(Json& json, const RunFacts& facts, const std::vector<std::string>& 
 void add_figures(Json& json, const RunFacts& facts, const Summary& summary) {
   if (!summary.stages().empty()) json["stages"] = stages_json(summary);
   json["summary"] = to_json(summary);
+  if (const std::optional<Limit> limit = summary.limit()) json["limit"] = to_json(*limit);
   if (facts.power) {
     json["summary"]["power_w"] = power_summary_json(*facts.power);
     if (facts.power->per_frame) {
@@ -237,6 +238,22 @@ Json stages_json(const Summary& summary) {
     if (!stage.why.empty()) entry["why"] = stage.why;
     json.push_back(entry);
   }
+  return json;
+}
+
+Json to_json(const Limit& limit) {
+  Json json;
+  json["kind"] = to_string(limit.kind);
+  json["stages"] = limit.stages;
+  json["stages_us"] = rounded(limit.stages_us, us_places);
+  json["period_us"] = rounded(limit.period_us, us_places);
+  for (const auto& [name, share] : limit.percent)
+    json["percent"][name] = rounded(share, percent_places);
+  if (!limit.clock.empty()) json["clock"] = limit.clock;
+  if (!limit.why.empty()) json["why"] = limit.why;
+  json["levers"] = limit.levers;
+  json["text"] = limit.text();
+  json["faster_with"] = limit.levers_text();
   return json;
 }
 

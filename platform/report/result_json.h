@@ -99,6 +99,7 @@ Json to_json(const Summary& summary);
 Json camera_json(const CameraReport& camera, const Summary& summary);
 /// The keys of `time_us` in the order of the flow; `part_of` names the stage that contains one.
 Json stages_json(const Summary& summary);
+Json to_json(const Limit& limit);
 Json to_json(const ProgramEnd& end);
 Json to_json(const Provenance& provenance);
 

@@ -96,7 +96,10 @@ void Summary::add(const FrameReport& frame) {
   if (!frame.warnings.empty()) ++warned_;
   if (frame.settling_showings > 0) ++settled_;
   if (frame.counts.lost() != 0) ++lossy_;
-  for (const vp::Interval& part : periods_.next(frame)) open_ps_ += part.to_ps - part.from_ps;
+  std::uint64_t period_ps = 0;
+  for (const vp::Interval& part : periods_.next(frame)) period_ps += part.to_ps - part.from_ps;
+  open_ps_ += period_ps;
+  limit_.add(frame, period_ps);
   if (!frame.delivered()) return;
   if (open_ps_ > 0) fps_.add(ps_per_s / static_cast<double>(open_ps_));
   busy_ps_ += open_ps_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <report/limit.h>
 #include <report/result.h>
 #include <vp/power_meter.h>
 
@@ -109,6 +110,8 @@ class Summary {
   const Statistic& fps() const { return fps_; }
   const Statistic& latency_us() const { return latency_us_; }
   const std::vector<Stage>& stages() const { return stages_; }
+  /// None: no result tells what its frame consists of.
+  std::optional<Limit> limit() const { return limit_.limit(); }
   /// Over the markers whose truth is known.
   const Statistic& corner_px() const { return corner_px_; }
   const Statistic& translation_mm() const { return translation_mm_; }
@@ -129,6 +132,7 @@ class Summary {
   std::uint64_t busy_ps_ = 0;  ///< until the last result
   std::uint64_t open_ps_ = 0;  ///< since then
   FramePeriods periods_;
+  LimitFinder limit_;
   Statistic fps_;
   Statistic latency_us_;
   Statistic corner_px_;

@@ -100,10 +100,15 @@ void Simulation::build() {
   software_options_ =
       std::make_unique<SoftwareOptions>("sw", program_->description(), *profile_name_,
                                         zynq_->ps.cpu_clk.start_hz(), *camera_, zynq_->design());
-  costs_ = profiles::load_cost_profile(*profile_name_, software_options_->optimisation());
+  if (options_.is_only_shown) {
+    profiles::check_cost_profile(*profile_name_, software_options_->optimisation());
+  } else {
+    costs_ = profiles::load_cost_profile(*profile_name_, software_options_->optimisation());
+  }
   const hal_program& program = program_->description();
   for (std::uint32_t i = 0; i < program.option_count; ++i)
     zynq_->design().note_option(program.options[i].name, software_options_->value(i));
+  zynq_->design().note_option("unoptimised", software_options_->is_unoptimised() ? 1 : 0);
   bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *software_options_, reports_);
   power_ = std::make_unique<ZynqPower>(
       "power", *zynq_, design_->draws_power,
@@ -113,7 +118,8 @@ void Simulation::build() {
   power_->record_timeline(recorder_->records());
   if (options_.trace && power_->is_known()) power_->follow();
   if (linux_run_) linux_run_->connect(*zynq_, bench_->cache_contract());
-  zynq_->ps.cpu.load(*program_, linux_run_ ? linux_run_->costs(costs_->costs) : costs_->costs);
+  if (costs_)
+    zynq_->ps.cpu.load(*program_, linux_run_ ? linux_run_->costs(costs_->costs) : costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);

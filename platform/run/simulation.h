@@ -43,6 +43,7 @@ struct SimulationOptions {
   std::optional<int> control = {};                    ///< socket of a test that leads the run
   std::vector<TerminalOptions> terminals = {};        ///< one for an UART
   std::optional<LinuxOptions> linux_app = {};  ///< a Linux application, in place of a program
+  bool is_only_shown = false;       ///< it will not run: what the software takes need not be known
   std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
 };
 
@@ -61,7 +62,7 @@ class Simulation {
   /// What runs; the configuration is left to the caller.
   report::RunFacts facts() const;
 
-  /// How long the software takes, and what that was fitted to.
+  /// How long the software takes, and what that was fitted to. Not of one that is only shown.
   const profiles::CostProfile& costs() const { return *costs_; }
 
   /// Runs the program until `next` gives no more images; `done` takes each frame's report, in

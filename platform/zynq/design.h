@@ -135,7 +135,8 @@ class Design {
   /// The value of a program's option that the logic decides, and no user; in the option's unit.
   virtual std::optional<double> program_option(const std::string& /*name*/) const { return {}; }
 
-  /// A program's option as it is in this run, in the option's unit: each, before the program runs.
+  /// A program's option as it is in this run, in the option's unit: each, before the program runs;
+  /// and "unoptimised", 1 if it is compiled with -O0 and sw.opt=O2 would be faster.
   virtual void note_option(const std::string& /*name*/, double /*value*/) {}
   /// How often an image that has nothing to do with the one before it must be shown until the
   /// logic's threshold is its own: the frames until then do not count.

@@ -48,7 +48,10 @@ std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
 }
 
 const hal_frame* FrameBench::next_frame(std::uint64_t) {
-  if (camera_.has_rate()) hand_over(came_ps(awaited_));
+  if (waiting_ && camera_.has_rate()) {
+    waiting_->camera_missed = missed_;
+    hand_over(came_ps(awaited_));
+  }
   begins_();
   if (showings_left_ == 0 && !take_image()) return nullptr;
   --showings_left_;

@@ -1,9 +1,11 @@
 #include <zynq/remote_control.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <utility>
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <vp/axi_stream.h>
 #include <vp/expression.h>
@@ -146,9 +148,24 @@ RemoteControl::RemoteControl(sc_core::sc_module_name name, Zynq& zynq, int socke
   sc_core::sc_spawn_options options;
   options.set_stack_size(1 << 18);  // expressions and JSON
   sc_core::sc_spawn([this] { lead(); }, "lead", &options);
+  vp::HostTicks::add(*this);
 }
 
-RemoteControl::~RemoteControl() = default;
+RemoteControl::~RemoteControl() {
+  vp::HostTicks::remove(*this);
+}
+
+// In a signal handler. A parent-death signal would also come when the test's thread ends that
+// started the run. What waits for the next command hears it by itself; the rest is interrupted as
+// by Ctrl-C.
+void RemoteControl::on_host_tick(std::uint64_t spent_ns, void*) {
+  constexpr std::uint64_t patience_ns = 300'000'000;
+  pollfd test{socket_, POLLRDHUP, 0};
+  if (::poll(&test, 1, 0) <= 0) return;
+  const bool is_due = alone_ns_ < patience_ns;
+  alone_ns_ += spent_ns;
+  if (is_due && alone_ns_ >= patience_ns) std::raise(SIGTERM);
+}
 
 void RemoteControl::printed(const std::string& line) {
   console_.push_back(line);

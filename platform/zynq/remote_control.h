@@ -7,6 +7,7 @@
 #include <systemc>
 #include <vector>
 
+#include <vp/host_ticks.h>
 #include <vp/signal.h>
 #include <zynq/zynq.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,11 @@ namespace platform {
 /// Every answer has `time_ps`, `ended` and `console`, the lines printed since the last one; of a
 /// mistake `error`, and the run goes on. What a test does happens at the time that the run has
 /// reached: where it sends the same commands, the run is the same.
-class RemoteControl final : public sc_core::sc_module, private vp::SignalListener {
+///
+/// A test that is gone, however it ended, ends the run, also in the middle of a command.
+class RemoteControl final : public sc_core::sc_module,
+                            private vp::SignalListener,
+                            private vp::HostTicks::Listener {
  public:
   /// `socket`: an open file descriptor, which stays the caller's.
   RemoteControl(sc_core::sc_module_name name, Zynq& zynq, int socket);
@@ -54,10 +59,12 @@ class RemoteControl final : public sc_core::sc_module, private vp::SignalListene
 
   std::uint32_t word_at(std::uint32_t address);
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void on_host_tick(std::uint64_t spent_ns, void* context) override;
   void met();
 
   Zynq& zynq_;
   int socket_;
+  std::uint64_t alone_ns_ = 0;            ///< since the test is gone
   std::string unread_;                    ///< of the socket
   std::vector<std::string> console_;      ///< since the last answer
   std::unique_ptr<Condition> condition_;  ///< that the test waits for

@@ -50,6 +50,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
            "how the software is compiled; the thesis' times are those of -O0, the vendor tool's "
            "default") {
   opt_.follows("profile");
+  is_unoptimised_ = opt_.get() == Optimisation::o0 && profiles::holds_for_both(profile);
   for (std::uint32_t i = 0; i < program.option_count; ++i) {
     const hal_option_info& info = program.options[i];
     if (const auto decided = design.program_option(info.name)) {

@@ -30,6 +30,9 @@ class SoftwareOptions : public sc_core::sc_module {
   /// What the user asked for; none: what the profile is for.
   std::optional<profiles::Optimisation> optimisation() const;
 
+  /// It is compiled with -O0, and `opt` could be O2.
+  bool is_unoptimised() const { return is_unoptimised_; }
+
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
   /// The program brings its images to the PL itself.
@@ -40,6 +43,7 @@ class SoftwareOptions : public sc_core::sc_module {
   std::deque<vp::Parameter<double>> parameters_;
   std::deque<vp::Parameter<std::string>> names_;
   std::vector<double> values_;
+  bool is_unoptimised_ = false;
   bool uploads_ = false;  ///< a program that does has the option `upload`
 };
 

@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 
 namespace platform {
@@ -52,6 +53,7 @@ Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptio
   try {
     link();
   } catch (...) {
+    if (linked_) unlink(options_.link.c_str());
     close(line_);
     close(terminal_);
     throw;
@@ -61,7 +63,7 @@ Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptio
 }
 
 Terminal::~Terminal() {
-  if (linked_) unlink(options_.link.c_str());
+  link_guard_.reset();
   close(line_);
   close(terminal_);
 }
@@ -76,7 +78,7 @@ void Terminal::open() {
   if (openpty(&line_, &terminal_, nullptr, &raw, nullptr) != 0 ||
       ttyname_r(terminal_, path.data(), path.size()) != 0) {
     throw vp::InputError("--terminal " + options_.uart +
-                         ": no pseudo-terminal: " + std::strerror(errno));
+                         ": no pseudo-terminal: " + std::strerror(errno) + vp::advice_for(errno));
   }
   path_ = path.data();
   for (const int end : {line_, terminal_}) fcntl(end, F_SETFD, FD_CLOEXEC);
@@ -86,8 +88,11 @@ void Terminal::open() {
 void Terminal::link() {
   if (options_.link.empty()) return;
   linked_ = symlink(path_.c_str(), options_.link.c_str()) == 0;
-  if (linked_) return;
   const int error = errno;
+  if (linked_) {
+    link_guard_.emplace(host::Guard::Become(), options_.link);
+    return;
+  }
   throw vp::InputError(
       "--terminal " + options_.uart + ": cannot make the link '" + options_.link +
       "': " + std::strerror(error) +

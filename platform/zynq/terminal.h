@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <systemc>
 
+#include <host/guard.h>
 #include <ps/uart/uart.h>
 #include <zynq/zynq.h>
 
@@ -51,6 +53,7 @@ class Terminal final : public sc_core::sc_module {
   int line_ = -1;      ///< this end
   int terminal_ = -1;  ///< the other one: open, so that the line stays when whoever reads it leaves
   bool linked_ = false;
+  std::optional<host::Guard> link_guard_;  ///< removes the link, even of a killed run
   std::chrono::steady_clock::time_point started_;
 };
 

@@ -194,6 +194,56 @@ BOOST_AUTO_TEST_CASE(a_camera_that_is_too_fast_loses_whole_frames) {
   }
 }
 
+// The lever that the report names makes frames come faster, and the lever of what it does not name
+// leaves them as they are.
+BOOST_AUTO_TEST_CASE(the_limit_has_the_lever_that_raises_the_rate) {
+  struct Case {
+    Arguments arguments;
+    std::vector<std::string> stages;
+    const char* lever;
+    const char* other;
+  };
+  const Arguments many{"z2.0@markers=10", "--repeat", "12"};
+  const Case cases[] = {
+      {{"roll"}, {"capture"}, "pl.pixels_per_clock=2", "sw.second_core=1"},
+      {many, {"detection", "pose"}, "sw.second_core=1", "pl.pixels_per_clock=2"},
+      {with(many, "sw.second_core=1"), {"capture"}, "pl.pixels_per_clock=2", "sw.overlap=1"},
+      {with({"z1.0", "--repeat", "12"}, "camera.rate=60 fps"),
+       {},
+       "camera.rate=none",
+       "pl.pixels_per_clock=2"}};
+  for (const Case& each : cases) {
+    const Json result = run_of(each.arguments);
+    const Json& limit = result["limit"];
+    BOOST_TEST(limit["stages"] == Json(each.stages), limit);
+    BOOST_TEST_REQUIRE(limit["levers"] == Json{each.lever}, limit);
+    // Sustained: the first frame has nothing that overlaps with it.
+    const auto rise = [&](const std::string& lever) {
+      const Json pulled = run_of(with(each.arguments, lever))["limit"];
+      return double(limit["period_us"]) / double(pulled["period_us"]);
+    };
+    BOOST_TEST(rise(limit["levers"][0]) > 1.04, limit);
+    BOOST_TEST(rise(each.other) < 1.01, limit);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_takes_most_of_the_capture_is_its_lever) {
+  const auto lever = [](const char* setting) {
+    return run_of(with({"z1.0", "--repeat", "4"}, setting))["limit"];
+  };
+  const Json exposed = lever("pl.camera.exposure=8 ms");
+  BOOST_TEST(exposed["stages"] == Json{"capture"});
+  BOOST_TEST(exposed["levers"] == Json{"pl.camera.exposure=4000000000 ps"});
+  BOOST_TEST(!exposed.contains("clock"), "the clock is not what takes the time");
+  BOOST_TEST(lever("pl.camera.line_blanking=2000 cycles")["levers"] ==
+             Json{"pl.camera.line_blanking=1000 cycles"});
+  BOOST_TEST(lever("pl.camera.frame_blanking=900000 cycles")["levers"] ==
+             Json{"pl.camera.frame_blanking=450000 cycles"});
+  const Json fastest = lever("pl.pixels_per_clock=4");
+  BOOST_TEST(fastest["levers"] == Json::array());
+  BOOST_TEST(fastest["faster_with"] == "a higher ps.fclk_clk0.frequency");
+}
+
 // The DMA cannot keep up with bursts of two words: pictures end early, and the software says so.
 BOOST_AUTO_TEST_CASE(a_picture_that_the_dma_cannot_take_is_cut_and_told) {
   const Arguments slow =

@@ -48,7 +48,8 @@ class Checker {
                {"configuration", Kind::object},
                {"frames", Kind::array},
                {"stages", Kind::array},
-               {"summary", Kind::object}})) {
+               {"summary", Kind::object},
+               {"limit", Kind::object}})) {
       return;
     }
     expect(json["schema"] == 1, "schema is not 1");
@@ -64,6 +65,7 @@ class Checker {
     }
     stages(json["stages"], json["frames"]);
     summary(json["summary"], json["frames"].size());
+    limit(json["limit"], json["stages"]);
   }
 
  private:
@@ -164,6 +166,40 @@ class Checker {
     }
     if (of_scene || json.contains("scene_marker"))
       keys(json, where, {{"scene_marker", Kind::count}});
+  }
+
+  /// Which of the stages set the frame rate, and how much of the run each did.
+  void limit(const Json& json, const Json& stages) {
+    if (!keys(json, "limit",
+              {{"kind", Kind::text},
+               {"stages", Kind::array},
+               {"stages_us", Kind::number},
+               {"period_us", Kind::number},
+               {"percent", Kind::object},
+               {"levers", Kind::array},
+               {"text", Kind::text},
+               {"faster_with", Kind::text}}))
+      return;
+    one_of(json["kind"], "limit.kind", {"sequence", "ahead", "behind", "camera"});
+    const Json& percent = json["percent"];
+    for (const auto& share : percent.items())
+      expect(share.value().is_number() && share.value() >= 0, "limit.percent is no share");
+    for (const Json& stage : json["stages"])
+      expect(stage.is_string() && percent.contains(stage), "limit.stages names no stage");
+    for (const Json& lever : json["levers"])
+      expect(lever.is_string() && lever.get<std::string>().find('=') != std::string::npos,
+             "limit.levers is no setting");
+    expect(percent.contains("camera"), "limit.percent.camera is missing");
+    for (const Json& stage : stages) {
+      if (!stage.is_object() || !stage.value("name", Json()).is_string()) continue;
+      const std::string name = stage["name"];
+      if (name == "feature_extraction" && json["stages"] == Json{name})
+        keys(json, "limit", {{"clock", Kind::text}, {"why", Kind::text}});
+      if (stage.value("part_of", Json()) == "frame" && name != "feature_extraction")
+        expect(percent.contains(name), "limit.percent lacks a stage");
+    }
+    expect(double(json["stages_us"]) <= double(json["period_us"]) * 1.001,
+           "limit.stages_us is longer than the period");
   }
 
   /// The times of the frames, in their order; all but frame and upload are parts of another.

@@ -29,6 +29,12 @@ class Module(unittest.TestCase):
         self.assertEqual(run["summary.frames"], 1)
         self.assertEqual(run["frames.0.input"], "demo")
         self.assertEqual(run["summary.fps.mean"], markervp.read("slow")["summary.fps.mean"])
+        # What sets the rate, as the console and the page say it.
+        self.assertEqual(run["limit.stages"], ["feature_extraction"])
+        self.assertEqual(run["limit.percent.feature_extraction"], 100)
+        self.assertLess(run["limit.stages_us"], run["limit.period_us"])
+        self.assertIn("feature extraction sets the frame rate", run["limit.text"])
+        self.assertEqual(run["limit.clock"], "ps.fclk_clk1")
         self.assertGreater(markervp.run(output="usual", options=["--no-pictures"])["summary.fps.mean"], run["summary.fps.mean"])
 
     def test_every_metric_is_read_by_its_name(self):

@@ -3,8 +3,11 @@ import json
 import os
 import pathlib
 import re
+import signal
 import socket
 import subprocess
+import sys
+import time
 
 import markervp
 import pytest
@@ -146,3 +149,71 @@ def test_what_is_no_socket_is_refused(descriptor, tmp_path):
     assert run.returncode == 2
     assert f"--control {descriptor}: no socket is open under this number" in run.stderr
     assert not (tmp_path / "out").exists() or not list(pathlib.Path(tmp_path / "out").iterdir())
+
+
+PATIENCE = 60  # s, for a machine under load
+
+LONG = """
+import markervp
+session = markervp.Session(inputs=["demo"], options=["--repeat", "1000000", "--no-report", "--fidelity", "clocked"])
+print(session._process.pid, session.output, flush=True)
+session.run("1000 s")
+"""
+
+
+def comes(condition):
+    for _ in range(PATIENCE * 100):
+        if condition():
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def runs(process):
+    """One that ended may wait for its parent to ask."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def test_a_test_that_is_killed_leaves_no_run_and_no_folder(tmp_path):
+    test = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True,
+                            env={**os.environ, "TMPDIR": str(tmp_path), "PYTHONPATH": os.pathsep.join(sys.path)})
+    with test:
+        number, folder = test.stdout.readline().split()
+        assert runs(number) and list(tmp_path.iterdir()) == [pathlib.Path(folder)]
+        # In the middle of a command that would take for days.
+        test.send_signal(signal.SIGKILL)
+    try:
+        assert comes(lambda: not runs(number))
+        assert comes(lambda: not any(tmp_path.iterdir()))
+    finally:
+        if runs(number):
+            os.kill(int(number), signal.SIGKILL)
+
+
+def test_a_run_that_is_killed_leaves_no_folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr(markervp.tempfile, "tempdir", None)
+    session = markervp.Session(os.environ["MARKERVP_PROGRAM"], options=["--no-report"])
+    os.kill(session._process.pid, signal.SIGKILL)
+    with pytest.raises(markervp.Error):
+        session.run("1 ms")
+    assert session.output.exists(), "what it left is there until the test closes it"
+    session.close()
+    session.close()
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_test_that_leaves_in_a_long_command_ends_the_run(tmp_path):
+    session = markervp.Session(inputs=["demo"], output=tmp_path,
+                               options=["--repeat", "1000000", "--no-report", "--fidelity", "clocked"])
+    session._socket.sendall(json.dumps({"do": "run", "for": "1000 s"}).encode() + b"\n")
+    session._socket.close()
+    try:
+        assert session._process.wait(PATIENCE) == 2
+        session._messages.seek(0)
+        assert "the test left the run at" in session._messages.read()
+    finally:
+        session.close()

@@ -83,11 +83,21 @@ def test_two_runs_on_one_terminal(tmp_path):
         assert board.read(4) == "<a>\n"  # the first one has noticed nothing
 
 
-def test_the_link_of_a_run_that_was_killed_is_taken(tmp_path):
+def test_the_link_goes_with_a_run_that_is_killed(tmp_path):
     with board_at(tmp_path) as board:
         board.open()
         board.close()
-    assert (tmp_path / "board").is_symlink()
+        board.process.kill()
+        board.process.wait()
+        for _ in range(PATIENCE * 100):
+            if not board.link.is_symlink():
+                break
+            time.sleep(0.01)
+        assert not board.link.is_symlink()
+
+
+def test_a_link_that_leads_nowhere_is_taken(tmp_path):
+    (tmp_path / "board").symlink_to("/dev/pts/none")
     with board_at(tmp_path) as board:
         deadline = time.monotonic() + PATIENCE
         while not os.path.exists(tmp_path / "board") and time.monotonic() < deadline:

@@ -53,7 +53,8 @@ void InputFile::fail(const std::string& reason) const {
 
 void InputFile::fail(int reason) const {
   if (!HostError::is_cause({reason, std::generic_category()})) fail(std::strerror(reason));
-  throw HostError("cannot read " + what_ + " '" + path_.string() + "': " + std::strerror(reason));
+  throw HostError("cannot read " + what_ + " '" + path_.string() + "': " + std::strerror(reason) +
+                  advice_for(reason));
 }
 
 void InputFile::wait_for_bytes(HostClock::time_point deadline) const {
@@ -128,6 +129,11 @@ std::string load_problem(const std::string& path, std::string_view said) {
     return "nothing defines '" + word_behind(said, "undefined symbol: ") +
            "', which it calls: link what does";
   if (has(said, "cannot open shared object file")) {
+    const int probe = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (probe < 0) {
+      throw HostError("cannot load '" + path + "': " + std::strerror(errno) + advice_for(errno));
+    }
+    ::close(probe);
     if (file != path) return "it needs the library '" + file + "', which is not found";
     return std::string(said.substr(said.rfind(": ") + 2));
   }
@@ -159,24 +165,6 @@ struct Slot {
 };
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 Slot slots[16];
-
-std::string advice(int reason) {
-  switch (reason) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "; make room, or write less";
-    case ENOENT:
-    case ENOTDIR:
-    case EISDIR:
-    case EACCES:
-    case EROFS:
-    case ENAMETOOLONG:
-      return "; name a file in a folder that exists and may be written";
-    default:
-      return "";
-  }
-}
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -244,15 +232,39 @@ std::string part_of(const fs::path& target) {
 
 }  // namespace
 
+std::string advice_for(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "; make room, or write less";
+    case EMFILE:
+      return "; raise ulimit -n";
+    case ENFILE:
+      return "; end other programs, or raise ulimit -n and fs.file-max";
+    case EAGAIN:
+      return "; end other programs, or raise ulimit -u and ulimit -n";
+    case ENOENT:
+    case ENOTDIR:
+    case EISDIR:
+    case EACCES:
+    case EROFS:
+    case ENAMETOOLONG:
+      return "; name a file in a folder that exists and may be written";
+    default:
+      return "";
+  }
+}
+
 bool HostError::is_cause(const std::error_code& code) {
   if (code.category() != std::generic_category() && code.category() != std::system_category())
     return false;
-  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE};
+  constexpr int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EMFILE, ENFILE, EAGAIN};
   return std::find(std::begin(reasons), std::end(reasons), code.value()) != std::end(reasons);
 }
 
 OutputError::OutputError(const std::string& path, int reason)
-    : HostError("cannot write '" + path + "': " + std::strerror(reason) + advice(reason)) {}
+    : HostError("cannot write '" + path + "': " + std::strerror(reason) + advice_for(reason)) {}
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), slot_(-1) {
   if (path_.size() >= sizeof Slot::path) return;

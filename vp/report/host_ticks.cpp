@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 #include <sys/time.h>
+#include <unistd.h>
 #include <vp/host_ticks.h>
 
 #include <atomic>
@@ -14,7 +15,7 @@ namespace {
 constexpr std::uint64_t ns_per_us = 1'000;
 constexpr std::uint64_t ns_per_s = 1'000'000'000;
 
-std::atomic<HostTicks::Listener*> listeners[4];
+std::atomic<HostTicks::Listener*> listeners[8];
 
 struct Times {
   std::uint64_t processor_ns = 0;  ///< of this process
@@ -22,6 +23,7 @@ struct Times {
   long waits = 0;  ///< how often this thread gave the processor away of its own accord
 };
 Times last;
+pid_t last_of = 0;  ///< the process: a forked one has listeners, but other times
 
 std::uint64_t read(clockid_t clock) {
   timespec time{};
@@ -81,7 +83,8 @@ void HostTicks::add(Listener& listener) {
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
   sigemptyset(&action.sa_mask);
   ::sigaction(SIGALRM, &action, nullptr);
-  if (first) last = times();
+  if (first || last_of != ::getpid()) last = times();
+  last_of = ::getpid();
   plan_tick(period_ns);
 }
 

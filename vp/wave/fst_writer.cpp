@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -250,23 +249,13 @@ void FstWriter::change(Id id, std::uint64_t bits) {
 // As a VCD says it: what is left out on the left is 0, or the leftmost digit if that is x or z.
 void FstWriter::change_digits(Id id, std::string_view digits) {
   Variable& variable = variables_[id];
-  if (variable.kind == Kind::real) {
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (const auto bits = bits_of_digits(digits, variable.kind == Kind::real)) {
     variable.in_digits = false;
-    std::memcpy(&variable.bits, &value, sizeof value);
+    variable.bits = *bits & variable.mask;
     emit_bits(variable);
     return;
   }
   const auto is_binary = [](char c) { return c == '0' || c == '1'; };
-  if (digits.size() <= 64 && std::all_of(digits.begin(), digits.end(), is_binary)) {
-    std::uint64_t bits = 0;
-    for (const char c : digits) bits = bits << 1 | (c & 1);
-    variable.in_digits = false;
-    variable.bits = bits & variable.mask;
-    emit_bits(variable);
-    return;
-  }
   const char first = digits.front();
   variable.in_digits = true;
   variable.digits.assign(variable.width, is_binary(first) ? '0' : first);

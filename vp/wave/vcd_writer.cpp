@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -30,6 +31,22 @@ std::string identifier_code(VcdWriter::Id id) {
 
 }  // namespace
 
+std::optional<std::uint64_t> bits_of_digits(std::string_view digits, bool is_real) {
+  std::uint64_t bits = 0;
+  if (is_real) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    std::memcpy(&bits, &value, sizeof value);
+    return bits;
+  }
+  if (digits.size() > 64) return std::nullopt;
+  for (const char c : digits) {
+    if (c != '0' && c != '1') return std::nullopt;
+    bits = bits << 1 | (c & 1);
+  }
+  return bits;
+}
+
 VcdWriter::VcdWriter(const std::filesystem::path& file)
     : file_(std::make_unique<OutputFile>(file.string())), buffer_(buffer_size + longest_line) {
   cursor_ = buffer_.data();
@@ -51,6 +68,7 @@ VcdWriter::Id VcdWriter::add(std::string_view path, Kind kind, unsigned width) {
   width = declaration.width;
   const Id id = static_cast<Id>(variables_.size());
   Variable variable{};
+  variable.in_digits = true;
   variable.mask = width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
   variable.real = kind == Kind::real;
   variable.text = kind == Kind::text;
@@ -110,6 +128,7 @@ void VcdWriter::write_all(const std::vector<std::uint64_t>& values) {
       continue;
     }
     variables_[id].last = values[id] & variables_[id].mask;
+    variables_[id].in_digits = false;
     write_value(variables_[id]);
   }
 }
@@ -118,7 +137,8 @@ void VcdWriter::pause() {
   if (stamp_due_) write_stamp();
   write_text("$dumpoff\n");
   for (std::size_t id = 0; id < variables_.size(); ++id) {
-    const Variable& variable = variables_[id];
+    Variable& variable = variables_[id];
+    variable.in_digits = true;
     if (variable.text) {
       change_text(static_cast<Id>(id), {});
     } else {
@@ -139,7 +159,10 @@ void VcdWriter::resume(const std::vector<std::uint64_t>& values) {
 
 void VcdWriter::change_digits(Id id, std::string_view digits) {
   if (stamp_due_) write_stamp();
-  const Variable& variable = variables_[id];
+  Variable& variable = variables_[id];
+  const std::optional<std::uint64_t> bits = bits_of_digits(digits, variable.real);
+  variable.in_digits = !bits;
+  variable.last = bits.value_or(0) & variable.mask;
   if (!variable.scalar) write_text(variable.real ? "r" : "b");
   const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
   if (std::any_of(digits.begin(), digits.end(), is_capital)) {

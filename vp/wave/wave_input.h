@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,6 +34,10 @@ constexpr std::array<std::array<char, 8>, 256> make_digits_of_byte() {
 }
 /// A byte in binary.
 inline constexpr auto digits_of_byte = make_digits_of_byte();
+
+/// The bits that change_digits() means, or the pattern of a double. None: some digit is no bit, or
+/// there are more than 64.
+std::optional<std::uint64_t> bits_of_digits(std::string_view digits, bool is_real);
 
 /// Words between white space, out of a window that slides over the file.
 class VcdTokens {

@@ -33,6 +33,12 @@ const blocks = {
 }
 blocks.overlapping = samples.run();
 blocks.overlapping.result.summary.fps.mean *= 1.5;
+blocks.overlapping.result.limit.kind = "ahead";
+blocks.waiting = samples.run();
+blocks.waiting.result.stages.splice(2, 0, { name: "wait", part_of: "frame" });
+for (const frame of blocks.waiting.result.frames) frame.time_us.wait = 5000;
+Object.assign(blocks.waiting.result.limit, { kind: "behind", stages: ["evaluation", "identification"], clock: undefined, levers: ["sw.second_core=1"],
+  text: "evaluation and identification set the frame rate: 1.0 of 1.0 us, other stages overlap", faster_with: "sw.second_core=1" });
 let browser;
 
 before(async () => {
@@ -180,6 +186,13 @@ test("no rate is said for another clock where frames overlap", async () => {
     assert.match(guidance, /At 55 MHz a frame would take about [\d.]+ ms \(derived\)\./);
     assert.doesNotMatch(guidance, /frames\/s/);
   });
+  await open("waiting", async (page) => {
+    const guidance = await page.locator("#guidance").textContent();
+    // As the program says it, and not by the longest stage, which overlaps here; waiting causes nothing.
+    assert.match(guidance, /Evaluation and identification set the frame rate: 1\.0 of 1\.0 us, other stages overlap\. Faster with sw\.second_core=1\./);
+    assert.doesNotMatch(guidance, /Wait/);
+    assert.match(guidance, /Blob detection's Fmax of 55 MHz limits its clock, now 50 MHz\.(?! At)/, "a faster clock changes nothing there");
+  });
 });
 
 test("a stage and its parts are not stacked", async () => {
@@ -190,7 +203,7 @@ test("a stage and its parts are not stacked", async () => {
     assert.ok(Math.abs(sum - 100) < 1, `${sum} %`);
     const rows = (await rowsOf(page, "Stages of a frame")).filter((row) => row[0] === "This run");
     assert.ok(!rows.some((row) => row[1] === "feature extraction"));
-    assert.match(await page.locator("#guidance").textContent(), /Corner detection takes \d+ % of a frame/);
+    assert.match(await page.locator("#guidance").textContent(), /Of the time from a frame to its result, corner detection takes \d+ %/);
   });
   // The same of two runs whose stages differ: of each its own, which make up its frame.
   await open("systems", async (page) => {
@@ -224,14 +237,16 @@ test("a figure that one of two runs lacks is a dash", async () => {
 test("a design says itself what its stages, counts and losses are", async () => {
   await open("run", async (page) => {
     const guidance = await page.locator("#guidance").textContent();
-    assert.match(guidance, /Feature extraction takes \d+ % of a frame: one pixel a clock, at 50 MHz\./);
+    assert.match(guidance, /Feature extraction sets the frame rate: 1\.0 of 2\.0 us, one stage follows the other\. Faster with a higher ps\.fclk_clk1\.frequency, now 50 MHz\./);
+    assert.match(guidance, /Of the time from a frame to its result, feature extraction takes \d+ %: one pixel a clock, at 50 MHz\./);
     assert.match(guidance, /12 features dropped: a buffer of pl.feature_packaging was full \(1 frame, first roll3\)/);
     assert.match(guidance, /Blob detection's Fmax of 55 MHz limits its clock, now 50 MHz\. At 55 MHz a frame would take about/);
     assert.match(await page.locator("#verdict").textContent(), /thesis 134/);
   });
   await open("foreign", async (page) => {
     const guidance = await page.locator("#guidance").textContent();
-    assert.match(guidance, /Count takes 80 % of a frame: a bin a clock, at 80 MHz\./);
+    assert.match(guidance, /Of the time from a frame to its result, count takes 80 %: a bin a clock, at 80 MHz\./);
+    assert.doesNotMatch(guidance, /sets? the frame rate/, "a result of before has no limit");
     assert.match(guidance, /Histogram's Fmax of 82 MHz limits its clock, now 80 MHz/, "the module that the verdict names");
     assert.match(guidance, /7 bins overflowed: widen them \(1 frame, first roll2\)/);
     assert.doesNotMatch(await page.locator("#verdict").textContent(), /thesis \d/);

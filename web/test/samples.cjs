@@ -34,6 +34,12 @@ function frameOf(index, random, input) {
   };
 }
 
+/** What sets the frame rate: one stage after the other, of which this one takes the longest. */
+function limitOf(stages, stage, text, more = {}) {
+  return { kind: "sequence", stages: [stage], stages_us: 1, period_us: 2, percent: { ...Object.fromEntries(stages.map((name) => [name, name === stage ? 100 : 0])), camera: 0 },
+    levers: [], text: `${text} sets the frame rate: 1.0 of 2.0 us, one stage follows the other`, faster_with: "", ...more };
+}
+
 /** The blocks of a run's page. `name`: of its first input. */
 function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = true } = {}) {
   const random = randomFrom(seed);
@@ -48,6 +54,7 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
     frames: list,
     stages: [{ name: "upload" }, { name: "feature_extraction", part_of: "frame", clock: "ps.fclk_clk1", why: "one pixel a clock" },
       ...["receive", "evaluation", "identification", "pose"].map((stage) => ({ name: stage, part_of: "frame" })), { name: "frame" }],
+    limit: limitOf(["feature_extraction", "receive", "evaluation", "identification", "pose"], "feature_extraction", "feature extraction", { clock: "ps.fclk_clk1", why: "one pixel a clock", faster_with: "a higher ps.fclk_clk1.frequency" }),
     summary: { frames, delivered: frames, detected: frames - (frames > 5 ? 1 : 0), fps: { mean: 1e6 / mean, min: 1e6 / Math.max(...latency), max: 1e6 / Math.min(...latency) }, latency_us: { mean, max: Math.max(...latency) },
       power_w: { total: 2.27, ps: 1.53, pl: 0.59, static: 0.15 }, energy_per_frame_mj: 16.4 },
     verdict: { feasible: fits ? "yes" : "no", ran: { holds: "yes" }, job: { holds: "yes", margin_percent: 0 },
@@ -111,6 +118,7 @@ function psOnly() {
     frame.time_us = { upload: 0, ...parts, feature_extraction: all, ...times, receive: 0, frame: times.frame - before - times.receive + all };
   }
   result.stages = [{ name: "upload" }, ...Object.keys(parts).map((stage) => ({ name: stage, part_of: "feature_extraction" })), { name: "feature_extraction", part_of: "frame" }, ...result.stages.slice(2)];
+  result.limit = limitOf([...Object.keys(parts), "receive", "evaluation", "identification", "pose"], "corner_detection", "corner detection", { levers: ["sw.opt=O2"], faster_with: "sw.opt=O2" });
   return blocks;
 }
 
@@ -120,6 +128,7 @@ function foreign() {
   const { result } = blocks;
   Object.assign(result, { system: "histogram", design: "mine" });
   result.stages = [{ name: "count", part_of: "frame", clock: "ps.fclk_clk2", why: "a bin a clock" }, { name: "frame" }];
+  delete result.limit;
   result.configuration["ps.fclk_clk2.frequency"] = "80 MHz";
   const module = { clock: "ps.fclk_clk2", frequency_mhz: 80, origin: "synthesised", met: true };
   result.timing.modules = [{ ...module, name: "pl.adder", fmax_mhz: 84, fmax_high_mhz: 84, margin_percent: 5 }, { ...module, name: "pl.histogram", fmax_mhz: 82, fmax_high_mhz: 300, margin_percent: 2.5 }];

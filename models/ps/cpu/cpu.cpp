@@ -122,6 +122,7 @@ void Cpu::end_of_elaboration() {
 void Cpu::run() {
   if (!program_) return;
   std::optional<std::string> thrown;
+  std::exception_ptr host_failed;  // of the platform, where it works for the program
   if (number_ != 0) await_start();
   state_ = State::running;
   running_ = this;
@@ -139,11 +140,14 @@ void Cpu::run() {
     catch_up();
   } catch (const sc_core::sc_unwind_exception&) {
     throw;
+  } catch (const vp::HostError&) {
+    host_failed = std::current_exception();
   } catch (const std::exception& error) {
     thrown = std::string(": ") + error.what();
   } catch (...) {
     thrown = "";
   }
+  if (host_failed) stop(host_failed);
   if (thrown) break_off("the program threw an exception" + *thrown);
   if (number_ == 0) return end(State::finished);
   sleep_for_good();

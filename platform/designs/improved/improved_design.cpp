@@ -18,6 +18,9 @@ namespace platform {
 
 namespace {
 
+/// A word of the pictures' stream (pl::check()).
+constexpr std::uint32_t most_pixels_per_clock = 4;
+
 Pose pose_of(const marker::BoardPose& pose) {
   return {Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(pose.rotation.data()),
           Eigen::Vector3d::Map(pose.translation.data())};
@@ -156,36 +159,81 @@ void ImprovedDesign::add_times(report::FrameReport& frame, std::uint64_t now_ps)
     frame.times = {stage("capture", t.capture, "frame"), whole};
     return;
   }
-  const report::StageTime detection = stage("detection", t.detection, "frame");
-  frame.times = {detection, stage("pose", t.pose, "frame"), whole};
+  report::StageTime detection = stage("detection", t.detection, "frame");
+  report::StageTime pose = stage("pose", t.pose, "frame");
+  detection.levers = pose.levers = software_levers();
+  frame.times = {detection, pose, whole};
   Sent& sent = slot(result_.camera_frame);
   if (sent.number != result_.camera_frame || sent.end_ps < frame.start_ps) return;
   const auto between = [](const char* name, std::uint64_t from_ps, std::uint64_t to_ps,
-                          const char* part_of, const std::string& why) {
+                          const char* part_of) {
     report::StageTime shown;
     shown.name = name;
     shown.ps = to_ps - std::min(from_ps, to_ps);
     shown.start_ps = from_ps;
     shown.part_of = part_of;
-    shown.why = why;
     return shown;
   };
-  std::string rate = pixels_per_clock == 1 ? std::string("one pixel a clock")
-                                           : std::to_string(pixels_per_clock) + " pixels a clock";
-  if (camera.line_blanking != 0) rate += " and pl.camera.line_blanking";
-  report::StageTime capture =
-      between("capture", frame.start_ps, sent.end_ps, "frame",
-              camera.exposure == 0 ? rate + ", so it lasts as long as the image does"
-                                   : "the exposure (pl.camera.exposure), then " + rate);
-  capture.clock = camera_clk.own() ? camera_clk.name() : "ps.fclk_clk0";
-  frame.times.insert(
-      frame.times.begin(),
-      {capture, between("wait", sent.end_ps, detection.start_ps, "frame",
-                        "the last blobs and their DMA, the trigger of the next frame, and what the "
-                        "software still had to do for the one before")});
+  report::StageTime capture = between("capture", frame.start_ps, sent.end_ps, "frame");
+  explain_capture(capture);
+  report::StageTime wait = between("wait", sent.end_ps, detection.start_ps, "frame");
+  wait.why =
+      "the last blobs and their DMA, the trigger of the next frame, and what the software still "
+      "had to do for the one before";
+  wait.waits = true;
+  frame.times.insert(frame.times.begin(), {capture, wait});
   frame.features.blobs = std::move(sent.blobs);
-  frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, "", ""));
-  frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, "", ""));
+  frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, ""));
+  frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, ""));
+}
+
+// What it lasts, and what makes most of that shorter.
+void ImprovedDesign::explain_capture(report::StageTime& capture) {
+  const vp::Clock& clock = camera_clk.own() ? camera_clk.clk() : ports_.fclk_clk(0);
+  const std::uint32_t p = pixels_per_clock;
+  capture.why = p == 1 ? std::string("one pixel a clock") : std::to_string(p) + " pixels a clock";
+  if (camera.line_blanking != 0) capture.why += " and pl.camera.line_blanking";
+  capture.why = camera.exposure == 0 ? capture.why + ", so it lasts as long as the image does"
+                                     : "the exposure (pl.camera.exposure), then " + capture.why;
+  const auto of_clocks = [&](std::uint64_t clocks) {
+    return clock.duration_ps(static_cast<double>(clocks));
+  };
+  const auto half = [](const auto& parameter, const char* unit) {
+    return std::string(parameter.name()) + "=" + std::to_string(parameter.get() / 2) + " " + unit;
+  };
+  const std::uint64_t pixels = of_clocks(geometry().clocks());
+  const std::uint64_t lines = of_clocks(std::uint64_t{camera.line_blanking} * height);
+  const std::uint64_t rest = of_clocks(camera.frame_blanking);
+  const std::uint64_t most = std::max({pixels, lines, rest, camera.exposure.get()});
+  if (most == camera.exposure) {
+    capture.levers = {half(camera.exposure, "ps")};
+    return;
+  }
+  capture.clock = camera_clk.own() ? camera_clk.name() : "ps.fclk_clk0";
+  if (most == lines) capture.levers = {half(camera.line_blanking, "cycles")};
+  if (most == rest) capture.levers = {half(camera.frame_blanking, "cycles")};
+  if (most == pixels && p < most_pixels_per_clock)
+    capture.levers = {std::string(pixels_per_clock.name()) + "=" + std::to_string(2 * p)};
+}
+
+bool ImprovedDesign::has_option(const char* name) const {
+  const auto found = options_.find(name);
+  return found != options_.end() && found->second >= 0.5;
+}
+
+// A second core has nothing to do where only one blob is worth a look.
+std::vector<std::string> ImprovedDesign::software_levers() const {
+  std::vector<std::string> levers;
+  if (has_option("unoptimised")) levers.emplace_back("sw.opt=O2");
+  const auto& refused = result_.found.blobs.refused;
+  const auto with_cells = [&](marker::Refusal why) {
+    return refused[static_cast<std::size_t>(why)];
+  };
+  const std::uint32_t looked_at = result_.found.count + with_cells(marker::Refusal::plain) +
+                                  with_cells(marker::Refusal::border) +
+                                  with_cells(marker::Refusal::unknown);
+  if (looked_at > 1 && !has_option("second_core")) levers.emplace_back("sw.second_core=1");
+  return levers;
 }
 
 namespace {
@@ -227,8 +275,7 @@ std::string board_text(const BoardFit& fit, const std::vector<std::string>& layo
 // it the image's own, as in a steady stream.
 std::uint32_t ImprovedDesign::settling_showings() const {
   if (threshold_rule.get() == "local") return 0;
-  const auto overlap = options_.find("overlap");
-  return overlap != options_.end() && overlap->second >= 0.5 ? 2 : 1;
+  return has_option("overlap") ? 2 : 1;
 }
 
 void ImprovedDesign::check(report::FrameReport& frame) {

@@ -58,6 +58,9 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   Sent& slot(std::uint32_t number) { return sent_[number % sent_.size()]; }
   void fill_in(report::FrameReport& frame, std::uint64_t now_ps) const;
   void add_times(report::FrameReport& frame, std::uint64_t now_ps);
+  void explain_capture(report::StageTime& capture);
+  bool has_option(const char* name) const;
+  std::vector<std::string> software_levers() const;
   void add_counts(report::FrameReport& frame);
   Dropped counters() const;
   void note_dropped();

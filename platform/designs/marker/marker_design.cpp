@@ -232,9 +232,10 @@ report::Features features_of(const marker::FrameResult& result) {
 }
 
 /// Fills in what the software knows of a frame that it published at `now_ps`: times, counts,
-/// markers, features. Its stamps count pairs of cycles of `cpu_clk`.
+/// markers, features. Its stamps count pairs of cycles of `cpu_clk`; `levers` make the software
+/// faster.
 void fill_in(report::FrameReport& report, const marker::FrameResult& result, std::uint64_t now_ps,
-             const vp::Clock& cpu_clk) {
+             const vp::Clock& cpu_clk, const std::vector<std::string>& levers) {
   report.index = result.frame;
   if (result.status != marker::Status::ok) report.gave_up = marker::status_name(result.status);
   if (result.has_threshold) report.threshold = result.threshold;
@@ -279,6 +280,10 @@ void fill_in(report::FrameReport& report, const marker::FrameResult& result, std
   } else {
     report.times[1].clock = "ps.fclk_clk1";
     report.times[1].why = "one pixel a clock, so it lasts as long as the image does";
+  }
+  for (report::StageTime& time : report.times) {
+    const bool is_software = time.clock.empty() && time.name != "capture";
+    if (is_software && !time.part_of.empty()) time.levers = levers;
   }
   report.end_ps = now_ps;
   report.start_ps = start_ps;
@@ -375,7 +380,9 @@ bool MarkerDesign::report(const Publication& publication, report::FrameReport& f
   static marker::FrameResult result;
   std::memcpy(&result, publication.data, publication.size);
   frame.threshold = threshold_;
-  fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk);
+  std::vector<std::string> levers;
+  if (is_unoptimised_) levers.emplace_back("sw.opt=O2");
+  fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk, levers);
   frame.counts = counts_of(result, *this);
   add_losses(frame, result);
   const std::uint64_t stray = handshake_.finish_frame();

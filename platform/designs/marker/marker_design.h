@@ -90,6 +90,9 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   void show_image(const std::shared_ptr<const GreyImage>& image) override;
   void settle() override { ProgrammableLogic::settle(); }
   std::optional<double> program_option(const std::string& name) const override;
+  void note_option(const std::string& name, double value) override {
+    if (name == "unoptimised") is_unoptimised_ = value >= 0.5;
+  }
   /// The threshold in use is that of the frame before.
   std::uint32_t settling_showings() const override { return 1; }
   bool report(const Publication& publication, report::FrameReport& frame) override;
@@ -105,7 +108,8 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
 
   PlPorts& ports_;
   HandshakeWatch handshake_;
-  std::uint8_t threshold_ = 0;  ///< in use when the frame began
+  bool is_unoptimised_ = false;  ///< the program: -O2 would be faster
+  std::uint8_t threshold_ = 0;   ///< in use when the frame began
 };
 
 /// For DesignInfo::make.

@@ -1,6 +1,7 @@
 #include <cli/options.h>
 #include <vp/error.h>
 #include <vp/text.h>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -40,7 +41,9 @@ BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
       {{"--verison"}, "did you mean '--version'?"},
       {{"run", "--repaet=3"},
        "unknown option '--repaet': did you mean '--repeat'? 'markervp run --help'"},
-      {{"config", "extra"}, "unexpected argument 'extra'"},
+      {{"config", "pl", "extra"}, "unexpected argument 'extra'"},
+      {{"config", "pll"}, "no parameter or group 'pll': did you mean 'pl'?"},
+      {{"config", "zzz"}, "no parameter or group 'zzz': 'markervp config' prints all"},
       {{"scenes", "rol"}, "did you mean 'roll'?"},
       {{"completion", "tcsh"}, "tcsh"},
       {{"completion"}, "SHELL"},
@@ -202,6 +205,37 @@ BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {
   const std::string printed = out;
   BOOST_TEST(run({"config", "--config", "p.yaml"}) == 0);
   BOOST_TEST(out == printed);
+}
+
+BOOST_AUTO_TEST_CASE(config_prints_a_part_of_the_tree) {
+  BOOST_TEST(run({"config", "pl"}) == 0);
+  BOOST_TEST(out.rfind("pl:\n", 0) == 0u, out);
+  BOOST_TEST(contains(out, "    mm2s_introut_id: 61 "), out);
+  BOOST_TEST(!contains(out, "\nps:"), out);
+  BOOST_TEST(run({"config", "pl.axi_dma_0", "--set", "pl.axi_dma_0.burst_beats=16"}) == 0);
+  BOOST_TEST(contains(out, "    burst_beats: 16 "), out);
+  BOOST_TEST(!contains(out, "axi_dma_1"), out);
+  BOOST_TEST(run({"config", "ps.cpu_clk.frequency"}) == 0);
+  BOOST_TEST(out.rfind("ps:\n  cpu_clk:\n    frequency: 666.666667 MHz ", 0) == 0u, out);
+  BOOST_TEST(std::count(out.begin(), out.end(), '\n') == 3);
+}
+
+// They only say what there is; a run needs what each piece of work costs.
+BOOST_AUTO_TEST_CASE(config_and_map_need_no_costs) {
+  BOOST_TEST(run({"config", "profile"}) == 0);
+  const std::string profile = kit::read_file(MARKERVP_PROFILES "/a9-O2.json");
+  const std::string unit = "\"posit_iterations\"";
+  const std::size_t at = profile.find(unit);
+  BOOST_TEST_REQUIRE(at != std::string::npos);
+  kit::write_file(folder / "less.json",
+                  std::string(profile).replace(at, unit.size(), "\"posit_repetitions\""));
+  BOOST_TEST(run({"run", "--set", "profile=less.json"}) == 2);
+  BOOST_TEST(contains(err, "posit_"), err);
+  for (const char* command : {"config", "map"})
+    BOOST_TEST(run({command, "--set", "profile=less.json"}) == 0, err);
+  BOOST_TEST(run({"config", "--set", "profile=less.json", "--set", "sw.opt=O0"}) == 2);
+  BOOST_TEST(contains(err, "it is for code compiled with -O2, and sw.opt asks for O0"), err);
+  BOOST_TEST(run({"map", "--set", "profile=none.json"}) == 2);
 }
 
 BOOST_AUTO_TEST_CASE(config_takes_the_options_of_run) {

@@ -1,4 +1,6 @@
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
@@ -51,6 +53,34 @@ BOOST_AUTO_TEST_CASE(a_crash_stays_in_the_child) {
   const ChildEnd end = child.wait();
   BOOST_TEST(end.exit_code == -1);
   BOOST_TEST(end.signal == SIGABRT);
+}
+
+// Also one that does not hear: in the middle of a long call, or with a handler of its own.
+BOOST_AUTO_TEST_CASE(ends_after_a_parent_that_was_killed) {
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  int ends[2];
+  BOOST_TEST_REQUIRE(::pipe(ends) == 0);
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    Child child([&](std::ostream&, std::ostream&) -> int {
+      ::signal(SIGTERM, SIG_IGN);
+      const pid_t self = ::getpid();
+      static_cast<void>(!::write(ends[1], &self, sizeof self));
+      for (volatile unsigned turns = 0;; turns = turns + 1) continue;
+    });
+    child.wait();
+    ::_exit(0);
+  }
+  pid_t process = 0;
+  BOOST_TEST_REQUIRE(::read(ends[0], &process, sizeof process) == ssize_t{sizeof process});
+  ::kill(parent, SIGKILL);
+  BOOST_TEST(::waitpid(parent, nullptr, 0) == parent);
+  int status = 0;
+  BOOST_TEST(::waitpid(process, &status, 0) == process);  // else the test does not end
+  BOOST_TEST(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == platform::host::interrupted);
+  for (const int end : ends) ::close(end);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
 BOOST_AUTO_TEST_CASE(ends_with_its_object) {

@@ -93,6 +93,11 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
   BOOST_TEST(contains(text, "2 frames, 2 with a marker, 1 of them a wrong one"), text);
   BOOST_TEST(contains(text, "FPS      mean 125.0   min 125.0   max 125.0"), text);
   BOOST_TEST(contains(text, "latency  mean 8.000 ms"), text);
+  BOOST_TEST(contains(text,
+                      "limit    feature extraction sets the frame rate: 6144.5 of 8000.0 us, one "
+                      "stage follows the other\n"
+                      "         faster with a higher ps.fclk_clk1.frequency\n"),
+             text);
   BOOST_TEST(contains(text, "warnings in 1 frame, listed in result.json"), text);
   BOOST_TEST(
       contains(text,

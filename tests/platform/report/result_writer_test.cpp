@@ -43,8 +43,9 @@ BOOST_AUTO_TEST_SUITE(result_writer)
 
 BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
   const Json json = written({found_frame("z1.0", 0, 5)});
-  BOOST_TEST(keys(json) == (Keys{"schema", "provenance", "fidelity", "system", "design", "profile",
-                                 "configuration", "frames", "stages", "summary", "verdict"}));
+  BOOST_TEST(keys(json) ==
+             (Keys{"schema", "provenance", "fidelity", "system", "design", "profile",
+                   "configuration", "frames", "stages", "summary", "limit", "verdict"}));
   BOOST_TEST(json["schema"] == 1);
   BOOST_TEST(json["configuration"]["pl.clk"] == "50 MHz");
   const Json& frame = json["frames"][0];
@@ -130,6 +131,20 @@ BOOST_AUTO_TEST_CASE(stages_say_what_they_are_parts_of) {
       {"name": "feature_extraction", "part_of": "frame", "clock": "ps.fclk_clk1",
        "why": "one pixel a clock"},
       {"name": "pose", "part_of": "frame"}, {"name": "frame"}])"));
+}
+
+BOOST_AUTO_TEST_CASE(the_limit_has_its_stages_shares_and_levers) {
+  report::FrameReport frame = found_frame("z1.0");
+  frame.times[1].levers = {"a.b=2"};
+  frame.times[2].waits = true;
+  const Json json = written({frame});
+  BOOST_TEST(json["limit"] == Json::parse(R"({"kind": "sequence", "stages": ["feature_extraction"],
+      "stages_us": 6144.5, "period_us": 8000.0,
+      "percent": {"feature_extraction": 100.0, "camera": 0.0}, "clock": "ps.fclk_clk1",
+      "why": "one pixel a clock", "levers": ["a.b=2"],
+      "text": "feature extraction sets the frame rate: 6144.5 of 8000.0 us, one stage follows the other",
+      "faster_with": "a.b=2, or a higher ps.fclk_clk1.frequency"})"));
+  BOOST_TEST(!written({given_up_frame("z1.0")}).contains("limit"));
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_given_up_says_so_and_makes_no_figures) {

@@ -32,6 +32,22 @@ BOOST_AUTO_TEST_CASE(equal_traces_do_not_differ) {
              "zeros in front and values written again are no difference");
 }
 
+// The same runs have the same bits.
+BOOST_AUTO_TEST_CASE(reals_differ_by_their_last_digit) {
+  const auto differ = [](const std::string& a, const std::string& b) {
+    const Waves left("ps.cpu.frame 8, power real", "#0 b0 ! r0 \"\n#10 r" + a + " \"\n");
+    const Waves right("ps.cpu.frame 8, power real", "#0 b0 ! r0 \"\n#10 r" + b + " \"\n");
+    TraceFile left_file(left.file), right_file(right.file);
+    return difference(left_file, right_file, {}).differ;
+  };
+  BOOST_TEST(differ("0.1", "0.10000000000000002"));
+  BOOST_TEST(differ("1000", "1000.0000000000001"));
+  BOOST_TEST(!differ("0.1", "0.1"));
+  BOOST_TEST(!differ("1", "1.0"), "the same number, written otherwise");
+  BOOST_TEST(!differ("25e-1", "2.5"));
+  BOOST_TEST(differ("nan", "0"));
+}
+
 BOOST_AUTO_TEST_CASE(the_first_difference_and_what_is_around_it) {
   const Difference d = compare("#0 b0 ! b0 \" 0#\n#10 b1 \"\n#20 b10 \"\n#30 b11 \"\n",
                                "#0 b0 ! b0 \" 0#\n#10 b1 \"\n#20 b100 \"\n#30 1#\n");

@@ -25,8 +25,10 @@ class Waves {
         path.erase(0, dot + 1);
       }
       const std::string width = one.substr(blank + 1);
-      text += (width == "string" ? "$var string 1 " : "$var wire " + width + " ") + code++ + " " +
-              path + " $end\n";
+      text += (width == "string" ? "$var string 1 "
+               : width == "real" ? "$var real 64 "
+                                 : "$var wire " + width + " ") +
+              code++ + " " + path + " $end\n";
       for (; depth > 0; --depth) text += "$upscope $end\n";
       at = end + 2;
     }

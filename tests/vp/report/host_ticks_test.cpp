@@ -1,3 +1,4 @@
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 #include <vp/host_ticks.h>
@@ -36,6 +37,27 @@ BOOST_AUTO_TEST_CASE(work_counts_by_the_time_of_the_processor) {
   // A busy machine may have let us wait for a whole tick.
   BOOST_TEST(counter.spent <= processor_ns() - start + 2 * vp::HostTicks::period_ns);
   BOOST_TEST(counter.spent > 0u);
+}
+
+// Its processor time begins at 0, and it has the listeners of its parent.
+BOOST_AUTO_TEST_CASE(a_forked_process_counts_from_its_own_start) {
+  Counter inherited;
+  vp::HostTicks::add(inherited);
+  while (inherited.ticks < 3) continue;
+  const std::uint64_t before = inherited.spent;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Counter own;
+    vp::HostTicks::add(own);
+    while (own.ticks < 1) continue;
+    const std::uint64_t most = processor_ns() + 2 * vp::HostTicks::period_ns;
+    ::_exit(own.spent <= most && inherited.spent - before <= most ? 0 : 1);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) continue;
+  vp::HostTicks::remove(inherited);
+  BOOST_TEST(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(waiting_counts_too) {

@@ -42,6 +42,63 @@ void write(const std::string& file) {
 
 BOOST_AUTO_TEST_SUITE(fst)
 
+// Which change is none follows from the value that the file has, however it came there.
+BOOST_AUTO_TEST_CASE(values_of_bits_follow_those_of_digits) {
+  const kit::TemporaryFolder folder;
+  for (const char* name : {"t.vcd", "t.fst"}) {
+    const auto writer = vp::open_wave_writer(folder / name);
+    writer->add("flag", Kind::wire, 1);
+    writer->add("word", Kind::reg, 12);
+    writer->add("watts", Kind::real, 64);
+    writer->add("late", Kind::wire, 1);
+    writer->begin_written(0, {"1", "101", "2.5", std::nullopt});
+    writer->set_time(10);
+    writer->change(0, 0);
+    writer->change(1, 0);
+    writer->change(2, pattern(0));
+    writer->change(3, 0);
+    writer->set_time(20);
+    writer->change_digits(0, "1");
+    writer->change_digits(1, "1x");
+    writer->change_digits(2, "0.5");
+    writer->set_time(30);
+    writer->change(0, 0);
+    writer->change(1, 0);
+    writer->change(2, pattern(0));
+    writer->set_time(40);
+    writer->pause();
+    writer->set_time(50);
+    writer->change(0, 0);
+    writer->close(60);
+    const WaveText text(folder / name);
+    const auto number = [&](std::uint64_t ps) { return std::stod(text.value("watts", ps)); };
+    BOOST_TEST(text.value("late", 10) == "0", name);
+    for (const std::uint64_t ps : {10u, 30u}) {
+      BOOST_TEST(text.value("flag", ps) == "0", name << " at " << ps);
+      BOOST_TEST(std::stoul(text.value("word", ps), nullptr, 2) == 0u, name << " at " << ps);
+      BOOST_TEST(number(ps) == 0.0, name << " at " << ps);
+    }
+    BOOST_TEST(text.value("flag", 20) == "1", name);
+    BOOST_TEST(text.value("word", 20).substr(text.value("word", 20).size() - 2) == "1x", name);
+    BOOST_TEST(number(20) == 0.5, name);
+    BOOST_TEST(text.value("flag", 40) == "x", name);
+    BOOST_TEST(text.value("flag", 50) == "0", name);
+  }
+}
+
+// The same value written again is no change.
+BOOST_AUTO_TEST_CASE(the_same_bits_after_digits_are_no_change) {
+  const kit::TemporaryFolder folder;
+  vp::VcdWriter writer(folder / "t.vcd");
+  writer.add("flag", Kind::wire, 1);
+  writer.begin_written(0, {"1"});
+  writer.set_time(10);
+  writer.change(0, 1);
+  writer.close(20);
+  const std::string written = kit::read_file(folder / "t.vcd");
+  BOOST_TEST(written.substr(written.find("#0")) == "#0\n$dumpvars\n1!\n$end\n#20\n");
+}
+
 BOOST_AUTO_TEST_CASE(both_formats_say_the_same) {
   const kit::TemporaryFolder folder;
   for (const char* name : {"t.vcd", "t.fst"}) {

@@ -58,8 +58,12 @@ constexpr std::uint64_t largest_by_hand = 1 << 22;
 std::string read_text(const std::filesystem::path& path, const std::string& what,
                       std::uint64_t most = largest_by_hand);
 
+/// What to do about `reason`, an errno, as the end of a message: "; raise ulimit -n". Empty where
+/// nothing is known.
+std::string advice_for(int reason);
+
 /// What to say of a shared object that dlopen() refused; `said` is the text of dlerror(). Continues
-/// "cannot load program 'x.so': ".
+/// "cannot load program 'x.so': ". Throws HostError if the machine is the cause.
 std::string load_problem(const std::string& path, std::string_view said);
 
 /// Something could not be written: the disk is full, a pipe lost its reader, a folder is missing.

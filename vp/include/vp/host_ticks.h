@@ -24,7 +24,7 @@ class HostTicks {
     ~Listener() = default;
   };
 
-  /// At most four at a time. Both may be called in signal handlers.
+  /// At most eight at a time. Both may be called in signal handlers.
   static void add(Listener& listener);
   static void remove(Listener& listener);
   /// For listeners: the next tick comes after a hundredth of the period.

@@ -97,8 +97,9 @@ class VcdWriter final : public WaveWriter {
   void change(Id id, std::uint64_t bits) override {
     Variable& variable = variables_[id];
     bits &= variable.mask;
-    if (bits == variable.last) return;
+    if (bits == variable.last && !variable.in_digits) return;
     variable.last = bits;
+    variable.in_digits = false;
     if (stamp_due_) write_stamp();
     write_value(variable);
   }
@@ -118,6 +119,7 @@ class VcdWriter final : public WaveWriter {
     bool scalar;
     bool real;
     bool text;
+    bool in_digits;  ///< the value is none of bits, or there is none yet: `last` is not it
   };
 
   void begin_dump(std::uint64_t ps, std::size_t values);

@@ -24,20 +24,32 @@ function timing(run, say) {
   }
   // Only a clock that the chip can have is worth a try.
   const next = module.reachable_mhz ?? module.fmax_mhz;
-  const paced = run.stages.filter((name) => run.stage(name).clock === module.clock);
+  // Where later stages set the frame rate, the result is not there earlier for a shorter stage before them.
+  const { kind, stages = [] } = run.result.limit ?? {};
+  const paced = run.stages.filter((name) => run.stage(name).clock === module.clock && (kind !== "behind" || stages.includes(name)));
   const gain = paced.reduce((sum, name) => sum + run.stageMean(name), 0) * (1 - module.frequency_mhz / next);
   const frame = run.stageMean("frame");
   // Where frames overlap, the time of one says nothing of the rate.
-  const overlapping = run.summary.fps?.mean * frame > 1.02e6;
-  const rate = overlapping ? "" : `: ${fixed(1e6 / (frame - gain), 0)} frames/s`;
+  const rate = kind === "sequence" ? `: ${fixed(1e6 / (frame - gain), 0)} frames/s` : "";
   const more = gain > 0
     ? ` At ${tidy(next)} MHz${next < module.fmax_mhz ? ", the next clock that the PLLs make," : ""} a frame would take about ${significant((frame - gain) / 1e3, 3)} ms${rate} (derived).` : "";
   say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits its clock, now ${now} MHz.${more}`);
 }
 
+/** What sets the frame rate, in the words of the console, and with which lever it rises. */
+function limit(run, say) {
+  const found = run.result.limit;
+  if (!found) return;
+  const megahertz = found.clock && run.megahertz(`${found.clock}.frequency`);
+  const now = megahertz ? `, now ${tidy(megahertz)} MHz` : "";
+  say("info", `${found.text}.${found.faster_with ? ` Faster with ${found.faster_with}${now}.` : ""}`);
+}
+
+/** Where a result's latency comes from. What only waits is the cause of nothing. */
 function stages(run, say) {
   const whole = run.stageMean("frame");
-  const longest = partsOf(run).map((name) => ({ name, us: run.stageMean(name) })).sort((a, b) => b.us - a.us);
+  const working = run.result.limit?.percent;
+  const longest = partsOf(run).filter((name) => !working || name in working).map((name) => ({ name, us: run.stageMean(name) })).sort((a, b) => b.us - a.us);
   if (!(whole > 0) || longest.length === 0) return;
   const because = ({ name }) => {
     const { why, clock } = run.stage(name);
@@ -45,7 +57,7 @@ function stages(run, say) {
     return why ? `: ${why}${megahertz ? `, at ${tidy(megahertz)} MHz` : ""}` : "";
   };
   const [first, second] = longest;
-  say("info", `${words(first.name)} takes ${percent(first.us / whole, 0)} of a frame${because(first)}.`);
+  say("info", `Of the time from a frame to its result, ${words(first.name)} takes ${percent(first.us / whole, 0)}${because(first)}.`);
   if (second && second.us / whole > 0.1) say("info", `${words(second.name)} comes second with ${percent(second.us / whole, 0)}${because(second)}.`);
 }
 
@@ -80,6 +92,7 @@ export function guidanceOf(run) {
   results(run, say);
   markers(run, say);
   losses(run, say);
+  limit(run, say);
   timing(run, say);
   stages(run, say);
   budgets(run, say);
