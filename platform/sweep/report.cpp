@@ -315,12 +315,11 @@ std::string failures_text(const Results& results, PointLines& lines) {
 std::string sweep_text(const Results& results, std::size_t most_rows) {
   const Manifest& manifest = results.manifest;
   std::string text = (manifest.title.empty() ? manifest.name : manifest.title) + "\n";
-  if (results.rows.empty()) return text;
   PointLines lines(results, most_rows);
   if (results.failed() != results.rows.size())
     text += "\n" + ranked_text(results, objectives_of(results), lines);
   text += failures_text(results, lines);
-  text += "\n" + verdicts_text(results) + "\n";
+  if (!results.rows.empty()) text += "\n" + verdicts_text(results) + "\n";
   if (!manifest.text.empty() && results.missing == 0) {
     text += "\n" + manifest.text;
     if (text.back() != '\n') text += "\n";

@@ -85,6 +85,21 @@ BOOST_FIXTURE_TEST_CASE(where_nothing_is_feasible_it_says_what_would_have_to_giv
   BOOST_TEST(contains(kit::read_file(*this / "out/s/manifest.json"), "gives way to"));
 }
 
+BOOST_FIXTURE_TEST_CASE(at_most_means_at_most_where_nothing_is_feasible, Sweeps) {
+  std::string text(space);
+  text.replace(text.find(">= 50"), 5, ">= 900");
+  write("s.yaml", text);
+  const kit::Outcome outcome = run({"explore", "s.yaml", "--points", "16", "--jobs", "2"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(count_points("out/s") == 16u);
+  BOOST_TEST(contains(outcome.out, "The search looked at 16 of 1024 points"), outcome.out);
+  // No time, no point.
+  const kit::Outcome late = run({"explore", "s.yaml", "--time", "1ns", "--output", "late"});
+  BOOST_TEST(late.exit_code == 0, late.err);
+  BOOST_TEST(count_points("late") == 0u);
+  BOOST_TEST(contains(late.out, "ended: its time is up"), late.out);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_point_tells_what_each_step_is_worth, Sweeps) {
   write("s.yaml",
         "parameters:\n"
