@@ -4,6 +4,7 @@
 #include <report/console.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
+#include <sweep/sensitivity.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -340,13 +341,6 @@ Json objectives_json(const std::vector<Objective>& objectives) {
   return json;
 }
 
-Json effects_json(const Manifest& manifest) {
-  Json json = Json::array();
-  for (const KeyedEffect& effect : manifest.effects)
-    json.push_back({effect.from, effect.to, effect.path, effect.delta});
-  return json;
-}
-
 Json point_json(const Results& results, const ResultRow& row, const std::vector<Column>& columns) {
   Json json{{"key", row.key}, {"swept", Json::array()}, {"metrics", Json::array()}};
   for (const std::string& path : results.manifest.swept) json["swept"].push_back(row.value(path));
@@ -409,7 +403,6 @@ std::string page_block(const Results& results, const std::string& folder, const 
             {"text", results.missing == 0 ? manifest.text : ""},
             {"folder", folder},
             {"swept", manifest.swept},
-            {"effects", effects_json(manifest)},
             {"missing", results.missing},
             {"counts", counts_json(results)},
             {"objectives", objectives_json(objectives)},
@@ -419,6 +412,8 @@ std::string page_block(const Results& results, const std::string& folder, const 
     json["constraints"].push_back(constraint.text());
   for (const Column& column : columns)
     json["metrics"].push_back({{"path", column.text}, {"unit", unit_of_metric(column.text)}});
+  if (!objectives.empty())
+    json["influence"] = sensitivity_json(results, objectives.front().figure());
   if (!steps.is_null()) json["steps"] = steps;
   const std::vector<std::size_t> fronts = fronts_of(results, objectives);
   std::string points;

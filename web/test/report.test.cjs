@@ -25,6 +25,7 @@ const blocks = {
   blocks.onePoint = samples.sweep({ points: 1 });
   const best = sweep.points.find((p) => p.front === 1);
   blocks.repeated = { sweep: { ...sweep, points: [...sweep.points, { ...best, key: "feedcafe", front: 0, same_as: "same as 75 MHz" }] } };
+  blocks.notCompared = { sweep: { ...sweep, influence: { ...sweep.influence, rows: [], note: "no two of the points that count differ in one of these alone: profile; 'markervp sensitivity --at FOLDER/points/KEY.json'" } } };
   blocks.noPoint = { sweep: { ...sweep, points: [] } };
   blocks.allFailed = { sweep: { ...sweep, points: sweep.points.map(failed) } };
   blocks.equal = { sweep: { ...sweep, points: sweep.points.map((point) => ({ ...point, metrics: point.metrics.map(() => 5) })) } };
@@ -521,6 +522,20 @@ test("of three objectives the front is that of all, or of the two shown", () => 
   const ofTwo = frontOf(points, [0, true], [2, false]);
   assert.ok(ofTwo.length < all.length, "the two differ");
   assert.deepEqual(await rates(), sorted(ofTwo));
+}));
+
+test("what moves the objective is as the program compared it, and the page says how", () => open("sweep", async (page) => {
+  const influence = page.locator("#influence");
+  await influence.scrollIntoViewIfNeeded();
+  assert.match(await influence.textContent(), /All else equal: points, compared where they differ in one parameter alone/);
+  assert.match(await influence.locator(".chart-area").getAttribute("aria-label"), /profile: 55.00 \(60.00 at thesis, 125.0 at a9-O2\). pl.blob_detection.label_count: 0$/);
+  assert.doesNotMatch(await influence.textContent(), /nothing can be said/);
+}));
+
+test("where no points can be compared the page says what to run instead", () => open("notCompared", async (page) => {
+  const influence = page.locator("#influence");
+  assert.match(await influence.textContent(), /No two of the points .*sensitivity --at/);
+  assert.equal(await influence.locator(".chart-area").count(), 0);
 }));
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {
