@@ -431,8 +431,6 @@ test("a limit that is dragged or typed holds in all charts", () => open("fastSwe
   const rows = await page.locator("#points table").first().locator("tbody tr").evaluateAll((all) => all.map((row) => Number(row.cells[5].textContent)));
   assert.ok(rows.length > 0 && rows.every((rate) => rate >= least - 0.1));
   assert.match(await page.locator("#space [role=status]").textContent(), /points kept\./);
-  const swing = (await rowsOf(page, "What moves")).flatMap((row) => [Number(row[2]), Number(row[4])]);
-  assert.ok(swing.length > 0 && swing.every((rate) => rate >= least), "only points within the limit count");
   // By keyboard: to the end, where there is no limit.
   await grip.focus();
   await page.keyboard.press("Home");
