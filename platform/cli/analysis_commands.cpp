@@ -113,13 +113,13 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
   std::string csv;
   for (const vp::Expression& figure : figures) {
     const sweep::SensitivityReport report = sweep::sensitivity(results, figure, options.all);
-    out << figure.text() << "   (" << report.method << "; "
-        << (report.method == "one-at-a-time" ? "base " : "mean ") << sweep::readable(report.base)
-        << ")\n\n"
+    out << figure.text() << "   (" << report.basis << ")\n\n"
         << sweep::sensitivity_table(report) << "\n";
+    if (!report.not_compared.empty())
+      err << "markervp: warning: " << sweep::not_compared_text(report) << std::endl;
     if (report.skipped != 0)
       err << "markervp: warning: "
-          << report::counted(report.skipped, report.method == "main effects" ? "point" : "effect")
+          << report::counted(report.skipped, report.method == "all else equal" ? "point" : "effect")
           << " left out of '" << figure.text() << "': a point failed, is missing, "
           << (options.all ? "" : "is not feasible (--all takes those) ") << "or has no value of it"
           << std::endl;

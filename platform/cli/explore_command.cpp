@@ -46,17 +46,18 @@ std::string size_text(const sweep::Space& space) {
   return "about 10^" + vp::format_fixed(std::log10(size), 0) + " points";
 }
 
-/// Brings the points of a search, generation by generation, and keeps the user informed.
+/// Computes the points of a search, generation by generation, and keeps the user informed.
 class Generations {
  public:
-  Generations(const ExploreOptions& options, sweep::Store& store, sweep::Space& space,
-              std::ostream& err)
+  Generations(const ExploreOptions& options, const explore::Budget& budget, sweep::Store& store,
+              sweep::Space& space, std::ostream& err)
       : options_(options),
+        budget_(budget),
         store_(store),
         logs_(store),
         space_(space),
         err_(err),
-        bar_(space.manifest().name, space.spec().search.points) {}
+        bar_(space.manifest().name, budget.points()) {}
 
   std::map<std::size_t, sweep::Outcome> compute(const std::vector<std::size_t>& positions) {
     const sweep::Manifest& manifest = space_.manifest();
@@ -66,7 +67,10 @@ class Generations {
     before_ += positions.size() - pending.size();
     keep_manifest();
     const auto progress = [&](std::uint64_t points) { bar_.update(positions.front() + points); };
-    computed_ += cli::compute(options_, store_, manifest, pending, progress, err_).computed;
+    const sweep::Tally tally = cli::compute(options_, store_, manifest, pending, progress, err_,
+                                            [&] { return budget_.time_is_over(); });
+    computed_ += tally.computed;
+    abandoned_ += tally.abandoned;
     logs_.refresh();
     std::map<std::size_t, sweep::Outcome> outcomes;
     for (const std::size_t position : positions) {
@@ -84,6 +88,7 @@ class Generations {
 
   std::uint64_t computed() const { return computed_; }
   std::uint64_t before() const { return before_; }
+  std::uint64_t abandoned() const { return abandoned_; }
 
  private:
   /// Nodes of a cluster read it; here it says what stands in the folder, if the process is killed.
@@ -95,32 +100,41 @@ class Generations {
   }
 
   const ExploreOptions& options_;
+  const explore::Budget& budget_;
   sweep::Store& store_;
   sweep::RunLogs logs_;
   sweep::Space& space_;
   std::ostream& err_;
   vp::Progress bar_;
-  std::uint64_t computed_ = 0, before_ = 0;
+  std::uint64_t computed_ = 0, before_ = 0, abandoned_ = 0;
   HostClock::time_point next_manifest_{};
 };
 
 /// What the search did, as the text of its results.
-std::string search_text(const explore::Explorer& explorer, explore::End end) {
-  const explore::Front& front = explorer.front();
+std::string search_text(const explore::Explorer& explorer, const explore::Answer& answer,
+                        std::uint64_t abandoned) {
   std::string text = "The search looked at " + std::to_string(explorer.results().rows.size()) +
-                     " of " + size_text(explorer.space()) + " and ended: " + to_string(end) + ".";
-  if (front.size() != 0) {
+                     " of " + size_text(explorer.space()) + " and ended: " + to_string(answer.end) +
+                     ".";
+  if (abandoned != 0)
+    text += " " + report::counted(abandoned, "point") +
+            (abandoned == 1 ? " was in progress then and is" : " were in progress then and are") +
+            " abandoned.";
+  const explore::Front& front = explorer.front();
+  if (front.size() != 0 && !answer.relaxations) {
     text += " Its front has " + report::counted(front.size(), "point") +
             (explorer.goal().objectives.size() < 2
                  ? "."
                  : " and a hypervolume of " + vp::format_fixed(front.hypervolume(), 3) + ".");
   }
-  return text + "\n";
+  text += "\n";
+  if (answer.relaxations) text += text_of(explorer, *answer.relaxations);
+  return text;
 }
 
-int dry_run(sweep::Space& space, std::ostream& out) {
-  const explore::Explorer checked(space, {});
-  out << size_text(space) << ", " << space.spec().search.points
+int dry_run(sweep::Space& space, const explore::Budget& budget, std::ostream& out) {
+  const explore::Explorer checked(space, budget, {});
+  out << size_text(space) << ", " << budget.points()
       << " of them at most; objectives: " << vp::join(space.manifest().objectives, ", ")
       << "\nnothing was run\n";
   return done;
@@ -131,23 +145,20 @@ int dry_run(sweep::Space& space, std::ostream& out) {
 int explore_points(const ExploreOptions& options, std::ostream& out, std::ostream& err) {
   const sweep::Platform platform = sweep_platform();
   const sweep::Spec spec = spec_of(options);
+  const explore::Budget budget(spec.search);
   sweep::Space space(spec, platform);
-  if (options.dry_run) return dry_run(space, out);
+  if (options.dry_run) return dry_run(space, budget, out);
   sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
   store.lock();
   const host::InterruptGuard guard;
-  std::optional<Generations> generations(std::in_place, options, store, space, err);
+  std::optional<Generations> generations(std::in_place, options, budget, store, space, err);
   explore::Explorer explorer(
-      space,
+      space, budget,
       [&](const std::vector<std::size_t>& positions) { return generations->compute(positions); },
       [&](std::uint64_t points, const explore::Front& front) { generations->tell(points, front); });
-  const explore::End end = explorer.explore();
-  std::string text = search_text(explorer, end);
-  const bool over = end == explore::End::interrupted || end == explore::End::failed;
-  if (explorer.front().size() == 0 && !over)
-    text += text_of(explorer,
-                    explore::relaxations(explorer, [] { return !host::InterruptGuard::noted(); }));
-  space.manifest().text = text;
+  const explore::Answer answer =
+      explore::answer(explorer, [] { return !host::InterruptGuard::noted(); });
+  space.manifest().text = search_text(explorer, answer, generations->abandoned());
   store.write_manifest(space.manifest());
   const std::uint64_t computed = generations->computed(), before = generations->before();
   generations.reset();  // and its bar

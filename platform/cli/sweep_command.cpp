@@ -179,18 +179,23 @@ std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
 
 sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
                      const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     const sweep::OnProgress& progress, std::ostream& err) {
+                     const sweep::OnProgress& progress, std::ostream& err,
+                     const sweep::IsOver& is_over) {
   if (pending.empty()) return {};
   if (options.engine == "slurm") {
     warm_up(manifest, {pending.front()});
-    const sweep::SlurmOptions slurm{options.chunk, options.at_once, options.sbatch, manifest.name,
-                                    points_a_process(manifest, options.isolate)};
+    const sweep::SlurmOptions slurm{options.chunk,
+                                    options.at_once,
+                                    options.sbatch,
+                                    manifest.name,
+                                    points_a_process(manifest, options.isolate),
+                                    is_over};
     return run_slurm(store, manifest, pending, slurm, run_point, progress, err);
   }
   warm_up(manifest, pending);
   const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
                                   points_a_process(manifest, options.isolate),
-                                  [&](const std::string& text) { warn({text}, err); }};
+                                  [&](const std::string& text) { warn({text}, err); }, is_over};
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 

@@ -47,11 +47,12 @@ std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLog
                                         const sweep::Manifest& manifest, std::size_t first,
                                         bool retry_failed, std::ostream& err);
 
-/// Computes points with the engine that the user wants; the store has the manifest if it is not
-/// the local one.
+/// Computes points with the engine that the user wants, until `is_over`; the store has the manifest
+/// if it is not the local one.
 sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
                      const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     const sweep::OnProgress& progress, std::ostream& err);
+                     const sweep::OnProgress& progress, std::ostream& err,
+                     const sweep::IsOver& is_over = {});
 
 /// Writes tables, database and page, and says what was found. `computed` now, `before` earlier.
 void write_results(const SweepOptions& options, const sweep::Store& store,

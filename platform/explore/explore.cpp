@@ -9,7 +9,6 @@
 #include <vp/unit.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -68,9 +67,11 @@ double Requirement::shortfall(const sweep::Results& results, const sweep::Result
 std::string to_string(End end) {
   switch (end) {
     case End::points:
-      return "as many points as it may have";
+      return "all its points are used";
     case End::time:
-      return "its time is over";
+      return "its time is up";
+    case End::infeasible:
+      return "no point is feasible";
     case End::no_gain:
       return "no gain any more";
     case End::exhausted:
@@ -90,28 +91,14 @@ Coordinate coordinate_of(const sweep::AxisGroup& group) {
   return {axis.ordered() ? 0 : static_cast<std::uint32_t>(axis.values().size())};
 }
 
-std::optional<double> seconds_of(const sweep::SearchChoice& choice) {
-  if (!choice.time) return std::nullopt;
-  constexpr double ps_in_a_second = 1e12;
-  try {
-    const double seconds =
-        vp::parse_quantity(*choice.time, vp::Unit::time).to_double() / ps_in_a_second;
-    if (seconds > 0) return seconds;
-  } catch (const vp::InputError&) {  // told below
-  }
-  const std::string where = choice.where.empty() ? "" : choice.where + ": ";
-  throw vp::InputError(where + "'" + *choice.time +
-                       "' is no time for a search: write '90 s' or '3600 s'");
-}
-
 }  // namespace
 
-Explorer::Explorer(sweep::Space& space, Compute compute, OnGeneration on_generation)
+Explorer::Explorer(sweep::Space& space, Budget budget, Compute compute, OnGeneration on_generation)
     : space_(space),
       choice_(space.spec().search),
+      budget_(std::move(budget)),
       compute_(std::move(compute)),
-      on_generation_(std::move(on_generation)),
-      seconds_(seconds_of(choice_)) {
+      on_generation_(std::move(on_generation)) {
   sweep::Manifest& manifest = space.manifest();
   if (manifest.objectives.empty())
     manifest.objectives = {sweep::usual_objectives.begin(), sweep::usual_objectives.end()};
@@ -191,7 +178,7 @@ bool Explorer::take(const Genome& genome, const Goal& goal) {
 }
 
 /// Points that constraints on parameters allow are few: a search for them, which computes nothing.
-std::size_t Explorer::take_any(const Goal& goal) {
+std::size_t Explorer::take_any(const Goal& goal, std::uint64_t most) {
   Search search(coordinates_, allowed_generation, choice_.seed);
   std::size_t taken = 0;
   for (int i = 0; i < allowed_generations && taken == 0; ++i) {
@@ -202,7 +189,7 @@ std::size_t Explorer::take_any(const Goal& goal) {
     });
     for (const Genome& genome : generation) {
       const double broken = broken_conditions(assignment(genome), goal);
-      if (broken == 0 && take(genome, goal)) ++taken;
+      if (broken == 0 && taken < most && take(genome, goal)) ++taken;
       search.judge(genome, {{0}, broken});
     }
     search.select();
@@ -210,7 +197,7 @@ std::size_t Explorer::take_any(const Goal& goal) {
   return taken;
 }
 
-/// False: interrupted. Then the points that are not there are forgotten.
+/// False: interrupted. Then the points without an outcome are forgotten.
 bool Explorer::compute_taken() {
   std::vector<sweep::PlannedPoint>& points = space_.manifest().points;
   const std::size_t first = results_.rows.size();
@@ -274,8 +261,6 @@ const sweep::ResultRow* Explorer::least_violating() const {
 
 namespace {
 
-using HostClock = std::chrono::steady_clock;
-
 /// Whether the front is still getting better.
 class Gain {
  public:
@@ -304,13 +289,29 @@ class Gain {
   double violation_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace
+/// Of the budget; the rest is for finding out what would have to give way.
+constexpr double part_while_infeasible = 0.5;
 
-End Explorer::explore() {
-  return search(goal_, choice_.points);
+/// Which limit of the budget is reached, if any.
+std::optional<End> end_of(const Budget& budget, std::uint64_t looked_at) {
+  if (looked_at >= budget.points()) return End::points;
+  if (budget.time_is_over()) return End::time;
+  return std::nullopt;
 }
 
-End Explorer::search(const Goal& goal, std::uint64_t more_points) {
+}  // namespace
+
+bool Explorer::has_feasible_point() const {
+  return std::any_of(results_.rows.begin(), results_.rows.end(), [&](const sweep::ResultRow& row) {
+    return judgement(goal_, row).violation == 0;
+  });
+}
+
+End Explorer::explore() {
+  return search(goal_, budget_, budget_.share(part_while_infeasible, results_.rows.size()));
+}
+
+End Explorer::search(const Goal& goal, const Budget& whole, const Budget& while_infeasible) {
   Search search(coordinates_, choice_.generation, choice_.seed);
   Gain gain(choice_.patience);
   front_ = Front();
@@ -323,16 +324,15 @@ End Explorer::search(const Goal& goal, std::uint64_t more_points) {
     if (from != results_.rows.size()) search.select();
   };
   judge(0);
-  const HostClock::time_point start = HostClock::now();
-  const std::size_t last = results_.rows.size() + more_points;
   for (;;) {
     const std::size_t first = results_.rows.size();
-    if (first >= last) return End::points;
-    const std::chrono::duration<double> spent = HostClock::now() - start;
-    if (seconds_ && spent.count() > *seconds_) return End::time;
-    std::size_t taken = search.breed(std::min<std::size_t>(choice_.generation, last - first),
-                                     [&](const Genome& genome) { return take(genome, goal); });
-    if (taken == 0 && first == 0) taken = take_any(goal);
+    if (const std::optional<End> end = end_of(whole, first)) return *end;
+    const Budget& budget = front_.size() == 0 ? while_infeasible : whole;
+    if (end_of(budget, first)) return End::infeasible;
+    std::size_t taken =
+        search.breed(std::min<std::size_t>(choice_.generation, budget.points() - first),
+                     [&](const Genome& genome) { return take(genome, goal); });
+    if (taken == 0 && first == 0) taken = take_any(goal, budget.points());
     if (taken == 0 && first == 0)
       throw vp::InputError(space_.spec().origin +
                            ": no point is left: the constraints contradict each other or the "
@@ -340,7 +340,7 @@ End Explorer::search(const Goal& goal, std::uint64_t more_points) {
     if (taken == 0) return End::exhausted;
     if (!compute_taken()) {
       judge(first);
-      return End::interrupted;
+      return end_of(whole, 0).value_or(End::interrupted);
     }
     if (first == 0 && results_.failed() == results_.rows.size()) return End::failed;
     if (first == 0) check_first_generation();
@@ -351,9 +351,6 @@ End Explorer::search(const Goal& goal, std::uint64_t more_points) {
 }
 
 namespace {
-
-/// Of what the study's own search may take; at least some generations.
-constexpr std::uint64_t part_of_points = 4, least_generations = 8;
 
 /// What could give way. A design that does not run or not do its usual job is none.
 std::vector<Requirement> candidates(const Explorer& explorer) {
@@ -410,38 +407,67 @@ std::string figures(const Relaxation& relaxation) {
 
 }  // namespace
 
-std::vector<Relaxation> relaxations(Explorer& explorer, const std::function<bool()>& go_on) {
-  std::vector<Relaxation> found;
-  const sweep::SearchChoice& choice = explorer.space().spec().search;
-  const std::uint64_t points = std::max<std::uint64_t>(choice.points / part_of_points,
-                                                       least_generations * choice.generation);
-  for (const Requirement& candidate : candidates(explorer)) {
-    if (!go_on()) break;
+Relaxations relaxations(Explorer& explorer, const std::function<bool()>& may_continue) {
+  Relaxations result;
+  const std::vector<Requirement> asked = candidates(explorer);
+  result.asked = !asked.empty();
+  for (std::size_t i = 0; i < asked.size() && !explorer.has_feasible_point(); ++i) {
+    if (!may_continue()) {
+      result.cut_short = true;
+      break;
+    }
     Goal goal = explorer.goal();
-    goal.given_up = candidate;
-    explorer.search(goal, points);
-    const sweep::ResultRow* row = nearest(explorer, goal);
-    if (row != nullptr)
-      found.push_back({candidate, *row, candidate.shortfall(explorer.results(), *row)});
+    goal.given_up = asked[i];
+    const double part = 1.0 / static_cast<double>(asked.size() - i);
+    const End end =
+        explorer.search(goal, explorer.budget().share(part, explorer.results().rows.size()));
+    result.cut_short |= end != End::no_gain && end != End::exhausted;
+    if (const sweep::ResultRow* row = nearest(explorer, goal))
+      result.found.push_back({asked[i], *row, asked[i].shortfall(explorer.results(), *row)});
   }
-  std::stable_sort(found.begin(), found.end(), [](const Relaxation& a, const Relaxation& b) {
-    return a.shortfall < b.shortfall;
-  });
-  return found;
+  std::stable_sort(
+      result.found.begin(), result.found.end(),
+      [](const Relaxation& a, const Relaxation& b) { return a.shortfall < b.shortfall; });
+  return result;
 }
 
-std::string text_of(const Explorer& explorer, const std::vector<Relaxation>& found) {
-  if (found.empty())
-    return "No single constraint stands in the way: at least two would have to give way.\n";
+std::string text_of(const Explorer& explorer, const Relaxations& relaxations) {
+  if (!relaxations.asked)
+    return "No constraint causes this: the points that were looked at do not run, or do not do "
+           "their job.\n";
+  if (relaxations.found.empty() && relaxations.cut_short)
+    return "The search ended before it found a point that breaks only one constraint or part of "
+           "the verdict: more points or time may find one.\n";
+  if (relaxations.found.empty())
+    return "No single constraint causes this: at least two would have to give way.\n";
   std::string text = "It takes one of these, all else kept, the least first:\n";
-  for (const Relaxation& relaxation : found) {
+  for (const Relaxation& relaxation : relaxations.found) {
     std::vector<std::string> values;
     for (const std::string& path : explorer.space().manifest().swept)
       values.push_back(path + " = " + relaxation.row.value(path));
     text += "'" + relaxation.given_up.text() + "' gives way to " + figures(relaxation) + " (" +
             vp::join(values, ", ") + ").\n";
   }
+  if (relaxations.cut_short)
+    text += "The budget ended these searches: more points or time may find less to give up.\n";
   return text;
+}
+
+Answer answer(Explorer& explorer, const std::function<bool()>& may_continue) {
+  Answer answer;
+  answer.end = explorer.explore();
+  const bool broke_off = answer.end == End::failed || answer.end == End::interrupted;
+  if (explorer.has_feasible_point() || broke_off) return answer;
+  Relaxations found = relaxations(explorer, may_continue);
+  // What was kept for the relaxations is free again.
+  const bool nothing_to_relax = !found.asked && answer.end == End::infeasible;
+  if (explorer.has_feasible_point() || nothing_to_relax)
+    answer.end = explorer.search(explorer.goal(), explorer.budget());
+  if (explorer.has_feasible_point()) return answer;
+  if (nothing_to_relax) found = relaxations(explorer, may_continue);
+  answer.end = end_of(explorer.budget(), explorer.results().rows.size()).value_or(answer.end);
+  answer.relaxations = std::move(found);
+  return answer;
 }
 
 }  // namespace platform::explore

@@ -35,9 +35,13 @@ using RunPoint = std::function<int(const PointRun& run, PointResult& result, std
 
 /// How a sweep went; the logs of its folder have the outcomes.
 struct Tally {
-  std::uint64_t computed = 0;  ///< done now
-  bool interrupted = false;
+  std::uint64_t computed = 0;   ///< done now
+  std::uint64_t abandoned = 0;  ///< begun, and broken off; nothing of them is kept
+  bool interrupted = false;     ///< by a signal, or because the time was up
 };
+
+/// Whether the time for computing is up. Asked some times a second; may be empty.
+using IsOver = std::function<bool()>;
 
 /// Called when points were completed: how many of those asked for.
 using OnProgress = std::function<void(std::uint64_t done)>;
@@ -51,8 +55,10 @@ struct LocalOptions {
   std::uint32_t jobs = 1;
   std::string name = "local";  ///< stands in the records of runs
   std::uint32_t points_a_process = usual_points_a_process;
-  /// Gets told, in a sentence, of a process that died, as soon as it did; may be empty.
+  /// Called with a sentence when a process dies; may be empty.
   std::function<void(const std::string& text)> warn = {};
+  /// Points that are not finished by then are abandoned.
+  IsOver is_over = {};
 };
 
 /// Computes the points at these positions of the manifest in `jobs` processes at a time, which take
@@ -70,6 +76,7 @@ struct SlurmOptions {
   std::vector<std::string> options;  ///< more for sbatch
   std::string name;                  ///< of the sweep
   std::uint32_t points_a_process = usual_points_a_process;
+  IsOver is_over = {};  ///< cancels the job
 };
 
 /// Tasks that one array may have. Throws vp::InputError if Slurm does not answer here.

@@ -32,6 +32,9 @@ constexpr int most_useless = 5;
 /// What a power failure may cost: finished points go to the disk together.
 constexpr auto flush_period = std::chrono::seconds(10);
 
+/// A run that is asked to end does so within a second; what has not by then is killed.
+constexpr auto abandon_period = std::chrono::seconds(3);
+
 /// To be woken for every point costs as much as to note it.
 constexpr int listen_period_ms = 20;
 
@@ -80,10 +83,12 @@ class Pool {
   Tally run() {
     for (;;) {
       if (host::InterruptGuard::noted()) stop();
+      if (options_.is_over && !abandoned_at_ && options_.is_over()) abandon();
       while (running_.size() < options_.jobs && has_work()) start();
       if (running_.empty() && !find_lost()) break;
       if (running_.empty()) continue;
       listen();
+      if (abandoned_at_ && HostClock::now() - *abandoned_at_ > abandon_period) kill_all();
       if (HostClock::now() - flushed_ > flush_period) flush();
     }
     flush();
@@ -103,6 +108,17 @@ class Pool {
     tally_.interrupted = true;
     queue_.stop();
     again_.clear();
+  }
+
+  /// Asks the processes to break off what they are at.
+  void abandon() {
+    abandoned_at_ = HostClock::now();
+    stop();
+    for (const Running& running : running_) ::kill(running.child->pid(), SIGTERM);
+  }
+
+  void kill_all() {
+    for (Running& running : running_) ::kill(running.child->pid(), SIGKILL);
   }
 
   bool has_work() const { return !tally_.interrupted && (!again_.empty() || !queue_.empty()); }
@@ -161,6 +177,7 @@ class Pool {
       case PointMessage::Kind::no_host:
         throw vp::HostError(message.failure.message);
       case PointMessage::Kind::interrupted:
+        ++tally_.abandoned;
         stop();
         break;
       case PointMessage::Kind::fault:
@@ -201,7 +218,10 @@ class Pool {
     if (!item) item = running.only;
     queue_.release(running.slot);
     if (item && !told_[*item]) {
-      if (tally_.interrupted) return;
+      if (tally_.interrupted) {
+        ++tally_.abandoned;
+        return;
+      }
       const Failure failure = failure_of(end);
       tell_of_death(*item, failure);
       again_or_failed(*item, failure);
@@ -276,6 +296,7 @@ class Pool {
   std::uint64_t done_ = 0;
   int useless_ = 0;
   HostClock::time_point flushed_ = HostClock::now();
+  std::optional<HostClock::time_point> abandoned_at_;
   std::uint64_t in_flush_ = 0;  ///< points computed when it was
   Tally tally_;
 };

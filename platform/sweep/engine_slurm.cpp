@@ -238,9 +238,9 @@ class Cluster {
     chunk_ = options_.chunk;
     if (chunk_ != 0) return;
     const HostClock::time_point begin = HostClock::now();
-    const Tally tally =
-        run_local(store_, manifest_, {wanted.front()},
-                  {1, "local", options_.points_a_process, warns_on(err_)}, run_, nullptr);
+    const Tally tally = run_local(
+        store_, manifest_, {wanted.front()},
+        {1, "local", options_.points_a_process, warns_on(err_), options_.is_over}, run_, nullptr);
     tally_.interrupted = tally.interrupted;
     const double seconds = std::chrono::duration<double>(HostClock::now() - begin).count();
     chunk_ = static_cast<std::uint32_t>(
@@ -283,7 +283,7 @@ class Cluster {
       const std::size_t left = missing(store_, manifest_, wanted).size();
       if (progress_) progress_(total_ - left);
       if (left == 0) return;
-      if (host::InterruptGuard::noted()) {
+      if (host::InterruptGuard::noted() || (options_.is_over && options_.is_over())) {
         tally_.interrupted = true;
         cancel(job);
         return;

@@ -139,6 +139,19 @@ std::map<std::string, std::string> Manifest::settings(const PlannedPoint& point)
   return set;
 }
 
+std::vector<std::vector<std::string>> Manifest::dimensions() const {
+  std::vector<std::vector<std::string>> found = zipped;
+  const auto is_zipped = [&](const std::string& path) {
+    return std::any_of(zipped.begin(), zipped.end(), [&](const auto& group) {
+      return std::find(group.begin(), group.end(), path) != group.end();
+    });
+  };
+  for (const std::string& path : swept) {
+    if (!is_zipped(path)) found.push_back({path});
+  }
+  return found;
+}
+
 std::string Manifest::identity(const PlannedPoint& point) const {
   return Identities(*this).of(point);
 }
@@ -218,6 +231,7 @@ Json facts_json(const Manifest& manifest) {
   json["input"] = input_json(manifest.input);
   json["sampling"] = manifest.sampling;
   json["swept"] = manifest.swept;
+  if (!manifest.zipped.empty()) json["zipped"] = manifest.zipped;
   if (!manifest.job.empty()) json["job"] = manifest.job;
   json["metrics"] = manifest.metrics;
   json["objectives"] = manifest.objectives;
@@ -278,6 +292,7 @@ Manifest facts_from(const Json& json, const std::string& origin) {
   manifest.input = input_from(json.at("input"));
   manifest.sampling = json.at("sampling").get<std::string>();
   manifest.swept = json.at("swept").get<std::vector<std::string>>();
+  manifest.zipped = json.value("zipped", std::vector<std::vector<std::string>>());
   manifest.job = json.value("job", "");
   manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
   manifest.objectives = json.at("objectives").get<std::vector<std::string>>();

@@ -67,9 +67,10 @@ struct Manifest {
   Json program;        ///< version, revision of markervp
   Json tables;         ///< hashes of the installed data tables
   InputChoice input;
-  std::string sampling;            ///< "grid", "morris", …
+  std::string sampling;            ///< "grid", "morris", …; "search" of `markervp explore`
   std::vector<std::string> swept;  ///< paths in order
-  std::string job;                 ///< see Spec::job; empty: the usual
+  std::vector<std::vector<std::string>> zipped;  ///< of them, those that move together
+  std::string job;                               ///< see Spec::job; empty: the usual
   std::vector<std::string> metrics;
   std::vector<std::string> objectives;
   std::vector<std::string> constraints;  ///< on metrics; those on parameters chose the points
@@ -78,6 +79,8 @@ struct Manifest {
   std::vector<PlannedPoint> points;  ///< without duplicates, in the order of the sweep
   std::vector<KeyedEffect> effects;
 
+  /// The swept paths; those that move together are one entry.
+  std::vector<std::vector<std::string>> dimensions() const;
   /// Everything that decides the point's result, as JSON.
   std::string identity(const PlannedPoint& point) const;
   /// Calls visit(path, value) for its complete effective configuration, sorted by path.

@@ -273,6 +273,10 @@ class Planner {
         }
         group.emplace_back(axis, kind);
       }
+      if (group.size() > 1) {
+        std::vector<std::string>& paths = manifest_.zipped.emplace_back();
+        for (const AxisValues& axis : group) paths.push_back(axis.path());
+      }
       groups_.push_back(std::move(group));
     }
   }

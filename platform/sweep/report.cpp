@@ -4,6 +4,7 @@
 #include <report/console.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
+#include <sweep/sensitivity.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -315,12 +316,11 @@ std::string failures_text(const Results& results, PointLines& lines) {
 std::string sweep_text(const Results& results, std::size_t most_rows) {
   const Manifest& manifest = results.manifest;
   std::string text = (manifest.title.empty() ? manifest.name : manifest.title) + "\n";
-  if (results.rows.empty()) return text;
   PointLines lines(results, most_rows);
   if (results.failed() != results.rows.size())
     text += "\n" + ranked_text(results, objectives_of(results), lines);
   text += failures_text(results, lines);
-  text += "\n" + verdicts_text(results) + "\n";
+  if (!results.rows.empty()) text += "\n" + verdicts_text(results) + "\n";
   if (!manifest.text.empty() && results.missing == 0) {
     text += "\n" + manifest.text;
     if (text.back() != '\n') text += "\n";
@@ -338,13 +338,6 @@ Json objectives_json(const std::vector<Objective>& objectives) {
                     {"unit", unit_of_metric(metric)},
                     {"better", objective.maximise() ? 1 : -1}});
   }
-  return json;
-}
-
-Json effects_json(const Manifest& manifest) {
-  Json json = Json::array();
-  for (const KeyedEffect& effect : manifest.effects)
-    json.push_back({effect.from, effect.to, effect.path, effect.delta});
   return json;
 }
 
@@ -410,7 +403,6 @@ std::string page_block(const Results& results, const std::string& folder, const 
             {"text", results.missing == 0 ? manifest.text : ""},
             {"folder", folder},
             {"swept", manifest.swept},
-            {"effects", effects_json(manifest)},
             {"missing", results.missing},
             {"counts", counts_json(results)},
             {"objectives", objectives_json(objectives)},
@@ -420,6 +412,8 @@ std::string page_block(const Results& results, const std::string& folder, const 
     json["constraints"].push_back(constraint.text());
   for (const Column& column : columns)
     json["metrics"].push_back({{"path", column.text}, {"unit", unit_of_metric(column.text)}});
+  if (!objectives.empty())
+    json["influence"] = sensitivity_json(results, objectives.front().figure());
   if (!steps.is_null()) json["steps"] = steps;
   const std::vector<std::size_t> fronts = fronts_of(results, objectives);
   std::string points;

@@ -1,5 +1,6 @@
 #include <sweep/sensitivity.h>
 
+#include <sweep/comparison.h>
 #include <sweep/metrics.h>
 #include <sweep/report.h>
 #include <sweep/results.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 namespace platform::sweep {
@@ -33,20 +35,17 @@ class Analysis {
     } else if (results_.manifest.sampling == "one-at-a-time") {
       one_at_a_time();
     } else {
-      main_effects();
+      all_else_equal();
     }
     if (report_.rows.empty())
       throw vp::InputError("sensitivity: too few points count for '" + figure_.text() + "': " +
                            verdicts_text(results_) + (all_ ? "" : "; --all takes all that ran"));
-    std::stable_sort(report_.rows.begin(), report_.rows.end(), stronger);
+    std::stable_sort(report_.rows.begin(), report_.rows.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
     return std::move(report_);
   }
 
  private:
-  static bool stronger(const Sensitivity& a, const Sensitivity& b) {
-    return std::max(a.mean_size, a.swing()) > std::max(b.mean_size, b.swing());
-  }
-
   std::optional<double> figure(const std::string& key) const {
     const auto found = rows_.find(key);
     return found == rows_.end() ? std::nullopt : figure(*found->second);
@@ -101,7 +100,8 @@ class Analysis {
       row.deviation = values.size() > 1 ? std::sqrt(squares / (count - 1)) : 0;
       report_.rows.push_back(row);
     }
-    report_.base = mean(points());
+    report_.basis = "Morris' elementary effects, over the whole range of each parameter; mean " +
+                    readable(mean(points()));
   }
 
   void one_at_a_time() {
@@ -113,7 +113,7 @@ class Analysis {
       throw vp::InputError(
           "sensitivity: the base point is not feasible, is not computed yet or has no '" +
           figure_.text() + "'" + (all_ ? "" : "; --all takes all that ran"));
-    report_.base = *base;
+    report_.basis = "each value alone, from the base point; base " + readable(*base);
     std::map<std::string, Sensitivity> rows;
     for (const KeyedEffect& effect : effects) {
       const std::optional<double> value = figure(effect.to);
@@ -129,22 +129,57 @@ class Analysis {
     }
   }
 
-  void main_effects() {
-    report_.method = "main effects";
+  void all_else_equal() {
+    report_.method = "all else equal";
     const Points known = points();
-    report_.base = mean(known);
     report_.skipped = results_.rows.size() - known.size();
-    for (const std::string& path : results_.manifest.swept) {
-      std::map<std::string, std::pair<double, double>> sums;  // value -> sum, count
-      for (const auto& [row, value] : known) {
-        auto& [sum, count] = sums[row->value(path)];
-        sum += value;
-        ++count;
-      }
-      std::map<std::string, Sensitivity> rows;
-      for (const auto& [value, sum] : sums) add(rows, path, sum.first / sum.second, value);
-      for (auto& [unused, row] : rows) report_.rows.push_back(row);
+    std::vector<const ResultRow*> rows;
+    std::unordered_map<const ResultRow*, double> values;
+    for (const auto& [row, value] : known) {
+      rows.push_back(row);
+      values.emplace(row, value);
     }
+    for (const std::vector<std::string>& paths : results_.manifest.dimensions()) {
+      Sensitivity row = compared(comparisons(rows, paths), values, paths);
+      if (row.count == 0) {
+        report_.not_compared.push_back(row.path);
+      } else {
+        report_.rows.push_back(std::move(row));
+      }
+    }
+    if (report_.rows.empty() && known.size() > 1)
+      throw vp::InputError("sensitivity: " + not_compared_text(report_));
+    report_.basis = "all else equal: " +
+                    std::string(results_.manifest.sampling == "search"
+                                    ? "points of a search, compared where they differ "
+                                    : "points, compared where they differ ") +
+                    "in one parameter alone";
+  }
+
+  static Sensitivity compared(const std::vector<Comparison>& comparisons,
+                              const std::unordered_map<const ResultRow*, double>& values,
+                              const std::vector<std::string>& paths) {
+    Sensitivity row;
+    row.path = vp::join(paths, "+");
+    for (const Comparison& comparison : comparisons) {
+      const auto [low, high] = std::minmax_element(
+          comparison.begin(), comparison.end(),
+          [&](const auto* a, const auto* b) { return values.at(a) < values.at(b); });
+      const double from = values.at(*low), to = values.at(*high);
+      row.mean_size += (to - from) / static_cast<double>(comparisons.size());
+      if (row.count++ != 0 && to - from <= row.swing()) continue;
+      row.low = from;
+      row.high = to;
+      row.low_at = values_text(**low, paths);
+      row.high_at = values_text(**high, paths);
+    }
+    return row;
+  }
+
+  static std::string values_text(const ResultRow& row, const std::vector<std::string>& paths) {
+    std::vector<std::string> values;
+    for (const std::string& path : paths) values.push_back(row.value(path));
+    return vp::join(values, " / ");
   }
 
   static std::string swept_text(const ResultRow& row) {
@@ -196,12 +231,30 @@ SensitivityReport sensitivity(const Results& results, const vp::Expression& figu
   return Analysis(results, figure, all).report();
 }
 
+std::string not_compared_text(const SensitivityReport& report) {
+  if (report.not_compared.empty()) return "";
+  return "no two of the points that count differ in one of these alone, so nothing can be said of "
+         "it: " +
+         vp::join(report.not_compared, ", ") +
+         "; 'markervp sensitivity --at FOLDER/points/KEY.json' computes the steps around a point, "
+         "and 'sample: {method: morris}' or 'one-at-a-time' makes a sweep for it";
+}
+
 std::string sensitivity_table(const SensitivityReport& report) {
   if (report.method == "morris") {
     TextTable table({"parameter", "mean size", "mean", "deviation", "effects", ""});
     for (const Sensitivity& row : report.rows)
       table.add({row.path, readable(row.mean_size), readable(row.mean), readable(row.deviation),
                  std::to_string(row.count), bar(row.mean_size, report.rows.front().mean_size)});
+    return table.text();
+  }
+  if (report.method == "all else equal") {
+    TextTable table(
+        {"parameter", "mean change", "comparisons", "the largest: from", "at", "to", "at", ""});
+    for (const Sensitivity& row : report.rows)
+      table.add({row.path, readable(row.mean_size), std::to_string(row.count), readable(row.low),
+                 row.low_at, readable(row.high), row.high_at,
+                 bar(row.mean_size, report.rows.front().mean_size)});
     return table.text();
   }
   TextTable table({"parameter", "swing", "lowest", "at", "highest", "at", ""});
@@ -220,6 +273,27 @@ std::string sensitivity_csv(const std::string& figure, const SensitivityReport& 
                       csv_number(row.low), row.low_at, csv_number(row.high), row.high_at});
   }
   return text;
+}
+
+Json sensitivity_json(const Results& results, const vp::Expression& figure) {
+  Json json{{"metric", figure.text()}, {"basis", ""}, {"rows", Json::array()}, {"note", ""}};
+  try {
+    const SensitivityReport report = sensitivity(results, figure);
+    json["basis"] = report.basis;
+    json["note"] = not_compared_text(report);
+    for (const Sensitivity& row : report.rows) {
+      Json& entry = json["rows"].emplace_back(
+          Json{{"path", row.path}, {"count", row.count}, {"size", row.size()}});
+      if (report.method == "morris") continue;
+      entry["low"] = row.low;
+      entry["low_at"] = row.low_at;
+      entry["high"] = row.high;
+      entry["high_at"] = row.high_at;
+    }
+  } catch (const vp::InputError& error) {
+    json["note"] = error.what();
+  }
+  return json;
 }
 
 namespace {

@@ -85,6 +85,45 @@ BOOST_FIXTURE_TEST_CASE(where_nothing_is_feasible_it_says_what_would_have_to_giv
   BOOST_TEST(contains(kit::read_file(*this / "out/s/manifest.json"), "gives way to"));
 }
 
+BOOST_FIXTURE_TEST_CASE(at_most_means_at_most_where_nothing_is_feasible, Sweeps) {
+  std::string text(space);
+  text.replace(text.find(">= 50"), 5, ">= 900");
+  write("s.yaml", text);
+  const kit::Outcome outcome = run({"explore", "s.yaml", "--points", "16", "--jobs", "2"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(count_points("out/s") == 16u);
+  BOOST_TEST(contains(outcome.out, "The search looked at 16 of 1024 points"), outcome.out);
+  // No time, no point.
+  const kit::Outcome late = run({"explore", "s.yaml", "--time", "1ns", "--output", "late"});
+  BOOST_TEST(late.exit_code == 0, late.err);
+  BOOST_TEST(count_points("late") == 0u);
+  BOOST_TEST(contains(late.out, "ended: its time is up"), late.out);
+}
+
+// The design has no logic for FCLK_CLK1 to clock: whatever the search looks at, it moves no figure.
+BOOST_FIXTURE_TEST_CASE(what_a_design_does_not_use_moves_nothing_after_a_search, Sweeps) {
+  write("s.yaml",
+        "set: {design: ps-only}\n"
+        "parameters:\n"
+        "  ps.fclk_clk1.frequency: [25 MHz, 40 MHz, 50 MHz, 60 MHz]\n"
+        "  ps.cpu_clk.frequency: {start: 300 MHz, stop: 660 MHz, step: 60 MHz}\n"
+        "objectives: [min power.total_w.nominal, max summary.fps.mean]\n"
+        "search: {points: 20, generation: 10}\n");
+  BOOST_TEST_REQUIRE(run({"explore", "s.yaml"}).exit_code == 0);
+  const kit::Outcome outcome = run({"sensitivity", "out/s"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "all else equal: points of a search"), outcome.out);
+  const std::string csv = kit::read_file(*this / "out/s/sensitivity.csv");
+  BOOST_TEST(contains(csv, ",all else equal,ps.cpu_clk.frequency,"), csv);
+  const std::size_t row = csv.find("power.total_w.nominal,all else equal,ps.fclk_clk1.frequency,");
+  BOOST_REQUIRE(row != std::string::npos);
+  const std::string line = csv.substr(row, csv.find('\n', row) - row);
+  // count, mean_size
+  const std::string rest = line.substr(line.find("frequency,") + 10);
+  BOOST_TEST(std::stoi(rest) > 0, line);
+  BOOST_TEST(contains(rest.substr(rest.find(',')), ",0,"), line);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_point_tells_what_each_step_is_worth, Sweeps) {
   write("s.yaml",
         "parameters:\n"

@@ -25,6 +25,7 @@ const blocks = {
   blocks.onePoint = samples.sweep({ points: 1 });
   const best = sweep.points.find((p) => p.front === 1);
   blocks.repeated = { sweep: { ...sweep, points: [...sweep.points, { ...best, key: "feedcafe", front: 0, same_as: "same as 75 MHz" }] } };
+  blocks.notCompared = { sweep: { ...sweep, influence: { ...sweep.influence, rows: [], note: "no two of the points that count differ in one of these alone: profile; 'markervp sensitivity --at FOLDER/points/KEY.json'" } } };
   blocks.noPoint = { sweep: { ...sweep, points: [] } };
   blocks.allFailed = { sweep: { ...sweep, points: sweep.points.map(failed) } };
   blocks.equal = { sweep: { ...sweep, points: sweep.points.map((point) => ({ ...point, metrics: point.metrics.map(() => 5) })) } };
@@ -445,8 +446,6 @@ test("a limit that is dragged or typed holds in all charts", () => open("fastSwe
   const rows = await page.locator("#points table").first().locator("tbody tr").evaluateAll((all) => all.map((row) => Number(row.cells[5].textContent)));
   assert.ok(rows.length > 0 && rows.every((rate) => rate >= least - 0.1));
   assert.match(await page.locator("#space [role=status]").textContent(), /points kept\./);
-  const swing = (await rowsOf(page, "What moves")).flatMap((row) => [Number(row[2]), Number(row[4])]);
-  assert.ok(swing.length > 0 && swing.every((rate) => rate >= least), "only points within the limit count");
   // By keyboard: to the end, where there is no limit.
   await grip.focus();
   await page.keyboard.press("Home");
@@ -536,6 +535,20 @@ test("of three objectives the front is that of all, or of the two shown", () => 
   const ofTwo = frontOf(points, [0, true], [2, false]);
   assert.ok(ofTwo.length < all.length, "the two differ");
   assert.deepEqual(await rates(), sorted(ofTwo));
+}));
+
+test("what moves the objective is as the program compared it, and the page says how", () => open("sweep", async (page) => {
+  const influence = page.locator("#influence");
+  await influence.scrollIntoViewIfNeeded();
+  assert.match(await influence.textContent(), /All else equal: points, compared where they differ in one parameter alone/);
+  assert.match(await influence.locator(".chart-area").getAttribute("aria-label"), /profile: 55.00 \(60.00 at thesis, 125.0 at a9-O2\). pl.blob_detection.label_count: 0$/);
+  assert.doesNotMatch(await influence.textContent(), /nothing can be said/);
+}));
+
+test("where no points can be compared the page says what to run instead", () => open("notCompared", async (page) => {
+  const influence = page.locator("#influence");
+  assert.match(await influence.textContent(), /No two of the points .*sensitivity --at/);
+  assert.equal(await influence.locator(".chart-area").count(), 0);
 }));
 
 test("points that failed are counted, crossed in the map and say why", () => open("sweep", async (page) => {

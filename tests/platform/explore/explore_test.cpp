@@ -21,19 +21,36 @@ parameters:
 search: {points: 400, generation: 20}
 )";
 
-/// A search over `yaml` whose points cost nothing.
+/// The same with other words for its search.
+std::string square_with(const std::string& search) {
+  std::string text(square);
+  return text.replace(text.find("points: 400"), 11, search);
+}
+
+/// A search over `yaml` by a clock on which a point takes a second. Points from `most` on are
+/// interrupted, and so are those that the study's time does not suffice for.
 struct Study {
   using Outcome = sweep::Outcome (*)(const sweep::PlannedPoint&);
 
   explicit Study(const std::string& yaml, Outcome outcome = outcome_of, std::size_t most = 1e9)
       : space(sweep::parse_spec(yaml, "study.yaml"), platform),
-        explorer(space, [=](const auto& positions) {
+        budget(space.spec().search, [this] { return now; }),
+        explorer(space, budget, [=](const auto& positions) {
           std::map<std::size_t, sweep::Outcome> found;
           for (const std::size_t position : positions) {
-            if (position < most) found[position] = outcome(space.manifest().points[position]);
+            if (position >= most || budget.time_is_over()) break;
+            found[position] = outcome(space.manifest().points[position]);
+            ++now;
           }
           return found;
         }) {}
+
+  Answer answer() {
+    return explore::answer(explorer, [] { return true; });
+  }
+  Relaxations relaxations() {
+    return explore::relaxations(explorer, [] { return true; });
+  }
 
   std::vector<std::string> keys() {
     std::vector<std::string> keys;
@@ -43,6 +60,8 @@ struct Study {
 
   sweep::Platform platform = numbers();
   sweep::Space space;
+  double now = 1000;
+  Budget budget;
   Explorer explorer;
 };
 
@@ -147,7 +166,7 @@ BOOST_AUTO_TEST_CASE(without_gain_it_ends) {
 BOOST_AUTO_TEST_CASE(time_ends_it) {
   Study study("parameters: {a: {start: 0, stop: 1000, step: 1}}\nsearch: {time: 1 ns}\n");
   BOOST_TEST((study.explorer.explore() == End::time));
-  BOOST_TEST(study.keys().empty());
+  BOOST_TEST(study.keys().size() == 1u);  // the one in progress
   BOOST_TEST(contains(complaint("parameters: {a: [1, 2]}\nsearch: {time: soon}\n"),
                       "study.yaml:2: 'soon' is no time for a search: write '90 s'"));
 }
@@ -182,11 +201,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_searched_is_told_before_the_first_point) {
 }
 
 BOOST_AUTO_TEST_CASE(of_two_constraints_either_may_give_way) {
-  Study study(std::string(square) +
+  Study study(square_with("points: 1600") +
               "constraints: [summary.fps.mean >= 80, power.total_w.nominal <= 0.25]\n");
   study.explorer.explore();
   BOOST_TEST(study.explorer.front().size() == 0u);
-  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  const Relaxations relaxed = study.relaxations();
+  const std::vector<Relaxation>& found = relaxed.found;
   BOOST_REQUIRE(found.size() == 2u);
   // 0.25 W is a = 500, which gives 50 frames a second; 80 are a = 800, which take 0.64 W.
   BOOST_TEST(found[0].given_up.text() == "summary.fps.mean >= 80");
@@ -196,14 +216,16 @@ BOOST_AUTO_TEST_CASE(of_two_constraints_either_may_give_way) {
   BOOST_TEST(*found[1].row.metrics.find("power.total_w.nominal") == 0.64,
              boost::test_tools::tolerance(0.05));
   BOOST_TEST(*found[1].row.metrics.find("summary.fps.mean") >= 80);
-  const std::string text = text_of(study.explorer, found);
+  const std::string text = text_of(study.explorer, relaxed);
   BOOST_TEST(contains(text, "'summary.fps.mean >= 80' gives way to summary.fps.mean = "), text);
 }
 
 BOOST_AUTO_TEST_CASE(constraints_on_parameters_may_give_way_too) {
-  Study study(std::string(square) + "constraints: [a <= 500, summary.fps.mean >= 80, b != 500]\n");
+  Study study(square_with("points: 1600") +
+              "constraints: [a <= 500, summary.fps.mean >= 80, b != 500]\n");
   study.explorer.explore();
-  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  const Relaxations relaxed = study.relaxations();
+  const std::vector<Relaxation>& found = relaxed.found;
   BOOST_REQUIRE(found.size() == 2u);
   BOOST_TEST(found[0].given_up.text() == "summary.fps.mean >= 80");
   BOOST_TEST(std::stod(found[0].row.value("a")) == 500, boost::test_tools::tolerance(0.05));
@@ -230,9 +252,10 @@ BOOST_AUTO_TEST_CASE(a_part_of_the_verdict_may_give_way) {
     outcome.metrics = sweep::Metrics(std::move(figures));
     return outcome;
   };
-  Study study(std::string(square) + "target_rate: 75 fps\n", slow);
+  Study study(square_with("points: 1600") + "target_rate: 75 fps\n", slow);
   study.explorer.explore();
-  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  const Relaxations relaxed = study.relaxations();
+  const std::vector<Relaxation>& found = relaxed.found;
   BOOST_REQUIRE(found.size() == 2u);
   const bool first = found[0].given_up.text() == "verdict.timing";
   const Relaxation &timing = found[first ? 0 : 1], &rate = found[first ? 1 : 0];
@@ -241,15 +264,99 @@ BOOST_AUTO_TEST_CASE(a_part_of_the_verdict_may_give_way) {
 }
 
 BOOST_AUTO_TEST_CASE(where_one_alone_does_not_help_it_is_said) {
-  Study study(std::string(square) +
+  Study study(square_with("points: 1600") +
               "constraints: [summary.fps.mean >= 180, power.total_w.nominal >= 5]\n");
   study.explorer.explore();
-  const std::vector<Relaxation> found = relaxations(study.explorer, [] { return true; });
+  const Relaxations relaxed = study.relaxations();
+  const std::vector<Relaxation>& found = relaxed.found;
   BOOST_TEST(found.empty());
-  BOOST_TEST(contains(text_of(study.explorer, found), "at least two would have to give way"));
+  BOOST_TEST(contains(text_of(study.explorer, relaxed), "at least two would have to give way"));
   std::size_t asked = 0;
-  relaxations(study.explorer, [&] { return ++asked == 0; });
+  const Relaxations refused = relaxations(study.explorer, [&] { return ++asked == 0; });
   BOOST_TEST(asked == 1u);
+  BOOST_TEST(refused.cut_short);
+  BOOST_TEST(contains(text_of(study.explorer, refused), "more points or time may find one"));
+}
+
+// Nothing is feasible, and five things could give way: all searches share the points.
+BOOST_AUTO_TEST_CASE(no_more_points_than_allowed_are_looked_at) {
+  const std::string hopeless =
+      "parameters:\n  a: {start: 0, stop: 1000, step: 1}\n  b: {start: 0, stop: 1000, step: 1}\n"
+      "constraints: [summary.fps.mean >= 180, power.total_w.nominal >= 5, a >= 100, b >= 100]\n";
+  for (const std::size_t most : {2, 7, 41, 80, 500}) {
+    Study study(hopeless + "search: {points: " + std::to_string(most) + "}\n");
+    const Answer answer = study.answer();
+    BOOST_TEST(study.keys().size() <= most);
+    BOOST_TEST(study.now <= 1000.0 + static_cast<double>(most));
+    BOOST_REQUIRE(answer.relaxations.has_value());
+    BOOST_TEST(answer.relaxations->found.empty());
+    if (most == 80u) {
+      BOOST_TEST((answer.end == End::points));
+      BOOST_TEST(study.keys().size() == most);
+      BOOST_TEST(contains(text_of(study.explorer, *answer.relaxations),
+                          "more points or time may find one"));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(one_deadline_holds_for_all_searches) {
+  const auto with_time = [&](const std::string& time) {
+    return square_with("points: 4000, time: " + time) +
+           "constraints: [summary.fps.mean >= 80, power.total_w.nominal <= 0.1]\n";
+  };
+  Study study(with_time("90 s"));
+  const Answer answer = study.answer();
+  BOOST_TEST(study.now == 1090);
+  BOOST_TEST(study.keys().size() == 90u);
+  BOOST_REQUIRE(answer.relaxations.has_value());
+  BOOST_TEST((answer.end == End::time));
+  BOOST_TEST(answer.relaxations->found.size() == 2u);
+  BOOST_TEST(answer.relaxations->cut_short);
+  BOOST_TEST(contains(text_of(study.explorer, *answer.relaxations), "The budget ended these"));
+  // Time enough: it ends by itself.
+  Study patient(with_time("9000 s"));
+  BOOST_TEST(!patient.answer().relaxations->cut_short);
+  BOOST_TEST(patient.now < 5000);
+  // With feasible points, the whole time is for them.
+  Study feasible(
+      "parameters: {a: {start: 0, stop: 1000, step: 1}}\n"
+      "search: {time: 90 s, generation: 20, patience: 90}\n");
+  BOOST_TEST((feasible.answer().end == End::time));
+  BOOST_TEST(feasible.keys().size() == 90u);
+}
+
+BOOST_AUTO_TEST_CASE(what_nothing_can_give_way_for_takes_the_whole_budget) {
+  const auto idle = [](const sweep::PlannedPoint& point) {
+    sweep::Outcome outcome = outcome_of(point);
+    std::vector<std::pair<std::string, double>> figures;
+    for (std::size_t i = 0; i < outcome.metrics.names().size(); ++i) {
+      const std::string& name = outcome.metrics.names()[i];
+      figures.emplace_back(name, name == "verdict.job.holds" ? 0 : outcome.metrics.values()[i]);
+    }
+    outcome.metrics = sweep::Metrics(std::move(figures));
+    return outcome;
+  };
+  Study study(square_with("points: 50, patience: 99"), idle);
+  const Answer answer = study.answer();
+  BOOST_TEST((answer.end == End::points));
+  BOOST_TEST(study.keys().size() == 50u);
+  BOOST_REQUIRE(answer.relaxations.has_value());
+  BOOST_TEST(contains(text_of(study.explorer, *answer.relaxations), "do not do their job"));
+}
+
+// Of what would have to give way nothing does: the search continues with the point that it found.
+BOOST_AUTO_TEST_CASE(a_feasible_point_that_a_relaxation_finds_is_the_answer) {
+  const std::string rare =
+      square_with("points: 900, patience: 2") +
+      "constraints: [summary.fps.mean >= 99, power.total_w.nominal <= 0.985]\n";
+  Study study(rare);
+  study.explorer.explore();
+  BOOST_REQUIRE(!study.explorer.has_feasible_point());
+  Study whole(rare);
+  const Answer answer = whole.answer();
+  BOOST_TEST(!answer.relaxations.has_value());
+  BOOST_TEST(whole.explorer.front().size() != 0u);
+  BOOST_TEST(whole.keys().size() <= 900u);
 }
 
 BOOST_AUTO_TEST_CASE(an_objective_that_no_point_has_ends_it) {

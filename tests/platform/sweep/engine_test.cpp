@@ -144,6 +144,31 @@ class Platform : public kit::TemporaryFolder {
 
 BOOST_AUTO_TEST_SUITE(local_engine)
 
+// Point 3 is in progress when the time is up, and would never end.
+BOOST_AUTO_TEST_CASE(at_the_deadline_points_in_progress_are_abandoned) {
+  Platform platform(10);
+  const std::string up = platform / "time-is-up";
+  LocalOptions options;
+  options.is_over = [&] { return std::filesystem::exists(up); };
+  const Tally tally = platform.compute(options, [&](int number, int, std::ostream&) {
+    if (number == 3) {
+      kit::write_file(up, "");
+      for (;;) ::pause();
+    }
+    return 0;
+  });
+  BOOST_TEST(tally.interrupted);
+  BOOST_TEST(tally.computed == 3u);
+  BOOST_TEST(tally.abandoned == 1u);
+  BOOST_TEST(platform.entries().size() == 3u);
+  BOOST_TEST(!platform.store().has(platform.key(3)));
+  // Another call computes what is missing.
+  const Tally rest = platform.compute({});
+  BOOST_TEST(rest.computed == 7u);
+  BOOST_TEST(rest.abandoned == 0u);
+  BOOST_TEST(!rest.interrupted);
+}
+
 BOOST_AUTO_TEST_CASE(a_process_computes_some_points) {
   Platform platform(10);
   const Tally tally = platform.compute({1, "local", 4});

@@ -196,52 +196,33 @@ export function heatMap(sweep, selection, open) {
   return h("div", {}, h("div", { class: "controls" }, choice("Figure", "z", sweep.metrics), choice("Across", "x", axes), choice("Up", "y", axes)), holder);
 }
 
-/** How far the mean of a figure moves over each parameter's range, as `markervp sensitivity` counts it. */
-function swings(sweep, selection, metric) {
-  const good = sweep.points.filter(selection.good);
-  return sweep.parameters.map((parameter) => {
-    const groups = new Map();
-    for (const p of good) {
-      const v = metric.of(p);
-      if (!Number.isFinite(v)) continue;
-      const key = parameter.of(p);
-      if (!groups.has(key)) groups.set(key, { text: parameter.text(p), sum: 0, count: 0 });
-      const group = groups.get(key);
-      group.sum += v;
-      group.count += 1;
-    }
-    const means = [...groups.values()].map((g) => ({ text: g.text, mean: g.sum / g.count })).sort((a, b) => a.mean - b.mean);
-    return means.length > 1 ? { parameter, low: means[0], high: means.at(-1) } : null;
-  }).filter(Boolean).sort((a, b) => (a.high.mean - a.low.mean) - (b.high.mean - b.low.mean));
-}
-
-export function tornado(sweep, selection) {
-  const metric = sweep.objectives[0] ?? sweep.fps ?? sweep.metrics[0];
-  if (!metric) return null;
-  let rows = swings(sweep, selection, metric);
-  if (rows.length === 0) return null;
+/** What moves the first objective: the program computed it, by one rule for console and page. */
+export function tornado(sweep) {
+  const { influence } = sweep;
+  if (!influence) return null;
+  const note = influence.note && h("p", { class: "note" }, `${influence.note[0].toUpperCase()}${influence.note.slice(1)}.`);
+  if (influence.rows.length === 0) return note || null;
+  const metric = sweep.objectives.find(({ id }) => id === influence.metric) ?? { name: influence.metric, unit: "", scale: 1 };
+  const scaled = (number) => number * (metric.scale ?? 1);
+  const rows = influence.rows.slice().reverse();
+  const most = (r) => (r.low_at === undefined || r.size === 0 ? "" : `${significant(scaled(r.low), 4)} at ${r.low_at}, ${significant(scaled(r.high), 4)} at ${r.high_at}`);
   const figure = chart({
     name: "tornado", title: `What moves ${sweep.label(metric)}`, height: 44 * rows.length + 70,
-    note: `Mean over all points at the least and the most favourable value of each parameter; only feasible points within the limits count.`,
-    summary: () => rows.slice().reverse().map((r) => `${r.parameter.name}: ${significant(r.low.mean, 4)} at ${r.low.text}, ${significant(r.high.mean, 4)} at ${r.high.text}`).join(". "),
+    note: `${influence.basis[0].toUpperCase()}${influence.basis.slice(1)}. All feasible points count, whatever the limits.`,
+    summary: () => influence.rows.map((r) => `${r.path}: ${significant(scaled(r.size), 4)}${most(r) && ` (${most(r)})`}`).join(". "),
     option: () => {
       const c = palette();
-      rows = swings(sweep, selection, metric);
       return {
         grid: { left: 8, right: 30, top: 8, bottom: 8, containLabel: true },
-        xAxis: axis({ type: "value", scale: true }),
-        yAxis: axis({ type: "category", data: rows.map((r) => r.parameter.name), splitLine: { show: false }, axisLabel: { width: 220, overflow: "truncate" } }),
-        tooltip: { show: true, formatter: (p) => { const r = rows[p.dataIndex]; return `${r.parameter.name}\n${r.low.text}: ${significant(r.low.mean, 4)}\n${r.high.text}: ${significant(r.high.mean, 4)}`; } },
-        series: [{ type: "custom", encode: { x: [1, 2], y: 0 }, data: rows.map((r, i) => [i, r.low.mean, r.high.mean]), renderItem: (_, api) => {
-          const a = api.coord([api.value(1), api.value(0)]), b = api.coord([api.value(2), api.value(0)]);
-          return { type: "rect", shape: { x: a[0], y: a[1] - 8, width: Math.max(2, b[0] - a[0]), height: 16, r: 2 }, style: { fill: c.blue } };
-        } }],
+        xAxis: axis({ type: "value", min: 0 }),
+        yAxis: axis({ type: "category", data: rows.map((r) => r.path), splitLine: { show: false }, axisLabel: { width: 220, overflow: "truncate" } }),
+        tooltip: { show: true, formatter: (p) => { const r = rows[p.dataIndex]; return [r.path, `${significant(scaled(r.size), 4)} ${metric.unit}`, most(r)].filter(Boolean).join("\n"); } },
+        series: [{ type: "bar", barWidth: 16, itemStyle: { color: c.blue, borderRadius: 2 }, data: rows.map((r) => scaled(r.size)) }],
       };
     },
-    table: () => ({ caption: `What moves ${metric.name}`, rows: rows.slice().reverse(), columns: [
-      { title: "Parameter", value: (r) => r.parameter.name }, { title: "Least at", value: (r) => r.low.text }, { title: "Least", number: true, value: (r) => r.low.mean, show: (v) => significant(v, 4) },
-      { title: "Most at", value: (r) => r.high.text }, { title: "Most", number: true, value: (r) => r.high.mean, show: (v) => significant(v, 4) }] }),
+    table: () => ({ caption: `What moves ${metric.name}`, rows: influence.rows, columns: [
+      { title: "Parameter", value: (r) => r.path }, { title: "Change", unit: metric.unit, number: true, value: (r) => scaled(r.size), show: (v) => significant(v, 4) },
+      { title: "From", number: true, value: (r) => r.count }, { title: "Largest", value: most }] }),
   });
-  selection.onChange(() => figure.update());
-  return figure;
+  return h("div", {}, figure, note);
 }

@@ -96,7 +96,7 @@ export function sweepPage(data) {
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, selection, open)), panel,
       section("what-if", "What if?", whatIf(sweep, selection, open, compare)), compare,
-      section("space", "Design space", parallel(sweep, selection)), section("maps", "Map", heatMap(sweep, selection, open)), section("influence", "Influence", tornado(sweep, selection)),
+      section("space", "Design space", parallel(sweep, selection)), section("maps", "Map", heatMap(sweep, selection, open)), section("influence", "Influence", tornado(sweep)),
       section("steps", "What a step is worth", sweep.steps && stepTable(sweep.steps)),
       section("points", "Points", list(selection.good, "Feasible points within the limits, the best first", "points"),
         list((p) => !p.failed && !selection.good(p), "Not feasible, not proven or outside the limits", "not-feasible"), list((p) => p.failed, "Failed", "failed"))],
