@@ -56,7 +56,8 @@ std::uint32_t sum_of(const Cell& cell, const CameraFrame& frame) {
     return sum;
   }
   for (unsigned i = 0; i < samples; ++i) {
-    const Point p = first + (i % 3) * cell.right + (i / 3) * cell.down;
+    const unsigned column = i % 3, row = i / 3;
+    const Point p = first + column * cell.right + row * cell.down;
     const bool inside =
         p.x >= part.left && p.x < part.right && p.y >= part.top && p.y < part.bottom;
     sum +=

@@ -179,7 +179,7 @@ std::vector<std::string> YamlReader::scalars(const YAML::Node& node, const std::
 
 std::string YamlReader::choice(const YAML::Node& node, const std::string& key,
                                const std::vector<std::string>& names) const {
-  const std::string value = scalar(node, key);
+  std::string value = scalar(node, key);
   if (std::find(names.begin(), names.end(), value) != names.end()) return value;
   const std::string nearest = nearest_match(value, names);
   fail(node, "'" + value + "' for '" + key + "': write " + one_of(names) +

@@ -431,22 +431,22 @@ void vp::run_exit_handlers(int code) {
 
 extern "C" {
 
-[[noreturn]] void exit(int code) noexcept {
+void exit(int code) noexcept {
   leave_program("exit", code);
   end("exit", code);
 }
 
-[[noreturn]] void _exit(int code) {
+void _exit(int code) {
   leave_program("_exit", code);
   vp::end_process(code);
 }
 
-[[noreturn]] void _Exit(int code) noexcept {
+void _Exit(int code) noexcept {
   leave_program("_Exit", code);
   vp::end_process(code);
 }
 
-[[noreturn]] void quick_exit(int code) noexcept {
+void quick_exit(int code) noexcept {
   leave_program("quick_exit", code);
   end("quick_exit", code);
 }
@@ -460,7 +460,7 @@ pid_t vfork(void) noexcept {
   return fork_by("vfork");
 }
 
-[[noreturn]] void pthread_exit(void* value) {
+void pthread_exit(void* value) {
   vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::forbidden, "pthread_exit");
   end("pthread_exit", value);
 }

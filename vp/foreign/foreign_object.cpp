@@ -90,7 +90,7 @@ std::string problem_of_file(const ObjectKind& kind, const std::string& path) {
   const auto found = elf_header(file);
   if (!found) return {};
   const Elf64_Ehdr& header = *found;
-  const std::string other_machine = problem_of_machine(kind, header);
+  std::string other_machine = problem_of_machine(kind, header);
   if (!other_machine.empty()) return other_machine;
   std::uint64_t end =
       std::max(header.e_phoff, header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize);

@@ -220,7 +220,7 @@ class ExpressionParser {
   std::string quoted(char quote) {
     const std::size_t end = rest_.find(quote, 1);
     if (end == std::string_view::npos) fail(std::string("a closing ") + quote + " is missing");
-    const std::string text(rest_.substr(1, end - 1));
+    std::string text(rest_.substr(1, end - 1));
     rest_.remove_prefix(end + 1);
     return text;
   }
@@ -262,7 +262,7 @@ class ExpressionParser {
     skip();
     if (rest_.empty() || !starts_name(rest_.front())) return "";
     const std::string_view start = rest_;
-    const std::string word(take_word());
+    std::string word(take_word());
     if (dimension(word)) return word;
     rest_ = start;
     for (const std::string_view other : operators_of_words) {

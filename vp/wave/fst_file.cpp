@@ -118,7 +118,7 @@ void File::read_header() {
     if (order != byte_order) fail("no FST: its header is corrupt", cursor.offset());
   }
   constexpr std::size_t timescale_at = 73;
-  timescale_ = static_cast<signed char>(bytes[timescale_at]);
+  timescale_ = static_cast<std::int8_t>(bytes[timescale_at]);
 }
 
 void File::read_blocks() {

@@ -54,7 +54,7 @@ typedef struct {
 #define XAxiDma_BdRingCntCalc(Alignment, Bytes) \
   (u32)((Bytes) / ((sizeof(XAxiDma_Bd) + ((Alignment)-1)) & ~((Alignment)-1)))
 #define XAxiDma_BdRingMemCalc(Alignment, NumBd) \
-  (u32)((sizeof(XAxiDma_Bd) + ((Alignment)-1)) & ~((Alignment)-1)) * (NumBd)
+  ((u32)((sizeof(XAxiDma_Bd) + ((Alignment)-1)) & ~((Alignment)-1)) * (NumBd))
 
 #define XAxiDma_BdRingGetCnt(RingPtr) ((RingPtr)->AllCnt)
 #define XAxiDma_BdRingGetFreeCnt(RingPtr) ((RingPtr)->FreeCnt)

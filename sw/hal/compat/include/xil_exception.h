@@ -37,6 +37,7 @@ static inline void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionH
 }
 
 static inline void Xil_ExceptionRemoveHandler(u32 Exception_id) {
+  // NOLINTNEXTLINE(modernize-use-nullptr): C programs include this, too
   if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(NULL, NULL);
 }
 
