@@ -50,6 +50,7 @@ TextTable::TextTable(std::vector<std::string> head) {
 }
 
 void TextTable::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = vp::visible(cell);
   rows_.push_back(std::move(row));
 }
 
@@ -316,7 +317,7 @@ std::string failures_text(const Results& results, PointLines& lines) {
 
 std::string sweep_text(const Results& results, std::size_t most_rows) {
   const Manifest& manifest = results.manifest;
-  std::string text = (manifest.title.empty() ? manifest.name : manifest.title) + "\n";
+  std::string text = vp::visible(manifest.title.empty() ? manifest.name : manifest.title) + "\n";
   PointLines lines(results, most_rows);
   if (results.failed() != results.rows.size())
     text += "\n" + ranked_text(results, objectives_of(results), lines);
@@ -328,7 +329,7 @@ std::string sweep_text(const Results& results, std::size_t most_rows) {
     text += "\n" + manifest.text;
     if (text.back() != '\n') text += "\n";
   }
-  return text;
+  return vp::visible_lines(text);
 }
 
 namespace {
