@@ -40,6 +40,7 @@ Json to_json(const ClockReport& report) {
     entry["margin_percent"] = rounded(clock.margin_percent, clock_percent_places);
     entry["within"] = clock.within;
     entry["makeable"] = clock.makeable;
+    entry["used"] = clock.used;
     json["list"].push_back(entry);
   }
   return json;

@@ -409,7 +409,7 @@ std::vector<std::string> power_warnings(const PowerReport& power) {
 std::vector<std::string> clock_warnings(const ClockReport& report) {
   std::vector<std::string> warnings;
   for (const ClockReport::Clock& clock : report.clocks) {
-    if (clock.within) continue;
+    if (clock.within || !clock.used) continue;
     warnings.push_back(fmt::format(
         "{} runs at {}, and an {} allows {} at most ({}, {:.1f} % less): such a chip is not sold{}",
         clock.name, mhz(clock.frequency_mhz), report.device, mhz(clock.limit_mhz),
@@ -422,7 +422,11 @@ std::vector<std::string> clock_warnings(const ClockReport& report) {
 std::string clock_text(const ClockReport& report) {
   std::string text;
   for (const ClockReport::Clock& clock : report.clocks) {
-    if (clock.is_made) continue;
+    if (!clock.used && !clock.within)
+      text +=
+          fmt::format("clock    {} runs at {}, above the {} of an {}: the design does not use it\n",
+                      clock.name, mhz(clock.frequency_mhz), mhz(clock.limit_mhz), report.device);
+    if (clock.is_made || !clock.used) continue;
     const bool made = report.mode == "made";
     std::string others;
     for (const double near : {clock.below_mhz, clock.above_mhz}) {

@@ -132,6 +132,7 @@ struct ClockReport {
     bool within = true;         ///< of the speed grade
     bool makeable = true;       ///< PLLs and dividers give it
     bool external = false;      ///< comes in at a pin: nothing in the chip makes it
+    bool used = true;  ///< of the PL: the design has logic for it; else the verdict ignores it
   };
 
   std::string device;

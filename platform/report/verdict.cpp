@@ -91,6 +91,7 @@ Part clocks(const std::optional<ClockReport>& report) {
   Part part{"clocks"};
   std::vector<std::string> fast, impossible;
   for (const ClockReport::Clock& clock : report->clocks) {
+    if (!clock.used) continue;
     narrow(part, clock.margin_percent, clock.name);
     if (!clock.within) fast.push_back(clock.name);
     if (clock.within && !clock.makeable) impossible.push_back(clock.name);

@@ -1,5 +1,8 @@
 #include <sweep/comparison.h>
 
+#include <report/console.h>
+#include <vp/text.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -48,6 +51,38 @@ std::vector<Comparison> comparisons(const std::vector<const ResultRow*>& rows,
                      [&](const Comparison& comparison) { return !differ(comparison, paths); }),
       found.end());
   return found;
+}
+
+std::vector<IdleParameter> idle_parameters(const Results& results) {
+  std::vector<const ResultRow*> ran;
+  for (const ResultRow& row : results.rows) {
+    if (!row.failed) ran.push_back(&row);
+  }
+  const auto first_like = [&](const ResultRow* row) {
+    return row->same_as.value_or(static_cast<std::size_t>(row - results.rows.data()));
+  };
+  const auto is_equal = [&](const Comparison& comparison) {
+    return std::all_of(comparison.begin(), comparison.end(), [&](const ResultRow* row) {
+      return first_like(row) == first_like(comparison.front());
+    });
+  };
+  std::vector<IdleParameter> idle;
+  for (const std::vector<std::string>& paths : results.manifest.dimensions()) {
+    const std::vector<Comparison> all = comparisons(ran, paths);
+    if (!all.empty() && std::all_of(all.begin(), all.end(), is_equal))
+      idle.push_back({vp::join(paths, "+"), all.size()});
+  }
+  return idle;
+}
+
+std::string idle_text(const std::vector<IdleParameter>& idle) {
+  std::string text;
+  for (const IdleParameter& parameter : idle)
+    text += "'" + parameter.path +
+            "' changes no result: " + report::counted(parameter.comparisons, "comparison") +
+            " of points that differ in it alone" +
+            (parameter.comparisons == 1 ? " shows" : " show") + " equal results.\n";
+  return text;
 }
 
 }  // namespace platform::sweep

@@ -15,4 +15,17 @@ using Comparison = std::vector<const ResultRow*>;
 std::vector<Comparison> comparisons(const std::vector<const ResultRow*>& rows,
                                     const std::vector<std::string>& paths);
 
+/// A swept parameter, or several that move together, that changes no result.
+struct IdleParameter {
+  std::string path;             ///< joined by '+'
+  std::size_t comparisons = 0;  ///< that show it
+};
+
+/// The parameters that change nothing: in every comparison of points that ran, all results are
+/// equal (Repetitions).
+std::vector<IdleParameter> idle_parameters(const Results& results);
+
+/// A sentence for each: "'ps.fclk_clk1.frequency' changes no result: …"; empty if there are none.
+std::string idle_text(const std::vector<IdleParameter>& idle);
+
 }  // namespace platform::sweep

@@ -150,6 +150,15 @@ std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
   return front;
 }
 
+bool is_repetition(const Results& results, const ResultRow& row,
+                   const std::vector<Objective>& objectives) {
+  if (!row.same_as) return false;
+  // Constraints and objectives may be on parameters, in which the two differ.
+  const ResultRow& first = results.rows[*row.same_as];
+  return results.feasible(first) == results.feasible(row) &&
+         figures_of(first, objectives) == figures_of(row, objectives);
+}
+
 Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   Pareto pareto;
   std::vector<const vp::Expression*> expressions;
@@ -168,7 +177,8 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   std::vector<std::vector<double>> figures;
   std::vector<RankedPoint*> ranked;
   for (RankedPoint& point : pareto.points) {
-    if (point.feasible != report::Holds::yes || point.figures.empty() || point.row->same_as)
+    if (point.feasible != report::Holds::yes || point.figures.empty() ||
+        is_repetition(results, *point.row, objectives))
       continue;
     ranked.push_back(&point);
     figures.push_back(std::move(point.figures));

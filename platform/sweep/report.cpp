@@ -2,6 +2,7 @@
 
 #include <page/report_page.h>
 #include <report/console.h>
+#include <sweep/comparison.h>
 #include <sweep/metrics.h>
 #include <sweep/pareto.h>
 #include <sweep/sensitivity.h>
@@ -49,6 +50,7 @@ TextTable::TextTable(std::vector<std::string> head) {
 }
 
 void TextTable::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = vp::visible(cell);
   rows_.push_back(std::move(row));
 }
 
@@ -315,17 +317,19 @@ std::string failures_text(const Results& results, PointLines& lines) {
 
 std::string sweep_text(const Results& results, std::size_t most_rows) {
   const Manifest& manifest = results.manifest;
-  std::string text = (manifest.title.empty() ? manifest.name : manifest.title) + "\n";
+  std::string text = vp::visible(manifest.title.empty() ? manifest.name : manifest.title) + "\n";
   PointLines lines(results, most_rows);
   if (results.failed() != results.rows.size())
     text += "\n" + ranked_text(results, objectives_of(results), lines);
   text += failures_text(results, lines);
   if (!results.rows.empty()) text += "\n" + verdicts_text(results) + "\n";
+  const std::string idle = idle_text(idle_parameters(results));
+  if (!idle.empty()) text += "\n" + idle;
   if (!manifest.text.empty() && results.missing == 0) {
     text += "\n" + manifest.text;
     if (text.back() != '\n') text += "\n";
   }
-  return text;
+  return vp::visible_lines(text);
 }
 
 namespace {
@@ -341,7 +345,8 @@ Json objectives_json(const std::vector<Objective>& objectives) {
   return json;
 }
 
-Json point_json(const Results& results, const ResultRow& row, const std::vector<Column>& columns) {
+Json point_json(const Results& results, const ResultRow& row, const std::vector<Column>& columns,
+                const std::vector<Objective>& objectives) {
   Json json{{"key", row.key}, {"swept", Json::array()}, {"metrics", Json::array()}};
   for (const std::string& path : results.manifest.swept) json["swept"].push_back(row.value(path));
   for (const Column& column : columns) {
@@ -350,7 +355,7 @@ Json point_json(const Results& results, const ResultRow& row, const std::vector<
   }
   json["failed"] = row.failed;
   json["reasons"] = results.reasons(row);
-  if (row.same_as) json["same_as"] = repetition_text(results, row);
+  if (is_repetition(results, row, objectives)) json["same_as"] = repetition_text(results, row);
   return json;
 }
 
@@ -403,6 +408,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
             {"text", results.missing == 0 ? manifest.text : ""},
             {"folder", folder},
             {"swept", manifest.swept},
+            {"idle", idle_text(idle_parameters(results))},
             {"missing", results.missing},
             {"counts", counts_json(results)},
             {"objectives", objectives_json(objectives)},
@@ -418,7 +424,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
   const std::vector<std::size_t> fronts = fronts_of(results, objectives);
   std::string points;
   for (const std::size_t i : page_rows(fronts)) {
-    Json point = point_json(results, results.rows[i], columns);
+    Json point = point_json(results, results.rows[i], columns, objectives);
     point["front"] = fronts[i];
     points += (points.empty() ? "" : ",") + json_text(point);
   }

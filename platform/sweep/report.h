@@ -36,16 +36,16 @@ std::string sweep_text(const Results& results, std::size_t most_rows = 40);
 
 /// The block "sweep" of the page: what sweep_text() says, for all points, and more figures:
 ///
-///   {"name", "title", "text", "folder", "swept": [path…], "influence", "missing",
+///   {"name", "title", "text", "folder", "swept": [path…], "idle", "influence", "missing",
 ///    "counts": {"points", "feasible", "failed"} of the whole sweep, "objectives": [{"metric",
 ///    "unit", "better": 1 or -1}], "constraints": [text…], "metrics": [{"path", "unit"}], "points":
 ///    [{"key", "swept": [value…], "metrics": [number or null…], "failed",
 ///                "reasons": [text…], "same_as": text, "front": 0 for none}]}
 ///
-/// "influence" is what moves the first objective (sensitivity_json). Of more than 20 000 points it
-/// has the first front and every so many of the others. "metrics" of a point that failed are those
-/// until then. `steps` is what one step of each parameter is worth at a point
-/// (sweep::effects_json), or null.
+/// "idle" names the parameters that change nothing (idle_text). "influence" is what moves the first
+/// objective (sensitivity_json). Of more than 20 000 points it has the first front and every so
+/// many of the others. "metrics" of a point that failed are those until then. `steps` is what one
+/// step of each parameter is worth at a point (sweep::effects_json), or null.
 std::string page_block(const Results& results, const std::string& folder,
                        const Json& steps = nullptr);
 

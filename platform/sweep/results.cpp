@@ -50,21 +50,15 @@ bool has(const ResultRow& row, const std::string& name) {
   return row.metrics.find(name) || !row.value(name).empty();
 }
 
-/// Takes what was asked for of the clock "ps.fclk_clk0.frequency" out of the values of a point's
-/// figures, so that they say what it got alone. False if that is no clock.
-bool take_wish(const std::string& path, const Metrics& figures, std::vector<double>& values) {
-  constexpr std::string_view end = ".frequency";
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string::npos || path.compare(dot, std::string::npos, end) != 0) return false;
-  const std::string clock = "clocks.list." + path.substr(0, dot);
-  bool is_clock = false;
-  for (const char* figure : {".wish_mhz", ".offset_percent"}) {
-    const std::size_t place = figures.place_of(clock + figure);
-    if (place == values.size()) continue;
-    values[place] = 0;
-    is_clock = true;
-  }
-  return is_clock;
+constexpr std::string_view of_clocks = "clocks.list.", frequency = ".frequency_mhz";
+
+bool is_of_clock(const std::string& name) {
+  return name.compare(0, of_clocks.size(), of_clocks) == 0;
+}
+
+bool is_frequency(const std::string& name) {
+  return name.size() > frequency.size() &&
+         name.compare(name.size() - frequency.size(), frequency.size(), frequency) == 0;
 }
 
 }  // namespace
@@ -84,23 +78,35 @@ std::string ResultRow::value(const std::string& path) const {
                                                  : "";
 }
 
-std::optional<std::size_t> Repetitions::find(const Assignment& swept, const Metrics& figures,
-                                             std::size_t row) {
-  std::string known_by;
-  std::vector<double> values = figures.values();
-  bool has_wish = false;
-  for (const auto& [path, value] : swept) {
-    if (take_wish(path, figures, values)) {
-      has_wish = true;
-    } else {
-      known_by += value.text() + '\n';
+void Repetitions::look_at(const Metrics& figures) {
+  results_.clear();
+  clocks_.clear();
+  const std::vector<std::string>& names = figures.names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_of_clock(names[i])) {
+      results_.push_back(i);
+    } else if (is_frequency(names[i])) {
+      const std::string clock = names[i].substr(0, names[i].size() - frequency.size());
+      clocks_.emplace_back(i, figures.place_of(clock + ".used"));
     }
   }
-  if (!has_wish) return std::nullopt;
+  names_ = figures;
+}
+
+std::optional<std::size_t> Repetitions::find(const Metrics& figures, std::size_t row) {
+  if (figures.empty()) return std::nullopt;
+  if (!figures.shares_names(names_)) look_at(figures);
+  const std::vector<double>& all = figures.values();
+  std::vector<double> values;
+  values.reserve(all.size());
+  for (const std::size_t place : results_) values.push_back(all[place]);
+  for (const auto& [place, used] : clocks_) {
+    const bool is_idle = used < all.size() && all[used] == 0;
+    values.push_back(is_idle ? 0 : all[place]);
+  }
   const auto* bytes = reinterpret_cast<const char*>(values.data());
-  known_by +=
-      std::to_string(std::hash<std::string_view>()({bytes, values.size() * sizeof(double)}));
-  const auto [known, is_new] = rows_.emplace(std::move(known_by), row);
+  const std::size_t hash = std::hash<std::string_view>()({bytes, values.size() * sizeof(double)});
+  const auto [known, is_new] = rows_.emplace(hash, row);
   return is_new ? std::nullopt : std::optional(known->second);
 }
 
@@ -115,7 +121,7 @@ void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
         from.families[bases_.size()].configuration));
   ResultRow row;
   common_.add(outcome.metrics);
-  row.same_as = repetitions_.find(point.swept, outcome.metrics, rows.size());
+  row.same_as = repetitions_.find(outcome.metrics, rows.size());
   if (selection_) outcome.metrics = selection_->of(outcome.metrics);
   static_cast<Outcome&>(row) = std::move(outcome);
   if (!rows.empty()) row.metrics.share_names(rows.back().metrics);

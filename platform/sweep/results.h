@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <report/verdict.h>
@@ -25,7 +26,7 @@ struct ResultRow : Outcome {
   Assignment changes;
   Word program;
   Word inputs;
-  /// Of a point that an earlier one is, too (Repetitions): the place of that among the rows.
+  /// Of a point with the results of an earlier one (Repetitions): the place of that among the rows.
   std::optional<std::size_t> same_as;
 
   /// The text of a parameter of the effective configuration; null if there is none.
@@ -34,17 +35,23 @@ struct ResultRow : Outcome {
   std::string value(const std::string& path) const;
 };
 
-/// Finds points that were there before: they differ in nothing but wishes of clocks of which the
-/// chip makes the same, so that their results are equal.
+/// Finds points whose results are equal to those of an earlier one: they differ in parameters that
+/// change nothing, in wishes of clocks of which the chip makes the same, or in clocks that nothing
+/// uses. Of a clock the frequency is a result, if the design uses it; the wish is none, nor how the
+/// PLLs make it.
 class Repetitions {
  public:
-  /// The row that a point is, too; `figures` are all that it has. None if it is a new one, which
-  /// becomes that `row`.
-  std::optional<std::size_t> find(const Assignment& swept, const Metrics& figures, std::size_t row);
+  /// The first row with these results; `figures` are all that the point has. None if they are new,
+  /// or if it has none; new ones become those of `row`.
+  std::optional<std::size_t> find(const Metrics& figures, std::size_t row);
 
  private:
-  std::unordered_map<std::string, std::size_t>
-      rows_;  ///< by what decides and results, wishes apart
+  void look_at(const Metrics& figures);
+
+  Metrics names_;                     ///< what the places below are of
+  std::vector<std::size_t> results_;  ///< places of all figures but those of clocks
+  std::vector<std::pair<std::size_t, std::size_t>> clocks_;  ///< of a frequency, and of its "used"
+  std::unordered_map<std::size_t, std::size_t> rows_;        ///< by the hash of the results
 };
 
 /// A sweep's results, in the order of its points.

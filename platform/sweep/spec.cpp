@@ -104,6 +104,7 @@ class Reader : private vp::YamlReader {
         {"target_rate", [&](const YAML::Node& n) { read_rate(n); }},
         {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
+    refuse_controls(root, "");
     for_each(root, keys, "a sweep");
     check_bounds(spec_.constraints);
   }
@@ -115,6 +116,25 @@ class Reader : private vp::YamlReader {
   static constexpr std::size_t most_scenes = 10'000;
   static constexpr const char* usual_scene = "front0";
   static constexpr std::uint64_t most_seed = 1'000'000'000'000;
+
+  /// A text of the study reaches terminals and files: none of it may command them.
+  void refuse_controls(const YAML::Node& node, const std::string& key) {
+    if (node.IsScalar()) {
+      const std::string text(vp::trim(node.Scalar()));
+      const std::string shown = key == "title" ? vp::visible(text) : vp::visible_lines(text);
+      if (shown != text)
+        fail(node, "'" + vp::excerpt(shown) + "' for '" + key +
+                       "' has a control character: write it without");
+    }
+    for (const auto& entry : node) {
+      if (node.IsSequence()) {
+        refuse_controls(entry, key);
+      } else if (node.IsMap() && entry.first.IsScalar()) {
+        refuse_controls(entry.first, key.empty() ? "key" : key);
+        refuse_controls(entry.second, entry.first.Scalar());
+      }
+    }
+  }
 
   void read_program(const YAML::Node& node, const std::string& key) {
     if (!spec_.program.empty()) fail(node, "'system' and 'program' both name the PS program");

@@ -54,7 +54,7 @@ class PortMapReader : private vp::YamlReader {
       port.input = input;
       port.place = where(entry.first);
       for (const PortMap::Port& other : map_.ports) {
-        if (other.ours == port.ours) fail(entry.first, "'" + port.ours + "' stands there twice");
+        if (other.ours == port.ours) fail(entry.first, "'" + port.ours + "' is listed twice");
       }
       if (entry.second.IsMap()) {
         for_each(entry.second,

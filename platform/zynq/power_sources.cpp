@@ -3,12 +3,14 @@
 #include <power/design_estimate.h>
 #include <vp/error.h>
 #include <vp/ip.h>
+#include <vp/systemc_pins.h>
 #include <xilinx/axi_dma/dma_channel.h>
 #include <zynq/design.h>
 #include <zynq/parts.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -438,6 +440,25 @@ ClockReport::Clock judged(const ProcessingSystem& ps, const Use& use) {
   return clock;
 }
 
+/// The clocks that something in the configured PL runs on.
+class UsedClocks {
+ public:
+  UsedClocks(Zynq& zynq, const PowerOptions& options, const std::vector<Part>& parts) {
+    if (!options.pl_design) return;
+    for (const Part& part : parts) clocks_.insert(part.clock);
+    for (const Design::ClockRole& role : zynq.design().clock_roles()) clocks_.insert(role.clock);
+    for (const vp::Clocked* module : vp::all_below<vp::Clocked>(zynq.pl()))
+      clocks_.insert(&module->clock().source());
+    // What foreign modules take from a pin is unknown.
+    all_ = !vp::all_objects<vp::ClockPin>().empty();
+  }
+  bool has(const vp::Clock& clock) const { return all_ || clocks_.count(&clock) != 0; }
+
+ private:
+  std::set<const vp::Clock*> clocks_;
+  bool all_ = false;
+};
+
 /// Of a clock that comes in at a pin.
 ClockReport::Clock judged(const ProcessingSystem& ps, const PowerStates::PlClock& external) {
   const auto hz = static_cast<double>(external.fastest_hz);
@@ -456,24 +477,28 @@ std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options) {
   return static_cast<std::uint64_t>(std::llround(made_ddr(zynq, options).hz));
 }
 
-report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options,
-                                 const PowerStates& states) {
+report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options, const PowerStates& states,
+                                 const std::vector<Part>& parts) {
   ProcessingSystem& ps = zynq.ps;
+  const UsedClocks used(zynq, options, parts);
   ClockReport report;
   report.device = zynq.chip.data.name();
   report.mode = zynq.chip.clocks.text();
-  const auto add = [&](const auto& use) {
+  const auto add = [&](const auto& use, bool is_used = true) {
     report.clocks.push_back(judged(ps, use));
-    report.legal = report.legal && report.clocks.back().within && report.clocks.back().makeable;
+    ClockReport::Clock& clock = report.clocks.back();
+    clock.used = is_used;
+    report.legal = report.legal && (!is_used || (clock.within && clock.makeable));
   };
   const auto add_source = [&](const ClockSource& source, ClockKind kind,
-                              const device::MadeClock& made) {
-    add(Use{source.name(), kind, source.frequency, made, states.fastest_hz(source.clk)});
+                              const device::MadeClock& made, bool is_used = true) {
+    add(Use{source.name(), kind, source.frequency, made, states.fastest_hz(source.clk)}, is_used);
   };
   add_source(ps.cpu_clk, ps.slcr.ratio_621() ? ClockKind::cpu_621 : ClockKind::cpu_421,
              ps.clock_plan().cpu);
   auto made = ps.clock_plan().fclk.begin();
-  for (const auto& [number, source] : ps.fclks()) add_source(*source, ClockKind::fclk, *made++);
+  for (const auto& [number, source] : ps.fclks())
+    add_source(*source, ClockKind::fclk, *made++, used.has(source->clk));
   for (const PowerStates::PlClock& clock : states.pl_clocks()) {
     if (clock.external) add(clock);
   }

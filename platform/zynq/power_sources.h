@@ -120,8 +120,9 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
 /// What the memory clock is: as configured, or what the chip makes of that. Hz.
 std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options);
 
-/// All clocks that have a limit, with the highest frequency that they had.
-report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options,
-                                 const PowerStates& states);
+/// All clocks that have a limit, with the highest frequency that they had. Clocks of the PL that no
+/// part of the design uses are marked so.
+report::ClockReport clock_report(Zynq& zynq, const PowerOptions& options, const PowerStates& states,
+                                 const std::vector<Part>& parts);
 
 }  // namespace platform

@@ -189,7 +189,7 @@ report::ResourceReport ZynqPower::resource_report() const {
 }
 
 report::ClockReport ZynqPower::clock_report() const {
-  return platform::clock_report(zynq_, options, states_);
+  return platform::clock_report(zynq_, options, states_, parts_);
 }
 
 report::TimingReport ZynqPower::timing_report(const TimingClosure& timing) const {

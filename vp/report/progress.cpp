@@ -1,5 +1,6 @@
 #include <unistd.h>
 #include <vp/progress.h>
+#include <vp/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,9 @@ std::string progress_line(const std::string& label, std::uint64_t done, std::uin
   done = std::min(done, total);
   const double fraction = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
   const auto filled = static_cast<std::size_t>(fraction * width);
-  std::string line = label + "  [" + std::string(filled, '#') + std::string(width - filled, '.') +
-                     "]  " + std::to_string(static_cast<int>(fraction * 100)) + " %  " +
+  std::string line = visible(label) + "  [" + std::string(filled, '#') +
+                     std::string(width - filled, '.') + "]  " +
+                     std::to_string(static_cast<int>(fraction * 100)) + " %  " +
                      std::to_string(done) + "/" + std::to_string(total);
   if (done > 0 && done < total)
     line += "  " + readable_duration(seconds * (1.0 / fraction - 1.0)) + " left";

@@ -25,6 +25,7 @@ const blocks = {
   blocks.onePoint = samples.sweep({ points: 1 });
   const best = sweep.points.find((p) => p.front === 1);
   blocks.repeated = { sweep: { ...sweep, points: [...sweep.points, { ...best, key: "feedcafe", front: 0, same_as: "same as 75 MHz" }] } };
+  blocks.idle = { sweep: { ...sweep, idle: "'profile' changes no result: 3 comparisons of points that differ in it alone show equal results.\n" } };
   blocks.notCompared = { sweep: { ...sweep, influence: { ...sweep.influence, rows: [], note: "no two of the points that count differ in one of these alone: profile; 'markervp sensitivity --at FOLDER/points/KEY.json'" } } };
   blocks.noPoint = { sweep: { ...sweep, points: [] } };
   blocks.allFailed = { sweep: { ...sweep, points: sweep.points.map(failed) } };
@@ -544,6 +545,12 @@ test("what moves the objective is as the program compared it, and the page says 
   assert.match(await influence.locator(".chart-area").getAttribute("aria-label"), /profile: 55.00 \(60.00 at thesis, 125.0 at a9-O2\). pl.blob_detection.label_count: 0$/);
   assert.doesNotMatch(await influence.textContent(), /nothing can be said/);
 }));
+
+test("a parameter that changes nothing is named at the top, and nothing is said where all change something", async () => {
+  const text = (page) => page.locator("#verdict").textContent();
+  await open("idle", async (page) => assert.match(await text(page), /'profile' changes no result: 3 comparisons/));
+  await open("sweep", async (page) => assert.doesNotMatch(await text(page), /changes no result/));
+});
 
 test("where no points can be compared the page says what to run instead", () => open("notCompared", async (page) => {
   const influence = page.locator("#influence");

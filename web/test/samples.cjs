@@ -185,7 +185,7 @@ function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
   const paths = ["summary.fps.mean", "summary.latency_us.mean", "power.total_w.nominal", "summary.energy_per_frame_mj", "power.junction_c", "summary.detected", "summary.frames", "resources.total.lut", "resources.total.ff", "resources.total.bram36", "resources.total.dsp", "frames.error.corner_px.mean", "frames.error.translation_mm.mean", "frames.error.rotation_deg.mean"];
   const influence = { metric: "summary.fps.mean", basis: "all else equal: points, compared where they differ in one parameter alone", note: "", rows: [
     { path: "profile", count: 90, size: 55, low: 60, low_at: "thesis", high: 125, high_at: "a9-O2" }, { path: "pl.blob_detection.label_count", count: 45, size: 0, low: 97.5, low_at: "32", high: 97.5, high_at: "32" }] };
-  return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, influence, missing: 3, points: list,
+  return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, idle: "", influence, missing: 3, points: list,
     counts: { points: list.length, feasible: list.filter((p) => p.reasons.length === 0).length, failed: list.filter((p) => p.failed).length },
     metrics: paths.map((path) => ({ path, unit: "" })) } };
 }

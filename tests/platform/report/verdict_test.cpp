@@ -174,6 +174,24 @@ BOOST_AUTO_TEST_CASE(clocks_that_no_chip_has) {
   point.fails("clocks", Holds::no, "no PLL makes ps.fclk_clk0");
 }
 
+BOOST_AUTO_TEST_CASE(a_clock_that_the_design_does_not_use_is_not_impossible) {
+  Point point;
+  ClockReport& report = *point.facts.clocks;
+  report.clocks = {clock("ps.cpu_clk", 5), clock("ps.fclk_clk1", -40)};
+  report.clocks[1].used = false;
+  report.clocks[1].frequency_mhz = 416;
+  report.clocks[1].limit_mhz = 250;
+  BOOST_TEST((point.part("clocks").holds == Holds::yes));
+  BOOST_TEST(point.part("clocks").by == "ps.cpu_clk");
+  BOOST_TEST(clock_warnings(report).empty());
+  BOOST_TEST(clock_text(report) ==
+             "clock    ps.fclk_clk1 runs at 416 MHz, above the 250 MHz of an xc7z010-1: the design "
+             "does not use it\n");
+  report.clocks[1].used = true;
+  BOOST_TEST(clock_warnings(report).size() == 1u);
+  BOOST_TEST(clock_text(report) == "");
+}
+
 BOOST_AUTO_TEST_CASE(timing_is_missed_or_unknown) {
   Point point;
   point.facts.timing = {false, {module("a", 110), module("b", 90, true), module("c", 80, true)}};

@@ -75,6 +75,21 @@ What it teaches.
 )");
 }
 
+// As of a manifest that was received from someone else.
+BOOST_AUTO_TEST_CASE(control_characters_are_shown_and_command_no_terminal) {
+  Results results = example();
+  results.manifest.title = "Clocks\x1b[2J\nof all";
+  results.manifest.text = "It\x1b]0;t\x07 teaches\nin two lines.";
+  results.rows[0].swept = {{"pl.clock", "50\x1b[7m MHz"}, {"same", "1"}};
+  results.rows[4].failure.message = "\u202eit stood";
+  const std::string text = sweep_text(results);
+  BOOST_TEST(contains(text, "Clocks\\x1b[2J\\nof all\n"), text);
+  BOOST_TEST(contains(text, "It\\x1b]0;t\\x07 teaches\nin two lines.\n"), text);
+  BOOST_TEST(contains(text, "50\\x1b[7m MHz"), text);
+  BOOST_TEST(contains(text, "\\u202eit stood"), text);
+  BOOST_TEST(text.find('\x1b') == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(without_a_feasible_point_the_console_says_why) {
   Results results = example();
   results.constraints.emplace_back("power.total_w.nominal < 1.5", "example");

@@ -89,4 +89,17 @@ BOOST_AUTO_TEST_CASE(scenes_are_every_combination_of_their_conditions) {
                       "'scenes' is 'condition: values' lines"));
 }
 
+BOOST_AUTO_TEST_CASE(control_characters_in_a_study_are_refused_with_their_key) {
+  const auto problem = [](const std::string& yaml) {
+    return complaint([&] { parse_spec(yaml, "s.yaml"); });
+  };
+  const std::string rest = "parameters: {a: [1, 2]}\n";
+  BOOST_TEST(contains(problem("title: \"a\\n!touch pwned\"\n" + rest),
+                      "s.yaml:1: 'a\\n!touch pwned' for 'title' has a control character"));
+  BOOST_TEST(contains(problem(rest + "text: \"\\e[2J\"\n"), "s.yaml:2: '\\x1b[2J' for 'text'"));
+  BOOST_TEST(contains(problem("parameters: {a: [1, \"2\\u202e\"]}\n"), "'2\\u202e' for 'a'"));
+  BOOST_TEST(contains(problem("inputs: {\"a\\x7f\": [demo]}\n" + rest), "'a\\x7f' for 'inputs'"));
+  BOOST_TEST(problem("title: Größe µs\ntext: |\n  Two\n  lines.\n" + rest) == "");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

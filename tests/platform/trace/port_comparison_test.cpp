@@ -258,6 +258,8 @@ BOOST_AUTO_TEST_CASE(a_map_that_is_none_is_refused_with_its_line) {
   BOOST_TEST(contains(refused("clock: {ours: clk}\ninputs: {a: b}\noutputs: {c: d}\n"),
                       "ports.yaml:1: 'clock' is '{ours"));
   BOOST_TEST(contains(refused("clock: clk\n"), "'clock' is 'key: value' lines"));
+  BOOST_TEST(contains(refused("clock: {ours: clk, theirs: clk}\ninputs: {a: b}\noutputs: {a: d}\n"),
+                      "ports.yaml:3: 'a' is listed twice"));
   BOOST_TEST(contains(refused("clock: {ours: clk, theirs: clk}\noutputs: {c: d}\n"),
                       "'inputs' is missing"));
   BOOST_TEST(contains(refused("clock: {ours: clk, theirs: clk}\ninputs: {}\n"), "'inputs' is"));

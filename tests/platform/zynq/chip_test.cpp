@@ -106,6 +106,17 @@ BOOST_AUTO_TEST_CASE(a_wish_is_made_as_near_as_the_plls_allow) {
   BOOST_TEST(report::clock_warnings(report).size() == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(clocks_of_a_pl_that_is_not_configured_are_judged_by_nothing) {
+  for (const char* configured : {"true", "false"}) {
+    Platform p(Settings{{"ps.fclk_clk1.frequency", "400 MHz"}, {"power.pl_design", configured}});
+    const bool used = configured == std::string("true");
+    BOOST_TEST(!p.clock("ps.fclk_clk1").within);
+    BOOST_TEST(p.clock("ps.fclk_clk1").used == used);
+    BOOST_TEST(p.clock("ps.cpu_clk").used);
+    BOOST_TEST(p.power->clock_report().legal == !used);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(exact_clocks_are_kept_and_called_impossible) {
   Platform p(Settings{{"ps.fclk_clk1.frequency", "74.2512 MHz"}, {"clocks", "exact"}});
   const auto pixel = p.clock("ps.fclk_clk1");

@@ -26,4 +26,9 @@ BOOST_AUTO_TEST_CASE(nothing_to_do_and_too_much_done_are_complete) {
              "a  [##############################]  100 %  4/4");
 }
 
+BOOST_AUTO_TEST_CASE(a_label_commands_no_terminal) {
+  const std::string line = vp::progress_line("a\x1b[2J\nb", 1, 2, 1);
+  BOOST_TEST(line.find("a\\x1b[2J\\nb  [") == 0u, line);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -50,6 +50,7 @@ function verdict(sweep) {
       failed > 0 && h("li", { class: "bad" }, `${fixed(failed, 0)} failed`),
       sweep.missing > 0 && h("li", { class: "bad" }, `${fixed(sweep.missing, 0)} not computed yet`)),
     all > sweep.points.length && h("p", { class: "note", style: { margin: "0 0 14px" } }, `This page has ${fixed(sweep.points.length, 0)} of ${counted(all, "point")}: the Pareto front, and of the others every so many. sweep.csv and sweep.sqlite have all.`),
+    sweep.idle && h("p", { class: "note", style: { margin: "0 0 14px" } }, sweep.idle.trim()),
     sweep.constraints.length > 0 && h("p", { class: "note", style: { margin: "0 0 14px" } }, `A point must have ${sweep.constraints.join(" and ")}.`),
     h("dl", { class: "tiles" }, sweep.objectives.map(tile)));
 }
