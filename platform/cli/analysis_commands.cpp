@@ -113,14 +113,14 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
   std::string csv;
   for (const vp::Expression& figure : figures) {
     const sweep::SensitivityReport report = sweep::sensitivity(results, figure, options.all);
-    out << figure.text() << "   (" << report.basis << ")\n\n"
+    out << vp::visible(figure.text()) << "   (" << report.basis << ")\n\n"
         << sweep::sensitivity_table(report) << "\n";
     if (!report.not_compared.empty())
-      err << "markervp: warning: " << sweep::not_compared_text(report) << std::endl;
+      err << "markervp: warning: " << vp::visible(sweep::not_compared_text(report)) << std::endl;
     if (report.skipped != 0)
       err << "markervp: warning: "
           << report::counted(report.skipped, report.method == "all else equal" ? "point" : "effect")
-          << " left out of '" << figure.text() << "': a point failed, is missing, "
+          << " left out of '" << vp::visible(figure.text()) << "': a point failed, is missing, "
           << (options.all ? "" : "is not feasible (--all takes those) ") << "or has no value of it"
           << std::endl;
     const std::string lines = sweep::sensitivity_csv(figure.text(), report);

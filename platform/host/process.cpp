@@ -46,8 +46,8 @@ std::string one_line(std::string text) {
            " characters ...] " + text.substr(text.size() - part);
   }
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, ' ');
-  return text;
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return vp::visible(text);
 }
 
 void end_as_the_system_does(int signal) {
