@@ -180,7 +180,7 @@ def _metrics(result):
 
 
 class Sweep:
-    """What stands in the folder of a sweep or a search. `points` are dictionaries: key, status, message, feasible, same_as
+    """What is in the folder of a sweep or a search. `points` are dictionaries: key, status, message, feasible, same_as
     (the key of the point that it is, too), the swept parameters as they were written, and the metrics that the study asks for as
     numbers, or None."""
 
@@ -298,7 +298,7 @@ def explore(study, output=None, options=()):
 
 
 def read_sweep(folder):
-    """What stands in the folder of a sweep or a search that was made before."""
+    """What is in the folder of a sweep or a search that was made before."""
     return Sweep(folder)
 
 
@@ -332,9 +332,9 @@ class _ScratchFolder:
 class Session:
     """A run that a test leads: it lets time pass or waits, reads and writes from outside, and looks at what came of it.
 
-    Simulated time stands while the test thinks, so that the same test always sees the same. Times are texts ("5 ms") or
+    Simulated time stops while the test thinks, so that the same test always sees the same. Times are texts ("5 ms") or
     numbers, s. Registers and addresses are named as `markervp map` does: "axi_gpio_0.GPIO_DATA", "ddr+0x1000", 0x41200000;
-    signals as in a trace: "ps.gic.n_irq". What the platform refuses is a markervp.Error, and the run goes on.
+    signals as in a trace: "ps.gic.n_irq". What the platform refuses is a markervp.Error, and the run continues.
 
     `wall_time`, s: the longest that a command may take on this computer; the run is killed then.
     """
@@ -463,7 +463,7 @@ class Session:
         """Gives words to a stream source of the design, "pl.source": one a clock from now on, after those that wait there.
         TLAST comes with the last of them, unless `last` is False."""
         words = list(words)
-        part = 1 << 16  # of what a command may hold; simulated time stands between two of them
+        part = 1 << 16  # of what a command may hold; simulated time stops between two of them
         for first in range(0, max(len(words), 1), part):
             ends = first + part >= len(words)
             self._ask("send", name=source, words=words[first:first + part], last=int(last and ends))

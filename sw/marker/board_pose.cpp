@@ -339,8 +339,8 @@ Places single_marker(double side) {
 bool GridBoard::find(std::uint32_t id, Places& places) const {
   if (id < first_id || id - first_id >= columns * rows) return false;
   const std::uint32_t index = id - first_id;
-  const std::uint32_t column = index % columns, row = index / columns;
-  places = square_at(column * (side + gap), row * (side + gap), side);
+  places = square_at(index % columns * (side + gap),
+                     static_cast<double>(index / columns) * (side + gap), side);
   return true;
 }
 

@@ -56,8 +56,7 @@ std::uint32_t sum_of(const Cell& cell, const CameraFrame& frame) {
     return sum;
   }
   for (unsigned i = 0; i < samples; ++i) {
-    const unsigned column = i % 3, row = i / 3;
-    const Point p = first + column * cell.right + row * cell.down;
+    const Point p = first + (i % 3) * cell.right + static_cast<double>(i / 3) * cell.down;
     const bool inside =
         p.x >= part.left && p.x < part.right && p.y >= part.top && p.y < part.bottom;
     sum +=

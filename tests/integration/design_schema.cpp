@@ -178,6 +178,7 @@ class Checker {
       for (const char* key : {"margin_percent", "offset_percent"}) signed_number(clock, key);
       truth(clock, "within");
       truth(clock, "makeable");
+      truth(clock, "used");
     }
   }
 

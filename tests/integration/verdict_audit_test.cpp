@@ -147,6 +147,7 @@ class Auditor {
   Part clocks(const Json& clocks, const Json& grade, double crystal) const {
     Part part;
     for (const Json& clock : clocks["list"]) {
+      if (!clock["used"]) continue;  // check_used() knows better
       const std::string name = clock["name"];
       const char* kind = name == "ps.cpu_clk"  ? "cpu_621_mhz"
                          : name == "power.ddr" ? "ddr_mhz"
@@ -239,6 +240,16 @@ struct Seen {
   Json feasible, device;  ///< a result with a PL, and of which device
 };
 
+/// A clock that a module of the PL runs on is used, as are those of the PS.
+void check_used(const Json& result) {
+  std::set<std::string> used{"ps.cpu_clk", "power.ddr"};
+  for (const Json& module : result["timing"]["modules"]) used.insert(module["clock"]);
+  for (const Json& clock : result["clocks"]["list"]) {
+    const std::string name = clock["name"];
+    BOOST_TEST((clock["used"] || used.count(name) == 0), name << " is used");
+  }
+}
+
 void audit(const Auditor& auditor, const Json& point, Seen& seen) {
   const Json& outcome = point["outcome"];
   if (!outcome.contains("result")) {
@@ -264,6 +275,7 @@ void audit(const Auditor& auditor, const Json& point, Seen& seen) {
     ++seen.parts[name][part.holds];
   }
   BOOST_TEST(verdict["feasible"] == worst);
+  check_used(result);
   check_rate(result);
   if (result.contains("camera")) ++(result["camera"]["dropped"] == 0 ? seen.kept_up : seen.dropped);
   check_fmax(result["timing"], device);
