@@ -104,7 +104,10 @@ std::vector<std::pair<std::string, Picture>> pictures(int w, int h) {
   add("dark_majority", 0).fill([h](int, int y) { return y < h * 45 / 100 ? 30 : 70; });
   add("bright_majority", 0).fill([h](int, int y) { return y < h * 45 / 100 ? 200 : 240; });
   add("edges", 200).fill([w](int x, int y) { return touches_edge(x, y, w) ? 20 : 200; });
-  add("comb", 200).fill([&](int x, int y) { return x % 4 < 2 && y >= h * 5 / 8 ? 20 : 200; });
+  // The tooth at the left edge begins when the others have taken all labels.
+  add("comb", 200).fill([&](int x, int y) {
+    return x % 4 < 2 && y >= h * 5 / 8 + (x < 2 ? 2 : 0) ? 20 : 200;
+  });
   add("checkerboard", 0).fill([](int x, int y) { return (x + y) % 2 != 0 ? 230 : 25; });
   add("dots", 210);
   for (int i = 0; i < w * h / 60; ++i) {

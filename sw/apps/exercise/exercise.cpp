@@ -170,8 +170,9 @@ class Exercise {
       take_results(result_bytes());
       const hal_poll_result poll = features_.poll_until_changed(last, 8, 4);
       last = poll.value;
+      if (!poll.changed) continue;  // the end of the frame before may still be there
       if (last == marker_logic::WordFormat::end_of_frame) return;
-      if (poll.changed) acknowledge();
+      acknowledge();
     }
   }
 
