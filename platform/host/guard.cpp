@@ -149,8 +149,8 @@ void Guard::watch(const Become& become, const std::string& folder, int theirs) c
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   std::signal(SIGCHLD, SIG_DFL);
+  Note first{};
   if (become) {
-    Note first{};
     first.process = start(become, first.status);
     static_cast<void>(::send(theirs, &first, sizeof first, MSG_NOSIGNAL));
   }
@@ -168,7 +168,7 @@ void Guard::watch(const Become& become, const std::string& folder, int theirs) c
   }
   end_tree();
   std::error_code none;
-  if (!folder.empty()) fs::remove_all(folder, none);
+  if (!folder.empty() && first.status == 0) fs::remove_all(folder, none);
   leave();
 }
 
@@ -194,6 +194,19 @@ int ProcessTree::wait() {
     if (note->process == first_) return note->status;
   }
   return SIGKILL;  // with its guard
+}
+
+// The guard's own child makes it, so there is no moment at which it has no guard.
+ScratchLink::ScratchLink(const std::string& target, const std::string& path)
+    : Guard(
+          [&] {
+            if (::symlink(target.c_str(), path.c_str()) != 0) return errno;
+            leave();
+          },
+          path) {
+  const std::optional<Note> made = next_note(true);
+  const int error = made ? made->status : ECHILD;
+  if (error != 0) throw std::system_error(error, std::generic_category(), "no link");
 }
 
 ScratchFolder::ScratchFolder(const std::string& name) {

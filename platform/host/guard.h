@@ -17,8 +17,8 @@ class Guard {
   /// ignored. Returns errno if that fails.
   using Become = std::function<int()>;
 
-  /// Starts a command if there is one; `folder` may be empty. Throws std::system_error if the host
-  /// has no process left, or for what `become` returns.
+  /// Starts a command if there is one; `folder` may be empty, and stays if the command does not
+  /// start. Throws std::system_error if the host has no process left, or for what `become` returns.
   Guard(const Become& become, const std::string& folder);
   ~Guard();
   Guard(const Guard&) = delete;
@@ -60,6 +60,13 @@ class ProcessTree : private Guard {
 
  private:
   pid_t first_ = 0;
+};
+
+/// A symbolic link that outlives neither this object nor this process.
+class ScratchLink : private Guard {
+ public:
+  /// Throws std::system_error; std::errc::file_exists if `path` is taken, which then stays.
+  ScratchLink(const std::string& target, const std::string& path);
 };
 
 /// A new folder for temporary files, in $TMPDIR. It outlives neither this object nor this process.

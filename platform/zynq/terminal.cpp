@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include <vp/error.h>
 #include <vp/file.h>
@@ -53,7 +54,6 @@ Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptio
   try {
     link();
   } catch (...) {
-    if (linked_) unlink(options_.link.c_str());
     close(line_);
     close(terminal_);
     throw;
@@ -63,7 +63,7 @@ Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptio
 }
 
 Terminal::~Terminal() {
-  link_guard_.reset();
+  link_.reset();
   close(line_);
   close(terminal_);
 }
@@ -87,20 +87,18 @@ void Terminal::open() {
 
 void Terminal::link() {
   if (options_.link.empty()) return;
-  linked_ = symlink(path_.c_str(), options_.link.c_str()) == 0;
-  const int error = errno;
-  if (linked_) {
-    link_guard_.emplace(host::Guard::Become(), options_.link);
-    return;
+  try {
+    link_.emplace(path_, options_.link);
+  } catch (const std::system_error& error) {
+    const bool exists = error.code() == std::errc::file_exists;
+    throw vp::InputError("--terminal " + options_.uart + ": cannot make the link '" +
+                         options_.link + "': " + error.code().message() +
+                         (exists ? ": if another run has it, give this one another name" : ""));
   }
-  throw vp::InputError(
-      "--terminal " + options_.uart + ": cannot make the link '" + options_.link +
-      "': " + std::strerror(error) +
-      (error == EEXIST ? ": if another run has it, give this one another name" : ""));
 }
 
 std::string Terminal::introduction() const {
-  return options_.uart + " is the terminal " + path_ + (linked_ ? ", " + options_.link : "");
+  return options_.uart + " is the terminal " + path_ + (link_ ? ", " + options_.link : "");
 }
 
 void Terminal::serve() {

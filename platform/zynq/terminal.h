@@ -52,8 +52,7 @@ class Terminal final : public sc_core::sc_module {
   std::string path_;
   int line_ = -1;      ///< this end
   int terminal_ = -1;  ///< the other one: open, so that the line stays when whoever reads it leaves
-  bool linked_ = false;
-  std::optional<host::Guard> link_guard_;  ///< removes the link, even of a killed run
+  std::optional<host::ScratchLink> link_;
   std::chrono::steady_clock::time_point started_;
 };
 

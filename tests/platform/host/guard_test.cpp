@@ -124,6 +124,24 @@ BOOST_AUTO_TEST_CASE(a_scratch_folder_goes_with_its_object) {
 }
 
 /// Whatever ends a process, even what it cannot see.
+BOOST_AUTO_TEST_CASE(a_scratch_link_goes_with_its_object_and_takes_no_name) {
+  const kit::TemporaryFolder folder;
+  const std::string path = folder / "link";
+  {
+    const platform::host::ScratchLink link("target", path);
+    BOOST_TEST(std::filesystem::read_symlink(path) == "target");
+    BOOST_CHECK_EXCEPTION(
+        platform::host::ScratchLink("other", path), std::system_error,
+        [](const std::system_error& error) { return error.code() == std::errc::file_exists; });
+    BOOST_TEST(std::filesystem::read_symlink(path) == "target");
+  }
+  BOOST_TEST(!std::filesystem::is_symlink(path));
+  BOOST_CHECK_EXCEPTION(platform::host::ScratchLink("target", folder / "none/link"),
+                        std::system_error, [](const std::system_error& error) {
+                          return error.code() == std::errc::no_such_file_or_directory;
+                        });
+}
+
 BOOST_AUTO_TEST_CASE(nothing_outlives_the_process) {
   for (const int signal : {SIGKILL, SIGINT, SIGTERM, SIGHUP, SIGSEGV}) {
     const std::string name = "tree" + std::to_string(signal);
