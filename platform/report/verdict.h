@@ -35,9 +35,9 @@ struct Verdict {
   ///        such frames, less 100 %.
   /// "fits": LUT, flip-flops, block memories and DSP of the device; unknown where those of a part
   ///         are, unless the others alone are too many.
-  /// "clocks": CPU and DDR, and those FCLK that the design uses,
-  ///           are within the speed grade,
-  ///           and PLLs and dividers make them.
+  /// "clocks": CPU and DDR, and those FCLK that the design uses, are within the speed grade, and
+  ///           PLLs and dividers make them. A clock that nothing uses fails nothing: the console
+  ///           notes it.
   /// "timing": no IP is clocked above its Fmax; unknown inside the range where that lies.
   std::vector<Part> parts;
 

@@ -25,7 +25,8 @@ struct IdleParameter {
 /// equal (Repetitions).
 std::vector<IdleParameter> idle_parameters(const Results& results);
 
-/// A sentence for each: "'ps.fclk_clk1.frequency' changes no result: …"; empty if there are none.
+/// A sentence for each: "'ps.fclk_clk1.frequency' changes no result: …"; empty without such
+/// parameters.
 std::string idle_text(const std::vector<IdleParameter>& idle);
 
 }  // namespace platform::sweep

@@ -43,7 +43,7 @@ struct Pareto {
   std::map<std::string, std::uint64_t> lacking;
 };
 
-/// Whether an earlier point stands for this one: results, verdict and objectives are equal.
+/// Whether it repeats an earlier point: results, verdict and objectives are equal.
 bool is_repetition(const Results& results, const ResultRow& row,
                    const std::vector<Objective>& objectives);
 
@@ -51,7 +51,7 @@ bool is_repetition(const Results& results, const ResultRow& row,
 /// better in one. The knee is the point of the first front nearest to the best value of every
 /// objective, each objective scaled to 0 … 1 over that front; a front of two has none. A point
 /// without a metric of an objective cannot be compared and is not ranked. Points that are not
-/// feasible are on no front, nor is one that an earlier one stands for.
+/// feasible are on no front, nor is one that repeats an earlier one.
 Pareto rank(const Results& results, const std::vector<Objective>& objectives);
 
 /// Of a study that names none: frame rate and power.

@@ -37,7 +37,7 @@ struct ResultRow : Outcome {
 
 /// Finds points whose results are equal to those of an earlier one: they differ in parameters that
 /// change nothing, in wishes of clocks of which the chip makes the same, or in clocks that nothing
-/// uses. Of a clock the frequency is a result, if the design uses it; the wish is none, nor how the
+/// uses. Of a clock that the design uses the frequency is a result; the wish is not, nor how the
 /// PLLs make it.
 class Repetitions {
  public:

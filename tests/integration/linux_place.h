@@ -17,7 +17,7 @@ struct LinuxPlace : Workplace {
   LinuxPlace() {
     std::filesystem::create_directory(*this / "tmp");
     ::setenv("TMPDIR", (*this / "tmp").c_str(), 1);
-    // What stands still holds what it has.
+    // A frozen program keeps its memory, which is no leak.
     ::setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
   }
   ~LinuxPlace() {

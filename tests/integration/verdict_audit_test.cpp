@@ -147,7 +147,7 @@ class Auditor {
   Part clocks(const Json& clocks, const Json& grade, double crystal) const {
     Part part;
     for (const Json& clock : clocks["list"]) {
-      if (!clock["used"]) continue;  // check_used() knows better
+      if (!clock["used"]) continue;  // check_used() audits that
       const std::string name = clock["name"];
       const char* kind = name == "ps.cpu_clk"  ? "cpu_621_mhz"
                          : name == "power.ddr" ? "ddr_mhz"

@@ -42,7 +42,7 @@ void write(const std::string& file) {
 
 BOOST_AUTO_TEST_SUITE(fst)
 
-// Which change is none follows from the value that the file has, however it came there.
+// Whether a value is a change depends on what the file holds, however it was written.
 BOOST_AUTO_TEST_CASE(values_of_bits_follow_those_of_digits) {
   const kit::TemporaryFolder folder;
   for (const char* name : {"t.vcd", "t.fst"}) {

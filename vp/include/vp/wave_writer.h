@@ -119,7 +119,7 @@ class VcdWriter final : public WaveWriter {
     bool scalar;
     bool real;
     bool text;
-    bool in_digits;  ///< the value is none of bits, or there is none yet: `last` is not it
+    bool in_digits;  ///< the value is not of bits, or not known yet: `last` is not it
   };
 
   void begin_dump(std::uint64_t ps, std::size_t values);
