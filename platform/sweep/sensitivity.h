@@ -50,8 +50,8 @@ struct SensitivityReport {
 /// mix what the other parameters do into it. So only points are compared that differ in one
 /// parameter alone (or in those that move together), and a comparison's change is between the
 /// lowest and the highest of them. Throws vp::InputError, which says what to run instead, where
-/// no points are so; also for a metric that no point has. `all`: points that ran count even if they are
-/// not feasible.
+/// no points are so; also for a metric that no point has. `all`: points that ran count even if they
+/// are not feasible.
 SensitivityReport sensitivity(const Results& results, const vp::Expression& figure,
                               bool all = false);
 
