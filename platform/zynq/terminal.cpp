@@ -93,7 +93,8 @@ void Terminal::link() {
     const bool exists = error.code() == std::errc::file_exists;
     throw vp::InputError("--terminal " + options_.uart + ": cannot make the link '" +
                          options_.link + "': " + error.code().message() +
-                         (exists ? ": if another run has it, give this one another name" : ""));
+                         (exists ? ": if another run has it, give this one another name"
+                                 : vp::advice_for(error.code().value())));
   }
 }
 
