@@ -3,7 +3,7 @@
 //   --mode=scalar the same in plain C++: without SIMD
 //   --mode=naive  pixel by pixel
 #include <pl/common/simd_target.h>
-#include <scene/pose.h>
+#include <marker/scene/pose.h>
 
 #include <stdexcept>
 

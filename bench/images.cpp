@@ -1,7 +1,7 @@
 #include "images.h"
 
-#include <scene/renderer.h>
-#include <scene/scene.h>
+#include <marker/scene/renderer.h>
+#include <marker/scene/scene.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <pl/common/simd_target.h>
 #include <pl/corner_detection/core.h>
 #include <pl/global_threshold/core.h>
-#include <scene/renderer.h>
-#include <scene/scene.h>
+#include <marker/scene/renderer.h>
+#include <marker/scene/scene.h>
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <sweep/manifest.h>
-#include <sweep/run_log.h>
+#include <study/manifest.h>
+#include <study/run_log.h>
 
 /// libsystemc refers to it.
 extern "C" int sc_main(int, char**) {
@@ -13,7 +13,8 @@ extern "C" int sc_main(int, char**) {
 
 namespace {
 
-using namespace platform::sweep;
+using namespace platform::study;
+namespace result = platform::result;
 
 /// The figures of a run, moved a little: a hundred of some four hundred, as of points that differ
 /// in their clocks.

@@ -9,8 +9,8 @@
 
 #include <cli/commands.h>
 #include <cli/sweep_command.h>
-#include <sweep/engine.h>
-#include <sweep/store.h>
+#include <study/engine.h>
+#include <study/store.h>
 #include <vp/ip.h>
 
 /// libsystemc refers to it.
@@ -30,25 +30,25 @@ double cpu_seconds() {
 
 /// Runs all points of the sweep, one after another in this process. `run` takes its point.
 template <class Run>
-double seconds_a_point(const sweep::Manifest& manifest, const Run& run) {
+double seconds_a_point(const study::Manifest& manifest, const Run& run) {
   const double begin = cpu_seconds();
-  for (const sweep::PlannedPoint& point : manifest.points) {
-    if (run(sweep::run_of(manifest, point)) != 0) throw std::runtime_error("a point failed");
+  for (const study::PlannedPoint& point : manifest.points) {
+    if (run(study::run_of(manifest, point)) != 0) throw std::runtime_error("a point failed");
   }
   return (cpu_seconds() - begin) / static_cast<double>(manifest.points.size());
 }
 
 void measure(const std::string& folder, const std::string& output) {
-  const sweep::Manifest manifest = sweep::Store(folder).read_manifest();
+  const study::Manifest manifest = study::Store(folder).read_manifest();
   std::vector<std::size_t> all(manifest.points.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   cli::warm_up(manifest, all);
   std::ostringstream said;
-  const double bare = seconds_a_point(manifest, [&](const sweep::PointRun& run) {
-    sweep::PointResult result;
+  const double bare = seconds_a_point(manifest, [&](const study::PointRun& run) {
+    study::PointResult result;
     return cli::run_point(run, result, said);
   });
-  const double written = seconds_a_point(manifest, [&](const sweep::PointRun& run) {
+  const double written = seconds_a_point(manifest, [&](const study::PointRun& run) {
     cli::RunOptions options = cli::options_of(run);
     options.output = output;
     options.no_pictures = options.no_report = options.quiet = true;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-#include <run/simulation.h>
+#include <chip/run/simulation.h>
 #include <vp/configuration.h>
 #include <cstring>
 #include <memory>
@@ -27,7 +27,7 @@ namespace {
 using platform::Simulation;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 vp::Configuration configuration_of(const bench::Arguments& arguments) {
   vp::Configuration configuration;

@@ -12,7 +12,7 @@
 #include <host/document.h>
 #include <host/output_folder.h>
 #include <host/process.h>
-#include <report/result_json.h>
+#include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -35,11 +35,11 @@ namespace fs = std::filesystem;
 /// Of the run in `folder`. What it wrote beside its folder is left out.
 RunOptions options_of(const std::string& folder) {
   const fs::path file = fs::path(folder) / "result.json";
-  const report::Json result = host::read_json<report::Json>(file, "result", host::largest_result);
+  const result::Json result = host::read_json<result::Json>(file, "result", host::largest_result);
   std::vector<std::string> arguments;
   try {
     result.at("provenance").at("command_line").get_to(arguments);
-  } catch (const report::Json::exception&) {
+  } catch (const result::Json::exception&) {
   }
   if (arguments.empty() || arguments.front() != "run")
     throw vp::InputError("'" + file.string() + "' is not of 'markervp run'");

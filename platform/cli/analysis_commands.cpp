@@ -2,14 +2,14 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <page/report_page.h>
-#include <report/console.h>
-#include <sweep/compare.h>
-#include <sweep/metrics.h>
-#include <sweep/pareto.h>
-#include <sweep/report.h>
-#include <sweep/results.h>
-#include <sweep/sensitivity.h>
+#include <result/console.h>
+#include <result/metrics.h>
+#include <result/page/report_page.h>
+#include <study/compare.h>
+#include <study/pareto.h>
+#include <study/report.h>
+#include <study/results.h>
+#include <study/sensitivity.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -22,25 +22,25 @@ namespace platform::cli {
 namespace {
 
 /// The results of a sweep's folder, which must exist, with the figures that are asked for.
-sweep::Results results_of(const std::string& folder, const std::vector<vp::Expression>& figures,
+study::Results results_of(const std::string& folder, const std::vector<vp::Expression>& figures,
                           std::ostream& err) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
     throw vp::InputError("there is no folder '" + folder + "': run a sweep first");
   if (!std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored))
     throw vp::InputError("'" + folder + "' is no folder of a sweep: it has no manifest.json");
-  const sweep::Store store(folder);
-  sweep::Results results =
-      sweep::read_results(std::make_shared<sweep::RunLogs>(store), store.read_manifest(), figures);
+  const study::Store store(folder);
+  study::Results results =
+      study::read_results(std::make_shared<study::RunLogs>(store), store.read_manifest(), figures);
   if (results.missing != 0)
-    err << "markervp: warning: " << report::counted(results.missing, "point") << " not computed yet"
+    err << "markervp: warning: " << result::counted(results.missing, "point") << " not computed yet"
         << std::endl;
   return results;
 }
 
 /// The study's objectives that some point has a value of.
-std::vector<sweep::Objective> known_objectives(const sweep::Results& results) {
-  std::vector<sweep::Objective> objectives = sweep::objectives_of(results);
+std::vector<study::Objective> known_objectives(const study::Results& results) {
+  std::vector<study::Objective> objectives = study::objectives_of(results);
   if (objectives.empty() && results.failed() != results.rows.size())
     throw vp::InputError(
         "no point has a value of the study's objectives (" +
@@ -52,7 +52,7 @@ std::vector<sweep::Objective> known_objectives(const sweep::Results& results) {
 }  // namespace
 
 int list_metrics(const MetricsOptions& options, std::ostream& out) {
-  out << sweep::metric_table(options.part);
+  out << result::metric_table(options.part);
   if (options.part.empty())
     out << "\n* stands for a name; sweep.csv has them all. Constraints, objectives and figures may "
            "calculate with metrics and\nparameters (docs/expressions.md).\n";
@@ -60,7 +60,7 @@ int list_metrics(const MetricsOptions& options, std::ostream& out) {
 }
 
 int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& err) {
-  std::vector<sweep::Objective> objectives;
+  std::vector<study::Objective> objectives;
   std::vector<vp::Expression> constraints, figures;
   for (const std::string& text : options.constraints)
     constraints.emplace_back(text, "--constraint");
@@ -69,30 +69,30 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
     objectives.emplace_back(text, "--objective");
     figures.push_back(objectives.back().figure());
   }
-  sweep::Results results = results_of(options.folder, figures, err);
+  study::Results results = results_of(options.folder, figures, err);
   for (vp::Expression& constraint : constraints)
     results.constraints.push_back(std::move(constraint));
   if (objectives.empty()) objectives = known_objectives(results);
-  for (const sweep::Objective& objective : objectives)
-    sweep::check_names(results, objective.figure());
+  for (const study::Objective& objective : objectives)
+    study::check_names(results, objective.figure());
   for (const vp::Expression& constraint : results.constraints)
-    sweep::check_names(results, constraint);
-  const sweep::Pareto pareto = sweep::rank(results, objectives);
-  const auto is_best = [](const sweep::RankedPoint& point) { return point.front == 1; };
+    study::check_names(results, constraint);
+  const study::Pareto pareto = study::rank(results, objectives);
+  const auto is_best = [](const study::RankedPoint& point) { return point.front == 1; };
   if (std::none_of(pareto.points.begin(), pareto.points.end(), is_best))
-    throw vp::InputError(sweep::why_no_point(results));
+    throw vp::InputError(study::why_no_point(results));
   const std::filesystem::path folder = options.folder;
   const std::string csv = (folder / "pareto.csv").string();
   const std::string svg = (folder / "pareto.svg").string();
   std::string wrote = csv;
-  sweep::write_pareto_csv(csv, results, objectives, pareto);
-  const auto problem = sweep::plot_pareto(svg, results, objectives, pareto);
+  study::write_pareto_csv(csv, results, objectives, pareto);
+  const auto problem = study::plot_pareto(svg, results, objectives, pareto);
   if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
   if (!problem) wrote += ", " + svg;
-  out << sweep::pareto_table(results, objectives, pareto);
-  out << "\n" << sweep::verdicts_text(results) << "\n";
+  out << study::pareto_table(results, objectives, pareto);
+  out << "\n" << study::verdicts_text(results) << "\n";
   for (const auto& [metric, count] : pareto.lacking)
-    out << "\nleft out: " << report::counted(count, "point") << " without '" << metric << "'\n";
+    out << "\nleft out: " << result::counted(count, "point") << " without '" << metric << "'\n";
   out << "\nwrote " << wrote << std::endl;
   return done;
 }
@@ -105,25 +105,25 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
   if (options.at) return find_step_effects(options, out, err);
   std::vector<vp::Expression> figures;
   for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
-  const sweep::Results results = results_of(options.folder, figures, err);
+  const study::Results results = results_of(options.folder, figures, err);
   if (figures.empty()) {
-    for (const sweep::Objective& objective : known_objectives(results))
+    for (const study::Objective& objective : known_objectives(results))
       figures.push_back(objective.figure());
   }
   std::string csv;
   for (const vp::Expression& figure : figures) {
-    const sweep::SensitivityReport report = sweep::sensitivity(results, figure, options.all);
+    const study::SensitivityReport report = study::sensitivity(results, figure, options.all);
     out << vp::visible(figure.text()) << "   (" << report.basis << ")\n\n"
-        << sweep::sensitivity_table(report) << "\n";
+        << study::sensitivity_table(report) << "\n";
     if (!report.not_compared.empty())
-      err << "markervp: warning: " << vp::visible(sweep::not_compared_text(report)) << std::endl;
+      err << "markervp: warning: " << vp::visible(study::not_compared_text(report)) << std::endl;
     if (report.skipped != 0)
       err << "markervp: warning: "
-          << report::counted(report.skipped, report.method == "all else equal" ? "point" : "effect")
+          << result::counted(report.skipped, report.method == "all else equal" ? "point" : "effect")
           << " left out of '" << vp::visible(figure.text()) << "': a point failed, is missing, "
           << (options.all ? "" : "is not feasible (--all takes those) ") << "or has no value of it"
           << std::endl;
-    const std::string lines = sweep::sensitivity_csv(figure.text(), report);
+    const std::string lines = study::sensitivity_csv(figure.text(), report);
     csv += csv.empty() ? lines : lines.substr(lines.find('\n') + 1);
   }
   const std::string file = (std::filesystem::path(options.folder) / "sensitivity.csv").string();
@@ -133,8 +133,8 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
 }
 
 int compare_runs(const CompareOptions& options, std::ostream& out) {
-  out << sweep::compare(sweep::read_comparable(options.first),
-                        sweep::read_comparable(options.second));
+  out << study::compare(study::read_comparable(options.first),
+                        study::read_comparable(options.second));
   return done;
 }
 
@@ -152,9 +152,9 @@ int make_report(const ReportOptions& options, std::ostream& out) {
     const std::string& folder = options.folders[0];
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored)) {
-      const sweep::Store store(folder);
-      sweep::write_page(sweep::read_results(std::make_shared<sweep::RunLogs>(store),
-                                            store.read_manifest(), sweep::page_figures()),
+      const study::Store store(folder);
+      study::write_page(study::read_results(std::make_shared<study::RunLogs>(store),
+                                            store.read_manifest(), study::page_figures()),
                         folder);
     } else {
       page::write_report(folder);

@@ -4,10 +4,21 @@
 
 #include <cli/app.h>
 #include <cli/program.h>
-#include <scene/scene.h>
+#include <marker/scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {
+
+void add_configuration_options(CLI::App& command, ConfigurationOptions& target) {
+  command.add_option("--config", target.files, "YAML file of parameters; later files win")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--set", target.assignments, "one parameter; wins over files")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+}
 
 namespace {
 
@@ -61,13 +72,6 @@ constexpr const char* config_examples =
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
-constexpr const char* compare_detectors_help =
-    R"(  markervp compare-detectors photos --set sw.marker_side=0.05m
-  markervp compare-detectors x y z pitch yaw roll
-  markervp scenes roll -o rolls; markervp compare-detectors rolls
-Errors are told where the truth is known: of scenes, and of folders with a truth.json (docs/detectors.md). The
-libraries look for the dictionary and the size of markers that the designs look for.)";
-
 constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash)
 For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
 For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)";
@@ -75,22 +79,10 @@ For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)"
 /// Larger numbers than anybody waits for. CLI11 takes what is too long for 64 bits as the largest
 /// number.
 constexpr std::uint64_t most_frames = 1'000'000'000;
-constexpr std::uint32_t most_repetitions = 10'000;
 constexpr std::size_t most_clocks = 1'000;
 
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
-
-void add_configuration_options(CLI::App& command, ConfigurationOptions& target) {
-  command.add_option("--config", target.files, "YAML file of parameters; later files win")
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
-  command.add_option("--set", target.assignments, "one parameter; wins over files")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->take_all();
-}
 
 void add_design_option(CLI::App& command, ConfigurationOptions& target) {
   command.add_option("--design", target.design, "what stands in the PL ('markervp designs')")
@@ -348,58 +340,6 @@ void add_report(CLI::App& app, ReportOptions& target) {
   command->footer(report_examples);
 }
 
-void add_validate(CLI::App& app, ValidateOptions& target) {
-  CLI::App* command = app.add_subcommand("validate", "compare with what the thesis measured");
-  command
-      ->add_option("-o,--output", target.output, "folder for the results (default: out/validation)")
-      ->type_name("DIR");
-  command->add_option("--profile", target.profile, "cost profile of the software: a name or a file")
-      ->type_name("NAME");
-  command->add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
-      ->type_name("tlm|clocked");
-  command
-      ->add_option("--repetitions", target.repetitions,
-                   "measure so often, with the published jitter (default: once, exactly)")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint32_t{1}, most_repetitions).description(""));
-  command->add_option("--jobs", target.jobs, "systems that run side by side (default: 2)")
-      ->type_name("1|2")
-      ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{2}).description(""));
-  command->add_option("--markdown", target.markdown, "write the page of the documentation too")
-      ->type_name("FILE");
-  command->add_flag("--no-report", target.no_report, "no page report.html");
-  add_configuration_options(*command, target.configuration);
-}
-
-void add_compare_detectors(CLI::App& app, CompareDetectorsOptions& target) {
-  CLI::App* command = app.add_subcommand(
-      "compare-detectors", "our designs beside OpenCV's ArUco and AprilTag 3 on the same images");
-  command->add_option("INPUT", target.inputs, "folders, images, scenes")->type_name("")->required();
-  command
-      ->add_option("--design", target.designs,
-                   "only this one of ours, may be repeated (default: all that take the images)")
-      ->type_name("NAME")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--truth", target.truth, "what is in the images (default: their truth.json)")
-      ->type_name("FILE");
-  command->add_option("--camera", target.camera, "camera calibration (OpenCV or ROS)")
-      ->type_name("FILE");
-  command->add_option("--fit", target.fit, "make images of another size fit")
-      ->type_name("crop|scale")
-      ->check(CLI::IsMember({"crop", "scale"}).description(""));
-  command->add_option("--profile", target.profile, "costs of our software (default: a9-O2)")
-      ->type_name("NAME");
-  command
-      ->add_option("-o,--output", target.output, "folder for the results (default: out/detectors)")
-      ->type_name("DIR");
-  command->add_option("--markdown", target.markdown, "write the table as a page, too")
-      ->type_name("FILE");
-  command->add_flag("--no-report", target.no_report, "no page report.html");
-  add_configuration_options(*command, target.configuration);
-  command->footer(compare_detectors_help);
-}
-
 void add_devices(CLI::App& app, DevicesOptions& target) {
   CLI::App* command =
       app.add_subcommand("devices", "list the chips that a design can be built for");
@@ -452,7 +392,7 @@ void add_completion(CLI::App& app, CompletionOptions& target) {
 
 }  // namespace
 
-std::unique_ptr<CLI::App> make_app(CommandLine& target) {
+std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& application) {
   auto app = std::make_unique<CLI::App>(
       "Virtual platform of a Zynq-7020 that finds ArUco markers at a high frame rate.", "markervp");
   app->set_version_flag("--version", version_text());
@@ -465,14 +405,14 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_config(*app, target.config);
   add_map(*app, target.map);
   add_report(*app, target.report);
-  add_validate(*app, target.validate);
   add_devices(*app, target.devices);
   add_clocks(*app, target.clocks);
   add_power(*app, target.power);
   add_rtl(*app, target.rtl);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
-  add_compare_detectors(*app, target.compare_detectors);
+  for (const Application::Command& command : application.commands)
+    target.application[command.name] = command.add(*app);
   add_completion(*app, target.completion);
   app->footer(examples);  // last: commands would take it over
   return app;

@@ -4,13 +4,18 @@
 #include <string>
 #include <vector>
 
+#include <cli/application.h>
 #include <cli/options.h>
 #include <CLI/App.hpp>
 
 namespace platform::cli {
 
-/// The commands and options of the program; parsing fills `target`, which must live as long.
-std::unique_ptr<CLI::App> make_app(CommandLine& target);
+/// The commands and options of the program, with those of its application; parsing fills `target`,
+/// which must live as long.
+std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& application);
+
+/// Adds --config and --set.
+void add_configuration_options(CLI::App& command, ConfigurationOptions& target);
 
 /// Adds those of architecture exploration: sweep, pareto, sensitivity, compare.
 void add_exploration(CLI::App& app, CommandLine& target);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <cli/options.h>
+#include <facts/result.h>
 #include <host/process.h>
-#include <report/result.h>
-#include <report/result_json.h>
+#include <result/result_json.h>
 #include <vp/configuration.h>
 
 namespace CLI {
@@ -41,7 +41,7 @@ int run(const RunOptions& options, const std::vector<std::string>& arguments, st
 
 /// What a run found that writes nothing.
 struct MemoryRun {
-  report::ResultDocument result;
+  result::ResultDocument result;
   std::map<std::string, std::string> configuration;  ///< effective
   std::vector<std::string> history;                  ///< if asked for
   std::string missed_stop;          ///< why it did not stop where it was to; "" if it did
@@ -72,11 +72,6 @@ int print_map(const MapOptions& options, std::ostream& out);
 
 /// Makes the page of a folder again, or one that compares two runs.
 int make_report(const ReportOptions& options, std::ostream& out);
-
-/// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
-/// them with what the thesis prints. run_failed: a gate failed.
-int validate(const ValidateOptions& options, const std::vector<std::string>& arguments,
-             std::ostream& out, std::ostream& err);
 
 /// Lists the chips that a design can be built for, or all figures of one.
 int list_devices(const DevicesOptions& options, std::ostream& out);
@@ -129,9 +124,6 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
 
 int compare_runs(const CompareOptions& options, std::ostream& out);
 
-/// Shows the same images to our designs, OpenCV's ArUco and AprilTag 3.
-int compare_detectors(const CompareDetectorsOptions& options, std::ostream& out, std::ostream& err);
-
 /// Reads --config, --set and --design into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);
 /// --fidelity and --rate win over files and --set.
@@ -149,18 +141,18 @@ std::string bits_text(std::uint32_t mask);
 class FieldsOnce {
  public:
   struct Found {
-    const std::vector<report::HardwareMap::Field>& fields;  ///< to be shown
+    const std::vector<facts::HardwareMap::Field>& fields;  ///< to be shown
     std::string as;  ///< name of the register that showed the same; "" if none did
   };
-  Found find(const report::HardwareMap::Register& r);
+  Found find(const facts::HardwareMap::Register& r);
 
  private:
   std::map<const void*, std::string> shown_;
-  std::vector<report::HardwareMap::Field> none_;
+  std::vector<facts::HardwareMap::Field> none_;
 };
 
 /// The map as a page: memory map, interrupts, clocks, and the registers of each kind of device
 /// once, as their descriptions declare them.
-std::string map_as_markdown(const report::HardwareMap& map);
+std::string map_as_markdown(const facts::HardwareMap& map);
 
 }  // namespace platform::cli

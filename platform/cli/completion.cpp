@@ -7,7 +7,7 @@
 #include <cli/app.h>
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <scene/scene.h>
+#include <marker/scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {

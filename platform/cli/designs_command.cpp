@@ -1,10 +1,10 @@
+#include <chip/system/designs.h>
 #include <cli/commands.h>
 #include <cli/sweep_command.h>
-#include <designs/designs.h>
+#include <facts/summary.h>
 #include <fmt/format.h>
-#include <input/frame_source.h>
-#include <report/result_json.h>
-#include <report/summary.h>
+#include <marker/input/frame_source.h>
+#include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -16,7 +16,7 @@ namespace platform::cli {
 
 namespace {
 
-using report::Json;
+using result::Json;
 
 void list_names(const DesignsOptions& options, std::ostream& out) {
   Json list = Json::array();
@@ -64,7 +64,7 @@ std::vector<Variant> all_designs() {
 
 /// Mean over the markers whose truth is known.
 std::optional<double> mean_error(const Json& result, const char* name) {
-  report::Statistic errors;
+  facts::Statistic errors;
   for (const Json& frame : result.at("frames")) {
     for (const Json& marker : frame.at("markers")) {
       if (marker.contains("error") && marker.at("error").contains(name))

@@ -2,13 +2,13 @@
 
 #include <cli/commands.h>
 #include <cli/sweep_command.h>
-#include <explore/explore.h>
 #include <host/process.h>
-#include <report/console.h>
-#include <sweep/engine.h>
-#include <sweep/report.h>
-#include <sweep/results.h>
-#include <sweep/sensitivity.h>
+#include <result/console.h>
+#include <study/engine.h>
+#include <study/explore/explore.h>
+#include <study/report.h>
+#include <study/results.h>
+#include <study/sensitivity.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/progress.h>
@@ -31,15 +31,15 @@ using HostClock = std::chrono::steady_clock;
 /// Between two manifests on the disk, of a search that only this process computes for.
 constexpr auto manifest_period = std::chrono::seconds(10);
 
-sweep::Spec spec_of(const ExploreOptions& options) {
-  sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
+study::Spec spec_of(const ExploreOptions& options) {
+  study::Spec spec = study::read_spec(study::sweep_file(options.file));
   if (options.points) spec.search.points = *options.points;
   if (options.seed) spec.search.seed = *options.seed;
   if (options.time) spec.search.time = options.time;
   return spec;
 }
 
-std::string size_text(const sweep::Space& space) {
+std::string size_text(const study::Space& space) {
   const double size = space.size();
   if (std::isinf(size)) return "any number of points";
   if (size < 1e9) return vp::format_fixed(size, 0) + " points";
@@ -49,8 +49,8 @@ std::string size_text(const sweep::Space& space) {
 /// Computes the points of a search, generation by generation, and keeps the user informed.
 class Generations {
  public:
-  Generations(const ExploreOptions& options, const explore::Budget& budget, sweep::Store& store,
-              sweep::Space& space, std::ostream& err)
+  Generations(const ExploreOptions& options, const explore::Budget& budget, study::Store& store,
+              study::Space& space, std::ostream& err)
       : options_(options),
         budget_(budget),
         store_(store),
@@ -59,20 +59,20 @@ class Generations {
         err_(err),
         bar_(space.manifest().name, budget.points()) {}
 
-  std::map<std::size_t, sweep::Outcome> compute(const std::vector<std::size_t>& positions) {
-    const sweep::Manifest& manifest = space_.manifest();
+  std::map<std::size_t, study::Outcome> compute(const std::vector<std::size_t>& positions) {
+    const study::Manifest& manifest = space_.manifest();
     if (positions.empty() || host::InterruptGuard::noted()) return {};
     const std::vector<std::size_t> pending =
         pending_points(store_, logs_, manifest, positions.front(), options_.retry_failed, err_);
     before_ += positions.size() - pending.size();
     keep_manifest();
     const auto progress = [&](std::uint64_t points) { bar_.update(positions.front() + points); };
-    const sweep::Tally tally = cli::compute(options_, store_, manifest, pending, progress, err_,
+    const study::Tally tally = cli::compute(options_, store_, manifest, pending, progress, err_,
                                             [&] { return budget_.time_is_over(); });
     computed_ += tally.computed;
     abandoned_ += tally.abandoned;
     logs_.refresh();
-    std::map<std::size_t, sweep::Outcome> outcomes;
+    std::map<std::size_t, study::Outcome> outcomes;
     for (const std::size_t position : positions) {
       if (auto outcome = logs_.outcome(manifest.points[position].key))
         outcomes.emplace(position, *std::move(outcome));
@@ -101,9 +101,9 @@ class Generations {
 
   const ExploreOptions& options_;
   const explore::Budget& budget_;
-  sweep::Store& store_;
-  sweep::RunLogs logs_;
-  sweep::Space& space_;
+  study::Store& store_;
+  study::RunLogs logs_;
+  study::Space& space_;
   std::ostream& err_;
   vp::Progress bar_;
   std::uint64_t computed_ = 0, before_ = 0, abandoned_ = 0;
@@ -117,12 +117,12 @@ std::string search_text(const explore::Explorer& explorer, const explore::Answer
                      " of " + size_text(explorer.space()) + " and ended: " + to_string(answer.end) +
                      ".";
   if (abandoned != 0)
-    text += " " + report::counted(abandoned, "point") +
+    text += " " + result::counted(abandoned, "point") +
             (abandoned == 1 ? " was in progress then and is" : " were in progress then and are") +
             " abandoned.";
   const explore::Front& front = explorer.front();
   if (front.size() != 0 && !answer.relaxations) {
-    text += " Its front has " + report::counted(front.size(), "point") +
+    text += " Its front has " + result::counted(front.size(), "point") +
             (explorer.goal().objectives.size() < 2
                  ? "."
                  : " and a hypervolume of " + vp::format_fixed(front.hypervolume(), 3) + ".");
@@ -132,7 +132,7 @@ std::string search_text(const explore::Explorer& explorer, const explore::Answer
   return text;
 }
 
-int dry_run(sweep::Space& space, const explore::Budget& budget, std::ostream& out) {
+int dry_run(study::Space& space, const explore::Budget& budget, std::ostream& out) {
   const explore::Explorer checked(space, budget, {});
   out << size_text(space) << ", " << budget.points()
       << " of them at most; objectives: " << vp::join(space.manifest().objectives, ", ")
@@ -143,12 +143,12 @@ int dry_run(sweep::Space& space, const explore::Budget& budget, std::ostream& ou
 }  // namespace
 
 int explore_points(const ExploreOptions& options, std::ostream& out, std::ostream& err) {
-  const sweep::Platform platform = sweep_platform();
-  const sweep::Spec spec = spec_of(options);
+  const study::Platform platform = sweep_platform();
+  const study::Spec spec = spec_of(options);
   const explore::Budget budget(spec.search);
-  sweep::Space space(spec, platform);
+  study::Space space(spec, platform);
   if (options.dry_run) return dry_run(space, budget, out);
-  sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
+  study::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
   store.lock();
   const host::InterruptGuard guard;
   std::optional<Generations> generations(std::in_place, options, budget, store, space, err);
@@ -162,9 +162,9 @@ int explore_points(const ExploreOptions& options, std::ostream& out, std::ostrea
   store.write_manifest(space.manifest());
   const std::uint64_t computed = generations->computed(), before = generations->before();
   generations.reset();  // and its bar
-  sweep::Results results = explorer.results();
+  study::Results results = explorer.results();
   results.manifest = space.manifest();
-  sweep::RunLogs logs(store);
+  study::RunLogs logs(store);
   logs.complete(space.manifest());
   write_results(options, store, logs, results, computed, before, out);
   if (host::InterruptGuard::noted()) {
@@ -182,7 +182,7 @@ constexpr const char* usual_figures[] = {"summary.fps.mean", "summary.latency_us
                                          "summary.energy_per_frame_mj", "resources.total.lut"};
 
 /// The values that the folder's sweep or search gave the point.
-sweep::Assignment point_in(const sweep::Manifest& manifest, const std::string& file) {
+study::Assignment point_in(const study::Manifest& manifest, const std::string& file) {
   const std::string key = fs::path(file).stem().string();
   const auto found = std::find_if(manifest.points.begin(), manifest.points.end(),
                                   [&](const auto& point) { return point.key == key; });
@@ -191,8 +191,8 @@ sweep::Assignment point_in(const sweep::Manifest& manifest, const std::string& f
   return found->swept;
 }
 
-sweep::Spec spec_of(const sweep::Manifest& manifest) {
-  sweep::Spec spec = sweep::parse_spec(manifest.source, manifest.name + ".yaml");
+study::Spec spec_of(const study::Manifest& manifest) {
+  study::Spec spec = study::parse_spec(manifest.source, manifest.name + ".yaml");
   spec.sampling = {};  // its points are not asked for
   return spec;
 }
@@ -207,8 +207,8 @@ std::vector<vp::Expression> figures_of(const SensitivityOptions& options) {
 }
 
 /// The points of a manifest, computed where they are not there.
-sweep::Results computed(sweep::Store& store, const std::shared_ptr<sweep::RunLogs>& logs,
-                        const sweep::Manifest& manifest, const std::vector<vp::Expression>& figures,
+study::Results computed(study::Store& store, const std::shared_ptr<study::RunLogs>& logs,
+                        const study::Manifest& manifest, const std::vector<vp::Expression>& figures,
                         std::ostream& err) {
   const host::InterruptGuard guard;
   const std::vector<std::size_t> pending = pending_points(store, *logs, manifest, 0, false, err);
@@ -216,40 +216,40 @@ sweep::Results computed(sweep::Store& store, const std::shared_ptr<sweep::RunLog
   compute(
       {}, store, manifest, pending, [&](std::uint64_t points) { bar.update(points); }, err);
   logs->complete(manifest);
-  return sweep::read_results(logs, sweep::Manifest(manifest), figures);
+  return study::read_results(logs, study::Manifest(manifest), figures);
 }
 
 }  // namespace
 
 int find_step_effects(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
   const fs::path folder = fs::path(*options.at).parent_path().parent_path();
-  sweep::read_point(*options.at);  // says what is wrong with the file
-  sweep::Store store(folder.empty() ? "." : folder.string());
+  study::read_point(*options.at);  // says what is wrong with the file
+  study::Store store(folder.empty() ? "." : folder.string());
   store.lock();
-  sweep::Manifest manifest = store.read_manifest();
-  const sweep::Assignment at = point_in(manifest, *options.at);
-  const sweep::Platform platform = sweep_platform();
-  sweep::Space space(spec_of(manifest), platform);
-  const std::vector<sweep::Step> steps = sweep::steps_from(space, at);
+  study::Manifest manifest = store.read_manifest();
+  const study::Assignment at = point_in(manifest, *options.at);
+  const study::Platform platform = sweep_platform();
+  study::Space space(spec_of(manifest), platform);
+  const std::vector<study::Step> steps = study::steps_from(space, at);
   space.manifest().points.push_back(space.point(at));
-  for (const sweep::Step& step : steps) space.manifest().points.push_back(space.point(step.point));
-  const auto logs = std::make_shared<sweep::RunLogs>(store);
+  for (const study::Step& step : steps) space.manifest().points.push_back(space.point(step.point));
+  const auto logs = std::make_shared<study::RunLogs>(store);
   const std::vector<vp::Expression> figures = figures_of(options);
-  const sweep::Results results = computed(store, logs, space.manifest(), figures, err);
+  const study::Results results = computed(store, logs, space.manifest(), figures, err);
   if (results.missing != 0) {
     err << "markervp: interrupted: the same command goes on" << std::endl;
     return interrupted;
   }
   if (!options.figures.empty()) {
-    for (const vp::Expression& figure : figures) sweep::check_names(results, figure);
+    for (const vp::Expression& figure : figures) study::check_names(results, figure);
   }
-  const sweep::StepEffects effects = sweep::effects_of(steps, results, figures);
-  out << sweep::effects_table(effects) << "\n";
+  const study::StepEffects effects = study::effects_of(steps, results, figures);
+  out << study::effects_table(effects) << "\n";
   const std::string csv = store.path("steps.csv");
-  vp::write_file_durably(csv, sweep::effects_csv(effects));
+  vp::write_file_durably(csv, study::effects_csv(effects));
   const bool page =
-      sweep::write_page(sweep::read_results(logs, std::move(manifest), sweep::page_figures()),
-                        store.folder(), sweep::effects_json(effects, results.rows.front().key));
+      study::write_page(study::read_results(logs, std::move(manifest), study::page_figures()),
+                        store.folder(), study::effects_json(effects, results.rows.front().key));
   out << "wrote " << csv << (page ? ", report.html" : "") << std::endl;
   return done;
 }

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <host/process.h>
-#include <picture/picture.h>
-#include <report/console.h>
+#include <marker/picture/picture.h>
+#include <result/console.h>
 #include <vp/error.h>
 
 namespace platform::cli {
@@ -19,7 +19,7 @@ void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
   }
   try {
     simulation.run([this] { return give(source_); },
-                   [&](report::FrameReport&& report) { return take(std::move(report), outputs); });
+                   [&](facts::FrameReport&& report) { return take(std::move(report), outputs); });
   } catch (...) {
     // An error of our own, below, came first and is the cause.
     if (!error_) error_ = std::current_exception();
@@ -39,7 +39,7 @@ input::SharedFrame FrameRunner::give(input::FrameSource& source) {
   }
 }
 
-bool FrameRunner::take(report::FrameReport report, const Outputs& outputs) {
+bool FrameRunner::take(facts::FrameReport report, const Outputs& outputs) {
   if (error_) return false;
   try {
     write(report, input_of(report), outputs);
@@ -52,7 +52,7 @@ bool FrameRunner::take(report::FrameReport report, const Outputs& outputs) {
 }
 
 /// A program may leave out frames, but not go back or ahead.
-const input::InputFrame& FrameRunner::input_of(const report::FrameReport& report) {
+const input::InputFrame& FrameRunner::input_of(const facts::FrameReport& report) {
   while (first_pending_ < report.index && !pending_.empty()) {
     pending_.pop_front();
     ++first_pending_;
@@ -64,7 +64,7 @@ const input::InputFrame& FrameRunner::input_of(const report::FrameReport& report
   return *pending_.front();
 }
 
-void FrameRunner::write(report::FrameReport& report, const input::InputFrame& input,
+void FrameRunner::write(facts::FrameReport& report, const input::InputFrame& input,
                         const Outputs& outputs) {
   report.input = input.name;
   report.truth = input.truth;
@@ -85,7 +85,7 @@ void FrameRunner::write(report::FrameReport& report, const input::InputFrame& in
   if (progress_) progress_->update(frames_);
   if (outputs.done) ++*outputs.done;
   if (!outputs.text) return;
-  outputs.out << report::frame_text(report, source_.size());
+  outputs.out << result::frame_text(report, source_.size());
   host::check_written(outputs.out);
 }
 

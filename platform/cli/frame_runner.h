@@ -8,11 +8,11 @@
 #include <memory>
 #include <string>
 
+#include <chip/run/simulation.h>
 #include <host/output_folder.h>
-#include <input/frame_source.h>
-#include <page/report_page.h>
-#include <report/result_json.h>
-#include <run/simulation.h>
+#include <marker/input/frame_source.h>
+#include <result/page/report_page.h>
+#include <result/result_json.h>
 #include <vp/progress.h>
 
 namespace platform::cli {
@@ -27,7 +27,7 @@ class FrameRunner {
     bool progress = false;                   ///< a bar on stderr
     std::atomic<std::uint64_t>* done;        ///< counts frames; null: nobody asks
     std::ostream& out;
-    report::ResultSink& result;
+    result::ResultSink& result;
     page::RunExtras* page = nullptr;  ///< gets images and features; null: no page
   };
 
@@ -52,9 +52,9 @@ class FrameRunner {
 
  private:
   input::SharedFrame give(input::FrameSource& source);
-  bool take(report::FrameReport report, const Outputs& outputs);
-  const input::InputFrame& input_of(const report::FrameReport& report);
-  void write(report::FrameReport& report, const input::InputFrame& input, const Outputs& outputs);
+  bool take(facts::FrameReport report, const Outputs& outputs);
+  const input::InputFrame& input_of(const facts::FrameReport& report);
+  void write(facts::FrameReport& report, const input::InputFrame& input, const Outputs& outputs);
 
   input::FrameSource& source_;
   input::SharedFrame first_;

@@ -1,18 +1,18 @@
 #include <fmt/format.h>
 
+#include <chip/run/simulation.h>
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <detectors/truth.h>
-#include <device/clock_plan.h>
-#include <device/device.h>
+#include <fpga/device/clock_plan.h>
+#include <fpga/device/device.h>
+#include <fpga/power/design_estimate.h>
+#include <fpga/power/power_table.h>
 #include <host/output_folder.h>
-#include <input/frame_source.h>
-#include <picture/picture.h>
-#include <power/design_estimate.h>
-#include <power/power_table.h>
-#include <report/console.h>
-#include <run/simulation.h>
-#include <scene/scene.h>
+#include <marker/detectors/truth.h>
+#include <marker/input/frame_source.h>
+#include <marker/picture/picture.h>
+#include <marker/scene/scene.h>
+#include <result/console.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -53,7 +53,7 @@ void print_group(const SceneGroup& group, std::ostream& out) {
     const auto metres = [&](std::size_t axis) { return vp::format_fixed(t[axis], 3); };
     out << fmt::format("{:<11} {:>6}  {:>7}  {:>8}{:>8}{:>8}  {}\n", name, scene.marker_id,
                        scene.squares.size() + 1, metres(0), metres(1), metres(2),
-                       report::angles_text(scene.pose.rotation));
+                       result::angles_text(scene.pose.rotation));
   }
 }
 
@@ -83,7 +83,7 @@ void write_scenes(const ScenesOptions& options, std::ostream& out) {
     truth.add(file, make_scene(frame->name, frame->camera));
   }
   vp::write_file(folder.add(detectors::Truth::file_name), truth.json());
-  out << "wrote " << report::counted(*source->size(), "image") << " and "
+  out << "wrote " << result::counted(*source->size(), "image") << " and "
       << detectors::Truth::file_name << " in " << *options.output << "\n";
 }
 

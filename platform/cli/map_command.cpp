@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
+#include <chip/linux_app/linux_devices.h>
+#include <chip/run/simulation.h>
+#include <chip/system/hardware_map.h>
 #include <cli/commands.h>
-#include <linux_app/linux_devices.h>
-#include <run/simulation.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <zynq/hardware_map.h>
 
 #include <algorithm>
 #include <ostream>
@@ -30,7 +30,7 @@ std::string bits_text(std::uint32_t mask) {
   return ranges > most_ranges ? fmt::format("0x{:08X}", mask) : text;
 }
 
-FieldsOnce::Found FieldsOnce::find(const report::HardwareMap::Register& r) {
+FieldsOnce::Found FieldsOnce::find(const facts::HardwareMap::Register& r) {
   if (r.fields.empty()) return {none_, ""};
   const auto [place, first] = shown_.emplace(r.fields_of_kind, r.name);
   if (first) return {r.fields, ""};
@@ -39,7 +39,7 @@ FieldsOnce::Found FieldsOnce::find(const report::HardwareMap::Register& r) {
 
 namespace {
 
-using report::HardwareMap;
+using facts::HardwareMap;
 
 constexpr const char* head = R"(# Registers
 
@@ -229,7 +229,7 @@ std::string map_as_markdown(const HardwareMap& map) {
 
 namespace {
 
-using report::HardwareMap;
+using facts::HardwareMap;
 
 std::string size_text(std::uint64_t bytes) {
   return vp::format_quantity(vp::Decimal(bytes, 0), vp::Unit::bytes);

@@ -3,9 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <iosfwd>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <cli/application.h>
 
 namespace platform::cli {
 
@@ -152,18 +155,6 @@ struct ReportOptions {
   std::optional<std::string> output;  ///< file of the comparison
 };
 
-/// `markervp validate`.
-struct ValidateOptions {
-  ConfigurationOptions configuration;
-  std::string output = "out/validation";
-  std::optional<std::string> profile;
-  std::optional<std::string> fidelity;
-  std::optional<std::string> markdown;  ///< page of the documentation to write
-  std::uint32_t repetitions = 1;        ///< of each measurement, with jitter; 1: exact
-  std::uint32_t jobs = 2;               ///< runs side by side
-  bool no_report = false;
-};
-
 /// `markervp devices`.
 struct DevicesOptions {
   std::string device;  ///< empty: all of them
@@ -262,20 +253,6 @@ struct CompareOptions {
   std::string second;
 };
 
-/// `markervp compare-detectors`.
-struct CompareDetectorsOptions {
-  std::vector<std::string> inputs;
-  std::vector<std::string> designs;  ///< none: all that come with the program
-  ConfigurationOptions configuration;
-  std::string profile = "a9-O2";
-  std::optional<std::string> camera;
-  std::optional<std::string> fit;
-  std::optional<std::string> truth;  ///< of all images; none: that of each folder
-  std::string output = "out/detectors";
-  std::optional<std::string> markdown;  ///< page of the documentation to write
-  bool no_report = false;
-};
-
 /// Everything the user typed.
 struct CommandLine {
   RunOptions run;
@@ -287,7 +264,6 @@ struct CommandLine {
   ConfigOptions config;
   MapOptions map;
   ReportOptions report;
-  ValidateOptions validate;
   DevicesOptions devices;
   ClocksOptions clocks;
   PowerTableOptions power;
@@ -300,7 +276,7 @@ struct CommandLine {
   ParetoOptions pareto;
   SensitivityOptions sensitivity;
   CompareOptions compare;
-  CompareDetectorsOptions compare_detectors;
+  std::map<std::string, RunCommand> application;  ///< its commands, by name
 };
 
 /// A span of simulated time, ps.

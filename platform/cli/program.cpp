@@ -23,9 +23,9 @@ std::string version_text() {
   return "markervp " + program_version() + (revision.empty() ? "" : " (" + revision + ")");
 }
 
-report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
-                              const vp::Configuration& configuration) {
-  report::Provenance result;
+facts::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
+                             const vp::Configuration& configuration) {
+  facts::Provenance result;
   result.program = "markervp";
   result.version = program_version();
   result.revision = source_revision();
@@ -54,9 +54,6 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "config") return print_configuration(line.config, out);
   if (command == "map") return print_map(line.map, out);
   if (command == "report") return make_report(line.report, out);
-  if (command == "validate") {
-    return validate(line.validate, arguments, out, err);
-  }
   if (command == "devices") return list_devices(line.devices, out);
   if (command == "clocks") return list_clocks(line.clocks, out);
   if (command == "power")
@@ -71,7 +68,8 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
   if (command == "compare") return compare_runs(line.compare, out);
-  if (command == "compare-detectors") return compare_detectors(line.compare_detectors, out, err);
+  const auto own = line.application.find(command);
+  if (own != line.application.end()) return own->second(arguments, out, err);
   return print_completion(line.completion, app, out);
 }
 
@@ -99,16 +97,17 @@ std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
 
 void parse_again(const std::vector<std::string>& arguments, CommandLine& line) {
   try {
-    make_app(line)->parse(for_parser(arguments));
+    make_app(line, {})->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
     throw vp::InputError(std::string("the run's command line is none of this version: ") +
                          error.what());
   }
 }
 
-int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+int run_program(const Application& application, const std::vector<std::string>& arguments,
+                std::ostream& out, std::ostream& err) {
   CommandLine line;
-  const std::unique_ptr<CLI::App> app = make_app(line);
+  const std::unique_ptr<CLI::App> app = make_app(line, application);
   try {
     app->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include <cli/options.h>
-#include <report/result.h>
+#include <facts/result.h>
 #include <vp/configuration.h>
 
 namespace platform::cli {
 
-/// The whole program but main(): parses `arguments` (without the program's name), runs the command,
-/// writes what the user reads to `out` and one line on what went wrong to `err`. Returns the exit
-/// code.
-int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
+/// The whole program but main(), with what the application adds: parses `arguments` (without the
+/// program's name), runs the command, writes what the user reads to `out` and one line on what went
+/// wrong to `err`. Returns the exit code.
+int run_program(const Application& application, const std::vector<std::string>& arguments,
+                std::ostream& out, std::ostream& err);
 
 /// Parses the arguments of a run that was made before. Throws vp::InputError if they are none.
 void parse_again(const std::vector<std::string>& arguments, CommandLine& line);
@@ -26,7 +27,7 @@ std::string source_revision();
 std::string version_text();
 
 /// Where a run's result comes from: program, command line, host, now.
-report::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
-                              const vp::Configuration& configuration);
+facts::Provenance provenance(const RunOptions& options, const std::vector<std::string>& arguments,
+                             const vp::Configuration& configuration);
 
 }  // namespace platform::cli

@@ -1,15 +1,15 @@
 // `markervp rtl check`: RTL in lock-step with its model, on pictures of the user's and on stimuli
 // that are hard; and what of it was exercised.
+#include <chip/system/designs.h>
 #include <cli/commands.h>
 #include <cli/rtl_coverage.h>
 #include <cli/rtl_stimuli.h>
 #include <cli/sweep_command.h>
-#include <designs/designs.h>
 #include <fmt/format.h>
 #include <host/document.h>
 #include <host/output_folder.h>
 #include <pl/common/rtl_use.h>
-#include <report/console.h>
+#include <result/console.h>
 #include <trace/replay.h>
 #include <trace/tools.h>
 #include <vp/error.h>
@@ -192,7 +192,7 @@ std::vector<Play> plays_of(const RtlOptions& options) {
     if (!own) throw vp::InputError("--no-stimuli leaves nothing to play: name pictures or scenes");
     return plays;
   }
-  const sweep::Elaborated platform = elaborate(options.run.configuration, options.run.program);
+  const study::Elaborated platform = elaborate(options.run.configuration, options.run.program);
   const auto value = [&](const std::string& path) {
     for (const auto& parameter : platform.parameters) {
       if (parameter.path == path) return parameter.value;
@@ -296,13 +296,13 @@ std::vector<std::string> never_moved(const Json& use) {
 
 void print_use(const Json& use, std::ostream& out) {
   out << fmt::format("exercised on {}: {}, {}\n",
-                     report::counted(use["clocks"].get<std::uint64_t>(), "clock"),
-                     report::counted(rises(use, {"ena", "frame_ena"}), "start"),
-                     report::counted(rises(use, {"rst", "por"}), "reset"));
+                     result::counted(use["clocks"].get<std::uint64_t>(), "clock"),
+                     result::counted(rises(use, {"ena", "frame_ena"}), "start"),
+                     result::counted(rises(use, {"rst", "por"}), "reset"));
   for (const Json& stream : use["streams"]) {
     out << fmt::format("  stream {}: {}, {}\n", stream["name"].get<std::string>(),
-                       report::counted(stream["beats"].get<std::uint64_t>(), "beat"),
-                       report::counted(stream["stalls"].get<std::uint64_t>(), "stall"));
+                       result::counted(stream["beats"].get<std::uint64_t>(), "beat"),
+                       result::counted(stream["stalls"].get<std::uint64_t>(), "stall"));
   }
   constexpr const char* row = "  {:<20} {:>6} {:>12} {:>12} {:>12}\n";
   out << fmt::format(row, "port", "", "valid clocks", "changes", "bits moved");
@@ -344,7 +344,7 @@ std::string played(const std::vector<Play>& plays, const RtlOptions& options) {
     names.push_back(play.name.empty()
                         ? vp::join(options.run.inputs, ", ")
                         : fmt::format("'{}' ({})", play.name,
-                                      report::counted(play.options.inputs.size(), "picture")));
+                                      result::counted(play.options.inputs.size(), "picture")));
   }
   return vp::join(names, ", ");
 }

@@ -2,7 +2,7 @@
 #include <cli/commands.h>
 #include <host/document.h>
 #include <host/output_folder.h>
-#include <report/console.h>
+#include <result/console.h>
 #include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -38,7 +38,7 @@ int write_vectors(const RtlOptions& options, const std::vector<std::string>& arg
   const int code = run(run_options, arguments, summary, err);
   if (code != done) return code;
   out << "wrote stimulus.hex, response.hex, bench.sv and bench.vhd of "
-      << report::counted(frames_of(folder), "frame") << " into " << options.run.output
+      << result::counted(frames_of(folder), "frame") << " into " << options.run.output
       << "\nplay them: the first lines of a bench say how\n";
   return done;
 }
@@ -74,12 +74,12 @@ int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ost
   }
   if (!found.never_compared.empty()) {
     err << "markervp: not compared, as nothing was valid on "
-        << report::counted(found.clocks, "clock") << ": " << vp::join(found.never_compared, ", ")
+        << result::counted(found.clocks, "clock") << ": " << vp::join(found.never_compared, ", ")
         << "\n";
     return run_failed;
   }
-  out << "equal: " << report::counted(map.ports.size(), "port") << " on "
-      << report::counted(found.clocks, "clock") << "\n";
+  out << "equal: " << result::counted(map.ports.size(), "port") << " on "
+      << result::counted(found.clocks, "clock") << "\n";
   if (!found.never_changed.empty())
     out << "never changed: " << vp::join(found.never_changed, ", ") << "\n";
   return done;

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include <cli/commands.h>
-#include <synthesis/synthesis.h>
+#include <fpga/synthesis/synthesis.h>
 #include <vp/error.h>
 #include <vp/file.h>
 

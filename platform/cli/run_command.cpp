@@ -6,11 +6,11 @@
 #include <cli/program.h>
 #include <host/output_folder.h>
 #include <host/process.h>
-#include <page/report_page.h>
-#include <report/console.h>
-#include <report/result_json.h>
-#include <sweep/manifest.h>
-#include <sweep/point.h>
+#include <result/console.h>
+#include <result/page/report_page.h>
+#include <result/result_json.h>
+#include <study/manifest.h>
+#include <study/point.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -43,10 +43,10 @@ void refuse_doubles(const RunOptions& options) {
   if (options.camera) refuse("camera already: leave out --camera");
 }
 
-RunOptions options_of(const sweep::PointRecord& record, const RunOptions& options,
+RunOptions options_of(const study::PointRecord& record, const RunOptions& options,
                       std::ostream& err) {
-  const sweep::Json identity = record.identity_json();
-  if (identity.at("markervp") != sweep::program_identity(program_version(), source_revision()))
+  const study::Json identity = record.identity_json();
+  if (identity.at("markervp") != study::program_identity(program_version(), source_revision()))
     err << "markervp: warning: '" << *options.point
         << "' was computed by another version of the program: results may differ" << std::endl;
   RunOptions result = options;
@@ -75,10 +75,10 @@ RunOptions options_of(const sweep::PointRecord& record, const RunOptions& option
 RunOptions with_point(const RunOptions& options, std::ostream& err) {
   if (!options.point) return options;
   refuse_doubles(options);
-  const sweep::PointRecord record = sweep::read_point(*options.point);
+  const study::PointRecord record = study::read_point(*options.point);
   try {
     return options_of(record, options, err);
-  } catch (const sweep::Json::exception&) {
+  } catch (const study::Json::exception&) {
     throw vp::InputError("'" + *options.point +
                          "' was changed: remove it, and the sweep computes it again");
   }
@@ -310,15 +310,15 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
       return false;
     }
   };
-  const report::Timeline timeline = simulation.timeline();
+  const facts::Timeline timeline = simulation.timeline();
   if (views.timeline) {
     attempt([&] {
-      views.timeline->write(report::trace_event_json(timeline));
+      views.timeline->write(facts::trace_event_json(timeline));
       views.timeline->commit();
     });
   }
   if (!views.page) return false;
-  if (!timeline.empty()) views.page->add_member("timeline", report::page_json(timeline));
+  if (!timeline.empty()) views.page->add_member("timeline", facts::page_json(timeline));
   const std::string profile = simulation.software_profile();
   if (!profile.empty()) views.page->add_member("profile", profile);
   return attempt([&] {
@@ -352,7 +352,7 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
   const bool has_trace = simulation.wrote_trace();
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
   if (!options.no_pictures && runner.frames() > 0)
-    text += ", " + report::counted(runner.frames(), "picture") + " beside it";
+    text += ", " + result::counted(runner.frames(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
   if (!failed) {
     for (const std::string& file : other_outputs(options)) {
@@ -366,7 +366,7 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
 }
 
 /// `warnings`: those of the run as a whole, which no frame's report has.
-int verdict(const RunOptions& options, const FrameRunner& runner, const report::RunFacts& facts,
+int verdict(const RunOptions& options, const FrameRunner& runner, const facts::RunFacts& facts,
             std::uint64_t warnings, const std::exception_ptr& error, std::ostream& err) {
   if (error) std::rethrow_exception(error);
   if (host::InterruptGuard::noted()) {
@@ -384,13 +384,13 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const report::
   }
   if (options.require_marker && runner.without_marker() > 0) {
     err << "markervp: no marker in " << runner.without_marker() << " of "
-        << report::counted(runner.frames(), "frame") << ", first in "
+        << result::counted(runner.frames(), "frame") << ", first in "
         << runner.first_without_marker() << std::endl;
     return run_failed;
   }
   warnings += runner.warnings();
   if (options.strict && warnings > 0) {
-    err << "markervp: " << report::counted(warnings, "warning") << ", and --strict lets none pass"
+    err << "markervp: " << result::counted(warnings, "warning") << ", and --strict lets none pass"
         << std::endl;
     return run_failed;
   }
@@ -421,21 +421,21 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   if (!memory) folder.emplace(options.output);
   std::optional<vp::OutputFile> timeline_file;
   if (options.timeline) timeline_file.emplace(*options.timeline);
-  report::Provenance origin;
+  facts::Provenance origin;
   if (!memory) origin = provenance(options, arguments, configuration);
   Warner warner(err);
   warner.print(source->warnings());
 
-  std::unique_ptr<report::ResultWriter> file;
-  if (folder) file = std::make_unique<report::ResultWriter>(*folder);
-  report::ResultSink& result = memory ? static_cast<report::ResultSink&>(memory->result) : *file;
+  std::unique_ptr<result::ResultWriter> file;
+  if (folder) file = std::make_unique<result::ResultWriter>(*folder);
+  result::ResultSink& result = memory ? static_cast<result::ResultSink&>(memory->result) : *file;
   const host::InterruptGuard guard([] { Simulation::interrupt(); });
   const bool bar = options.quiet || ::isatty(STDOUT_FILENO) == 0;
   page::RunExtras extras;
   runner.run(*simulation, {folder && !options.no_pictures ? &*folder : nullptr, !options.quiet, bar,
                            options.frames_done, out, result, page ? &extras : nullptr});
 
-  report::RunFacts facts = simulation->facts();
+  facts::RunFacts facts = simulation->facts();
   const bool ran = runner.frames() > 0 || facts.end;
   if (runner.error() && !ran && is_input_error(runner.error())) {
     std::rethrow_exception(runner.error());
@@ -443,10 +443,10 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   warner.print(source->warnings());
   facts.notes = source->notes();
   if (!memory) facts.configuration = configuration.values();
-  if (facts.timing) warner.print(report::timing_warnings(*facts.timing));
-  if (facts.clocks) warner.print(report::clock_warnings(*facts.clocks));
-  if (facts.resources) warner.print(report::resource_warnings(*facts.resources));
-  if (facts.power) warner.print(report::power_warnings(*facts.power));
+  if (facts.timing) warner.print(result::timing_warnings(*facts.timing));
+  if (facts.clocks) warner.print(result::clock_warnings(*facts.clocks));
+  if (facts.resources) warner.print(result::resource_warnings(*facts.resources));
+  if (facts.power) warner.print(result::power_warnings(*facts.power));
   origin.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
   if (runner.error()) origin.details.emplace_back("error", message_of(runner.error()));
   // They were printed when they came.
@@ -464,7 +464,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   const bool has_page = write_views(
       {timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder, configuration},
       *simulation, error);
-  out << (options.quiet ? "" : "\n") << report::summary_text(result.summary(), facts)
+  out << (options.quiet ? "" : "\n") << result::summary_text(result.summary(), facts)
       << written_text(options, runner, *simulation, configuration, has_page, error != nullptr)
       << std::flush;
   return verdict(options, runner, facts, warnings.size(), error, err);

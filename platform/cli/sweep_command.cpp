@@ -13,17 +13,18 @@
 #include <utility>
 #include <vector>
 
+#include <chip/system/designs.h>
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/sweep_command.h>
-#include <designs/designs.h>
 #include <host/process.h>
-#include <report/console.h>
-#include <sweep/engine.h>
-#include <sweep/metrics.h>
-#include <sweep/report.h>
-#include <sweep/results.h>
-#include <sweep/spec.h>
+#include <result/console.h>
+#include <result/metrics.h>
+#include <result/table.h>
+#include <study/engine.h>
+#include <study/report.h>
+#include <study/results.h>
+#include <study/spec.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/progress.h>
@@ -50,17 +51,17 @@ std::uint32_t cores() {
 }
 
 int list_studies(std::ostream& out) {
-  sweep::TextTable table({"study", "question"});
-  for (const sweep::Study& study : sweep::studies()) table.add({study.name, study.title});
+  result::TextTable table({"study", "question"});
+  for (const study::Study& study : study::studies()) table.add({study.name, study.title});
   out << table.text() << "\n'markervp sweep NAME' runs one; 'markervp pareto out/NAME' shows its "
       << "best points.\n";
   return done;
 }
 
-void show_points(const sweep::Manifest& manifest, std::ostream& out) {
-  std::vector<std::string> head = sweep::short_names(manifest.swept);
+void show_points(const study::Manifest& manifest, std::ostream& out) {
+  std::vector<std::string> head = study::short_names(manifest.swept);
   head.emplace_back("key");
-  sweep::TextTable table(head);
+  result::TextTable table(head);
   for (std::size_t i = 0; i < std::min(shown_points, manifest.points.size()); ++i) {
     std::vector<std::string> row;
     for (const std::string& path : manifest.swept) {
@@ -75,17 +76,17 @@ void show_points(const sweep::Manifest& manifest, std::ostream& out) {
 }
 
 /// Shows the points, and which of them a run would refuse. Returns what it would end with.
-int dry_run(const SweepOptions& options, const sweep::Manifest& manifest,
-            const sweep::Platform& platform, std::ostream& out) {
-  if (options.engine == "slurm") sweep::largest_array();
+int dry_run(const SweepOptions& options, const study::Manifest& manifest,
+            const study::Platform& platform, std::ostream& out) {
+  if (options.engine == "slurm") study::largest_array();
   show_points(manifest, out);
   host::check_written(out);  // before processes begin as copies of this one and of what it holds
-  const sweep::Refusals refusals = sweep::try_points(manifest, platform, most_built);
+  const study::Refusals refusals = study::try_points(manifest, platform, most_built);
   for (const auto& [reason, count] : refusals.reasons)
-    out << report::counted(count, "point") << " will fail: " << reason << "\n";
+    out << result::counted(count, "point") << " will fail: " << reason << "\n";
   const std::size_t points = manifest.points.size();
   if (points > most_built) out << "built the first " << most_built << " of them to see\n";
-  out << report::counted(points, "point") << "; nothing was run\n";
+  out << result::counted(points, "point") << "; nothing was run\n";
   return refusals.points() == 0 ? done : points_failed_code(options, refusals.built != 0);
 }
 
@@ -94,7 +95,7 @@ void warn(const std::vector<std::string>& warnings, std::ostream& err) {
 }
 
 /// Says what else is in the folder.
-void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, std::ostream& err) {
+void mention_others(const study::Store& store, const study::Manifest& manifest, std::ostream& err) {
   std::vector<std::string> foreign;
   const std::vector<std::string> keys = store.keys(foreign);
   if (!foreign.empty()) {
@@ -104,7 +105,7 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
   }
   std::vector<std::string_view> planned;
   planned.reserve(manifest.points.size());
-  for (const sweep::PlannedPoint& point : manifest.points) planned.push_back(point.key);
+  for (const study::PlannedPoint& point : manifest.points) planned.push_back(point.key);
   std::sort(planned.begin(), planned.end());
   std::vector<std::string> others;
   std::set_difference(keys.begin(), keys.end(), planned.begin(), planned.end(),
@@ -114,7 +115,7 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
   for (const std::string& key : others) {
     if (store.looks_like_one_of(manifest.program, key)) continue;
     try {
-      const sweep::Json other = store.read(key).identity_json().at("markervp");
+      const study::Json other = store.read(key).identity_json().at("markervp");
       ++older;
       version = other.value("version", "") + " " + other.value("revision", "");
     } catch (const vp::InputError& error) {
@@ -122,17 +123,17 @@ void mention_others(const sweep::Store& store, const sweep::Manifest& manifest, 
     }
   }
   if (older != 0)
-    err << "markervp: " << report::counted(older, "point") << " of another version of the program ("
+    err << "markervp: " << result::counted(older, "point") << " of another version of the program ("
         << version << ") stay as they are and count for nothing here" << std::endl;
 }
 
 /// What there is of a point that no log knows. A file that is not whole goes.
-std::optional<sweep::Outcome> outcome_of_file(const sweep::Store& store, const std::string& key,
+std::optional<study::Outcome> outcome_of_file(const study::Store& store, const std::string& key,
                                               std::ostream& err) {
   if (!store.has(key)) return std::nullopt;
   try {
-    return sweep::outcome_of(store.read(key));
-  } catch (const sweep::HalfPoint&) {
+    return study::outcome_of(store.read(key));
+  } catch (const study::HalfPoint&) {
     err << "markervp: warning: '" << store.point_path(key)
         << "' is not whole, as a power failure leaves it: the point is computed again" << std::endl;
   }
@@ -143,15 +144,15 @@ std::optional<sweep::Outcome> outcome_of_file(const sweep::Store& store, const s
 
 }  // namespace
 
-std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLogs& logs,
-                                        const sweep::Manifest& manifest, std::size_t first,
+std::vector<std::size_t> pending_points(const study::Store& store, study::RunLogs& logs,
+                                        const study::Manifest& manifest, std::size_t first,
                                         bool retry_failed, std::ostream& err) {
-  sweep::RunLog log(store);
-  sweep::RunLogs::Block block;
+  study::RunLog log(store);
+  study::RunLogs::Block block;
   std::vector<std::size_t> pending;
   for (std::size_t i = first; i < manifest.points.size(); ++i) {
     const std::string& key = manifest.points[i].key;
-    std::optional<sweep::Outcome> outcome = logs.logged(key, sweep::RunLogs::Want::facts, block);
+    std::optional<study::Outcome> outcome = logs.logged(key, study::RunLogs::Want::facts, block);
     if (!outcome && (outcome = outcome_of_file(store, key, err))) log.add_untold(key, *outcome);
     if (outcome && outcome->failed && retry_failed) {
       std::error_code ignored;
@@ -167,24 +168,24 @@ std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLog
 namespace {
 
 /// A PS program or a design of the user's own may leave anything behind in its process.
-std::uint32_t points_a_process(const sweep::Manifest& manifest, bool isolate) {
+std::uint32_t points_a_process(const study::Manifest& manifest, bool isolate) {
   const bool own = std::any_of(manifest.families.begin(), manifest.families.end(),
-                               [](const sweep::Family& family) {
+                               [](const study::Family& family) {
                                  return runs_own_code(family.program, family.configuration);
                                });
-  return own || isolate ? 1 : sweep::usual_points_a_process;
+  return own || isolate ? 1 : study::usual_points_a_process;
 }
 
 }  // namespace
 
-sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
-                     const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     const sweep::OnProgress& progress, std::ostream& err,
-                     const sweep::IsOver& is_over) {
+study::Tally compute(const SweepOptions& options, const study::Store& store,
+                     const study::Manifest& manifest, const std::vector<std::size_t>& pending,
+                     const study::OnProgress& progress, std::ostream& err,
+                     const study::IsOver& is_over) {
   if (pending.empty()) return {};
   if (options.engine == "slurm") {
     warm_up(manifest, {pending.front()});
-    const sweep::SlurmOptions slurm{options.chunk,
+    const study::SlurmOptions slurm{options.chunk,
                                     options.at_once,
                                     options.sbatch,
                                     manifest.name,
@@ -193,38 +194,38 @@ sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
     return run_slurm(store, manifest, pending, slurm, run_point, progress, err);
   }
   warm_up(manifest, pending);
-  const sweep::LocalOptions local{options.jobs.value_or(cores()), "local",
+  const study::LocalOptions local{options.jobs.value_or(cores()), "local",
                                   points_a_process(manifest, options.isolate),
                                   [&](const std::string& text) { warn({text}, err); }, is_over};
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 
-void write_results(const SweepOptions& options, const sweep::Store& store,
-                   const sweep::RunLogs& logs, const sweep::Results& results,
+void write_results(const SweepOptions& options, const study::Store& store,
+                   const study::RunLogs& logs, const study::Results& results,
                    std::uint64_t computed, std::uint64_t before, std::ostream& out) {
   // The database takes as long as all the rest, of a million points half a minute.
   std::future<void> database = std::async(std::launch::async, [&] {
-    sweep::write_database(store.path("sweep.sqlite"), results, logs);
+    study::write_database(store.path("sweep.sqlite"), results, logs);
   });
-  sweep::write_csv(store.path("sweep.csv"), results);
-  const bool page = !options.no_report && sweep::write_page(results, store.folder());
-  const std::string text = sweep::sweep_text(results);
+  study::write_csv(store.path("sweep.csv"), results);
+  const bool page = !options.no_report && study::write_page(results, store.folder());
+  const std::string text = study::sweep_text(results);
   database.get();
   out << text << "\n"
-      << report::counted(results.rows.size(), "point") << ": " << computed << " computed now, "
+      << result::counted(results.rows.size(), "point") << ": " << computed << " computed now, "
       << before << " there before, " << results.failed() << " failed\n"
       << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and points/ beside it";
   if (page) out << ", report.html to look at";
   out << std::endl;
 }
 
-int code_of_failures(const SweepOptions& options, const sweep::Results& results,
+int code_of_failures(const SweepOptions& options, const study::Results& results,
                      std::ostream& err) {
   if (results.failed() == 0) return done;
   const bool all = results.failed() == results.rows.size();
   err << "markervp: "
       << (all ? "every point"
-              : report::counted(results.failed(), "point") + " of " +
+              : result::counted(results.failed(), "point") + " of " +
                     std::to_string(results.rows.size()))
       << " failed" << std::endl;
   return points_failed_code(options, !all);
@@ -232,20 +233,20 @@ int code_of_failures(const SweepOptions& options, const sweep::Results& results,
 
 namespace {
 
-int conclude(const SweepOptions& options, const sweep::Store& store,
-             std::shared_ptr<sweep::RunLogs> logs, sweep::Manifest&& manifest,
-             const sweep::Tally& tally, std::uint64_t before, std::ostream& out,
+int conclude(const SweepOptions& options, const study::Store& store,
+             std::shared_ptr<study::RunLogs> logs, study::Manifest&& manifest,
+             const study::Tally& tally, std::uint64_t before, std::ostream& out,
              std::ostream& err) {
   const std::size_t points = manifest.points.size();
   logs->complete(manifest);
-  const sweep::Results results =
-      sweep::read_results(logs, std::move(manifest), sweep::page_figures());
+  const study::Results results =
+      study::read_results(logs, std::move(manifest), study::page_figures());
   write_results(options, store, *logs, results, tally.computed, before, out);
   if (results.failed() != results.rows.size())
-    warn(sweep::missing_figures(results.manifest, results.metric_names()), err);
+    warn(study::missing_figures(results.manifest, results.metric_names()), err);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
-        << report::counted(points, "point") << " are missing; the same command goes on"
+        << result::counted(points, "point") << " are missing; the same command goes on"
         << std::endl;
     return interrupted;
   }
@@ -253,8 +254,8 @@ int conclude(const SweepOptions& options, const sweep::Store& store,
 }
 
 /// All points of a sweep, with a bar.
-sweep::Tally compute_all(const SweepOptions& options, const sweep::Store& store,
-                         const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
+study::Tally compute_all(const SweepOptions& options, const study::Store& store,
+                         const study::Manifest& manifest, const std::vector<std::size_t>& pending,
                          std::ostream& err) {
   const host::InterruptGuard guard;
   vp::Progress bar(manifest.name, pending.size());
@@ -268,21 +269,21 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
   if (options.list) return list_studies(out);
   if (options.file.empty())
     throw vp::InputError("sweep: name a YAML file, or a study that 'markervp sweep --list' shows");
-  const sweep::Spec spec = sweep::read_spec(sweep::sweep_file(options.file));
-  const sweep::Platform platform = sweep_platform();
-  sweep::Manifest manifest = sweep::plan(spec, {options.limit, options.yes}, platform);
+  const study::Spec spec = study::read_spec(study::sweep_file(options.file));
+  const study::Platform platform = sweep_platform();
+  study::Manifest manifest = study::plan(spec, {options.limit, options.yes}, platform);
   if (options.dry_run) return dry_run(options, manifest, platform, out);
   try {
-    sweep::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
+    study::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();
-    const auto logs = std::make_shared<sweep::RunLogs>(store);
+    const auto logs = std::make_shared<study::RunLogs>(store);
     const std::vector<std::size_t> pending =
         pending_points(store, *logs, manifest, 0, options.retry_failed, err);
     std::future<void> written =
         std::async(std::launch::async, [&] { store.write_manifest(manifest); });
     mention_others(store, manifest, err);
     written.get();
-    const sweep::Tally tally = compute_all(options, store, manifest, pending, err);
+    const study::Tally tally = compute_all(options, store, manifest, pending, err);
     const std::size_t before = manifest.points.size() - pending.size();
     return conclude(options, store, logs, std::move(manifest), tally, before, out, err);
   } catch (const vp::HostError& error) {
@@ -292,9 +293,9 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
 }
 
 int sweep_worker(const SweepWorkerOptions& options, std::ostream& err) {
-  const sweep::Store store(options.folder);
+  const study::Store store(options.folder);
   const host::InterruptGuard guard;
-  return sweep::run_slurm_task(store, options.submission, options.task, warm_up, run_point,
+  return study::run_slurm_task(store, options.submission, options.task, warm_up, run_point,
                                options.points_a_process, err);
 }
 

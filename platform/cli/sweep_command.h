@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <cli/options.h>
-#include <sweep/engine.h>
-#include <sweep/plan.h>
-#include <sweep/results.h>
-#include <sweep/run_log.h>
+#include <study/engine.h>
+#include <study/plan.h>
+#include <study/results.h>
+#include <study/run_log.h>
 #include <nlohmann/json.hpp>
 
 /// What commands that compute points have in common.
@@ -24,42 +24,42 @@ nlohmann::ordered_json made_apart(
     const std::function<nlohmann::ordered_json(std::ostream& err)>& work);
 
 /// Builds the platform, apart, and tells its parameters. Throws vp::InputError.
-sweep::Elaborated elaborate(const ConfigurationOptions& options,
+study::Elaborated elaborate(const ConfigurationOptions& options,
                             const std::optional<std::string>& program = std::nullopt);
 
 /// What sweeps ask of the platform.
-sweep::Platform sweep_platform();
+study::Platform sweep_platform();
 /// The command line of `markervp run` that runs the point.
-RunOptions options_of(const sweep::PointRun& point);
+RunOptions options_of(const study::PointRun& point);
 /// Whether PS program or design are the user's own, and so may leave anything behind.
 bool runs_own_code(const std::string& program,
                    const std::map<std::string, std::string>& configuration);
-/// Runs it in this process, without files: a sweep::RunPoint. Programs that are installed stay
+/// Runs it in this process, without files: a study::RunPoint. Programs that are installed stay
 /// loaded.
-int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err);
+int run_point(const study::PointRun& point, study::PointResult& result, std::ostream& err);
 
 /// Renders the scenes of the points before processes are forked.
-void warm_up(const sweep::Manifest& manifest, const std::vector<std::size_t>& positions);
+void warm_up(const study::Manifest& manifest, const std::vector<std::size_t>& positions);
 
 /// Positions of the points from `first` on that have no result yet. Results that no log knows are
 /// read, and logged. Throws vp::InputError for one that somebody changed.
-std::vector<std::size_t> pending_points(const sweep::Store& store, sweep::RunLogs& logs,
-                                        const sweep::Manifest& manifest, std::size_t first,
+std::vector<std::size_t> pending_points(const study::Store& store, study::RunLogs& logs,
+                                        const study::Manifest& manifest, std::size_t first,
                                         bool retry_failed, std::ostream& err);
 
 /// Computes points with the engine that the user wants, until `is_over`; the store has the manifest
 /// if it is not the local one.
-sweep::Tally compute(const SweepOptions& options, const sweep::Store& store,
-                     const sweep::Manifest& manifest, const std::vector<std::size_t>& pending,
-                     const sweep::OnProgress& progress, std::ostream& err,
-                     const sweep::IsOver& is_over = {});
+study::Tally compute(const SweepOptions& options, const study::Store& store,
+                     const study::Manifest& manifest, const std::vector<std::size_t>& pending,
+                     const study::OnProgress& progress, std::ostream& err,
+                     const study::IsOver& is_over = {});
 
 /// Writes tables, database and page, and says what was found. `computed` now, `before` earlier.
-void write_results(const SweepOptions& options, const sweep::Store& store,
-                   const sweep::RunLogs& logs, const sweep::Results& results,
+void write_results(const SweepOptions& options, const study::Store& store,
+                   const study::RunLogs& logs, const study::Results& results,
                    std::uint64_t computed, std::uint64_t before, std::ostream& out);
 
 /// What the command ends with, after a line if points failed.
-int code_of_failures(const SweepOptions& options, const sweep::Results& results, std::ostream& err);
+int code_of_failures(const SweepOptions& options, const study::Results& results, std::ostream& err);
 
 }  // namespace platform::cli

@@ -4,15 +4,15 @@
 #include <optional>
 #include <set>
 
+#include <chip/run/simulation.h>
+#include <chip/system/designs.h>
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <designs/designs.h>
 #include <host/process.h>
-#include <input/frame_source.h>
+#include <marker/input/frame_source.h>
 #include <pl/common/known_frames.h>
 #include <ps/cpu/program.h>
-#include <run/simulation.h>
-#include <sweep/axes.h>
+#include <study/axes.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
@@ -46,8 +46,8 @@ Json to_json(const std::vector<vp::ParameterDescription>& parameters, input::Ima
   return json;
 }
 
-sweep::Elaborated elaborated_from(const Json& json) {
-  sweep::Elaborated result;
+study::Elaborated elaborated_from(const Json& json) {
+  study::Elaborated result;
   result.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
   for (const Json& p : json.at("parameters")) {
     vp::ParameterDescription description;
@@ -96,7 +96,7 @@ Json made_apart(const std::function<Json(std::ostream& err)>& work) {
   throw vp::InputError(message);
 }
 
-sweep::Elaborated elaborate(const ConfigurationOptions& options,
+study::Elaborated elaborate(const ConfigurationOptions& options,
                             const std::optional<std::string>& program) {
   return elaborated_from(made_apart([&](std::ostream&) {
     vp::Configuration configuration;
@@ -105,9 +105,9 @@ sweep::Elaborated elaborate(const ConfigurationOptions& options,
   }));
 }
 
-sweep::Platform sweep_platform() {
-  sweep::Platform platform;
-  platform.elaborate = [](const sweep::Build& build, const std::string& origin) {
+study::Platform sweep_platform() {
+  study::Platform platform;
+  platform.elaborate = [](const study::Build& build, const std::string& origin) {
     return elaborated_from(made_apart([&](std::ostream&) {
       vp::Configuration configuration;
       for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
@@ -122,7 +122,7 @@ sweep::Platform sweep_platform() {
   return platform;
 }
 
-RunOptions options_of(const sweep::PointRun& point) {
+RunOptions options_of(const study::PointRun& point) {
   RunOptions options;
   options.inputs = point.inputs;
   options.program = if_named(point.program);
@@ -142,7 +142,7 @@ bool runs_own_code(const std::string& program,
          (design != configuration.end() && is_design_file(design->second));
 }
 
-int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ostream& err) {
+int run_point(const study::PointRun& point, study::PointResult& result, std::ostream& err) {
   vp::begin_fresh_context();
   pl::known_frame_bytes = most_known_bytes;
   if (!runs_own_code(point.program, point.settings)) ps::Program::keep_loaded();
@@ -161,12 +161,12 @@ int run_point(const sweep::PointRun& point, sweep::PointResult& result, std::ost
   }
 }
 
-void warm_up(const sweep::Manifest& manifest, const std::vector<std::size_t>& positions) {
+void warm_up(const study::Manifest& manifest, const std::vector<std::size_t>& positions) {
   std::set<std::size_t> seen;
   for (const std::size_t position : positions) {
     const std::size_t index = manifest.points[position].input_set;
     if (!seen.insert(index).second) continue;
-    const sweep::InputSet& set = manifest.input_sets[index];
+    const study::InputSet& set = manifest.input_sets[index];
     input::InputOptions options;
     options.size = set.size;
     if (manifest.input.camera) options.camera = input::read_camera_file(*manifest.input.camera);

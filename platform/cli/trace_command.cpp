@@ -1,9 +1,9 @@
 #include <ostream>
 
+#include <chip/system/designs.h>
 #include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <designs/designs.h>
 #include <host/output_folder.h>
 #include <trace/statistics.h>
 #include <trace/tools.h>

@@ -23,7 +23,7 @@
 #include <vp/unit.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/concat/concat.h>
-#include <zynq/processing_system.h>
+#include <chip/system/processing_system.h>
 
 #include <cstdint>
 #include <exception>

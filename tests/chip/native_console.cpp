@@ -1,6 +1,6 @@
 #include "native_console.h"
 
-#include <run/simulation.h>
+#include <chip/run/simulation.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -17,6 +17,6 @@ std::vector<std::string> native_console(
   std::vector<std::string> lines;
   simulation.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
   simulation.run([] { return platform::input::SharedFrame(); },
-                 [](platform::report::FrameReport&&) { return true; });
+                 [](platform::facts::FrameReport&&) { return true; });
   return lines;
 }

@@ -5,7 +5,7 @@
 #include "platform_run.h"
 
 using namespace integration;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 namespace {
 

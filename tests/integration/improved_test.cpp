@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <scene/scene.h>
+#include <marker/scene/scene.h>
 
 #include "executable.h"
 

@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include <scene/renderer.h>
-#include <scene/scene.h>
+#include <marker/scene/renderer.h>
+#include <marker/scene/scene.h>
 
 namespace integration {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include <input/frame_source.h>
-#include <run/simulation.h>
+#include <marker/input/frame_source.h>
+#include <chip/run/simulation.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -19,7 +19,7 @@ using platform::Simulation;
 using platform::input::ImageSize;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 using Next = std::function<SharedFrame()>;
 

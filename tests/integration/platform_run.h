@@ -4,16 +4,16 @@
 #include <utility>
 #include <vector>
 
-#include <input/frame_source.h>
-#include <report/result.h>
+#include <marker/input/frame_source.h>
+#include <facts/result.h>
 
 namespace integration {
 
 /// A run of the whole platform in this process.
 struct PlatformRun {
-  platform::report::RunFacts facts;
+  platform::facts::RunFacts facts;
   /// With input, truth and camera filled in.
-  std::vector<platform::report::FrameReport> frames;
+  std::vector<platform::facts::FrameReport> frames;
 };
 
 /// Parameters by path: {"ps.fclk_clk1.frequency", "40 MHz"}.
@@ -33,12 +33,12 @@ PlatformRun run_images(const std::vector<platform::GreyImage>& images,
 
 /// Duration of one stage of a frame, us. Throws std::out_of_range if the frame has none of that
 /// name.
-double stage_us(const platform::report::FrameReport& frame, const std::string& stage);
+double stage_us(const platform::facts::FrameReport& frame, const std::string& stage);
 
 /// The overflow counters together.
-std::uint64_t overflows(const platform::report::FrameReport& frame);
+std::uint64_t overflows(const platform::facts::FrameReport& frame);
 
 /// What was found, in words that compare: "corner x y strength direction", "blob sx sy ex ey".
-std::vector<std::string> features(const platform::report::FrameReport& frame);
+std::vector<std::string> features(const platform::facts::FrameReport& frame);
 
 }  // namespace integration

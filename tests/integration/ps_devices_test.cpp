@@ -1,6 +1,6 @@
 // SLCR, UART and private timer in the whole platform, through their drivers.
-#include <input/frame_source.h>
-#include <run/simulation.h>
+#include <marker/input/frame_source.h>
+#include <chip/run/simulation.h>
 #include <vp/configuration.h>
 #include <boost/test/unit_test.hpp>
 #include <string>
@@ -10,7 +10,7 @@
 #include "simulation.h"
 
 using platform::Simulation;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 namespace {
 

@@ -1,12 +1,12 @@
 // Every bit of every register of the platform as it runs, through the processor's port: what it
 // reads after reset, and what writing ones and zeros does, is what its description says.
-#include <designs/designs.h>
+#include <chip/system/designs.h>
 #include <slcr_registers.h>
 #include <vp/configuration.h>
 #include <vp/register_bank.h>
 #include <vp/report.h>
 #include <vp/text.h>
-#include <zynq/hardware_map.h>
+#include <chip/system/hardware_map.h>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <functional>
@@ -98,7 +98,7 @@ const std::map<Name, std::uint32_t>& narrow() {
 
 class Walk {
  public:
-  using Device = platform::report::HardwareMap::Device;
+  using Device = platform::facts::HardwareMap::Device;
 
   /// Runs `look` on a device of a new platform.
   void on_device(const std::string& name, const std::function<void(const Device&)>& look) {
@@ -173,7 +173,7 @@ struct Policy {
   }
 };
 
-Policy policy_of(const Name& name, const platform::report::HardwareMap::Register& r) {
+Policy policy_of(const Name& name, const platform::facts::HardwareMap::Register& r) {
   Policy policy;
   if (!r.built || constants().count(name) != 0) return policy;
   if (const auto found = narrow().find(name); found != narrow().end()) {

@@ -2,14 +2,14 @@
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
 #include <cli/commands.h>
-#include <designs/designs.h>
+#include <chip/system/designs.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <private_timer_registers.h>
 #include <slcr_registers.h>
 #include <uart_registers.h>
 #include <vp/configuration.h>
-#include <zynq/hardware_map.h>
+#include <chip/system/hardware_map.h>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -25,7 +25,7 @@
 
 namespace {
 
-using platform::report::HardwareMap;
+using platform::facts::HardwareMap;
 namespace fs = std::filesystem;
 
 struct Description {

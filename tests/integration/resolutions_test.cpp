@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include <report/summary.h>
-#include <scene/portable_math.h>
+#include <facts/summary.h>
+#include <marker/scene/portable_math.h>
 #include <vp/error.h>
 
 #include "platform_run.h"
 
 using namespace integration;
 using platform::GreyImage;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 namespace {
 
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(markers_are_found_in_scenes_of_other_sizes) {
         BOOST_TEST(frame.warnings.empty());
         BOOST_TEST_REQUIRE(frame.markers.size() == 1u);
         BOOST_TEST(frame.markers[0].id == 0);
-        const auto error = platform::report::measure_error(frame.markers[0], *frame.truth);
+        const auto error = platform::facts::measure_error(frame.markers[0], *frame.truth);
         BOOST_TEST(error.corner_px < 3);
         check_time(frame, size);
       }

@@ -3,14 +3,14 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <report/summary.h>
-#include <scene/scene.h>
+#include <facts/summary.h>
+#include <marker/scene/scene.h>
 
 #include "platform_run.h"
 
 using namespace integration;
-using platform::report::FoundMarker;
-using platform::report::FrameReport;
+using platform::facts::FoundMarker;
+using platform::facts::FrameReport;
 
 namespace {
 
@@ -48,7 +48,7 @@ void check_marker(const FrameReport& frame) {
   BOOST_TEST(found.id == frame.truth->marker_id);
   BOOST_TEST(found.rotation == true_rotation(*frame.truth));
   BOOST_TEST(found.has_pose);
-  const auto error = platform::report::measure_error(found, *frame.truth);
+  const auto error = platform::facts::measure_error(found, *frame.truth);
   BOOST_TEST(error.corner_px < corner_tolerance_px);
   // The thesis' pose is coarse; this one is of the right marker, on the right side.
   BOOST_TEST(error.translation_mm < 0.2 * 1000 * frame.truth->pose.translation[2]);

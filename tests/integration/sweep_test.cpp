@@ -3,8 +3,8 @@
 #include <set>
 #include <sstream>
 
-#include <sweep/metrics.h>
-#include <sweep/point.h>
+#include <result/metrics.h>
+#include <study/point.h>
 
 #include "sweeps.h"
 
@@ -145,14 +145,14 @@ BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, Sweeps) {
   write("s.yaml", "parameters: {ps.fclk_clk1.frequency: [50 MHz]}");
   run({"sweep", "s.yaml"});
   const std::string file = a_point("out/s");
-  platform::sweep::PointRecord older = platform::sweep::read_point(file);
-  platform::sweep::Json identity = older.identity_json();
+  platform::study::PointRecord older = platform::study::read_point(file);
+  platform::study::Json identity = older.identity_json();
   identity["markervp"]["version"] = "0.0.1";
   older.identity = identity.dump();
-  older.key = platform::sweep::key_of(older.identity);
+  older.key = platform::study::key_of(older.identity);
   std::filesystem::remove(file);
   kit::write_file(*this / ("out/s/points/" + older.key + ".json"),
-                  platform::sweep::point_text(older));
+                  platform::study::point_text(older));
   const kit::Outcome outcome = run({"sweep", "s.yaml"});
   BOOST_TEST(contains(outcome.out, "1 point: 1 computed now, 0 there before"), outcome.out);
   BOOST_TEST(contains(outcome.err, "1 point of another version of the program (0.0.1"),
@@ -235,12 +235,12 @@ BOOST_FIXTURE_TEST_CASE(every_metric_has_a_meaning, Sweeps) {
   }
   std::set<std::string> kinds;
   while (std::getline(names, name, ',')) {
-    const platform::sweep::MetricKind* kind = platform::sweep::kind_of_metric(name);
+    const platform::result::MetricKind* kind = platform::result::kind_of_metric(name);
     BOOST_REQUIRE_MESSAGE(kind != nullptr, name);
     kinds.insert(kind->pattern);
   }
   kinds.insert("summary.unpublished");  // there only if a program says nothing of a frame
-  for (const platform::sweep::MetricKind& kind : platform::sweep::metric_kinds())
+  for (const platform::result::MetricKind& kind : platform::result::metric_kinds())
     BOOST_TEST(kinds.count(kind.pattern) == 1u, kind.pattern);
 }
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <sweep/run_log.h>
+#include <study/run_log.h>
 
 #include "executable.h"
 
@@ -73,8 +73,8 @@ class Sweeps : public kit::TemporaryFolder {
   /// Times that points were computed, by key.
   std::map<std::string, int> computations(const std::string& folder) const {
     std::map<std::string, int> counts;
-    const platform::sweep::RunLogs logs{platform::sweep::Store(*this / folder)};
-    logs.visit([&](const platform::sweep::RunEntry& entry) { ++counts[entry.key]; });
+    const platform::study::RunLogs logs{platform::study::Store(*this / folder)};
+    logs.visit([&](const platform::study::RunEntry& entry) { ++counts[entry.key]; });
     return counts;
   }
   std::string a_point(const std::string& folder) const {

@@ -2,12 +2,12 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include <scene/scene.h>
+#include <marker/scene/scene.h>
 
 #include "platform_run.h"
 
 using namespace integration;
-using platform::report::FrameReport;
+using platform::facts::FrameReport;
 
 namespace {
 

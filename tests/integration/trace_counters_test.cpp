@@ -3,9 +3,9 @@
 
 #include <map>
 
-#include <designs/marker/marker_design.h>
-#include <input/frame_source.h>
-#include <run/simulation.h>
+#include <marker/designs/marker/marker_design.h>
+#include <marker/input/frame_source.h>
+#include <chip/run/simulation.h>
 #include <trace/statistics.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>
@@ -50,7 +50,7 @@ Counted run(const std::vector<std::pair<std::string, std::string>>& settings) {
   options.size = simulation.image_size();
   const auto source = platform::input::open_inputs({"demo", "z0.5", "z1.0"}, options);
   simulation.run([&] { return source->next(); },
-                 [](platform::report::FrameReport&&) { return true; });
+                 [](platform::facts::FrameReport&&) { return true; });
   Counted result;
   for (const vp::Counter* counter : vp::all_counters()) {
     result.counters[counter->name()] = counter->get();

@@ -4,20 +4,20 @@
 #include <utility>
 #include <vector>
 
-#include <report/verdict.h>
-#include <sweep/plan.h>
-#include <sweep/results.h>
+#include <result/verdict.h>
+#include <study/plan.h>
+#include <study/results.h>
 
 namespace space_test {
 
-namespace report = platform::report;
-namespace sweep = platform::sweep;
+
+namespace study = platform::study;
 
 /// Parameters a and b, numbers from 0 to 1000, and a word.
-inline sweep::Platform numbers() {
-  sweep::Platform platform;
-  platform.elaborate = [](const sweep::Build& build, const std::string&) {
-    sweep::Elaborated built;
+inline study::Platform numbers() {
+  study::Platform platform;
+  platform.elaborate = [](const study::Build& build, const std::string&) {
+    study::Elaborated built;
     for (const char* path : {"a", "b", "word"}) {
       const std::string usual = path == std::string("word") ? "plain" : "0";
       const auto set = build.settings.find(path);
@@ -33,7 +33,7 @@ inline sweep::Platform numbers() {
   return platform;
 }
 
-inline double number(const sweep::PlannedPoint& point, const std::string& path) {
+inline double number(const study::PlannedPoint& point, const std::string& path) {
   for (const auto& [name, value] : point.swept) {
     if (name == path) return std::stod(value);
   }
@@ -41,14 +41,14 @@ inline double number(const sweep::PlannedPoint& point, const std::string& path) 
 }
 
 /// Fast is what costs: frames a second grow with a, power with a², and both get worse off b = 500.
-inline sweep::Outcome outcome_of(const sweep::PlannedPoint& point) {
+inline study::Outcome outcome_of(const study::PlannedPoint& point) {
   const double a = number(point, "a") / 1000, b = number(point, "b") / 1000 - 0.5;
   std::vector<std::pair<std::string, double>> figures{{"summary.fps.mean", 100 * a - 50 * b * b},
                                                       {"power.total_w.nominal", a * a + b * b}};
-  for (const char* part : report::verdict_parts)
+  for (const char* part : result::verdict_parts)
     figures.emplace_back("verdict." + std::string(part) + ".holds", 1);
-  sweep::Outcome outcome;
-  outcome.metrics = sweep::Metrics(std::move(figures));
+  study::Outcome outcome;
+  outcome.metrics = result::Metrics(std::move(figures));
   return outcome;
 }
 

@@ -1,5 +1,5 @@
 // No marker detector: frames, stages, counts and words of its own, and nothing in the PL.
-#include <zynq/design_plugin.h>
+#include <chip/system/design_plugin.h>
 
 #include <cstring>
 #include <utility>
@@ -15,7 +15,7 @@ class Brightness : public sc_core::sc_module, public platform::Design {
   platform::input::ImageSize frame_size() const override { return {64, 48}; }
 
   bool report(const platform::Publication& publication,
-              platform::report::FrameReport& frame) override {
+              platform::facts::FrameReport& frame) override {
     brightness::Result result;
     if (publication.kind != brightness::kind || publication.size != sizeof result) return false;
     std::memcpy(&result, publication.data, sizeof result);

@@ -1,4 +1,4 @@
 // A shared object that says nothing of itself.
-#include <zynq/design.h>
+#include <chip/system/design.h>
 
 const platform::DesignInfo unused{};

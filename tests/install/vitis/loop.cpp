@@ -1,6 +1,6 @@
 // A DMA engine whose output stream is its input stream, and a GPIO whose first channel drives its
 // second.
-#include <zynq/design_plugin.h>
+#include <chip/system/design_plugin.h>
 
 #include <vp/axi_stream.h>
 #include <xilinx/axi_dma/axi_dma.h>
@@ -43,7 +43,7 @@ class Loop : public sc_core::sc_module, public platform::Design {
   }
 
   platform::input::ImageSize frame_size() const override { return {640, 480}; }
-  bool report(const platform::Publication&, platform::report::FrameReport&) override {
+  bool report(const platform::Publication&, platform::facts::FrameReport&) override {
     return false;
   }
 

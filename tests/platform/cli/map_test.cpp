@@ -9,8 +9,8 @@ using namespace cli_test;
 namespace {
 
 /// A memory, and two timers of one kind.
-platform::report::HardwareMap small_map() {
-  using Map = platform::report::HardwareMap;
+platform::facts::HardwareMap small_map() {
+  using Map = platform::facts::HardwareMap;
   static const int kind = 0, bits = 0;
   const std::vector<Map::Field> fields{{"ON", 0x8000'0001, "rw", 1, "On | off"},
                                        {"LEVEL", 0x0000'0FF0, "w1c", 0x12, "How much"}};

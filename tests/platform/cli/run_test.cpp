@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <page/report_page.h>
+#include <result/page/report_page.h>
 
 #include "cli_kit.h"
 

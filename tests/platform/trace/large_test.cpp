@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include <designs/marker/marker_design.h>
+#include <marker/designs/marker/marker_design.h>
 #include <trace/statistics.h>
 
 #include "temporary_files.h"

@@ -1,7 +1,7 @@
 // Numbers of waveforms that were counted by hand. The clock has 10 ns; edges see what stood before.
 #include <boost/test/unit_test.hpp>
 
-#include <designs/marker/marker_design.h>
+#include <marker/designs/marker/marker_design.h>
 #include <trace/statistics.h>
 
 #include "waves.h"

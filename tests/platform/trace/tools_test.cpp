@@ -1,7 +1,7 @@
 // diff, cut, plot, names and save files.
 #include <boost/test/unit_test.hpp>
 
-#include <designs/marker/marker_design.h>
+#include <marker/designs/marker/marker_design.h>
 #include <trace/tools.h>
 #include <vp/wave_writer.h>
 

@@ -4,7 +4,7 @@
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
-#include <zynq/design_plugin.h>
+#include <chip/system/design_plugin.h>
 
 namespace {
 
@@ -32,7 +32,7 @@ class Ends : public sc_core::sc_module, public platform::Design {
   }
 
   platform::input::ImageSize frame_size() const override { return {640, 480}; }
-  bool report(const platform::Publication&, platform::report::FrameReport&) override {
+  bool report(const platform::Publication&, platform::facts::FrameReport&) override {
     return false;
   }
 

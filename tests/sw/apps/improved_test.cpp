@@ -1,6 +1,6 @@
 #include <apps/improved/application.h>
 #include <marker/work.h>
-#include <scene/renderer.h>
+#include <marker/scene/renderer.h>
 
 #include <blob_stream.h>
 

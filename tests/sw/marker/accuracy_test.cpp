@@ -3,8 +3,8 @@
 #include <marker/board_pose.h>
 #include <marker/marker_reader.h>
 #include <marker/quad_fit.h>
-#include <scene/portable_math.h>
-#include <scene/renderer.h>
+#include <marker/scene/portable_math.h>
+#include <marker/scene/renderer.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 #include <marker/marker_detector.h>
 #include <marker/work.h>
-#include <scene/portable_math.h>
-#include <scene/renderer.h>
+#include <marker/scene/portable_math.h>
+#include <marker/scene/renderer.h>
 
 #include <blob_stream.h>
 

@@ -1,6 +1,6 @@
 #include <marker/marker_reader.h>
 #include <marker/work.h>
-#include <scene/portable_math.h>
+#include <marker/scene/portable_math.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

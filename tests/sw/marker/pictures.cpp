@@ -1,8 +1,8 @@
 #include "pictures.h"
 
 #include <blob_stream.h>
-#include <scene/pose.h>
-#include <scene/renderer.h>
+#include <marker/scene/pose.h>
+#include <marker/scene/renderer.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include <marker/images.h>
 #include <marker/quad_fit.h>
-#include <scene/grey_image.h>
-#include <scene/scene.h>
+#include <marker/scene/grey_image.h>
+#include <marker/scene/scene.h>
 
 #include <cstdint>
 #include <ostream>

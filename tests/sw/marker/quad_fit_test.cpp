@@ -1,5 +1,5 @@
 #include <marker/quad_fit.h>
-#include <scene/renderer.h>
+#include <marker/scene/renderer.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -1,7 +1,7 @@
 #include "pictures.h"
 
-#include <scene/renderer.h>
-#include <scene/scene.h>
+#include <marker/scene/renderer.h>
+#include <marker/scene/scene.h>
 
 using harness::Image;
 using harness::Random;

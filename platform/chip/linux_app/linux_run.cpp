@@ -1,0 +1,461 @@
+#include <chip/linux_app/linux_run.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include <gic_registers.h>
+#include <ps/cpu/cpu.h>
+#include <ps/cpu/program_watch.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+namespace platform {
+
+namespace {
+
+void print(const std::string& line) {
+  hal_console_write((line + "\n").c_str(), line.size() + 1);
+}
+
+using linux_app::Device;
+using linux_app::Reply;
+using linux_app::What;
+
+enum Work : std::uint32_t { system_call, wake_up };
+const char* const work_names[] = {"linux_system_call", "linux_wake_up"};
+
+constexpr std::uint64_t ns_per_s = 1'000'000'000;
+constexpr std::uint32_t timer_interrupt = 27;
+constexpr std::size_t buffer_alignment = 4096;
+
+std::uint32_t distributor(std::uint32_t offset) {
+  return gic::distributor_base + offset;
+}
+
+/// A whole number as the kernel reads it: decimal, 0x or 0. None: it is no number.
+std::optional<std::uint64_t> number_in(const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const std::uint64_t value = std::strtoull(text.c_str(), &end, 0);
+  if (end == text.c_str() || errno != 0 || text.front() == '-') return std::nullopt;
+  if (std::string(end).find_first_not_of(" \n") != std::string::npos) return std::nullopt;
+  return value;
+}
+
+/// Not where the host put things, which is elsewhere in each run.
+std::string address_text(std::uint64_t address) {
+  constexpr std::uint64_t first_page = 4096;
+  if (address >> 32 != 0) return {};  // or it is not known
+  return ": access to " + vp::hex(static_cast<std::uint32_t>(address)) +
+         (address < first_page ? ", a null pointer" : "");
+}
+
+}  // namespace
+
+LinuxRun* LinuxRun::active = nullptr;
+
+LinuxRun::LinuxRun(const LinuxOptions& options)
+    : application_(options),
+      description_{HAL_ABI,
+                   application_.name().c_str(),
+                   [] { return active->serve_to_end(); },
+                   work_names,
+                   std::size(work_names),
+                   nullptr,
+                   0,
+                   nullptr,
+                   0} {
+  active = this;
+}
+
+LinuxRun::~LinuxRun() {
+  active = nullptr;
+}
+
+ps::CostTable LinuxRun::costs(const ps::CostTable& costs) const {
+  ps::CostTable all = costs;
+  all.set(work_names[system_call], {static_cast<double>(devices_->system_call), 0});
+  all.set(work_names[wake_up], {static_cast<double>(devices_->wake_up), 0});
+  return all;
+}
+
+void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
+  if (zynq.ps.ddr.descriptor() < 0)
+    throw vp::InputError(
+        "--linux: the application shares the DDR as a file without a name, and "
+        "none of " +
+        std::to_string(zynq.ps.ddr.size) +
+        " B is allowed: raise 'ulimit -f', or choose a smaller ps.ddr.size");
+  zynq_ = &zynq;
+  caches_ = &caches;
+  caches.name_calls("write 1 to sync_for_device", "write 1 to sync_for_cpu");
+  devices_.emplace("linux", zynq);
+  folder_.emplace();
+  folder_->write("/dev/mem", "");
+  zynq.ps.cpu.locate_program([this] { return place(); });
+}
+
+// Nothing here has a destructor that matters: a failure ends the program where it stands.
+int LinuxRun::serve_to_end() {
+  boot();
+  while (true) {
+    using Stop = ps::ProgramWatch::Stop;
+    if (ps::ProgramWatch::stop == Stop::host_time) {
+      // In a call of the HAL, so that the watch does not leave it.
+      ps::Cpu::running("a Linux application").guarded([&] {
+        place_ = application_.end_for_time();
+      });
+    }
+    if (ps::ProgramWatch::stop == Stop::host_time && application_.left_copy())
+      fail(
+          "the application's process has ended, and a copy of it that fork() made runs on and "
+          "lets no simulated time pass: end it, or let it sleep or use a device");
+    if (ps::ProgramWatch::stop != Stop::none) vp::FaultTrap::leave_at_stop();
+    const std::optional<Asked> asked = application_.next();
+    if (asked) {
+      serve(*asked);
+    } else if (application_.ended()) {
+      return end();
+    } else if (const std::optional<std::string> program = application_.replacement()) {
+      fail(*program == application_.path()
+               ? "the application closed the descriptor by which it reaches the platform with a "
+                 "system call of its own, or started itself again, by exec(), which does not reach "
+                 "the platform: call functions of the C library, and start it once"
+               : "the application became another program, by exec(), which does not reach the "
+                 "platform: start that one ('" +
+                     *program + "'), with --linux");
+    }
+  }
+}
+
+void LinuxRun::boot() {
+  gic_.initialise();
+  timer_.initialise();
+  timer_hz_ = zynq_->ps.cpu_clk.clk.frequency_hz() / drivers::GlobalTimer::cycles_per_count;
+  gic_.connect(timer_interrupt, drivers::Trigger::rising_edge, &on_alarm, this);
+  hal_interrupt_enable(true);
+  const std::vector<LinuxDevices::Uio>& uios = devices_->uios();
+  uios_.resize(uios.size());
+  for (std::size_t i = 0; i < uios.size(); ++i) {
+    folder_->add(uios[i], i);
+    uios_[i] = {uios[i].interrupt, true, 0};
+    gic_.connect(uios[i].interrupt, drivers::Trigger::level_high, &on_interrupt, &uios_[i]);
+    print("linux: /dev/uio" + std::to_string(i) + " is " + uios[i].name + ", interrupt " +
+          std::to_string(uios[i].interrupt) + ", at " +
+          vp::hex(static_cast<std::uint32_t>(uios[i].base)));
+  }
+  make_buffers();
+  for (std::size_t i = 0; i < buffers_.size(); ++i) {
+    print("linux: /dev/udmabuf" + std::to_string(i) + " has " + std::to_string(buffers_[i].size) +
+          " bytes at " + vp::hex(static_cast<std::uint32_t>(buffers_[i].base)));
+  }
+  // On the platform's side: the processes that guard it are copies of this one, where an exit is
+  // not the program's.
+  ps::Cpu::running("a Linux application").guarded([&] {
+    application_.start(folder_->path(), zynq_->ps.ddr.descriptor(), &hal_console_write);
+  });
+}
+
+void LinuxRun::make_buffers() {
+  for (std::size_t i = 0; i < devices_->udmabufs; ++i) {
+    const hal_dma_buffer memory =
+        hal_dma_allocate(static_cast<std::size_t>(devices_->udmabuf_size), buffer_alignment);
+    if (memory.data == nullptr) fail("no memory is left for /dev/udmabuf" + std::to_string(i));
+    Buffer buffer;
+    buffer.base = memory.bus_address;
+    buffer.size = buffer.sync_size = memory.size;
+    show(buffer, i);
+    buffers_.push_back(buffer);
+  }
+}
+
+int LinuxRun::end() {
+  const std::optional<LinuxApplication::Death> death = application_.death();
+  if (death) {
+    place_ = death->place;
+    if (!death->reason.empty()) fail("the application " + death->reason);
+    const char* const name = ::sigabbrev_np(death->signal);
+    fail(std::string("the application was ended by SIG") + (name ? name : "?") + " (" +
+         ::strsignal(death->signal) + ")" + address_text(death->address));
+  }
+  if (!connected_)
+    fail("the application ended with exit code " + std::to_string(application_.exit_code()) +
+         " before the shim was loaded into it: its loader says why, above, or its C library is not "
+         "glibc");
+  return application_.exit_code();
+}
+
+void LinuxRun::fail(const std::string& problem) const {
+  ps::Cpu& cpu = ps::Cpu::running("a Linux application");
+  cpu.guarded([&] { cpu.misuse(problem); });
+  std::abort();  // it does not come back
+}
+
+// Asked once for each request: each look at the stack takes the host's time.
+std::string LinuxRun::place() {
+  if (!place_ && !waits_) return {};
+  if (!place_) place_ = application_.place();
+  return *place_;
+}
+
+void LinuxRun::serve(const Asked& asked) {
+  place_.reset();
+  if (asked.request.what == What::failure) {
+    const std::size_t end = asked.text.find('\n');
+    place_ = end == std::string::npos ? "" : asked.text.substr(end + 1);
+    fail(asked.text.substr(0, end));
+  }
+  waits_ = true;
+  Reply reply{};
+  obey(asked, reply);
+  for (std::size_t i = 0; i < uios_.size(); ++i) reply.interrupts[i] = uios_[i].count;
+  waits_ = false;
+  application_.answer(reply);
+}
+
+void LinuxRun::obey(const Asked& asked, Reply& reply) {
+  const Request& request = asked.request;
+  const auto address = static_cast<std::uint32_t>(request.a);
+  switch (request.what) {
+    case What::read:
+      reply.a = read(address, request.size);
+      return;
+    case What::write:
+      return write(address, static_cast<std::uint32_t>(request.b), request.size);
+    case What::clock:  // without a call of the kernel: vdso(7)
+      reply.now_ns = now_ns();
+      return;
+    case What::hello:
+      connected_ = true;
+      reply.a = ps::Ddr::base;
+      reply.b = zynq_->ps.ddr.end();
+      return;
+    default:
+      hal_work(system_call, 1);
+  }
+  switch (request.what) {
+    case What::open:
+      return open(request, reply);
+    case What::map:
+      return map(request);
+    case What::interrupt:
+      reply.a = await_interrupt(request.a, static_cast<std::uint32_t>(request.b), request.c != 0);
+      return;
+    case What::control:
+      return control(uios_.at(request.a), request.b != 0);
+    case What::sleep:
+      if (request.a != 0) sleep_until(timer_.now() + counts_of(request.a));
+      return;
+    case What::wait: {
+      const std::uint64_t before = now_ns();
+      if (before < request.a && interrupts() == request.b) {
+        const auto end = request.a == linux_app::forever
+                             ? std::nullopt
+                             : std::optional<std::uint64_t>(counts_of(request.a));
+        sleep_until(end, [&] { return interrupts() != request.b; });
+      }
+      reply.now_ns = now_ns();
+      return;
+    }
+    case What::missing:
+      print("linux: " + asked.text + " is not there: those that are stand above");
+      return;
+    case What::refused:
+      hal_warn(asked.text.c_str());
+      return;
+    case What::store:
+      reply.error = store(buffers_.at(request.a), request.a, asked.text);
+      return;
+    default:
+      return;
+  }
+}
+
+void LinuxRun::open(const Request& request, Reply& reply) {
+  if (static_cast<Device>(request.a) == Device::uio) {
+    const LinuxDevices::Uio& uio = devices_->uios().at(request.b);
+    reply.a = uio.base;
+    reply.b = uio.size;
+  } else if (static_cast<Device>(request.a) == Device::buffer) {
+    reply.a = buffers_.at(request.b).base;
+    reply.b = buffers_.at(request.b).size;
+  }
+}
+
+std::uint32_t LinuxRun::read(std::uint32_t address, std::uint32_t size) {
+  const std::uint32_t word = hal_read32(address & ~3u) >> (address & 3) * 8;
+  return size == 4 ? word : word & ((1u << size * 8) - 1);
+}
+
+void LinuxRun::write(std::uint32_t address, std::uint32_t value, std::uint32_t size) {
+  if (size == 4) return hal_write32(address, value);
+  if (!std::exchange(warned_of_parts_, true)) {
+    hal_warn(("a write of " + std::to_string(size) + (size == 1 ? " byte" : " bytes") + " to " +
+              vp::hex(address) +
+              ": devices like AXI GPIO and AXI DMA take whole words on the chip, whatever part is "
+              "meant, and here the rest of the word is read and written back: write a uint32_t")
+                 .c_str());
+  }
+  const std::uint32_t shift = (address & 3) * 8, mask = ((1u << size * 8) - 1) << shift;
+  const std::uint32_t before = hal_read32(address & ~3u);
+  hal_write32(address & ~3u, (before & ~mask) | (value << shift & mask));
+}
+
+// What the caches do not hold needs no maintenance.
+void LinuxRun::map(const Request& request) {
+  bool cached = (request.c & linux_app::o_sync) == 0;
+  if ((request.c & linux_app::of_buffer) != 0) {
+    const std::uint64_t mode = buffers_.at(request.c >> 8).sync_mode;
+    cached = (mode & 3) == 0 || (cached && (mode & 4) == 0);
+  }
+  if (!cached) caches_->placed(request.a, std::min(request.b, zynq_->ps.ddr.end() - request.a));
+}
+
+// As uio_pdrv_genirq: an interrupt masks itself, and its handler unmasks it again.
+void LinuxRun::on_interrupt(void* context) {
+  Uio& uio = *static_cast<Uio*>(context);
+  ++uio.count;
+  uio.enabled = false;
+  hal_write32(distributor(gic::ICDICER(uio.interrupt / 32)), 1u << uio.interrupt % 32);
+}
+
+void LinuxRun::control(Uio& uio, bool enable) {
+  if (uio.enabled == enable) return;
+  uio.enabled = enable;
+  const std::uint32_t number = uio.interrupt / 32;
+  hal_write32(distributor(enable ? gic::ICDISER(number) : gic::ICDICER(number)),
+              1u << uio.interrupt % 32);
+}
+
+std::uint32_t LinuxRun::await_interrupt(std::size_t number, std::uint32_t seen, bool waits) {
+  const Uio& uio = uios_.at(number);
+  if (!waits || uio.count != seen) {
+    hal_barrier();
+    return uio.count;
+  }
+  warn_of_masked(number);
+  sleep_until(std::nullopt, [&] { return uio.count != seen; });
+  return uio.count;
+}
+
+void LinuxRun::warn_of_masked(std::size_t number) const {
+  if (uios_[number].enabled) return;
+  const std::string file = "/dev/uio" + std::to_string(number);
+  hal_warn(
+      ("the application waits for an interrupt of " + file +
+       ", which is masked: each one masks it, and so does writing 0; write 1 (a uint32_t) to " +
+       file + " before it waits")
+          .c_str());
+}
+
+void LinuxRun::on_alarm(void* context) {
+  LinuxRun& self = *static_cast<LinuxRun*>(context);
+  self.timer_.clear_alarm();
+  self.alarm_ = true;
+}
+
+std::uint64_t LinuxRun::counts_of(std::uint64_t ns) const {
+  using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>((Wide{ns} * timer_hz_ + ns_per_s - 1) / ns_per_s);
+}
+
+std::uint64_t LinuxRun::now_ns() const {
+  using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(Wide{timer_.now()} * ns_per_s / timer_hz_);
+}
+
+std::uint64_t LinuxRun::interrupts() const {
+  return std::accumulate(uios_.begin(), uios_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Uio& uio) { return sum + uio.count; });
+}
+
+void LinuxRun::sleep_until(std::uint64_t count) {
+  sleep_until(count, [] { return false; });
+}
+
+/// Until the timer has counted so far, if it is to end so, or `met` holds.
+template <class Condition>
+void LinuxRun::sleep_until(std::optional<std::uint64_t> count, Condition met) {
+  alarm_ = false;
+  if (count) timer_.set_alarm(*count);
+  hal_interrupt_enable(false);
+  while (!alarm_ && !met()) {
+    hal_wait_for_interrupt();
+    hal_interrupt_enable(true);
+    hal_interrupt_enable(false);
+  }
+  hal_interrupt_enable(true);
+  if (count && !alarm_) timer_.clear_alarm();
+  hal_work(wake_up, 1);
+}
+
+// The driver's documentation: github.com/ikwzm/udmabuf.
+void LinuxRun::show(const Buffer& buffer, std::size_t number) const {
+  folder_->write("/dev/udmabuf" + std::to_string(number), "");
+  show(number, "phys_addr", vp::hex(static_cast<std::uint32_t>(buffer.base)));
+  show(number, "size", std::to_string(buffer.size));
+  show(number, "sync_mode", std::to_string(buffer.sync_mode));
+  show(number, "sync_size", std::to_string(buffer.sync_size));
+  for (const char* const zero : {"sync_offset", "sync_direction", "sync_for_cpu", "sync_for_device",
+                                 "sync_owner", "dma_coherent"})
+    show(number, zero, "0");
+}
+
+void LinuxRun::show(std::size_t number, const std::string& attribute,
+                    const std::string& value) const {
+  folder_->write("/sys/class/u-dma-buf/udmabuf" + std::to_string(number) + "/" + attribute,
+                 value + "\n");
+}
+
+/// What was written to an attribute; an errno, or 0.
+int LinuxRun::store(Buffer& buffer, std::size_t number, const std::string& text) {
+  const std::size_t space = text.find(' ');
+  const std::string name = text.substr(0, space);
+  const std::optional<std::uint64_t> value = number_in(text.substr(space + 1));
+  if (!value) return EINVAL;
+  if (name == "sync_for_cpu") return synchronise(buffer, false, *value);
+  if (name == "sync_for_device") return synchronise(buffer, true, *value);
+  constexpr std::uint64_t last_mode = 7, last_direction = 2;
+  const std::pair<const char*, std::pair<std::uint64_t*, std::uint64_t>> numbers[] = {
+      {"sync_mode", {&buffer.sync_mode, last_mode}},
+      {"sync_offset", {&buffer.sync_offset, buffer.size}},
+      {"sync_size", {&buffer.sync_size, buffer.size}},
+      {"sync_direction", {&buffer.sync_direction, last_direction}}};
+  for (const auto& [attribute, target] : numbers) {
+    if (name != attribute) continue;
+    if (*value > target.second) return EINVAL;
+    *target.first = *value;
+    show(number, name, std::to_string(*value));
+    return 0;
+  }
+  return EACCES;
+}
+
+// 1 takes what the other attributes say; a larger number says it itself: offset in the upper half,
+// then size, direction in bits 3:2, and bit 0. Which way caches are maintained is that of
+// arch/arm/mm/dma-mapping.c.
+int LinuxRun::synchronise(const Buffer& buffer, bool for_device, std::uint64_t value) const {
+  std::uint64_t offset = buffer.sync_offset, size = buffer.sync_size;
+  std::uint64_t direction = buffer.sync_direction;
+  if (value > 1) {
+    offset = value >> 32;
+    size = value & 0xFFFF'FFF0;
+    direction = value >> 2 & 3;
+  }
+  constexpr std::uint64_t to_device = 1, from_device = 2;
+  if (direction > from_device || offset > buffer.size || size > buffer.size - offset) return EINVAL;
+  if ((value & 1) == 0) return 0;
+  auto* const data = reinterpret_cast<void*>(static_cast<std::uintptr_t>(buffer.base + offset));
+  if (for_device && direction != from_device) {
+    hal_cache_flush(data, size);
+  } else if (for_device || direction != to_device) {
+    hal_cache_invalidate(data, size);
+  }
+  return 0;
+}
+
+}  // namespace platform

@@ -1,0 +1,473 @@
+#include <chip/system/hardware_map.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include <gic_registers.h>
+#include <slcr_registers.h>
+#include <uart_registers.h>
+#include <vp/ip.h>
+#include <vp/register_bank.h>
+#include <vp/text.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
+#include <xilinx/concat/concat.h>
+
+namespace xparameters {
+
+namespace {
+
+/// The lines "#define NAME value", all beginning with XPAR_.
+class Definitions {
+ public:
+  void number(const std::string& name, std::uint64_t value) { line(name, std::to_string(value)); }
+
+  void address(const std::string& name, std::uint32_t value) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%08XU", static_cast<unsigned>(value));
+    line(name, digits);
+  }
+
+  void line(const std::string& name, const std::string& value) {
+    text += "#define XPAR_" + name + " " + value + "\n";
+  }
+
+  std::string text;
+};
+
+/// What releases from 2023.2 on have besides, under the driver's name with an X before it: devices
+/// are known by their addresses, and an interrupt has its sense with it (level high is 4), as in a
+/// device tree (xinterrupt_wrap.h).
+void define_interrupts(Definitions& out, const std::string& name,
+                       const std::vector<std::uint32_t>& ids) {
+  constexpr std::uint32_t level_high = 4u << 12;
+  for (std::size_t n = 0; n < ids.size(); ++n) {
+    const std::string number = n == 0 ? "" : "_" + std::to_string(n);
+    out.address(name + "_INTERRUPTS" + number, (ids[n] - gic::first_spi) | level_high);
+  }
+  if (!ids.empty()) out.address(name + "_INTERRUPT_PARENT", gic::distributor_base);
+}
+
+/// Both under the instance's name and under that of the driver: code uses either. Interrupts end in
+/// INTR under the one, in VEC_ID under the other, which leaves the line out if there is only one.
+void define_device(Definitions& out, const Device& device, unsigned number) {
+  out.text += "\n/* " + device.name + " */\n";
+  const bool has_driver = !device.driver.empty();
+  std::vector<std::string> names{device.name};
+  if (has_driver) names.push_back(device.driver + "_" + std::to_string(number));
+  for (const std::string& name : names) {
+    if (has_driver) out.number(name + "_DEVICE_ID", number);
+    out.address(name + "_BASEADDR", device.base);
+    out.address(name + "_HIGHADDR", device.last);
+    for (const auto& [option, value] : device.options) out.number(name + "_" + option, value);
+  }
+  std::vector<std::uint32_t> interrupts;
+  for (const auto& [line, id] : device.interrupts) {
+    interrupts.push_back(id);
+    out.number("FABRIC_" + device.name + "_" + line + "_INTR", id);
+    if (has_driver) out.number("FABRIC_" + names.back() + "_" + line + "_VEC_ID", id);
+  }
+  if (has_driver && device.interrupts.size() == 1) {
+    out.number("FABRIC_" + names.back() + "_VEC_ID", device.interrupts.front().second);
+  }
+  if (has_driver) {
+    const std::string name = "X" + names.back();
+    out.address(name + "_BASEADDR", device.base);
+    out.address(name + "_HIGHADDR", device.last);
+    define_interrupts(out, name, interrupts);
+  }
+}
+
+constexpr const char* beginning =
+    "#ifndef XPARAMETERS_H\n"
+    "#define XPARAMETERS_H\n"
+    "\n"
+    "/*\n"
+    " * Written from the memory map of the platform: what Vivado would export for it. A test "
+    "holds\n"
+    " * the two together.\n"
+    " */\n";
+
+/// The private devices of the Cortex-A9 MPCore are where they are (UG585 table 4-7).
+constexpr const char* processor_devices =
+    "\n/* Cortex-A9 MPCore */\n"
+    "#define XPAR_PS7_SCUGIC_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUGIC_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUGIC_SINGLE_DEVICE_ID 0\n"
+    "#define XPAR_XSCUGIC_NUM_INSTANCES 1\n"
+    "#define XPAR_SCUGIC_0_CPU_BASEADDR 0xF8F00100U\n"
+    "#define XPAR_SCUGIC_0_DIST_BASEADDR 0xF8F01000U\n"
+    "#define XPAR_XSCUGIC_0_BASEADDR 0xF8F01000U\n"
+    "#define XPAR_GLOBAL_TMR_BASEADDR 0xF8F00200U\n"
+    "#define XPAR_GLOBAL_TMR_INTR 27\n"
+    "#define XPAR_SCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_SCUTIMER_INTR 29\n"
+    "#define XPAR_SCUTIMER_DEVICE_ID 0\n"
+    "#define XPAR_XSCUTIMER_NUM_INSTANCES 1\n"
+    "#define XPAR_XSCUTIMER_0_DEVICE_ID 0\n"
+    "#define XPAR_XSCUTIMER_0_BASEADDR 0xF8F00600U\n"
+    "#define XPAR_XSCUTIMER_0_INTERRUPTS 0x0010100DU\n"
+    "#define XPAR_XSCUTIMER_0_INTERRUPT_PARENT 0xF8F01000U\n"
+    "#define XPAR_XSCUWDT_NUM_INSTANCES 1\n"
+    "#define XPAR_SCUWDT_0_DEVICE_ID 0\n"
+    "#define XPAR_SCUWDT_0_BASEADDR 0xF8F00620U\n"
+    "#define XPAR_XSCUWDT_0_DEVICE_ID 0\n"
+    "#define XPAR_XSCUWDT_0_BASEADDR 0xF8F00620U\n"
+    "#define XPAR_XSCUWDT_0_INTERRUPTS 0x0010100EU\n"
+    "#define XPAR_XSCUWDT_0_INTERRUPT_PARENT 0xF8F01000U\n"
+    "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n"
+    "\n/* UARTs, and what the processing system has besides */\n";
+constexpr std::uint32_t uart_ref_hz = 50'000'000;
+
+}  // namespace
+
+std::string header(const Platform& platform) {
+  Definitions out;
+  out.text = beginning;
+  out.text += "\n/* Clocks, Hz */\n";
+  out.number("CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ", platform.cpu_hz);
+  out.number("CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ", platform.cpu_hz);
+  out.number("PS7_CRYSTAL_FREQ_HZ", platform.ps_clock_hz);
+  out.text += "\n/* Memory */\n";
+  out.address("PS7_DDR_0_S_AXI_BASEADDR", platform.ddr_base);
+  out.address("PS7_DDR_0_S_AXI_HIGHADDR", platform.ddr_last);
+  out.text += processor_devices;
+  for (std::size_t n = 0; n < platform.uarts.size(); ++n) {
+    const std::string name = "XUARTPS_" + std::to_string(n);
+    out.number(name + "_DEVICE_ID", n);
+    out.address(name + "_BASEADDR", platform.uarts[n]);
+    out.number(name + "_UART_CLK_FREQ_HZ", uart_ref_hz);
+    define_interrupts(
+        out, name,
+        {platform.uarts[n] == uart::uart0_base ? uart::uart0_interrupt : uart::uart1_interrupt});
+  }
+  out.number("XUARTPS_NUM_INSTANCES", platform.uarts.size());
+  out.text += "#include <xparameters_ps.h>\n";
+  std::map<std::string, unsigned> numbers;
+  for (const Device& device : platform.devices) {
+    define_device(out, device, numbers[device.driver]++);
+  }
+  out.text += "\n/* How many a driver has */\n";
+  for (const auto& [driver, count] : numbers) {
+    if (!driver.empty()) out.number("X" + driver + "_NUM_INSTANCES", count);
+  }
+  if (!platform.uarts.empty()) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%08XU\n", static_cast<unsigned>(platform.uarts.back()));
+    out.text += std::string("\n/* Console */\n#define STDOUT_BASEADDRESS ") + digits;
+  }
+  out.text += "\n#endif\n";
+  return out.text;
+}
+
+}  // namespace xparameters
+
+namespace platform {
+
+namespace {
+
+using facts::HardwareMap;
+using xparameters::Device;
+
+/// What Vivado states for the 666,666,667 Hz of a ZedBoard: it multiplies 33.333333 MHz.
+constexpr std::uint64_t usual_cpu_hz = 666'666'667, vivado_cpu_hz = 666'666'687;
+
+std::string capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// The driver of a device, by its model; "" without one of the vendor's.
+void add_build(Device& device, const sc_core::sc_object& module) {
+  if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
+    device.driver = "AXIDMA";
+    device.options = {{"INCLUDE_MM2S", dma->include_mm2s.get()},
+                      {"INCLUDE_S2MM", dma->include_s2mm.get()},
+                      {"INCLUDE_SG", dma->include_sg.get()},
+                      {"SG_LENGTH_WIDTH", dma->length_width},
+                      {"M_AXI_MM2S_DATA_WIDTH", 32},
+                      {"M_AXI_S2MM_DATA_WIDTH", 32}};
+  } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
+    device.driver = "GPIO";
+    device.options = {{"IS_DUAL", gpio->is_dual.get()},
+                      {"INTERRUPT_PRESENT", gpio->interrupt_present.get()}};
+  }
+}
+
+Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
+                const HardwareMap::Device& place) {
+  const sc_core::sc_object& module = *bank.get_parent_object();
+  Device device{capitals(place.name),
+                {},
+                static_cast<std::uint32_t>(place.base),
+                static_cast<std::uint32_t>(place.base + place.size - 1),
+                {},
+                {}};
+  add_build(device, module);
+  for (const auto& interrupt : map.interrupts) {
+    const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
+    if (line && line->get_parent_object() == &module)
+      device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
+  }
+  return device;
+}
+
+/// What a module is, for people.
+std::string title(const sc_core::sc_object& object) {
+  static const std::pair<const char*, const char*> titles[] = {
+      {"ps::Gic", "Interrupt controller (PL390)"},
+      {"ps::GlobalTimer", "Global timer"},
+      {"ps::PrivateTimer", "Private timer and watchdog"},
+      {"ps::Slcr", "System level control registers"},
+      {"ps::Uart", "UART"},
+      {"ps::Ocm", "On-chip memory"},
+      {"ps::Ddr", "DDR memory"},
+      {"xilinx::AxiDma", "AXI DMA (PG021)"},
+      {"xilinx::AxiGpio", "AXI GPIO (PG144)"},
+      {"xilinx::AxiBramCtrl", "AXI BRAM controller (PG078)"}};
+  for (const auto& [kind, text] : titles) {
+    if (std::string(object.kind()) == kind) return text;
+  }
+  return object.kind();
+}
+
+std::string access_text(vp::Access access) {
+  switch (access) {
+    case vp::Access::read_write:
+      return "rw";
+    case vp::Access::read_only:
+      return "ro";
+    case vp::Access::write_only:
+      return "wo";
+    case vp::Access::write_1_to_clear:
+      return "w1c";
+    case vp::Access::write_1_to_set:
+      return "w1s";
+    case vp::Access::write_1_to_toggle:
+      return "w1t";
+  }
+  return "";
+}
+
+const vp::RegisterBank* bank_of(const sc_core::sc_object& object) {
+  if (const auto* bank = dynamic_cast<const vp::RegisterBank*>(&object)) return bank;
+  for (const sc_core::sc_object* child : object.get_child_objects()) {
+    if (const auto* bank = dynamic_cast<const vp::RegisterBank*>(child)) return bank;
+  }
+  return nullptr;
+}
+
+/// The module behind a region of the address map: it has the region's name, or the region is called
+/// after it and one of its members ("gic_distributor": distributor of gic).
+const sc_core::sc_object* object_of(const std::string& parent, const std::string& region) {
+  const std::string prefix = parent + ".";
+  if (const auto* found = sc_core::sc_find_object((prefix + region).c_str())) return found;
+  for (std::size_t at = region.find('_'); at != std::string::npos; at = region.find('_', at + 1)) {
+    std::string name = region;
+    name[at] = '.';
+    if (const auto* found = sc_core::sc_find_object((prefix + name).c_str())) return found;
+  }
+  return nullptr;
+}
+
+std::vector<HardwareMap::Field> fields_of(const vp::Register& r) {
+  std::vector<HardwareMap::Field> list;
+  for (const vp::RegisterField& field : r.info().fields) {
+    const std::uint32_t lowest = field.mask & (~field.mask + 1);
+    list.push_back({field.name, field.mask, access_text(field.access),
+                    (r.reset_value() & field.mask) / lowest, field.documentation});
+  }
+  return list;
+}
+
+std::vector<HardwareMap::Register> registers_of(const vp::RegisterBank& bank) {
+  std::vector<HardwareMap::Register> list;
+  for (const vp::Register& r : bank.registers()) {
+    const vp::RegisterInfo& info = r.info();
+    list.push_back({info.name, info.offset, info.reset, r.reset_value(), !r.removed(), r.value(),
+                    access_text(info.access), info.writable, info.documentation, fields_of(r),
+                    info.fields.first});
+  }
+  return list;
+}
+
+void add_devices(HardwareMap& map, const vp::Router& router, const std::string& parent,
+                 const std::string& way, const std::vector<std::string>& buses = {}) {
+  for (const vp::Router::Region& region : router.regions()) {
+    if (std::find(buses.begin(), buses.end(), region.name) != buses.end()) continue;
+    HardwareMap::Device device;
+    device.name = region.name;
+    device.base = region.base;
+    device.size = region.size;
+    device.way = way;
+    if (const sc_core::sc_object* object = object_of(parent, region.name)) {
+      const vp::RegisterBank* bank = bank_of(*object);
+      device.path = bank ? bank->name() : object->name();
+      device.what = bank == object ? title(*object->get_parent_object()) + ", " + object->basename()
+                                   : title(*object);
+      if (bank) {
+        device.registers = registers_of(*bank);
+        device.description = &bank->registers().front().info();
+      }
+    }
+    map.devices.push_back(std::move(device));
+  }
+}
+
+void add_gp0_devices(HardwareMap& map, Zynq& zynq) {
+  const vp::Router* bus = zynq.ports.registers();
+  if (bus) add_devices(map, *bus, zynq.pl().name(), "m_axi_gp0");
+}
+
+void add_interrupts(HardwareMap& map, Zynq& zynq) {
+  for (const auto& interrupt : zynq.ps.interrupts()) {
+    map.interrupts.push_back({interrupt.id, interrupt.source->name()});
+  }
+  // A concat shows whose lines they are.
+  const vp::SignalBase* lines = zynq.ps.gic.irq_f2p.signal();
+  for (xilinx::Concat* concat : vp::all_below<xilinx::Concat>(zynq.pl())) {
+    if (&concat->dout != lines) continue;
+    for (unsigned bit = 0; bit < concat->dout.width(); ++bit) {
+      const vp::SignalBase* source = concat->in(bit).signal();
+      if (source) map.interrupts.push_back({gic::irq_f2p_id(bit), source->name()});
+    }
+  }
+  std::sort(map.interrupts.begin(), map.interrupts.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
+  const auto add = [&map](const vp::Clock& clock, const std::string& set_by,
+                          std::uint64_t programmed) {
+    map.clocks.push_back({clock.name(), clock.frequency_hz(), set_by, programmed});
+  };
+  add(ps.cpu_clk.clk, "ARM_CLK_CTRL", ps.slcr.cpu_clocks().cpu_6x4x);
+  for (const auto& [number, source] : ps.fclks()) {
+    add(source->clk, "FPGA" + std::to_string(number) + "_CLK_CTRL",
+        ps.slcr.programmed_fclk_hz(number));
+  }
+  add(ps.uart0_ref_clk, "UART_CLK_CTRL", ps.uart0_ref_clk.frequency_hz());
+  add(ps.uart1_ref_clk, "UART_CLK_CTRL", ps.uart1_ref_clk.frequency_hz());
+}
+
+}  // namespace
+
+std::string xparameters_header(Zynq& zynq) {
+  HardwareMap map;
+  add_gp0_devices(map, zynq);
+  add_interrupts(map, zynq);
+  xparameters::Platform platform;
+  const std::uint64_t cpu_hz = zynq.ps.cpu_clk.clk.frequency_hz();
+  platform.cpu_hz = cpu_hz == usual_cpu_hz ? vivado_cpu_hz : cpu_hz;
+  platform.ps_clock_hz = static_cast<std::uint64_t>(zynq.ps.slcr.ps_clk.get());
+  platform.ddr_base = ps::Ddr::base;
+  platform.ddr_last = static_cast<std::uint32_t>(zynq.ps.ddr.end() - 1);
+  if (zynq.ps.uart0.enabled) platform.uarts.push_back(uart::uart0_base);
+  if (zynq.ps.uart1.enabled) platform.uarts.push_back(uart::uart1_base);
+  // Those that software can reach, in the order in which drivers number them.
+  for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
+    for (const HardwareMap::Device& place : map.devices) {
+      if (place.path == bank->name()) platform.devices.push_back(exported(map, *bank, place));
+    }
+  }
+  std::stable_sort(platform.devices.begin(), platform.devices.end(),
+                   [](const Device& a, const Device& b) { return a.driver < b.driver; });
+  return xparameters::header(platform);
+}
+
+facts::HardwareMap hardware_map(Zynq& zynq) {
+  HardwareMap map;
+  ProcessingSystem& ps = zynq.ps;
+  add_devices(map, ps.s_axi_hp0, ps.name(), "its own port; s_axi_hp0 of the PL");
+  add_gp0_devices(map, zynq);
+  add_devices(map, ps.interconnect, ps.name(), "interconnect",
+              {"m_axi_gp0", "private_bus", "peripheral_bus"});
+  add_devices(map, ps.private_bus.devices, ps.name(), "private_bus");
+  add_devices(map, ps.peripheral_bus.devices, ps.name(), "peripheral_bus");
+  std::sort(map.devices.begin(), map.devices.end(),
+            [](const auto& a, const auto& b) { return a.base < b.base; });
+  add_interrupts(map, zynq);
+  add_clocks(map, ps);
+  map.xparameters = xparameters_header(zynq);
+  return map;
+}
+
+std::string register_text(const HardwareMap& map, std::uint32_t address, std::uint32_t value) {
+  for (const HardwareMap::Device& device : map.devices) {
+    for (const HardwareMap::Register& r : device.registers) {
+      if (device.base + r.offset != address) continue;
+      std::string set;
+      for (const HardwareMap::Field& field : r.fields) {
+        const std::uint32_t bits = (value & field.mask) / (field.mask & (~field.mask + 1));
+        if (bits != 0) set += field.name + " " + std::to_string(bits) + ", ";
+      }
+      return device.name + "." + r.name + ": " + vp::hex(value) +
+             (set.empty() ? "" : " (" + set + "all else 0)");
+    }
+  }
+  return {};
+}
+
+namespace {
+
+/// "-" if the register was not used so.
+std::string bits(std::uint64_t accesses, std::uint32_t mask) {
+  return accesses == 0 ? "-" : vp::hex(mask);
+}
+
+std::string row(const vp::Register& r) {
+  const vp::Register::Use& use = r.use();
+  std::string text = "| " + std::string(r.info().name);
+  text += " | " + std::to_string(use.reads) + " | " + std::to_string(use.writes);
+  text += " | " + bits(use.reads, use.read_ones) + " | " + bits(use.reads, use.read_zeros);
+  text += " | " + bits(use.writes, use.written_ones) + " | " + bits(use.writes, use.written_zeros);
+  return text + " |\n";
+}
+
+std::string section(const std::string& device, const vp::RegisterBank& bank) {
+  std::string rows, untouched;
+  std::size_t used = 0, built = 0;
+  for (const vp::Register& r : bank.registers()) {
+    const bool touched = r.use().reads + r.use().writes != 0;
+    if (r.removed() && !touched) continue;
+    ++built;
+    used += touched ? 1 : 0;
+    if (touched) {
+      rows += row(r);
+    } else {
+      untouched += (untouched.empty() ? "" : ", ") + std::string(r.info().name);
+    }
+  }
+  std::string text = "\n## " + device + ": " + std::to_string(used) + " of " +
+                     std::to_string(built) + " registers\n\n";
+  if (!rows.empty()) {
+    text +=
+        "| Register | Reads | Writes | Read as 1 | Read as 0 | Written 1 | Written 0 |\n"
+        "|---|---|---|---|---|---|---|\n" +
+        rows + "\n";
+  }
+  if (!untouched.empty()) text += "Never touched: " + untouched + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string register_coverage(Zynq& zynq) {
+  std::string text =
+      "# Registers that the program used\n\nMasks show the bits that were seen or written with "
+      "that value at least once.\n";
+  for (const auto& device : hardware_map(zynq).devices) {
+    const auto* bank =
+        dynamic_cast<const vp::RegisterBank*>(sc_core::sc_find_object(device.path.c_str()));
+    if (bank) text += section(device.name, *bank);
+  }
+  return text;
+}
+
+}  // namespace platform

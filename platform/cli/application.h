@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace platform::cli {
+
+/// Runs a command that was parsed. Returns the exit code, and throws vp::InputError for what the
+/// user got wrong. `arguments`: the command line, without the program's name.
+using RunCommand = std::function<int(const std::vector<std::string>& arguments, std::ostream& out,
+                                     std::ostream& err)>;
+
+/// What an application adds to the platform's command line.
+struct Application {
+  struct Command {
+    std::string name;
+    /// Adds the command of this name to the parser.
+    std::function<RunCommand(CLI::App& parser)> add;
+  };
+  std::vector<Command> commands;
+};
+
+}  // namespace platform::cli

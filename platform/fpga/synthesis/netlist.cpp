@@ -1,0 +1,512 @@
+#include <fpga/synthesis/netlist.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
+
+#include <host/document.h>
+#include <fpga/synthesis/cell_kinds.h>
+#include <fpga/synthesis/clocks.h>
+#include <fpga/synthesis/lut_pairs.h>
+#include <vp/error.h>
+
+namespace platform::synthesis {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr unsigned none = ~0u;
+
+void count(const std::string& type, Cells& cells) {
+  switch (kind_of(type)) {
+    case Kind::lut:
+      ++cells.lut;
+      break;
+    case Kind::ff:
+    case Kind::latch:
+      ++cells.ff;
+      break;
+    case Kind::carry:
+      ++cells.carry4;
+      break;
+    case Kind::dsp:
+      ++cells.dsp;
+      break;
+    case Kind::bram:
+      ++(starts_with(type, "RAMB36") ? cells.ramb36 : cells.ramb18);
+      break;
+    case Kind::lutram:
+    case Kind::shift:
+      cells.lut_memory += luts_of(type);
+      break;
+    default:
+      break;
+  }
+}
+
+// ---- the graph of what waits for what
+
+/// A bit of a net. What drives it is one cell.
+struct Bit {
+  Kind driver = Kind::unknown;
+  unsigned fan_out = 0;
+  double start_ns = -1;  ///< a register's clock to output; less than 0: no register drives it
+  unsigned waits_for = 0;
+  std::vector<unsigned> arcs;
+};
+
+struct Arc {
+  unsigned from, to;
+  double ns;
+  bool leaves_slice;
+  const std::string* cell;
+};
+
+struct End {
+  unsigned bit;
+  double setup_ns;
+  bool leaves_slice;
+  unsigned output;  ///< of the register, which names it; none: memory
+};
+
+/// When the last of what a bit waits for is there, ns, less than 0: never; and through which arc
+/// and from which state it came (2 * arc + state). Two entries a bit.
+struct Way {
+  std::vector<double> at;
+  std::vector<unsigned> through;
+};
+
+class Graph {
+ public:
+  Graph(const Json& module, const PathTiming& timing) : timing_(timing) {
+    for (const auto& [name, cell] : module.at("cells").items()) add_nets(cell);
+    for (const auto& [name, cell] : module.at("cells").items()) add_cell(cell);
+    name_bits(module.at("netnames"));
+    for (const Arc& arc : arcs_) ++bits_[arc.to].waits_for;
+    for (unsigned i = 0; i < arcs_.size(); ++i) bits_[arcs_[i].from].arcs.push_back(i);
+  }
+
+  /// Every bit after those that it waits for. Throws vp::InputError for a loop.
+  std::vector<unsigned> in_order() const {
+    std::vector<unsigned> open(bits_.size()), order;
+    for (unsigned i = 0; i < bits_.size(); ++i) {
+      open[i] = bits_[i].waits_for;
+      if (open[i] == 0) order.push_back(i);
+    }
+    for (std::size_t next = 0; next < order.size(); ++next) {
+      for (const unsigned arc : bits_[order[next]].arcs) {
+        if (--open[arcs_[arc].to] == 0) order.push_back(arcs_[arc].to);
+      }
+    }
+    if (order.size() == bits_.size()) return order;
+    const auto on_loop = std::find_if(open.begin(), open.end(), [](unsigned n) { return n > 0; });
+    throw vp::InputError("a combinational loop goes through '" +
+                         name_of(static_cast<unsigned>(on_loop - open.begin())) +
+                         "': put a register into it");
+  }
+
+  /// The fan-outs that there are. 0 stands for a path that never leaves its slice.
+  std::set<unsigned> fan_outs() const {
+    std::set<unsigned> found{0};
+    for (const Bit& bit : bits_) {
+      if (bit.fan_out > 0) found.insert(bit.fan_out);
+    }
+    return found;
+  }
+
+  /// The longest path whose largest fan-out that is, nets counted alike. What has not passed such a
+  /// net yet is kept apart from what has: state 0 and 1 of a bit.
+  std::optional<Path> longest(const std::vector<unsigned>& order, unsigned fan_out) const {
+    const double net_ns = timing_.net_ns();
+    Way way{std::vector<double>(2 * bits_.size(), -1),
+            std::vector<unsigned>(2 * bits_.size(), none)};
+    const auto after = [&](unsigned i, bool leaves_slice, unsigned state) {
+      return state == 1 || (leaves_slice && bits_[i].fan_out == fan_out) ? 1u : 0u;
+    };
+    for (const unsigned i : order) {
+      const Bit& bit = bits_[i];
+      if (bit.start_ns > way.at[2 * i]) {
+        way.at[2 * i] = bit.start_ns;
+        way.through[2 * i] = none;
+      }
+      for (unsigned state = 0; state < 2; ++state) {
+        const double now = way.at[2 * i + state];
+        if (now < 0) continue;
+        for (const unsigned a : bit.arcs) {
+          const Arc& arc = arcs_[a];
+          if (arc.leaves_slice && bit.fan_out > fan_out) continue;
+          const unsigned next = 2 * arc.to + after(i, arc.leaves_slice, state);
+          const double then = now + arc.ns + (arc.leaves_slice ? net_ns : 0);
+          if (then <= way.at[next]) continue;
+          way.at[next] = then;
+          way.through[next] = 2 * a + state;
+        }
+      }
+    }
+    const End* last = nullptr;
+    unsigned last_state = 0;
+    double latest = 0;
+    for (const End& end : ends_) {
+      if (end.leaves_slice && bits_[end.bit].fan_out > fan_out) continue;
+      for (unsigned state = 0; state < 2; ++state) {
+        const double now = way.at[2 * end.bit + state];
+        const double then = now + end.setup_ns + (end.leaves_slice ? net_ns : 0);
+        const bool counts = after(end.bit, end.leaves_slice, state) == 1 || fan_out == 0;
+        if (now < 0 || !counts || (last && then <= latest)) continue;
+        last = &end;
+        last_state = state;
+        latest = then;
+      }
+    }
+    if (!last) return std::nullopt;
+    return walk_back(*last, last_state, way.through);
+  }
+
+  std::uint32_t luts_to_let_through() const {
+    return static_cast<std::uint32_t>(
+        std::count_if(entrances_.begin(), entrances_.end(),
+                      [this](unsigned i) { return bits_[i].driver != Kind::lut; }));
+  }
+
+ private:
+  static bool is_input(const Json& cell, const std::string& port) {
+    return cell.at("port_directions").at(port) == "input";
+  }
+
+  /// Yosys' number of a bit, or a constant, as our own; none for a constant.
+  unsigned bit(const Json& value) {
+    if (!value.is_number()) return none;
+    const auto [found, is_new] = index_.try_emplace(value.get<unsigned>(), bits_.size());
+    if (is_new) bits_.emplace_back();
+    return found->second;
+  }
+
+  void add_nets(const Json& cell) {
+    const Kind kind = kind_of(cell.at("type"));
+    if (kind == Kind::outside) return;
+    for (const auto& [port, values] : cell.at("connections").items()) {
+      const bool input = is_input(cell, port);
+      for (const Json& value : values) {
+        const unsigned i = bit(value);
+        if (i == none || (input && is_clock(kind, port))) continue;
+        if (input) {
+          ++bits_[i].fan_out;
+          if (kind == Kind::carry && port == "S") entrances_.push_back(i);
+        } else {
+          bits_[i].driver = kind;
+        }
+      }
+    }
+  }
+
+  /// Whether the net to that input can stay in a slice: no time then.
+  bool leaves_slice(unsigned from, Kind to, const std::string& port) const {
+    const Kind driver = bits_[from].driver;
+    const bool logic = driver == Kind::lut || driver == Kind::mux || driver == Kind::lutram;
+    switch (to) {
+      case Kind::inverter:
+        return false;  // goes into the LUT that follows
+      case Kind::mux:
+        return port == "S" || !logic;
+      case Kind::carry:
+        return port == "CI" ? driver != Kind::carry : driver != Kind::lut;
+      case Kind::ff:
+      case Kind::latch:
+        return port != "D" || !(logic || driver == Kind::carry);
+      default:
+        return true;
+    }
+  }
+
+  void add_arc(const Json& from, const Json& to, double ns, const Json& cell,
+               const std::string& port) {
+    const unsigned a = bit(from), b = bit(to);
+    if (a == none || b == none) return;
+    const auto* type = cell.at("type").get_ptr<const std::string*>();
+    arcs_.push_back({a, b, ns, leaves_slice(a, kind_of(*type), port), type});
+  }
+
+  /// From each bit of an input to each of an output.
+  void add_arcs(const Json& cell, const std::string& input, const std::string& output, double ns) {
+    const Json& ports = cell.at("connections");
+    if (!ports.contains(input) || !ports.contains(output)) return;
+    for (const Json& from : ports[input]) {
+      for (const Json& to : ports[output]) add_arc(from, to, ns, cell, input);
+    }
+  }
+
+  void add_start(const Json& cell, const std::string& port, double ns) {
+    const Json& ports = cell.at("connections");
+    if (!ports.contains(port)) return;
+    for (const Json& value : ports[port]) {
+      if (const unsigned i = bit(value); i != none) bits_[i].start_ns = ns;
+    }
+  }
+
+  void add_end(const Json& cell, const std::string& port, double setup_ns) {
+    const Json& ports = cell.at("connections");
+    if (!ports.contains(port)) return;
+    const Kind kind = kind_of(cell.at("type"));
+    const bool has_name = kind == Kind::ff || kind == Kind::latch;
+    const unsigned output = has_name ? bit(ports.at("Q")[0]) : none;
+    for (const Json& value : ports[port]) {
+      const unsigned i = bit(value);
+      if (i != none) ends_.push_back({i, setup_ns, leaves_slice(i, kind, port), output});
+    }
+  }
+
+  /// A clocked cell: from its clock to all outputs, and from all inputs to its clock.
+  void add_clocked(const Json& cell, double out_ns, double setup_ns) {
+    const Kind kind = kind_of(cell.at("type"));
+    for (const auto& [port, values] : cell.at("connections").items()) {
+      if (is_clock(kind, port)) continue;
+      if (is_input(cell, port)) {
+        add_end(cell, port, setup_ns);
+      } else {
+        add_start(cell, port, out_ns);
+      }
+    }
+  }
+
+  void add_cell(const Json& cell) {
+    const std::string type = cell.at("type");
+    switch (kind_of(type)) {
+      case Kind::lut:
+      case Kind::inverter:
+      case Kind::mux:
+        add_logic(cell, type);
+        break;
+      case Kind::carry:
+        add_carry(cell);
+        break;
+      case Kind::ff:
+      case Kind::latch:
+        add_flip_flop(cell);
+        break;
+      case Kind::bram:
+        add_clocked(cell, timing_["bram_out"], timing_["bram_setup"]);
+        break;
+      case Kind::lutram:
+        add_distributed_memory(cell);
+        break;
+      case Kind::shift:
+        add_clocked(cell, timing_["shift_out"], timing_["shift_setup"]);
+        for (const char* input : {"A", "A0", "A1", "A2", "A3"}) {
+          add_arcs(cell, input, "Q", timing_["lutram_read"]);
+        }
+        break;
+      case Kind::dsp:
+        add_multiplier(cell);
+        break;
+      case Kind::outside:
+        break;
+      case Kind::unknown:
+        refuse(type);
+    }
+  }
+
+  /// A cell of Yosys, or a primitive; one with parameters is called $paramod\NAME\...
+  [[noreturn]] static void refuse(std::string type) {
+    if (starts_with(type, "$paramod\\")) {
+      type.erase(0, type.find('\\') + 1);
+      type.erase(std::min(type.find('\\'), type.size()));
+    }
+    throw vp::InputError("'" + type +
+                         "' is left after synthesis, and how long it takes is not known: " +
+                         (type[0] == '$' ? "write it so that it can be synthesised"
+                                         : "leave it outside of the module"));
+  }
+
+  void add_logic(const Json& cell, const std::string& type) {
+    const double ns = type == "INV"     ? 0
+                      : type == "MUXF7" ? timing_["muxf7"]
+                      : type == "MUXF8" ? timing_["muxf8"]
+                                        : timing_["lut"];
+    for (const auto& [port, values] : cell.at("connections").items()) {
+      if (is_input(cell, port)) add_arcs(cell, port, "O", ns);
+    }
+  }
+
+  /// Bit i of S and DI reaches the sum and the carry of its own bit and of those above.
+  void add_carry(const Json& cell) {
+    const Json& ports = cell.at("connections");
+    for (const char* output : {"O", "CO"}) {
+      if (!ports.contains(output)) continue;
+      const bool sum = std::string(output) == "O";
+      const double enter = timing_[sum ? "carry_cross" : "carry_enter"];
+      for (std::size_t to = 0; to < ports[output].size(); ++to) {
+        for (std::size_t from = 0; from <= to; ++from) {
+          add_arc(ports.at("S")[from], ports[output][to], enter, cell, "S");
+          if (!sum || from < to)
+            add_arc(ports.at("DI")[from], ports[output][to], enter, cell, "DI");
+        }
+      }
+      add_arcs(cell, "CI", output, timing_[sum ? "carry_leave" : "carry_ripple"]);
+      add_arcs(cell, "CYINIT", output, timing_["carry_start"]);
+    }
+  }
+
+  void add_flip_flop(const Json& cell) {
+    add_start(cell, "Q", timing_["ff_out"]);
+    add_end(cell, "D", timing_["ff_data"]);
+    for (const char* enable : {"CE", "GE"}) add_end(cell, enable, timing_["ff_enable"]);
+    for (const char* reset : {"R", "S", "CLR", "PRE"}) add_end(cell, reset, timing_["ff_reset"]);
+  }
+
+  /// Written at the clock, read at any time.
+  void add_distributed_memory(const Json& cell) {
+    for (const auto& [port, values] : cell.at("connections").items()) {
+      const bool only_read =
+          starts_with(port, "DPRA") || port == "ADDRA" || port == "ADDRB" || port == "ADDRC";
+      if (is_clock(Kind::lutram, port) || only_read) continue;
+      if (is_input(cell, port)) {
+        add_end(cell, port, timing_["lutram_setup"]);
+      } else {
+        add_start(cell, port, timing_["lutram_out"]);
+      }
+    }
+    const double ns = timing_["lutram_read"];
+    for (const auto& [port, values] : cell.at("connections").items()) {
+      if (starts_with(port, "DPRA")) {
+        add_arcs(cell, port, "DPO", ns);
+      } else if (starts_with(port, "ADDR")) {
+        add_arcs(cell, port, "DO" + port.substr(4), ns);
+      } else if (starts_with(port, "A")) {
+        add_arcs(cell, port, "SPO", ns);
+        add_arcs(cell, port, "O", ns);
+      }
+    }
+  }
+
+  /// With a register at its output it ends a path; without one the product goes through.
+  void add_multiplier(const Json& cell) {
+    add_clocked(cell, timing_["dsp_out"], timing_["dsp_setup"]);
+    const Json& parameters = cell.at("parameters");
+    const auto registers = [&](const char* name) {
+      const auto found = parameters.find(name);
+      return found != parameters.end() && found->dump().find('1') != std::string::npos;
+    };
+    if (registers("PREG") || registers("MREG")) return;
+    for (const char* output : {"P", "PCOUT"}) {
+      if (!registers("AREG")) add_arcs(cell, "A", output, timing_["dsp_through"]);
+      if (!registers("BREG")) add_arcs(cell, "B", output, timing_["dsp_through"]);
+      if (!registers("CREG")) add_arcs(cell, "C", output, timing_["dsp_through"]);
+    }
+  }
+
+  void name_bits(const Json& nets) {
+    names_.resize(bits_.size());
+    for (const auto& [name, net] : nets.items()) {
+      if (net.value("hide_name", 0) != 0) continue;
+      const Json& values = net.at("bits");
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const auto found =
+            values[k].is_number() ? index_.find(values[k].get<unsigned>()) : index_.end();
+        if (found == index_.end()) continue;
+        std::string full = name;
+        if (values.size() > 1) full += "[" + std::to_string(k) + "]";
+        std::string& known = names_[found->second];
+        if (known.empty() || full.size() < known.size()) known = full;
+      }
+    }
+  }
+
+  std::string name_of(unsigned i) const {
+    return names_[i].empty() ? "a net without name" : names_[i];
+  }
+
+  Path walk_back(const End& end, unsigned state, const std::vector<unsigned>& through) const {
+    Path path;
+    path.setup_ns = end.setup_ns;
+    path.to = name_of(end.output == none ? end.bit : end.output);
+    const auto pass = [&](unsigned net, bool leaves_slice) {
+      if (!leaves_slice) return;
+      ++path.nets;
+      path.fan_out = std::max(path.fan_out, bits_[net].fan_out);
+    };
+    pass(end.bit, end.leaves_slice);
+    unsigned i = end.bit;
+    while (through[2 * i + state] != none) {
+      const unsigned step = through[2 * i + state];
+      const Arc& arc = arcs_[step / 2];
+      state = step % 2;
+      path.cells_ns += arc.ns;
+      path.cells.push_back(*arc.cell);
+      pass(arc.from, arc.leaves_slice);
+      i = arc.from;
+    }
+    path.cells_ns += bits_[i].start_ns;
+    path.from = name_of(i);
+    std::reverse(path.cells.begin(), path.cells.end());
+    return path;
+  }
+
+  const PathTiming& timing_;
+  std::unordered_map<unsigned, unsigned> index_;
+  std::vector<Bit> bits_;
+  std::vector<unsigned> entrances_;  ///< what enters carry chains
+  std::vector<std::string> names_;
+  std::vector<Arc> arcs_;
+  std::vector<End> ends_;
+};
+
+/// Yosys writes bits.
+std::map<std::string, std::uint64_t> parameters_of(const Json& module) {
+  std::map<std::string, std::uint64_t> parameters;
+  const auto values = module.find("parameter_default_values");
+  if (values == module.end()) return parameters;
+  for (const auto& [name, value] : values->items()) {
+    const std::string bits = value.is_string() ? value.get<std::string>() : "";
+    if (bits.empty() || bits.size() > 64 || bits.find_first_not_of("01") != std::string::npos)
+      continue;
+    parameters[name] = std::stoull(bits, nullptr, 2);
+  }
+  return parameters;
+}
+
+}  // namespace
+
+std::optional<Fmax> Netlist::fmax(const PathTiming& timing) const {
+  if (!longest) return std::nullopt;
+  const FmaxRange range = timing.fmax(*longest);
+  const auto capped = [this](double mhz) { return std::min(mhz, limit.mhz); };
+  return Fmax{{capped(range.low), capped(range.nominal), capped(range.high)},
+              range.high > limit.mhz ? limit.of : ""};
+}
+
+Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
+                     const PathTiming& timing) {
+  const Json json = host::read_json<Json>(file, "netlist", host::largest_result);
+  const auto modules = json.find("modules");
+  if (modules == json.end() || !modules->contains(top)) {
+    throw vp::InputError("netlist '" + file.string() + "' has no module '" + top + "'");
+  }
+  const Json& module = (*modules)[top];
+  Netlist netlist;
+  netlist.parameters = parameters_of(module);
+  for (const auto& [name, cell] : module.at("cells").items()) count(cell.at("type"), netlist.cells);
+  const Graph graph(module, timing);
+  netlist.cells.lut_pairs = LutPairs(module.at("cells")).count();
+  netlist.cells.lut_through = graph.luts_to_let_through();
+  const std::vector<unsigned> order = graph.in_order();
+  // A path's nets are judged by their number and by the largest fan-out. So the longest path is
+  // that of one of the graphs that are left below a fan-out.
+  for (const unsigned fan_out : graph.fan_outs()) {
+    const std::optional<Path> path = graph.longest(order, fan_out);
+    if (!path) continue;
+    if (!netlist.longest || timing.fmax(*path).nominal < timing.fmax(*netlist.longest).nominal) {
+      netlist.longest = path;
+    }
+  }
+  netlist.limit = clock_limit(module, timing);
+  netlist.not_covered = clocks_not_covered(module);
+  if (netlist.longest && netlist.longest->nets <= 1) {
+    netlist.not_covered.push_back(
+        "the longest path is a single net: how far a placer puts its ends apart is not known");
+  }
+  return netlist;
+}
+
+}  // namespace platform::synthesis

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cli/application.h>
+
+/// The commands that the marker application adds to the platform's.
+namespace platform::commands {
+
+/// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
+/// them with what the thesis prints. run_failed: a gate failed.
+cli::RunCommand add_validate(CLI::App& parser);
+
+/// Shows the same images to our designs, OpenCV's ArUco and AprilTag 3.
+cli::RunCommand add_compare_detectors(CLI::App& parser);
+
+}  // namespace platform::commands

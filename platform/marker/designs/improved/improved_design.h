@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <marker/designs/improved/improved_logic.h>
+#include <marker/detection_result.h>
+#include <trace/vocabulary.h>
+#include <vp/clock_scheduler.h>
+#include <chip/system/design.h>
+
+namespace platform {
+
+/// The improved marker detector's logic in the Zynq, and how what its program publishes becomes a
+/// frame of the result. While the software works on a frame the logic may be at the next one.
+class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalListener {
+ public:
+  ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports, const pl::Geometry& usual);
+  /// With the longest bursts: least time for addresses and gaps (decision).
+  static pl::Geometry usual_geometry(std::uint32_t width, std::uint32_t height) {
+    return {width, height, marker_logic::max_burst_words};
+  }
+
+  input::ImageSize frame_size() const override;
+  void show_image(const std::shared_ptr<const GreyImage>& image) override {
+    camera.show({image, &image->pixels});
+  }
+  void settle() override { settle_counters(); }
+  void note_option(const std::string& name, double value) override { options_[name] = value; }
+  std::uint32_t settling_showings() const override;
+  bool report(const Publication& publication, facts::FrameReport& frame) override;
+  void check(facts::FrameReport& frame) override;
+
+  vp::Signal<bool>* busy() override { return &camera.frame_ena; }
+  std::vector<std::string> groups() const override { return {"feature_extraction", "data_bridge"}; }
+  std::vector<ClockRole> clock_roles() override;
+  TimelineEngines timeline() override;
+
+ private:
+  /// A frame that left the camera.
+  struct Sent {
+    std::uint32_t number = 0;
+    std::uint64_t mid_exposure_ps = 0;
+    std::uint64_t end_ps = 0;                     ///< of its last pixel; 0: no such frame
+    std::vector<marker::BoundingBox> blobs = {};  ///< that the labelling showed, for the picture
+  };
+  /// What the logic dropped: triggers, pictures, the rest of pictures, packets.
+  using Dropped = std::array<std::uint64_t, 4>;
+
+  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
+  void note_frame();
+  void note_blob();
+  /// Where the camera's frame of this number stands, or stood.
+  Sent& slot(std::uint32_t number) { return sent_[number % sent_.size()]; }
+  void fill_in(facts::FrameReport& frame, std::uint64_t now_ps) const;
+  void add_times(facts::FrameReport& frame, std::uint64_t now_ps);
+  void explain_capture(facts::StageTime& capture);
+  bool has_option(const char* name) const;
+  std::vector<std::string> software_levers() const;
+  void add_counts(facts::FrameReport& frame);
+  Dropped counters() const;
+  void note_dropped();
+
+  PlPorts& ports_;
+  std::array<Sent, 4> sent_;  ///< the last ones, by their number
+  Dropped counted_{};         ///< what the counters of the logic showed last
+  Dropped dropped_{};         ///< since the last frame was reported
+  marker::DetectionResult result_;
+  std::map<std::string, double> options_;  ///< of the program
+};
+
+/// The words of the design's signals.
+const trace::Vocabulary& improved_words();
+
+}  // namespace platform

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace platform::result {
+
+using Json = nlohmann::ordered_json;
+
+/// Metrics of one kind: what they count, and in what.
+struct MetricKind {
+  /// `*` stands for a name, or several with dots between: "power.modules.*.w".
+  const char* pattern;
+  const char* unit;     ///< empty: a count or a truth
+  const char* meaning;  ///< a phrase
+};
+
+/// All that a result may have. Those of frames stand here without their end: ".mean", ".max".
+const std::vector<MetricKind>& metric_kinds();
+
+/// Null if no result has a metric of this name.
+const MetricKind* kind_of_metric(const std::string& name);
+
+/// The unit of an expression that is one metric; empty for any other.
+std::string unit_of_metric(const std::string& text);
+
+/// Throws vp::InputError for a name that is neither a metric nor one of `others`: "unknown metric
+/// 'x'; did you mean 'y'?".
+void check_metric(const std::string& name, const std::vector<std::string>& others);
+
+/// The kinds whose pattern has `part` in it, or that have a metric of that name, as a table; empty:
+/// all. Throws vp::InputError with the nearest if there is none.
+std::string metric_table(const std::string& part);
+
+/// Figures by name: a path into result.json. The points of a sweep have the same names, and share
+/// them: a figure of a point then costs eight bytes.
+class Metrics {
+ public:
+  using Names = std::vector<std::string>;
+
+  Metrics() = default;
+  /// Sorts them; those of one name are added up.
+  explicit Metrics(std::vector<std::pair<std::string, double>> figures);
+  Metrics(std::initializer_list<std::pair<std::string, double>> figures)
+      : Metrics(std::vector<std::pair<std::string, double>>(figures)) {}
+  /// `names` are sorted, and as many as `values`.
+  Metrics(std::shared_ptr<const Names> names, std::vector<double> values);
+
+  /// Null if there is none.
+  const double* find(const std::string& name) const;
+  /// Of its value; values().size() if there is none.
+  std::size_t place_of(const std::string& name) const;
+  bool empty() const { return values_.empty(); }
+  /// Sorted.
+  const Names& names() const { return *names_; }
+  /// In the order of the names.
+  const std::vector<double>& values() const { return values_; }
+
+  /// Uses the other's names if they are the same.
+  void share_names(const Metrics& other);
+  bool shares_names(const Metrics& other) const { return names_ == other.names_; }
+  const std::shared_ptr<const Names>& shared_names() const { return names_; }
+
+ private:
+  std::shared_ptr<const Names> names_ = none();
+  std::vector<double> values_;
+
+  static const std::shared_ptr<const Names>& none();
+};
+
+/// Every number and truth of a result (without provenance and configuration) by its path:
+/// "summary.fps.mean", "timing.met". Members of a list are named by their `name`, others by their
+/// position; those of one name are added up: "power.modules.ps.cores.w" is the power of that
+/// module, whatever rails and reasons it has. Of the frames, mean and largest value over all of
+/// them: "frames.counts.corners.mean", "frames.time_us.receive.max" (of those with a result),
+/// "frames.error.corner_px.mean" (of the markers whose truth is known). Of the timing also
+/// "timing.failed" and "timing.unknown": how many modules are clocked above a known limit, and
+/// above one of which only a lower bound is known. Of the verdict "verdict.feasible" and
+/// "verdict.<part>.holds": 1 for yes, 0 for no, 0.5 for unknown.
+Metrics metrics_of(const Json& result);
+
+/// Figures of some names among those of points: found once for points that share names.
+class Selection {
+ public:
+  /// `wanted` are sorted.
+  explicit Selection(Metrics::Names wanted) : wanted_(std::move(wanted)) {}
+
+  /// The wanted ones among a point's.
+  Metrics of(const Metrics& all) { return picked_from(all).of(all); }
+  /// Where the values of all wanted ones stand; all.values().size() for what the point lacks.
+  const std::vector<std::size_t>& places_in(const Metrics& all) { return picked_from(all).places; }
+  /// Sorted names of all figures that were seen.
+  Metrics::Names seen() const;
+
+ private:
+  struct Picked {
+    std::shared_ptr<const Metrics::Names> all, names;  ///< before and after
+    std::vector<std::size_t> places;
+
+    Metrics of(const Metrics& figures) const;
+  };
+
+  const Picked& picked_from(const Metrics& all);
+
+  Metrics::Names wanted_;
+  std::map<const Metrics::Names*, Picked> picked_;  ///< by `all`
+};
+
+/// The figures that all points have, each with the same value.
+class CommonFigures {
+ public:
+  /// A point's; nothing if it has none.
+  void add(const Metrics& metrics);
+  /// The value of a figure in all points that have any; none if it differs, or a point lacks it.
+  std::optional<double> value(const std::string& name) const;
+
+ private:
+  Metrics first_;
+  Selection selection_{{}};             ///< its names
+  std::vector<unsigned char> differs_;  ///< by place in `first_`
+};
+
+/// metrics_of() of one result after another: those of the same shape as the one before cost no new
+/// names.
+class MetricsReader {
+ public:
+  Metrics read(const Json& result);
+
+ private:
+  Metrics::Names paths_;            ///< of the result before, as they were found
+  std::vector<std::size_t> order_;  ///< places of the values in `before_`, by path
+  Metrics before_;
+};
+
+}  // namespace platform::result

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <facts/result.h>
+#include <marker/scene/grey_image.h>
+#include <vp/configuration.h>
+
+/// `report.html`: the page built from web/, with data put into it. The page itself knows how to
+/// show them.
+namespace platform::page {
+
+/// A block of data: a script element of type `application/json` with this id.
+struct Block {
+  std::string id;    ///< letters and '-'
+  std::string json;  ///< a whole JSON text
+};
+
+/// The page without data; empty if the program was built without it.
+std::string_view page_template();
+
+/// `json` so that no text in it can end the script element around it: every '<' becomes "\u003c",
+/// which JSON reads back as the same. A JSON text has '<' inside strings only.
+std::string script_safe(std::string_view json);
+
+/// The page with `blocks`, for a `page` that has the placeholder once.
+std::string page_with(std::string_view page, const std::vector<Block>& blocks);
+
+/// Writes the page, whole or not at all. False if the program was built without it. Throws
+/// vp::InputError if the file cannot be written.
+bool write_page(const std::string& path, const std::vector<Block>& blocks);
+
+/// The JSON text of a block in a page that write_page() made; empty if it has none of that id.
+std::string block_of(std::string_view page, std::string_view id);
+
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
+/// What the page of a run shows besides result.json: images with their features, and what the
+/// parameters mean. Memory does not grow with the number of frames.
+class RunExtras {
+ public:
+  static constexpr std::size_t most_frames = 24;        ///< with their images
+  static constexpr std::size_t most_bytes = 3'000'000;  ///< of images, as text
+
+  /// Keeps a frame as long as there is room.
+  void add(const GreyImage& image, const facts::FrameReport& frame);
+  /// A member of the block, for instance "timeline", as JSON text.
+  void add_member(std::string name, std::string json);
+  /// The block "extras".
+  std::string json(const std::vector<vp::ParameterDescription>& parameters) const;
+
+ private:
+  std::string frames_;
+  std::size_t count_ = 0;
+  bool full_ = false;
+  std::string members_;
+};
+
+inline constexpr const char* report_name = "report.html";
+inline constexpr const char* detectors_name = "detectors.json";
+
+/// Writes report.html into a folder that has result.json (a run), validation.json (a validation) or
+/// detectors.json (a comparison of detectors), from these files; a sweep has its own
+/// (sweep/report.h). Of a run, `extras` is the block that RunExtras made; empty: that of the page
+/// that is there already, if there is one. False if the program was built without the page. Throws
+/// vp::InputError if the folder has none of these, or a file is damaged.
+bool write_report(const std::string& folder, const std::string& extras = "");
+
+/// A page into `output` that compares the runs in two folders.
+bool write_comparison(const std::string& first, const std::string& second,
+                      const std::string& output);
+
+}  // namespace platform::page

@@ -1,0 +1,404 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include <host/process.h>
+#include <result/metrics.h>
+#include <study/pareto.h>
+#include <study/report.h>
+#include <study/results.h>
+#include <vp/error.h>
+#include <vp/file.h>
+#include <vp/text.h>
+#include <result/table.h>
+
+namespace platform::study {
+
+namespace {
+
+/// What stands behind "max " or "min ".
+std::string figure_text(const std::string& text, const std::string& where) {
+  const std::string trimmed(vp::trim(text));
+  const std::string first = trimmed.substr(0, 4);
+  if ((first != "max " && first != "min ") || trimmed.size() < 5)
+    throw vp::InputError(where + ": the objective '" + text +
+                         "' does not say which way is better: write 'max METRIC' or 'min METRIC'");
+  return trimmed.substr(4);
+}
+
+}  // namespace
+
+Objective::Objective(const std::string& text, const std::string& where)
+    : maximise_(vp::trim(text).substr(0, 3) == "max"), figure_(figure_text(text, where), where) {}
+
+namespace {
+
+bool dominates(const std::vector<double>& a, const std::vector<double>& b,
+               const std::vector<bool>& maximise) {
+  bool better = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double x = maximise[i] ? a[i] : -a[i];
+    const double y = maximise[i] ? b[i] : -b[i];
+    if (x < y) return false;
+    better = better || x > y;
+  }
+  return better;
+}
+
+std::vector<bool> directions(const std::vector<Objective>& objectives) {
+  std::vector<bool> maximise;
+  for (const Objective& objective : objectives) maximise.push_back(objective.maximise());
+  return maximise;
+}
+
+std::optional<std::size_t> knee_of(const std::vector<RankedPoint>& points,
+                                   const std::vector<bool>& maximise) {
+  std::vector<double> low(maximise.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> high(maximise.size(), -std::numeric_limits<double>::infinity());
+  std::size_t size = 0;
+  for (const RankedPoint& point : points) {
+    if (point.front != 1) continue;
+    ++size;
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      low[i] = std::min(low[i], point.figures[i]);
+      high[i] = std::max(high[i], point.figures[i]);
+    }
+  }
+  std::optional<std::size_t> knee;
+  if (size <= 2) return knee;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (points[p].front != 1) continue;
+    double distance = 0;
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      if (high[i] == low[i]) continue;
+      const double best = maximise[i] ? high[i] : low[i];
+      const double part = (points[p].figures[i] - best) / (high[i] - low[i]);
+      distance += part * part;
+    }
+    if (distance < nearest) {
+      nearest = distance;
+      knee = p;
+    }
+  }
+  return knee;
+}
+
+/// The figures of the objectives; empty if the point lacks one.
+std::vector<double> figures_of(const ResultRow& row, const std::vector<Objective>& objectives) {
+  std::vector<double> figures;
+  for (const Objective& objective : objectives) {
+    const std::optional<double> figure = figure_in(row, objective.figure());
+    if (!figure) return {};
+    figures.push_back(*figure);
+  }
+  return figures;
+}
+
+/// Counts the metrics that the point lacks, each once.
+void count_lacking(const ResultRow& row, const std::vector<const vp::Expression*>& expressions,
+                   std::map<std::string, std::uint64_t>& lacking) {
+  std::set<std::string> names;
+  for (const vp::Expression* expression : expressions) {
+    if (const std::string* name = missing_in(row, *expression)) names.insert(*name);
+  }
+  for (const std::string& name : names) ++lacking[name];
+}
+
+std::vector<std::string> texts(const std::vector<Objective>& objectives) {
+  std::vector<std::string> result;
+  for (const Objective& objective : objectives) result.push_back(objective.figure().text());
+  return result;
+}
+
+}  // namespace
+
+// Seen best first by the first objective, a point is dominated only by what was seen before it, and
+// if a front has such a point, so have all fronts before that one.
+std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
+                                const std::vector<bool>& maximise) {
+  std::vector<std::size_t> order(figures.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      if (figures[a][i] != figures[b][i]) return (figures[a][i] > figures[b][i]) == maximise[i];
+    }
+    return a < b;
+  });
+  std::vector<std::vector<std::size_t>> members;
+  std::vector<std::size_t> front(figures.size(), 0);
+  for (const std::size_t i : order) {
+    const auto dominates_it = [&](std::size_t j) {
+      return dominates(figures[j], figures[i], maximise);
+    };
+    const auto found =
+        std::partition_point(members.begin(), members.end(), [&](const auto& of_front) {
+          // With two objectives the last one is the best in the second.
+          if (maximise.size() <= 2) return dominates_it(of_front.back());
+          return std::any_of(of_front.rbegin(), of_front.rend(), dominates_it);
+        });
+    front[i] = static_cast<std::size_t>(found - members.begin()) + 1;
+    if (found == members.end()) {
+      members.push_back({i});
+    } else {
+      found->push_back(i);
+    }
+  }
+  return front;
+}
+
+bool is_repetition(const Results& results, const ResultRow& row,
+                   const std::vector<Objective>& objectives) {
+  if (!row.same_as) return false;
+  // Constraints and objectives may be on parameters, in which the two differ.
+  const ResultRow& first = results.rows[*row.same_as];
+  return results.feasible(first) == results.feasible(row) &&
+         figures_of(first, objectives) == figures_of(row, objectives);
+}
+
+Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
+  Pareto pareto;
+  std::vector<const vp::Expression*> expressions;
+  for (const Objective& objective : objectives) expressions.push_back(&objective.figure());
+  for (const vp::Expression& constraint : results.constraints) expressions.push_back(&constraint);
+  pareto.points.reserve(results.rows.size());
+  for (const ResultRow& row : results.rows) {
+    if (row.failed) continue;
+    RankedPoint point;
+    point.row = &row;
+    point.figures = figures_of(row, objectives);
+    point.feasible = results.feasible(row);
+    count_lacking(row, expressions, pareto.lacking);
+    pareto.points.push_back(std::move(point));
+  }
+  std::vector<std::vector<double>> figures;
+  std::vector<RankedPoint*> ranked;
+  for (RankedPoint& point : pareto.points) {
+    if (point.feasible != result::Holds::yes || point.figures.empty() ||
+        is_repetition(results, *point.row, objectives))
+      continue;
+    ranked.push_back(&point);
+    figures.push_back(std::move(point.figures));
+  }
+  const std::vector<bool> maximise = directions(objectives);
+  const std::vector<std::size_t> front = fronts(figures, maximise);
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    ranked[i]->front = front[i];
+    ranked[i]->figures = std::move(figures[i]);
+  }
+  pareto.knee = knee_of(pareto.points, maximise);
+  return pareto;
+}
+
+std::vector<Objective> objectives_of(const Results& results) {
+  std::vector<std::string> texts = results.manifest.objectives;
+  if (texts.empty()) texts.assign(usual_objectives.begin(), usual_objectives.end());
+  std::vector<Objective> objectives;
+  for (const std::string& text : texts) {
+    Objective objective(text, results.manifest.name);
+    const auto has_it = [&](const ResultRow& row) {
+      return figure_in(row, objective.figure()).has_value();
+    };
+    if (std::any_of(results.rows.begin(), results.rows.end(), has_it))
+      objectives.push_back(std::move(objective));
+  }
+  return objectives;
+}
+
+std::vector<std::size_t> best_first(const Pareto& pareto,
+                                    const std::vector<Objective>& objectives) {
+  std::vector<std::size_t> order(pareto.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto is_before = [&](std::size_t a, std::size_t b) {
+    const RankedPoint& left = pareto.points[a];
+    const RankedPoint& right = pareto.points[b];
+    if (left.front == 0 || right.front == 0) return left.front > right.front;
+    if (left.front != right.front) return left.front < right.front;
+    return objectives.front().maximise() ? left.figures[0] > right.figures[0]
+                                         : left.figures[0] < right.figures[0];
+  };
+  std::stable_sort(order.begin(), order.end(), is_before);
+  return order;
+}
+
+namespace {
+
+/// How far the point is from being feasible: parts of its verdict that do not hold, then the
+/// constraints.
+std::pair<std::ptrdiff_t, double> distance(const Results& results, const ResultRow& row) {
+  const auto parts = std::count_if(
+      std::begin(result::verdict_parts), std::end(result::verdict_parts),
+      [&](const char* part) { return results.holds(row, part) != result::Holds::yes; });
+  double shortfall = 0;
+  for (const vp::Expression* constraint : results.broken(row)) {
+    const auto lookup = [&](const std::string& name) { return value_in(row, name); };
+    shortfall += missing_in(row, *constraint) ? 1 : constraint->shortfall(lookup);
+  }
+  return {parts, shortfall};
+}
+
+/// "clock = 50 MHz, labels = 16: breaks fps >= 200 (fps = 50)".
+std::string described(const Results& results, const ResultRow& row) {
+  std::vector<std::string> values, figures;
+  for (const std::string& path : results.manifest.swept)
+    values.push_back(path + " = " + row.value(path));
+  std::set<std::string> names;
+  for (const vp::Expression* constraint : results.broken(row))
+    names.insert(constraint->names().begin(), constraint->names().end());
+  for (const std::string& name : names) {
+    if (const double* found = row.metrics.find(name))
+      figures.push_back(name + " = " + result::readable(*found));
+  }
+  return vp::join(values, ", ") + ": " + vp::join(results.reasons(row), "; ") +
+         (figures.empty() ? "" : " (" + vp::join(figures, ", ") + ")");
+}
+
+}  // namespace
+
+std::string why_no_point(const Results& results) {
+  std::vector<const ResultRow*> ran;
+  for (const ResultRow& row : results.rows) {
+    if (!row.failed) ran.push_back(&row);
+  }
+  if (ran.empty()) return "the sweep has no point with a result";
+  const auto is_feasible = [&](const ResultRow* row) {
+    return results.feasible(*row) == result::Holds::yes;
+  };
+  if (std::any_of(ran.begin(), ran.end(), is_feasible))
+    return "no feasible point has a value of every objective";
+  std::string text = "no point is feasible: " + verdicts_text(results);
+  for (const vp::Expression& constraint : results.constraints) {
+    const auto breaks = [&](const ResultRow* row) {
+      const auto broken = results.broken(*row);
+      return std::find(broken.begin(), broken.end(), &constraint) != broken.end();
+    };
+    const auto count = std::count_if(ran.begin(), ran.end(), breaks);
+    if (count != 0)
+      text += "; '" + constraint.text() + "' rules out " + std::to_string(count) + " of " +
+              std::to_string(ran.size());
+  }
+  const ResultRow* nearest =
+      *std::min_element(ran.begin(), ran.end(), [&](const ResultRow* a, const ResultRow* b) {
+        return distance(results, *a) < distance(results, *b);
+      });
+  return text + "; the nearest is " + described(results, *nearest);
+}
+
+std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
+                         const Pareto& pareto) {
+  std::vector<std::string> names = results.manifest.swept;
+  for (const std::string& text : texts(objectives)) names.push_back(text);
+  std::vector<std::string> head = short_names(names);
+  head.emplace_back("");
+  result::TextTable table(head);
+  for (const std::size_t i : best_first(pareto, objectives)) {
+    if (pareto.points[i].front != 1) break;
+    std::vector<std::string> row;
+    for (const std::string& path : results.manifest.swept)
+      row.push_back(pareto.points[i].row->value(path));
+    for (const double figure : pareto.points[i].figures) row.push_back(result::readable(figure));
+    row.emplace_back(pareto.knee == i ? "knee" : "");
+    table.add(row);
+  }
+  return table.text();
+}
+
+void write_pareto_csv(const std::string& path, const Results& results,
+                      const std::vector<Objective>& objectives, const Pareto& pareto) {
+  vp::OutputFile file(path);
+  std::vector<std::string> head{"key", "front", "knee", "feasible"};
+  for (const std::string& swept : results.manifest.swept) head.push_back(swept);
+  for (const Objective& objective : objectives)
+    head.push_back((objective.maximise() ? "max " : "min ") + objective.figure().text());
+  file.write(result::csv_line(head));
+  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
+    const RankedPoint& point = pareto.points[i];
+    std::vector<std::string> fields{point.row->key, std::to_string(point.front),
+                                    pareto.knee == i ? "1" : "0", to_string(point.feasible)};
+    for (const std::string& swept : results.manifest.swept)
+      fields.push_back(point.row->value(swept));
+    for (const double figure : point.figures) fields.push_back(result::csv_number(figure));
+    fields.resize(head.size());
+    file.write(result::csv_line(fields));
+  }
+  file.commit_durably();
+}
+
+namespace {
+
+std::string axis_label(const Objective& objective) {
+  const std::string text = objective.figure().text();
+  const std::string unit = result::unit_of_metric(text);
+  return text + (unit.empty() ? "" : " / " + unit) +
+         (objective.maximise() ? "  (more is better)" : "  (less is better)");
+}
+
+/// Points of a kind that are drawn: more only make a picture that no viewer opens.
+constexpr std::size_t most_drawn = 20'000;
+
+/// Points for which `wanted` holds, as a data block of gnuplot.
+template <class Wanted>
+std::string block(const std::string& name, const Pareto& pareto, const Wanted& wanted,
+                  bool whole = false) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < pareto.points.size(); ++i) {
+    if (!pareto.points[i].figures.empty() && wanted(i))
+      points.emplace_back(pareto.points[i].figures[0], pareto.points[i].figures[1]);
+  }
+  std::sort(points.begin(), points.end());
+  const std::size_t drawn = whole ? points.size() : std::min(points.size(), most_drawn);
+  std::string text = "$" + name + " << EOD\n";
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const auto& [x, y] = points[i * points.size() / drawn];
+    text += result::csv_number(x) + " " + result::csv_number(y) + "\n";
+  }
+  // A block must not be empty: not a number is not drawn.
+  if (points.empty()) text += "NaN NaN\n";
+  return text + "EOD\n";
+}
+
+}  // namespace
+
+std::optional<std::string> plot_pareto(const std::string& file, const Results& results,
+                                       const std::vector<Objective>& objectives,
+                                       const Pareto& pareto) {
+  if (objectives.size() < 2) return "a plot needs two objectives";
+  const auto& points = pareto.points;
+  std::ostringstream script;
+  script << "set encoding utf8\n"
+         << "set terminal svg size 800,560 font 'sans,14' noenhanced background rgb 'white'\n"
+         << block("infeasible", pareto,
+                  [&](std::size_t i) { return points[i].feasible == result::Holds::no; })
+         << block("unknown", pareto,
+                  [&](std::size_t i) { return points[i].feasible == result::Holds::unknown; })
+         << block("dominated", pareto, [&](std::size_t i) { return points[i].front > 1; })
+         << block(
+                "front", pareto, [&](std::size_t i) { return points[i].front == 1; }, true)
+         << block("knee", pareto, [&](std::size_t i) { return pareto.knee == i; }) << "set title "
+         << host::gnuplot_quoted(results.manifest.title.empty() ? results.manifest.name
+                                                                : results.manifest.title)
+         << "\nset xlabel " << host::gnuplot_quoted(axis_label(objectives[0])) << "\nset ylabel "
+         << host::gnuplot_quoted(axis_label(objectives[1])) << "\n"
+         << "set grid lc rgb '#dddddd'\nset bmargin 6\nset key at screen 0.5, screen 0.03 center "
+            "bottom horizontal\nset offsets "
+            "graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+         // Okabe and Ito's palette: every eye tells them apart.
+         << "plot $infeasible with points pt 2 ps 0.8 lc rgb '#999999' title 'infeasible', "
+            "$unknown with points pt 8 ps 0.9 lc rgb '#e69f00' title 'unknown', "
+            "$dominated with points pt 7 ps 0.6 lc rgb '#56b4e9' title 'dominated', "
+            "$front with linespoints pt 7 ps 0.9 lw 2 lc rgb '#0072b2' title 'Pareto front', "
+            "$knee with points pt 6 ps 2 lw 3 lc rgb '#d55e00' title 'knee'\n";
+  const host::CommandEnd end = host::draw_with_gnuplot(file, script.str());
+  if (end.exit_code == 0) return std::nullopt;
+  if (end.exit_code == host::no_such_command)
+    return "gnuplot is not installed (package gnuplot-nox)";
+  std::string said(vp::trim(end.out));
+  std::replace(said.begin(), said.end(), '\n', ' ');
+  return "gnuplot: " + said;
+}
+
+}  // namespace platform::study
