@@ -28,7 +28,7 @@ DDR_NS = 150.0
 # Code around the kernels in the application, in instructions a frame (assumed).
 GLUE = {"O0": 900, "O2": 300}
 
-# Units by kernel, as platform/profiles/cost_profile.cpp; the unit that streams through memory comes
+# Units by kernel, as platform/chip/run/cost_profile.cpp; the unit that streams through memory comes
 # first, those that matter least last. "call" is what does not depend on the input.
 KERNELS = {
     "receive": ["words_received", "call"],

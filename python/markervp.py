@@ -112,7 +112,7 @@ def _name_of(item):
 
 
 def _numbers(value, path):
-    """Each number and truth below a value, with its path: in C++ walk() of platform/sweep/metrics.cpp."""
+    """Each number and truth below a value, with its path: in C++ walk() of platform/result/metrics.cpp."""
     if isinstance(value, (int, float)):
         if math.isfinite(value):
             yield path, float(value)
@@ -164,7 +164,7 @@ def _metrics_of_verdict(verdict):
 
 
 def _metrics(result):
-    """What metrics_of() of platform/sweep/metrics.cpp makes of a result; a test compares the two. Those of one name are added up."""
+    """What metrics_of() of platform/result/metrics.cpp makes of a result; a test compares the two. Those of one name are added up."""
     found = {}
     for name, value in result.items():
         if name in ("provenance", "configuration", "schema"):
