@@ -20,9 +20,8 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/package")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
-# Libraries that the executable is linked with are found by dpkg-shlibdeps; gnuplot draws fronts.
+# Libraries that the executable is linked with are found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS gnuplot-nox)
 # For designs, PS programs and platforms of one's own.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libsystemc-dev, libeigen3-dev, gtkwave")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gdb, gcc-arm-none-eabi, qemu-system-arm, slurm-wlm, sqlite3")

@@ -81,19 +81,13 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   const auto is_best = [](const study::RankedPoint& point) { return point.front == 1; };
   if (std::none_of(pareto.points.begin(), pareto.points.end(), is_best))
     throw vp::InputError(study::why_no_point(results));
-  const std::filesystem::path folder = options.folder;
-  const std::string csv = (folder / "pareto.csv").string();
-  const std::string svg = (folder / "pareto.svg").string();
-  std::string wrote = csv;
+  const std::string csv = (std::filesystem::path(options.folder) / "pareto.csv").string();
   study::write_pareto_csv(csv, results, objectives, pareto);
-  const auto problem = study::plot_pareto(svg, results, objectives, pareto);
-  if (problem) err << "markervp: warning: no plot: " << *problem << std::endl;
-  if (!problem) wrote += ", " + svg;
   out << study::pareto_table(results, objectives, pareto);
   out << "\n" << study::verdicts_text(results) << "\n";
   for (const auto& [metric, count] : pareto.lacking)
     out << "\nleft out: " << result::counted(count, "point") << " without '" << metric << "'\n";
-  out << "\nwrote " << wrote << std::endl;
+  out << "\nwrote " << csv << std::endl;
   return done;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cli/app.h>
 #include <cli/program.h>
-#include <marker/scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {
@@ -72,9 +71,7 @@ constexpr const char* config_examples =
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
-constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash)
-For zsh:   markervp completion zsh > "${fpath[1]}/_markervp"
-For fish:  markervp completion fish > ~/.config/fish/completions/markervp.fish)";
+constexpr const char* completion_help = R"(For bash:  source <(markervp completion bash))";
 
 /// Larger numbers than anybody waits for. CLI11 takes what is too long for 64 bits as the largest
 /// number.
@@ -285,14 +282,6 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   synth->add_option("-o,--output", options.output, "the figures as JSON")->type_name("FILE");
 }
 
-void add_scenes(CLI::App& app, ScenesOptions& target) {
-  CLI::App* command = app.add_subcommand("scenes", "list the scenes that can be rendered");
-  command->add_option("GROUP", target.group, "only this group, in detail")->type_name("");
-  command->add_flag("--names", target.names_only, "one name a line, for scripts");
-  command->add_option("-o,--output", target.output, "write images and truth.json of them")
-      ->type_name("DIR");
-}
-
 void add_designs(CLI::App& app, DesignsOptions& target) {
   CLI::App* command =
       app.add_subcommand("designs", "list what may stand in the programmable logic");
@@ -384,8 +373,8 @@ void add_completion(CLI::App& app, CompletionOptions& target) {
   CLI::App* command =
       app.add_subcommand("completion", "print a script that completes the command line");
   command->add_option("SHELL", target.shell, "for which shell")
-      ->type_name("bash|zsh|fish")
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}).description(""))
+      ->type_name("bash")
+      ->check(CLI::IsMember({"bash"}).description(""))
       ->required();
   command->footer(completion_help);
 }
@@ -400,7 +389,6 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& appli
   app->require_subcommand(1);
   add_run(*app, target.run);
   add_again(*app, target);
-  add_scenes(*app, target.scenes);
   add_designs(*app, target.designs);
   add_config(*app, target.config);
   add_map(*app, target.map);
@@ -454,21 +442,22 @@ std::string see_help(const CLI::App& app) {
                           : "'markervp " + command.get_name() + " --help' shows how";
 }
 
-std::string unknown_command(const CLI::App& app, const std::string& word) {
+std::string unknown_command(const CLI::App& app, const Application& application,
+                            const std::string& word) {
   std::string hint = did_you_mean(word, command_names(app));
-  if (hint.empty() && is_scene(word)) hint = "did you mean 'markervp run " + word + "'? ";
+  if (hint.empty() && application.is_input(word)) hint = "did you mean 'markervp run " + word + "'? ";
   return "unknown command '" + word + "': " + hint + "there are " +
          vp::join(command_names(app), ", ");
 }
 
 }  // namespace
 
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
-                        const std::vector<std::string>& arguments) {
+std::string usage_error(const CLI::App& app, const Application& application,
+                        const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   if (arguments.empty()) return "a command is missing: " + vp::one_of(command_names(app));
   const CLI::App& command = chosen(app);
   const bool is_word = arguments.front().rfind('-', 0) != 0;
-  if (&command == &app && is_word) return unknown_command(app, arguments.front());
+  if (&command == &app && is_word) return unknown_command(app, application, arguments.front());
   const std::vector<std::string> extras = app.remaining(true);
   if (!extras.empty()) {
     const std::string name = extras.front().substr(0, extras.front().find('='));

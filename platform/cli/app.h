@@ -25,15 +25,15 @@ void add_again(CLI::App& app, CommandLine& target);
 
 /// One line on what was wrong with `arguments` (without the program's name), with the nearest match
 /// of a misspelled command or option.
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
-                        const std::vector<std::string>& arguments);
+std::string usage_error(const CLI::App& app, const Application& application,
+                        const CLI::ParseError& error, const std::vector<std::string>& arguments);
 
 /// Adds `trace` and its commands.
 void add_trace_command(CLI::App& app, TraceCommandOptions& target);
 
 /// What a value on the command line is, for a shell that completes it.
 struct ValueKind {
-  enum class Kind { none, file, folder, choice, input, scene_group, any };
+  enum class Kind { none, file, folder, choice, input, any };
 
   Kind kind = Kind::none;  ///< none: a flag
   std::vector<std::string> choices;
@@ -55,9 +55,7 @@ struct CommandDescription {
 /// The commands of the program as it parses them.
 std::vector<CommandDescription> describe_commands(const CLI::App& app);
 
-/// Scripts for the shells, made from the description: they cannot fall behind the program.
+/// A script for bash, made from the description: it cannot fall behind the program.
 std::string bash_completion(const std::vector<CommandDescription>& commands);
-std::string zsh_completion(const std::vector<CommandDescription>& commands);
-std::string fish_completion(const std::vector<CommandDescription>& commands);
 
 }  // namespace platform::cli

@@ -24,6 +24,8 @@ struct Application {
     std::function<RunCommand(CLI::App& parser)> add;
   };
   std::vector<Command> commands;
+  /// Whether `markervp run WORD` has an input of this name.
+  bool (*is_input)(const std::string& word) = [](const std::string&) { return false; };
 };
 
 }  // namespace platform::cli

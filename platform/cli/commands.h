@@ -59,9 +59,6 @@ int tell_history(const HistoryOptions& options, std::ostream& out);
 /// the PS program. Returns only if the moment does not come, or gdb cannot be started.
 int debug_run(const DebugOptions& options, std::ostream& out, std::ostream& err);
 
-/// Lists scenes, or writes their images and what is in them.
-int list_scenes(const ScenesOptions& options, std::ostream& out);
-
 /// Lists what may stand in the programmable logic, or runs each to see what it reaches and takes.
 int list_designs(const DesignsOptions& options, std::ostream& out);
 
@@ -101,7 +98,7 @@ int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
 
-int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out);
+int print_completion(const CLI::App& app, std::ostream& out);
 
 /// Computes the points of a sweep, and merges their results.
 int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& err);

@@ -7,7 +7,6 @@
 #include <cli/app.h>
 #include <cli/commands.h>
 #include <cli/program.h>
-#include <marker/scene/scene.h>
 #include <vp/text.h>
 
 namespace platform::cli {
@@ -22,11 +21,6 @@ ValueKind value_kind(const CLI::Option& option) {
   if (type == "DIR") return {Kind::folder, {}};
   if (type.find('|') != std::string::npos) return {Kind::choice, vp::split(type, '|')};
   if (option.get_name() == "INPUT") return {Kind::input, {}};
-  if (option.get_name() == "GROUP") {
-    std::vector<std::string> groups;
-    for (const SceneGroup& group : scene_groups()) groups.push_back(group.name);
-    return {Kind::scene_group, groups};
-  }
   return {Kind::any, {}};
 }
 
@@ -63,15 +57,8 @@ std::vector<CommandDescription> describe_commands(const CLI::App& app) {
   return commands;
 }
 
-int print_completion(const CompletionOptions& options, const CLI::App& app, std::ostream& out) {
-  const std::vector<CommandDescription> commands = describe_commands(app);
-  if (options.shell == "bash") {
-    out << bash_completion(commands);
-  } else if (options.shell == "zsh") {
-    out << zsh_completion(commands);
-  } else {
-    out << fish_completion(commands);
-  }
+int print_completion(const CLI::App& app, std::ostream& out) {
+  out << bash_completion(describe_commands(app));
   return done;
 }
 
@@ -94,15 +81,6 @@ std::string command_names(const std::vector<CommandDescription>& commands) {
   return vp::join(names, " ");
 }
 
-/// Text between single quotes of any shell.
-std::string quotable(std::string text) {
-  std::replace(text.begin(), text.end(), '\'', '"');
-  return text;
-}
-
-// ---- bash
-// -----------------------------------------------------------------------------------------------------------
-
 std::string bash_values(const ValueKind& value) {
   switch (value.kind) {
     case Kind::file:
@@ -110,7 +88,6 @@ std::string bash_values(const ValueKind& value) {
     case Kind::folder:
       return "mapfile -t COMPREPLY < <(compgen -d -- \"$word\"); compopt -o filenames";
     case Kind::choice:
-    case Kind::scene_group:
       return fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")",
                          vp::join(value.choices, " "));
     case Kind::input:
@@ -140,81 +117,6 @@ std::string bash_command(const CommandDescription& command) {
   return text;
 }
 
-// ---- zsh
-// ------------------------------------------------------------------------------------------------------------
-
-std::string zsh_values(const ValueKind& value) {
-  switch (value.kind) {
-    case Kind::file:
-      return "_files";
-    case Kind::folder:
-      return "_files -/";
-    case Kind::choice:
-    case Kind::scene_group:
-      return "(" + vp::join(value.choices, " ") + ")";
-    case Kind::input:
-      return "_markervp_inputs";
-    default:
-      return " ";
-  }
-}
-
-/// Brackets and colons have a meaning in _arguments.
-std::string zsh_text(const std::string& text) {
-  std::string result;
-  for (const char c : quotable(text)) {
-    if (c == '[' || c == ']' || c == ':') result += '\\';
-    result += c;
-  }
-  return result;
-}
-
-std::string zsh_command(const CommandDescription& command) {
-  std::string text = fmt::format("    {})\n      _arguments", command.name);
-  for (const OptionDescription& option : command.options) {
-    const bool repeats = option.names.back() == "--config" || option.names.back() == "--set";
-    for (const std::string& name : option.names) {
-      text += fmt::format(" \\\n        '{}{}[{}]", repeats ? "*" : "", name,
-                          zsh_text(option.documentation));
-      if (option.value.kind != Kind::none) text += ": :" + zsh_values(option.value);
-      text += "'";
-    }
-  }
-  if (command.positional.kind != Kind::none) {
-    text += " \\\n        '*: :" + zsh_values(command.positional) + "'";
-  }
-  return text + " ;;\n";
-}
-
-// ---- fish
-// -----------------------------------------------------------------------------------------------------------
-
-std::string fish_values(const ValueKind& value) {
-  switch (value.kind) {
-    case Kind::none:
-      return "";
-    case Kind::file:
-      return " -r -F";
-    case Kind::folder:
-      return " -x -a '(__fish_complete_directories)'";
-    case Kind::choice:
-    case Kind::scene_group:
-      return " -x -a '" + vp::join(value.choices, " ") + "'";
-    case Kind::input:
-      return " -k -a '(markervp scenes --names)' -F";
-    default:
-      return " -x";
-  }
-}
-
-std::string fish_option(const std::string& condition, const OptionDescription& option) {
-  std::string text = "complete -c markervp -n '" + condition + "'";
-  for (const std::string& name : option.names) {
-    text += name.rfind("--", 0) == 0 ? " -l " + name.substr(2) : " -s " + name.substr(1);
-  }
-  return text + fish_values(option.value) + " -d '" + quotable(option.documentation) + "'\n";
-}
-
 }  // namespace
 
 std::string bash_completion(const std::vector<CommandDescription>& commands) {
@@ -233,53 +135,6 @@ std::string bash_completion(const std::vector<CommandDescription>& commands) {
       command_names(commands));
   for (const CommandDescription& command : commands) text += bash_command(command);
   return text + "  esac\n}\ncomplete -F _markervp markervp\n";
-}
-
-std::string zsh_completion(const std::vector<CommandDescription>& commands) {
-  std::string text =
-      "#compdef markervp\n"
-      "# zsh completion of markervp, made by 'markervp completion zsh'\n"
-      "_markervp_inputs() {\n"
-      "  compadd -- ${(f)\"$(markervp scenes --names 2>/dev/null)\"}\n"
-      "  _files\n"
-      "}\n"
-      "_markervp() {\n"
-      "  if (( CURRENT == 2 )); then\n"
-      "    local -a commands=(\n";
-  for (const CommandDescription& command : commands) {
-    text += fmt::format("      '{}:{}'\n", command.name, zsh_text(command.documentation));
-  }
-  text +=
-      "    )\n"
-      "    _describe command commands\n"
-      "    return\n"
-      "  fi\n"
-      "  local command=$words[2]\n"
-      "  shift words\n"
-      "  (( CURRENT-- ))\n"
-      "  case $command in\n";
-  for (const CommandDescription& command : commands) text += zsh_command(command);
-  return text +
-         "  esac\n}\n"
-         "if [ \"$funcstack[1]\" = _markervp ]; then _markervp \"$@\"; else compdef _markervp "
-         "markervp; fi\n";
-}
-
-std::string fish_completion(const std::vector<CommandDescription>& commands) {
-  std::string text =
-      "# fish completion of markervp, made by 'markervp completion fish'\n"
-      "complete -c markervp -f\n";
-  for (const CommandDescription& command : commands) {
-    text += fmt::format("complete -c markervp -n __fish_use_subcommand -a {} -d '{}'\n",
-                        command.name, quotable(command.documentation));
-  }
-  for (const CommandDescription& command : commands) {
-    const std::string condition = "__fish_seen_subcommand_from " + command.name;
-    for (const OptionDescription& option : command.options) text += fish_option(condition, option);
-    if (command.positional.kind == Kind::none) continue;
-    text += "complete -c markervp -n '" + condition + "'" + fish_values(command.positional) + "\n";
-  }
-  return text;
 }
 
 }  // namespace platform::cli

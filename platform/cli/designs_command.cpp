@@ -3,7 +3,6 @@
 #include <cli/sweep_command.h>
 #include <facts/summary.h>
 #include <fmt/format.h>
-#include <marker/input/frame_source.h>
 #include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/text.h>

@@ -114,13 +114,6 @@ struct RtlOptions {
   RtlSynthOptions synth;
 };
 
-/// `markervp scenes`.
-struct ScenesOptions {
-  std::string group;                  ///< empty: all
-  bool names_only = false;            ///< one name a line, for scripts
-  std::optional<std::string> output;  ///< folder for images and truth.json
-};
-
 /// `markervp designs`.
 struct DesignsOptions {
   std::vector<std::string> inputs;  ///< of figures; none: the 41 poses of the thesis
@@ -259,7 +252,6 @@ struct CommandLine {
   HistoryOptions history;
   DebugOptions debug;
   RtlOptions rtl;
-  ScenesOptions scenes;
   DesignsOptions designs;
   ConfigOptions config;
   MapOptions map;

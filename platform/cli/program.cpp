@@ -49,7 +49,6 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "run") return run(line.run, arguments, out, err);
   if (command == "history") return tell_history(line.history, out);
   if (command == "debug") return debug_run(line.debug, out, err);
-  if (command == "scenes") return list_scenes(line.scenes, out);
   if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, out);
   if (command == "map") return print_map(line.map, out);
@@ -70,7 +69,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "compare") return compare_runs(line.compare, out);
   const auto own = line.application.find(command);
   if (own != line.application.end()) return own->second(arguments, out, err);
-  return print_completion(line.completion, app, out);
+  return print_completion(app, out);
 }
 
 /// `code`, if all was written that the user is to read. A failure has told its own.
@@ -112,7 +111,7 @@ int run_program(const Application& application, const std::vector<std::string>& 
     app->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      return host::fail(err, usage_error(*app, error, arguments), wrong_input);
+      return host::fail(err, usage_error(*app, application, error, arguments), wrong_input);
     }
     app->exit(error, out, err);
     return host::exit_code_of([&] { return written(done, out); }, err);

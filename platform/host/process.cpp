@@ -304,41 +304,6 @@ std::string shell_quoted(const std::string& text) {
 
 namespace {
 
-// Octal numbers become characters after gnuplot has looked for the end of a string and for
-// commands in it.
-std::string gnuplot_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == ' ';
-    const auto byte = static_cast<unsigned char>(c);
-    const char octal[] = {'\\', static_cast<char>('0' + (byte >> 6)),
-                          static_cast<char>('0' + ((byte >> 3) & 7)),
-                          static_cast<char>('0' + (byte & 7))};
-    plain ? result += c : result.append(octal, sizeof octal);
-  }
-  return result + "\"";
-}
-
-}  // namespace
-
-// Of a relative name gnuplot takes a leading '|' or '<' for a command of the shell, and '-' for an
-// option.
-CommandEnd draw_with_gnuplot(const std::string& file, const std::string& script) {
-  vp::OutputFile plot(file, vp::OutputFile::By::name);
-  const std::string part = std::filesystem::absolute(plot.part()).string();
-  const vp::PartFile commands(part + ".gnuplot");
-  vp::write_file(commands.path(), "set output " + gnuplot_string(part) + "\n" + script);
-  CommandEnd end = run_command({"gnuplot", commands.path()});
-  if (end.exit_code == 0) plot.commit();
-  return end;
-}
-
-std::string gnuplot_quoted(const std::string& text) {
-  return gnuplot_string(vp::visible(text));
-}
-
-namespace {
-
 [[noreturn]] void refuse(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }

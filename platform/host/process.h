@@ -136,15 +136,6 @@ CommandEnd run_command(const std::vector<std::string>& arguments,
 /// A word for the shell, in quotes.
 std::string shell_quoted(const std::string& text);
 
-/// Runs gnuplot on `script`, which sets its terminal; the plot goes into `file`, whole or not at
-/// all. Returns how it ended: 127 if it is not installed. Throws vp::OutputError if nothing can be
-/// written there.
-CommandEnd draw_with_gnuplot(const std::string& file, const std::string& script);
-
-/// Any text as a string of gnuplot, which no text can leave: all but letters and blanks are octal
-/// numbers in it. Control characters are shown (vp::visible).
-std::string gnuplot_quoted(const std::string& text);
-
 /// How work in a process of its own ended.
 struct ChildEnd {
   int exit_code = -1;  ///< -1: a signal ended it

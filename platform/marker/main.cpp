@@ -17,7 +17,8 @@ extern "C" int sc_main(int, char**) {
 namespace {
 
 const platform::cli::Application application{
-    {{"validate", platform::commands::add_validate},
+    {{"scenes", platform::commands::add_scenes},
+     {"validate", platform::commands::add_validate},
      {"compare-detectors", platform::commands::add_compare_detectors}}};
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include <marker/scene/portable_math.h>
+#include <vp/random.h>
 #include <study/expansion.h>
 #include <vp/error.h>
 
@@ -23,7 +23,7 @@ double unit_of(std::uint64_t bits) {
 }
 
 /// Uniform from 0 to `below` - 1. The bias of the remainder is below 2⁻⁵⁰.
-std::uint64_t below(RandomBits& bits, std::uint64_t below) {
+std::uint64_t below(vp::RandomBits& bits, std::uint64_t below) {
   return bits.next() % below;
 }
 
@@ -39,7 +39,7 @@ class RandomSamples : public UnitSamples {
   }
 
  private:
-  RandomBits bits_;
+  vp::RandomBits bits_;
   std::size_t dimensions_;
 };
 
@@ -76,14 +76,14 @@ std::unique_ptr<UnitSamples> sobol_samples(std::size_t dimensions, std::uint64_t
 }
 
 struct TrajectorySampler::State {
-  RandomBits bits;
+  vp::RandomBits bits;
   std::size_t dimensions;
   std::uint32_t levels;
 };
 
 TrajectorySampler::TrajectorySampler(std::size_t dimensions, std::uint32_t levels,
                                      std::uint64_t seed)
-    : state_(new State{RandomBits(seed), dimensions, levels}) {}
+    : state_(new State{vp::RandomBits(seed), dimensions, levels}) {}
 
 TrajectorySampler::~TrajectorySampler() = default;
 

@@ -82,10 +82,4 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
 void write_pareto_csv(const std::string& path, const Results& results,
                       const std::vector<Objective>& objectives, const Pareto& pareto);
 
-/// Draws the first two objectives as an SVG picture with gnuplot: the whole first front, and of
-/// more than 20 000 others of a kind every so many. Returns why not, if it cannot.
-std::optional<std::string> plot_pareto(const std::string& file, const Results& results,
-                                       const std::vector<Objective>& objectives,
-                                       const Pareto& pareto);
-
 }  // namespace platform::study

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <facts/summary.h>
-#include <marker/scene/portable_math.h>
+#include <vp/random.h>
 #include <vp/error.h>
 
 #include "platform_run.h"
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(smallest_and_longest_frames_run) {
 BOOST_AUTO_TEST_CASE(a_frame_of_noise_does_no_harm_to_the_next) {
   const Size size{320, 240};
   GreyImage noise = plain(size, 0);
-  platform::RandomBits random(1);
+  vp::RandomBits random(1);
   for (std::uint8_t& pixel : noise.pixels) pixel = static_cast<std::uint8_t>(random.next());
   const GreyImage square = dark_square(size, 100, 60, 80);
   const PlatformRun run = run_images({square, noise, square, square}, resolution(size));

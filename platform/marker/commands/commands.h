@@ -5,6 +5,9 @@
 /// The commands that the marker application adds to the platform's.
 namespace platform::commands {
 
+/// Lists scenes, or writes their images and what is in them.
+cli::RunCommand add_scenes(CLI::App& parser);
+
 /// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
 /// them with what the thesis prints. run_failed: a gate failed.
 cli::RunCommand add_validate(CLI::App& parser);

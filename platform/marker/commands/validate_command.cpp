@@ -41,10 +41,6 @@ struct ValidateOptions {
 };
 
 namespace fs = std::filesystem;
-using validation::Plot;
-
-/// Folder of the pictures beside a page of the documentation.
-constexpr const char* page_pictures = "images/validation";
 
 RunOptions run_options(const ValidateOptions& options, const validation::System& system) {
   RunOptions run;
@@ -115,32 +111,19 @@ validation::Measured read_runs(const ValidateOptions& options) {
   return {read(validation::hybrid), read(validation::ps_only)};
 }
 
-/// False: gnuplot is not installed.
-bool draw_plots(const std::vector<Plot>& plots, const fs::path& folder) {
-  host::prepare_output_folder(folder.string());
-  return std::all_of(plots.begin(), plots.end(),
-                     [&](const Plot& plot) { return validation::draw(plot, folder); });
-}
-
-/// What was written and what was not.
+/// What was written.
 std::string write_results(const ValidateOptions& options, const validation::Validation& result) {
   const fs::path folder = options.output;
   vp::write_file((folder / "validation.json").string(), validation::json_text(result));
   vp::write_file((folder / "validation.csv").string(), validation::rows_csv(result));
   vp::write_file((folder / "frames.csv").string(), validation::frames_csv(result));
-  const std::vector<Plot> plots = validation::all_plots(result);
-  bool drawn = draw_plots(plots, folder / "plots");
   std::string text = "wrote validation.json, validation.csv, frames.csv in " + folder.string();
-  if (drawn)
-    text += ", " + std::to_string(plots.size()) + " plots in " + (folder / "plots").string();
   if (!options.no_report && page::write_report(folder.string())) text += ", report.html to look at";
   if (options.markdown) {
-    const fs::path page = *options.markdown;
-    drawn = drawn && draw_plots(plots, page.parent_path() / page_pictures);
-    vp::write_file(page.string(), validation::markdown_text(result, plots, page_pictures));
-    text += ", " + page.string();
+    vp::write_file(*options.markdown, validation::markdown_text(result));
+    text += ", " + *options.markdown;
   }
-  return text + (drawn ? "\n" : "\nno plots: gnuplot is not installed (Debian: gnuplot-nox)\n");
+  return text + "\n";
 }
 
 constexpr std::uint32_t most_repetitions = 10'000;

@@ -92,19 +92,6 @@ SinCos portable_sin_cos_turn(double turn) {
   return sin_cos_reduced(static_cast<long long>(quarters), (turn * 4 - quarters) * half_pi);
 }
 
-std::uint64_t RandomBits::next() {
-  state_ += 0x9E3779B97F4A7C15u;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
-double RandomBits::next_unit() {
-  constexpr double step = 1.0 / 9007199254740992.0;  // 2^-53
-  return static_cast<double>((next() >> 11) + 1) * step;
-}
-
 double GaussianNoise::next() {
   if (has_spare_) {
     has_spare_ = false;

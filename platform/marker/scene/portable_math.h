@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <vp/random.h>
+
 namespace platform {
 
 /// The few functions that the renderer needs, from + - * / alone: libm's may differ in the last bit
@@ -26,20 +28,6 @@ SinCos portable_sin_cos_degrees(double degrees);
 /// quarters.
 SinCos portable_sin_cos_turn(double turn);
 
-/// SplitMix64 (Steele, Lea, Flood 2014): 64 random bits a call, the same on every host.
-class RandomBits {
- public:
-  explicit RandomBits(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t next();
-
-  /// Uniform in (0, 1], in steps of 2^-53: never 0, so that its logarithm exists.
-  double next_unit();
-
- private:
-  std::uint64_t state_;
-};
-
 /// Normal numbers of mean 0 and deviation 1 by the Box-Muller transform, which makes them in pairs.
 class GaussianNoise {
  public:
@@ -48,7 +36,7 @@ class GaussianNoise {
   double next();
 
  private:
-  RandomBits bits_;
+  vp::RandomBits bits_;
   double spare_ = 0;
   bool has_spare_ = false;
 };

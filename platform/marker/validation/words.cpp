@@ -199,7 +199,7 @@ Chapter 5 of the thesis on both systems, value by value, as `markervp validate -
 page up to date.
 
 ```
-markervp validate                              # rows, plots and verdict in out/validation
+markervp validate                              # rows, verdict and report.html in out/validation
 markervp validate --repetitions 20             # with the published jitter, each test 20 times
 markervp validate --profile a9-O2              # nothing fitted to the thesis: tells how far off that is
 markervp validate --markdown docs/validation.md
@@ -207,7 +207,10 @@ markervp validate --markdown docs/validation.md
 
 Exit code 0: every gate is met, or missed for a reason that stands below with its numbers; 1: a gate failed; 2: a wrong
 option or profile. The folder has `validation.json`, `validation.csv` (the rows), `frames.csv` (each frame of each system:
-counts, times, errors), the two systems' `result.json` and the plots.
+counts, times, errors), the two systems' `result.json`, and `report.html`, which draws every quantity over the images of each
+test, as the thesis' figures 5.19 to 5.45 do:
+
+![Times: differences to the thesis](images/validation.png)
 
 ## What the numbers are
 
@@ -317,25 +320,15 @@ std::string accuracy_section(const Validation& v) {
   return text;
 }
 
-std::string plots_section(const std::vector<Plot>& plots, const std::string& pictures) {
-  std::string text = "\n## Plots\n";
-  for (const Plot& plot : plots) {
-    text += fmt::format("\n{} (thesis' figures: {}).\n\n![{}]({}/{}.svg)\n", plot.caption,
-                        plot.figures, plot.caption, pictures, plot.name);
-  }
-  return text;
-}
-
 }  // namespace
 
-std::string markdown_text(const Validation& v, const std::vector<Plot>& plots,
-                          const std::string& pictures) {
+std::string markdown_text(const Validation& v) {
   return fmt::format(head, format_fixed(ps_jitter_us, 0), format_fixed(pl_jitter_us, 0),
                      format_fixed(band_percent, 0)) +
          constants_text(v) + verdict_section(v) + "\n## Times\n\n" + rows_table(v, Kind::timing) +
          reasons_section(v) + accuracy_section(v) + "\n## Marker widths (table 5.3)\n\n" +
          rows_table(v, Kind::geometry) + "\n## Power and clocks\n\n" +
-         rows_table(v, Kind::estimate) + plots_section(plots, pictures);
+         rows_table(v, Kind::estimate);
 }
 
 }  // namespace platform::validation

@@ -51,8 +51,8 @@ BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(
       offered({"markervp", "\"\""}) ==
-      "run history debug scenes designs config map report validate devices clocks power rtl trace "
-      "sweep explore metrics pareto sensitivity compare compare-detectors completion --help "
+      "run history debug designs config map report devices clocks power rtl trace sweep explore "
+      "metrics pareto sensitivity compare scenes validate compare-detectors completion --help "
       "--version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config compare compare-detectors completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==
@@ -63,29 +63,21 @@ BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(offered({"markervp", "run", "z1"}) == "z1.0 ");
   BOOST_TEST(offered({"markervp", "run", "demo", "--repeat", "\"\""}) == " ",
              "numbers are not offered");
-  BOOST_TEST(offered({"markervp", "completion", "z"}) == "zsh ");
+  BOOST_TEST(offered({"markervp", "completion", "b"}) == "bash ");
   BOOST_TEST(contains(offered({"markervp", "scenes", "\"\""}), "roll "));
   BOOST_TEST(contains(offered({"markervp", "config", "--config", "\"\""}), "bash "),
              "files of the folder");
 }
 
-BOOST_AUTO_TEST_CASE(every_shell_that_is_here_accepts_its_script) {
-  for (const std::string shell : {"bash", "zsh", "fish"}) {
-    const std::string file = script(shell);
-    if (!has(shell)) continue;
-    BOOST_TEST(std::system((shell + " -n '" + file + "'").c_str()) == 0, shell);
-  }
+BOOST_AUTO_TEST_CASE(bash_accepts_the_script) {
+  BOOST_TEST(std::system(("bash -n '" + script("bash") + "'").c_str()) == 0);
 }
 
-BOOST_AUTO_TEST_CASE(every_script_knows_every_option) {
-  for (const std::string shell : {"bash", "zsh", "fish"}) {
-    const std::string text = kit::read_file(script(shell));
-    const std::string dashes = shell == "fish" ? "-l " : "--";
-    for (const char* option :
-         {"output", "trace-window", "camera", "fit", "set", "require-marker", "names"}) {
-      BOOST_TEST(contains(text, dashes + option), shell << " does not know " << option);
-    }
-  }
+BOOST_AUTO_TEST_CASE(the_script_knows_every_option) {
+  const std::string text = kit::read_file(script("bash"));
+  for (const char* option :
+       {"output", "trace-window", "camera", "fit", "set", "require-marker", "names"})
+    BOOST_TEST(contains(text, std::string("--") + option), option);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

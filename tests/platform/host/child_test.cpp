@@ -166,46 +166,4 @@ BOOST_AUTO_TEST_CASE(signals_have_their_usual_effect_in_it) {
   std::signal(SIGPIPE, handler);
 }
 
-BOOST_AUTO_TEST_CASE(a_plot_is_there_whole_or_not_at_all) {
-  const std::string file = *this / "it's a plot.svg";
-  const platform::host::CommandEnd end =
-      platform::host::draw_with_gnuplot(file, "set terminal svg\nplot x\n");
-  if (end.exit_code == platform::host::no_such_command) {
-    BOOST_TEST_MESSAGE("gnuplot is not installed: nothing to test");
-    return;
-  }
-  BOOST_TEST(end.exit_code == 0);
-  BOOST_TEST(entries() == std::vector<std::string>{"it's a plot.svg"});
-  BOOST_TEST(kit::read_file(file).find("</svg>") != std::string::npos);
-  BOOST_TEST(
-      platform::host::draw_with_gnuplot(*this / "b.svg", "set terminal svg\nplot (\n").exit_code !=
-      0);
-  BOOST_TEST(entries().size() == 1u);
-}
-
-// Neither a title nor the name of a folder is a command: not of gnuplot, not of the shell.
-BOOST_AUTO_TEST_CASE(no_text_of_a_plot_becomes_a_command) {
-  using platform::host::draw_with_gnuplot, platform::host::gnuplot_quoted;
-  const platform::host::WorkingFolder before;
-  std::filesystem::current_path(path());
-  const std::string folder = "|touch pwned;";
-  std::filesystem::create_directories(folder);
-  const auto drawn = [&](const std::string& text) {
-    const platform::host::CommandEnd end =
-        draw_with_gnuplot(folder + "/a.svg", "set terminal svg noenhanced\nset title " +
-                                                 gnuplot_quoted(text) + "\nplot x\n");
-    if (end.exit_code == platform::host::no_such_command) return std::string();
-    BOOST_TEST(end.exit_code == 0, end.out);
-    BOOST_TEST(!std::filesystem::exists("pwned"), text);
-    return kit::read_file(folder + "/a.svg");
-  };
-  for (const char* text : {"a\n!touch pwned\n", "a'\n!touch pwned\n#'", "\"\n!touch pwned\n",
-                           "`touch pwned`", "@x ${x} \\\"; system('touch pwned')",
-                           "\x1b]0;x\a\r!touch pwned", "EOD\n!touch pwned", "|touch pwned"})
-    BOOST_TEST(drawn(text).find('\x1b') == std::string::npos);
-  const std::string picture = drawn("½ <b>it's</b> 5 % & \n");
-  if (!picture.empty())
-    BOOST_TEST(picture.find("½ &lt;b>it's&lt;/b> 5 % &amp; \\n") != std::string::npos);
-}
-
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,6 +1,6 @@
 #include <marker/marker_detector.h>
 #include <marker/work.h>
-#include <marker/scene/portable_math.h>
+#include <vp/random.h>
 #include <marker/scene/renderer.h>
 
 #include <blob_stream.h>
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(points_that_are_no_extremes_are_malformed) {
 
 BOOST_AUTO_TEST_CASE(any_words_are_counted_and_do_no_harm) {
   open();
-  platform::RandomBits random(3);
+  vp::RandomBits random(3);
   GreyImage picture = empty_picture(320, 240);
   for (auto& pixel : picture.pixels) pixel = static_cast<std::uint8_t>(random.next() >> 56);
   std::vector<std::uint32_t> words;
@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(every_pixel_that_is_read_was_invalidated) {
     BOOST_REQUIRE(static_cast<std::size_t>(at) + size <= fresh.size());
     std::fill_n(fresh.begin() + at, size, true);
   }
-  platform::RandomBits random(5);
+  vp::RandomBits random(5);
   std::size_t stale = 0;
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     if (fresh[i]) continue;

@@ -1,6 +1,6 @@
 #include <marker/marker_reader.h>
 #include <marker/work.h>
-#include <marker/scene/portable_math.h>
+#include <vp/random.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(refused_before_a_word_is_looked_up) {
 // Uniform noise makes blobs of every shape: none is a marker.
 BOOST_AUTO_TEST_CASE(noise_is_no_marker) {
   open("4x4_50");
-  platform::RandomBits random(7);
+  vp::RandomBits random(7);
   std::uint32_t blobs = 0;
   for (int frame = 0; frame < 20; ++frame) {
     std::vector<std::uint8_t> pixels(320 * 240);

@@ -69,7 +69,7 @@ function figuresOf(frames) {
           legend: { top: 0, right: 0, icon: "circle", itemWidth: 8, itemHeight: 8, textStyle: { color: palette().soft } }, grid: { left: 8, right: 12, top: 30, bottom: 4, containLabel: true },
           xAxis: axis({ type: "category", data: images.map((image) => String(image)) }), yAxis: axis({ type: "value" }),
           tooltip: { show: true, trigger: "axis", valueFormatter: (v) => (v == null ? "–" : significant(v, 4)) },
-          series: series.map((s, i) => ({ name: s.system, type: "line", data: s.data, symbol: i ? "diamond" : "circle", symbolSize: 6, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) } })),
+          series: series.map((s) => ({ s, i: systems.indexOf(s.system) })).map(({ s, i }) => ({ name: s.system, type: "line", data: s.data, symbol: i ? "diamond" : "circle", symbolSize: 6, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) } })),
         }),
         table: () => ({ caption: title, rows: images.map((image, i) => ({ image, i })), columns: [{ title: "Image", value: (r) => r.image }, ...series.map((s) => ({ title: s.system, number: true, value: (r) => s.data[r.i], show: (v) => significant(v, 5) }))] }),
       });

@@ -32,14 +32,14 @@ BOOST_AUTO_TEST_CASE(portable_functions_agree_with_the_library) {
 
 BOOST_AUTO_TEST_CASE(the_generator_is_splitmix64) {
   // Published test vector of the reference implementation, seed 1234567.
-  RandomBits bits(1234567);
+  vp::RandomBits bits(1234567);
   BOOST_TEST(bits.next() == 6457827717110365317u);
   BOOST_TEST(bits.next() == 3203168211198807973u);
   BOOST_TEST(bits.next() == 9817491932198370423u);
 }
 
 BOOST_AUTO_TEST_CASE(uniform_numbers_are_never_zero) {
-  RandomBits bits(1);
+  vp::RandomBits bits(1);
   double low = 1;
   double high = 0;
   for (int i = 0; i < 100000; ++i) {
