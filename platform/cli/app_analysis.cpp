@@ -185,6 +185,14 @@ CLI::App* add(CLI::App& trace, TraceCommandOptions& target, const std::string& n
 void add_file(CLI::App& command, TraceCommandOptions& target) {
   command.add_option("TRACE", target.file, "a .vcd or .fst")->type_name("FILE")->required();
   command.add_option("--map", target.map, "other names: lines 'ours = theirs'")->type_name("FILE");
+  command
+      .add_option("--timescale", target.timescale,
+                  "unit of the times of a VCD that has none (default: 1ns)")
+      ->type_name("TIME");
+  CLI::Option* lenient = command.add_flag(
+      "--lenient", target.lenient, "leave out times that fall and values of undeclared signals");
+  command.add_flag("--strict", target.strict, "refuse a file that is odd, or cut off")
+      ->excludes(lenient);
 }
 
 void add_design(CLI::App& command, TraceCommandOptions& target) {
@@ -210,9 +218,11 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   CLI::App* trace = app.add_subcommand("trace", "ask a recorded trace");
   trace->require_subcommand(1);
 
-  CLI::App* list = add(*trace, target, "list", "names and widths of the signals");
+  CLI::App* list = add(*trace, target, "list",
+                       "time scale, first and last time, and the signals with widths and changes");
   add_file(*list, target);
   add_filter(*list, target);
+  list->add_flag("--json", target.json, "for programs");
 
   CLI::App* stats = add(*trace, target, "stats",
                         "handshakes, buffers, interrupts, frames and functions in numbers");

@@ -178,11 +178,12 @@ struct TraceCommandOptions {
   std::string file;
   std::string other;   ///< the second trace of diff; the file that cut and convert write
   std::string checks;  ///< the file of check
-  std::optional<std::string> design, map, window, clock, frame, output, marker;
+  std::optional<std::string> design, map, window, clock, frame, output, marker, timescale;
   std::vector<std::string> filter;
   std::vector<std::string> signals;
   std::string align = "time";
   bool json = false, csv = false, skip_missing = false, require_exercised = false;
+  bool lenient = false, strict = false;
 };
 
 /// `markervp completion`.

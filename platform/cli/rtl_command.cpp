@@ -51,6 +51,7 @@ std::string place_text(const trace::PortComparison::Place& place, const std::str
 int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ostream& err) {
   trace::PortMap map = trace::read_port_map(options.map);
   const trace::PortComparison found = trace::compare_ports(options.theirs, options.ours, map);
+  for (const std::string& warning : found.warnings) err << "markervp: warning: " << warning << "\n";
   const std::string page = (fs::path(options.output) / "compare").string();
   std::error_code ignored;
   for (const char* ending : {".vcd", ".gtkw"}) fs::remove(page + ending, ignored);

@@ -5,6 +5,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <host/output_folder.h>
+#include <trace/listing.h>
 #include <trace/statistics.h>
 #include <trace/tools.h>
 #include <vp/error.h>
@@ -77,29 +78,49 @@ const trace::Vocabulary& words_of(const TraceCommandOptions& options) {
   return (options.design ? design_named(*options.design) : *builtin_designs().front()).words();
 }
 
+vp::WaveOptions reading(const TraceCommandOptions& options) {
+  vp::WaveOptions reading;
+  reading.lenient = options.lenient;
+  reading.strict = options.strict;
+  if (!options.timescale) return reading;
+  constexpr int ps_to_fs = 3;
+  constexpr vp::Decimal::Whole most = 1'000'000'000'000'000'000;
+  std::optional<vp::Decimal::Whole> fs;
+  try {
+    fs = vp::parse_quantity(*options.timescale, vp::Unit::time).scaled(1, ps_to_fs).whole();
+  } catch (const vp::InputError& error) {
+    throw vp::InputError("--timescale '" + *options.timescale + "' " + error.what());
+  }
+  if (!fs || *fs <= 0 || *fs > most)
+    throw vp::InputError("--timescale '" + *options.timescale + "' is not a whole number of fs");
+  reading.timescale_fs = static_cast<std::uint64_t>(*fs);
+  return reading;
+}
+
+TraceFile opened(const TraceCommandOptions& options) {
+  return TraceFile(options.file, name_map(options), reading(options));
+}
+
+/// Says what is odd about a file that was read.
+void warn_of(const TraceFile& file, std::ostream& err) {
+  for (const std::string& warning : trace::warnings_of(file))
+    err << "markervp: warning: " << warning << std::endl;
+}
+
 TimeWindow window(const TraceCommandOptions& options) {
   return options.window ? parse_trace_window(*options.window, "--window") : TimeWindow{};
 }
 
-int list(const TraceCommandOptions& options, std::ostream& out) {
-  const TraceFile file(options.file, name_map(options));
-  const vp::TraceFilter filter(options.filter);
-  filter.check(file.paths(), {});
-  for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
-    if (!filter.selects(file.paths()[i])) continue;
-    const vp::WaveVariable& variable = file.variable(i);
-    const bool is_bits = variable.kind == vp::WaveVariable::Kind::bits;
-    out << file.paths()[i] << "  "
-        << (is_bits ? std::to_string(variable.width) + (variable.width == 1 ? " bit" : " bits")
-            : variable.kind == vp::WaveVariable::Kind::real ? "real"
-                                                            : "text")
-        << "\n";
-  }
+int list(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
+  const trace::Listing listing = trace::listing(file, vp::TraceFilter(options.filter));
+  out << (options.json ? trace::tables_as_json(listing.tables()) : listing.text());
+  warn_of(file, err);
   return done;
 }
 
-int stats(const TraceCommandOptions& options, std::ostream& out) {
-  TraceFile file(options.file, name_map(options));
+int stats(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
   trace::StatisticsOptions asked;
   if (options.clock) {
     const auto hertz = vp::parse_quantity(*options.clock, vp::Unit::frequency).whole();
@@ -113,6 +134,7 @@ int stats(const TraceCommandOptions& options, std::ostream& out) {
   out << (options.json  ? trace::tables_as_json(tables)
           : options.csv ? trace::tables_as_csv(tables)
                         : trace::tables_as_text(tables));
+  warn_of(file, err);
   return done;
 }
 
@@ -171,11 +193,12 @@ CheckCounts print_checks(const std::vector<trace::CheckResult>& results, std::os
   return counts;
 }
 
-int check(const TraceCommandOptions& options, std::ostream& out) {
+int check(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   const auto checks = trace::read_checks(options.checks);
-  TraceFile file(options.file, name_map(options));
+  TraceFile file = opened(options);
   const auto results = trace::run_checks(file, checks, options.skip_missing);
   const CheckCounts counts = print_checks(results, out);
+  warn_of(file, err);
   if (counts.failed > 0) {
     const trace::CheckResult* first = nullptr;
     for (const trace::CheckResult& result : results) {
@@ -204,13 +227,15 @@ void print_events(std::ostream& out, const std::string& title,
   print(after, "  > ");
 }
 
-int diff(const TraceCommandOptions& options, std::ostream& out) {
-  TraceFile a(options.file, name_map(options)), b(options.other);
+int diff(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile a = opened(options), b(options.other, {}, reading(options));
   trace::DifferenceOptions asked;
   asked.by_frame = options.align == "frame";
   if (options.frame) asked.frame = *options.frame;
   asked.filter = vp::TraceFilter(options.filter);
   const trace::Difference result = trace::difference(a, b, asked);
+  warn_of(a, err);
+  warn_of(b, err);
   const auto note = [&](const std::vector<std::string>& names, const std::string& file) {
     if (names.empty()) return;
     out << names.size() << (names.size() == 1 ? " signal" : " signals") << " in " << file
@@ -240,8 +265,8 @@ int diff(const TraceCommandOptions& options, std::ostream& out) {
   return run_failed;
 }
 
-int cut(const TraceCommandOptions& options, std::ostream& out) {
-  TraceFile file(options.file, name_map(options));
+int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
   trace::CutOptions asked;
   const TimeWindow times = window(options);
   asked.from_ps = times.from_ps;
@@ -249,12 +274,12 @@ int cut(const TraceCommandOptions& options, std::ostream& out) {
   asked.filter = vp::TraceFilter(options.filter);
   trace::cut(file, options.other, asked);
   out << "wrote " << options.other << "\n";
+  warn_of(file, err);
   return done;
 }
 
-int plot(const TraceCommandOptions& options, std::ostream& out) {
-  const trace::NameMap map = name_map(options);
-  TraceFile file(options.file, map);
+int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
   trace::PlotOptions asked;
   asked.signals = options.signals;
   const TimeWindow times = window(options);
@@ -265,7 +290,7 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
       bool at(std::uint64_t) override { return true; }
       void change(std::uint32_t, const vp::WaveValue&) override {}
     } nothing;
-    TraceFile first_look(options.file);
+    TraceFile first_look = opened(options);
     first_look.reader().read(nothing);
     asked.to_ps = first_look.reader().now_ps() + 1;
   }
@@ -275,44 +300,35 @@ int plot(const TraceCommandOptions& options, std::ostream& out) {
   const std::string picture = trace::plot_as_svg(file, asked);
   vp::write_file(options.output.value_or("plot.svg"), picture);
   out << "wrote " << options.output.value_or("plot.svg") << "\n";
+  warn_of(file, err);
   return done;
 }
 
-int gtkw(const TraceCommandOptions& options, std::ostream& out) {
-  TraceFile file(options.file, name_map(options));
+int gtkw(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
   const std::string folder = options.output.value_or(options.file + ".gtkwave");
   host::prepare_output_folder(folder);
   for (const std::string& name : trace::write_save_files(file, words_of(options), folder)) {
     out << "wrote " << name << "\n";
   }
+  warn_of(file, err);
   return done;
 }
 
-/// Says what is odd about a file that was read: an FST whose writer did not finish it.
-void warn_of(const std::string& file, std::ostream& err) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return;
-  const std::string remark = vp::WaveReader(file).remark();
-  if (!remark.empty()) err << "markervp: warning: trace '" << file << "' " << remark << std::endl;
-}
-
-int answer(const TraceCommandOptions& options, std::ostream& out) {
-  if (options.command == "list") return list(options, out);
-  if (options.command == "stats") return stats(options, out);
-  if (options.command == "check") return check(options, out);
-  if (options.command == "diff") return diff(options, out);
-  if (options.command == "plot") return plot(options, out);
-  if (options.command == "gtkw") return gtkw(options, out);
-  return cut(options, out);  // and convert, which takes no part
+int answer(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  if (options.command == "list") return list(options, out, err);
+  if (options.command == "stats") return stats(options, out, err);
+  if (options.command == "check") return check(options, out, err);
+  if (options.command == "diff") return diff(options, out, err);
+  if (options.command == "plot") return plot(options, out, err);
+  if (options.command == "gtkw") return gtkw(options, out, err);
+  return cut(options, out, err);  // and convert, which takes no part
 }
 
 }  // namespace
 
 int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
-  const int code = answer(options, out);
-  warn_of(options.file, err);
-  if (options.command == "diff") warn_of(options.other, err);
-  return code;
+  return answer(options, out, err);
 }
 
 }  // namespace platform::cli

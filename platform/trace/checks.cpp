@@ -171,18 +171,11 @@ class Judge {
   Judge(const Check& check, Replay& replay)
       : check_(check), replay_(replay), first_(check.first), second_(check.second) {
     result.check = &check;
-    const auto number_of = [&](const std::string& name) {
-      const Replay::Slot slot = replay.watch(name);
-      if (replay.kind(slot) == vp::WaveVariable::Kind::text)
-        throw vp::InputError("'" + name + "' is a text, no number");
-      slots.push_back(slot);
-      return slot;
-    };
-    first_.bind(number_of);
-    if (!second_.text().empty()) second_.bind(number_of);
+    replay.bind(first_, slots);
+    if (!second_.text().empty()) replay.bind(second_, slots);
     if (check.restart) {
       restart_ = *check.restart;
-      restart_.bind(number_of);
+      replay.bind(restart_, slots);
     }
     if (check.kind == Check::Kind::bursts) {
       clock_ = std::make_unique<SampleClock>(replay, "ps.fclk_clk0.clk", check.clock_hz);
@@ -191,6 +184,16 @@ class Judge {
 
   /// Something of it was written, or it waits.
   void instant(std::uint64_t ps);
+  /// The trace does not say what happens, until it does again: what waits is not judged.
+  void lose_sight(std::uint64_t ps) {
+    while (!waiting_.empty() && ps > waiting_.front()) miss(waiting_.front());
+    result.occasions -= waiting_.size();
+    waiting_.clear();
+    last_.reset();
+    first_stood_ = second_stood_ = restart_stood_ = sampled_ = false;
+    beats_ = 0;
+    sees_burst_ = false;
+  }
   /// In every instant: time passes.
   void pass(std::uint64_t ps) {
     if (clock_) clock_->instant(ps);
@@ -198,6 +201,8 @@ class Judge {
   }
   void finish(std::uint64_t ps) {
     pass(ps);
+    for (const vp::Expression* expression : {&first_, &second_, &restart_})
+      replay_.check_words(*expression);
     if (clock_) bursts(ps);
     // A value that stood to the end without a change was looked at.
     if (check_.kind == Check::Kind::stable && second_.holds(replay_) && ps > looked_ps_) {
@@ -249,6 +254,7 @@ class Judge {
   std::unique_ptr<SampleClock> clock_;
   bool sampled_ = false;
   std::uint64_t edges_ = 0, beats_ = 0;
+  bool sees_burst_ = true;  ///< from its first beat
 };
 
 void Judge::instant(std::uint64_t ps) {
@@ -261,7 +267,8 @@ void Judge::instant(std::uint64_t ps) {
       const bool wrong = value.holds() == (check_.kind == Check::Kind::never);
       if (wrong && !first_stood_)
         fail(ps, check_.kind == Check::Kind::never ? "it holds" : "it does not hold");
-      first_stood_ = wrong;
+      // An edge lasts for its instant: the next one is another.
+      first_stood_ = wrong && !first_.is_event();
       return;
     }
     case Check::Kind::at:
@@ -319,10 +326,13 @@ void Judge::bursts(std::uint64_t ps) {
   for (std::uint64_t i = 0; i < edges; ++i) {
     ++beats_;
     if (last) {
-      ++result.occasions;
-      if (beats_ != check_.limit) fail(ps, std::to_string(beats_) + " beats");
+      if (sees_burst_) {
+        ++result.occasions;
+        if (beats_ != check_.limit) fail(ps, std::to_string(beats_) + " beats");
+      }
       beats_ = 0;
-    } else if (beats_ == check_.limit) {
+      sees_burst_ = true;
+    } else if (sees_burst_ && beats_ == check_.limit) {
       fail(ps, "not the last of " + std::to_string(beats_) + " beats");
     }
   }
@@ -331,16 +341,21 @@ void Judge::bursts(std::uint64_t ps) {
 struct Court : Replay::Listener {
   explicit Court(Replay& replay) : replay(replay) {}
   bool instant(std::uint64_t ps) override {
+    ++instants;
     for (Judge& judge : judges) judge.pass(ps);
     for (const Replay::Slot slot : replay.changed()) {
       if (slot >= by_slot.size()) continue;
       for (const std::size_t i : by_slot[slot]) {
-        if (seen[i] == ps + 1) continue;
-        seen[i] = ps + 1;
+        if (seen[i] == instants) continue;
+        seen[i] = instants;
         judges[i].instant(ps);
       }
     }
     return true;
+  }
+  void recorded(std::uint64_t ps, bool is_recorded) override {
+    if (is_recorded) return;
+    for (Judge& judge : judges) judge.lose_sight(ps);
   }
   void index() {
     for (std::size_t i = 0; i < judges.size(); ++i) {
@@ -354,7 +369,8 @@ struct Court : Replay::Listener {
   Replay& replay;
   std::deque<Judge> judges;
   std::vector<std::vector<std::size_t>> by_slot;
-  std::vector<std::uint64_t> seen;  ///< instant + 1 of the last look
+  std::uint64_t instants = 0;
+  std::vector<std::uint64_t> seen;  ///< number of the instant of the last look
 };
 
 }  // namespace

@@ -26,6 +26,7 @@ struct Side {
       const auto found = common.find(file.paths()[i]);
       if (found == common.end()) continue;
       const vp::WaveVariable& variable = file.variable(static_cast<std::uint32_t>(i));
+      if (variable.width == 0) continue;
       signals_of_net[variable.net].push_back(found->second);
       variables[found->second] = &variable;
       file.reader().select(variable.net);
@@ -50,8 +51,8 @@ struct Side {
       }
     }
   }
-  std::tuple<std::uint64_t, std::uint64_t> place() const {
-    return {frame, stepper.now_ps() - frame_ps};
+  std::tuple<std::uint64_t, std::uint64_t, unsigned> place() const {
+    return {frame, stepper.now_ps() - frame_ps, stepper.below_ps()};
   }
   /// Takes over the instant's values; the signals that were written go to `touched`.
   void apply(std::vector<std::size_t>& touched) {

@@ -203,16 +203,15 @@ std::string plot_as_svg(TraceFile& file, const PlotOptions& options) {
 
 std::string readable(const std::string& text, Kind kind, unsigned width) {
   if (kind != Kind::bits || width == 1) return text;
-  std::string padded((4 - text.size() % 4) % 4, '0');
-  padded += text;
+  const std::string padded = vp::full_digits(text, std::max<unsigned>(width + 3, 4) / 4 * 4);
   std::string result;
   for (std::size_t i = 0; i < padded.size(); i += 4) {
     const std::string_view digits = std::string_view(padded).substr(i, 4);
     unsigned value = 0;
     bool known = true;
     for (const char c : digits) {
-      known = known && c <= '1';
-      value = value * 2 + (c & 1u);
+      known = known && (c == '0' || c == '1' || c == 'l' || c == 'h');
+      value = value * 2 + (c == '1' || c == 'h' ? 1 : 0);
     }
     if (!known) {
       result += 'x';
@@ -220,6 +219,7 @@ std::string readable(const std::string& text, Kind kind, unsigned width) {
       result += "0123456789ABCDEF"[value];
     }
   }
+  if (result.find_first_not_of('x') == std::string::npos) return "x";
   return result;
 }
 

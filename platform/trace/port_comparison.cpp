@@ -75,6 +75,17 @@ class PortMapReader : private vp::YamlReader {
 
 using Net = std::uint32_t;
 
+/// The nine states of VHDL as the four of Verilog: a simulator of VHDL says u where one of Verilog
+/// says x.
+std::string four_states(const std::string& written, unsigned width) {
+  std::string digits = vp::full_digits(written, width);
+  for (char& c : digits) {
+    if (c == 'u' || c == 'w' || c == '-') c = 'x';
+    if (c == 'l' || c == 'h') c = c == 'h' ? '1' : '0';
+  }
+  return std::string(shortest_digits(digits));
+}
+
 /// The values of one trace as the edges of its clock sample them.
 class Sampler {
  public:
@@ -84,6 +95,9 @@ class Sampler {
       : file_(file), stepper_(file_), clock_name_(ours ? map.clock.ours : map.clock.theirs) {
     clock_ = net(clock_name_, map.clock.place);
     values_.resize(file_.reader().nets(), "x");
+    net_widths_.resize(file_.reader().nets());
+    for (const vp::WaveVariable& variable : file_.reader().variables())
+      net_widths_[variable.net] = variable.width;
     for (const PortMap::Port& port : map.ports) {
       ports_.push_back(net(ours ? port.ours : port.theirs, port.place));
       widths_.push_back(variable_->width);
@@ -113,6 +127,7 @@ class Sampler {
   bool valid(std::size_t i) const { return valids_[i] == none || values_[valids_[i]] == "1"; }
 
   unsigned width(std::size_t i) const { return widths_[i]; }
+  const TraceFile& file() const { return file_; }
   const std::string& name() const { return file_.name(); }
   const std::string& clock_name() const { return clock_name_; }
 
@@ -132,10 +147,11 @@ class Sampler {
     for (const Stepper::Change& change : stepper_.changes()) {
       if (change.net == clock_) last = &change.text;
     }
-    return last && *last == "1" && values_[clock_] == "0";
+    return last && four_states(*last, 1) == "1" && values_[clock_] == "0";
   }
   void apply() {
-    for (const Stepper::Change& change : stepper_.changes()) values_[change.net] = change.text;
+    for (const Stepper::Change& change : stepper_.changes())
+      values_[change.net] = four_states(change.text, net_widths_[change.net]);
   }
 
   TraceFile file_;
@@ -145,7 +161,8 @@ class Sampler {
   const vp::WaveVariable* variable_ = nullptr;  ///< that net() looked up last
   std::vector<Net> ports_, valids_;
   std::vector<unsigned> widths_;
-  std::vector<std::string> values_;  ///< by net
+  std::vector<std::string> values_;   ///< by net
+  std::vector<unsigned> net_widths_;  ///< likewise
   Place behind_, edge_;
 };
 
@@ -306,6 +323,10 @@ class Comparison {
       }
     }
     if (!result_.values.empty()) result_.around.assign(clocks_.begin(), clocks_.end());
+    for (const Sampler* trace : {&theirs_, &ours_}) {
+      for (const std::string& warning : warnings_of(trace->file()))
+        result_.warnings.push_back(warning);
+    }
     return result_;
   }
 

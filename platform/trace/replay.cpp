@@ -10,6 +10,8 @@
 #include <vp/wave_writer.h>
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,10 +45,11 @@ NameMap read_name_map(const std::string& file) {
   return map;
 }
 
-TraceFile::TraceFile(const std::string& file, const NameMap& map) : name_(file), reader_(file) {
-  std::vector<std::string> theirs;
-  for (const vp::WaveVariable& variable : reader_.variables()) theirs.push_back(variable.path);
-  paths_ = theirs;
+TraceFile::TraceFile(const std::string& file, const NameMap& map, const vp::WaveOptions& options)
+    : name_(file), reader_(file, options) {
+  for (const vp::WaveVariable& variable : reader_.variables()) paths_.push_back(variable.path);
+  if (map.entries.empty()) return;
+  const std::vector<std::string> theirs = paths_;
   for (const NameMap::Entry& entry : map.entries) {
     const std::string where =
         "map '" + map.file + "', line " + std::to_string(entry.line) + ": in '" + file + "' ";
@@ -54,10 +57,36 @@ TraceFile::TraceFile(const std::string& file, const NameMap& map) : name_(file),
   }
 }
 
-int TraceFile::find(const std::string& path) const {
-  const auto found = std::find(paths_.begin(), paths_.end(), path);
-  return found == paths_.end() ? -1 : static_cast<int>(found - paths_.begin());
+std::vector<std::string> warnings_of(const TraceFile& file) {
+  std::vector<std::string> warnings;
+  for (const std::string& text : file.reader().warnings())
+    warnings.push_back("trace '" + file.name() + "': " + text);
+  return warnings;
 }
+
+int TraceFile::find(const std::string& path) const {
+  if (by_path_.empty()) {
+    for (std::size_t i = 0; i < paths_.size(); ++i)
+      by_path_.emplace(paths_[i], static_cast<int>(i));
+  }
+  const auto found = by_path_.find(path);
+  return found == by_path_.end() ? -1 : found->second;
+}
+
+namespace {
+
+/// The name of a value; empty if it has none.
+std::string word_for(const vp::WaveEnumeration& words, std::uint64_t bits) {
+  for (const auto& [digits, word] : words.words) {
+    std::uint64_t value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto parsed = std::from_chars(digits.data(), end, value, 2);
+    if (parsed.ec == std::errc() && parsed.ptr == end && value == bits) return word;
+  }
+  return {};
+}
+
+}  // namespace
 
 Replay::Replay(TraceFile& file) : file_(file), slot_of_net_(file.reader().nets(), -1) {}
 
@@ -66,8 +95,13 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
   if (slot_of_net_[v.net] < 0) {
     slot_of_net_[v.net] = static_cast<int>(slots_.size());
     file_.reader().select(v.net);
-    State state{variable, false, {}, {}};
+    const vp::WaveEnumeration* words =
+        v.enumeration == 0 ? nullptr : &file_.reader().enumerations()[v.enumeration - 1];
+    const bool has_words = words || v.kind == vp::WaveVariable::Kind::text;
+    State state{variable, false, v.is_event, has_words, words, {}, {}};
     state.now.kind = state.before.kind = v.kind;
+    // An event that has not occurred did not occur.
+    state.now.known = state.before.known = v.is_event;
     slots_.push_back(state);
   }
   return static_cast<Slot>(slot_of_net_[v.net]);
@@ -83,11 +117,21 @@ Replay::Slot Replay::watch(const std::string& name) {
   return watch(vp::find_path(name, file_.paths()));
 }
 
-vp::ExpressionValue Replay::number(const Value& value) {
-  if (!value.known || value.kind == vp::WaveVariable::Kind::text)
-    return vp::ExpressionValue::unknown();
-  if (value.kind == vp::WaveVariable::Kind::real) return value.real;
-  return value.bits;
+vp::ExpressionValue Replay::number(const State& state, bool past) {
+  const Value& value = past ? state.before : state.now;
+  vp::ExpressionValue result = vp::ExpressionValue::unknown();
+  if (value.known && value.kind == vp::WaveVariable::Kind::real) {
+    result = value.real;
+  } else if (value.known && value.kind == vp::WaveVariable::Kind::bits) {
+    result = value.bits;
+  } else if (value.kind == vp::WaveVariable::Kind::text) {
+    result.is_text = true;
+    result.known = value.known;
+    result.text = value.text;
+  }
+  result.may_be_text = true;
+  if (state.words && value.known) result.text = word_for(*state.words, value.bits);
+  return result;
 }
 
 void Replay::run(Listener& listener) {
@@ -106,9 +150,13 @@ bool Replay::at(std::uint64_t ps) {
 
 bool Replay::finish_instant() {
   stopped_ = !listener_->instant(now_ps_);
+  // An event lasts for its instant: the next one is one, too.
+  for (const Slot slot : events_) slots_[slot].now.bits = 0;
+  events_.clear();
   for (const Slot slot : changed_) {
     State& state = slots_[slot];
     state.touched = false;
+    state.before.kind = state.now.kind;
     state.before.known = state.now.known;
     state.before.bits = state.now.bits;
     state.before.real = state.now.real;
@@ -125,12 +173,40 @@ void Replay::change(std::uint32_t net, const vp::WaveValue& value) {
   State& state = slots_[slot];
   if (!state.touched) changed_.push_back(slot);
   state.touched = true;
+  if (state.is_event) {
+    if (value.bits == 0) return;
+    events_.push_back(slot);
+  }
+  state.now.kind = value.kind;
+  state.has_words = state.has_words || value.kind == vp::WaveVariable::Kind::text;
   state.now.known = value.known;
   state.now.bits = value.bits;
   state.now.real = value.real;
   if (keep_texts_ || value.kind == vp::WaveVariable::Kind::text) {
     state.now.text.assign(value.text);
   }
+}
+
+void Replay::bind(vp::Expression& expression, std::vector<Slot>& slots, unsigned history) {
+  expression.bind(
+      [&](const std::string& name) {
+        slots.push_back(watch(name));
+        return slots.back();
+      },
+      [&](Slot slot) { return kind(slot) == vp::WaveVariable::Kind::text; }, history);
+}
+
+void Replay::check_words(const vp::Expression& expression) const {
+  const auto& names = expression.names();
+  for (const std::string& name : expression.names_beside_texts()) {
+    const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+    if (!has_words(expression.bound()[static_cast<std::size_t>(place)]))
+      expression.refuse(name, "compares a text with '" + name + "', whose values are numbers");
+  }
+}
+
+void Replay::recorded(bool is_recorded) {
+  if (listener_) listener_->recorded(now_ps_, is_recorded);
 }
 
 bool InterruptLine::rises() {
@@ -156,47 +232,60 @@ class Cutter final : public vp::WaveHandler {
       : file_(file), options_(options), ids_(file.reader().nets()), last_(file.reader().nets()) {
     options.filter.check(file.paths(), {});
     writer_ = vp::open_wave_writer(to);
+    if (file.reader().timescale_fs() % fs_per_ps != 0) {
+      per_ps_ = fs_per_ps;
+      writer_->count_femtoseconds();
+    }
     for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
       if (options.filter.selects(file.paths()[i])) add(i);
     }
+    if (net_of_id_.empty())
+      throw vp::InputError("trace '" + file.name() + "': the signals have no bits");
   }
 
   bool at(std::uint64_t ps) override {
-    if (!first_ps_) first_ps_ = ps;
+    if (!first_) first_ = steps(ps, file_.reader().below_ps());
     if (ps >= options_.to_ps) {
-      end_ps_ = options_.to_ps;
+      end_ = steps(options_.to_ps, 0);
       return false;
     }
-    if (begun_ || ps > start_ps()) begin();
-    if (begun_) writer_->set_time(ps);
-    now_ps_ = end_ps_ = ps;
+    const std::uint64_t now = steps(ps, file_.reader().below_ps());
+    if (begun_ || now > start()) begin();
+    if (begun_) writer_->set_time(now);
+    now_ps_ = ps;
+    end_ = now;
     return true;
   }
   void change(std::uint32_t net, const vp::WaveValue& value) override {
     if (begun_) {
-      write(net, value.kind, value.text);
+      write(net, value);
     } else {
-      last_[net] = std::string(value.text);
+      last_[net] = fitting(net, value);
     }
   }
   void finish() {
+    if (!first_) throw vp::InputError("trace '" + file_.name() + "' has no values");
     if (!begun_ && now_ps_ < options_.from_ps) {
       throw vp::InputError("trace '" + file_.name() + "' ends at " + vp::format_time(now_ps_) +
                            ", before the window begins");
     }
-    if (!begun_ && (!first_ps_ || *first_ps_ >= options_.to_ps)) {
+    if (!begun_ && *first_ >= steps(options_.to_ps, 0)) {
       throw vp::InputError("trace '" + file_.name() + "' has nothing before " +
                            vp::format_time(options_.to_ps) + ", the end of the window");
     }
     begin();
-    writer_->close(std::max(end_ps_, start_ps()));
+    writer_->close(std::max(end_, start()));
   }
 
  private:
+  static constexpr std::uint64_t fs_per_ps = 1000;
+
   void add(std::uint32_t i) {
     const vp::WaveVariable& variable = file_.variable(i);
+    if (variable.width == 0) return;
     file_.reader().select(variable.net);
-    const auto kind = variable.kind == Kind::real   ? Writer::Kind::real
+    const auto kind = variable.is_event             ? Writer::Kind::event
+                      : variable.kind == Kind::real ? Writer::Kind::real
                       : variable.kind == Kind::text ? Writer::Kind::text
                                                     : Writer::Kind::wire;
     try {
@@ -205,24 +294,40 @@ class Cutter final : public vp::WaveHandler {
       throw vp::InputError("trace '" + file_.name() + "': " + error.what());
     }
     net_of_id_.push_back(variable.net);
+    if (kind_of_net_.size() <= variable.net) kind_of_net_.resize(variable.net + 1);
+    kind_of_net_[variable.net] = variable.kind;
   }
 
+  /// A time as the writer counts it: ps, or fs.
+  std::uint64_t steps(std::uint64_t ps, unsigned below_ps) const {
+    const auto wide = static_cast<unsigned __int128>(ps) * per_ps_ + (per_ps_ == 1 ? 0 : below_ps);
+    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    return wide > most ? most : static_cast<std::uint64_t>(wide);
+  }
   /// A trace of a window has nothing before its first instant.
-  std::uint64_t start_ps() const { return std::max(options_.from_ps, first_ps_.value_or(0)); }
+  std::uint64_t start() const { return std::max(steps(options_.from_ps, 0), first_.value_or(0)); }
   /// With the values that stand at the window's start.
   void begin() {
     if (begun_) return;
     begun_ = true;
     Writer::WrittenValues values;
     for (const std::uint32_t net : net_of_id_) values.push_back(last_[net]);
-    writer_->begin_written(start_ps(), values);
+    writer_->begin_written(start(), values);
   }
-  void write(std::uint32_t net, Kind kind, std::string_view text) {
+  /// Words in a vector of bits fit in no file of ours.
+  std::string fitting(std::uint32_t net, const vp::WaveValue& value) const {
+    if (value.kind == kind_of_net_[net]) return std::string(value.text);
+    throw vp::InputError("trace '" + file_.name() + "' at " + vp::format_time(now_ps_) +
+                         ": a signal has the value '" + std::string(value.text) +
+                         "', which is not of its type: leave it out with cut --filter");
+  }
+  void write(std::uint32_t net, const vp::WaveValue& value) {
+    if (value.kind != kind_of_net_[net]) fitting(net, value);
     for (const Writer::Id id : ids_[net]) {
-      if (kind == Kind::text) {
-        writer_->change_text(id, text);
+      if (value.kind == Kind::text) {
+        writer_->change_text(id, value.text);
       } else {
-        writer_->change_digits(id, text);
+        writer_->change_digits(id, value.text);
       }
     }
   }
@@ -230,12 +335,14 @@ class Cutter final : public vp::WaveHandler {
   TraceFile& file_;
   CutOptions options_;
   std::unique_ptr<Writer> writer_;
+  std::uint64_t per_ps_ = 1;                  ///< steps of the writer's time
   std::vector<std::vector<Writer::Id>> ids_;  ///< by net: a net may have several names
+  std::vector<Kind> kind_of_net_;
   std::vector<std::uint32_t> net_of_id_;
   std::vector<std::optional<std::string>> last_;  ///< by net, before the window
   bool begun_ = false;
-  std::optional<std::uint64_t> first_ps_;
-  std::uint64_t now_ps_ = 0, end_ps_ = 0;
+  std::optional<std::uint64_t> first_;  ///< in the writer's steps
+  std::uint64_t now_ps_ = 0, end_ = 0;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <vp/expression.h>
@@ -29,9 +31,11 @@ class TraceFile {
  public:
   /// Throws vp::InputError for a trace that cannot be read, and for entries of the map that name no
   /// signal in it, with what is near.
-  explicit TraceFile(const std::string& file, const NameMap& map = {});
+  explicit TraceFile(const std::string& file, const NameMap& map = {},
+                     const vp::WaveOptions& options = {});
 
   vp::WaveReader& reader() { return reader_; }
+  const vp::WaveReader& reader() const { return reader_; }
   /// By variable: our name where the map has one.
   const std::vector<std::string>& paths() const { return paths_; }
   const vp::WaveVariable& variable(std::uint32_t i) const { return reader_.variables()[i]; }
@@ -43,7 +47,11 @@ class TraceFile {
   std::string name_;
   vp::WaveReader reader_;
   std::vector<std::string> paths_;
+  mutable std::unordered_map<std::string_view, int> by_path_;  ///< filled when it is asked for
 };
+
+/// What is odd about a trace, as "trace 't.vcd' has no $timescale …".
+std::vector<std::string> warnings_of(const TraceFile& file);
 
 /// Plays a trace back instant by instant: the values that stand, and those before the instant. A
 /// clock edge samples the latter.
@@ -57,6 +65,8 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
     virtual ~Listener() = default;
     /// False: enough.
     virtual bool instant(std::uint64_t ps) = 0;
+    /// What happens from now on is not in the trace ($dumpoff), or is again.
+    virtual void recorded(std::uint64_t /*ps*/, bool /*is_recorded*/) {}
   };
 
   explicit Replay(TraceFile& file);
@@ -75,16 +85,25 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   /// Slots that were written in this instant.
   const std::vector<Slot>& changed() const { return changed_; }
 
-  vp::ExpressionValue now(Slot slot) const override { return number(slots_[slot].now); }
-  vp::ExpressionValue before(Slot slot) const override { return number(slots_[slot].before); }
+  vp::ExpressionValue now(Slot slot) const override { return number(slots_[slot], false); }
+  vp::ExpressionValue before(Slot slot) const override { return number(slots_[slot], true); }
   bool known(Slot slot) const { return slots_[slot].now.known; }
   std::uint64_t bits(Slot slot) const { return slots_[slot].now.bits; }
   bool was_known(Slot slot) const { return slots_[slot].before.known; }
   std::uint64_t bits_before(Slot slot) const { return slots_[slot].before.bits; }
   /// As it is written in the trace; of a text what it says.
   const std::string& text(Slot slot) const { return slots_[slot].now.text; }
+  const std::string& text_before(Slot slot) const { return slots_[slot].before.text; }
   vp::WaveVariable::Kind kind(Slot slot) const { return slots_[slot].now.kind; }
+  vp::WaveVariable::Kind kind_before(Slot slot) const { return slots_[slot].before.kind; }
   std::uint32_t variable(Slot slot) const { return slots_[slot].variable; }
+  /// True for a text, and for a vector of bits that has had a word as its value.
+  bool has_words(Slot slot) const { return slots_[slot].has_words; }
+  /// Binds the names of an expression to slots. Throws vp::InputError.
+  /// `history`: how many instants, or clocks, it may look back.
+  void bind(vp::Expression& expression, std::vector<Slot>& slots, unsigned history = 1);
+  /// After run(): throws vp::InputError if a signal is compared with a word that never had one.
+  void check_words(const vp::Expression& expression) const;
   /// Keeps the texts of all values, for those who show them; otherwise those of texts only.
   void keep_texts() { keep_texts_ = true; }
 
@@ -98,12 +117,14 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   };
   struct State {
     std::uint32_t variable;
-    bool touched;
+    bool touched, is_event, has_words;
+    const vp::WaveEnumeration* words;  ///< null: its values have no names
     Value now, before;
   };
-  static vp::ExpressionValue number(const Value& value);
+  static vp::ExpressionValue number(const State& state, bool past);
   bool at(std::uint64_t ps) override;
   void change(std::uint32_t net, const vp::WaveValue& value) override;
+  void recorded(bool is_recorded) override;
   bool finish_instant();
 
   TraceFile& file_;
@@ -116,6 +137,7 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   std::vector<int> slot_of_net_;
   std::vector<State> slots_;
   std::vector<Slot> changed_;
+  std::vector<Slot> events_;  ///< that occur in this instant
 };
 
 /// An interrupt line in a trace. Which number it has, the bit of IRQ_F2P tells that rises with it
@@ -138,11 +160,21 @@ class InterruptLine {
   std::uint64_t id_;
 };
 
+/// Digits without those on the left that an extension restores.
+inline std::string_view shortest_digits(std::string_view digits) {
+  while (digits.size() > 1 && digits[0] == '0' && (digits[1] == '0' || digits[1] == '1'))
+    digits.remove_prefix(1);
+  while (digits.size() > 1 && digits[0] == digits[1] && digits[0] != '0' && digits[0] != '1')
+    digits.remove_prefix(1);
+  return digits;
+}
+
 /// Reads a trace one instant at a time, for those who read two.
 class Stepper final : private vp::WaveHandler {
  public:
   struct Change {
     std::uint32_t net;
+    vp::WaveVariable::Kind kind;
     std::string text;  ///< of bits without leading zeros
   };
 
@@ -153,39 +185,40 @@ class Stepper final : private vp::WaveHandler {
     changes_.clear();
     if (over_) return false;
     now_ps_ = next_ps_;
+    now_below_ps_ = next_below_ps_;
     stopped_ = false;
     file_.reader().read(*this);
     over_ = !stopped_;
     return started_;
   }
   std::uint64_t now_ps() const { return now_ps_; }
+  /// The femtoseconds beyond now_ps().
+  unsigned below_ps() const { return now_below_ps_; }
   const std::vector<Change>& changes() const { return changes_; }
 
  private:
   bool at(std::uint64_t ps) override {
     next_ps_ = ps;
+    next_below_ps_ = file_.reader().below_ps();
     if (!started_) {
       started_ = true;
       now_ps_ = ps;
+      now_below_ps_ = next_below_ps_;
       return true;
     }
     stopped_ = true;
     return false;
   }
   void change(std::uint32_t net, const vp::WaveValue& value) override {
-    std::string_view text = value.text;
-    if (value.kind == vp::WaveVariable::Kind::bits) {
-      while (text.size() > 1 && text[0] == '0' && text[1] <= '1') text.remove_prefix(1);
-      while (text.size() > 1 && text[0] == text[1] && text[0] != '0' && text[0] != '1') {
-        text.remove_prefix(1);
-      }
-    }
-    changes_.push_back({net, std::string(text)});
+    const bool is_bits = value.kind == vp::WaveVariable::Kind::bits;
+    changes_.push_back(
+        {net, value.kind, std::string(is_bits ? shortest_digits(value.text) : value.text)});
   }
 
   TraceFile& file_;
   bool started_ = false, stopped_ = false, over_ = false;
   std::uint64_t now_ps_ = 0, next_ps_ = 0;
+  unsigned now_below_ps_ = 0, next_below_ps_ = 0;
   std::vector<Change> changes_;
 };
 

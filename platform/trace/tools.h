@@ -170,6 +170,7 @@ struct PortComparison {
   Place theirs, ours;              ///< the edges behind which it does
   std::vector<Clock> around;       ///< from some clocks before that to some behind it
   std::vector<std::string> never_compared, never_changed;  ///< ports; outputs
+  std::vector<std::string> warnings;                       ///< of both traces
 };
 
 /// Compares all ports on every clock, from the first change of the inputs that both traces have to

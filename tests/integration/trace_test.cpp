@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(a_file_that_was_not_finished_is_read_with_a_warning) {
   kit::write_file(*this / "cut.fst.hier", "\x10\0flag\0\x01\0"s);
   const kit::Outcome outcome = ask({"diff", "one.fst", "cut.fst"});
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
-  BOOST_TEST(outcome.err.find("warning: trace 'cut.fst' was not finished") != std::string::npos,
+  BOOST_TEST(outcome.err.find("warning: trace 'cut.fst': was not finished") != std::string::npos,
              outcome.err);
 }
 

@@ -12,8 +12,8 @@
 /// What a trace says, as lines "100 top.a 101", with the times.
 class WaveText : private vp::WaveHandler {
  public:
-  explicit WaveText(const std::string& file) {
-    vp::WaveReader reader(file);
+  explicit WaveText(const std::string& file, const vp::WaveOptions& options = {}) {
+    vp::WaveReader reader(file, options);
     for (const auto& variable : reader.variables()) {
       names_.emplace(variable.net, variable.path);
       declared += variable.path + " ";
@@ -22,9 +22,10 @@ class WaveText : private vp::WaveHandler {
     reader.read(*this);
     bytes = reader.bytes();
     end_ps = reader.now_ps();
+    warnings = reader.warnings();
   }
 
-  std::vector<std::string> lines;
+  std::vector<std::string> lines, warnings;
   std::string declared;
   std::uint64_t bytes = 0, end_ps = 0;
 
@@ -49,6 +50,10 @@ class WaveText : private vp::WaveHandler {
   void change(std::uint32_t net, const vp::WaveValue& value) override {
     changes_.push_back({now_, names_.at(net), std::string(value.text)});
     lines.push_back(std::to_string(now_) + " " + names_.at(net) + " " + std::string(value.text));
+  }
+
+  void recorded(bool is_recorded) override {
+    lines.push_back(std::to_string(now_) + " recorded " + (is_recorded ? "1" : "0"));
   }
 
   std::uint64_t now_ = 0;

@@ -15,6 +15,9 @@ namespace vp {
 namespace {
 
 using Limits = ExpressionLimits;
+/// Clocks that past() and its like look back at most, and values in one look.
+constexpr std::uint32_t furthest = 1000;
+constexpr std::uint64_t most_work = 1'000'000;
 
 bool starts_name(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -63,6 +66,7 @@ class ExpressionParser {
     target_.root_ = either();
     skip();
     if (!rest_.empty()) fail("an operator is missing, or this is too much");
+    target_.measure();
   }
 
  private:
@@ -211,7 +215,44 @@ class ExpressionParser {
     if (!starts_name(c)) fail("here should be a value: a number, a name, a text in quotes or '('");
     const std::string word(take_word());
     if (word == "true" || word == "false") return add(ExpressionValue(word == "true"), at);
+    if (rest_.substr(0, 1) == "(") return function(word, at);
     return name(word, at);
+  }
+  /// past(x), past(x, 3) and its like.
+  std::uint32_t function(const std::string& word, std::uint32_t at) {
+    struct Function {
+      const char* name;
+      Operation operation;
+      bool counts, may_lack;  ///< its second value is a number of clocks; 1 if it is left out
+    };
+    static constexpr Function functions[] = {
+        {"past", Operation::past, true, true},      {"rose", Operation::rose, false, false},
+        {"fell", Operation::fell, false, false},    {"stable", Operation::stable, false, false},
+        {"within", Operation::within, true, false}, {"count", Operation::count, true, false}};
+    for (const Function& known : functions) {
+      if (word != known.name) continue;
+      take("(");
+      const std::uint32_t inner = either();
+      std::uint32_t clocks = 1;
+      if (known.counts && take(",")) {
+        clocks = number_of_clocks();
+      } else if (known.counts && !known.may_lack) {
+        fail("a number of clocks is missing: write " + word + "(x, 5)");
+      }
+      if (!take(")")) fail("a ')' is missing");
+      target_.has_functions_ = true;
+      return add(known.operation, at, inner, clocks);
+    }
+    fail("'" + word + "' is no function: there are past, rose, fell, stable, within and count");
+  }
+  std::uint32_t number_of_clocks() {
+    skip();
+    std::uint32_t clocks = 0;
+    const auto result = std::from_chars(rest_.data(), rest_.data() + rest_.size(), clocks);
+    if (result.ec != std::errc() || clocks == 0 || clocks > furthest)
+      fail("a number of clocks is 1 to " + std::to_string(furthest));
+    rest_.remove_prefix(static_cast<std::size_t>(result.ptr - rest_.data()));
+    return clocks;
   }
   std::uint32_t here() {
     skip();
@@ -322,11 +363,18 @@ void Expression::refuse(const std::string& name, const std::string& problem) con
 
 bool Expression::is_event() const {
   return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
-    return node.operation >= Operation::rises && node.operation <= Operation::changes;
+    return (node.operation >= Operation::rises && node.operation <= Operation::changes) ||
+           node.operation == Operation::rose || node.operation == Operation::fell;
   });
 }
 
-void Expression::bind(const std::function<std::uint32_t(const std::string& name)>& number_of) {
+void Expression::bind(const std::function<std::uint32_t(const std::string& name)>& number_of,
+                      const std::function<bool(std::uint32_t)>& is_text, unsigned history) {
+  if (history_ > history) {
+    fail(1, "looks " + std::to_string(history_) +
+                " clocks back: that needs a clock to count by (trace find --every, trace values "
+                "--every)");
+  }
   bound_.clear();
   for (const std::string& name : names_) {
     try {
@@ -337,22 +385,49 @@ void Expression::bind(const std::function<std::uint32_t(const std::string& name)
   }
   // Units are compared whether or not the values are known.
   evaluate(
-      root_, [](std::uint32_t, bool) { return ExpressionValue::unknown(); }, false);
+      root_,
+      [&](std::uint32_t place, unsigned) {
+        ExpressionValue value = ExpressionValue::unknown();
+        value.may_be_text = is_text != nullptr;
+        value.is_text = is_text && is_text(bound_[place]);
+        return value;
+      },
+      0);
+}
+
+std::vector<std::string> Expression::names_beside_texts() const {
+  std::vector<std::string> names;
+  const auto is_quoted = [&](const Node& node) {
+    return node.operation == Operation::constant && constants_[node.left].is_text;
+  };
+  for (const Node& node : nodes_) {
+    if (node.operation != Operation::equal && node.operation != Operation::unequal) continue;
+    const Node &left = nodes_[node.left], &right = nodes_[node.right];
+    if (is_quoted(right) && left.operation == Operation::name) names.push_back(names_[left.left]);
+    if (is_quoted(left) && right.operation == Operation::name) names.push_back(names_[right.left]);
+  }
+  return names;
 }
 
 ExpressionValue Expression::value(const ExpressionValues& values) const {
   return evaluate(
       root_,
-      [&](std::uint32_t place, bool past) {
-        return past ? values.before(bound_[place]) : values.now(bound_[place]);
+      [&](std::uint32_t place, unsigned ago) {
+        return ago == 0   ? values.now(bound_[place])
+               : ago == 1 ? values.before(bound_[place])
+                          : values.past(bound_[place], ago);
       },
-      false);
+      0);
 }
 
 std::vector<ExpressionValue> Expression::looked_up(const Lookup& lookup) const {
   for (const Node& node : nodes_) {
-    if (node.operation >= Operation::rises && node.operation <= Operation::changes)
-      fail(node.column, "'rises', 'falls' and 'changes' are for traces: here nothing was before");
+    const bool edge = node.operation >= Operation::rises && node.operation <= Operation::changes;
+    if (edge || node.operation >= Operation::past) {
+      fail(node.column,
+           edge ? "'rises', 'falls' and 'changes' are for traces: here nothing was before"
+                : "'past' and its like are for traces: here nothing was before");
+    }
   }
   std::vector<ExpressionValue> found;
   for (const std::string& name : names_) {
@@ -368,16 +443,16 @@ std::vector<ExpressionValue> Expression::looked_up(const Lookup& lookup) const {
 ExpressionValue Expression::value(const Lookup& lookup) const {
   const std::vector<ExpressionValue> found = looked_up(lookup);
   return evaluate(
-      root_, [&](std::uint32_t place, bool) { return found[place]; }, false);
+      root_, [&](std::uint32_t place, unsigned) { return found[place]; }, 0);
 }
 
 double Expression::shortfall(const Lookup& lookup) const {
   const std::vector<ExpressionValue> found = looked_up(lookup);
-  return shortfall(root_, [&](std::uint32_t place, bool) { return found[place]; });
+  return shortfall(root_, [&](std::uint32_t place, unsigned) { return found[place]; });
 }
 
 double Expression::shortfall(std::uint32_t place, const At& at) const {
-  if (evaluate(place, at, false).holds()) return 0;
+  if (evaluate(place, at, 0).holds()) return 0;
   const Node& node = nodes_[place];
   if (node.operation == Operation::both)
     return shortfall(node.left, at) + shortfall(node.right, at);
@@ -387,28 +462,35 @@ double Expression::shortfall(std::uint32_t place, const At& at) const {
       node.operation == Operation::equal ||
       (node.operation >= Operation::less && node.operation <= Operation::greater_equal);
   if (!compares) return 1;
-  const ExpressionValue left = evaluate(node.left, at, false);
-  const ExpressionValue right = evaluate(node.right, at, false);
+  const ExpressionValue left = evaluate(node.left, at, 0);
+  const ExpressionValue right = evaluate(node.right, at, 0);
   const long double scale = std::max(std::fabs(left.number), std::fabs(right.number));
   if (!left.known || !right.known || left.is_text || !(scale > 0)) return 1;
   return static_cast<double>(std::fabs(left.number - right.number) / scale);
 }
 
-ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, bool past) const {
+ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, unsigned ago) const {
   const Node& node = nodes_[place];
   switch (node.operation) {
     case Operation::constant:
       return constants_[node.left];
     case Operation::name:
-      return named(node, at, past);
+      return named(node, at, ago);
     case Operation::either:
     case Operation::both:
     case Operation::invert:
-      return logic(node, at, past);
+      return logic(node, at, ago);
+    case Operation::past:
+    case Operation::rose:
+    case Operation::fell:
+    case Operation::stable:
+    case Operation::within:
+    case Operation::count:
+      return over_time(node, at, ago);
     default:
       break;
   }
-  ExpressionValue left = evaluate(node.left, at, past);
+  ExpressionValue left = evaluate(node.left, at, ago);
   if (node.operation == Operation::negate) {
     check_number(node, left);
     left.number = -left.number;
@@ -418,7 +500,9 @@ ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, bool pas
   // would double the work with each edge inside another.
   const bool edge = node.operation >= Operation::rises && node.operation <= Operation::changes;
   const ExpressionValue right =
-      edge && past ? left : evaluate(edge ? node.left : node.right, at, past || edge);
+      edge && ago > 0 && !has_functions_
+          ? left
+          : evaluate(edge ? node.left : node.right, at, ago + (edge ? 1 : 0));
   if (node.operation < Operation::plus) return compared(node, left, right);
   check_number(node, left);
   check_number(node, right);
@@ -430,8 +514,71 @@ ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, bool pas
   return left;
 }
 
-ExpressionValue Expression::named(const Node& node, const At& at, bool past) const {
-  ExpressionValue whole = at(node.left, past);
+/// past(x, n) and its like.
+ExpressionValue Expression::over_time(const Node& node, const At& at, unsigned ago) const {
+  const std::uint32_t clocks = node.right;
+  if (node.operation == Operation::past) return evaluate(node.left, at, ago + clocks);
+  if (node.operation == Operation::within || node.operation == Operation::count) {
+    const std::uint32_t looks = node.operation == Operation::within ? clocks + 1 : clocks;
+    std::uint32_t held = 0;
+    bool known = true;
+    for (std::uint32_t i = 0; i < looks; ++i) {
+      const ExpressionValue value = evaluate(node.left, at, ago + i);
+      check_number(node, value);
+      held += value.holds() ? 1 : 0;
+      known = known && value.known;
+    }
+    if (node.operation == Operation::count) return static_cast<long double>(held);
+    return truth(known || held > 0, held > 0);
+  }
+  const ExpressionValue now = evaluate(node.left, at, ago);
+  const ExpressionValue before = evaluate(node.left, at, ago + 1);
+  const bool known = now.known && before.known;
+  if (node.operation == Operation::stable) {
+    return truth(known, now.is_text == before.is_text && now.number == before.number &&
+                            (!now.is_text || now.text == before.text));
+  }
+  check_number(node, now);
+  check_number(node, before);
+  const bool rises = node.operation == Operation::rose;
+  return truth(known, (now.number != 0) == rises && (before.number != 0) != rises);
+}
+
+/// What a look at it costs, and how far back that is.
+void Expression::measure() {
+  std::vector<Cost> costs;
+  for (const Node& node : nodes_) {  // those inside come first
+    Cost cost;
+    const bool leaf = node.operation == Operation::constant || node.operation == Operation::name;
+    const bool single = node.operation == Operation::invert || node.operation == Operation::negate;
+    const bool edge = node.operation >= Operation::rises && node.operation <= Operation::changes;
+    if (!leaf) {
+      const Cost& left = costs[node.left];
+      cost = left;
+      if (edge || node.operation >= Operation::past) {
+        const std::uint64_t looks = node.operation == Operation::past     ? 1
+                                    : node.operation == Operation::within ? node.right + 1
+                                    : node.operation == Operation::count  ? node.right
+                                                                          : 2;
+        cost.work = left.work * (edge && !has_functions_ ? 1 : looks) + 1;
+        cost.history +=
+            node.operation == Operation::past ? node.right : static_cast<unsigned>(looks - 1);
+        if (edge && !has_functions_) cost.history = 1;
+      } else if (!single) {
+        const Cost& right = costs[node.right];
+        cost.work = left.work + right.work + 1;
+        cost.history = std::max(left.history, right.history);
+      }
+    }
+    if (cost.work > most_work)
+      fail(node.column, "looks at too many clocks for each of many clocks: write it flatter");
+    costs.push_back(cost);
+  }
+  history_ = costs[root_].history;
+}
+
+ExpressionValue Expression::named(const Node& node, const At& at, unsigned ago) const {
+  ExpressionValue whole = at(node.left, ago);
   if (!node.sliced) return whole;
   check_number(node, whole);
   const unsigned width = node.high - node.low + 1;
@@ -445,11 +592,11 @@ ExpressionValue Expression::named(const Node& node, const At& at, bool past) con
 }
 
 /// One side may decide although the other is not known.
-ExpressionValue Expression::logic(const Node& node, const At& at, bool past) const {
-  const ExpressionValue left = evaluate(node.left, at, past);
+ExpressionValue Expression::logic(const Node& node, const At& at, unsigned ago) const {
+  const ExpressionValue left = evaluate(node.left, at, ago);
   check_number(node, left);
   if (node.operation == Operation::invert) return truth(left.known, left.number == 0);
-  const ExpressionValue right = evaluate(node.right, at, past);
+  const ExpressionValue right = evaluate(node.right, at, ago);
   check_number(node, right);
   const bool decides = node.operation == Operation::either;
   const auto decided = [&](const ExpressionValue& side) {
@@ -484,8 +631,15 @@ ExpressionValue Expression::compared(const Node& node, const ExpressionValue& le
   const bool equality = node.operation == Operation::equal ||
                         node.operation == Operation::unequal ||
                         node.operation == Operation::changes;
-  if (left.is_text != right.is_text)
-    fail(node.column, "compares a text with a number: texts stand in quotes");
+  if (left.is_text != right.is_text) {
+    if (!left.may_be_text && !right.may_be_text)
+      fail(node.column, "compares a text with a number: texts stand in quotes");
+    // The value of a signal may have a name.
+    const ExpressionValue& number = left.is_text ? right : left;
+    const bool named = number.known && !number.text.empty() && left.known && right.known;
+    if (!equality) fail(node.column, "compares texts: only == and != do that");
+    return truth(named, (left.text == right.text) == (node.operation == Operation::equal));
+  }
   if (left.is_text && !equality) fail(node.column, "compares texts: only == and != do that");
   check_same_unit(node, left, right, "compares");
   const auto order = [&] {
@@ -513,7 +667,9 @@ ExpressionValue Expression::compared(const Node& node, const ExpressionValue& le
 }
 
 void Expression::check_number(const Node& node, const ExpressionValue& value) const {
-  if (value.is_text) fail(node.column, "calculates with the text '" + excerpt(value.text) + "'");
+  if (!value.is_text) return;
+  fail(node.column, value.known ? "calculates with the text '" + excerpt(value.text) + "'"
+                                : std::string("calculates with a text"));
 }
 
 void Expression::check_same_unit(const Node& node, const ExpressionValue& left,

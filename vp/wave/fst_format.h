@@ -36,8 +36,14 @@ constexpr std::uint32_t variable_length = 0xffffffff;
 /// Tags in the hierarchy below these are types of variables.
 enum Tag : std::uint8_t { attribute = 252, attribute_end = 253, scope = 254, upscope = 255 };
 
+/// The type of a scope whose variables are elements of an array, and the attribute that names
+/// values.
+constexpr std::uint8_t sv_array = 22;
+constexpr std::uint8_t attribute_misc = 0, attribute_enumeration = 7;
+
 /// Types of variables that are more than bits.
 enum VariableType : std::uint8_t {
+  event = 0,
   real = 3,
   real_parameter = 4,
   reg = 5,

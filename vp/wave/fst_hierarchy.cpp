@@ -11,16 +11,6 @@ constexpr std::size_t deepest = 1000;
 constexpr std::size_t longest_path = 1 << 16;
 constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
 
-/// As a VCD would have it: the first word; the range follows a blank. A file may say anything.
-std::string word(std::string_view name) {
-  std::string text;
-  for (const char c : name) {
-    if (c == ' ' && !text.empty()) break;
-    if (c != ' ') text += (c > 0 && c < ' ') || c == '\x7f' ? '?' : c;
-  }
-  return text;
-}
-
 bool is_real(std::uint8_t type) {
   return type == fst::real || type == fst::real_parameter || type == fst::realtime ||
          type == fst::shortreal;
@@ -36,9 +26,9 @@ std::uint32_t size_of(std::uint8_t type, std::uint64_t length) {
 
 FstReader::Net net_of(std::uint32_t size) {
   using Kind = WaveVariable::Kind;
-  if (size == 0) return {Kind::real, 1};
-  if (size == fst::variable_length) return {Kind::text, 1};
-  return {Kind::bits, size};
+  if (size == 0) return {Kind::real, 1, false};
+  if (size == fst::variable_length) return {Kind::text, 1, false};
+  return {Kind::bits, size, false};
 }
 
 }  // namespace
@@ -49,51 +39,54 @@ void FstReader::read_hierarchy() {
   const bool has_geometry = !nets_.empty();
   const std::string bytes = file_.hierarchy();
   fst::Cursor cursor(file_, bytes, 0, "unpacked hierarchy");
-  std::vector<std::string> scopes;
+  std::vector<Scope> scopes;
   handles_ = 0;
   while (!cursor.at_end()) {
     const std::uint8_t tag = cursor.byte();
     if (tag == fst::scope) {
-      cursor.byte();  // module, task, process …
+      const std::uint8_t type = cursor.byte();  // module, task, process …
       if (scopes.size() == deepest) cursor.fail("has more than 1000 scopes inside each other");
-      const std::string name = word(cursor.text());
+      const std::string name = clean_name(cursor.text());
       cursor.text();  // its component
-      scopes.push_back((scopes.empty() ? "" : scopes.back()) + name + (name.empty() ? "" : "."));
-      if (scopes.back().size() > longest_path) cursor.fail("has a name of more than 64 KiB");
+      scopes.push_back(
+          {(scopes.empty() ? "" : scopes.back().path) + name + (name.empty() ? "" : "."),
+           type == fst::sv_array});
+      if (scopes.back().path.size() > longest_path) cursor.fail("has a name of more than 64 KiB");
     } else if (tag == fst::upscope) {
       if (scopes.empty()) cursor.fail("leaves a scope that it did not enter");
       scopes.pop_back();
     } else if (tag == fst::attribute) {
-      cursor.byte();
-      cursor.byte();
-      cursor.text();
-      cursor.varint();
+      const std::uint8_t type = cursor.byte(), subtype = cursor.byte();
+      const std::string_view text = cursor.text();
+      const std::uint64_t argument = cursor.varint();
+      if (type == fst::attribute_misc && subtype == fst::attribute_enumeration)
+        enumerations_.attribute(text, argument);
     } else if (tag <= fst::last_variable_type) {
-      read_variable(tag, cursor, scopes.empty() ? std::string() : scopes.back(), has_geometry);
+      read_variable(tag, cursor, scopes.empty() ? Scope{} : scopes.back(), has_geometry);
     } else if (tag != fst::attribute_end) {
       cursor.fail("has an entry of an unknown type");
     }
   }
-  for (const WaveVariable& variable : variables_) {
-    if (nets_[variable.net].width > widest) {
+  for (const WaveDeclared& declared : declared_) {
+    if (nets_[declared.variable.net].width > widest) {
       cursor.fail("declares a signal of more than 1048576 bits");
     }
   }
 }
 
-void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const std::string& scope,
+void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scope& scope,
                               bool has_geometry) {
   cursor.byte();  // direction
-  WaveVariable variable;
-  const std::string name = word(cursor.text());
-  variable.path = scope + name;
+  WaveDeclared declared;
+  WaveVariable& variable = declared.variable;
+  const std::string name = clean_name(cursor.text());
+  variable.path = scope.path + name;
   path_bytes_ += variable.path.size();
   const std::uint64_t length = cursor.varint(), alias = cursor.varint();
   if (name.empty()) cursor.fail("has a signal without a name");
   if (variable.path.size() > longest_path || path_bytes_ > largest_paths) {
     cursor.fail("has names that are too long");
   }
-  if (type == fst::port) cursor.fail("has ports of an extended VCD, which are not supported");
   if (alias == 0) {
     if (!has_geometry) nets_.push_back(net_of(size_of(type, length)));
     ++handles_;
@@ -101,9 +94,20 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const std:
   const std::uint64_t handle = alias == 0 ? handles_ : alias;
   if (handle > nets_.size()) cursor.fail("has more signals than there are values for");
   variable.net = static_cast<std::uint32_t>(handle - 1);
-  variable.kind = nets_[variable.net].kind;
-  variable.width = nets_[variable.net].width;
-  variables_.push_back(std::move(variable));
+  Net& net = nets_[variable.net];
+  // A state and two strengths for each bit, and blanks between the three.
+  if (type == fst::port && net.kind == WaveVariable::Kind::bits && !net.is_port && net.width > 2 &&
+      net.width % 3 == 2) {
+    net.is_port = true;
+    net.width = (net.width - 2) / 3;
+  }
+  variable.kind = net.kind;
+  variable.width = net.width;
+  variable.is_event = type == fst::event;
+  variable.enumeration = enumerations_.take();
+  take_range(declared);
+  if (scope.is_array) declared.may_join = false;
+  declared_.push_back(std::move(declared));
 }
 
 }  // namespace vp

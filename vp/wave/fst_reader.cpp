@@ -228,7 +228,7 @@ void FstReader::schedule(std::uint32_t net, std::size_t from) {
   Chain ahead = chains_[net];
   if (ahead.next == ahead.end) return;
   const std::uint64_t head = varint(ahead);
-  const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].width == 1;
+  const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].length() == 1;
   const std::uint64_t delta = is_scalar ? head >> ((head & 1) != 0 ? 4 : 2) : head >> 1;
   if (delta >= due_.size() - from) corrupt_changes();
   std::uint32_t& first = due_[from + delta];
@@ -261,7 +261,7 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
   for (std::uint32_t net = 0; net < nets_.size(); ++net) {
     if (nets_[net].kind == WaveVariable::Kind::text) continue;
     const bool is_real = nets_[net].kind == WaveVariable::Kind::real;
-    const std::size_t size = is_real ? sizeof(double) : nets_[net].width;
+    const std::size_t size = is_real ? sizeof(double) : nets_[net].length();
     if (size > frame.size() - at) return;  // it was declared later
     const std::string_view value = frame.substr(at, size);
     at += size;
@@ -299,16 +299,20 @@ void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
       hand_over_real(net, digits_of_byte[static_cast<unsigned char>(*take(chain, 1))].data(),
                      handler);
     }
-  } else if (form.width == 1) {
+  } else if (form.length() == 1) {
     WaveValue value;
-    value.known = !as_written;
-    value.bits = as_written ? 0 : head >> 1 & 1;
-    value.text = as_written ? fst::letters.substr(head >> 1 & 7, 1)
-                            : std::string_view("01").substr(value.bits, 1);
+    if (as_written) {
+      hand_over_bits(net, fst::letters.substr(head >> 1 & 7, 1), handler);
+      return;
+    }
+    value.known = true;
+    value.bits = head >> 1 & 1;
+    value.text = std::string_view("01").substr(value.bits, 1);
     handler.change(net, value);
   } else if (as_written) {
-    hand_over_bits(net, {take(chain, form.width), form.width}, handler);
+    hand_over_bits(net, {take(chain, form.length()), form.length()}, handler);
   } else {
+    if (form.is_port) corrupt_changes();
     const unsigned count = (form.width + 7) / 8;
     const char* bytes = take(chain, count);
     text_.resize(std::size_t{count} * 8);
@@ -327,15 +331,20 @@ void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
 }
 
 void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler) {
-  WaveValue value;
-  value.known = true;
-  for (const char c : digits) {
-    value.bits = value.bits << 1 | (c & 1);
-    if (c == '0' || c == '1') continue;
-    if (std::string_view("xXzZuUwWlLhH-").find(c) == std::string_view::npos) corrupt_changes();
-    value.known = false;
+  const auto rewrite = [&](const auto& state_of) {
+    text_.assign(digits.substr(0, nets_[net].width));
+    for (char& c : text_) c = state_of(c);
+    digits = text_;
+  };
+  if (nets_[net].is_port) rewrite(state_of_port);
+  const DecodedDigits decoded = decode_digits(digits);
+  if (!decoded.valid) corrupt_changes();
+  if (decoded.capitals) {
+    rewrite([](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
   }
-  if (!value.known) value.bits = 0;
+  WaveValue value;
+  value.known = decoded.known;
+  value.bits = decoded.bits;
   value.text = digits;
   handler.change(net, value);
 }

@@ -11,6 +11,7 @@
 #include <vp/wave_reader.h>
 
 #include "fst_file.h"
+#include "wave_declared.h"
 
 namespace vp {
 
@@ -20,6 +21,9 @@ class FstReader {
   struct Net {
     WaveVariable::Kind kind;
     unsigned width;  ///< bits; 1 of a real or text
+    bool is_port;    ///< of an extended VCD: its values are states and two strengths for each bit
+    /// Characters of a value that is written as it is.
+    std::size_t length() const { return is_port ? std::size_t{width} * 3 + 2 : width; }
   };
   /// Takes a time in the file's steps; false: enough for now.
   using Time = std::function<bool(std::uint64_t)>;
@@ -28,8 +32,9 @@ class FstReader {
   explicit FstReader(const std::filesystem::path& file);
 
   const std::vector<Net>& nets() const { return nets_; }
-  /// In the order of the file; paths as they are in it, with ranges.
-  std::vector<WaveVariable>& variables() { return variables_; }
+  /// In the order of the file.
+  std::vector<WaveDeclared>& declared() { return declared_; }
+  std::vector<WaveEnumeration>& enumerations() { return enumerations_.all; }
   std::uint64_t timescale_fs() const { return timescale_fs_; }
   std::uint64_t bytes() const { return file_.size(); }
   /// What is odd about the file; empty if nothing is.
@@ -52,8 +57,11 @@ class FstReader {
     std::uint32_t same_as = 0;  ///< handle + 1 of the chain that is also this one's; 0: its own
   };
   void read_hierarchy();
-  void read_variable(std::uint8_t type, fst::Cursor& cursor, const std::string& scope,
-                     bool has_geometry);
+  struct Scope {
+    std::string path;
+    bool is_array;
+  };
+  void read_variable(std::uint8_t type, fst::Cursor& cursor, const Scope& scope, bool has_geometry);
 
   void open_block(const fst::File::Section& section, const std::vector<bool>& selected);
   /// Returns where the table of chains ends.
@@ -74,7 +82,8 @@ class FstReader {
 
   fst::File file_;
   std::vector<Net> nets_;
-  std::vector<WaveVariable> variables_;
+  std::vector<WaveDeclared> declared_;
+  WaveEnumerations enumerations_;
   std::uint64_t timescale_fs_ = 1;
   std::uint64_t handles_ = 0;  ///< declared so far
   std::uint64_t path_bytes_ = 0;

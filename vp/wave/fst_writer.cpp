@@ -285,7 +285,7 @@ void FstWriter::pause() {
 }
 
 std::string FstWriter::header() const {
-  constexpr char timescale = -12;
+  const char timescale = timescale_ps_ ? -12 : -15;
   constexpr double byte_order = 2.7182818284590452354;
   constexpr std::size_t version_size = 128, date_size = 119;
   std::string bytes(1, fst::header);
@@ -423,10 +423,11 @@ void FstWriter::declare(const WaveScope& scope) {
   for (const auto& [leaf, id] : scope.variables) {
     const WaveDeclaration& d = declarations_[id];
     by_handle_.push_back(id);
-    to += static_cast<char>(d.kind == Kind::real   ? fst::real
-                            : d.kind == Kind::text ? fst::text
-                            : d.kind == Kind::reg  ? fst::reg
-                                                   : fst::wire);
+    to += static_cast<char>(d.kind == Kind::real    ? fst::real
+                            : d.kind == Kind::text  ? fst::text
+                            : d.kind == Kind::reg   ? fst::reg
+                            : d.kind == Kind::event ? fst::event
+                                                    : fst::wire);
     to += implicit;
     to += leaf;
     if (d.kind != Kind::real && d.width > 1) to += " [" + std::to_string(d.width - 1) + ":0]";

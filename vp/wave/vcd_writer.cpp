@@ -192,7 +192,8 @@ void VcdWriter::change_text(Id id, std::string_view text) {
 }
 
 void VcdWriter::write_header() {
-  write_text("$version markervp $end\n$timescale 1ps $end\n");
+  write_text("$version markervp $end\n$timescale 1");
+  write_text(timescale_ps_ ? "ps $end\n" : "fs $end\n");
   write_scope(WaveScope::of(declarations_));
   write_text("$enddefinitions $end\n");
 }
@@ -207,7 +208,7 @@ void VcdWriter::write_scope(const WaveScope& scope) {
 }
 
 void VcdWriter::write_declaration(Id id, std::string_view leaf) {
-  static constexpr const char* words[] = {"wire", "reg", "real", "string"};
+  static constexpr const char* words[] = {"wire", "reg", "real", "string", "event"};
   const WaveDeclaration& declaration = declarations_[id];
   std::string line = "$var " + std::string(words[static_cast<int>(declaration.kind)]) + " " +
                      std::to_string(declaration.width) + " " + identifier_code(id) + " ";

@@ -39,89 +39,52 @@ inline constexpr auto digits_of_byte = make_digits_of_byte();
 /// there are more than 64.
 std::optional<std::uint64_t> bits_of_digits(std::string_view digits, bool is_real);
 
-/// Words between white space, out of a window that slides over the file.
-class VcdTokens {
+/// A window that slides over the bytes of a VCD.
+class VcdWindow {
  public:
-  static constexpr std::size_t window = 1 << 18;
+  static constexpr std::size_t size = 1 << 18;
 
-  explicit VcdTokens(std::unique_ptr<ByteSource> source)
-      : source_(std::move(source)), buffer_(window + 1) {
-    cursor_ = end_ = buffer_.data();
-    *end_ = ' ';
+  explicit VcdWindow(std::unique_ptr<ByteSource> source)
+      : source_(std::move(source)), buffer_(size + padding) {
+    cursor = safe_ = end_ = buffer_.data();
+    counted_ = cursor;
   }
 
-  /// The next word, empty at the end. Valid until the next call, or the one after keep().
-  std::string_view next() {
-    for (const std::uint64_t begin = offset();;) {
-      while (static_cast<unsigned char>(*cursor_) <= ' ' && cursor_ != end_) {
-        line_ += *cursor_ == '\n';
-        ++cursor_;
-      }
-      if (cursor_ != end_) break;
-      // A file of zeros, which count as white space here, may have no end.
-      too_long_ = offset() - begin > window;
-      if (too_long_ || !refill(cursor_)) return {};
-    }
-    char* from = cursor_;
-    char* to = cursor_ + 1;
-    for (;;) {
-      while (static_cast<unsigned char>(*to) > ' ') ++to;
-      if (to != end_) break;
-      const std::size_t length = static_cast<std::size_t>(to - from);
-      cut_ = !refill(from);  // the end of the file, and no white space before it
-      from = cursor_;
-      to = from + length;
-      if (cut_) break;
-    }
-    cursor_ = to;
-    return {from, static_cast<std::size_t>(to - from)};
-  }
+  /// What was not used up yet begins here. Behind the end are blanks.
+  const char* cursor;
 
-  /// The word just read stays valid over the next call, which may move it.
-  void keep(std::string_view word) { kept_ = const_cast<char*>(word.data()); }
-  std::string_view kept(std::size_t length) {
-    const char* from = std::exchange(kept_, nullptr);
-    return {from, length};
-  }
+  /// Words that begin before it are whole: white space follows them.
+  const char* safe() const { return safe_; }
+  /// Of the bytes that were read so far.
+  const char* end() const { return end_; }
 
-  /// The word just read ends where the file ends; it, or the white space before it, is longer than
-  /// the window.
-  bool cut() const { return cut_; }
+  /// Reads on; the bytes from `from` on stay, and `cursor` is where they begin then. False: there
+  /// is no more to be had.
+  bool refill(const char* from);
+  /// The file is over: the word that ends with it counts as whole.
+  void close_last_word() { safe_ = end_; }
+
+  /// A word, or white space, that is longer than the window.
   bool too_long() const { return too_long_; }
-  std::uint64_t line() const { return line_; }
-  /// Of the byte after the word just read.
-  std::uint64_t offset() const { return read_ - static_cast<std::uint64_t>(end_ - cursor_); }
+  /// Of the byte `at` in the window: its line, and its place in the file. Lines are asked for from
+  /// front to back.
+  std::uint64_t line(const char* at) const;
+  std::uint64_t offset(const char* at) const {
+    return read_ - static_cast<std::uint64_t>(end_ - at);
+  }
   std::uint64_t bytes() const { return read_; }
 
  private:
-  /// Moves what is still needed, from `word` or the word kept before it, to the front, and reads
-  /// on behind it. `cursor_` is where the word is then. False at the end of the file.
-  bool refill(char* word) {
-    char* first = kept_ ? kept_ : word;
-    const auto held = static_cast<std::size_t>(end_ - first);
-    if (held == window) {
-      too_long_ = true;
-      return false;
-    }
-    std::memmove(buffer_.data(), first, held);
-    cursor_ = buffer_.data() + (word - first);
-    if (kept_) kept_ = buffer_.data();
-    end_ = buffer_.data() + held;
-    const std::size_t count = source_->read(end_, window - held);
-    read_ += count;
-    end_ += count;
-    *end_ = ' ';
-    return count != 0;
-  }
+  static constexpr std::size_t padding = 16;
 
   std::unique_ptr<ByteSource> source_;
   std::vector<char> buffer_;
-  char* cursor_;
+  const char* safe_;
   char* end_;
-  char* kept_ = nullptr;
-  bool cut_ = false;
   bool too_long_ = false;
-  std::uint64_t line_ = 1;
+  // The line of a place that was asked for, to count on from there.
+  mutable const char* counted_;
+  mutable std::uint64_t lines_ = 1;
   std::uint64_t read_ = 0;
 };
 
@@ -143,7 +106,9 @@ struct WaveScope {
     for (std::size_t id = 0; id < declarations.size(); ++id) {
       std::string_view rest = declarations[id].path;
       WaveScope* scope = &root;
-      for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+      // A name of another tool may begin or end with a dot.
+      const auto next = [&rest] { return rest.find('.', 1); };
+      for (auto dot = next(); dot < rest.size() - 1; dot = next()) {
         scope = &scope->child(rest.substr(0, dot));
         rest.remove_prefix(dot + 1);
       }
@@ -165,12 +130,15 @@ struct WaveScope {
 /// The declaration, checked. Throws std::invalid_argument.
 inline WaveDeclaration checked_declaration(std::string_view path, WaveWriter::Kind kind,
                                            unsigned width) {
-  bool valid = !path.empty() && path.front() != '.' && path.back() != '.' &&
-               path.find("..") == std::string_view::npos;
-  for (const char c : path) valid = valid && c > ' ' && c <= '~';
+  bool valid = !path.empty();
+  // Blanks are in names of other tools, and bytes of UTF-8.
+  for (const char c : path) valid = valid && static_cast<unsigned char>(c) >= ' ' && c != '\x7f';
+  const std::string words = "." + std::string(path) + ".";
+  for (const char* bad : {". ", " .", "  ", " $end ", ".$end ", " $end.", ".$end."})
+    valid = valid && words.find(bad) == std::string::npos;
   if (!valid) throw std::invalid_argument("not a name for a trace: '" + std::string(path) + "'");
   if (kind == WaveWriter::Kind::real) width = 64;
-  if (kind == WaveWriter::Kind::text) width = 1;
+  if (kind == WaveWriter::Kind::text || kind == WaveWriter::Kind::event) width = 1;
   if (width < 1 || width > WaveWriter::widest) {
     throw std::invalid_argument("width of '" + std::string(path) + "' is not 1 to " +
                                 std::to_string(WaveWriter::widest) + " bits");

@@ -42,6 +42,21 @@ BOOST_AUTO_TEST_CASE(always_and_never) {
   BOOST_TEST(verdict("n: never a", "#0 x!\n#10 0!\n") == "", "unknown is no failure");
 }
 
+BOOST_AUTO_TEST_CASE(functions_look_an_instant_back) {
+  const std::string changes = "#0 0! b1 \"\n#10 1! b10 \"\n#20 0!\n";
+  BOOST_TEST(verdict("n: never rose(a)", changes) == "10 ns: it holds");
+  BOOST_TEST(verdict("n: never fell(a)", changes) == "20 ns: it holds");
+  BOOST_TEST(verdict("n: always rose(a) or fell(a)", changes) == "");
+  BOOST_TEST(verdict("n: at a rises holds past(b) == 1 and b == 2", changes) == "");
+  BOOST_TEST(verdict("n: at a rises holds past(b) == 2", changes) == "10 ns: it does not hold");
+  BOOST_TEST(verdict("n: at a falls holds stable(b)", changes) == "");
+  BOOST_TEST(verdict("n: at a rises holds stable(b)", changes) == "10 ns: it does not hold");
+  BOOST_TEST(refusal("n: never past(a, 2)").find("looks 2 clocks back") != std::string::npos);
+  BOOST_TEST(refusal("n: never within(a, 5)").find("looks 5 clocks back") != std::string::npos);
+  BOOST_TEST(refusal("n: never past(a").find("a ')' is missing") != std::string::npos);
+  BOOST_TEST(refusal("n: never soon(a)").find("'soon' is no function") != std::string::npos);
+}
+
 // How often each kind had something to judge; never: it is not exercised.
 BOOST_AUTO_TEST_CASE(occasions) {
   const struct {

@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(an_unfinished_file_is_read_with_its_names) {
   BOOST_TEST(text.declared == "top.flag top.word top.watts top.state ");
   BOOST_TEST(std::stoul(text.value("top.word", 40), nullptr, 2) == 7u);
   BOOST_TEST(text.end_ps == 99u);
-  BOOST_TEST(!vp::WaveReader(folder / "u.fst").remark().empty());
+  BOOST_TEST(!vp::WaveReader(folder / "u.fst").warnings().empty());
 }
 
 BOOST_AUTO_TEST_CASE(two_writes_give_the_same_bytes) {

@@ -26,7 +26,8 @@ struct ExpressionValue {
   Unit unit = Unit::none;
   bool known = true;
   bool is_text = false;
-  std::string text;
+  bool may_be_text = false;  ///< of a trace: compared with the other type it is unknown
+  std::string text;          ///< of a number the name of its value, if it has one
 
   bool holds() const { return known && number != 0; }
 };
@@ -38,6 +39,10 @@ class ExpressionValues {
   /// The present value, and the one before this instant.
   virtual ExpressionValue now(std::uint32_t name) const = 0;
   virtual ExpressionValue before(std::uint32_t name) const = 0;
+  /// The value so many instants, or clocks, ago. Without a history nothing is older than before().
+  virtual ExpressionValue past(std::uint32_t name, unsigned ago) const {
+    return ago == 0 ? now(name) : before(name);
+  }
 };
 
 /// A condition or a figure over named values: triggers, checks, constraints, objectives, metrics.
@@ -58,12 +63,20 @@ class Expression {
   const std::string& text() const { return text_; }
   /// The names in it, as they are written there, each once.
   const std::vector<std::string>& names() const { return names_; }
-  /// True if it has rises, falls or changes in it: it speaks of an instant, not of a state.
+  /// True if it has rises, falls, changes, rose or fell in it: it speaks of an instant, not of a
+  /// state.
   bool is_event() const;
+  /// How many instants, or clocks, it looks back: 1 for rises, 3 for past(x, 3).
+  unsigned history() const { return history_; }
 
-  /// Looks up every name; all of them are plain numbers. Throws InputError that shows the place,
-  /// for what `number_of` throws and where units do not go together.
-  void bind(const std::function<std::uint32_t(const std::string& name)>& number_of);
+  /// Looks up every name. Throws InputError that shows the place, for what `number_of` throws and
+  /// where units do not go together. All names are plain numbers, unless `is_text` tells which are
+  /// texts: then the others may have names for their values.
+  /// Refuses one that looks back further than `history`.
+  void bind(const std::function<std::uint32_t(const std::string& name)>& number_of,
+            const std::function<bool(std::uint32_t)>& is_text = {}, unsigned history = 1);
+  /// Names that are compared with a text in quotes.
+  std::vector<std::string> names_beside_texts() const;
   /// Of the names in it, after bind().
   const std::vector<std::uint32_t>& bound() const { return bound_; }
   /// After bind().
@@ -103,24 +116,37 @@ class Expression {
     plus,
     minus,
     times,
-    over
+    over,
+    past,
+    rose,
+    fell,
+    stable,
+    within,
+    count
   };
   struct Node {
     Operation operation = Operation::constant;
-    std::uint32_t left = 0, right = 0;  ///< nodes; the place in constants_ or names_
+    std::uint32_t left = 0, right = 0;  ///< nodes; the place in constants_ or names_; clocks
     std::uint32_t column = 0;           ///< from 1
     bool sliced = false;
     unsigned high = 63, low = 0;  ///< bits of a name's number
   };
-  /// The value of names_[place]; `past`: as it was before this instant.
-  using At = std::function<ExpressionValue(std::uint32_t place, bool past)>;
+  /// The value of names_[place], so many instants ago.
+  using At = std::function<ExpressionValue(std::uint32_t place, unsigned ago)>;
+  /// What evaluate() does and how far it looks back.
+  struct Cost {
+    std::uint64_t work = 1;
+    unsigned history = 0;
+  };
 
   [[noreturn]] void fail(std::uint32_t column, const std::string& problem) const;
   std::vector<ExpressionValue> looked_up(const Lookup& lookup) const;
   double shortfall(std::uint32_t place, const At& at) const;
-  ExpressionValue evaluate(std::uint32_t place, const At& at, bool past) const;
-  ExpressionValue logic(const Node& node, const At& at, bool past) const;
-  ExpressionValue named(const Node& node, const At& at, bool past) const;
+  void measure();
+  ExpressionValue evaluate(std::uint32_t place, const At& at, unsigned ago) const;
+  ExpressionValue over_time(const Node& node, const At& at, unsigned ago) const;
+  ExpressionValue logic(const Node& node, const At& at, unsigned ago) const;
+  ExpressionValue named(const Node& node, const At& at, unsigned ago) const;
   ExpressionValue scaled(const Node& node, ExpressionValue left,
                          const ExpressionValue& right) const;
   ExpressionValue compared(const Node& node, const ExpressionValue& left,
@@ -137,6 +163,8 @@ class Expression {
   std::vector<ExpressionValue> constants_;
   std::vector<Node> nodes_;
   std::uint32_t root_ = 0;
+  unsigned history_ = 0;
+  bool has_functions_ = false;  ///< past and its like
 };
 
 }  // namespace vp

@@ -5,118 +5,126 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace vp {
 
 class FstReader;
-class VcdTokens;
+class VcdReader;
+class WaveJoiner;
+class WaveNotes;
+struct WaveDeclared;
 
 /// A name in a trace. Several names may show one net.
 struct WaveVariable {
   enum class Kind : std::uint8_t { bits, real, text };
   std::string path;  ///< levels separated by '.', without "[7:0]"
   Kind kind = Kind::bits;
-  unsigned width = 1;     ///< of bits
-  std::uint32_t net = 0;  ///< counts from 0
+  unsigned width = 1;             ///< of bits; 0 for a vector without bits, which has no values
+  std::uint32_t net = 0;          ///< counts from 0
+  bool is_event = false;          ///< each 1 is an occurrence, also if no 0 comes between them
+  std::uint32_t enumeration = 0;  ///< place in WaveReader::enumerations() + 1; 0: none
+};
+
+/// What the values of a type are called, as Verilator and GHDL declare it.
+struct WaveEnumeration {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> words;  ///< digits, and the word for them
 };
 
 /// A value as a trace gives it. Valid during the call that hands it over.
 struct WaveValue {
-  WaveVariable::Kind kind = WaveVariable::Kind::bits;
-  bool known = false;      ///< no x or z in it; a real is a number
-  std::uint64_t bits = 0;  ///< right-aligned, the lowest 64; 0 if not known
+  WaveVariable::Kind kind = WaveVariable::Kind::bits;  ///< text for a word in a vector of bits
+  bool known = false;      ///< all digits are 0, 1, l or h; a real is a number
+  std::uint64_t bits = 0;  ///< right-aligned, the lowest 64; l is 0, h is 1; 0 if not known
   double real = 0;         ///< of a real
-  std::string_view text;   ///< as written: "0", "1x", "2.5"; of a text what it says
+  std::string_view text;   ///< as written, small: "0", "1x", "2.5"; of a text what it says
 };
+
+/// The digits that a value stands for: what is left out on the left is 0 before 0 and 1, and the
+/// leftmost digit before any other (IEEE 1364, 18.2.1).
+std::string full_digits(std::string_view digits, unsigned width);
 
 /// Takes what a trace tells.
 class WaveHandler {
  public:
   virtual ~WaveHandler() = default;
-  /// The changes that follow happen at `ps`; rises from call to call. False: enough.
+  /// The changes that follow happen at `ps`, which never falls. It repeats only where the file has
+  /// several instants in one picosecond: see WaveReader::below_ps(). False: enough.
   virtual bool at(std::uint64_t ps) = 0;
   virtual void change(std::uint32_t net, const WaveValue& value) = 0;
+  /// From here on the file does not say what happens ($dumpoff), or says it again. The values are x
+  /// meanwhile.
+  virtual void recorded(bool /*is_recorded*/) {}
 };
 
-/// Reads a trace from front to back in bounded memory: a VCD (IEEE 1364, 18), or GTKWave's FST, of
-/// which only the selected nets are unpacked. The file's content tells which it is.
+/// How a trace is read.
+struct WaveOptions {
+  std::uint64_t timescale_fs = 0;  ///< of a VCD that says none; 0: 1 ns, with a warning
+  bool lenient = false;            ///< leaves out times that fall and identifiers nobody declared
+  bool strict = false;             ///< what is odd is an error, not a warning
+};
+
+/// Reads a trace from front to back in bounded memory: a VCD (IEEE 1364, 18.2 and 18.4) as any tool
+/// writes it, or GTKWave's FST, of which only the selected nets are unpacked. The file's content
+/// tells which it is.
 ///
-/// Nothing in a file makes it crash. What is wrong with it is an InputError with the line, or for
-/// an FST the byte: truncated, corrupt, no such format, a timescale that is none, an identifier
-/// that was not declared or was declared twice, a time that falls.
+/// Nothing in a file makes it crash. What is odd but clear is a warning. What cannot be understood
+/// is an InputError with the line, or for an FST the byte. A file that was cut off gives all that
+/// is before the cut, with a warning.
 class WaveReader {
  public:
   /// Opens the file and reads its header. Throws InputError.
-  explicit WaveReader(const std::filesystem::path& file);
+  explicit WaveReader(const std::filesystem::path& file, const WaveOptions& options = {});
   ~WaveReader();
   WaveReader(const WaveReader&) = delete;
   WaveReader& operator=(const WaveReader&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
-  /// In the order of the file.
+  /// In the order of the file. Bits declared one by one are one vector here; a name that is
+  /// declared again with other values is called `name#2`.
   const std::vector<WaveVariable>& variables() const { return variables_; }
-  std::uint32_t nets() const { return static_cast<std::uint32_t>(nets_.size()); }
+  const std::vector<WaveEnumeration>& enumerations() const { return enumerations_; }
+  std::uint32_t nets() const { return static_cast<std::uint32_t>(selected_.size()); }
   /// Null if there is none.
   const WaveVariable* find(const std::string& path) const;
   /// Femtoseconds of a step of the file's time.
   std::uint64_t timescale_fs() const { return timescale_fs_; }
 
   /// Changes of this net are handed over; of others nothing but their form is looked at.
-  void select(std::uint32_t net) { nets_[net].selected = true; }
+  void select(std::uint32_t net);
   void select_all();
 
   /// Hands over everything selected, once. Throws InputError.
   void read(WaveHandler& handler);
 
-  /// The last time that was read, in ps.
+  /// The last time that was read, in ps, and the femtoseconds beyond it.
   std::uint64_t now_ps() const { return now_ps_; }
+  unsigned below_ps() const { return below_ps_; }
   /// Bytes that were read; of an FST its size.
   std::uint64_t bytes() const;
-  /// What a user should know of the file, as in "'t.fst' was not finished …"; empty if nothing.
-  std::string remark() const;
+  /// What a user should know of the file so far, as in "has no $timescale: …, line 12". After
+  /// read() all of it.
+  std::vector<std::string> warnings() const;
 
  private:
-  struct Net {
-    WaveVariable::Kind kind;
-    unsigned width;
-    bool selected;
-  };
-
-  [[noreturn]] void fail(const std::string& problem) const;
-  std::string_view next(const char* inside);
-  void read_header();
-  void read_fst_header();
-  void declare(WaveVariable variable);
-  void skip_to_end(const char* inside);
-  void read_timescale();
-  void read_scope();
-  void read_variable();
-  std::uint32_t declare_net(std::string_view code, WaveVariable::Kind kind, unsigned width);
-  std::uint32_t net_of(std::string_view code);
-  bool read_time(std::string_view digits, WaveHandler& handler);
+  void declare(std::vector<WaveDeclared> declared);
   bool reach(std::uint64_t steps, WaveHandler& handler);
-  void read_scalar(std::string_view token, WaveHandler& handler);
-  void read_vector(std::string_view token, WaveHandler& handler);
-  void read_real(std::string_view token, WaveHandler& handler);
-  void read_text(std::string_view token, WaveHandler& handler);
-  /// The value's text, after the letter, and the net.
-  std::uint32_t value_and_net(std::string_view token, std::string_view& value);
-  std::uint64_t decode(std::string_view digits, bool& known) const;
 
   std::filesystem::path file_;
-  std::unique_ptr<VcdTokens> tokens_;  ///< of a VCD
-  std::unique_ptr<FstReader> fst_;     ///< of an FST
+  std::unique_ptr<WaveNotes> notes_;
+  std::unique_ptr<VcdReader> vcd_;  ///< one of both
+  std::unique_ptr<FstReader> fst_;
+  std::unique_ptr<WaveJoiner> joiner_;  ///< null: no vector was declared bit by bit
   std::vector<WaveVariable> variables_;
-  std::vector<Net> nets_;
-  std::unordered_map<std::string, std::size_t> by_path_;
-  std::vector<std::uint32_t> by_short_code_;  ///< net + 1; 0: none
-  std::unordered_map<std::string, std::uint32_t> by_long_code_;
-  std::vector<std::string> scopes_;
-  std::string text_;
+  std::vector<WaveEnumeration> enumerations_;
+  std::vector<std::uint32_t> by_name_;  ///< hash table of places + 1
+  std::vector<bool> selected_;          ///< by net
+  std::vector<bool> wanted_;            ///< by net of the file
   std::uint64_t timescale_fs_ = 0;
   std::uint64_t now_ps_ = 0;
+  unsigned below_ps_ = 0;
   bool started_ = false;  ///< a time was read
 };
 

@@ -16,11 +16,12 @@ namespace vp {
 /// Writes the values of variables over time into a file: VCD or FST.
 ///
 /// Order of calls: add() all variables, begin(), then set_time(), change() and change_text(),
-/// close(). Timescale: 1 ps. The file is an OutputFile: it has its name when close() returns.
+/// close(). Times are in ps, unless count_femtoseconds() was called. The file is an OutputFile: it
+/// has its name when close() returns.
 class WaveWriter {
  public:
   using Id = std::uint32_t;
-  enum class Kind : std::uint8_t { wire, reg, real, text };
+  enum class Kind : std::uint8_t { wire, reg, real, text, event };
   using WrittenValues = std::vector<std::optional<std::string>>;
   static constexpr unsigned widest = 65536;  ///< bits; more than 64 for change_digits() only
 
@@ -30,6 +31,9 @@ class WaveWriter {
   /// variable, the others are scopes. `width` 1 to `widest` (ignored for real and text).
   /// Throws std::invalid_argument for a path that a file cannot hold.
   virtual Id add(std::string_view path, Kind kind, unsigned width) = 0;
+
+  /// From begin() on, times are in fs: for traces that have several instants in one ps.
+  void count_femtoseconds() { timescale_ps_ = false; }
 
   /// All variables are there: writes the header and all values standing at `ps`, one per variable:
   /// right-aligned bits, or the pattern of a double; texts are empty.
@@ -61,6 +65,9 @@ class WaveWriter {
   /// Ends the file at `end_ps` (the last values stand until then) and gives it its name. Throws
   /// OutputError if anything could not be written. Then, and without begin(), no file is left.
   virtual void close(std::uint64_t end_ps) = 0;
+
+ protected:
+  bool timescale_ps_ = true;  ///< else fs
 };
 
 /// A writer for the format that the name's extension tells: .vcd or .fst; a pipe or device takes a
