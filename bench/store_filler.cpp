@@ -14,7 +14,6 @@ extern "C" int sc_main(int, char**) {
 namespace {
 
 using namespace platform::study;
-namespace result = platform::result;
 
 /// The figures of a run, moved a little: a hundred of some four hundred, as of points that differ
 /// in their clocks.

@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
   wrong.markers[0].id = 5;
   wrong.warnings = {"a word was lost"};
   summary.add(wrong);
-  const std::string text = result::summary_text(summary, facts());
+  const std::string text = result::summary_text(summary, run_facts());
   check_width(text);
   BOOST_TEST(contains(text, "2 frames, 2 with a marker, 1 of them a wrong one"), text);
   BOOST_TEST(contains(text, "FPS      mean 125.0   min 125.0   max 125.0"), text);
@@ -114,13 +114,13 @@ BOOST_AUTO_TEST_CASE(a_run_that_gave_up_has_no_rate) {
   BOOST_TEST(contains(result::frame_text(frame),
                       "[1] z1.0: no result, the software gave up: binary image timed out\n"));
   summary.add(frame);
-  std::string text = result::summary_text(summary, facts());
+  std::string text = result::summary_text(summary, run_facts());
   check_width(text);
   BOOST_TEST(contains(text, "1 frame, 0 with a marker, 1 without a result"), text);
   BOOST_TEST(contains(text, "no result: there is no frame rate and no latency"), text);
   BOOST_TEST(!contains(text, "FPS"), text);
   summary.add(found_frame("z1.0", 1));
-  text = result::summary_text(summary, facts());
+  text = result::summary_text(summary, run_facts());
   BOOST_TEST(contains(text, "2 frames, 1 with a marker, 1 without a result"), text);
   BOOST_TEST(contains(text, "FPS      mean 62.5"), text);
 }
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(parts_stand_below_the_stage_that_contains_them) {
                  {"frame", 8'000'000'000}};
   facts::Summary summary;
   summary.add(frame);
-  const std::string text = result::summary_text(summary, facts());
+  const std::string text = result::summary_text(summary, run_facts());
   check_width(text);
   const auto line = [](const std::string& name, const std::string& us, const std::string& share) {
     const std::string time = std::string(12 - us.size(), ' ') + us;
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
 BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
   facts::Summary summary;
   summary.add(found_frame("z1.0"));
-  facts::RunFacts run = facts();
+  facts::RunFacts run = run_facts();
   run.end = {0, 1'250'000'000};
   run.resources.emplace();
   run.resources->total.lut = 100;
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_run) {
-  facts::RunFacts run = facts();
+  facts::RunFacts run = run_facts();
   BOOST_TEST(contains(result::summary_text({}, run), "no frames: the program was stopped   ("));
   run.end = {7, 1'250'000'000};
   BOOST_TEST(contains(result::summary_text({}, run),

@@ -49,7 +49,7 @@ inline platform::facts::FrameReport given_up_frame(const std::string& scene,
   return frame;
 }
 
-inline platform::facts::RunFacts facts() {
+inline platform::facts::RunFacts run_facts() {
   return {"clocked", "hybrid", "thesis", "assumed", {{"pl.clk", "50 MHz"}, {"ps.clk", "667 MHz"}}};
 }
 

@@ -22,7 +22,7 @@ Json written(const std::vector<facts::FrameReport>& frames,
   result::ResultWriter writer(output);
   for (const facts::FrameReport& frame : frames) writer.add(frame);
   BOOST_TEST(!std::filesystem::exists(folder / "result.json"), "not before it is complete");
-  facts::RunFacts facts = report_test::facts();
+  facts::RunFacts facts = report_test::run_facts();
   facts.incomplete = incomplete;
   writer.finish(facts, provenance(), warnings);
   BOOST_TEST(folder.entries() == (std::vector<std::string>{".markervp", "result.json"}));
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(in_memory_it_is_the_same_without_provenance_and_configurati
     result::ResultDocument document;
     for (const facts::FrameReport& one : frames) document.add(one);
     BOOST_TEST(document.json().is_null());
-    facts::RunFacts stopped = facts();
+    facts::RunFacts stopped = run_facts();
     stopped.incomplete = "interrupted";
     document.finish(stopped, provenance(), {"no camera"});
     BOOST_TEST(document.summary().frames() == frames.size());

@@ -4,7 +4,6 @@
 #include <facts/timeline.h>
 
 namespace facts = platform::facts;
-namespace result = platform::result;
 using Json = nlohmann::json;
 
 namespace {

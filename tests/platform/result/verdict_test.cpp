@@ -1,3 +1,4 @@
+#include <result/console.h>
 #include <result/result_json.h>
 #include <result/verdict.h>
 
@@ -73,7 +74,7 @@ struct Point {
     }
   }
 
-  RunFacts facts = report_test::facts();
+  RunFacts facts = report_test::run_facts();
   std::vector<FrameReport> frames;
 };
 

@@ -23,7 +23,6 @@
 #include "temporary_files.h"
 
 using namespace platform::study;
-namespace result = platform::result;
 using sweep_test::contains;
 
 namespace {

@@ -6,7 +6,6 @@
 #include "sweep_kit.h"
 
 using namespace platform::study;
-namespace result = platform::result;
 using sweep_test::complaint;
 using sweep_test::contains;
 

@@ -2,7 +2,6 @@
 
 #include "sweep_kit.h"
 
-using namespace platform::study;
 namespace result = platform::result;
 using sweep_test::complaint;
 

@@ -5,7 +5,6 @@
 #include "number_space.h"
 
 using namespace platform::study;
-namespace result = platform::result;
 using namespace space_test;
 
 namespace {

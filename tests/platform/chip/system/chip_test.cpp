@@ -1,5 +1,6 @@
 // What the device and its clock generators change of a platform.
 #include <chip/system/designs.h>
+#include <result/console.h>
 #include <slcr_registers.h>
 #include <chip/cost/zynq_power.h>
 

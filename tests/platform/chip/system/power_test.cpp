@@ -1,5 +1,6 @@
 // Energy of the platform without a program: clocks and states are set by hand.
 #include <chip/system/designs.h>
+#include <result/console.h>
 #include <marker/designs/marker/marker_design.h>
 #include <chip/cost/zynq_power.h>
 

@@ -6,7 +6,7 @@
 
 #include <vp/error.h>
 
-#include "../report/report_kit.h"
+#include "../../result/report_kit.h"
 #include "temporary_files.h"
 
 using namespace platform;

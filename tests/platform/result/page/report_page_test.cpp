@@ -8,7 +8,7 @@
 #include <vp/error.h>
 
 #include <result/result_json.h>
-#include "../report/report_kit.h"
+#include "../report_kit.h"
 #include "temporary_files.h"
 
 namespace page = platform::page;
@@ -33,7 +33,7 @@ struct Folder : kit::TemporaryFolder {
       frame.input = input;
       writer.add(frame);
     }
-    writer.finish(report_test::facts(), report_test::provenance(), {});
+    writer.finish(report_test::run_facts(), report_test::provenance(), {});
   }
   std::string page() const { return read(*this / "report.html"); }
   Json block(const char* id) const { return Json::parse(page::block_of(page(), id)); }
