@@ -21,6 +21,8 @@ import json
 import math
 import os
 import pathlib
+import re
+import secrets
 import shutil
 import socket
 import sqlite3
@@ -32,11 +34,24 @@ __all__ = ["Beat", "Error", "Run", "Session", "Sweep", "explore", "program", "re
 _points_failed = 4
 
 
+_control = re.compile("[\\x00-\\x1f\\x7f-\\x9f\\u200e\\u200f\\u2028-\\u202e\\u2066-\\u2069]")
+
+
+def _escape(found):
+    code = ord(found[0])
+    return {10: "\\n", 9: "\\t"}.get(code) or (f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}")
+
+
+def _visible(text):
+    """A text from outside as one line that commands nothing: vp::visible() in C++."""
+    return _control.sub(_escape, str(text))
+
+
 class Error(Exception):
-    """What the program said; `code` is its exit code."""
+    """What the program said, in one line; `code` is its exit code."""
 
     def __init__(self, message, code):
-        super().__init__(message)
+        super().__init__(_visible(message))
         self.code = code
 
 
