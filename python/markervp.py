@@ -326,15 +326,25 @@ Beat = collections.namedtuple("Beat", "cycle data last keep")
 
 
 class _ScratchFolder:
-    """A folder that a process beside this one removes: at remove(), or once this process and those that have `token` are gone,
-    killed ones included."""
+    """A folder that a process beside this one makes and removes: at remove(), or once this process and those that have `token` are
+    gone, killed ones included. So there is no moment at which a kill leaves it."""
 
     def __init__(self):
-        self.name = tempfile.mkdtemp(prefix="markervp-")
+        self.name = os.path.join(tempfile.gettempdir(), f"markervp-{secrets.token_hex(8)}")
         reading, self.token = os.pipe()
-        self._remover = subprocess.Popen(["/bin/sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", self.name], stdin=reading,
-                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        self._remover = subprocess.Popen(
+            ["/bin/sh", "-c", 'mkdir -m 700 -- "$1" && echo made && { read -r _; rm -rf -- "$1"; }', "sh", self.name], stdin=reading,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True, text=True)
         os.close(reading)
+        made = self._remover.stdout.readline()
+        self._remover.stdout.close()
+        if not made:
+            os.close(self.token)
+            reason = self._remover.stderr.read().strip()
+            self._remover.stderr.close()
+            self._remover.wait()
+            raise OSError(f"no temporary folder: {reason}")
+        self._remover.stderr.close()
 
     def remove(self):
         if self._remover.returncode is None:
