@@ -21,6 +21,8 @@ import json
 import math
 import os
 import pathlib
+import re
+import secrets
 import shutil
 import socket
 import sqlite3
@@ -32,11 +34,24 @@ __all__ = ["Beat", "Error", "Run", "Session", "Sweep", "explore", "program", "re
 _points_failed = 4
 
 
+_control = re.compile("[\\x00-\\x1f\\x7f-\\x9f\\u200e\\u200f\\u2028-\\u202e\\u2066-\\u2069]")
+
+
+def _escape(found):
+    code = ord(found[0])
+    return {10: "\\n", 9: "\\t"}.get(code) or (f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}")
+
+
+def _visible(text):
+    """A text from outside as one line that commands nothing: vp::visible() in C++."""
+    return _control.sub(_escape, str(text))
+
+
 class Error(Exception):
-    """What the program said; `code` is its exit code."""
+    """What the program said, in one line; `code` is its exit code."""
 
     def __init__(self, message, code):
-        super().__init__(message)
+        super().__init__(_visible(message))
         self.code = code
 
 
@@ -311,15 +326,25 @@ Beat = collections.namedtuple("Beat", "cycle data last keep")
 
 
 class _ScratchFolder:
-    """A folder that a process beside this one removes: at remove(), or once this process and those that have `token` are gone,
-    killed ones included."""
+    """A folder that a process beside this one makes and removes: at remove(), or once this process and those that have `token` are
+    gone, killed ones included. So there is no moment at which a kill leaves it."""
 
     def __init__(self):
-        self.name = tempfile.mkdtemp(prefix="markervp-")
+        self.name = os.path.join(tempfile.gettempdir(), f"markervp-{secrets.token_hex(8)}")
         reading, self.token = os.pipe()
-        self._remover = subprocess.Popen(["/bin/sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", self.name], stdin=reading,
-                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        self._remover = subprocess.Popen(
+            ["/bin/sh", "-c", 'mkdir -m 700 -- "$1" && echo made && { read -r _; rm -rf -- "$1"; }', "sh", self.name], stdin=reading,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True, text=True)
         os.close(reading)
+        made = self._remover.stdout.readline()
+        self._remover.stdout.close()
+        if not made:
+            os.close(self.token)
+            reason = self._remover.stderr.read().strip()
+            self._remover.stderr.close()
+            self._remover.wait()
+            raise OSError(f"no temporary folder: {reason}")
+        self._remover.stderr.close()
 
     def remove(self):
         if self._remover.returncode is None:

@@ -2,6 +2,7 @@
 // that are hard; and what of it was exercised.
 #include <chip/system/designs.h>
 #include <cli/commands.h>
+#include <cli/rtl_bench.h>
 #include <cli/rtl_coverage.h>
 #include <cli/rtl_stimuli.h>
 #include <cli/sweep_command.h>
@@ -102,11 +103,12 @@ void write_page(const std::string& trace_file, const std::string& ip,
   vp::write_file(page_file, trace::save_file_text(page));
 }
 
-/// A run in lock-step.
+/// A run in lock-step, or one on the pins of the IP alone.
 struct Play {
   std::string
       name;  ///< of its folder, too; empty: that of the user's pictures, in the folder itself
   RunOptions options;
+  std::optional<PinPlay> pins = {};
 };
 
 /// In the folder of each play, if the RTL counts its lines.
@@ -141,10 +143,13 @@ int play(const Play& play, const RtlOptions& options, std::ostream& out, std::os
   pl::lockstep_coverage() = (folder / coverage_file).string();
   for (const std::string& earlier : {trace_file, page_file, pl::lockstep_coverage()})
     fs::remove(earlier, ignored);
-  std::ostringstream summary;  // of a run that nobody asked for
+  std::ostringstream summary;  // of a run that the user did not ask for
   try {
-    const int code = run(play.options, {}, summary, err);
-    if (code != done) return code;
+    if (play.pins) {
+      play_pins(*play.pins, err);
+    } else if (const int code = run(play.options, {}, summary, err); code != done) {
+      return code;
+    }
   } catch (const vp::ProtocolError& error) {
     if (!fs::exists(trace_file, ignored)) throw;
     write_page(trace_file, options.ip, page_file);
@@ -180,6 +185,37 @@ bool can_be_exercised(const DesignInfo& design) {
   });
 }
 
+std::string value_of(const study::Elaborated& platform, const std::string& path) {
+  for (const auto& parameter : platform.parameters) {
+    if (parameter.path == path) return parameter.value;
+  }
+  return "";
+}
+
+PinPlay pins_of(const RtlOptions& options, const study::Elaborated& platform,
+                const RunOptions& run) {
+  const auto number = [&](const std::string& path, std::uint32_t otherwise) {
+    const std::string text = value_of(platform, path);
+    return text.empty() ? otherwise : static_cast<std::uint32_t>(std::stoul(text));
+  };
+  PinPlay play;
+  play.instance = options.ip;
+  play.object = object_of(options.rtl, options.ip);
+  play.seed = number("pl.fidelity." + options.ip + "_seed", 0);
+  play.geometry = {static_cast<std::uint32_t>(platform.size.width),
+                   static_cast<std::uint32_t>(platform.size.height),
+                   number("pl.burst_words", marker_logic::usual_burst_words),
+                   number("pl.pixels_per_clock", 1)};
+  play.parameters = platform.parameters;
+  for (StimulusPicture& picture : stimulus_pictures(platform.size.width, platform.size.height)) {
+    // Where there is most to see, more often.
+    const int times = picture.name == "noise" || picture.name == "few_levels" ? 8 : 1;
+    for (int i = 0; i < times; ++i) play.pictures.push_back(picture.pixels);
+  }
+  play.trace_file = *run.trace;
+  return play;
+}
+
 /// Of pictures with many pixels.
 constexpr std::size_t most_large = 12;
 
@@ -192,13 +228,10 @@ std::vector<Play> plays_of(const RtlOptions& options) {
     if (!own) throw vp::InputError("--no-stimuli leaves nothing to play: name pictures or scenes");
     return plays;
   }
-  const study::Elaborated platform = elaborate(options.run.configuration, options.run.program);
-  const auto value = [&](const std::string& path) {
-    for (const auto& parameter : platform.parameters) {
-      if (parameter.path == path) return parameter.value;
-    }
-    return std::string();
-  };
+  ConfigurationOptions watched = lockstep_options(options, folder).configuration;
+  watched.assignments.push_back("fidelity=clocked");  // as a run with a trace has it
+  const study::Elaborated platform = elaborate(watched, options.run.program);
+  const auto value = [&](const std::string& path) { return value_of(platform, path); };
   const std::string pictures = (fs::path(folder) / "stimuli").string();
   fs::create_directories(pictures);
   auto files = write_stimuli(pictures, platform.size.width, platform.size.height);
@@ -221,6 +254,12 @@ std::vector<Play> plays_of(const RtlOptions& options) {
     play.program = "exercise";
     return play;
   };
+  // First: where it finds a difference, it does so soon.
+  if (has_bench(options.ip)) {
+    RunOptions& run = add("pins");
+    fs::create_directories(run.output);
+    plays.back().pins = pins_of(options, platform, run);
+  }
   exercise("exercise");
   // Other conditions for a few of the pictures: lines apart from each other where there is a
   // camera, else words that wait between two clocks.
@@ -341,8 +380,9 @@ void print_coverage(const std::vector<Play>& plays, Json& use, std::ostream& out
 std::string played(const std::vector<Play>& plays, const RtlOptions& options) {
   std::vector<std::string> names;
   for (const Play& play : plays) {
-    names.push_back(play.name.empty()
-                        ? vp::join(options.run.inputs, ", ")
+    names.push_back(play.name.empty() ? vp::join(options.run.inputs, ", ")
+                    : play.pins
+                        ? "'" + play.name + "'"
                         : fmt::format("'{}' ({})", play.name,
                                       result::counted(play.options.inputs.size(), "picture")));
   }

@@ -132,12 +132,19 @@ std::vector<std::pair<std::string, Picture>> pictures(int w, int h) {
 
 }  // namespace
 
+std::vector<StimulusPicture> stimulus_pictures(int width, int height) {
+  std::vector<StimulusPicture> all;
+  for (auto& [name, picture] : pictures(width, height))
+    all.push_back({name, std::move(picture.pixels)});
+  return all;
+}
+
 std::vector<std::string> write_stimuli(const std::string& folder, int width, int height) {
   std::vector<std::string> files;
-  for (const auto& [name, picture] : pictures(width, height)) {
+  for (const auto& [name, pixels] : stimulus_pictures(width, height)) {
     files.push_back((std::filesystem::path(folder) / (name + ".pgm")).string());
     std::string text = "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
-    text.append(picture.pixels.begin(), picture.pixels.end());
+    text.append(pixels.begin(), pixels.end());
     vp::write_file(files.back(), text);
   }
   return files;

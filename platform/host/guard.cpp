@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -209,17 +211,37 @@ ScratchLink::ScratchLink(const std::string& target, const std::string& path)
   if (error != 0) throw std::system_error(error, std::generic_category(), "no link");
 }
 
-ScratchFolder::ScratchFolder(const std::string& name) {
-  std::string path = fs::temp_directory_path() / ("markervp-" + name + "-XXXXXX");
-  if (::mkdtemp(path.data()) == nullptr)
-    throw fs::filesystem_error("no temporary folder", fs::temp_directory_path(),
-                               std::error_code(errno, std::generic_category()));
-  path_ = path;
-  guard_.emplace(Guard::Become(), path);
+// The guard's own child makes it, as a link's.
+ScratchFolder::Made::Made(const fs::path& path)
+    : Guard(
+          [&] {
+            if (::mkdir(path.c_str(), S_IRWXU) != 0) return errno;
+            leave();
+          },
+          path) {
+  const std::optional<Note> made = next_note(true);
+  const int error = made ? made->status : ECHILD;
+  if (error != 0) throw std::system_error(error, std::generic_category());
 }
 
-ScratchFolder::~ScratchFolder() {
-  guard_.reset();
+ScratchFolder::ScratchFolder(const std::string& name) {
+  constexpr int most_tries = 100;  // another folder may have the name
+  const fs::path folder = fs::temp_directory_path();
+  std::random_device random;
+  for (int i = 0; !guard_; ++i) {
+    const std::uint64_t number = std::uint64_t{random()} << 32 | random();
+    std::ostringstream unique;
+    unique << "markervp-" << name << "-" << std::hex << number;
+    path_ = folder / unique.str();
+    try {
+      guard_ = std::make_unique<Made>(path_);
+    } catch (const std::system_error& error) {
+      if (error.code() == std::errc::file_exists && i < most_tries) continue;
+      throw fs::filesystem_error("no temporary folder", folder, error.code());
+    }
+  }
 }
+
+ScratchFolder::~ScratchFolder() = default;
 
 }  // namespace platform::host

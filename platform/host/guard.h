@@ -72,7 +72,8 @@ class ScratchLink : private Guard {
 /// A new folder for temporary files, in $TMPDIR. It outlives neither this object nor this process.
 class ScratchFolder {
  public:
-  /// "markervp-NAME-XXXXXX". Throws std::filesystem::filesystem_error if the host has no room.
+  /// "markervp-NAME-" and a number. Throws std::filesystem::filesystem_error if the host has no
+  /// room.
   explicit ScratchFolder(const std::string& name);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
@@ -82,8 +83,14 @@ class ScratchFolder {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:
+  /// Made where it has a guard at any moment. Throws std::system_error.
+  class Made : private Guard {
+   public:
+    explicit Made(const std::filesystem::path& path);
+  };
+
   std::filesystem::path path_;
-  std::optional<Guard> guard_;
+  std::unique_ptr<Made> guard_;
 };
 
 }  // namespace platform::host

@@ -263,6 +263,20 @@ std::string read_all(int pipe) {
 
 }  // namespace
 
+void require_descriptors(int count, const std::string& command) {
+  std::vector<int> copies;
+  int error = 0;
+  while (error == 0 && static_cast<int>(copies.size()) < count) {
+    const int copy = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    copy < 0 ? static_cast<void>(error = errno) : copies.push_back(copy);
+  }
+  for (const int copy : copies) ::close(copy);
+  if (error == 0) return;
+  throw vp::HostError("'" + command + "' opens " + std::to_string(count) +
+                      " files at once, and this process may not: " +
+                      std::generic_category().message(error) + vp::advice_for(error));
+}
+
 CommandEnd run_command(const std::vector<std::string>& arguments, const std::string& temporary) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

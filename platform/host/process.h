@@ -133,6 +133,10 @@ struct CommandEnd {
 CommandEnd run_command(const std::vector<std::string>& arguments,
                        const std::string& temporary = {});
 
+/// Throws vp::HostError if a command could not open so many files: what it says of that itself is
+/// of little help.
+void require_descriptors(int count, const std::string& command);
+
 /// A word for the shell, in quotes.
 std::string shell_quoted(const std::string& text);
 

@@ -64,11 +64,11 @@ BOOST_FIXTURE_TEST_SUITE(linux_mistakes, Mistakes)
 
 BOOST_AUTO_TEST_CASE(accesses_that_no_device_takes) {
   stops("unmapped", {"data abort: write to 0x50000000 (m_axi_gp0): DECERR, nothing answers there",
-                     " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:31)", in_main});
-  stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:39)"});
-  stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:44)"});
-  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:50)"});
-  stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:55)"});
+                     " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:34)", in_main});
+  stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:42)"});
+  stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:47)"});
+  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:53)"});
+  stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:58)"});
   stops("copying", {"from register to register in one instruction, at 0x41200000"});
 }
 
@@ -78,12 +78,20 @@ BOOST_AUTO_TEST_CASE(mappings) {
   stops("read_only", {"writes to the registers at 0x41200000", "without PROT_WRITE"});
   stops("leaks", {"more than 64 device files and attributes open", " leaks+0x"});
   stops("stream", {"opens /dev/uio0 with fopen()", "use open()", " stream+0x"});
+  stops("reopens", {"opens /dev/uio0 with freopen()", "use open()", " reopens+0x"});
+}
+
+BOOST_AUTO_TEST_CASE(walks_inside_the_c_library) {
+  stops("walks",
+        {"nftw() walks through /sys/class/uio inside the C library", "use opendir()", " walks+0x"});
+  stops("walks_by_fts", {"fts_open() walks through /dev/uio0", " walks_by_fts+0x"});
+  stops("expands", {"wordexp() walks through /sys/class/uio/", " expands+0x"});
 }
 
 BOOST_AUTO_TEST_CASE(what_bare_metal_programs_are_told_too) {
   warns("no_register",
         {"pl.axi_gpio_0.s_axi: write to 0x00000190, where the device has no register",
-         " no_register+0x", "mistakes.c:35)", in_main});
+         " no_register+0x", "mistakes.c:38)", in_main});
   warns("unflushed", {"a DMA reads 0x10", "which the program never flushed",
                       "write 1 to sync_for_device before the transfer", " unflushed+0x"});
   warns("beyond_a_map",
@@ -204,6 +212,27 @@ BOOST_AUTO_TEST_CASE(where_no_shim_is_to_be_had) {
                                *this / "a place/lib");
   refused("a place", "has a space or a colon in its path, and LD_PRELOAD takes neither");
   refused("nothing", "no libmarkervp_linux.so in ");
+}
+
+/// The application would run without the shim. Where a mount can be made.
+BOOST_AUTO_TEST_CASE(a_shim_that_cannot_be_loaded) {
+  if (kit::run_process("/bin/sh", {"-c", "unshare -rm true"}, path()).exit_code != 0) return;
+  namespace fs = std::filesystem;
+  const std::string build = fs::path(MARKERVP_EXECUTABLE).parent_path().parent_path();
+  const auto run_in = [&](const std::string& options) {
+    const std::string script =
+        "mkdir -p here/bin here/lib && cp " MARKERVP_EXECUTABLE " here/bin && mount -t tmpfs -o '" +
+        options + "' none here/lib && cp -r " + build +
+        "/lib/markervp here/lib && exec here/bin/markervp run --linux " MARKERVP_APPLICATIONS
+        "gpio --quiet";
+    return kit::run_process("/usr/bin/unshare", {"-rm", "/bin/sh", "-c", script}, path());
+  };
+  const kit::Outcome refused = run_in("noexec,size=400m");
+  BOOST_TEST(refused.exit_code == 2, refused.err);
+  BOOST_TEST((refused.err.find("mounted noexec") != std::string::npos), refused.err);
+  BOOST_TEST(refused.out == "");
+  const kit::Outcome taken = run_in("size=400m");
+  BOOST_TEST((taken.err.find("mounted noexec") == std::string::npos), taken.err);
 }
 
 /// Where the host has no room for what a run with --linux needs.

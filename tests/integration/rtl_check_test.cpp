@@ -62,8 +62,9 @@ BOOST_AUTO_TEST_CASE(equal_rtl_leaves_a_result_and_no_trace) {
 BOOST_AUTO_TEST_CASE(a_check_says_what_was_exercised) {
   const kit::Outcome outcome = check("corner_detection", object("equal"));
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
-  for (const char* part : {"played noise.pgm, 'exercise' (20 pictures), 'slow_bus' (4 pictures)",
-                           "corner_out", "23 of 32", "not counted"})
+  for (const char* part :
+       {"played noise.pgm, 'pins', 'exercise' (20 pictures), 'slow_bus' (4 pictures)", "corner_out",
+        "23 of 32", "not counted"})
     BOOST_TEST(contains(outcome.out, part), outcome.out);
   const auto report = nlohmann::json::parse(kit::read_file(*this / "out/check.json"));
   const auto port = [&report](const std::string& name) {
@@ -91,9 +92,19 @@ BOOST_AUTO_TEST_CASE(what_never_moved_is_not_equal) {
   }
   const kit::Outcome outcome = check("corner_detection", object("silent"));
   BOOST_TEST(outcome.exit_code == 1);
-  BOOST_TEST(contains(outcome.err, "in the play 'exercise'"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "in the play 'pins'"), outcome.err);
   BOOST_TEST(contains(outcome.err, "corner_out is 1, and 0 in the RTL"), outcome.err);
-  BOOST_TEST(has("out/exercise/lockstep.vcd"));
+  BOOST_TEST(has("out/pins/lockstep.vcd"));
+}
+
+// No program resets for less than five clocks, in which a corner leaves the pipeline.
+BOOST_AUTO_TEST_CASE(a_short_reset_shows_what_it_forgets) {
+  const kit::Outcome outcome = check("corner_detection", object("no_reset"));
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(contains(outcome.err, "in the play 'pins'"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "corner_out is 0, and 1 in the RTL"), outcome.err);
+  BOOST_TEST(contains(outcome.out, "gtkwave out/pins/lockstep.vcd"), outcome.out);
+  BOOST_TEST(has("out/pins/lockstep.gtkw"));
 }
 
 BOOST_AUTO_TEST_CASE(a_check_that_plays_nothing_is_refused) {

@@ -86,6 +86,12 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(markervp.Error, "varies nothing"):
             markervp.sweep({"title": "Nothing"})
 
+    def test_an_error_is_one_line_that_commands_nothing(self):
+        self.assertEqual(str(markervp.Error("a\n\x1b[31m\t\x85\u202e b", None)), "a\\n\\x1b[31m\\t\\x85\\u202e b")
+        with self.assertRaises(markervp.Error) as wrong:
+            markervp.run(["no\x1b[31m\u202ene.png"])
+        self.assertIn("no\\x1b[31m\\u202ene.png", str(wrong.exception))
+
     def test_points_that_fail_are_results(self):
         sweep = markervp.sweep({"parameters": {"pl.width": ["640 px", "600 px"]}, "metrics": ["summary.fps.mean"]})
         self.assertEqual([point["status"] for point in sweep], ["done", "failed"])

@@ -39,6 +39,7 @@ void BlobLabelling::connect(IpPorts& ports) {
   for (vp::Signal<std::uint32_t>& point : extreme) ports.output(point, &blob_out);
   ports.output(idle);
   ports.report(label_overflow);
+  ports.outputs.back().fixed = never_runs_out();
   ports.parameter("WIDTH", "pl.width", geometry_.width);
   ports.parameter("HEIGHT", "pl.height", geometry_.height);
   ports.parameter("LABELS", label_count.name(), label_count);
@@ -46,6 +47,21 @@ void BlobLabelling::connect(IpPorts& ports) {
   ports.pixels_per_clock(geometry_.pixels_per_clock);
   if (geometry_.pixels_per_clock > 1)
     ports.parameter("RUN_FIFO_DEPTH", run_fifo_depth.name(), run_fifo_depth);
+}
+
+// Labels in use are those of components that are open, one for each two pixels of a row, and those
+// that wait to leave. These are the most behind a row in which blobs that are shown end, three
+// pixels apart, and then small ones: shown ones leave in 8 clocks, others in 2. With three quarters
+// of the row for the former, an eighth of the width waits while the next row opens its components
+// (blob_labelling_test.cpp plays that). The bound leaves as much again, and some for the pipeline.
+bool BlobLabelling::never_runs_out(std::uint32_t pixels_per_clock, std::uint32_t width,
+                                   std::uint32_t labels, std::uint32_t minimum_side) {
+  constexpr std::uint32_t low_side = 10, pipeline = 8;
+  return pixels_per_clock == 1 && minimum_side >= low_side && labels > width * 3 / 4 + pipeline;
+}
+
+bool BlobLabelling::never_runs_out() const {
+  return never_runs_out(geometry_.pixels_per_clock, geometry_.width, label_count, minimum_side);
 }
 
 void BlobLabelling::show(const Extremes& extremes) {

@@ -80,6 +80,11 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
   /// Brings label_overflow up to now, in the middle of a frame, too.
   virtual void settle() {}
 
+  /// Whether no picture can take more labels than there are: label_overflow stays 0 then. False
+  /// where that is not known.
+  static bool never_runs_out(std::uint32_t pixels_per_clock, std::uint32_t width,
+                             std::uint32_t labels, std::uint32_t minimum_side);
+
  protected:
   BlobLabelling(sc_core::sc_module_name name, const Site& site);
 
@@ -89,6 +94,7 @@ class BlobLabelling : public vp::Clocked, public vp::Ip {
   void connect(IpPorts& ports);
   void show(const Extremes& extremes);
   [[noreturn]] void refuse(const std::string& why) const;
+  bool never_runs_out() const;
   /// What must lie behind a frame's last pixel.
   std::string too_early() const;
 

@@ -39,7 +39,7 @@ void BlobStream::connect(IpPorts& ports) {
   ports.input(threshold);
   ports.input(idle);
   ports.input(blob_out);
-  for (const vp::In<std::uint32_t>& point : extreme) ports.input(point);
+  for (vp::In<std::uint32_t>& point : extreme) ports.input(point);
   ports.input(label_overflow);
   add_stream(ports, m);
   ports.output(busy);
@@ -75,6 +75,9 @@ void BlobStreamClocked::offer() {
 
 void BlobStreamClocked::fill_fifo(bool room) {
   if (sender_.empty() || !room) return;
+  // Blobs that are lost until its word leaves count.
+  const bool is_lost_word = sender_.back().last && sender_.size() == 2;
+  if (is_lost_word) sender_.front().data = lost_;
   fifo_.push_back(sender_.front());
   sender_.pop_front();
   if (fifo_.back().last) busy = false;

@@ -267,25 +267,33 @@ class RtlVectors final : public PortWatcher {
   unsigned rises_ = 0;  ///< and the clocks that rise on it, the first one in the highest bit
 };
 
+/// A model that shows its ports, for a bench that has it alone.
+class ShownPorts {
+ public:
+  virtual ~ShownPorts() = default;
+  virtual const IpPorts& ports() const = 0;
+};
+
 /// The clocked model of an IP, and what watches its ports.
 template <class Clocked>
-class WatchedModel final : public Clocked {
+class WatchedModel final : public Clocked, public ShownPorts {
  public:
   WatchedModel(sc_core::sc_module_name name, const Site& site, const RtlFile& rtl)
-      : Clocked(name, site) {
-    IpPorts ports(true, site.clk);
-    this->connect(ports);
+      : Clocked(name, site), ports_(true, site.clk) {
+    this->connect(ports_);
     const std::string ip = Clocked::models().ip();
     if (rtl.use == RtlFile::Use::vectors) {
-      watcher_ = std::make_unique<RtlVectors>("vectors", ip, std::move(ports), rtl.path);
+      watcher_ = std::make_unique<RtlVectors>("vectors", ip, ports_, rtl.path);
     } else {
       for (const std::uint64_t seed : RtlShadow::starts(rtl.seed))
-        copies_.emplace_back(rtl.path, seed, ip, this->name(), ports);
+        copies_.emplace_back(rtl.path, seed, ip, this->name(), ports_);
       watcher_ = std::make_unique<RtlShadow>("rtl", copies_);
     }
   }
+  const IpPorts& ports() const override { return ports_; }
 
  private:
+  IpPorts ports_;
   std::deque<RtlPins> copies_;
   std::unique_ptr<PortWatcher> watcher_;
 };

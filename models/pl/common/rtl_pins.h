@@ -32,6 +32,10 @@ class IpPorts {
     unsigned bits;
     std::function<std::uint64_t()> read;
     std::function<const void*()> place;  ///< of a port's value, known when all is bound
+    // For a bench that has the IP alone; empty for a pin that is no port.
+    std::function<void(std::uint64_t)> write = {};  ///< to the signal that the port is bound to
+    /// Makes a signal of the port's name and binds the port to it.
+    std::function<std::unique_ptr<vp::SignalBase>()> bind = {};
   };
   struct Output {
     std::function<vp::SignalBase*()> port;  ///< known when all is bound
@@ -74,9 +78,16 @@ class IpPorts {
   void clock(const char* name, vp::Clock& clock) { clocks.push_back({name, &clock}); }
 
   template <class T>
-  void input(const vp::In<T>& port, unsigned bits = vp::default_width<T>()) {
-    inputs.push_back({&port, last_name(port.name()), bits, [&port] { return port.read(); },
-                      [&port] { return port.signal()->place(); }});
+  void input(vp::In<T>& port, unsigned bits = vp::default_width<T>()) {
+    const std::string name = last_name(port.name());
+    inputs.push_back({&port, name, bits, [&port] { return port.read(); },
+                      [&port] { return port.signal()->place(); },
+                      [&port](std::uint64_t value) { *port.signal() = static_cast<T>(value); },
+                      [&port, name, bits] {
+                        auto signal = std::make_unique<vp::Signal<T>>(name.c_str(), bits);
+                        port.bind(*signal);
+                        return signal;
+                      }});
   }
   /// A pin that the model has no port for.
   void input(const char* name, unsigned bits, std::function<std::uint64_t()> read) {
@@ -84,9 +95,9 @@ class IpPorts {
   }
   /// The pixels that come on a clock.
   template <class T>
-  void input(const vp::In<T>& port, const Lanes<vp::In<T>>& more) {
+  void input(vp::In<T>& port, Lanes<vp::In<T>>& more) {
     input(port);
-    for (const vp::In<T>& lane : more) input(lane);
+    for (vp::In<T>& lane : more) input(lane);
     add_idle(last_name(port.name()), more.size(), vp::default_width<T>(), false);
   }
   /// `valid`: the signal beside which the port means something; null: it always does.

@@ -16,6 +16,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -116,6 +117,16 @@ std::string problem_of(const std::string& path) {
   return {};
 }
 
+/// Linux maps no library of such a file system, and the application would run without it.
+void check_shim(const std::string& shim) {
+  struct statvfs status {};
+  if (::statvfs(shim.c_str(), &status) != 0 || (status.f_flag & ST_NOEXEC) == 0) return;
+  throw vp::InputError("--linux: '" + shim +
+                       "' lies on a file system that is mounted noexec, so no application can load "
+                       "it, and it would reach this computer's own devices: install markervp "
+                       "elsewhere, or mount it with exec");
+}
+
 /// Those of the shim lie behind those of the application.
 void check_descriptors() {
   rlimit limit{};
@@ -194,6 +205,7 @@ LinuxApplication::LinuxApplication(const LinuxOptions& options)
       shim_(find_shim()) {
   const std::string problem = problem_of(path_);
   if (!problem.empty()) throw vp::InputError("--linux: '" + options.file + "' " + problem);
+  check_shim(shim_);
   check_descriptors();
 }
 

@@ -316,6 +316,13 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
   return found;
 }
 
+namespace {
+
+/// That Yosys and its ABC have open at once, besides the standard ones.
+constexpr int yosys_descriptors = 9;
+
+}  // namespace
+
 Figures synthesise(const Design& design, const PathTiming& timing) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
@@ -323,6 +330,7 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   constexpr const char* script = "synthesise.ys";
   vp::write_file((scratch / script).string(), script_of(design));
   vp::write_file((scratch / instance_file).string(), instance_of(design));
+  host::require_descriptors(yosys_descriptors, "yosys");
   // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
   const host::CommandEnd end = host::run_command(
       {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, ".");

@@ -1,6 +1,8 @@
 #include <result/page/report_page.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -13,6 +15,7 @@
 #include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/text.h>
 
 #ifdef MARKERVP_PAGE_TEMPLATE
 
@@ -56,12 +59,79 @@ std::string script_safe(std::string_view json) {
   return safe.append(json, from);
 }
 
+namespace {
+
+/// A text of JSON that stands for `text`, which has no quotes.
+std::string with_double_backslashes(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '\\' ? "\\\\" : std::string(1, c);
+  return result;
+}
+
+/// The character for which an escape of JSON stands, if it is one that may be a control character.
+std::string escaped_character(std::string_view escape) {
+  switch (escape.size() > 1 ? escape[1] : '\0') {
+    case 'b':
+      return "\b";
+    case 'f':
+      return "\f";
+    case 'n':
+      return "\n";
+    case 'r':
+      return "\r";
+    case 't':
+      return "\t";
+    case 'u':
+      break;
+    default:
+      return "";
+  }
+  const unsigned code =
+      static_cast<unsigned>(std::strtoul(std::string(escape.substr(2)).c_str(), nullptr, 16));
+  const auto byte = [](unsigned value) { return static_cast<char>(value); };
+  if (code < 0x80) return {byte(code)};
+  if (code < 0x800) return {byte(0xc0 | code >> 6), byte(0x80 | (code & 0x3f))};
+  return {byte(0xe0 | code >> 12), byte(0x80 | (code >> 6 & 0x3f)), byte(0x80 | (code & 0x3f))};
+}
+
+/// Bytes of the escape or character with which `json` begins.
+std::size_t piece_size(std::string_view json) {
+  const auto first = static_cast<unsigned char>(json[0]);
+  const std::size_t size = first == '\\'   ? (json.substr(1, 1) == "u" ? 6 : 2)
+                           : first >= 0xf0 ? 4
+                           : first >= 0xe0 ? 3
+                           : first >= 0xc0 ? 2
+                                           : 1;
+  return std::min(size, json.size());
+}
+
+}  // namespace
+
+std::string shown_json(std::string_view json, bool has_lines) {
+  constexpr char del = 0x7f;
+  std::string shown;
+  shown.reserve(json.size());
+  while (!json.empty()) {
+    const std::string_view piece = json.substr(0, piece_size(json));
+    json.remove_prefix(piece.size());
+    const bool escaped = piece[0] == '\\';
+    if (!escaped && piece.size() == 1 && piece[0] != del) {  // white space between values, too
+      shown += piece;
+      continue;
+    }
+    const std::string character = escaped ? escaped_character(piece) : std::string(piece);
+    const std::string seen = has_lines ? vp::visible_lines(character) : vp::visible(character);
+    shown += seen == character ? std::string(piece) : with_double_backslashes(seen);
+  }
+  return shown;
+}
+
 std::string page_with(std::string_view page, const std::vector<Block>& blocks) {
   const std::size_t at = page.find(placeholder);
   std::string text(page.substr(0, at));
   for (const Block& block : blocks) {
     text += block_start(block.id);
-    text += script_safe(block.json);
+    text += script_safe(shown_json(block.json, block.has_lines));
     text += block_end;
   }
   return text.append(page.substr(at + placeholder.size()));
@@ -254,8 +324,10 @@ bool write_report(const std::string& folder, const std::string& extras) {
         {"validation", host::read_json<Json>(path, "validation", host::largest_result).dump()});
     const fs::path frames = root / "frames.csv";
     if (fs::exists(frames, ignored)) {
-      blocks.push_back({"frames", Json(vp::read_text(frames, "table", host::largest_result))
-                                      .dump(-1, ' ', false, replace)});
+      blocks.push_back(
+          {"frames",
+           Json(vp::read_text(frames, "table", host::largest_result)).dump(-1, ' ', false, replace),
+           true});
     }
   } else if (fs::exists(root / detectors_name, ignored)) {
     blocks.push_back(

@@ -15,8 +15,9 @@ namespace platform::page {
 
 /// A block of data: a script element of type `application/json` with this id.
 struct Block {
-  std::string id;    ///< letters and '-'
-  std::string json;  ///< a whole JSON text
+  std::string id;          ///< letters and '-'
+  std::string json;        ///< a whole JSON text
+  bool has_lines = false;  ///< its texts are of several lines, which stay
 };
 
 /// The page without data; empty if the program was built without it.
@@ -25,6 +26,10 @@ std::string_view page_template();
 /// `json` so that no text in it can end the script element around it: every '<' becomes "\u003c",
 /// which JSON reads back as the same. A JSON text has '<' inside strings only.
 std::string script_safe(std::string_view json);
+
+/// `json` with the control characters in its texts, names included, as vp::visible() shows them:
+/// no page shows anything else. `has_lines`: line feeds stay.
+std::string shown_json(std::string_view json, bool has_lines = false);
 
 /// The page with `blocks`, for a `page` that has the placeholder once.
 std::string page_with(std::string_view page, const std::vector<Block>& blocks);

@@ -2,6 +2,8 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
+#include <fts.h>
+#include <ftw.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -12,6 +14,7 @@
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <wordexp.h>
 
 enum { DATA = 0, TRI = 1, NO_REGISTER = 100 };
 
@@ -208,6 +211,28 @@ static void leaks(void) {
   while (open("/dev/uio0", O_RDWR) >= 0) continue;
 }
 
+static int visit(const char* path, const struct stat* status, int flag, struct FTW* where) {
+  return path == NULL && status == NULL && flag == 0 && where == NULL;
+}
+
+static void walks(void) {
+  nftw("/sys/class/uio", visit, 8, 0);
+}
+
+static void walks_by_fts(void) {
+  char* const paths[] = {(char*)"/dev/uio0", NULL};
+  fts_open(paths, FTS_PHYSICAL, NULL);
+}
+
+static void expands(void) {
+  wordexp_t words;
+  wordexp("one /sys/class/uio/uio*", &words, 0);
+}
+
+static void reopens(void) {
+  if (freopen("/dev/uio0", "r+", stdin) == NULL) exit(12);
+}
+
 int main(int count, char** words) {
   const struct {
     const char* name;
@@ -233,6 +258,10 @@ int main(int count, char** words) {
                   {"starts", starts},
                   {"becomes", becomes},
                   {"stream", stream},
+                  {"walks", walks},
+                  {"walks_by_fts", walks_by_fts},
+                  {"expands", expands},
+                  {"reopens", reopens},
                   {"unflushed", unflushed},
                   {"beyond", beyond},
                   {"no_device", no_device},

@@ -5,12 +5,14 @@
 #include <fcntl.h>
 #include <glob.h>
 #include <limits.h>
+#include <linux/openat2.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
@@ -229,6 +231,21 @@ static void listed(void) {
   fclose(file);
 }
 
+/* Without the functions of the C library. */
+static void by_system_call(void) {
+  check((int)syscall(SYS_openat, AT_FDCWD, "/dev/uio0", O_RDWR), "by syscall(SYS_openat)");
+  check((int)syscall(SYS_open, "/dev//uio0", O_RDWR), "by syscall(SYS_open)");
+  struct open_how how;
+  memset(&how, 0, sizeof how);
+  how.flags = O_RDWR;
+  check((int)syscall(SYS_openat2, AT_FDCWD, "/dev/uio0", &how, sizeof how),
+        "by syscall(SYS_openat2)");
+  struct stat status;
+  EXPECT(syscall(SYS_stat, "/dev/uio0", &status) == 0 && S_ISCHR(status.st_mode));
+  EXPECT(syscall(SYS_access, "/dev/uio9", F_OK) == -1 && errno == ENOENT);
+  EXPECT(syscall(SYS_getpid) == getpid());
+}
+
 int main(int count, char** words) {
   EXPECT(count == 2);
   written();
@@ -237,5 +254,6 @@ int main(int count, char** words) {
   linked(words[1]);
   statuses();
   listed();
+  by_system_call();
   return 0;
 }

@@ -301,9 +301,18 @@ static void takes_too_many(void) {
   for (int i = 3; i < (int)limit.rlim_cur; ++i) dup2(0, i);
 }
 
+/* Past the C library. */
+static void close_by_instruction(long descriptor) {
+  long result;
+  __asm__ volatile("syscall"
+                   : "=a"(result)
+                   : "a"((long)SYS_close), "D"(descriptor)
+                   : "rcx", "r11", "memory");
+}
+
 static void closes_by_itself(void) {
   check_devices();
-  for (int i = 3; i < 512; ++i) syscall(SYS_close, i);
+  for (int i = 3; i < 512; ++i) close_by_instruction(i);
   check_devices();
 }
 

@@ -44,6 +44,25 @@ BOOST_AUTO_TEST_CASE(too_few_descriptors_are_the_hosts_fault) {
   }
 }
 
+// Yosys and its ABC say nothing of use.
+BOOST_AUTO_TEST_CASE(too_few_descriptors_for_a_synthesis) {
+  if (kit::run_process("/bin/sh", {"-c", "command -v yosys"}, folder.path()).exit_code != 0) return;
+  kit::write_file(folder / "small.sv",
+                  "module small(input logic clk, input logic a, output logic b);\n"
+                  "  always_ff @(posedge clk) b <= !a;\nendmodule\n");
+  const std::string command = "rtl synth --rtl . --top small -o small.json";
+  int refused = 0;
+  for (int descriptors = 5; descriptors < 25; ++descriptors) {
+    const int code = run("ulimit -n " + std::to_string(descriptors), command);
+    if (code == 0) continue;
+    ++refused;
+    BOOST_TEST(code == 2, descriptors << ": " << err);
+    BOOST_TEST(contains(err, "Too many open files; raise ulimit -n"), descriptors << ": " << err);
+  }
+  BOOST_TEST(refused > 0);
+  BOOST_TEST(run("ulimit -n 30", command) == 0, err);
+}
+
 BOOST_AUTO_TEST_CASE(a_small_stack_grows_where_it_may) {
   BOOST_TEST(run("ulimit -S -s 64", "run z1.0 --quiet -o out") == 0, err);
   BOOST_TEST(run("ulimit -s 64", "run z1.0 --quiet -o out") == 2);

@@ -169,6 +169,28 @@ BOOST_AUTO_TEST_CASE(nothing_outlives_the_process) {
   }
 }
 
+/// Killed while it makes one, too.
+BOOST_AUTO_TEST_CASE(no_scratch_folder_is_left_at_any_moment) {
+  constexpr int times = 40;
+  constexpr timespec step{0, 100'000};
+  for (int i = 0; i < times; ++i) {
+    const pid_t process = ::fork();
+    if (process == 0) {
+      const ScratchFolder folder("test");
+      while (true) ::pause();
+    }
+    for (int wait = 0; wait < i; ++wait) ::nanosleep(&step, nullptr);
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+  }
+  BOOST_TEST(comes([&] {
+    const std::vector<std::string> left = entries();
+    return std::none_of(left.begin(), left.end(), [](const std::string& file) {
+      return file.find("markervp-test-") != std::string::npos;
+    });
+  }));
+}
+
 /// Who reads our output does not wait for a guard.
 BOOST_AUTO_TEST_CASE(a_guard_holds_nothing_open) {
   int ends[2];

@@ -37,7 +37,7 @@ void send(Request request, const char* text) {
 
 /// The platform is gone, or cannot be reached any more; then it ends this process.
 [[noreturn]] void leave(int error) {
-  if (error != EBADF && error != ENOTSOCK && error != ENOTCONN) ::syscall(SYS_exit_group, 1);
+  if (error != EBADF && error != ENOTSOCK && error != ENOTCONN) REAL(syscall)(SYS_exit_group, 1);
   ::dprintf(
       STDERR_FILENO,
       "markervp: '%s' closed or replaced the descriptor %d, by which it reaches the platform, "

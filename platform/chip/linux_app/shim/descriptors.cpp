@@ -115,7 +115,7 @@ int close_others(unsigned first, unsigned last, int flags) {
     const unsigned kept = next_hidden(first);
     const bool is_last = kept == none || kept > last;
     const unsigned end = is_last ? last : kept - 1;
-    if (first <= end && ::syscall(SYS_close_range, first, end, flags) != 0) return -1;
+    if (first <= end && REAL(syscall)(SYS_close_range, first, end, flags) != 0) return -1;
     if (is_last || kept == last) return 0;
     first = kept + 1;
   }

@@ -45,7 +45,7 @@ bool is_listed(const char* name) {
 
 /// Its length; 0: no link, or too long. Not by readlink(), which is ours.
 std::size_t read_link(const char* path, char* target) {
-  const long length = ::syscall(SYS_readlink, path, target, longest_path - 1);
+  const long length = REAL(syscall)(SYS_readlink, path, target, longest_path - 1);
   if (length <= 0 || length == longest_path - 1) return 0;
   target[length] = '\0';
   return static_cast<std::size_t>(length);
@@ -132,7 +132,7 @@ void Path::resolve(const char* path, int folder, Use use) {
 bool Path::begin_at(int folder) {
   char link[64];
   ::snprintf(link, sizeof link, "/proc/self/fd/%d", folder);
-  const bool known = folder == AT_FDCWD ? ::syscall(SYS_getcwd, name_, sizeof name_) > 0
+  const bool known = folder == AT_FDCWD ? REAL(syscall)(SYS_getcwd, name_, sizeof name_) > 0
                                         : read_link(link, name_) != 0;
   if (!known || name_[0] != '/') {
     name_[0] = '\0';

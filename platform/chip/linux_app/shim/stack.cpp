@@ -102,7 +102,7 @@ void describe_overflow(std::uintptr_t address, std::uintptr_t stack_pointer, cha
   constexpr std::size_t longest_name = 16;  // prctl(2)
   char name[longest_name] = "";
   ::prctl(PR_GET_NAME, name);
-  if (::syscall(SYS_gettid) == ::getpid()) {
+  if (REAL(syscall)(SYS_gettid) == ::getpid()) {
     ::snprintf(text, size,
                "overflowed the stack of its main thread, which may have %zu KiB here (ulimit -s)",
                stack.size / 1024);

@@ -1,4 +1,5 @@
 // LabellingCore against a flood fill: one record for each component, whatever its shape.
+#include <pl/blob_labelling/blob_labelling.h>
 #include <pl/blob_labelling/core.h>
 
 #include <algorithm>
@@ -55,6 +56,31 @@ BOOST_AUTO_TEST_CASE(every_small_picture_gives_what_a_flood_fill_gives) {
   for (const auto& [width, height] : {std::pair{5u, 4u}, {4u, 5u}, {7u, 3u}}) {
     Bench(pl::Geometry{width, height}).check_all_pictures();
   }
+}
+
+// Lines of twelve rows that end together, three pixels apart, and then points: of what is shown
+// little leaves in a row. BlobLabelling::never_runs_out() promises that more is never in use.
+BOOST_AUTO_TEST_CASE(the_most_labels_that_a_picture_takes) {
+  constexpr std::uint32_t width = 640, height = 40, rows = 12, side = 10;
+  constexpr std::uint32_t lines = width / 4;
+  Binary picture{width, height, std::vector<std::uint8_t>(width * height)};
+  const auto set = [&](std::uint32_t x, std::uint32_t y) { picture.pixels[y * width + x] = 1; };
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    for (std::uint32_t line = 0; line < lines; ++line) set(3 * line + row, row);
+  }
+  for (std::uint32_t x = 3 * lines + rows; x < width; x += 2) set(x, rows - 1);
+  for (std::uint32_t x = 0; x < width; x += 2) set(x, rows + 1);
+  for (std::uint32_t x = 0; x < width; x += 2) set(x, rows + 3);
+  const std::uint32_t enough = width * 3 / 4 + 9;
+  BOOST_TEST(pl::BlobLabelling::never_runs_out(1, width, enough, side));
+  BOOST_TEST(!pl::BlobLabelling::never_runs_out(1, width, enough - 1, side));
+  BOOST_TEST(!pl::BlobLabelling::never_runs_out(2, width, enough, side));
+  BOOST_TEST(!pl::BlobLabelling::never_runs_out(1, width, enough, side - 1));
+  Bench least(picture.geometry(), enough, side), few(picture.geometry(), 380, side);
+  least.run(picture);
+  few.run(picture);
+  BOOST_TEST(least.core.overflow() == 0u);
+  BOOST_TEST(few.core.overflow() > 0u);
 }
 
 // Frames follow each other without reset: labels come back, and no other state is left.

@@ -1,6 +1,6 @@
 // A shared object with the interface of Verilated RTL that is none: its registers are those of the
-// model's core, for noise of 64 x 32 pixels. THRESHOLD, and DELAY in clocks, plant bugs; without
-// STATE it does not show what its evaluations depend on.
+// model's core, for noise of 64 x 32 pixels. THRESHOLD, DELAY in clocks, and no RESET of the
+// pipeline plant bugs; without STATE it does not show what its evaluations depend on.
 #include <pl/common/rtl_interface.h>
 #include <pl/corner_detection/core.h>
 
@@ -45,7 +45,7 @@ class CornerObject {
     if (pins.rst) {
       core_.reset();
       state.core = 0;
-      pipeline = {};
+      if (RESET) pipeline = {};
     } else if (pins.ena) {
       pl::Corner corner;
       ++state.core;

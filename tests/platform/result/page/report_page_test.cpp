@@ -141,6 +141,19 @@ BOOST_AUTO_TEST_CASE(text_without_angle_brackets_stays_as_it_is) {
   BOOST_TEST(page::script_safe(json) == json);
 }
 
+// Data of others: a page shows a control character as such, and never does what it says.
+BOOST_AUTO_TEST_CASE(control_characters_are_shown) {
+  const std::string text = "a\n\x1b[31m\x7f\xe2\x80\xae\tb\xc2\x85 \xc3\xa4\\n\"";
+  const std::string shown = "a\\n\\x1b[31m\\x7f\\u202e\\tb\\x85 \xc3\xa4\\n\"";
+  for (const bool ascii : {false, true}) {
+    const std::string json = Json{{text, {text, 1}}}.dump(1, ' ', ascii);
+    BOOST_TEST(Json::parse(page::shown_json(json)) == (Json{{shown, {shown, 1}}}));
+    const std::string page = page::page_with(bare, {{"result", json}});
+    BOOST_TEST(Json::parse(page::block_of(page, "result")) == (Json{{shown, {shown, 1}}}));
+  }
+  BOOST_TEST(Json::parse(page::shown_json(R"("a\nb\u0007")", true)) == "a\nb\\x07");
+}
+
 BOOST_AUTO_TEST_CASE(a_block_is_found_again) {
   const std::string json = R"({"input":"</script>","n":[1,2]})";
   const std::string text = page::page_with(bare, {{"result", json}, {"result-b", "2"}});
