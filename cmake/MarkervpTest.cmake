@@ -1,3 +1,4 @@
+option(MARKERVP_SLOW_TESTS "Build the benchmarks and the tests labelled slow with everything else" ON)
 set(markervp_join "${CMAKE_CURRENT_LIST_DIR}/MarkervpJoin.cmake")
 
 # Replaces the files *_test.cpp of the list SOURCES by joined ones of at most twelve each: MarkervpJoin.cmake has why. The others
@@ -47,6 +48,9 @@ function(markervp_add_test)
   endif()
   if(TEST_COST)
     set_tests_properties(${TEST_NAME} PROPERTIES COST ${TEST_COST})
+  endif()
+  if("slow" IN_LIST TEST_LABELS AND NOT MARKERVP_SLOW_TESTS)
+    set_target_properties(${TEST_NAME} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
   if(TEST_LABELS)
     set_tests_properties(${TEST_NAME} PROPERTIES LABELS "${TEST_LABELS}")
