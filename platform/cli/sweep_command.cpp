@@ -233,7 +233,7 @@ int code_of_failures(const SweepOptions& options, const sweep::Results& results,
 namespace {
 
 int conclude(const SweepOptions& options, const sweep::Store& store,
-             std::shared_ptr<sweep::RunLogs> logs, sweep::Manifest&& manifest,
+             const std::shared_ptr<sweep::RunLogs>& logs, sweep::Manifest&& manifest,
              const sweep::Tally& tally, std::uint64_t before, std::ostream& out,
              std::ostream& err) {
   const std::size_t points = manifest.points.size();

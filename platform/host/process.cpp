@@ -265,6 +265,7 @@ std::string read_all(int pipe) {
 
 CommandEnd run_command(const std::vector<std::string>& arguments, const std::string& temporary) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   int ends[2];

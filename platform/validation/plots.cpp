@@ -54,6 +54,7 @@ void PlotScript::data(const std::string& name, const std::vector<std::vector<dou
   data_ += "$" + name + " << EOD\n";
   for (const std::vector<double>& row : rows) {
     std::vector<std::string> cells;
+    cells.reserve(row.size());
     for (const double value : row) cells.push_back(vp::format_fixed(value, 6));
     data_ += vp::join(cells, " ") + "\n";
   }
