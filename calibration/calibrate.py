@@ -142,9 +142,9 @@ class Tools:
         return found, blocks
 
 
-def memory_costs(tools, level):
+def memory_costs(tools, level, images):
     """By kernel: misses of level 1 that hit level 2, and of level 2, for each of its first unit."""
-    found, _ = tools.both(level, ["2", "640", "480"], cache=True)
+    found, _ = tools.both(level, [str(images), "640", "480"], cache=True)
     costs = {}
     for kernel, samples in found.items():
         unit = KERNELS[kernel.replace("_cold", "")][0]
@@ -161,11 +161,11 @@ def borrowed(kernel, counts, kernels, what):
                if unit in entry["units"])
 
 
-def calibrate(tools, level, scenes):
+def calibrate(tools, level, scenes, images):
     """The kernels of a cost table, and whether all fits are good enough."""
     samples, blocks = tools.both(level, [str(scenes)])
     cycles, unknown = pipeline.cycles_of_blocks(blocks)
-    memory = memory_costs(tools, level)
+    memory = memory_costs(tools, level, images)
     kernels, good, calls = {}, True, GLUE[level]
     print("-%s                leave one out: instructions     cycles     cycles per   misses a unit"
           % level)
@@ -207,9 +207,9 @@ def calibrate(tools, level, scenes):
     return kernels, good
 
 
-def make_table(tools, level, scenes):
-    """A cost table, and whether its fits are good enough."""
-    kernels, good = calibrate(tools, level, scenes)
+def make_table(tools, level, scenes, images):
+    """A cost table, from random scenes and images of full size, and whether its fits are good enough."""
+    kernels, good = calibrate(tools, level, scenes, images)
     return {
         "version": 1,
         "profile": "a9-" + level,
@@ -246,8 +246,10 @@ def main():
     arguments = parser.parse_args()
     tools = Tools(os.path.abspath(arguments.build))
     all_good, stale = True, []
+    # What memory costs is not compared: one image shows that kernels compute the same with cold caches.
+    images = 1 if arguments.check else 2
     for level in ("O0", "O2"):
-        table, good = make_table(tools, level, arguments.scenes)
+        table, good = make_table(tools, level, arguments.scenes, images)
         all_good = all_good and good
         path = os.path.join(arguments.output, "a9-%s.json" % level)
         if arguments.check:

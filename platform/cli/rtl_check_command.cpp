@@ -379,6 +379,7 @@ void print_coverage(const std::vector<Play>& plays, Json& use, std::ostream& out
 /// "demo, z2.0 and stimuli in out/stimuli"
 std::string played(const std::vector<Play>& plays, const RtlOptions& options) {
   std::vector<std::string> names;
+  names.reserve(plays.size());
   for (const Play& play : plays) {
     names.push_back(play.name.empty() ? vp::join(options.run.inputs, ", ")
                     : play.pins

@@ -59,6 +59,7 @@ std::vector<std::string> RtlCoverage::missed_lines() const {
                      std::atoi(value_of(point, "l").c_str()));
   }
   std::vector<std::string> lines;
+  lines.reserve(missed.size());
   for (const auto& [file, line] : missed) lines.push_back(file + ":" + std::to_string(line));
   return lines;
 }

@@ -319,7 +319,7 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
   }
   if (!views.page) return false;
   if (!timeline.empty()) views.page->add_member("timeline", facts::page_json(timeline));
-  const std::string profile = simulation.software_profile();
+  const std::string& profile = simulation.software_profile();
   if (!profile.empty()) views.page->add_member("profile", profile);
   return attempt([&] {
     views.folder.add(page::report_name);

@@ -234,7 +234,7 @@ int code_of_failures(const SweepOptions& options, const study::Results& results,
 namespace {
 
 int conclude(const SweepOptions& options, const study::Store& store,
-             std::shared_ptr<study::RunLogs> logs, study::Manifest&& manifest,
+             const std::shared_ptr<study::RunLogs>& logs, study::Manifest&& manifest,
              const study::Tally& tally, std::uint64_t before, std::ostream& out,
              std::ostream& err) {
   const std::size_t points = manifest.points.size();

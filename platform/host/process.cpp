@@ -279,6 +279,7 @@ void require_descriptors(int count, const std::string& command) {
 
 CommandEnd run_command(const std::vector<std::string>& arguments, const std::string& temporary) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   int ends[2];

@@ -57,7 +57,7 @@ std::string angles_text(const Eigen::Matrix3d& r) {
 
 std::string error_text(const facts::FoundMarker& found, const GroundTruth& truth) {
   const facts::MarkerError error = facts::measure_error(found, truth);
-  const std::string text = "corner " + error_figure(error.corner_px, 2) + " px";
+  std::string text = "corner " + error_figure(error.corner_px, 2) + " px";
   if (!facts::has_pose_error(found, truth)) return text;
   return text + pose_error_text(error.translation_mm, error.rotation_deg);
 }

@@ -198,7 +198,8 @@ void AxisValues::add_steps(double step, const std::string& written_step) {
         "has a range of more than 10 million values, too many also for --yes and --limit: make "
         "'step' larger, or leave it out and draw a sample ('sample: {method: sobol, points: "
         "1000}')");
-  for (double i = 0; i < count; ++i) values_.push_back(written(start_ + i * step));
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i)
+    values_.push_back(written(start_ + static_cast<double>(i) * step));
 }
 
 double AxisValues::between(double u) const {

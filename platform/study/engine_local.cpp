@@ -92,7 +92,7 @@ class Pool {
       if (HostClock::now() - flushed_ > flush_period) flush();
     }
     flush();
-    return std::move(tally_);
+    return tally_;
   }
 
  private:

@@ -100,7 +100,7 @@ std::string submit(const ArrayJob& job) {
   const host::CommandEnd end = host::run_command(arguments);
   // "12" or "12;cluster", perhaps below warnings.
   const std::vector<std::string> lines = vp::split(vp::trim(end.out), '\n');
-  const std::string number = lines.back().substr(0, lines.back().find(';'));
+  std::string number = lines.back().substr(0, lines.back().find(';'));
   if (end.exit_code != 0 || number.empty() ||
       number.find_first_not_of("0123456789") != std::string::npos) {
     throw vp::InputError("sbatch does not take the sweep: " + one_line(end.out));
@@ -262,7 +262,7 @@ class Cluster {
       first = last;
     }
     const std::string executable = fs::read_symlink("/proc/self/exe").string();
-    const std::string job =
+    std::string job =
         submit({"markervp-" + options_.name, fs::current_path().string(),
                 fs::absolute(folder).string() + "/task-%a.log", tasks, options_.at_once,
                 "exec " + host::shell_quoted(executable) + " sweep-worker " +

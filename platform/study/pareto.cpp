@@ -49,6 +49,7 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b,
 
 std::vector<bool> directions(const std::vector<Objective>& objectives) {
   std::vector<bool> maximise;
+  maximise.reserve(objectives.size());
   for (const Objective& objective : objectives) maximise.push_back(objective.maximise());
   return maximise;
 }
@@ -109,6 +110,7 @@ void count_lacking(const ResultRow& row, const std::vector<const vp::Expression*
 
 std::vector<std::string> texts(const std::vector<Objective>& objectives) {
   std::vector<std::string> result;
+  result.reserve(objectives.size());
   for (const Objective& objective : objectives) result.push_back(objective.figure().text());
   return result;
 }
@@ -161,6 +163,7 @@ bool is_repetition(const Results& results, const ResultRow& row,
 Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   Pareto pareto;
   std::vector<const vp::Expression*> expressions;
+  expressions.reserve(objectives.size() + results.constraints.size());
   for (const Objective& objective : objectives) expressions.push_back(&objective.figure());
   for (const vp::Expression& constraint : results.constraints) expressions.push_back(&constraint);
   pareto.points.reserve(results.rows.size());

@@ -32,6 +32,7 @@ std::string last_parts(const std::string& name, std::size_t count) {
 std::vector<std::string> short_names(const std::vector<std::string>& names) {
   for (std::size_t count = 1; count < 8; ++count) {
     std::vector<std::string> result;
+    result.reserve(names.size());
     for (const std::string& name : names) result.push_back(last_parts(name, count));
     const std::set<std::string> different(result.begin(), result.end());
     // One part says too little where it is the word for a kind of figure.

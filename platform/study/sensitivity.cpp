@@ -179,6 +179,7 @@ class Analysis {
 
   static std::string values_text(const ResultRow& row, const std::vector<std::string>& paths) {
     std::vector<std::string> values;
+    values.reserve(paths.size());
     for (const std::string& path : paths) values.push_back(row.value(path));
     return vp::join(values, " / ");
   }
@@ -389,6 +390,7 @@ namespace {
 
 std::vector<std::string> texts(const std::vector<vp::Expression>& figures) {
   std::vector<std::string> texts;
+  texts.reserve(figures.size());
   for (const vp::Expression& figure : figures) texts.push_back(figure.text());
   return texts;
 }

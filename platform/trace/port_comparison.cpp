@@ -245,6 +245,7 @@ std::vector<std::int64_t> likely_shifts(const std::vector<InputChange>& theirs,
                    [](const auto& x, const auto& y) { return x.first > y.first; });
   if (counted.size() > most_shifts) counted.resize(most_shifts);
   std::vector<std::int64_t> shifts;
+  shifts.reserve(counted.size());
   for (const auto& [count, shift] : counted) shifts.push_back(shift);
   return shifts;
 }

@@ -279,6 +279,7 @@ std::vector<ParameterDescription> Configuration::parameters() const {
   std::vector<std::size_t> order;
   root.collect(order);
   std::vector<ParameterDescription> ordered;
+  ordered.reserve(order.size());
   for (const std::size_t i : order) ordered.push_back(parameters_[i]);
   return ordered;
 }

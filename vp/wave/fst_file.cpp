@@ -118,7 +118,8 @@ void File::read_header() {
     if (order != byte_order) fail("no FST: its header is corrupt", cursor.offset());
   }
   constexpr std::size_t timescale_at = 73;
-  timescale_ = static_cast<std::int8_t>(bytes[timescale_at]);
+  const int exponent = static_cast<unsigned char>(bytes[timescale_at]);
+  timescale_ = exponent < 0x80 ? exponent : exponent - 0x100;  // a signed byte
 }
 
 void File::read_blocks() {

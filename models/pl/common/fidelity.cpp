@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<ModelTraits>& models) {
   std::vector<std::string> names;
+  names.reserve(models.size());
   for (const ModelTraits& model : models) names.push_back(model.name);
   return names;
 }

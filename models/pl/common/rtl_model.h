@@ -139,7 +139,7 @@ class PortTaps {
   PortTaps(const IpPorts& ports, vp::Clocked& owner);
 
  private:
-  class Tap : public vp::InBase {
+  class Tap final : public vp::InBase {
    public:
     Tap(std::function<vp::SignalBase*()> port, vp::Clocked& owner)
         : InBase("tap", &owner), port_(std::move(port)) {}

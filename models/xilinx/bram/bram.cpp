@@ -26,9 +26,9 @@ constexpr AspectRatio ratios[] = {{32768, 1, 1},  {16384, 2, 2},  {8192, 4, 4}, 
 double blocks_of(const AspectRatio& ratio, std::uint64_t depth, std::uint32_t width, bool parity) {
   const std::uint32_t each = parity ? ratio.width : ratio.powers;
   const std::uint64_t columns = (width + each - 1) / each;
-  const std::uint64_t rest = depth % ratio.depth;
+  const std::uint64_t full_rows = depth / ratio.depth, rest = depth % ratio.depth;
   const double last_row = rest == 0 ? 0 : rest <= ratio.depth / 2 ? 0.5 : 1;
-  return static_cast<double>(columns) * (static_cast<double>(depth / ratio.depth) + last_row);
+  return static_cast<double>(columns) * (static_cast<double>(full_rows) + last_row);
 }
 
 }  // namespace

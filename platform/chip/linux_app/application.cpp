@@ -44,7 +44,7 @@ std::string find_shim() {
   const std::vector<std::string> folders = host::library_folders();
   std::error_code ignored;
   for (const std::string& folder : folders) {
-    const std::string file = (fs::path(folder) / shim_name).string();
+    std::string file = (fs::path(folder) / shim_name).string();
     if (!fs::exists(file, ignored)) continue;
     if (::access(file.c_str(), R_OK) != 0)
       throw vp::InputError("--linux: '" + file + "' cannot be read (" + std::strerror(errno) +
@@ -98,7 +98,7 @@ std::string problem_of(const std::string& path) {
     return std::string("cannot be opened: ") + std::strerror(errno);
   if (!S_ISREG(status.st_mode)) return "is no file: name an executable";
   if (::access(path.c_str(), X_OK) != 0) return "may not be executed: chmod +x";
-  const std::string privilege = privilege_of(path, status);
+  std::string privilege = privilege_of(path, status);
   if (!privilege.empty()) return privilege;
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header{};
@@ -106,7 +106,7 @@ std::string problem_of(const std::string& path) {
       std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0)
     return "is no executable of Linux (ELF); of a script name the interpreter, and the script as "
            "its first argument";
-  const std::string machine = machine_problem(header);
+  std::string machine = machine_problem(header);
   if (!machine.empty()) return machine;
   const std::string loader = loader_of(file, header);
   if (loader.empty())
@@ -169,6 +169,7 @@ std::vector<std::string> environment(const std::string& shim, const std::string&
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> list;
+  list.reserve(words.size() + 1);
   for (std::string& word : words) list.push_back(word.data());
   list.push_back(nullptr);
   return list;

@@ -202,7 +202,7 @@ fs::path profile_path(const std::string& name) {
   if (fs::path(name).extension() == ".json") return name;
   std::error_code ignored;
   for (const fs::path& folder : profile_folders()) {
-    const fs::path file = folder / (name + ".json");
+    fs::path file = folder / (name + ".json");
     if (fs::exists(file, ignored)) return file;
   }
   const std::vector<std::string> names = installed_profiles();

@@ -153,7 +153,7 @@ std::string file_in(const std::vector<std::string>& folders, const std::string& 
 }
 
 std::string installed_program(const std::string& name) {
-  const std::string file = file_in(program_folders(), name);
+  std::string file = file_in(program_folders(), name);
   if (!file.empty()) return file;
   throw vp::InputError("no program '" + name + "' in " + vp::one_of(program_folders()) +
                        ": give its file, or install markervp completely");
@@ -166,7 +166,7 @@ std::string usual_program(const DesignInfo& design) {
   if (folder.empty()) return installed_program(name);
   std::vector<std::string> folders = program_folders();
   folders.insert(folders.begin(), folder);
-  const std::string file = file_in(folders, name);
+  std::string file = file_in(folders, name);
   if (!file.empty()) return file;
   throw vp::InputError("design '" + design.name + "' lacks its PS program '" + name + "': build " +
                        name + ".so in " + folder +

@@ -36,7 +36,7 @@ fs::path table_path(const std::string& name) {
   std::vector<std::string> installed;
   std::error_code ignored;
   for (const fs::path& folder : table_folders()) {
-    const fs::path file = folder / (name + ".json");
+    fs::path file = folder / (name + ".json");
     if (fs::exists(file, ignored)) return file;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
       if (entry.path().extension() == ".json") installed.push_back(entry.path().stem().string());

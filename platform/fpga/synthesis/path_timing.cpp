@@ -41,7 +41,8 @@ std::map<std::string, double> numbers(const Json& json, const std::string& key,
     throw vp::InputError(what + ": '" + key + "' is missing");
   }
   std::map<std::string, double> found;
-  for (const std::string name : names) {
+  for (const char* const word : names) {
+    const std::string name(word);
     const auto number = section->find(name);
     if (number == section->end() || !number->is_number() ||
         std::abs(number->get<double>()) > most) {

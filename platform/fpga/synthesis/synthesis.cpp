@@ -275,6 +275,7 @@ std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::pa
       open.push_back(m->str());
   }
   std::vector<fs::path> found;
+  found.reserve(needed.size());
   for (const std::size_t i : needed) found.push_back(sources[i]);
   return found;
 }

@@ -75,6 +75,7 @@ class OpenCvPeer : public Peer {
     const std::vector<cv::Point3d> corners{
         {0, 0, 0}, {side_m_, 0, 0}, {side_m_, side_m_, 0}, {0, side_m_, 0}};
     std::vector<cv::Point2d> points;
+    points.reserve(corners_px.size());
     for (const PixelPoint& corner : corners_px) points.emplace_back(corner.x, corner.y);
     const cv::Matx33d intrinsic(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
     const std::vector<double> lens(camera.distortion.begin(), camera.distortion.end());

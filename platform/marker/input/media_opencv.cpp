@@ -43,7 +43,7 @@ bool complains(const std::string& noise) {
 
 class OpencvVideo : public VideoStream {
  public:
-  explicit OpencvVideo(cv::VideoCapture capture) : capture_(std::move(capture)) {}
+  explicit OpencvVideo(const cv::VideoCapture& capture) : capture_(capture) {}
 
   std::optional<GreyImage> next() override {
     const host::StderrCapture silence;

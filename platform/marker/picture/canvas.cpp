@@ -75,6 +75,7 @@ void Canvas::arrow(PixelPoint from, PixelPoint to, const cv::Scalar& colour, int
 
 void Canvas::outline(const std::vector<PixelPoint>& corners, const cv::Scalar& colour, int width) {
   std::vector<cv::Point> points;
+  points.reserve(corners.size());
   for (const PixelPoint& corner : corners) points.push_back(fixed(corner));
   if (width > 1) {
     cv::polylines(target_, points, true, palette::ink, width + 2 * halo, cv::LINE_AA, shift);

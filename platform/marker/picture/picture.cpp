@@ -191,6 +191,7 @@ void draw_features(Canvas& canvas, const facts::Features& features) {
   }
   for (const auto& corners : features.candidates) {
     std::vector<PixelPoint> points;
+    points.reserve(corners.size());
     for (const PixelPoint& corner : corners) points.push_back(centre_of(corner.x, corner.y));
     canvas.outline(points, palette::blue, 2);
   }

@@ -78,7 +78,7 @@ class Reader {
 fs::path published_file() {
   std::error_code ignored;
   for (const std::string& folder : host::library_folders()) {
-    const fs::path file = fs::path(folder) / "published.csv";
+    fs::path file = fs::path(folder) / "published.csv";
     if (fs::exists(file, ignored)) return file;
   }
   throw vp::InputError("no published.csv in " + vp::one_of(host::library_folders()) +

@@ -165,6 +165,7 @@ Gate rows_gate(const std::string& name, const std::vector<Row>& rows,
 std::vector<Row> judge_rows(const std::vector<Published>& published, const Measured& measured,
                             const std::set<std::string>& fitted_to) {
   std::vector<Row> rows;
+  rows.reserve(published.size());
   for (const Published& value : published) rows.push_back(judge_row(value, measured, fitted_to));
   return rows;
 }
@@ -248,6 +249,7 @@ std::string csv_cell(const std::string& text) {
 
 std::string line(const std::vector<std::string>& cells) {
   std::vector<std::string> escaped;
+  escaped.reserve(cells.size());
   for (const std::string& text : cells) escaped.push_back(csv_cell(text));
   return vp::join(escaped, ",") + "\n";
 }

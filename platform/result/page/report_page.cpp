@@ -222,7 +222,7 @@ void RunExtras::add(const GreyImage& image, const facts::FrameReport& frame) {
   frames_ += fmt::format("{}\"{}\":{}", count_++ == 0 ? "" : ",", frame.index, view);
 }
 
-void RunExtras::add_member(std::string name, std::string json) {
+void RunExtras::add_member(const std::string& name, const std::string& json) {
   members_ += fmt::format(",{}:{}", text_of(name), json);
 }
 

@@ -54,7 +54,7 @@ class RunExtras {
   /// Keeps a frame as long as there is room.
   void add(const GreyImage& image, const facts::FrameReport& frame);
   /// A member of the block, for instance "timeline", as JSON text.
-  void add_member(std::string name, std::string json);
+  void add_member(const std::string& name, const std::string& json);
   /// The block "extras".
   std::string json(const std::vector<vp::ParameterDescription>& parameters) const;
 

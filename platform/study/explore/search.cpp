@@ -159,6 +159,7 @@ void Search::select() {
   std::map<std::vector<double>, std::size_t> first;
   for (std::size_t i = 0; i < members.size(); ++i) first.emplace(all[i], i);
   std::vector<std::size_t> different;
+  different.reserve(first.size());
   for (const auto& [unused, place] : first) different.push_back(place);
   std::sort(different.begin(), different.end());
   Costs costs;

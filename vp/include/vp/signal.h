@@ -219,7 +219,7 @@ class InBase {
 
 /// An input of a module: a bound signal, read by a plain load.
 template <class T>
-class In : public InBase {
+class In final : public InBase {
  public:
   /// `owner` is the clocked module that samples the port on its edges; null for a combinational
   /// reader.

@@ -199,12 +199,13 @@ bool is_open_socket() {
 
 // In what the application starts by exec() the socket is closed.
 __attribute__((constructor)) void begin() {
-  if (!::getenv(linux_app::folder_variable) || !is_open_socket()) return;
+  const char* const folder = ::getenv(linux_app::folder_variable);
+  if (!folder || !is_open_socket()) return;
   ::fcntl(socket, F_SETFD, FD_CLOEXEC);
   ::fcntl(memory, F_SETFD, FD_CLOEXEC);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   is_one = true;
-  tree = ::strdup(::getenv(linux_app::folder_variable));
+  tree = ::strdup(folder);
   user = &own;
   // A line is read when it is written, although it does not go to a terminal.
   ::setvbuf(stdout, nullptr, _IOLBF, 0);

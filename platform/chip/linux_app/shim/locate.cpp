@@ -128,7 +128,7 @@ class Writer {
     const auto base = reinterpret_cast<std::uintptr_t>(base_of(place.address));
     text_.add("pc 0x%zx", static_cast<std::size_t>(place.address - base));
     if (!place.symbol) return;
-    text_.add(" ");
+    text_.add("%s", " ");
     text_.add_name(place.symbol);
     text_.add("+0x%zx", static_cast<std::size_t>(place.address - place.start));
   }

@@ -77,7 +77,7 @@ class Entries {
   bool add(const struct dirent& entry) {
     if (count_ == room_) {
       room_ = room_ == 0 ? 16 : 2 * room_;
-      void* const more = ::realloc(list_, room_ * sizeof *list_);
+      void* const more = ::realloc(list_, room_ * sizeof(struct dirent*));
       if (!more) return false;
       list_ = static_cast<struct dirent**>(more);
     }
@@ -88,7 +88,7 @@ class Entries {
   }
   int give(struct dirent*** list, Compare compare) {
     if (compare && count_ != 0)
-      ::qsort(list_, count_, sizeof *list_,
+      ::qsort(list_, count_, sizeof(struct dirent*),
               reinterpret_cast<int (*)(const void*, const void*)>(compare));
     *list = list_;
     return static_cast<int>(count_);

@@ -78,7 +78,7 @@ char* as_seen(char* path) {
   const char* const tree = folder();
   if (!path || !tree || !is_application() || !is_in(path, tree)) return path;
   const std::size_t length = ::strlen(tree);
-  if (path[length] == '\0') return ::strcpy(path, "/");
+  if (path[length] == '\0') return static_cast<char*>(::memcpy(path, "/", 2));
   ::memmove(path, path + length, ::strlen(path + length) + 1);
   return path;
 }
@@ -110,8 +110,9 @@ Path::Path(const char* path, int folder, Use use) : path_(path) {
 void Path::resolve(const char* path, int folder, Use use) {
   char rest[longest_path];
   name_[0] = '\0';
-  if (::strlen(path) >= sizeof rest || (path[0] != '/' && !begin_at(folder))) return;
-  ::strcpy(rest, path);
+  const std::size_t given = ::strlen(path);
+  if (given >= sizeof rest || (path[0] != '/' && !begin_at(folder))) return;
+  ::memcpy(rest, path, given + 1);
   unsigned links = 0;
   while (true) {
     const char* const part = rest + ::strspn(rest, "/");

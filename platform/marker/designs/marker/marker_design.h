@@ -52,7 +52,7 @@ class HandshakeWatch : private vp::SignalListener {
  public:
   /// `cpu`: whose program is watched.
   HandshakeWatch(ProgrammableLogic& logic, const ps::Cpu& cpu, const vp::ClockScheduler& scheduler);
-  ~HandshakeWatch();
+  ~HandshakeWatch() override;
   HandshakeWatch(const HandshakeWatch&) = delete;
   HandshakeWatch& operator=(const HandshakeWatch&) = delete;
 

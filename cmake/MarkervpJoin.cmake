@@ -1,0 +1,23 @@
+# Run as a script: writes OUTPUT, which compiles the test files SOURCES as one. Most of what a test file costs is what it includes
+# and the templates of Boost.Test; joined, a program pays once. Each file is in a namespace of its own, for it has a bench and
+# helpers whose names the next one has, too. What it includes stays outside: it is included here first.
+set(includes "")
+set(bodies "")
+foreach(source IN LISTS SOURCES)
+  cmake_path(GET source PARENT_PATH folder)
+  cmake_path(GET source STEM name)
+  file(STRINGS "${source}" lines REGEX "^#include ")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "\"(.+)\"")
+      set(header "${folder}/${CMAKE_MATCH_1}")
+      if(EXISTS "${header}")
+        set(line "#include \"${header}\"")
+      endif()
+    endif()
+    list(APPEND includes "${line}")
+  endforeach()
+  string(APPEND bodies "namespace {\nnamespace ${name}_cpp {\n#include \"${source}\"\n}\n}\n")
+endforeach()
+list(REMOVE_DUPLICATES includes)
+list(JOIN includes "\n" includes)
+file(WRITE "${OUTPUT}" "${includes}\n${bodies}")
