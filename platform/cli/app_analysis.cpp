@@ -174,6 +174,14 @@ constexpr const char* check_help = R"(A check a line, '#' begins a comment:
   name: bursts of 32 beats CONDITION last CONDITION
 docs/traces.md has examples; share/markervp/checks a set for our system.)";
 
+constexpr const char* find_help = R"(Conditions are expressions (docs/expressions.md):
+  markervp trace find t.vcd 'awvalid and not awready'
+  markervp trace find t.vcd --every top.clk 'past(req, 20) and count(ack, 20) == 0'
+docs/traces.md has twenty questions with their answers.)";
+
+constexpr const char* values_help = R"(  markervp trace values t.vcd state count --at 12us --at 15us
+  markervp trace values t.vcd tdata tlast --every clk --when 'tvalid and tready' --csv)";
+
 /// A command of `trace`, with what all take.
 CLI::App* add(CLI::App& trace, TraceCommandOptions& target, const std::string& name,
               const std::string& what) {
@@ -212,6 +220,20 @@ void add_window(CLI::App& command, TraceCommandOptions& target) {
   command.add_option("--window", target.window, "only then: 6ms:7ms")->type_name("FROM:TO");
 }
 
+/// What `find` and `values` have in common.
+void add_moments(CLI::App& command, TraceCommandOptions& target) {
+  command
+      .add_option("--every", target.every,
+                  "on these edges only, with the values before them: top.clk, 'top.clk falling'")
+      ->type_name("CLOCK");
+  add_window(command, target);
+  command.add_option("--most", target.most, "stop after so many lines")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62).description(""));
+  CLI::Option* json = command.add_flag("--json", target.json, "for programs");
+  command.add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
+}
+
 }  // namespace
 
 void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
@@ -224,14 +246,38 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   add_filter(*list, target);
   list->add_flag("--json", target.json, "for programs");
 
+  CLI::App* find = add(*trace, target, "find", "when a condition holds, and for how long");
+  add_file(*find, target);
+  find->add_option("CONDITION", target.condition, "an expression over signals")
+      ->type_name("")
+      ->required();
+  add_moments(*find, target);
+  find->footer(find_help);
+
+  CLI::App* values = add(*trace, target, "values", "the values of signals at some moments");
+  add_file(*values, target);
+  values->add_option("SIGNAL", target.signals, "names, or their ends")->type_name("")->required();
+  CLI::Option* at = values->add_option("--at", target.at, "at this time: 6.1ms")
+                        ->type_name("TIME")
+                        ->expected(1)
+                        ->take_all();
+  values->add_option("--when", target.when, "each time that this comes true")
+      ->type_name("CONDITION")
+      ->excludes(at);
+  add_moments(*values, target);
+  values->footer(values_help);
+
   CLI::App* stats = add(*trace, target, "stats",
                         "handshakes, buffers, interrupts, frames and functions in numbers");
   add_file(*stats, target);
   add_design(*stats, target);
   stats
-      ->add_option("--clock", target.clock,
-                   "of the links, if the trace has no clocks (default: 100 MHz)")
-      ->type_name("FREQUENCY");
+      ->add_option("--clock", target.clocks,
+                   "of the links: a signal, 'top.clk falling', of one LINK=SIGNAL, or 55MHz if "
+                   "the trace has no clocks (default: found by name and edges, or 100 MHz)")
+      ->type_name("CLOCK")
+      ->expected(1)
+      ->take_all();
   CLI::Option* json = stats->add_flag("--json", target.json, "for programs");
   stats->add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
 

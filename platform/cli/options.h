@@ -174,16 +174,20 @@ struct PowerTableOptions {
 
 /// `markervp trace COMMAND`.
 struct TraceCommandOptions {
-  std::string command;  ///< "list", "stats", "check", "diff", "cut", "convert", "plot", "gtkw"
+  std::string command;  ///< "list", "find", "values", "stats", "check", "diff", "cut", "convert" …
   std::string file;
   std::string other;   ///< the second trace of diff; the file that cut and convert write
   std::string checks;  ///< the file of check
-  std::optional<std::string> design, map, window, clock, frame, output, marker, timescale;
-  std::vector<std::string> filter;
+  std::optional<std::string> design, map, window, frame, output, marker, timescale;
+  std::vector<std::string> filter, clocks;
   std::vector<std::string> signals;
   std::string align = "time";
   bool json = false, csv = false, skip_missing = false, require_exercised = false;
   bool lenient = false, strict = false;
+  std::string condition;        ///< of find
+  std::vector<std::string> at;  ///< times of values
+  std::optional<std::string> when, every;
+  std::optional<std::uint64_t> most;  ///< lines
 };
 
 /// `markervp completion`.

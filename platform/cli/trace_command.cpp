@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <host/output_folder.h>
 #include <trace/listing.h>
+#include <trace/questions.h>
 #include <trace/statistics.h>
 #include <trace/tools.h>
 #include <vp/error.h>
@@ -14,6 +15,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <cctype>
 #include <filesystem>
 #include <optional>
 
@@ -119,17 +121,157 @@ int list(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   return done;
 }
 
+std::optional<trace::ClockEdge> every(const TraceCommandOptions& options) {
+  if (!options.every) return std::nullopt;
+  return trace::parse_clock_edge(*options.every);
+}
+
+/// Lines of find and values as they are found: a trace may give more than memory holds.
+class Lines {
+ public:
+  Lines(const TraceCommandOptions& options, std::ostream& out, std::vector<std::string> columns)
+      : options_(options), out_(out), columns_(std::move(columns)) {
+    if (options_.json) out_ << "[";
+    if (options_.csv) add_words(columns_, ",");
+    if (!options_.csv && !options_.json) add_words(columns_, "  ");
+  }
+  ~Lines() {
+    if (options_.json) out_ << (count_ == 0 ? "]" : "\n]") << "\n";
+  }
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
+
+  /// False: these are enough.
+  bool add(const std::vector<std::string>& cells) {
+    if (options_.json) {
+      out_ << (count_ == 0 ? "\n  {" : ",\n  {");
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        out_ << (i == 0 ? "" : ", ") << quoted(columns_[i]) << ": " << quoted(cells[i]);
+      out_ << "}";
+    } else {
+      add_words(cells, options_.csv ? "," : "  ");
+    }
+    return ++count_ != options_.most.value_or(0);
+  }
+
+ private:
+  void add_words(const std::vector<std::string>& words, const char* separator) {
+    const char* before = "";
+    for (const std::string& word : words) {
+      const bool plain = !options_.csv || word.find_first_of(",\"\n") == std::string::npos;
+      out_ << before << (plain ? word : trace::quoted_cell(word));
+      before = separator;
+    }
+    out_ << "\n";
+  }
+  static std::string quoted(const std::string& text) { return trace::json_text(text); }
+
+  const TraceCommandOptions& options_;
+  std::ostream& out_;
+  std::vector<std::string> columns_;
+  std::uint64_t count_ = 0;
+};
+
+int find(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
+  trace::FindOptions asked;
+  asked.condition = options.condition;
+  asked.every = every(options);
+  const TimeWindow times = window(options);
+  asked.from_ps = times.from_ps;
+  asked.to_ps = times.to_ps;
+  const bool for_people = !options.csv && !options.json;
+  trace::FindSummary summary;
+  {
+    std::vector<std::string> columns =
+        for_people ? std::vector<std::string>{"from", "for"}
+                   : std::vector<std::string>{"from_ps", "until_ps", "open"};
+    if (asked.every) columns.emplace_back("clocks");
+    Lines lines(options, out, columns);
+    summary = trace::find(file, asked, [&](const trace::Occurrence& one) {
+      const std::uint64_t length = one.until_ps - one.from_ps;
+      std::vector<std::string> cells =
+          for_people
+              ? std::vector<std::string>{vp::format_time(one.from_ps),
+                                         vp::format_time(length) + (one.open ? " to the end" : "")}
+              : std::vector<std::string>{std::to_string(one.from_ps), std::to_string(one.until_ps),
+                                         one.open ? "1" : "0"};
+      if (asked.every) cells.push_back(std::to_string(one.clocks));
+      return lines.add(cells);
+    });
+  }
+  if (for_people) {
+    out << summary.times << (summary.times == 1 ? " time, " : " times, ")
+        << vp::format_time(summary.held_ps) << " together";
+    if (asked.every) out << ", " << summary.clocks << (summary.clocks == 1 ? " clock" : " clocks");
+    if (summary.times > 1) {
+      out << "; the longest " << vp::format_time(summary.longest_ps) << " at "
+          << vp::format_time(summary.longest_at_ps);
+    }
+    out << "\n";
+  }
+  if (!summary.evaluated) err << "markervp: the condition was never known\n";
+  warn_of(file, err);
+  return done;
+}
+
+int values(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
+  trace::ValuesOptions asked;
+  asked.signals = options.signals;
+  for (const std::string& time : options.at) asked.at_ps.push_back(parse_moment(time, "--at"));
+  asked.when = options.when.value_or("");
+  asked.every = every(options);
+  const TimeWindow times = window(options);
+  asked.from_ps = times.from_ps;
+  asked.to_ps = times.to_ps;
+  const bool for_people = !options.csv && !options.json;
+  {
+    std::vector<std::string> columns = trace::value_columns(file, asked);
+    columns.insert(columns.begin(), for_people ? "time" : "time_ps");
+    Lines lines(options, out, columns);
+    trace::values(file, asked, [&](const trace::ValueRow& row) {
+      std::vector<std::string> cells = row.values;
+      cells.insert(cells.begin(), for_people ? vp::format_time(row.ps) : std::to_string(row.ps));
+      return lines.add(cells);
+    });
+  }
+  warn_of(file, err);
+  return done;
+}
+
+/// "55MHz", "top.clk falling" or "m_axis=top.clk".
+void read_clock(const std::string& text, trace::StatisticsOptions& asked) {
+  const auto sign = text.find('=');
+  if (sign != std::string::npos) {
+    asked.clock_of_link.emplace_back(vp::trim(text.substr(0, sign)),
+                                     trace::parse_clock_edge(text.substr(sign + 1)));
+    return;
+  }
+  const std::string trimmed(vp::trim(text));
+  const bool is_number =
+      !trimmed.empty() && (std::isdigit(static_cast<unsigned char>(trimmed[0])) != 0 ||
+                           trimmed[0] == '-' || trimmed[0] == '.');
+  if (!is_number) {
+    asked.clock = trace::parse_clock_edge(text);
+    return;
+  }
+  std::optional<vp::Decimal::Whole> hertz;
+  try {
+    hertz = vp::parse_quantity(text, vp::Unit::frequency).whole();
+  } catch (const vp::InputError& error) {
+    throw vp::InputError("--clock '" + text + "' " + error.what());
+  }
+  constexpr vp::Decimal::Whole most = 1'000'000'000'000;
+  if (!hertz || *hertz <= 0 || *hertz > most)
+    throw vp::InputError("--clock '" + text + "' is no frequency of a clock");
+  asked.system_hz = static_cast<std::uint64_t>(*hertz);
+}
+
 int stats(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   TraceFile file = opened(options);
   trace::StatisticsOptions asked;
-  if (options.clock) {
-    const auto hertz = vp::parse_quantity(*options.clock, vp::Unit::frequency).whole();
-    constexpr vp::Decimal::Whole most = 1'000'000'000'000;
-    if (!hertz || *hertz <= 0 || *hertz > most) {
-      throw vp::InputError("--clock '" + *options.clock + "' is no frequency of a clock");
-    }
-    asked.system_hz = static_cast<std::uint64_t>(*hertz);
-  }
+  for (const std::string& clock : options.clocks) read_clock(clock, asked);
   const auto tables = trace::statistics(file, words_of(options), asked);
   out << (options.json  ? trace::tables_as_json(tables)
           : options.csv ? trace::tables_as_csv(tables)
@@ -317,6 +459,8 @@ int gtkw(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
 
 int answer(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   if (options.command == "list") return list(options, out, err);
+  if (options.command == "find") return find(options, out, err);
+  if (options.command == "values") return values(options, out, err);
   if (options.command == "stats") return stats(options, out, err);
   if (options.command == "check") return check(options, out, err);
   if (options.command == "diff") return diff(options, out, err);

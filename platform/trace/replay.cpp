@@ -209,6 +209,22 @@ void Replay::recorded(bool is_recorded) {
   if (listener_) listener_->recorded(now_ps_, is_recorded);
 }
 
+ClockEdge parse_clock_edge(const std::string& text) {
+  const std::string trimmed(vp::trim(text));
+  const std::size_t blank = trimmed.rfind(' ');
+  ClockEdge edge{trimmed, false};
+  if (blank != std::string::npos) {
+    const std::string word = trimmed.substr(blank + 1);
+    if (word != "rising" && word != "falling") {
+      throw vp::InputError("clock '" + text + "': behind the name may stand 'rising' or 'falling'");
+    }
+    edge.falling = word == "falling";
+    edge.signal = std::string(vp::trim(trimmed.substr(0, blank)));
+  }
+  if (edge.signal.empty()) throw vp::InputError("a clock is named: top.clk, or 'top.clk falling'");
+  return edge;
+}
+
 bool InterruptLine::rises() {
   const bool high = replay_->known(line_) && replay_->bits(line_) != 0;
   if (!high || !replay_->was_known(line_) || replay_->bits_before(line_) != 0) return false;

@@ -225,16 +225,37 @@ class Stepper final : private vp::WaveHandler {
 /// A value for people: vectors in hexadecimal, the rest as it is.
 std::string readable(const std::string& text, vp::WaveVariable::Kind kind, unsigned width);
 
+/// An edge of a signal, by which instants are counted: "top.clk", "top.clk falling".
+struct ClockEdge {
+  std::string signal;
+  bool falling = false;
+};
+
+/// Throws vp::InputError for another word behind the name.
+ClockEdge parse_clock_edge(const std::string& text);
+
 /// Counts the edges of a clock up to now: of its wire, if it is in the trace, else of a frequency:
 /// edge n falls at round(n · 10¹² / f) ps, as everywhere in the platform.
 class SampleClock {
  public:
   /// `hertz` counts only if the trace has no wire called `path`.
   SampleClock(Replay& replay, const std::string& path, std::uint64_t hertz)
-      : replay_(replay), wire_(replay.follow(path)), hertz_(hertz) {}
+      : replay_(&replay), wire_(replay.follow(path)), hertz_(hertz) {}
+  /// A wire that is followed already; its falling edges count if `falling`.
+  SampleClock(Replay& replay, Replay::Slot wire, bool falling)
+      : replay_(&replay), wire_(wire), falling_(falling) {}
+  explicit SampleClock(std::uint64_t hertz) : hertz_(hertz) {}
 
   bool has_wire() const { return wire_.has_value(); }
-  std::uint64_t hertz() const { return hertz_; }
+  bool is_of(Replay::Slot wire, bool falling) const { return wire_ == wire && falling_ == falling; }
+  /// From edge to edge, of a wire on average; 0 if it has not two edges.
+  double period_s() const {
+    constexpr double ps_in_s = 1e12;
+    if (!wire_) return 1.0 / static_cast<double>(hertz_);
+    if (edges_ < 2) return 0;
+    return static_cast<double>(*last_edge_ps_ - first_edge_ps_) / static_cast<double>(edges_ - 1) /
+           ps_in_s;
+  }
 
   /// In every instant, before edges().
   void instant(std::uint64_t ps) {
@@ -245,29 +266,41 @@ class SampleClock {
       edges_ = static_cast<std::uint64_t>((scaled + twice - 1) / twice) - (hertz_ != 0 ? 1 : 0);
       return;
     }
-    const bool high = replay_.known(*wire_) && replay_.bits(*wire_) != 0;
-    const bool was_high = replay_.was_known(*wire_) && replay_.bits_before(*wire_) != 0;
-    edges_ += high && !was_high && replay_.was_known(*wire_);
-    if (high && !was_high) last_edge_ps_ = ps;
-    on_edge_ = last_edge_ps_ == ps;
+    turned_ = edge_ = false;
+    if (!replay_->known(*wire_) || !replay_->was_known(*wire_)) return;
+    const bool high = replay_->bits(*wire_) != 0, was_high = replay_->bits_before(*wire_) != 0;
+    edge_ = high != was_high && was_high == falling_;
+    turned_ = high != was_high && !edge_;
+    if (!edge_) return;
+    if (edges_++ == 0) first_edge_ps_ = ps;
+    last_edge_ps_ = ps;
   }
   std::uint64_t edges() const { return edges_; }
 
   /// True if an edge falls on `ps`, the present instant.
   bool falls_on(std::uint64_t ps) const {
-    if (wire_) return on_edge_;
+    if (wire_) return edge_ || last_edge_ps_ == ps;
     constexpr unsigned __int128 second = 1'000'000'000'000;
     const auto place = (static_cast<unsigned __int128>(edges_) * second + hertz_ / 2) / hertz_;
     return static_cast<std::uint64_t>(place) == ps;
   }
+  /// True if the wire goes back in the present instant.
+  bool goes_back() const { return turned_; }
+  /// From the wire's last edge to `ps`.
+  std::optional<std::uint64_t> since_edge(std::uint64_t ps) const {
+    if (!last_edge_ps_) return std::nullopt;
+    return ps - *last_edge_ps_;
+  }
 
  private:
-  Replay& replay_;
+  Replay* replay_ = nullptr;
   std::optional<Replay::Slot> wire_;
-  std::uint64_t hertz_;
+  bool falling_ = false;
+  std::uint64_t hertz_ = 0;
   std::uint64_t edges_ = 0;
-  std::uint64_t last_edge_ps_ = ~std::uint64_t{0};
-  bool on_edge_ = false;
+  std::uint64_t first_edge_ps_ = 0;
+  std::optional<std::uint64_t> last_edge_ps_;
+  bool edge_ = false, turned_ = false;
 };
 
 }  // namespace platform::trace

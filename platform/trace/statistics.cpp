@@ -32,10 +32,7 @@ double rounded(double value) {
 }
 
 std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
+  return text.find_first_of(",\"\n") == std::string::npos ? text : quoted_cell(text);
 }
 
 void append(std::string& line, const std::string& cell, std::size_t width, bool left) {
@@ -68,6 +65,16 @@ std::string as_text(const Table& table) {
 }
 
 }  // namespace
+
+std::string quoted_cell(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+std::string json_text(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 std::string tables_as_text(const std::vector<Table>& tables) {
   std::string text;

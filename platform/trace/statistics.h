@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,6 +31,10 @@ std::string tables_as_json(const std::vector<Table>& tables);
 /// Blocks separated by an empty line: the table's name, the columns, the rows.
 std::string tables_as_csv(const std::vector<Table>& tables);
 
+/// A cell of a CSV in quotes, and a text of JSON.
+std::string quoted_cell(const std::string& text);
+std::string json_text(const std::string& text);
+
 constexpr double ps_per_us = 1e6;
 constexpr double ps_per_s = 1e12;
 
@@ -36,6 +42,8 @@ constexpr double ps_per_s = 1e12;
 struct StatisticsOptions {
   /// Of the links, for a trace without the wire ps.fclk_clk0.clk (see --trace-clocks).
   std::uint64_t system_hz = 100'000'000;
+  std::optional<ClockEdge> clock{};                                ///< of all links
+  std::vector<std::pair<std::string, ClockEdge>> clock_of_link{};  ///< of some, by name
 };
 
 /// One kind of statistics. It follows the signals it finds in the trace.

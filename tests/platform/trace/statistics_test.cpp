@@ -4,6 +4,9 @@
 #include <marker/designs/marker/marker_design.h>
 #include <trace/statistics.h>
 
+#include <map>
+#include <tuple>
+
 #include "waves.h"
 
 namespace {
@@ -14,6 +17,10 @@ struct Numbers {
   explicit Numbers(const Waves& waves, std::uint64_t hertz = 100'000'000) {
     platform::trace::TraceFile file(waves.file);
     tables = platform::trace::statistics(file, platform::marker_words(), {hertz});
+  }
+  Numbers(const Waves& waves, const platform::trace::StatisticsOptions& options) {
+    platform::trace::TraceFile file(waves.file);
+    tables = platform::trace::statistics(file, platform::marker_words(), options);
   }
   Table::Cell at(const std::string& table, std::size_t row, const std::string& column) const {
     for (const Table& t : tables) {
@@ -30,8 +37,32 @@ struct Numbers {
   double real(const std::string& table, std::size_t row, const std::string& column) const {
     return std::get<double>(at(table, row, column));
   }
+  std::string text(const std::string& table, std::size_t row, const std::string& column) const {
+    return std::get<std::string>(at(table, row, column));
+  }
+  std::size_t rows(const std::string& table) const {
+    for (const Table& t : tables) {
+      if (t.name == table) return t.rows.size();
+    }
+    return 0;
+  }
   std::vector<Table> tables;
 };
+
+/// A clock that rises at `first`, first + period, …, and what else happens, in time's order.
+std::string with_clocks(const std::vector<std::tuple<char, unsigned, unsigned>>& clocks,
+                        std::multimap<unsigned, std::string> changes, unsigned end) {
+  for (const auto& [code, first, period] : clocks) {
+    changes.emplace(0, std::string("0") + code);
+    for (unsigned at = first; at < end; at += period) {
+      changes.emplace(at, std::string("1") + code);
+      changes.emplace(at + period / 2, std::string("0") + code);
+    }
+  }
+  std::string text;
+  for (const auto& [at, change] : changes) text += "#" + std::to_string(at) + " " + change + "\n";
+  return text + "#" + std::to_string(end + 100) + "\n";
+}
 
 const std::string link_signals = "pl.s.tvalid 1, pl.s.tready 1, pl.s.tlast 1, pl.s.tdata 32";
 
@@ -88,6 +119,128 @@ BOOST_AUTO_TEST_CASE(links_that_do_not_run_on_the_clock_are_refused) {
   const Waves waves(link_signals, "#0 0! 0\" 0#\n#13 1!\n#26 0!\n#39 1!\n#52 0!\n");
   BOOST_TEST(complaint([&] { Numbers{waves}; }).find("--clock") != std::string::npos);
   BOOST_TEST(complaint([&] { Numbers{waves, 1'000'000'000}; }) == "");
+}
+
+// Codes: ! and " clocks, # $ the first link, % & the second.
+BOOST_AUTO_TEST_CASE(every_link_has_its_own_clock) {
+  const std::string signals =
+      "top.a.aclk 1, top.b.bus_clk 1, top.a.m_axis_tvalid 1, top.a.m_axis_tready 1, "
+      "top.b.m_axis_tvalid 1, top.b.m_axis_tready 1";
+  const Waves waves(signals, with_clocks({{'!', 5, 10}, {'"', 7, 14}},
+                                         {{0, "0#"},
+                                          {0, "1$"},
+                                          {0, "0%"},
+                                          {0, "1&"},
+                                          {15, "1#"},
+                                          {45, "0#"},
+                                          {21, "1%"},
+                                          {63, "0%"}},
+                                         200));
+  const Numbers n(waves);
+  BOOST_TEST_REQUIRE(n.rows("links") == 2u);
+  BOOST_TEST(n.text("links", 0, "link") == "top.a.m_axis");
+  BOOST_TEST(n.text("links", 0, "clock") == "top.a.aclk");
+  BOOST_TEST(n.whole("links", 0, "beats") == 3u);
+  BOOST_TEST(n.text("links", 1, "clock") == "top.b.bus_clk");
+  BOOST_TEST(n.whole("links", 1, "beats") == 3u);
+  // Four bytes each 10 ns and 14 ns are all that the wires allow.
+  BOOST_TEST(n.real("links", 0, "mb_per_s") == 400.0, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.real("links", 1, "mb_per_s") == 4000.0 / 14, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(n.rows("links_left_out") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(edges_tell_which_of_two_clocks_it_is) {
+  const Waves waves(
+      "top.clk_fast 1, top.clk_slow 1, top.s_tvalid 1, top.s_tready 1",
+      with_clocks({{'!', 5, 10}, {'"', 8, 30}},
+                  {{0, "0#"}, {0, "1$"}, {38, "1#"}, {98, "0#"}, {128, "1#"}, {158, "0#"}}, 300));
+  const Numbers n(waves);
+  BOOST_TEST(n.text("links", 0, "clock") == "top.clk_slow");
+  BOOST_TEST(n.whole("links", 0, "beats") == 3u);
+}
+
+BOOST_AUTO_TEST_CASE(benches_drive_on_the_other_edge_or_some_time_after_it) {
+  const std::string signals = "top.clk 1, top.x 1, top.s_tvalid 1, top.s_tready 1";
+  const auto beats = [&](unsigned delay) {
+    const Waves waves(signals, with_clocks({{'!', 5, 10}},
+                                           {{0, "0#"},
+                                            {0, "1$"},
+                                            {15 + delay, "1#"},
+                                            {45 + delay, "0#"},
+                                            {65 + delay, "1#"},
+                                            {75 + delay, "0#"}},
+                                           200));
+    return Numbers(waves).whole("links", 0, "beats");
+  };
+  BOOST_TEST(beats(0) == 4u);
+  BOOST_TEST(beats(1) == 4u);
+  BOOST_TEST(beats(5) == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(a_link_without_a_clock_refuses_no_other) {
+  const std::string signals =
+      "top.clk 1, top.x 1, top.a_tvalid 1, top.a_tready 1, top.b_tvalid 1, top.b_tready 1";
+  const std::string changes = with_clocks({{'!', 5, 10}},
+                                          {{0, "0#"},
+                                           {0, "1$"},
+                                           {0, "0%"},
+                                           {0, "1&"},
+                                           {15, "1#"},
+                                           {45, "0#"},
+                                           {16, "1%"},
+                                           {28, "0%"},
+                                           {39, "1%"},
+                                           {51, "0%"},
+                                           {62, "1%"},
+                                           {74, "0%"}},
+                                          200);
+  const Waves waves(signals, changes);
+  const Numbers n(waves);
+  BOOST_TEST_REQUIRE(n.rows("links") == 1u);
+  BOOST_TEST(n.text("links", 0, "link") == "top.a");
+  BOOST_TEST_REQUIRE(n.rows("links_left_out") == 1u);
+  BOOST_TEST(n.text("links_left_out", 0, "link") == "top.b");
+}
+
+BOOST_AUTO_TEST_CASE(clocks_can_be_named) {
+  const Waves waves("top.clk 1, top.tick 1, top.s_tvalid 1, top.s_tready 1",
+                    with_clocks({{'!', 5, 10}, {'"', 5, 20}},
+                                {{0, "0#"}, {0, "1$"}, {5, "1#"}, {65, "0#"}}, 200));
+  platform::trace::StatisticsOptions options;
+  BOOST_TEST(Numbers(waves, options).whole("links", 0, "beats") == 6u);
+  options.clock_of_link = {{"s", {"tick", false}}};
+  BOOST_TEST(Numbers(waves, options).whole("links", 0, "beats") == 3u);
+  options.clock_of_link.clear();
+  options.clock = platform::trace::parse_clock_edge("tick falling");
+  const Numbers falling(waves, options);
+  BOOST_TEST(falling.text("links", 0, "clock") == "top.tick falling");
+  BOOST_TEST(falling.whole("links", 0, "beats") == 3u);
+  options.clock = platform::trace::parse_clock_edge("nothing");
+  BOOST_TEST(complaint([&] { Numbers(waves, options); }).find("nothing") != std::string::npos);
+  BOOST_TEST(complaint([&] {
+               platform::trace::parse_clock_edge("clk up");
+             }).find("'rising' or 'falling'") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_channels_of_axi_are_one_interface) {
+  const Waves waves(
+      "top.aclk 1, top.x 1, top.S_AXI_AWVALID 1, top.S_AXI_AWREADY 1, top.S_AXI_WVALID 1, "
+      "top.S_AXI_WREADY 1",
+      with_clocks({{'!', 5, 10}},
+                  {{0, "0#"},
+                   {0, "1$"},
+                   {0, "0%"},
+                   {0, "1&"},
+                   {15, "1#"},
+                   {25, "0#"},
+                   {25, "1%"},
+                   {45, "0%"}},
+                  100));
+  const Numbers n(waves);
+  BOOST_TEST_REQUIRE(n.rows("links") == 2u);
+  BOOST_TEST(n.text("links", 0, "interface") == "top.S_AXI");
+  BOOST_TEST(n.text("links", 1, "interface") == "top.S_AXI");
+  BOOST_TEST(n.whole("links", 1, "beats") == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(a_buffer_with_its_overflow) {
