@@ -2,8 +2,8 @@
 //   --mode=fast   the functions over whole frames that the transaction level uses (the usual one)
 //   --mode=scalar the same in plain C++: without SIMD
 //   --mode=naive  pixel by pixel
-#include <pl/common/simd_target.h>
 #include <marker/scene/pose.h>
+#include <pl/common/simd_target.h>
 
 #include <stdexcept>
 

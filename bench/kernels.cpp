@@ -1,11 +1,11 @@
 // The parts of a frame one by one, and OpenCV's FAST on the same image.
 #include <benchmark/benchmark.h>
+#include <marker/scene/renderer.h>
+#include <marker/scene/scene.h>
 #include <pl/blob_detection/core.h>
 #include <pl/common/simd_target.h>
 #include <pl/corner_detection/core.h>
 #include <pl/global_threshold/core.h>
-#include <marker/scene/renderer.h>
-#include <marker/scene/scene.h>
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>

@@ -25,9 +25,9 @@
 namespace {
 
 using platform::Simulation;
+using platform::facts::FrameReport;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
-using platform::facts::FrameReport;
 
 vp::Configuration configuration_of(const bench::Arguments& arguments) {
   vp::Configuration configuration;

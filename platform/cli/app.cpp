@@ -445,7 +445,8 @@ std::string see_help(const CLI::App& app) {
 std::string unknown_command(const CLI::App& app, const Application& application,
                             const std::string& word) {
   std::string hint = did_you_mean(word, command_names(app));
-  if (hint.empty() && application.is_input(word)) hint = "did you mean 'markervp run " + word + "'? ";
+  if (hint.empty() && application.is_input(word))
+    hint = "did you mean 'markervp run " + word + "'? ";
   return "unknown command '" + word + "': " + hint + "there are " +
          vp::join(command_names(app), ", ");
 }

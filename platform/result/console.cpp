@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include <result/console.h>
 #include <facts/summary.h>
+#include <result/console.h>
 #include <result/verdict.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -133,7 +133,8 @@ std::string times_text(const std::vector<facts::StageTime>& times) {
     values.clear();
   };
   for (const facts::StageTime& time : times) {
-    const std::string value = fmt::format("{:.1f}", static_cast<double>(time.ps) / facts::ps_per_us);
+    const std::string value =
+        fmt::format("{:.1f}", static_cast<double>(time.ps) / facts::ps_per_us);
     const std::size_t width = std::max(time.name.size(), value.size()) + (names.empty() ? 0 : 2);
     if (label_width + names.size() + width > console_width) flush();
     names += fmt::format("{:>{}}", time.name, width);
@@ -168,7 +169,8 @@ std::string share_text(double us, double whole) {
 
 /// The parts of stage `of`, each with its own parts below it, indented. `whole`: the time of which
 /// a part of something takes a share.
-std::string stage_lines(const facts::Summary& summary, const std::string& of, int depth, double whole) {
+std::string stage_lines(const facts::Summary& summary, const std::string& of, int depth,
+                        double whole) {
   std::string text;
   for (const facts::Summary::Stage& stage : summary.stages()) {
     if (stage.part_of != of) continue;
@@ -302,7 +304,8 @@ std::string mhz(double value) {
   return text + " MHz";
 }
 
-std::string power_line(const std::optional<facts::PowerReport>& known, const facts::ResourceReport& resources) {
+std::string power_line(const std::optional<facts::PowerReport>& known,
+                       const facts::ResourceReport& resources) {
   if (!known)
     return "power    unknown, as the figures of " + vp::join(resources.unknown, ", ") + " are\n";
   const facts::PowerReport& power = *known;
@@ -442,8 +445,8 @@ std::string clock_text(const facts::ClockReport& report) {
   return text;
 }
 
-std::string design_text(const std::optional<facts::PowerReport>& power, const facts::ResourceReport& resources,
-                        const facts::TimingReport& timing) {
+std::string design_text(const std::optional<facts::PowerReport>& power,
+                        const facts::ResourceReport& resources, const facts::TimingReport& timing) {
   return power_line(power, resources) + timing_line(timing) + resource_line(resources);
 }
 

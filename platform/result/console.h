@@ -28,7 +28,8 @@ constexpr std::size_t console_width = 100;
 
 /// A few lines on one frame: marker, corners, pose, error where the truth is known, counts, time
 /// per stage. `total` is the number of frames of the run, where known.
-std::string frame_text(const facts::FrameReport& frame, std::optional<std::uint64_t> total = std::nullopt);
+std::string frame_text(const facts::FrameReport& frame,
+                       std::optional<std::uint64_t> total = std::nullopt);
 
 /// What the run amounts to: frames, FPS, latency, mean errors, and a table of the stages. Of a
 /// program that reported no frame: when it ended, and how.
@@ -47,7 +48,7 @@ std::vector<std::string> resource_warnings(const facts::ResourceReport& resource
 std::vector<std::string> power_warnings(const facts::PowerReport& power);
 
 /// "power", "timing" and "fits" for the console, a line each.
-std::string design_text(const std::optional<facts::PowerReport>& power, const facts::ResourceReport& resources,
-                        const facts::TimingReport& timing);
+std::string design_text(const std::optional<facts::PowerReport>& power,
+                        const facts::ResourceReport& resources, const facts::TimingReport& timing);
 
 }  // namespace platform::result

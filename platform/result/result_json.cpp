@@ -1,7 +1,7 @@
 #include <result/result_json.h>
 
-#include <fcntl.h>
 #include <facts/summary.h>
+#include <fcntl.h>
 #include <vp/text.h>
 
 #include <algorithm>
@@ -191,7 +191,8 @@ Json to_json(const facts::FrameReport& frame) {
   if (frame.board) json["board"] = board_json(*frame.board);
   json["time_us"] = Json::object();
   for (const facts::StageTime& time : frame.times) {
-    json["time_us"][time.name] = rounded(static_cast<double>(time.ps) / facts::ps_per_us, us_places);
+    json["time_us"][time.name] =
+        rounded(static_cast<double>(time.ps) / facts::ps_per_us, us_places);
   }
   if (!frame.energy.empty()) json["energy_mj"] = energy_json(frame.energy);
   if (!frame.warnings.empty()) json["warnings"] = frame.warnings;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <host/output_folder.h>
 #include <facts/result.h>
 #include <facts/summary.h>
+#include <host/output_folder.h>
 #include <result/verdict.h>
 #include <vp/file.h>
 #include <nlohmann/json.hpp>

@@ -5,11 +5,11 @@
 #include <set>
 
 #include <host/document.h>
+#include <result/table.h>
 #include <study/point.h>
 #include <study/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
-#include <result/table.h>
 
 namespace platform::study {
 

@@ -7,9 +7,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include <vp/random.h>
 #include <study/expansion.h>
 #include <vp/error.h>
+#include <vp/random.h>
 
 namespace platform::study {
 

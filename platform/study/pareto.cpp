@@ -6,13 +6,13 @@
 #include <set>
 
 #include <result/metrics.h>
+#include <result/table.h>
 #include <study/pareto.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
-#include <result/table.h>
 
 namespace platform::study {
 

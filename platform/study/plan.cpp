@@ -11,10 +11,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include <result/metrics.h>
 #include <study/axes.h>
 #include <study/expansion.h>
 #include <study/manifest.h>
-#include <result/metrics.h>
 #include <study/pareto.h>
 #include <study/plan.h>
 #include <vp/error.h>

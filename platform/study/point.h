@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <study/manifest.h>
 #include <result/metrics.h>
+#include <study/manifest.h>
 #include <vp/error.h>
 
 namespace platform::study {
@@ -64,7 +64,7 @@ PointRecord read_point(const std::string& path, bool verify = true);
 /// What sweeps tell of a computed point; its file has the rest.
 struct Outcome {
   bool failed = false;
-  Failure failure;  ///< if it failed
+  Failure failure;          ///< if it failed
   result::Metrics metrics;  ///< empty if there is no result
   /// The parts of its verdict (result::verdict_parts) that are not `yes`, each with why.
   std::vector<std::pair<std::string, std::string>> complaints;

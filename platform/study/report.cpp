@@ -1,10 +1,10 @@
 #include <study/report.h>
 
-#include <result/page/report_page.h>
 #include <result/console.h>
-#include <study/comparison.h>
 #include <result/metrics.h>
+#include <result/page/report_page.h>
 #include <result/table.h>
+#include <study/comparison.h>
 #include <study/pareto.h>
 #include <study/sensitivity.h>
 #include <vp/text.h>
@@ -319,7 +319,8 @@ std::string page_block(const Results& results, const std::string& folder, const 
   for (const vp::Expression& constraint : results.constraints)
     json["constraints"].push_back(constraint.text());
   for (const Column& column : columns)
-    json["metrics"].push_back({{"path", column.text}, {"unit", result::unit_of_metric(column.text)}});
+    json["metrics"].push_back(
+        {{"path", column.text}, {"unit", result::unit_of_metric(column.text)}});
   if (!objectives.empty())
     json["influence"] = sensitivity_json(results, objectives.front().figure());
   if (!steps.is_null()) json["steps"] = steps;
@@ -346,7 +347,8 @@ bool write_page(const Results& results, const std::string& folder, const Json& s
                           {{"sweep", page_block(results, folder, steps)}});
 }
 
-std::vector<std::string> missing_figures(const Manifest& manifest, const result::Metrics::Names& known) {
+std::vector<std::string> missing_figures(const Manifest& manifest,
+                                         const result::Metrics::Names& known) {
   std::set<std::string> asked(manifest.metrics.begin(), manifest.metrics.end());
   const auto ask = [&](const vp::Expression& expression) {
     asked.insert(expression.names().begin(), expression.names().end());

@@ -38,6 +38,7 @@ bool write_page(const Results& results, const std::string& folder, const Json& s
 
 /// What to say of the figures that a sweep asks for and none of its results has; `known` are the
 /// names of those that there are, sorted.
-std::vector<std::string> missing_figures(const Manifest& manifest, const result::Metrics::Names& known);
+std::vector<std::string> missing_figures(const Manifest& manifest,
+                                         const result::Metrics::Names& known);
 
 }  // namespace platform::study

@@ -8,13 +8,13 @@
 
 #include <result/console.h>
 #include <result/metrics.h>
+#include <result/table.h>
 #include <study/pareto.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
-#include <result/table.h>
 
 namespace platform::study {
 
@@ -32,7 +32,8 @@ const std::string& holds_name(const std::string& part) {
 }
 
 /// The figures that rows have: of what the sweep asks for, and of `more`.
-result::Metrics::Names figures_of(const Manifest& manifest, const std::vector<vp::Expression>& more) {
+result::Metrics::Names figures_of(const Manifest& manifest,
+                                  const std::vector<vp::Expression>& more) {
   std::set<std::string> names;
   const auto add = [&](const vp::Expression& expression) {
     names.insert(expression.names().begin(), expression.names().end());
@@ -210,7 +211,8 @@ Outcome outcome_of(const PointRecord& record) {
     outcome.failure = {failure.value("exit_code", -1), failure.value("signal", 0),
                        failure.value("message", "")};
   }
-  if (record.outcome.contains("result")) outcome.metrics = result::metrics_of(record.outcome.at("result"));
+  if (record.outcome.contains("result"))
+    outcome.metrics = result::metrics_of(record.outcome.at("result"));
   outcome.complaints = complaints_of(record.outcome);
   return outcome;
 }
@@ -264,8 +266,8 @@ void check_names(const Results& results, const vp::Expression& expression) {
         std::any_of(results.rows.begin(), results.rows.end(), has_it))
       continue;
     const std::string nearest = vp::nearest_match(name, known);
-    expression.refuse(name, (result::kind_of_metric(name) ? "no point has '" : "unknown metric '") + name +
-                                "'" +
+    expression.refuse(name, (result::kind_of_metric(name) ? "no point has '" : "unknown metric '") +
+                                name + "'" +
                                 (nearest.empty() ? ": 'markervp metrics' lists them"
                                                  : "; did you mean '" + nearest + "'?"));
   }
@@ -298,7 +300,8 @@ namespace {
 class NumberColumn {
  public:
   const std::string& text(double value) {
-    if (std::memcmp(&value, &value_, sizeof value) != 0 || text_.empty()) text_ = result::csv_number(value);
+    if (std::memcmp(&value, &value_, sizeof value) != 0 || text_.empty())
+      text_ = result::csv_number(value);
     value_ = value;
     return text_;
   }

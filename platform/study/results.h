@@ -48,7 +48,7 @@ class Repetitions {
  private:
   void look_at(const result::Metrics& figures);
 
-  result::Metrics names_;                     ///< what the places below are of
+  result::Metrics names_;             ///< what the places below are of
   std::vector<std::size_t> results_;  ///< places of all figures but those of clocks
   std::vector<std::pair<std::size_t, std::size_t>> clocks_;  ///< of a frequency, and of its "used"
   std::unordered_map<std::size_t, std::size_t> rows_;        ///< by the hash of the results
@@ -92,10 +92,10 @@ struct Results {
 
   /// The configurations of the families, which their points share.
   std::vector<std::shared_ptr<const std::map<std::string, std::string>>> bases_;
-  std::shared_ptr<const RunLogs> logs_;  ///< which have all metrics; null: the rows have
-  std::vector<std::string> names_;       ///< of all metrics in them
-  result::CommonFigures common_;                 ///< of all metrics
-  std::optional<result::Selection> selection_;   ///< the figures that rows have; none: all
+  std::shared_ptr<const RunLogs> logs_;         ///< which have all metrics; null: the rows have
+  std::vector<std::string> names_;              ///< of all metrics in them
+  result::CommonFigures common_;                ///< of all metrics
+  std::optional<result::Selection> selection_;  ///< the figures that rows have; none: all
   Repetitions repetitions_;
 };
 

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include <study/manifest.h>
 #include <result/metrics.h>
+#include <study/manifest.h>
 #include <study/point.h>
 #include <study/store.h>
 

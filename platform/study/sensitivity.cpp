@@ -1,12 +1,12 @@
 #include <study/sensitivity.h>
 
-#include <study/comparison.h>
 #include <result/metrics.h>
+#include <result/table.h>
+#include <study/comparison.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <vp/error.h>
 #include <vp/text.h>
-#include <result/table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -246,33 +246,36 @@ std::string sensitivity_table(const SensitivityReport& report) {
   if (report.method == "morris") {
     result::TextTable table({"parameter", "mean size", "mean", "deviation", "effects", ""});
     for (const Sensitivity& row : report.rows)
-      table.add({row.path, result::readable(row.mean_size), result::readable(row.mean), result::readable(row.deviation),
-                 std::to_string(row.count), bar(row.mean_size, report.rows.front().mean_size)});
+      table.add({row.path, result::readable(row.mean_size), result::readable(row.mean),
+                 result::readable(row.deviation), std::to_string(row.count),
+                 bar(row.mean_size, report.rows.front().mean_size)});
     return table.text();
   }
   if (report.method == "all else equal") {
     result::TextTable table(
         {"parameter", "mean change", "comparisons", "the largest: from", "at", "to", "at", ""});
     for (const Sensitivity& row : report.rows)
-      table.add({row.path, result::readable(row.mean_size), std::to_string(row.count), result::readable(row.low),
-                 row.low_at, result::readable(row.high), row.high_at,
+      table.add({row.path, result::readable(row.mean_size), std::to_string(row.count),
+                 result::readable(row.low), row.low_at, result::readable(row.high), row.high_at,
                  bar(row.mean_size, report.rows.front().mean_size)});
     return table.text();
   }
   result::TextTable table({"parameter", "swing", "lowest", "at", "highest", "at", ""});
   for (const Sensitivity& row : report.rows)
-    table.add({row.path, result::readable(row.swing()), result::readable(row.low), row.low_at, result::readable(row.high),
-               row.high_at, bar(row.swing(), report.rows.front().swing())});
+    table.add({row.path, result::readable(row.swing()), result::readable(row.low), row.low_at,
+               result::readable(row.high), row.high_at,
+               bar(row.swing(), report.rows.front().swing())});
   return table.text();
 }
 
 std::string sensitivity_csv(const std::string& figure, const SensitivityReport& report) {
-  std::string text = result::csv_line({"figure", "method", "parameter", "count", "mean_size", "mean",
-                               "deviation", "low", "low_at", "high", "high_at"});
+  std::string text = result::csv_line({"figure", "method", "parameter", "count", "mean_size",
+                                       "mean", "deviation", "low", "low_at", "high", "high_at"});
   for (const Sensitivity& row : report.rows) {
     text += result::csv_line({figure, report.method, row.path, std::to_string(row.count),
-                      result::csv_number(row.mean_size), result::csv_number(row.mean), result::csv_number(row.deviation),
-                      result::csv_number(row.low), row.low_at, result::csv_number(row.high), row.high_at});
+                              result::csv_number(row.mean_size), result::csv_number(row.mean),
+                              result::csv_number(row.deviation), result::csv_number(row.low),
+                              row.low_at, result::csv_number(row.high), row.high_at});
   }
   return text;
 }
@@ -417,14 +420,15 @@ std::string effects_table(const StepEffects& effects) {
 }
 
 std::string effects_csv(const StepEffects& effects) {
-  std::string text = result::csv_line({"figure", "base", "parameter", "from", "to", "change", "trouble"});
+  std::string text =
+      result::csv_line({"figure", "base", "parameter", "from", "to", "change", "trouble"});
   for (std::size_t f = 0; f < effects.figures.size(); ++f) {
     const auto number = [](const std::optional<double>& value) {
       return value ? result::csv_number(*value) : "";
     };
     for (const StepEffects::Row& row : effects.rows)
       text += result::csv_line({effects.figures[f].text(), number(effects.base[f]), row.step.path,
-                        row.step.from, row.step.to, number(row.changes[f]), row.trouble});
+                                row.step.from, row.step.to, number(row.changes[f]), row.trouble});
   }
   return text;
 }
@@ -436,8 +440,9 @@ Json effects_json(const StepEffects& effects, const std::string& key) {
   Json json{{"key", key}, {"figures", Json::array()}, {"rows", Json::array()}};
   for (std::size_t f = 0; f < effects.figures.size(); ++f) {
     const std::string& path = effects.figures[f].text();
-    json["figures"].push_back(
-        {{"path", path}, {"unit", result::unit_of_metric(path)}, {"base", number(effects.base[f])}});
+    json["figures"].push_back({{"path", path},
+                               {"unit", result::unit_of_metric(path)},
+                               {"base", number(effects.base[f])}});
   }
   for (const StepEffects::Row& row : effects.rows) {
     Json changes = Json::array();

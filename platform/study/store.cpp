@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include <result/table.h>
 #include <study/manifest.h>
 #include <study/report.h>
 #include <vp/error.h>
 #include <vp/file.h>
-#include <result/table.h>
 
 namespace platform::study {
 

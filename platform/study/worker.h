@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <study/engine.h>
 #include <result/metrics.h>
+#include <study/engine.h>
 #include <study/point.h>
 
 namespace platform::study {

@@ -10,6 +10,7 @@
 //
 // The test bench sends what comes to `sink` back through `source`.
 #include <axi_dma_registers.h>
+#include <chip/system/processing_system.h>
 #include <drivers/axi_dma.h>
 #include <drivers/gic.h>
 #include <hal/hal.h>
@@ -23,7 +24,6 @@
 #include <vp/unit.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/concat/concat.h>
-#include <chip/system/processing_system.h>
 
 #include <cstdint>
 #include <exception>

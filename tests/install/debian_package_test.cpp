@@ -91,10 +91,9 @@ BOOST_AUTO_TEST_CASE(every_command_has_a_manual_page) {
 
 BOOST_AUTO_TEST_CASE(shells_and_cmake_find_their_part) {
   const DebianPackage& package = DebianPackage::get();
-  for (const char* path :
-       {"usr/share/bash-completion/completions/markervp",
-        "usr/lib/cmake/markervp/markervpConfig.cmake",
-        "usr/include/markervp/vp/vp/clock.h", "usr/lib/libmarkervp_vp.a"})
+  for (const char* path : {"usr/share/bash-completion/completions/markervp",
+                           "usr/lib/cmake/markervp/markervpConfig.cmake",
+                           "usr/include/markervp/vp/vp/clock.h", "usr/lib/libmarkervp_vp.a"})
     BOOST_TEST(fs::exists(package / path), path);
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include <marker/input/frame_source.h>
 #include <chip/run/simulation.h>
+#include <marker/input/frame_source.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -16,10 +16,10 @@ namespace integration {
 namespace {
 
 using platform::Simulation;
+using platform::facts::FrameReport;
 using platform::input::ImageSize;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
-using platform::facts::FrameReport;
 
 using Next = std::function<SharedFrame()>;
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <marker/input/frame_source.h>
 #include <facts/result.h>
+#include <marker/input/frame_source.h>
 
 namespace integration {
 

@@ -1,6 +1,6 @@
 // SLCR, UART and private timer in the whole platform, through their drivers.
-#include <marker/input/frame_source.h>
 #include <chip/run/simulation.h>
+#include <marker/input/frame_source.h>
 #include <vp/configuration.h>
 #include <boost/test/unit_test.hpp>
 #include <string>

@@ -1,12 +1,12 @@
 // Every bit of every register of the platform as it runs, through the processor's port: what it
 // reads after reset, and what writing ones and zeros does, is what its description says.
 #include <chip/system/designs.h>
+#include <chip/system/hardware_map.h>
 #include <slcr_registers.h>
 #include <vp/configuration.h>
 #include <vp/register_bank.h>
 #include <vp/report.h>
 #include <vp/text.h>
-#include <chip/system/hardware_map.h>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <functional>

@@ -1,15 +1,15 @@
 // One description of the registers: headers, models and documentation agree.
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
-#include <cli/commands.h>
 #include <chip/system/designs.h>
+#include <chip/system/hardware_map.h>
+#include <cli/commands.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <private_timer_registers.h>
 #include <slcr_registers.h>
 #include <uart_registers.h>
 #include <vp/configuration.h>
-#include <chip/system/hardware_map.h>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>

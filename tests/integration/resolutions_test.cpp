@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <facts/summary.h>
-#include <vp/random.h>
 #include <vp/error.h>
+#include <vp/random.h>
 
 #include "platform_run.h"
 

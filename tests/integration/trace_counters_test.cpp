@@ -3,9 +3,9 @@
 
 #include <map>
 
+#include <chip/run/simulation.h>
 #include <marker/designs/marker/marker_design.h>
 #include <marker/input/frame_source.h>
-#include <chip/run/simulation.h>
 #include <trace/statistics.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>

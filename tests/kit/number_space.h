@@ -10,7 +10,6 @@
 
 namespace space_test {
 
-
 namespace study = platform::study;
 
 /// Parameters a and b, numbers from 0 to 1000, and a word.

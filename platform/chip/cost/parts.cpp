@@ -77,7 +77,7 @@ std::vector<Part> parts_of(const sc_core::sc_object& pl) {
 }
 
 facts::ResourceReport resource_report(const std::vector<Part>& parts,
-                                       const device::Device& device) {
+                                      const device::Device& device) {
   facts::ResourceReport report;
   report.device = device.part;
   report.available = {device.lut.value, device.ff.value, device.bram36.value, device.dsp.value};
@@ -85,8 +85,8 @@ facts::ResourceReport resource_report(const std::vector<Part>& parts,
   for (const Part& ip : parts) {
     const vp::IpEstimate& e = ip.estimate;
     const facts::ResourceReport::Amount amount{static_cast<double>(e.lut),
-                                                static_cast<double>(e.ff), e.bram36,
-                                                static_cast<double>(e.dsp)};
+                                               static_cast<double>(e.ff), e.bram36,
+                                               static_cast<double>(e.dsp)};
     report.modules.push_back({ip.module, amount, e.uncertainty_percent, e.source, e.known});
     if (!e.known) report.unknown.push_back(ip.module);
     total.lut += amount.lut;

@@ -7,8 +7,8 @@
 #include <systemc>
 #include <vector>
 
-#include <fpga/device/device.h>
 #include <facts/result.h>
+#include <fpga/device/device.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -34,8 +34,7 @@ std::string name_of(const vp::Clock& clock);
 std::vector<Part> parts_of(const sc_core::sc_object& pl);
 
 /// What that takes of a device.
-facts::ResourceReport resource_report(const std::vector<Part>& parts,
-                                       const device::Device& device);
+facts::ResourceReport resource_report(const std::vector<Part>& parts, const device::Device& device);
 
 /// Whether each IP can be built for its clock: parameters `fmax` and `fmax_high` for each, by
 /// default what the IP says for the slowest speed grade, scaled to that of the device. A design

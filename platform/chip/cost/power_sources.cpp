@@ -1,12 +1,12 @@
 #include <chip/cost/power_sources.h>
 
+#include <chip/cost/parts.h>
+#include <chip/system/design.h>
 #include <fpga/power/design_estimate.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/systemc_pins.h>
 #include <xilinx/axi_dma/dma_channel.h>
-#include <chip/system/design.h>
-#include <chip/cost/parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -478,7 +478,7 @@ std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options) {
 }
 
 facts::ClockReport clock_report(Zynq& zynq, const PowerOptions& options, const PowerStates& states,
-                                 const std::vector<Part>& parts) {
+                                const std::vector<Part>& parts) {
   ProcessingSystem& ps = zynq.ps;
   const UsedClocks used(zynq, options, parts);
   ClockReport report;

@@ -6,14 +6,14 @@
 #include <systemc>
 #include <vector>
 
-#include <fpga/power/power_table.h>
+#include <chip/cost/parts.h>
+#include <chip/system/zynq.h>
 #include <facts/result.h>
+#include <fpga/power/power_table.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
-#include <chip/cost/parts.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 
@@ -123,6 +123,6 @@ std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options);
 /// All clocks that have a limit, with the highest frequency that they had. Clocks of the PL that no
 /// part of the design uses are marked so.
 facts::ClockReport clock_report(Zynq& zynq, const PowerOptions& options, const PowerStates& states,
-                                 const std::vector<Part>& parts);
+                                const std::vector<Part>& parts);
 
 }  // namespace platform

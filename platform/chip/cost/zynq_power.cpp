@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <fpga/power/design_estimate.h>
 #include <chip/cost/parts.h>
 #include <chip/cost/power_sources.h>
+#include <fpga/power/design_estimate.h>
 
 namespace platform {
 

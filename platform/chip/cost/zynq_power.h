@@ -6,14 +6,14 @@
 #include <systemc>
 #include <vector>
 
-#include <fpga/power/power_table.h>
-#include <facts/result.h>
-#include <facts/summary.h>
-#include <vp/power_meter.h>
-#include <vp/signal.h>
 #include <chip/cost/parts.h>
 #include <chip/cost/power_sources.h>
 #include <chip/system/zynq.h>
+#include <facts/result.h>
+#include <facts/summary.h>
+#include <fpga/power/power_table.h>
+#include <vp/power_meter.h>
+#include <vp/signal.h>
 
 namespace platform {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <host/guard.h>
 #include <chip/linux_app/protocol.h>
+#include <host/guard.h>
 
 namespace platform {
 

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <system_error>
 
+#include <chip/system/hardware_map.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <chip/system/hardware_map.h>
 
 namespace platform {
 

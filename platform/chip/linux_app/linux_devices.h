@@ -6,11 +6,11 @@
 #include <systemc>
 #include <vector>
 
-#include <host/guard.h>
 #include <chip/linux_app/protocol.h>
-#include <facts/result.h>
-#include <vp/parameter.h>
 #include <chip/system/zynq.h>
+#include <facts/result.h>
+#include <host/guard.h>
+#include <vp/parameter.h>
 
 namespace platform {
 

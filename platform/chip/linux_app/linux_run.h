@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include <chip/linux_app/application.h>
+#include <chip/linux_app/linux_devices.h>
+#include <chip/system/zynq.h>
+#include <chip/watch/software_watch.h>
 #include <drivers/gic.h>
 #include <drivers/timers.h>
 #include <hal/hal.h>
-#include <chip/linux_app/application.h>
-#include <chip/linux_app/linux_devices.h>
 #include <ps/cpu/program.h>
-#include <chip/watch/software_watch.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 

@@ -1,9 +1,9 @@
 #include <chip/run/frame_bench.h>
 
+#include <chip/system/hardware_map.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/unit.h>
-#include <chip/system/hardware_map.h>
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -173,7 +173,7 @@ void FrameBench::keep_settling(const facts::FrameReport& report) {
 std::optional<facts::CameraReport> FrameBench::camera_report() const {
   if (busy_ps_.count() == 0) return std::nullopt;
   return facts::CameraReport{camera_.fps(), busy_ps_.count() + dropped_, dropped_, busy_ps_.mean(),
-                              busy_ps_.max()};
+                             busy_ps_.max()};
 }
 
 double FrameBench::option(std::uint32_t option, const hal_option_info&) {

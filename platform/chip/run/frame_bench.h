@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
+#include <chip/run/camera_timing.h>
+#include <chip/run/software_options.h>
+#include <chip/system/zynq.h>
+#include <chip/watch/software_watch.h>
+#include <facts/result.h>
+#include <facts/summary.h>
 #include <hal/hal.h>
 #include <marker/input/frame_source.h>
 #include <ps/cpu/cpu.h>
-#include <facts/result.h>
-#include <facts/summary.h>
 #include <vp/report.h>
-#include <chip/run/camera_timing.h>
-#include <chip/run/software_options.h>
-#include <chip/watch/software_watch.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 
@@ -99,7 +99,7 @@ class FrameBench : public ps::TestBench {
   input::SharedFrame image_;             ///< before the camera
   std::uint32_t showings_left_ = 0;      ///< of it; the last one counts
   std::uint32_t settling_showings_ = 0;  ///< of all images
-  facts::FrameReport settling_;         ///< of the image that settles: warnings, end and number
+  facts::FrameReport settling_;          ///< of the image that settles: warnings, end and number
   std::uint64_t taken_ = 0, published_ = 0;
   std::optional<facts::FrameReport> waiting_;  ///< for the end of its period
   bool waiting_counts_ = true;

@@ -1,6 +1,9 @@
 #include <chip/run/simulation.h>
 
 #include <chip/system/designs.h>
+#include <chip/system/hardware_map.h>
+#include <chip/watch/debugger.h>
+#include <chip/watch/profiler.h>
 #include <pl/common/rtl_pins.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/error.h>
@@ -8,9 +11,6 @@
 #include <vp/foreign_object.h>
 #include <vp/systemc_pins.h>
 #include <vp/unit.h>
-#include <chip/watch/debugger.h>
-#include <chip/system/hardware_map.h>
-#include <chip/watch/profiler.h>
 #include <algorithm>
 #include <numeric>
 #include <ostream>

@@ -7,26 +7,26 @@
 #include <string>
 #include <vector>
 
-#include <host/process.h>
-#include <marker/input/image_file.h>
-#include <chip/linux_app/linux_run.h>
-#include <chip/run/cost_profile.h>
-#include <ps/cpu/program.h>
-#include <facts/result.h>
-#include <vp/parameter.h>
-#include <vp/report.h>
-#include <vp/trace.h>
-#include <chip/watch/bus_log.h>
-#include <chip/run/camera_timing.h>
-#include <chip/run/frame_bench.h>
 #include <chip/cost/parts.h>
-#include <chip/watch/remote_control.h>
+#include <chip/cost/zynq_power.h>
+#include <chip/linux_app/linux_run.h>
+#include <chip/run/camera_timing.h>
+#include <chip/run/cost_profile.h>
+#include <chip/run/frame_bench.h>
 #include <chip/run/software_options.h>
+#include <chip/system/zynq.h>
+#include <chip/watch/bus_log.h>
+#include <chip/watch/remote_control.h>
 #include <chip/watch/stop_point.h>
 #include <chip/watch/terminal.h>
 #include <chip/watch/timeline_recorder.h>
-#include <chip/system/zynq.h>
-#include <chip/cost/zynq_power.h>
+#include <facts/result.h>
+#include <host/process.h>
+#include <marker/input/image_file.h>
+#include <ps/cpu/program.h>
+#include <vp/parameter.h>
+#include <vp/report.h>
+#include <vp/trace.h>
 
 namespace platform {
 

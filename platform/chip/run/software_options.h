@@ -6,11 +6,11 @@
 #include <systemc>
 #include <vector>
 
-#include <hal/hal.h>
-#include <chip/run/cost_profile.h>
-#include <vp/parameter.h>
 #include <chip/run/camera_timing.h>
+#include <chip/run/cost_profile.h>
 #include <chip/system/design.h>
+#include <hal/hal.h>
+#include <vp/parameter.h>
 
 namespace platform {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <vp/ip.h>
 #include <chip/cost/parts.h>
+#include <vp/ip.h>
 
 namespace platform {
 

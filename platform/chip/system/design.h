@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include <marker/input/image_file.h>
-#include <pl/common/fidelity.h>
+#include <chip/system/processing_system.h>
 #include <facts/result.h>
+#include <marker/input/image_file.h>
 #include <marker/scene/grey_image.h>
+#include <pl/common/fidelity.h>
 #include <trace/vocabulary.h>
 #include <vp/router.h>
 #include <vp/signal.h>
 #include <xilinx/axi_dma/dma_channel.h>
-#include <chip/system/processing_system.h>
 
 namespace platform {
 

@@ -1,11 +1,11 @@
 #include <chip/system/designs.h>
 
+#include <chip/system/design_plugin.h>
 #include <dlfcn.h>
 #include <host/process.h>
 #include <vp/error.h>
 #include <vp/foreign_object.h>
 #include <vp/text.h>
-#include <chip/system/design_plugin.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <facts/result.h>
 #include <chip/system/zynq.h>
+#include <facts/result.h>
 
 /// Writes xparameters.h from a memory map, in the names that Vivado exports.
 namespace xparameters {

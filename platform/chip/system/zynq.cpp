@@ -2,12 +2,12 @@
 
 #include <cstring>
 
+#include <chip/system/hardware_map.h>
 #include <gic_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <chip/system/hardware_map.h>
 
 namespace platform {
 

@@ -8,10 +8,10 @@
 #include <systemc>
 #include <utility>
 
-#include <vp/clock_scheduler.h>
-#include <vp/parameter.h>
 #include <chip/system/design.h>
 #include <chip/system/processing_system.h>
+#include <vp/clock_scheduler.h>
+#include <vp/parameter.h>
 
 namespace platform {
 

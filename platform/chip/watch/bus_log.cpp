@@ -6,12 +6,12 @@
 #include <cstring>
 #include <utility>
 
+#include <chip/system/hardware_map.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <xilinx/axi_dma/dma_channel.h>
-#include <chip/system/hardware_map.h>
 
 namespace platform {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <chip/system/zynq.h>
 #include <facts/result.h>
 #include <vp/file.h>
 #include <vp/ip.h>
 #include <vp/mm_link.h>
 #include <vp/probe.h>
 #include <vp/signal.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 

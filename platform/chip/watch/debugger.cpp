@@ -2,9 +2,9 @@
 
 #include <ps/cpu/line_guard.h>
 
+#include <chip/system/hardware_map.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <chip/system/hardware_map.h>
 #include <csignal>
 #include <iostream>
 #include <optional>

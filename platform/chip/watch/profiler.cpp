@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <vp/text.h>
 #include <chip/system/hardware_map.h>
+#include <vp/text.h>
 
 namespace platform {
 

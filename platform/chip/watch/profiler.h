@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <ps/cpu/cpu.h>
 #include <chip/system/zynq.h>
+#include <ps/cpu/cpu.h>
 
 namespace platform {
 

@@ -5,14 +5,14 @@
 #include <cstring>
 #include <utility>
 
+#include <chip/system/hardware_map.h>
+#include <chip/watch/bus_log.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <vp/axi_stream.h>
 #include <vp/expression.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <chip/watch/bus_log.h>
-#include <chip/system/hardware_map.h>
 
 namespace platform {
 

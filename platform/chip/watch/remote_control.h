@@ -7,9 +7,9 @@
 #include <systemc>
 #include <vector>
 
+#include <chip/system/zynq.h>
 #include <vp/host_ticks.h>
 #include <vp/signal.h>
-#include <chip/system/zynq.h>
 #include <nlohmann/json.hpp>
 
 namespace platform {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include <chip/system/zynq.h>
 #include <ps/cpu/line_guard.h>
 #include <ps/memory/memory.h>
 #include <vp/mm_link.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include <vp/report.h>
-#include <chip/watch/bus_log.h>
 #include <chip/system/zynq.h>
+#include <chip/watch/bus_log.h>
+#include <vp/report.h>
 
 namespace platform {
 

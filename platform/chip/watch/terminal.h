@@ -6,9 +6,9 @@
 #include <string>
 #include <systemc>
 
+#include <chip/system/zynq.h>
 #include <host/guard.h>
 #include <ps/uart/uart.h>
-#include <chip/system/zynq.h>
 
 namespace platform {
 

@@ -9,10 +9,10 @@
 #include <facts/timeline.h>
 #include <functional>
 
-#include <vp/clock_scheduler.h>
-#include <vp/signal.h>
 #include <chip/system/design.h>
 #include <chip/system/zynq.h>
+#include <vp/clock_scheduler.h>
+#include <vp/signal.h>
 
 namespace platform {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fpga/synthesis/synthesis.h>
 #include <host/digest.h>
 #include <host/document.h>
 #include <host/process.h>
-#include <fpga/synthesis/synthesis.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <unordered_map>
 
-#include <host/document.h>
 #include <fpga/synthesis/cell_kinds.h>
 #include <fpga/synthesis/clocks.h>
 #include <fpga/synthesis/lut_pairs.h>
+#include <host/document.h>
 #include <vp/error.h>
 
 namespace platform::synthesis {

@@ -117,7 +117,8 @@ cli::RunCommand add_scenes(CLI::App& parser) {
   const auto options = std::make_shared<ScenesOptions>();
   ScenesOptions& target = *options;
   CLI::App* command = parser.add_subcommand("scenes", "list the scenes that can be rendered");
-  command->add_option("GROUP", target.group, "only this group, in detail")->type_name(vp::join(group_names(), "|"));
+  command->add_option("GROUP", target.group, "only this group, in detail")
+      ->type_name(vp::join(group_names(), "|"));
   command->add_flag("--names", target.names_only, "one name a line, for scripts");
   command->add_option("-o,--output", target.output, "write images and truth.json of them")
       ->type_name("DIR");

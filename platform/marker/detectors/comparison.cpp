@@ -1,8 +1,8 @@
 #include <marker/detectors/comparison.h>
 
-#include <marker/detectors/peers.h>
 #include <fmt/format.h>
 #include <host/process.h>
+#include <marker/detectors/peers.h>
 #include <result/console.h>
 #include <vp/text.h>
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <facts/summary.h>
 #include <marker/detectors/peers.h>
 #include <marker/detectors/truth.h>
 #include <result/result_json.h>
-#include <facts/summary.h>
 
 /// Detectors on the same images: what each one saw, judged by what is in them.
 namespace platform::detectors {

@@ -8,8 +8,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
-#include <marker/detectors/peers.h>
 #include <host/stderr_capture.h>
+#include <marker/detectors/peers.h>
 
 namespace platform::detectors {
 

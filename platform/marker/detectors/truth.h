@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <result/result_json.h>
 #include <marker/scene/pose.h>
 #include <marker/scene/scene.h>
+#include <result/result_json.h>
 
 namespace platform::detectors {
 

@@ -1,11 +1,11 @@
 #include <marker/picture/picture.h>
 
+#include <facts/result.h>
+#include <facts/summary.h>
 #include <fmt/format.h>
 #include <marker/picture/canvas.h>
 #include <png.h>
 #include <result/console.h>
-#include <facts/result.h>
-#include <facts/summary.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -49,8 +49,7 @@ std::string title(const facts::FrameReport& frame) {
   std::string text = frame.input;
   if (!frame.delivered()) return text + "   no result: " + frame.gave_up;
   if (frame.markers.empty()) return text + "   no marker";
-  for (const facts::FoundMarker& marker : frame.markers)
-    text += fmt::format("   ID {}", marker.id);
+  for (const facts::FoundMarker& marker : frame.markers) text += fmt::format("   ID {}", marker.id);
   return text;
 }
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include <result/console.h>
-#include <result/result_json.h>
 #include <marker/scene/scene.h>
 #include <marker/validation/measured.h>
 #include <marker/validation/published.h>
+#include <result/console.h>
+#include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <nlohmann/json.hpp>

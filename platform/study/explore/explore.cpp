@@ -1,13 +1,13 @@
 #include <study/explore/explore.h>
 
 #include <result/console.h>
-#include <result/verdict.h>
 #include <result/metrics.h>
+#include <result/table.h>
+#include <result/verdict.h>
 #include <study/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <result/table.h>
 
 #include <algorithm>
 #include <cmath>

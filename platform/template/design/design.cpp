@@ -1,7 +1,7 @@
 // A design of your own: the thesis' marker detector with a median filter behind the sensor, and a
 // device that counts frames beside the GPIO.
-#include <marker/designs/marker/marker_design.h>
 #include <chip/system/design_plugin.h>
+#include <marker/designs/marker/marker_design.h>
 
 #include "frame_counter.h"
 #include "median.h"

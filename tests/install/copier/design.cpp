@@ -1,6 +1,6 @@
 // The thesis' marker detector, and a DMA engine that copies: what it reads it writes elsewhere.
-#include <marker/designs/marker/marker_design.h>
 #include <chip/system/design_plugin.h>
+#include <marker/designs/marker/marker_design.h>
 
 namespace {
 

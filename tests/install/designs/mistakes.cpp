@@ -1,6 +1,6 @@
 // A design with the mistake that MISTAKE names.
-#include <marker/designs/marker/marker_design.h>
 #include <chip/system/design_plugin.h>
+#include <marker/designs/marker/marker_design.h>
 
 #include <vp/clock.h>
 #include <vp/systemc_pins.h>

@@ -4,10 +4,10 @@
 
 #include "Vcorner.h"
 
+#include <chip/system/design_plugin.h>
 #include <marker/designs/marker/marker_design.h>
 #include <pl/corner_detection/corner_detection.h>
 #include <vp/systemc_pins.h>
-#include <chip/system/design_plugin.h>
 
 #include <iostream>
 #include <memory>

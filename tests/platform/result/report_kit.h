@@ -8,7 +8,7 @@ namespace report_test {
 
 /// The frame of a scene in which the marker was found, with known small errors.
 inline platform::facts::FrameReport found_frame(const std::string& scene, std::uint32_t index = 0,
-                                                 std::uint64_t losses = 0) {
+                                                std::uint64_t losses = 0) {
   using namespace platform;
   facts::FrameReport frame;
   frame.input = scene;
@@ -42,7 +42,7 @@ inline platform::facts::FrameReport found_frame(const std::string& scene, std::u
 
 /// The same frame, given up when it would have ended.
 inline platform::facts::FrameReport given_up_frame(const std::string& scene,
-                                                    std::uint32_t index = 0) {
+                                                   std::uint32_t index = 0) {
   platform::facts::FrameReport frame = found_frame(scene, index);
   frame.gave_up = "binary image timed out";
   frame.markers.clear();

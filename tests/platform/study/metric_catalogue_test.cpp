@@ -13,7 +13,8 @@ BOOST_AUTO_TEST_CASE(a_metric_has_unit_and_meaning) {
   BOOST_TEST(result::unit_of_metric("frames.time_us.pose.max") == "µs");
   BOOST_TEST(result::unit_of_metric("timing.met") == "");
   BOOST_TEST(result::unit_of_metric("power.total_w.nominal / summary.fps.mean") == "");
-  BOOST_TEST(result::kind_of_metric("frames.time_us.pose.mean")->meaning == std::string("time of a stage"));
+  BOOST_TEST(result::kind_of_metric("frames.time_us.pose.mean")->meaning ==
+             std::string("time of a stage"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_metric_is_refused_with_the_nearest) {
@@ -30,7 +31,8 @@ BOOST_AUTO_TEST_CASE(the_table_shows_what_is_asked_for) {
   const std::string table = result::metric_table("fps");
   BOOST_TEST(table.find("summary.fps.min") != std::string::npos, table);
   BOOST_TEST(table.find("power") == std::string::npos, table);
-  BOOST_TEST(result::metric_table("frames.time_us.pose.mean").find("time of a stage") != std::string::npos);
+  BOOST_TEST(result::metric_table("frames.time_us.pose.mean").find("time of a stage") !=
+             std::string::npos);
   BOOST_TEST(complaint([] { result::metric_table("sumary.fps.mean"); }).find("summary.fps.mean") !=
              std::string::npos);
 }

@@ -1,11 +1,11 @@
 #include <host/digest.h>
-#include <study/manifest.h>
 #include <result/metrics.h>
+#include <result/table.h>
+#include <study/manifest.h>
 #include <study/point.h>
 #include <study/report.h>
 #include <study/store.h>
 #include <vp/unit.h>
-#include <result/table.h>
 
 #include "sweep_kit.h"
 #include "temporary_files.h"
@@ -210,7 +210,8 @@ BOOST_AUTO_TEST_CASE(a_module_with_several_rows_is_one_figure) {
 
 BOOST_AUTO_TEST_CASE(a_marker_counts_as_found_with_its_id_only) {
   const auto rate = [](const char* frames) {
-    const result::Metrics metrics = result::metrics_of(Json::parse(std::string("{\"frames\": ") + frames + "}"));
+    const result::Metrics metrics =
+        result::metrics_of(Json::parse(std::string("{\"frames\": ") + frames + "}"));
     const double* found = metrics.find("summary.detection_rate");
     return found ? *found : -1;
   };

@@ -8,11 +8,11 @@
 #include <sstream>
 #include <utility>
 
+#include <result/table.h>
 #include <result/verdict.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <study/run_log.h>
-#include <result/table.h>
 
 #include "child_process.h"
 #include "sweep_kit.h"

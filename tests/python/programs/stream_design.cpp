@@ -1,10 +1,10 @@
 // A DMA engine between two ends of streams that a test holds: it gives words to `source` and looks
 // at what came to `sink`. The pins of a GPIO it holds, too.
+#include <chip/system/design_plugin.h>
 #include <vp/axi_stream.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
-#include <chip/system/design_plugin.h>
 
 namespace {
 

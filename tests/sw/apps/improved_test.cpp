@@ -1,6 +1,6 @@
 #include <apps/improved/application.h>
-#include <marker/work.h>
 #include <marker/scene/renderer.h>
+#include <marker/work.h>
 
 #include <blob_stream.h>
 

@@ -1,11 +1,11 @@
 // xparameters.h is what the platform writes for the platform as it is built.
 #include <boost/test/unit_test.hpp>
 
-#include <chip/system/designs.h>
-#include <drivers/timers.h>
 #include <chip/run/simulation.h>
-#include <vp/configuration.h>
+#include <chip/system/designs.h>
 #include <chip/system/hardware_map.h>
+#include <drivers/timers.h>
+#include <vp/configuration.h>
 
 #include "simulation.h"
 #include "temporary_files.h"

@@ -1,7 +1,7 @@
 #include <marker/marker_detector.h>
+#include <marker/scene/renderer.h>
 #include <marker/work.h>
 #include <vp/random.h>
-#include <marker/scene/renderer.h>
 
 #include <blob_stream.h>
 

@@ -9,8 +9,8 @@
 
 #include <blob_stream.h>
 #include <chip/system/designs.h>
-#include <marker_logic.h>
 #include <facts/result.h>
+#include <marker_logic.h>
 #include <vp/clock.h>
 #include <vp/text.h>
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <chip/system/design.h>
 #include <marker/designs/improved/improved_logic.h>
 #include <marker/detection_result.h>
 #include <trace/vocabulary.h>
 #include <vp/clock_scheduler.h>
-#include <chip/system/design.h>
 
 namespace platform {
 

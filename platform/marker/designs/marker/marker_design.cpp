@@ -1,9 +1,9 @@
 #include <marker/designs/marker/marker_design.h>
 
 #include <axi_gpio_registers.h>
+#include <facts/result.h>
 #include <marker/result.h>
 #include <marker_logic.h>
-#include <facts/result.h>
 #include <vp/clock.h>
 #include <vp/error.h>
 #include <vp/register_bank.h>

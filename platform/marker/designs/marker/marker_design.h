@@ -8,6 +8,7 @@
 #include <systemc>
 #include <vector>
 
+#include <chip/system/design.h>
 #include <pl/feature_extraction/feature_extraction.h>
 #include <ps/cpu/cpu.h>
 #include <trace/vocabulary.h>
@@ -18,7 +19,6 @@
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 #include <xilinx/concat/concat.h>
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
-#include <chip/system/design.h>
 
 namespace platform {
 

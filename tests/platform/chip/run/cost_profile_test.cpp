@@ -1,6 +1,6 @@
 // Cost profiles: what is installed, and what is refused.
-#include <marker/work.h>
 #include <chip/run/cost_profile.h>
+#include <marker/work.h>
 #include <vp/error.h>
 
 #include <boost/test/unit_test.hpp>

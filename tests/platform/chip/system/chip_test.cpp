@@ -1,8 +1,8 @@
 // What the device and its clock generators change of a platform.
+#include <chip/cost/zynq_power.h>
 #include <chip/system/designs.h>
 #include <result/console.h>
 #include <slcr_registers.h>
-#include <chip/cost/zynq_power.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

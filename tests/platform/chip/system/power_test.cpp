@@ -1,8 +1,8 @@
 // Energy of the platform without a program: clocks and states are set by hand.
-#include <chip/system/designs.h>
-#include <result/console.h>
-#include <marker/designs/marker/marker_design.h>
 #include <chip/cost/zynq_power.h>
+#include <chip/system/designs.h>
+#include <marker/designs/marker/marker_design.h>
+#include <result/console.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
 // What estimates take from the figures of synthesis: between them, beyond them, and within what is
 // known otherwise.
-#include <host/digest.h>
 #include <fpga/synthesis/known_figures.h>
 #include <fpga/synthesis/synthesis.h>
+#include <host/digest.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cstdint>

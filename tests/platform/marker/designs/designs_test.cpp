@@ -1,6 +1,6 @@
 // Which design runs: by its name, by its program, or the usual one.
-#include <chip/system/designs.h>
 #include <chip/run/simulation.h>
+#include <chip/system/designs.h>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <initializer_list>

@@ -107,8 +107,8 @@ BOOST_AUTO_TEST_CASE(turned_pictures_tell_what_the_speed_up_would_cost) {
              boost::test_tools::tolerance(1e-9));
 }
 
-/// Pixels that pass the pre-test of FAST: two adjacent ones of the four compass pixels at distance 3
-/// are brighter by more than `threshold`.
+/// Pixels that pass the pre-test of FAST: two adjacent ones of the four compass pixels at distance
+/// 3 are brighter by more than `threshold`.
 std::uint64_t count_evaluated(const platform::GreyImage& image, int threshold) {
   constexpr int radius = 3;
   std::uint64_t count = 0;
