@@ -18,6 +18,7 @@
 #include <vp/text.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <ostream>
 #include <sstream>
@@ -407,7 +408,11 @@ int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err) {
       if (!plays[i].name.empty()) err << "in the play '" << plays[i].name << "':\n";
       err << (plays[i].name.empty() ? end.err : without_warnings(end.err));
       out << end.out;
-      return end.exit_code;
+      if (end.signal == 0) return end.exit_code;
+      return host::fail(err,
+                        std::string("the process that played it was ended by the signal '") +
+                            ::strsignal(end.signal) + "', before it could say where",
+                        protocol_broken);
     }
     if (plays[i].name.empty()) err << end.err;
     merge(all, Json::parse(end.out.substr(end.out.rfind('\n', end.out.size() - 2) + 1)));
