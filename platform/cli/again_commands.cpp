@@ -147,6 +147,7 @@ void become_gdb(pid_t process, const std::vector<std::string>& commands) {
   if (!commands.empty()) words.push_back("-batch");
   for (const std::string& command : commands) words.insert(words.end(), {"-ex", command});
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   ::unsetenv("DEBUGINFOD_URLS");  // it would ask whether to look for sources there

@@ -77,6 +77,7 @@ std::string all_names(const CommandDescription& command) {
 
 std::string command_names(const std::vector<CommandDescription>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CommandDescription& command : commands) names.push_back(command.name);
   return vp::join(names, " ");
 }

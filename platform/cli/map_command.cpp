@@ -188,6 +188,7 @@ std::string fields(const HardwareMap::Device& device) {
 /// Devices of one kind: the first stands for all.
 std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
   std::vector<std::string> names;
+  names.reserve(kind.size());
   for (const HardwareMap::Device* d : kind) {
     names.push_back(fmt::format("`{}` at {}", d->name, address(d->base)));
   }
