@@ -22,7 +22,7 @@ set(CMAKE_UNITY_BUILD ${MARKERVP_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
 
 add_compile_options(-Wall -Wextra -ffp-contract=off)
-# Nobody replaces a function of ours at load time: the compiler may inline across them in spite of -fPIC.
+# No function of ours is replaced at load time: the compiler may inline across them in spite of -fPIC.
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag(-fno-semantic-interposition MARKERVP_HAS_NO_INTERPOSITION)
 if(MARKERVP_HAS_NO_INTERPOSITION)

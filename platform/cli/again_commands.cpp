@@ -49,7 +49,7 @@ RunOptions options_of(const std::string& folder) {
   if (run.control) throw vp::InputError("a test led this run: make it again with that test");
   if (!run.terminals.empty()) {
     throw vp::InputError(
-        "this run had a terminal (--terminal), and nobody knows when what was typed: "
+        "this run had a terminal (--terminal), and when each key was typed is not known:  "
         "type it with a test instead (docs/software.md), that is the same each time");
   }
   run.trace.reset();

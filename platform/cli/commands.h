@@ -45,7 +45,7 @@ struct MemoryRun {
   std::map<std::string, std::string> configuration;  ///< effective
   std::vector<std::string> history;                  ///< if asked for
   std::string missed_stop;          ///< why it did not stop where it was to; "" if it did
-  std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody
+  std::ostream* console = nullptr;  ///< gets what the program prints; null: it is dropped
 };
 
 /// run() without files and console: no pictures, page, trace. `result` is filled when run() would

@@ -25,7 +25,7 @@ class FrameRunner {
     host::OutputFolder* pictures = nullptr;  ///< gets a picture a frame; null: none
     bool text = true;                        ///< a few lines per frame on `out`
     bool progress = false;                   ///< a bar on stderr
-    std::atomic<std::uint64_t>* done;        ///< counts frames; null: nobody asks
+    std::atomic<std::uint64_t>* done;        ///< counts frames; may be null
     std::ostream& out;
     result::ResultSink& result;
     page::RunExtras* page = nullptr;  ///< gets images and features; null: no page

@@ -83,7 +83,7 @@ struct RunOptions : PlatformOptions {
   bool quiet = false;
   std::optional<HistoryOptions> history;  ///< what a second run is to find out
   std::optional<DebugOptions> debug;      ///< where a second run is to stop
-  /// Counts frames that are done, in memory that another process may watch; null: nobody does.
+  /// Counts frames that are done, in memory that another process may watch; may be null.
   std::atomic<std::uint64_t>* frames_done = nullptr;
 };
 

@@ -34,7 +34,7 @@ int write_vectors(const RtlOptions& options, const std::vector<std::string>& arg
   run_options.configuration.assignments.push_back("pl.fidelity." + options.ip +
                                                   "=vectors:" + folder.string());
   run_options.no_pictures = run_options.no_report = run_options.quiet = true;
-  std::ostringstream summary;  // of a run that nobody asked for
+  std::ostringstream summary;  // of a run that is only a means
   const int code = run(run_options, arguments, summary, err);
   if (code != done) return code;
   out << "wrote stimulus.hex, response.hex, bench.sv and bench.vhd of "

@@ -42,7 +42,7 @@ int run_point(const study::PointRun& point, study::PointResult& result, std::ost
 void warm_up(const study::Manifest& manifest, const std::vector<std::size_t>& positions);
 
 /// Positions of the points from `first` on that have no result yet. Results that no log knows are
-/// read, and logged. Throws vp::InputError for one that somebody changed.
+/// read, and logged. Throws vp::InputError for one that was changed.
 std::vector<std::size_t> pending_points(const study::Store& store, study::RunLogs& logs,
                                         const study::Manifest& manifest, std::size_t first,
                                         bool retry_failed, std::ostream& err);

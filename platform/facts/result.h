@@ -89,7 +89,7 @@ struct TimingReport {
     std::string clock;
     double frequency_mhz = 0;   ///< the highest that the clock had
     double fmax_mhz = 0;        ///< up to this clock it works
-    double fmax_high_mhz = 0;   ///< above this it does not; between them nobody knows
+    double fmax_high_mhz = 0;   ///< above this it does not; between them it is unknown
     bool met = true;            ///< its clock is one at which it works
     double margin_percent = 0;  ///< by how much the clock may rise up to fmax; negative: must fall
     std::string origin;         ///< of the range: "published", "derived", …, "configuration"

@@ -32,7 +32,7 @@ const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found);
 /// For a marker that the scene does not have: "another marker: the scene has 0 and 9 more".
 std::string another_marker_text(const FrameReport& frame);
 
-/// Cuts a run into the periods of its frames, for whoever divides by time: the frame rate and the
+/// Cuts a run into the periods of its frames, for all that divides by time: the frame rate and the
 /// power use the same ones.
 ///
 /// A period reaches from the end of the frame before it (its own start, for the first) to its own

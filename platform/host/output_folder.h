@@ -16,7 +16,7 @@ class FileLock {
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
 
-  /// Locks a byte of a file, which is made if missing. Without `wait`, false if somebody else has
+  /// Locks a byte of a file, which is made if missing. Without `wait`, false if another process has
   /// it. Throws vp::OutputError.
   bool take(const std::string& path, std::uint64_t byte, bool wait);
 
@@ -58,7 +58,7 @@ class OutputFolder {
 
   const std::string& path() const { return path_; }
 
-  /// In a forked process: keeps nobody out any more, however long it takes to end.
+  /// In a forked process: lets others in, however long it takes to end.
   void leave_to_parent();
 
  private:

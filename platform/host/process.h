@@ -148,7 +148,7 @@ struct ChildEnd {
   std::string err;
 };
 
-/// Work in a forked process, so that a PS program that crashes takes nobody with it. The child
+/// Work in a forked process, so that a PS program that crashes ends nothing else. The child
 /// begins as a copy of the caller, which must have no other threads; what it is to return, it
 /// writes to a file. It ends with its parent, and with this object.
 class Child {

@@ -383,7 +383,7 @@ std::vector<std::string> timing_warnings(const facts::TimingReport& timing) {
     const std::string others =
         modules.size() > 1 ? fmt::format(" and {} more", modules.size() - 1) : "";
     warnings.push_back(fmt::format(
-        "nobody knows whether timing is met: {}, and {}{} is known to work up to {} only",
+        "whether timing is met is not known: {}, and {}{} is known to work up to {} only",
         limit.first, modules.front(), others, mhz(limit.second)));
   }
   return warnings;

@@ -52,9 +52,8 @@ struct Verdict {
 Verdict verdict_of(const facts::RunFacts& facts, const facts::Summary& summary);
 
 /// The module that says most about the clocks: the one with the least margin, up to the clock at
-/// which it surely works; of those that miss theirs if there are any, else of those of which nobody
-/// knows. Verdict, console and page name it.
-/// `timing` has modules.
+/// which it surely works; of those that miss theirs if there are any, else of those of which it is
+/// not knows. Verdict, console and page name it. `timing` has modules.
 const facts::TimingReport::Module& critical_module(const facts::TimingReport& timing);
 
 }  // namespace platform::result

@@ -116,7 +116,7 @@ std::map<std::string, std::string> ParameterTable::values() const {
 
 namespace {
 
-/// A list that nobody types, and that would fill the memory.
+/// A longer list is a mistake, and would fill the memory.
 constexpr double most_values = 10e6;
 
 /// Steps that miss the end by less are meant to reach it.

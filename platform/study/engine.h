@@ -64,7 +64,7 @@ struct LocalOptions {
 /// Computes the points at these positions of the manifest in `jobs` processes at a time, which take
 /// them one after another. A process that crashes or is killed costs the one point that it was at,
 /// which is tried once more in a process of its own; so does one whose run did not end well, since
-/// nobody knows what it left behind. Points that are there are left alone. Throws vp::HostError
+/// what it left behind is not known. Points that are there are left alone. Throws vp::HostError
 /// if the machine fails, as when a result cannot be written: those written before are kept.
 Tally run_local(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const LocalOptions& options,

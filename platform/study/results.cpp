@@ -255,7 +255,7 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
 }
 
 void check_names(const Results& results, const vp::Expression& expression) {
-  if (results.failed() == results.rows.size()) return;  // then nobody knows what there would be
+  if (results.failed() == results.rows.size()) return;  // then what there would be is not known
   std::vector<std::string> known = results.metric_names();
   if (results.rows.front().base) {
     for (const auto& [path, unused] : *results.rows.front().base) known.push_back(path);

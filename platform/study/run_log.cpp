@@ -65,7 +65,7 @@ std::string node_name() {
   return node != nullptr ? node : host::host_name();
 }
 
-/// A tenth of a millisecond: nobody measures finer.
+/// A tenth of a millisecond: no host measures finer.
 double rounded(double seconds) {
   constexpr double steps = 1e4;
   return std::round(seconds * steps) / steps;
@@ -108,7 +108,7 @@ struct PointEntry {
   std::string key;
   FileMark mark;
   std::int64_t date = 0;
-  std::int32_t attempt = 0;  ///< 0: nobody told
+  std::int32_t attempt = 0;  ///< 0: not known
   double wall_s = 0;
   double cpu_s = 0;
   Outcome outcome;

@@ -25,7 +25,7 @@ class Store {
   /// it.
   void lock();
 
-  /// In a forked process: keeps nobody out any more, however long it takes to end.
+  /// In a forked process: lets others in, however long it takes to end.
   void leave_lock_to_parent() const;
 
   const std::string& folder() const { return folder_; }

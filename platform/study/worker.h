@@ -57,7 +57,7 @@ class WorkQueue {
 struct PointMessage : Outcome {
   enum class Kind : std::uint8_t {
     computed,     ///< its file is written
-    there,        ///< its file was there: somebody else's, or an earlier attempt's
+    there,        ///< its file was there: another process's, or an earlier attempt's
     interrupted,  ///< by a signal to the process
     fault,        ///< of the program itself: `failure` says which
     no_host       ///< the machine failed, not the point: the failure's message says why

@@ -240,7 +240,7 @@ endforeach()
   }
 }
 
-// The detector behind the threshold takes pixels then: nobody needs to say so.
+// The detector behind the threshold takes pixels then, without being told to.
 BOOST_AUTO_TEST_CASE(a_check_chooses_models_that_go_with_the_rtl) {
   const kit::Outcome outcome =
       installed.markervp({"rtl", "check", "global_threshold", "--rtl", file("global_threshold"),

@@ -287,7 +287,7 @@ double sustained_fps(const Json& result) {
   return (frames - 1) / (frames / mean - 1 / first);
 }
 
-// Issue 17: 300 frames a second, of which plain squares take little: nobody measures them.
+// Issue 17: 300 frames a second, of which plain squares take little: they are not measured.
 BOOST_AUTO_TEST_CASE(fifteen_squares_do_not_slow_it_down) {
   const Json result = run_of({"squares15", "--repeat", "10"});
   BOOST_TEST(result["summary"]["detected"] == 10);

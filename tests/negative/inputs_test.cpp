@@ -272,7 +272,7 @@ BOOST_AUTO_TEST_CASE(videos_without_frames) {
   run_refuses({"small.avi"}, {"small.avi", "320x240", "--fit"});
 }
 
-/// Playlists name other files and addresses; nobody opens those.
+/// Playlists name other files and addresses, which are not opened.
 BOOST_AUTO_TEST_CASE(videos_that_name_other_files) {
   make_fifo("pipe.avi");
   kit::write_file(*this / "a.avi", "ffconcat version 1.0\nfile pipe.avi\n");

@@ -125,7 +125,7 @@ void hal_console_write(const char* text, std::size_t length) {
   state().console.append(text, length);
 }
 
-// One core, which nobody disturbs.
+// One core, undisturbed.
 unsigned hal_cpu_number(void) {
   return 0;
 }
@@ -135,7 +135,7 @@ void hal_cpu_start(unsigned, void (*)(void)) {
 }
 
 void hal_wait_for_event(void) {
-  throw std::logic_error("nobody sends an event");
+  throw std::logic_error("no other core sends an event");
 }
 
 void hal_send_event(void) {}

@@ -35,7 +35,7 @@ struct Site {
   vp::Clock& clk;
   Geometry geometry;
   vp::Clock* m_clk =
-      nullptr;  ///< of whoever takes the stream of an IP that lies between two clocks
+      nullptr;  ///< of the module that takes the stream of an IP that lies between two clocks
 };
 
 /// What the choice among the models of an IP depends on.

@@ -51,7 +51,7 @@ struct RtlDescriptor {
   void* (*pin)(void* model, uint32_t port);  // where the value of a port is kept
 
   // All bytes that eval() depends on, pins included: while they stay the same, so does what it
-  // does. 0 bytes: nobody knows them all, and state() is not asked.
+  // does. 0 bytes: not all of them are known, and state() is not asked.
   uint64_t state_bytes;
   const void* (*state)(void* model);
 

@@ -138,7 +138,7 @@ void RtlShadow::edge_of(std::size_t clock) {
   last_edges_[clock] = {its.cycle(), its.scheduler().now_ps()};
 }
 
-// Nobody looked behind the last edges yet.
+// The last edges have not been evaluated yet.
 void RtlShadow::end_of_simulation() {
   for (std::size_t i = 0; i < last_edges_.size() && difference_.empty(); ++i) compare(i);
   lockstep_use() = use_;

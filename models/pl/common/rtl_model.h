@@ -20,9 +20,9 @@
 
 namespace pl {
 
-/// RTL in the place of an IP, on the edges of its clocks. Nobody knows what its registers wait for:
+/// RTL in the place of an IP, on the edges of its clocks. What its registers wait for is unknown:
 /// its modules sleep while its whole state stands still, until an input changes. It listens only
-/// then: the pixels of a frame tell nobody.
+/// then: the pixels of a frame give no notice.
 class RtlInPlace final : public vp::SignalListener {
  public:
   /// `modules`: that of each clock.
@@ -133,7 +133,7 @@ class RtlSide final : public Side {
   std::size_t clock_ = 0;
 };
 
-/// Looks at the ports of a model before each edge, as whoever is bound to them does.
+/// Looks at the ports of a model before each edge, as a module bound to them does.
 class PortTaps {
  public:
   PortTaps(const IpPorts& ports, vp::Clocked& owner);
@@ -151,7 +151,7 @@ class PortTaps {
   std::deque<Tap> taps_;
 };
 
-/// Whoever watches the ports of a model: its edges are those of `clk`, and those of further clocks
+/// Watches the ports of a model: its edges are those of `clk`, and those of further clocks
 /// reach it, too.
 class PortWatcher : public vp::Clocked {
  public:

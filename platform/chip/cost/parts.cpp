@@ -109,7 +109,7 @@ TimingClosure::Limit::Limit(sc_core::sc_module_name name, const Part& described,
            "clock up to which it works: " + explanation(ip.estimate, device)),
       fmax_high("fmax_high", usual_high(device), vp::Unit::frequency, limits(ip.estimate),
                 source_of(origin_of(ip.estimate, device)),
-                "clock above which it does not; between the two nobody knows") {
+                "clock above which it does not; between the two it is unknown") {
   fmax.follows("device");
   fmax_high.follows(fmax.name());
   if (fmax_high >= fmax) return;

@@ -44,7 +44,7 @@ struct SimulationOptions {
   std::vector<TerminalOptions> terminals = {};        ///< one for an UART
   std::optional<LinuxOptions> linux_app = {};  ///< a Linux application, in place of a program
   bool is_only_shown = false;       ///< it will not run: what the software takes need not be known
-  std::ostream* console = nullptr;  ///< gets what the program prints; null: nobody reads it
+  std::ostream* console = nullptr;  ///< gets what the program prints; null: it is dropped
 };
 
 /// The whole platform: hardware, PS program, and the test bench around them, elaborated and ready

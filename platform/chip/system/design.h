@@ -50,7 +50,7 @@ class PlPorts {
   /// What is behind M_AXI_GP0; null if nothing is.
   const vp::Router* registers() const { return registers_; }
 
-  /// Once the design stands: nothing answers behind a M_AXI_GP0 that it left (DECERR), and nobody
+  /// Once the design stands: nothing answers behind a M_AXI_GP0 that it left (DECERR), and nothing
   /// sends to a S_AXI_HP0.
   void tie_off();
 
@@ -127,9 +127,9 @@ class Design {
 
   /// Of the images that the program is given.
   virtual input::ImageSize frame_size() const = 0;
-  /// Puts an image where one is that nobody uploads: a sensor's memory. Default: nowhere.
+  /// Puts an image where it need not be uploaded: into a sensor's memory. Default: nowhere.
   virtual void show_image(const std::shared_ptr<const GreyImage>& /*image*/) {}
-  /// Brings memories and counters up to now, for whoever looks at them from outside.
+  /// Brings memories and counters up to now, for observers from outside.
   virtual void settle() {}
 
   /// The value of a program's option that the logic decides, and no user; in the option's unit.
@@ -168,7 +168,7 @@ class Design {
   virtual TimelineEngines timeline() { return {}; }
 };
 
-/// For designs whose signals nobody knows.
+/// For designs whose signals have no known names.
 const trace::Vocabulary& no_words();
 
 /// A kind of design: what is known of it before it is built.

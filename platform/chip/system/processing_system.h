@@ -30,7 +30,7 @@ enum class ClockMode {
 
 /// The chip that a platform is built for: parameters of the platform as a whole.
 struct Chip {
-  /// Throws vp::InputError for a device that nobody knows.
+  /// Throws vp::InputError for an unknown device.
   Chip();
 
   vp::Parameter<std::string> name;

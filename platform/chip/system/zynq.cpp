@@ -13,7 +13,7 @@ namespace platform {
 
 namespace {
 
-/// Whoever is outside of `pl` is found by nobody.
+/// Parts outside of `pl` would not be found.
 void check_that_parts_are_inside() {
   for (const sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) {
     if (!dynamic_cast<const vp::Ip*>(object)) continue;

@@ -33,7 +33,7 @@ struct Zynq {
   const sc_core::sc_module& pl() const { return design_->module(); }
   Design& design() { return *design_; }
 
-  /// Brings all memories and counters up to now, for whoever looks at them from outside.
+  /// Brings all memories and counters up to now, for observers from outside.
   void settle() {
     scheduler.synchronise();
     design_->settle();
@@ -44,7 +44,7 @@ struct Zynq {
   std::optional<std::uint32_t> peek(std::uint32_t address);
   /// Puts a word there, without the effects of a write. False: nothing answers there.
   bool poke(std::uint32_t address, std::uint32_t word);
-  /// Told of each word that poke() put somewhere. Null: nobody is.
+  /// Called for each word that poke() writes. May be null.
   void on_poke(std::function<void(std::uint32_t address)> listener) {
     poke_listener_ = std::move(listener);
   }

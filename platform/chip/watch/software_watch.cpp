@@ -213,7 +213,7 @@ void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
                (once ? "between the last write and the transfer" : "before the transfer"));
 }
 
-// Whoever shares a line with the buffer is written back with it.
+// Data that share a line with the buffer are written back with it.
 void CacheContract::device_will_write(std::uint64_t address, std::uint64_t bytes) {
   if (warned_of_write_ || !watches(address, bytes)) return;
   const std::uint64_t from = address / line * line;

@@ -25,7 +25,7 @@ struct TerminalOptions {
 /// program.
 ///
 /// What is typed arrives at the simulated time that the run has reached, so such a run is another
-/// one each time; simulated time does not run ahead of the host's. What nobody reads is lost once
+/// one each time; simulated time does not run ahead of the host's. What is not read is lost once
 /// the host's buffer is full, as on a line.
 class Terminal final : public sc_core::sc_module {
  public:
@@ -51,7 +51,7 @@ class Terminal final : public sc_core::sc_module {
   ps::Uart& uart_;
   std::string path_;
   int line_ = -1;      ///< this end
-  int terminal_ = -1;  ///< the other one: open, so that the line stays when whoever reads it leaves
+  int terminal_ = -1;  ///< the other one: open, so that the line stays when its reader leaves
   std::optional<host::ScratchLink> link_;
   std::chrono::steady_clock::time_point started_;
 };

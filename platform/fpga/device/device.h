@@ -11,9 +11,9 @@ namespace platform::device {
 
 /// How far a figure can be trusted.
 enum class Confidence {
-  published,  ///< stated by the vendor, or by somebody who names the vendor's document
+  published,  ///< stated by the vendor, or by a source that names the vendor's document
   derived,    ///< computed from published or measured values
-  assumed,    ///< nobody stated it
+  assumed,    ///< no source states it
 };
 
 const char* to_string(Confidence confidence);

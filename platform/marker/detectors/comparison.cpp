@@ -179,7 +179,7 @@ constexpr Column columns[] = {
     {"host ms", "host, ms", "host_ms", 2,
      [](const Detector& d, const Score&) { return std::optional<double>(d.host_ms); }}};
 
-/// The cells of each detector, without columns in which nobody has a value.
+/// The cells of each detector, without columns that have no value.
 struct Cells {
   explicit Cells(const Comparison& comparison) {
     std::vector<Score> scores;

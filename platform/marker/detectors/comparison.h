@@ -48,7 +48,7 @@ struct Judgement {
     found,    ///< it is there
     wrong,    ///< seen where there is none of this ID, or in another orientation
     missed,   ///< it is there, and was not seen
-    unjudged  ///< seen; nobody knows whether it is there
+    unjudged  ///< seen; whether it is there is not known
   };
 
   int id = 0;

@@ -24,7 +24,7 @@ struct TrueMarker {
 
 /// What is known of an image.
 struct ImageTruth {
-  std::optional<std::vector<TrueMarker>> markers;  ///< all that are in it; none: nobody counted
+  std::optional<std::vector<TrueMarker>> markers;  ///< all that are in it; none: not counted
   std::optional<std::set<int>> ids;                ///< that may be in it; none: not known
 };
 

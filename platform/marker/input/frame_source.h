@@ -59,7 +59,7 @@ struct InputFrame {
   InputItem::Kind kind = InputItem::Kind::scene;
 };
 
-/// Whoever has it keeps it; none: there is no frame.
+/// It is shared; none: there is no frame.
 using SharedFrame = std::shared_ptr<const InputFrame>;
 
 /// Frames one after the other, in memory that does not grow with their number.

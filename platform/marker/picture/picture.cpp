@@ -250,7 +250,7 @@ void draw_marker(Canvas& canvas, const facts::FoundMarker& found, const Camera& 
 }
 
 void draw_image(const GreyImage& image, int enlargement, cv::Mat target) {
-  // OpenCV's type has no const view of somebody else's pixels; they are only read.
+  // OpenCV's type has no const view of pixels that it does not own; they are only read.
   const cv::Mat grey(image.height, image.width, CV_8UC1,
                      const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat paler;

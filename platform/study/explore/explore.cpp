@@ -22,7 +22,7 @@ namespace {
 constexpr double did_not_run = 100;
 /// Of what should be above a number, and is that number.
 constexpr double least_shortfall = 1e-9;
-/// Nobody reads a front in more dimensions.
+/// A front in more dimensions cannot be read.
 constexpr std::size_t most_objectives = 4;
 /// A hypervolume that grew by less did not gain.
 constexpr double least_gain = 0.001;

@@ -231,7 +231,7 @@ class Exercise {
     }
   }
 
-  /// Nobody takes words, pictures or packets; then somebody does, in the middle.
+  /// Words, pictures and packets are not taken at first; then they are, in the middle.
   void fill_fifos() {
     reset();
     reset_dma();

@@ -1,4 +1,4 @@
-// Calls a function that nobody has.
+// Calls a function that does not exist.
 #include <hal/hal.h>
 
 extern "C" int nobody_has_this();

@@ -384,7 +384,7 @@ void read_table(std::uint32_t first, std::uint32_t words) {
 std::size_t races_of(void (*second)(), void (*first)()) {
   TwoCores b;
   b.run([=] {
-    write_table(0, 8);  // nobody else runs yet
+    write_table(0, 8);  // nothing else runs yet
     hal_cpu_start(1, second);
     first();
     hal_work(step, 10'000);

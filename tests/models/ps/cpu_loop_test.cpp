@@ -1,4 +1,4 @@
-// Loops of the program that call nobody: noticed by the basic blocks that run.
+// Loops of the program without a call: noticed by the basic blocks that run.
 #include <vp/error.h>
 #include <boost/test/unit_test.hpp>
 #include <chrono>

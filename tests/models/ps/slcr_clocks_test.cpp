@@ -344,7 +344,7 @@ BOOST_AUTO_TEST_CASE(a_clock_that_is_too_fast_or_has_no_source) {
   b.run([] {
     hal_write32(slcr_at + slcr::SLCR_UNLOCK, slcr::unlock_key);
     hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL, divide(4, 1));                          // 250 MHz
-    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL + 3 * slcr::fclk_stride, divide(1, 1));  // nobody's
+    hal_write32(slcr_at + slcr::FPGA0_CLK_CTRL + 3 * slcr::fclk_stride, divide(1, 1));  // unused
     return 0;
   });
   BOOST_TEST(b.warnings("/markervp/slcr/fclk_too_fast") == 0u);

@@ -1,5 +1,5 @@
 // A DMA whose output stream is its input stream. It takes the same words on the same edges as two
-// cores in line: all registers of a core sample what stood before the edge, whoever drives them.
+// cores in line: all registers of a core sample what stood before the edge, whatever drives them.
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <memory>

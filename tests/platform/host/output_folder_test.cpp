@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(one_at_a_time) {
   BOOST_TEST(refusal(*this / "out") == "");
 }
 
-/// A process that was forked meanwhile keeps nobody out when it has said so.
+/// A process that was forked meanwhile lets others in when it has said so.
 BOOST_AUTO_TEST_CASE(children_can_leave_the_lock_to_their_parent) {
   auto output = std::make_unique<OutputFolder>(path());
   int ends[2];

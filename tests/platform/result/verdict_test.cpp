@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(timing_is_missed_or_unknown) {
   point.fails("timing", Holds::no, "timing missed by d");
 }
 
-// Up to where it may still work does not count: nobody knows.
+// Up to where it may still work does not count: it is not known.
 BOOST_AUTO_TEST_CASE(the_ip_with_the_least_margin_is_named) {
   const auto nearest = [](std::vector<TimingReport::Module> modules) {
     return critical_module({true, std::move(modules)}).name;

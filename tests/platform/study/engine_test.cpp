@@ -258,7 +258,7 @@ BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_c
   for (const RunEntry& entry : entries)
     BOOST_TEST(entry.cpu_s.has_value() == (entry.key != platform.key(1)));
   for (const RunEntry& entry : entries)
-    BOOST_TEST(entry.host.empty() == (entry.key == platform.key(1)), "nobody knows who it was");
+    BOOST_TEST(entry.host.empty() == (entry.key == platform.key(1)), "the process is not known");
   BOOST_TEST(platform.complete_runs().size() == 3u);
 }
 

@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(damage_is_noticed) {
     return complaint([&] { store.read(manifest.points[0].key); });
   };
   BOOST_TEST(contains(said(whole.substr(0, whole.size() / 2)), "damaged"));
-  // What a power failure leaves counts as nothing; what somebody changed does not.
+  // What a power failure leaves counts as nothing; what was changed does not.
   const auto half = [&](const std::string& text) {
     kit::write_file(path, text);
     BOOST_CHECK_THROW(store.read(manifest.points[0].key), HalfPoint);
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(a_marker_counts_as_found_with_its_id_only) {
                       {"scene_marker": 7, "markers": []},
                       {"scene_marker": 7, "gave_up": "it stood"},
                       {"markers": [{"id": 5}]}])") == 0.25);
-  BOOST_TEST(rate(R"([{"markers": [{"id": 5}]}])") == -1, "nobody knows what a photograph has");
+  BOOST_TEST(rate(R"([{"markers": [{"id": 5}]}])") == -1, "what a photograph has is not known");
 }
 
 BOOST_AUTO_TEST_CASE(times_of_a_frame_given_up_are_no_figures) {

@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(logs_grow_while_they_are_read) {
   BOOST_TEST(engines.size() == 3u);
   BOOST_TEST(engines[folder.key(0)] == "local");
   BOOST_TEST(engines[folder.key(1)] == "slurm");
-  BOOST_TEST(engines[folder.key(2)] == "", "nobody told");
+  BOOST_TEST(engines[folder.key(2)] == "", "not told");
 }
 
 BOOST_AUTO_TEST_CASE(tables_are_the_same_with_logs_and_without) {

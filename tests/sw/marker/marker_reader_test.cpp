@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(the_border_is_black) {
 BOOST_AUTO_TEST_CASE(a_black_square_is_no_marker) {
   const Dictionary& dictionary = open("4x4_50");
   BOOST_TEST(detect(drawn(dictionary, 0xFFFF)) == Refusal::plain);
-  // Its edges cost time, and nobody looked at them.
+  // Its edges cost time, and were not looked at.
   BOOST_TEST(fake_hal::state().work[static_cast<std::uint32_t>(marker::Work::crossings)] == 0u);
   // With a single white cell it may be one.
   BOOST_TEST(detect(drawn(dictionary, 0xFFEF)) == Refusal::unknown);

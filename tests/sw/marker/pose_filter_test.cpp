@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(a_jump_begins_anew) {
   BOOST_TEST(poses.best.covariance == seen.covariance);
 }
 
-// After so long a time nobody knows where it is: the pose seen counts alone, though it is far off.
+// After so long a time it may be anywhere: the pose seen counts alone, though it is far off.
 BOOST_AUTO_TEST_CASE(after_a_long_time_the_frame_counts) {
   PoseTrack track{};
   const View view;

@@ -285,7 +285,7 @@ auto run_network(const Network::Plan& plan) {
 
 }  // namespace
 
-/// At coincident edges everybody samples what stood before, whoever is foreign, and whichever clock
+/// At coincident edges all modules sample the values from before, foreign or not, whichever clock
 /// was declared first.
 BOOST_AUTO_TEST_CASE(neither_foreign_modules_nor_the_order_of_clocks_change_a_random_network) {
   std::mt19937 random(20261122);

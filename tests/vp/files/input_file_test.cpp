@@ -93,22 +93,22 @@ BOOST_AUTO_TEST_CASE(a_pipe_without_end_is_refused) {
   BOOST_TEST(text.find("larger than 4 MiB") != std::string::npos, text);
 }
 
-/// With and without somebody at its other end.
+/// With and without a writer at its other end.
 BOOST_AUTO_TEST_CASE(a_silent_pipe_is_given_up) {
   const std::string name = pipe();
-  InputFile nobody(name, "text");
+  InputFile silent(name, "text");
   char byte = 0;
   const auto soon = [] { return InputFile::HostClock::now() + std::chrono::milliseconds(20); };
-  BOOST_TEST(input_error([&] { nobody.read(&byte, 1, soon()); }) ==
+  BOOST_TEST(input_error([&] { silent.read(&byte, 1, soon()); }) ==
              "cannot read text '" + name +
                  "': it is a pipe, and its end did not come within 10 s: name a file");
   const int writer = ::open(name.c_str(), O_WRONLY | O_NONBLOCK);
   BOOST_TEST(::write(writer, "a", 1) == 1);
-  BOOST_TEST(nobody.read(&byte, 1, soon()) == 1u);
-  BOOST_TEST(input_error([&] { nobody.read(&byte, 1, soon()); }).find("it is a pipe") !=
+  BOOST_TEST(silent.read(&byte, 1, soon()) == 1u);
+  BOOST_TEST(input_error([&] { silent.read(&byte, 1, soon()); }).find("it is a pipe") !=
              std::string::npos);
   ::close(writer);
-  BOOST_TEST(nobody.read(&byte, 1, soon()) == 0u);
+  BOOST_TEST(silent.read(&byte, 1, soon()) == 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(lines_wait_for_their_place) {
              "warning: dma: fifth [/markervp/a] at 13.345 us\n");
 }
 
-// An error waits for nobody, but for what happened before it.
+// An error waits for nothing but what happened before it.
 BOOST_AUTO_TEST_CASE(an_error_comes_behind_what_waits) {
   router->set_place_source([]() -> std::optional<std::string> { return std::nullopt; });
   dma.action = [this] {

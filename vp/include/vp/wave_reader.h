@@ -62,7 +62,7 @@ class WaveHandler {
 /// How a trace is read.
 struct WaveOptions {
   std::uint64_t timescale_fs = 0;  ///< of a VCD that says none; 0: 1 ns, with a warning
-  bool lenient = false;            ///< leaves out times that fall and identifiers nobody declared
+  bool lenient = false;            ///< leaves out times that fall and undeclared identifiers
   bool strict = false;             ///< what is odd is an error, not a warning
 };
 

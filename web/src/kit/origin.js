@@ -5,7 +5,7 @@ export const meaning = {
   measured: "measured on the thesis' board",
   published: "stated by the thesis, a product guide or a data sheet",
   derived: "computed from published or measured values",
-  assumed: "an estimate: nobody stated it",
+  assumed: "an estimate: no source states it",
   decision: "a choice of this project where the thesis is silent",
   simulated: "counted in this simulation",
 };

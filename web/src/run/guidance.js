@@ -15,7 +15,7 @@ function timing(run, say) {
   const now = tidy(module.frequency_mhz);
   if (timingOf(module) === "unknown") {
     if (module.fmax_mhz === undefined) return say("bad", `Whether ${plain(module.name)} meets timing is not known: there are no figures of its RTL.`);
-    say("bad", `${plain(module.name)} is known to work up to ${fmax} MHz, and its clock is ${now} MHz: nobody knows whether timing is met.`);
+    say("bad", `${plain(module.name)} is known to work up to ${fmax} MHz, and its clock is ${now} MHz: whether timing is met is not known.`);
     return;
   }
   if (!module.met) {

@@ -44,7 +44,7 @@ function isoLines({ x, y }, points, scales) {
   return lines.reduce((kept, each) => (kept.length && apart(kept.at(-1).line[1], each.line[1]) < 0.05 ? kept : [...kept, each]), []);
 }
 
-/** What can stand at an axis: each figure with the way that is better, both ways where nobody says. */
+/** What can stand at an axis: each figure with the way that is better, both ways where it is not said. */
 function choices(sweep) {
   const known = [...new Set([...sweep.objectives, ...sweep.metrics, ...sweep.parameters.filter((p) => p.numeric)])];
   return known.flatMap((each) => (each.better ? [each.better] : [1, -1]).map((better) => ({ axis: { ...each, better }, of: each })));

@@ -39,7 +39,7 @@ struct ImprovedFidelity : sc_core::sc_module {
 
   pl::Choice<pl::ControlCrossing> control_crossing;
   pl::Choice<pl::StreamCrossing> pixel_crossing, blob_crossing;
-  // Whoever feeds another one comes behind it.
+  // A part that feeds another one comes behind it.
   pl::Choice<pl::PixelStream> pixel_stream;
   pl::Choice<pl::BlobStream> blob_stream;
   pl::Choice<pl::BlobLabelling> blob_labelling;
@@ -88,7 +88,7 @@ class ImprovedLogic : public sc_core::sc_module {
     return crossing_ ? crossing_->control_crossing->rst : control_block.rst_out;
   }
 
-  /// Brings counters up to now, for whoever looks at them from outside.
+  /// Brings counters up to now, for observers from outside.
   void settle_counters();
 
  private:

@@ -185,7 +185,7 @@ void HandshakeWatch::register_read(std::uint32_t word) {
   end_read_ps_ = scheduler_.now_ps();
 }
 
-// The end word goes, or a frame is over: nobody had to read the register in between.
+// The end word goes, or a frame is over: the register need not have been read in between.
 void HandshakeWatch::look_at_polls() {
   if (!reads_at_end_) return;
   const std::uint64_t more = feature_register_.use().reads - *std::exchange(reads_at_end_, {});

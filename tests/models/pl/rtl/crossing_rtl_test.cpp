@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_stream_crosses_as_in_the_model) {
   }
 }
 
-// For whoever looks at the page of a difference: they lie outside of the IP.
+// For the page of a difference: they lie outside of the IP.
 BOOST_AUTO_TEST_CASE(wires_of_the_model_stand_beside_those_of_the_rtl) {
   StreamBench bench({lockstep("pixel_crossing", "stream_crossing")}, several_clocks[0]);
   const auto wire = [](const std::string& name) -> vp::SignalBase& {

@@ -399,7 +399,7 @@ BOOST_AUTO_TEST_CASE(the_rtl_as_it_is_never_differs) {
   }
 }
 
-// As in the platform, which begins behind a reset that nobody sees.
+// As in the platform, which begins behind a reset that is not seen.
 BOOST_AUTO_TEST_CASE(without_a_reset_the_rtl_begins_as_its_model) {
   for (const std::uint32_t pixels : groups) {
     for (const std::string& ip : ips) {

@@ -1,4 +1,4 @@
-// RTL in the place of an IP sleeps while further clocks would change nothing, and nobody sees it.
+// RTL in the place of an IP sleeps while further clocks would change nothing, which cannot be seen.
 #include <dlfcn.h>
 
 #include <boost/test/unit_test.hpp>
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(rtl_sleeps_between_frames_and_gives_the_words_of_its_model)
   BOOST_TEST(frames.in_pause < 100u);
 }
 
-// Two evaluations a clock: nobody knows what they depend on.
+// Two evaluations a clock: what they depend on is unknown.
 BOOST_AUTO_TEST_CASE(rtl_that_does_not_show_its_state_never_sleeps) {
   BOOST_TEST(Frames("stateless").in_pause == 2 * Frames::pause_clocks);
 }

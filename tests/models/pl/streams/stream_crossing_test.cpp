@@ -101,7 +101,7 @@ struct CrossedChain : kit::Simulation {
     for (int frame = 0; frame < 6; ++frame) {
       chain.camera->show(frame % 2 == 0 ? harness::rectangles(64, 16, 6, setup.seed + frame)
                                         : harness::noise(64, 16, setup.seed + frame));
-      accept(frame != 2);  // one that nobody takes
+      accept(frame != 2);  // one that is not taken
       trigger();
       const bool cut = frame == 1 || frame == 4;
       std::uint64_t left = frame_ps();
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(both_fidelities_give_the_same_words_at_the_same_times) {
   }
 }
 
-// A frame that nobody takes is dropped whole, and none after it; of one that a reset cuts nothing
+// A frame that is not taken is dropped whole, and none after it; of one that a reset cuts nothing
 // comes later.
 BOOST_AUTO_TEST_CASE(frames_are_whole_or_not_there) {
   for (const bool tlm : {false, true}) {

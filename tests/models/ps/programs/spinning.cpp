@@ -1,4 +1,4 @@
-// Waits for its interrupt handler in a loop that calls nobody, then publishes how often it ran.
+// Waits for its interrupt handler in a loop without a call, then publishes how often it ran.
 #include <hal/hal.h>
 
 namespace {

@@ -1,4 +1,4 @@
-// Needs a function that nobody has.
+// Needs a function that does not exist.
 #include <hal/hal.h>
 
 extern "C" int nobody_has_this();

@@ -125,12 +125,12 @@ BOOST_AUTO_TEST_CASE(limits_that_are_known_otherwise_hold) {
   vp::IpEstimate both = tree(64);
   both.fmax_hz = both.fmax_high_hz = 55 * mhz;
   both.fmax_origin = vp::FmaxOrigin::published;
-  both.fmax_documentation = "somebody measured it";
+  both.fmax_documentation = "a user measured it";
   both = applied(both);
   BOOST_TEST(both.fmax_hz == 55 * mhz);
   BOOST_TEST(both.fmax_high_hz == 55 * mhz);
   BOOST_TEST((both.fmax_origin == vp::FmaxOrigin::published));
-  BOOST_TEST(has(both.fmax_documentation, "somebody measured it; "), both.fmax_documentation);
+  BOOST_TEST(has(both.fmax_documentation, "a user measured it; "), both.fmax_documentation);
   BOOST_TEST(has(both.fmax_documentation, "50 to 90 MHz"), both.fmax_documentation);
 
   vp::IpEstimate low = tree(64);

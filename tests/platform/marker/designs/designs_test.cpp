@@ -112,7 +112,7 @@ DesignInfo with_third_clock() {
   return info;
 }
 
-// FCLK 2 and 3 are there for a design that asks, and in nobody's configuration otherwise.
+// FCLK 2 and 3 are there for a design that asks, and in no other configuration.
 BOOST_AUTO_TEST_CASE(clocks_are_made_for_who_asks) {
   vp::Configuration configuration;
   configuration.set("ps.fclk_clk2.frequency", "21 MHz");
