@@ -33,7 +33,7 @@ Scene::Scene(Random& random, std::uint32_t width, std::uint32_t height)
 void Scene::draw_square(Random& random) {
   const std::int32_t w = static_cast<std::int32_t>(width_), h = static_cast<std::int32_t>(height_);
   const double side = random.between(28, h / 2);
-  // A direction without trigonometry; a third stands upright.
+  // A direction without trigonometry; a third is upright.
   double dx = 1, dy = 0;
   if (random.below(3) != 0) {
     dx = random.between(-100, 100);

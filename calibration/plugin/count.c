@@ -2,7 +2,7 @@
  * Counts what a program executes between marks (marks.h). Options:
  *   out=FILE      one line for each measurement: instructions, accesses, misses of level 1 and 2
  *   cache=on      with the cache model (slower); without it the last three are 0
- *   blocks=FILE   the disassembly of blocks; each line of `out` goes on with BLOCK=RUNS for those
+ *   blocks=FILE   the disassembly of blocks; each line of `out` continues with BLOCK=RUNS for those
  *                 that ran
  */
 #include "marks.h"

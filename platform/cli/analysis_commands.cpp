@@ -54,7 +54,7 @@ std::vector<study::Objective> known_objectives(const study::Results& results) {
 int list_metrics(const MetricsOptions& options, std::ostream& out) {
   out << result::metric_table(options.part);
   if (options.part.empty())
-    out << "\n* stands for a name; sweep.csv has them all. Constraints, objectives and figures may "
+    out << "\n* is any name; sweep.csv has them all. Constraints, objectives and figures may "
            "calculate with metrics and\nparameters (docs/expressions.md).\n";
   return done;
 }
@@ -141,7 +141,7 @@ int make_report(const ReportOptions& options, std::ostream& out) {
   std::string file;
   if (options.folders.size() == 1) {
     if (options.output) {
-      throw vp::InputError("--output is for a comparison: the page of one folder stands in it");
+      throw vp::InputError("--output is for a comparison: the page of one folder is in it");
     }
     const std::string& folder = options.folders[0];
     std::error_code ignored;

@@ -57,7 +57,7 @@ constexpr const char* rtl_compare_help =
     R"(  markervp run demo --trace ours.vcd --trace-clocks
   markervp rtl compare questa.vcd ours.vcd --map ports.yaml
 The inputs tell how many clocks one lies behind the other. The first clock in which a port differs
-is told in both, with both values; compare.vcd and compare.gtkw show the clocks around it.
+is reported in both, with both values; compare.vcd and compare.gtkw show the clocks around it.
 docs/rtl.md has a map.)";
 
 constexpr const char* run_examples =
@@ -82,7 +82,7 @@ constexpr std::size_t most_clocks = 1'000;
 // choices with bars.
 
 void add_design_option(CLI::App& command, ConfigurationOptions& target) {
-  command.add_option("--design", target.design, "what stands in the PL ('markervp designs')")
+  command.add_option("--design", target.design, "what is in the PL ('markervp designs')")
       ->type_name("NAME");
 }
 
@@ -116,7 +116,7 @@ void add_platform_options(CLI::App& command, PlatformOptions& target) {
 void add_linux_option(CLI::App& command, RunOptions& target) {
   command
       .add_option("--linux", target.linux_app,
-                  "run a Linux application; its arguments are what stands behind, after --")
+                  "run a Linux application; its arguments are what is behind, after --")
       ->type_name("FILE");
 }
 
@@ -228,7 +228,7 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   rtl->require_subcommand(1);
   CLI::App* check = rtl->add_subcommand("check", "run RTL in lock-step with its model");
   check->callback([&target] { target.command = "check"; });
-  check->add_option("IP", target.ip, "in whose place it stands: corner_detection")
+  check->add_option("IP", target.ip, "the IP that it replaces: corner_detection")
       ->type_name("")
       ->required();
   check->add_option("--rtl", target.rtl, "what markervp_add_rtl() built, or the folder it lies in")

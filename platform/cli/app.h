@@ -40,7 +40,7 @@ struct ValueKind {
 };
 
 struct OptionDescription {
-  std::vector<std::string> names;  ///< "-o", "--output"; empty for what stands alone
+  std::vector<std::string> names;  ///< "-o", "--output"; empty for what is alone
   std::string documentation;
   ValueKind value;
 };

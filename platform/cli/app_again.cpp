@@ -20,8 +20,8 @@ constexpr const char* debug_examples =
   markervp debug out --at 15.2ms
   markervp debug out --register axi_dma_0.MM2S_DMASR --access 3
   markervp debug out --warning 1 --command backtrace --command 'info locals'
-It makes the run again up to there; gdb then stands in the program, with the commands of markervp.gdb
-(registers, peek, simtime, program). 'continue' goes on: to the next access or warning, or the end.)";
+It makes the run again up to there; gdb is then in the program, with the commands of markervp.gdb
+(registers, peek, simtime, program). 'continue' runs on to the next access or warning, or the end.)";
 
 void add_history(CLI::App& app, HistoryOptions& target) {
   CLI::App* command =

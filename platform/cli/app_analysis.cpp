@@ -17,13 +17,13 @@ constexpr const char* sweep_help =
   markervp sweep pixel-clock                   results in out/pixel-clock
   markervp sweep mine.yaml --dry-run           check it and show its points
   markervp sweep mine.yaml --engine slurm      on a cluster
-A sweep may be stopped at any time: the same command goes on. No point is computed twice.)";
+A sweep may be stopped at any time: the same command continues. No point is computed twice.)";
 
 constexpr const char* explore_help =
     R"(FILE is that of a sweep, or a study; its objectives say what is better, its constraints what must hold:
   markervp explore least-energy                results in out/least-energy
 It computes the points that are worth it, generation by generation, and ends when that gains nothing more.
-Ctrl-C leaves the best points so far; the same command goes on. docs/exploration.md says more.)";
+Ctrl-C leaves the best points so far; the same command continues. docs/exploration.md says more.)";
 
 constexpr const char* pareto_help =
     R"(  markervp pareto out/pixel-clock --objective 'max summary.fps.mean' \

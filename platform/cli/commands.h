@@ -55,7 +55,7 @@ int run_in_memory(const RunOptions& options, MemoryRun& result, std::ostream& er
 /// Makes a run again, without its files, and prints who accessed a register last, from which line.
 int tell_history(const HistoryOptions& options, std::ostream& out);
 
-/// Makes a run again, without its files, up to a moment, and goes on as gdb, which stands there in
+/// Makes a run again, without its files, up to a moment, and continues as gdb, at that place in
 /// the PS program. Returns only if the moment does not come, or gdb cannot be started.
 int debug_run(const DebugOptions& options, std::ostream& out, std::ostream& err);
 
@@ -83,7 +83,7 @@ int print_power_table(const PowerTableOptions& options, std::ostream& out);
 /// be.
 int print_power_estimate(const PowerTableOptions& options, std::ostream& out);
 
-/// `rtl check` runs RTL beside the model of its IP; `rtl vectors` writes what stands at the ports
+/// `rtl check` runs RTL beside the model of its IP; `rtl vectors` writes what is at the ports
 /// of one, for benches of RTL; `rtl compare` compares a trace of a simulation made elsewhere with
 /// one of ours. run_failed: they differ, and trace and page lie in the folder for results; or there
 /// was nothing to compare.

@@ -91,7 +91,7 @@ class Generations {
   std::uint64_t abandoned() const { return abandoned_; }
 
  private:
-  /// Nodes of a cluster read it; here it says what stands in the folder, if the process is killed.
+  /// Nodes of a cluster read it; here it says what is in the folder, if the process is killed.
   void keep_manifest() {
     const HostClock::time_point now = HostClock::now();
     if (options_.engine == "local" && now < next_manifest_) return;
@@ -168,7 +168,7 @@ int explore_points(const ExploreOptions& options, std::ostream& out, std::ostrea
   logs.complete(space.manifest());
   write_results(options, store, logs, results, computed, before, out);
   if (host::InterruptGuard::noted()) {
-    err << "markervp: interrupted: the same command goes on" << std::endl;
+    err << "markervp: interrupted: the same command continues" << std::endl;
     return interrupted;
   }
   return code_of_failures(options, results, err);
@@ -237,7 +237,7 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
   const std::vector<vp::Expression> figures = figures_of(options);
   const study::Results results = computed(store, logs, space.manifest(), figures, err);
   if (results.missing != 0) {
-    err << "markervp: interrupted: the same command goes on" << std::endl;
+    err << "markervp: interrupted: the same command continues" << std::endl;
     return interrupted;
   }
   if (!options.figures.empty()) {

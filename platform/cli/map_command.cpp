@@ -185,7 +185,7 @@ std::string fields(const HardwareMap::Device& device) {
          text;
 }
 
-/// Devices of one kind: the first stands for all.
+/// Devices of one kind: the first represents all.
 std::string registers(const std::vector<const HardwareMap::Device*>& kind) {
   std::vector<std::string> names;
   names.reserve(kind.size());
@@ -270,10 +270,10 @@ void print_interrupts(const HardwareMap& map, std::ostream& out) {
 void print_clocks(const HardwareMap& map, std::ostream& out) {
   out << fmt::format("\n{:<20} {:>16}  {}\n", "clock", "frequency", "set by");
   for (const HardwareMap::Clock& c : map.clocks) {
-    const std::string note = c.programmed == c.hertz
-                                 ? ""
-                                 : " (as it stands it gives " + frequency_text(c.programmed) +
-                                       ": from the first write on)";
+    const std::string note =
+        c.programmed == c.hertz
+            ? ""
+            : " (now it gives " + frequency_text(c.programmed) + ": from the first write on)";
     out << fmt::format("{:<20} {:>16}  {}{}\n", c.name, frequency_text(c.hertz), c.set_by, note);
   }
 }

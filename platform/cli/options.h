@@ -61,7 +61,7 @@ struct RunOptions : PlatformOptions {
   std::string trace_level = "ports";
   bool trace_clocks = false;
   std::optional<std::string> trace_trigger;
-  bool trace_trigger_expected = true;  ///< it is told if it never comes true
+  bool trace_trigger_expected = true;  ///< it is reported if it never comes true
   std::optional<std::string> trace_frame;
   unsigned trace_before = 0;
   std::size_t trace_buffer = 256;  ///< MiB

@@ -98,7 +98,7 @@ void parse_again(const std::vector<std::string>& arguments, CommandLine& line) {
   try {
     make_app(line, {})->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
-    throw vp::InputError(std::string("the run's command line is none of this version: ") +
+    throw vp::InputError(std::string("the run's command line is not one of this version: ") +
                          error.what());
   }
 }

@@ -55,8 +55,8 @@ int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ost
   const std::string page = (fs::path(options.output) / "compare").string();
   std::error_code ignored;
   for (const char* ending : {".vcd", ".gtkw"}) fs::remove(page + ending, ignored);
-  out << "aligned: behind " << place_text(found.theirs_begin, "theirs")
-      << " stands what stands behind " << place_text(found.ours_begin, "ours") << "\n";
+  out << "aligned: " << place_text(found.theirs_begin, "theirs") << " is "
+      << place_text(found.ours_begin, "ours") << "\n";
   if (!found.values.empty()) {
     err << "markervp: " << (found.values.front().input ? "the stimulus differs" : "they differ")
         << " behind " << place_text(found.theirs, "theirs") << ", "

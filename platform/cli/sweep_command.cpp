@@ -246,7 +246,7 @@ int conclude(const SweepOptions& options, const study::Store& store,
     warn(study::missing_figures(results.manifest, results.metric_names()), err);
   if (tally.interrupted) {
     err << "markervp: interrupted: " << results.missing << " of "
-        << result::counted(points, "point") << " are missing; the same command goes on"
+        << result::counted(points, "point") << " are missing; the same command continues"
         << std::endl;
     return interrupted;
   }

@@ -291,7 +291,7 @@ struct ProgramEnd {
 struct RunFacts {
   std::string fidelity;                                  ///< "tlm" or "clocked"
   std::string system;                                    ///< the PS program
-  std::string design;                                    ///< what stands in the PL
+  std::string design;                                    ///< what is in the PL
   std::string profile;                                   ///< cost table of the software
   std::map<std::string, std::string> configuration;      ///< path -> "value unit"
   std::optional<ProgramEnd> end = std::nullopt;          ///< of the program; none: it was stopped

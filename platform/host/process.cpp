@@ -148,7 +148,7 @@ InterruptGuard::InterruptGuard(std::function<void()> interrupt)
   sigaction(SIGINT, &action, &old_interrupt_);
   sigaction(SIGTERM, &action, &old_terminate_);
   sigaction(SIGHUP, &action, &old_hang_up_);
-  // nohup: the run goes on.
+  // nohup: the run continues.
   if (old_hang_up_.sa_handler == SIG_IGN) sigaction(SIGHUP, &old_hang_up_, nullptr);
 }
 
@@ -337,7 +337,7 @@ std::string content(int file) {
 
 Child::Child(const Work& work)
     : out_(::memfd_create("out", MFD_CLOEXEC)), err_(::memfd_create("err", MFD_CLOEXEC)) {
-  // What stands in the buffers would be printed twice.
+  // What is in the buffers would be printed twice.
   std::cout.flush();
   std::cerr.flush();
   const pid_t parent = ::getpid();

@@ -291,7 +291,7 @@ namespace {
 constexpr std::string_view frames = "frames.";
 constexpr const char* frame_ends[] = {".mean", ".max"};
 
-/// Whether `name` is of the pattern, whose `*` stands for at least one character.
+/// Whether `name` is of the pattern, whose `*` represents at least one character.
 bool fits(std::string_view pattern, std::string_view name) {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == name;

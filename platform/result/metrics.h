@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Metrics of one kind: what they count, and in what.
 struct MetricKind {
-  /// `*` stands for a name, or several with dots between: "power.modules.*.w".
+  /// `*` represents a name, or several with dots between: "power.modules.*.w".
   const char* pattern;
   const char* unit;     ///< empty: a count or a truth
   const char* meaning;  ///< a phrase
@@ -37,7 +37,7 @@ std::string unit_of_metric(const std::string& text);
 void check_metric(const std::string& name, const std::vector<std::string>& others);
 
 /// The kinds whose pattern has `part` in it, or that have a metric of that name, as a table; empty:
-/// all. Throws vp::InputError with the nearest if there is none.
+/// all. Throws vp::InputError with the nearest if missing.
 std::string metric_table(const std::string& part);
 
 /// Figures by name: a path into result.json. The points of a sweep have the same names, and share
@@ -54,9 +54,9 @@ class Metrics {
   /// `names` are sorted, and as many as `values`.
   Metrics(std::shared_ptr<const Names> names, std::vector<double> values);
 
-  /// Null if there is none.
+  /// Null if missing.
   const double* find(const std::string& name) const;
-  /// Of its value; values().size() if there is none.
+  /// Of its value; values().size() if missing.
   std::size_t place_of(const std::string& name) const;
   bool empty() const { return values_.empty(); }
   /// Sorted.

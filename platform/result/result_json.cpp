@@ -406,7 +406,7 @@ std::string dump(const Json& json, int spaces = -1) {
   return json.dump(spaces, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The members of `json` as lines of an object that goes on after them.
+/// The members of `json` as lines of an object that continues after them.
 std::string opened(const Json& json) {
   std::string text = dump(json, indent);
   text.erase(text.size() - 2);  // the last line feed and brace

@@ -84,7 +84,7 @@ class ResultWriter : public ResultSink {
 
 using Json = nlohmann::ordered_json;
 
-/// `value` with that many decimal places: what result.json holds. Never -0. The table stands at
+/// `value` with that many decimal places: what result.json holds. Never -0. The table is at
 /// ResultWriter.
 double rounded(double value, int places);
 
@@ -112,7 +112,7 @@ void add_run(Json& json, const facts::RunFacts& facts);
 /// Adds how it went.
 void add_end(Json& json, const facts::RunFacts& facts, const std::vector<std::string>& warnings);
 
-/// Adds what stands behind the frames: summary, verdict, power, resources, timing, clocks.
+/// Adds what is behind the frames: summary, verdict, power, resources, timing, clocks.
 void add_figures(Json& json, const facts::RunFacts& facts, const facts::Summary& summary);
 
 /// What ResultWriter writes, in memory: member for member result.json as it reads back, without
@@ -146,7 +146,7 @@ Json to_json(const facts::ClockReport& clocks);
 /// `feasible`, and by part `holds` ("yes", "no", "unknown") and what else is known.
 Json to_json(const Verdict& verdict);
 
-/// Places of watts and millijoules: sums of what stands in the file hold to 1e-9.
+/// Places of watts and millijoules: sums of what is in the file hold to 1e-9.
 constexpr int energy_places = 12;
 
 }  // namespace platform::result

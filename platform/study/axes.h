@@ -23,7 +23,7 @@ struct ParameterKind {
 
 ParameterKind kind_of(const vp::ParameterDescription& description);
 
-/// The value as it stands in the effective configuration: "50000 kHz" is "50 MHz". Throws
+/// The value as in the effective configuration: "50000 kHz" is "50 MHz". Throws
 /// vp::InputError, which continues a sentence that began with key and value, if it is malformed.
 std::string normalised(const ParameterKind& kind, const std::string& text);
 

@@ -53,7 +53,7 @@ constexpr std::uint32_t usual_points_a_process = 256;
 
 struct LocalOptions {
   std::uint32_t jobs = 1;
-  std::string name = "local";  ///< stands in the records of runs
+  std::string name = "local";  ///< is in the records of runs
   std::uint32_t points_a_process = usual_points_a_process;
   /// Called with a sentence when a process dies; may be empty.
   std::function<void(const std::string& text)> warn = {};

@@ -120,7 +120,7 @@ bool JobWatch::active() {
   if (end.out.find("Invalid job id") != std::string::npos) return false;
   if (++silent_ > most_silent)
     throw vp::InputError("Slurm does not answer any more: " + one_line(end.out) +
-                         "; run the same sweep again when it does: job " + job_ + " goes on");
+                         "; run the same sweep again when it does: job " + job_ + " continues");
   return true;
 }
 

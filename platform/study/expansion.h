@@ -71,7 +71,7 @@ class Word {
 /// The swept values of one point, in the order of the axes: path and value.
 using Assignment = std::vector<std::pair<Word, Word>>;
 
-/// The value of this path; null if there is none.
+/// The value of this path; null if missing.
 const std::string* find(const Assignment& values, const std::string& path);
 
 /// Axes that move together, with their values.
@@ -94,7 +94,7 @@ struct Expansion {
 /// differ in length, or a range in a grid has neither step nor count.
 double point_count(const Spec& spec, const std::vector<AxisGroup>& groups);
 
-/// All points for which `allowed` is true, `limit` at most. Throws vp::InputError if there is none:
+/// All points for which `allowed` is true, `limit` at most. Throws vp::InputError if missing:
 /// the constraints contradict each other or the values.
 Expansion expand(const Spec& spec, const std::vector<AxisGroup>& groups,
                  const std::function<bool(const Assignment&)>& allowed, std::uint64_t limit);

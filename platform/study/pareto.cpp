@@ -18,7 +18,7 @@ namespace platform::study {
 
 namespace {
 
-/// What stands behind "max " or "min ".
+/// What is behind "max " or "min ".
 std::string figure_text(const std::string& text, const std::string& where) {
   const std::string trimmed(vp::trim(text));
   const std::string first = trimmed.substr(0, 4);

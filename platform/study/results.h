@@ -29,7 +29,7 @@ struct ResultRow : Outcome {
   /// Of a point with the results of an earlier one (Repetitions): the place of that among the rows.
   std::optional<std::size_t> same_as;
 
-  /// The text of a parameter of the effective configuration; null if there is none.
+  /// The text of a parameter of the effective configuration; null if missing.
   const std::string* parameter(const std::string& path) const;
   /// The text of a swept value, or of any parameter; empty if the point has none.
   std::string value(const std::string& path) const;

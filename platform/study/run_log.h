@@ -38,7 +38,7 @@ struct RunEntry {
 /// kinds. Names and values of metrics stand there once; a point has the values that differ.
 class RunLog {
  public:
-  /// `engine`: "local", "slurm"; stands in the entries.
+  /// `engine`: "local", "slurm"; is in the entries.
   explicit RunLog(const Store& store, const std::string& engine = "");
   ~RunLog();
   RunLog(const RunLog&) = delete;
@@ -53,7 +53,7 @@ class RunLog {
  private:
   void add_point(const std::string& key, std::optional<double> wall_s, double cpu_s, int attempt,
                  const Outcome& outcome);
-  /// Position in bases_ of one with the same names, which stands in the log.
+  /// Position in bases_ of one with the same names, which is in the log.
   std::uint32_t base_of(const result::Metrics& metrics);
   void append(const std::string& body);
   void write(const std::string& bytes);

@@ -46,7 +46,7 @@ class Store {
   void write_manifest(const Manifest& manifest) const;
   Manifest read_manifest() const;
 
-  /// Keys of all points in the folder, sorted. Names what stands there and is no point.
+  /// Keys of all points in the folder, sorted. Names what is there and is no point.
   std::vector<std::string> keys(std::vector<std::string>& foreign) const;
 
   /// So that one point is computed by one process at a time, whoever works here. Waits.

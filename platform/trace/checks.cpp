@@ -36,7 +36,7 @@ struct ChecksReader {
 
   vp::Expression expression(std::string_view text) const { return vp::Expression(text, where()); }
 
-  /// The two sides of the word `at`, which stands between blanks.
+  /// The two sides of the word `at`, which is between blanks.
   std::pair<std::string, std::string> split_at(const std::string& text, const std::string& at,
                                                const std::string& shape) const {
     const auto place = text.find(" " + at + " ");

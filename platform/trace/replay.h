@@ -39,7 +39,7 @@ class TraceFile {
   /// By variable: our name where the map has one.
   const std::vector<std::string>& paths() const { return paths_; }
   const vp::WaveVariable& variable(std::uint32_t i) const { return reader_.variables()[i]; }
-  /// The variable called `path`; -1 if there is none.
+  /// The variable called `path`; -1 if missing.
   int find(const std::string& path) const;
   const std::string& name() const { return name_; }
 

@@ -203,7 +203,7 @@ struct Check {
   std::optional<vp::Expression> restart;  ///< of `increases`: begins anew when it comes true
   std::uint64_t limit_ps = 0;
   std::uint64_t limit = 0;
-  std::uint64_t clock_hz = 0;  ///< that stands above it in the file
+  std::uint64_t clock_hz = 0;  ///< that is above it in the file
 };
 
 /// Throws vp::InputError with the line.

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(a_breakpoint_with_live_registers) {
            "no device 'nonsense'", "axi_gpio_0",  // with the names there are
            "$1 = 1",                              // ticks
            "0x00000100",                          // the output
-           "interrupt 3 after 3000 us",           // it goes on, and no time was lost
+           "interrupt 3 after 3000 us",           // it continues, and no time was lost
        }) {
     const std::size_t found = outcome.out.find(part, at);
     BOOST_TEST((found != std::string::npos), part << " is not in its place in:\n" << outcome.out);

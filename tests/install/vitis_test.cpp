@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_watchdog_that_nobody_serves) {
   const kit::Outcome outcome = run("scuwdt_unserved");
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "warning: ps.private_timer: the watchdog expired"), outcome.err);
-  // It comes while the program sleeps: where it goes on is where it slept.
+  // It comes while the program sleeps: where it continues is where it slept.
   BOOST_TEST(contains(outcome.err, "called from main (" + project("vitis") + "/scuwdt.c:"),
              outcome.err);
 }
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_vendor_folder_that_is_none) {
   }
 }
 
-// An empty variable is told, rather than built with our drivers.
+// An empty variable is reported, rather than built with our drivers.
 BOOST_AUTO_TEST_CASE(a_vendor_folder_without_name) {
   const kit::Outcome outcome =
       installed.configure(project("vitis"), "vitis_refused", {"-DVENDOR_FOLDER="});

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(an_image_that_comes_while_the_program_is_busy_is_dropped) {
   }
 }
 
-// 92 ms of work: the camera goes on while the program is busy with the last image.
+// 92 ms of work: the camera continues while the program is busy with the last image.
 BOOST_AUTO_TEST_CASE(software_alone_takes_one_of_six) {
   const PlatformRun run = run_at("60 fps", 1, System::ps_only);
   BOOST_TEST_REQUIRE(run.frames.size() == 1u);

@@ -1,4 +1,4 @@
-// markervp debug: a run is made again, and gdb stands in its program at a moment of it.
+// markervp debug: a run is made again, and gdb is in its program at a moment of it.
 #include <boost/test/unit_test.hpp>
 #include <regex>
 

@@ -54,7 +54,7 @@ BOOST_FIXTURE_TEST_CASE(a_search_that_was_stopped_leaves_a_front_and_goes_on, Sw
   search.send(SIGINT);
   const kit::Outcome stopped = search.wait();
   BOOST_TEST(stopped.exit_code == 130);
-  BOOST_TEST(contains(stopped.err, "the same command goes on"), stopped.err);
+  BOOST_TEST(contains(stopped.err, "the same command continues"), stopped.err);
   BOOST_TEST(contains(stopped.out, "ended: interrupted"), stopped.out);
   BOOST_TEST(run({"pareto", "stopped"}).exit_code == 0);
   const std::size_t before = count_points("stopped");

@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(a_video_is_its_pictures) {
   check_marker(frames[3], 36);
 }
 
-/// What can be read is a result; the user is told that it is not all.
+/// What can be read is a result; the user learns that it is not all.
 BOOST_AUTO_TEST_CASE(a_video_that_breaks_off_runs_as_far_as_it_goes) {
   const Workplace place;
   write_video(place / "whole.avi", std::vector<cv::Mat>(6, coloured(scene_picture("id99"))));

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(a_check_that_plays_nothing_is_refused) {
   BOOST_TEST(contains(outcome.err, "leaves nothing to play"), outcome.err);
 }
 
-// Nothing is known of what it takes; no number of the model's stands for it.
+// Nothing is known of what it takes; no number of the model's represents it.
 BOOST_AUTO_TEST_CASE(a_run_with_rtl_that_was_not_synthesised_has_no_figures_of_it) {
   const auto run = [this](const Arguments& more) {
     Arguments all{

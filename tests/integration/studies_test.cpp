@@ -52,7 +52,7 @@ class Study : public Sweeps {
       BOOST_TEST((row.at("feasible") == "yes") == wanted(row), row.at("key"));
   }
 
-  /// The text has the number, rounded to so many places, where `{}` stands in `phrase`.
+  /// The text has the number, rounded to so many places, where `{}` is in `phrase`.
   void says(const std::string& phrase, double number, int places = 0) const {
     std::string expected = phrase;
     expected.replace(expected.find("{}"), 2, vp::format_fixed(number, places));

@@ -86,7 +86,7 @@ BOOST_FIXTURE_TEST_CASE(a_sweep_stops_soon_when_asked, Sweeps) {
   sweep.send(SIGINT);
   const kit::Outcome outcome = sweep.wait();
   BOOST_TEST(outcome.exit_code == 130);
-  BOOST_TEST(contains(outcome.err, "the same command goes on"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "the same command continues"), outcome.err);
   BOOST_TEST(count_points("out/s") < before + 1000);
   for (const auto& [key, count] : computations("out/s")) BOOST_TEST(count == 1, key);
 }

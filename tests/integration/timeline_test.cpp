@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(the_bridge_fifo_is_the_same_at_both_fidelities) {
   BOOST_TEST(most[1] <= 64);
 }
 
-// The handshake stands in the page only.
+// The handshake is in the page only.
 BOOST_AUTO_TEST_CASE(the_page_has_the_same_handshake_at_both_fidelities) {
   std::string found[2];
   for (const bool clocked : {false, true}) {

@@ -1,4 +1,4 @@
-// The commands of docs/traces.md do what stands there, in its order.
+// The commands of docs/traces.md do what is there, in its order.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A program on both cores, from start to result: what it prints, takes and is told.
+// A program on both cores, from start to result: what it prints, takes and hears.
 #include <boost/test/unit_test.hpp>
 
 #include "executable.h"

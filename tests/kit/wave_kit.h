@@ -29,7 +29,7 @@ class WaveText : private vp::WaveHandler {
   std::string declared;
   std::uint64_t bytes = 0, end_ps = 0;
 
-  /// The value of a signal that stands at `ps`, as written.
+  /// The value of a signal that is at `ps`, as written.
   std::string value(const std::string& path, std::uint64_t ps) const {
     std::string found = "none";
     for (const Change& change : changes_) {

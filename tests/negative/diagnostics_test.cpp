@@ -222,7 +222,7 @@ BOOST_FIXTURE_TEST_CASE(invalidations_that_are_missing_early_or_misplaced, Cache
   BOOST_TEST(errors(first, 5, {"--set", "ps.cache_guard_steps=0"}) == "");
 }
 
-// Races are told once, with both places; what both cores wait for, by name.
+// Races are reported once, with both places; what both cores wait for, by name.
 BOOST_AUTO_TEST_CASE(two_cores_err_together) {
   const auto errors = [this](int mistake, int exit_code, const Words& more = {}) {
     const kit::Outcome outcome = run(mistake, more, MARKERVP_CORES);

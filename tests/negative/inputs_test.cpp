@@ -90,7 +90,7 @@ std::string big_endian(std::uint32_t value, std::size_t size = 4) {
   return {bytes.rbegin(), bytes.rend()};
 }
 
-/// Replaces what stands `offset` bytes after `mark`.
+/// Replaces what is `offset` bytes after `mark`.
 void replace_after(std::string& bytes, const std::string& mark, std::ptrdiff_t offset,
                    const std::string& with) {
   const std::size_t at = bytes.find(mark);

@@ -26,7 +26,7 @@ def test_what_goes_in_comes_back(board):
     beats = echoed(board, [1, 0xFFFF_FFFF, 7])
     assert [(beat.data, beat.last, beat.keep) for beat in beats] == [(2, False, 15), (0, False, 15), (8, True, 15)]
     assert [beat.cycle - beats[0].cycle for beat in beats] == [0, 1, 2]
-    assert board.received("pl.sink") == []  # each is told once
+    assert board.received("pl.sink") == []  # each is reported once
     assert [beat.data for beat in echoed(board, range(1, 257))] == list(range(2, 258))
     board.send("pl.source", [0])
     board.finish()

@@ -71,7 +71,7 @@ for point in measured/points/*.json; do cmp "$point" "local/points/${point##*/}"
 runs measured engine | grep -q local || fail "the first point was not measured here"
 runs measured engine | grep -q slurm || fail "nothing but the first point was computed"
 
-# The terminal is gone, the job goes on: the same command waits for it.
+# The terminal is gone, the job continues: the same command waits for it.
 "$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >left.log 2>&1 &
 sweep=$!
 for _ in $(seq 600); do [ -n "$(find left/points -name '*.json' 2>/dev/null)" ] && break; sleep .1; done

@@ -68,7 +68,7 @@ struct State {
 State& state();
 void reset();
 
-/// The byte of DMA memory at a bus address; throws std::out_of_range if there is none.
+/// The byte of DMA memory at a bus address; throws std::out_of_range if missing.
 std::uint8_t& memory(std::uint32_t bus_address);
 
 /// All values written to `address`, in order.

@@ -328,7 +328,7 @@ TraceFilter::Pattern TraceFilter::parse(std::string_view text) {
     }
     if (level != "**" && level.find("**") != std::string::npos) {
       throw InputError("trace filter '" + pattern.text +
-                       "': '**' stands for whole levels; write '*' inside a level");
+                       "': '**' represents whole levels; write '*' inside a level");
     }
   }
   return pattern;

@@ -19,7 +19,7 @@ constexpr unsigned widest = 1 << 20;
 constexpr std::uint64_t fs_per_ns = 1'000'000;
 constexpr const char* header = "the header";
 
-/// A time such as "10ns", "0.1ps" or "5 us" in femtoseconds; 0 if it is none.
+/// A time such as "10ns", "0.1ps" or "5 us" in femtoseconds; 0 if it is not one.
 std::uint64_t femtoseconds(std::string text) {
   struct Scale {
     const char* unit;

@@ -396,7 +396,7 @@ bool VcdReader::pass_blanks_of_bit(const char*& to) {
     return true;
   }
   at_ = end;
-  note("a blank stands between a bit and its identifier");
+  note("a blank is between a bit and its identifier");
   return true;
 }
 
@@ -470,7 +470,7 @@ VcdReader::Status VcdReader::read_keyword(std::string_view word, WaveHandler& ha
   return Status::again;
 }
 
-/// What stands in $dumpoff: nothing is known.
+/// What is in $dumpoff: nothing is known.
 void VcdReader::hand_over_unknowns(WaveHandler& handler) {
   for (std::uint32_t i = 0; i < nets_.size(); ++i) {
     const Net& net = nets_[i];

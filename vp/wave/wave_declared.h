@@ -78,7 +78,7 @@ struct WaveNames {
 /// `nets`: that the file has. Adds to `notes` what it had to rename.
 WaveNames named(std::vector<WaveDeclared> declared, std::uint32_t nets, WaveNotes& notes);
 
-/// The place of a path in names made by named(); -1 if there is none.
+/// The place of a path in names made by named(); -1 if missing.
 std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& variables,
                       const std::vector<std::uint32_t>& table);
 

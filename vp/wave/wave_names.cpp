@@ -86,7 +86,7 @@ class NameTable {
   explicit NameTable(std::size_t most) : places_(std::size_t{16}) {
     while (places_.size() < most * 2) places_.resize(places_.size() * 2);
   }
-  /// The slot of a path: 0 in it if there is none.
+  /// The slot of a path: 0 in it if missing.
   template <class PathAt>
   std::uint32_t& slot(std::string_view path, const PathAt& path_at) {
     const std::size_t mask = places_.size() - 1;
@@ -261,7 +261,7 @@ std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& va
 }
 
 void WaveNotes::add(const std::string& text, std::uint64_t line) {
-  // What differs from one to the next stands in quotes.
+  // What differs from one to the next is in quotes.
   const auto same = [&](const Note& note) {
     return note.text.substr(0, note.text.find('\'')) == text.substr(0, text.find('\''));
   };

@@ -120,7 +120,7 @@ test("narrow screens do not scroll sideways", async () => {
   }
 });
 
-/** Where each chart stands on the page, and how high it is, when all those near the window are drawn. */
+/** Where each chart is on the page, and how high it is, when all those near the window are drawn. */
 const places = (page) => page.$$eval(".chart-area", (areas) => areas.map((area) => {
   const box = area.getBoundingClientRect();
   return [Math.round(box.top + window.scrollY), Math.round(box.height)];

@@ -177,7 +177,7 @@ function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
     return { key: `${i.toString(16).padStart(8, "0")}cafe`, swept: [`${pixel} MHz`, `${cpu} MHz`, `${labels}`, profile], reasons, failed,
       metrics: i === 7 ? new Array(14).fill(null) : [1e3 / ms, ms * 1e3, watts, watts * ms, 25 + watts * 11.5, 41, 41, 9000 + labels * 184, 12000 + labels * 39, 82, 0, 1.2 + random() * 0.1, 40 + random() * 10, 4 + random()] };
   });
-  // As the program ranks them; what has no rate stands on no front.
+  // As the program ranks them; what has no rate is on no front.
   const ranked = list.filter((p) => p.metrics[0] !== null && p.reasons.length === 0);
   const beats = (q, p) => q.metrics[0] >= p.metrics[0] && q.metrics[2] <= p.metrics[2] && (q.metrics[0] > p.metrics[0] || q.metrics[2] < p.metrics[2]);
   for (const p of list) p.front = ranked.includes(p) ? 1 + Number(ranked.some((q) => beats(q, p))) : 0;

@@ -153,7 +153,7 @@ class Raster final : public Stimulus {
   std::uint8_t dark_ = 0;   ///< where pixels have a bit: the brightest dark level
 };
 
-/// A level that stands for a while, or a word that changes now and then.
+/// A level that lasts for a while, or a word that changes now and then.
 class Levels final : public Stimulus {
  public:
   /// `shortest`: clocks. `rises`: called when the level does; null: nothing is.

@@ -28,7 +28,7 @@ struct RtlEnd {
 
 struct RtlDescriptor {
   uint32_t interface;  // RTL_INTERFACE; the rest holds only if it is the same
-  const char* ip;      // the IP in whose place it stands
+  const char* ip;      // the IP that it replaces
   const char* top;     // its module
   const char* place;   // file:line
   uint32_t port_count;

@@ -192,7 +192,7 @@ void RtlShadow::show(const Copy& copy) {
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = copy.outputs[i];
 }
 
-/// What stands behind the last edge of the clock.
+/// What is behind the last edge of the clock.
 void RtlShadow::compare(std::size_t clock) {
   if (last_edges_[clock].number == 0) return;
   for (Copy& copy : copies_) {

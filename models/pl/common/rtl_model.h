@@ -21,7 +21,7 @@
 namespace pl {
 
 /// RTL in the place of an IP, on the edges of its clocks. What its registers wait for is unknown:
-/// its modules sleep while its whole state stands still, until an input changes. It listens only
+/// its modules sleep while its whole state rests, until an input changes. It listens only
 /// then: the pixels of a frame give no notice.
 class RtlInPlace final : public vp::SignalListener {
  public:
@@ -158,7 +158,7 @@ class PortWatcher : public vp::Clocked {
   PortWatcher(sc_core::sc_module_name name, const IpPorts& ports);
 
  protected:
-  /// What stands at the ports of all clocks is that before the edge.
+  /// What is at the ports of all clocks is that before the edge.
   virtual void edge_of(std::size_t clock) = 0;
 
  private:
@@ -239,7 +239,7 @@ class RtlShadow final : public PortWatcher {
   std::string difference_;
 };
 
-/// Writes what stands at the ports of an IP, clock by clock, for test benches of its RTL: the files
+/// Writes what is at the ports of an IP, clock by clock, for test benches of its RTL: the files
 /// stimulus.hex and response.hex, and bench.sv and bench.vhd, which play and compare them
 /// (docs/rtl.md).
 ///
@@ -298,7 +298,7 @@ class WatchedModel final : public Clocked, public ShownPorts {
   std::unique_ptr<PortWatcher> watcher_;
 };
 
-/// What an IP in whose place RTL can stand gives its list of models. `InPlace`: what stands there,
+/// What an IP that RTL can replace gives its list of models. `InPlace`: what is there,
 /// if that is not an `Ip` that is one module.
 template <class Ip, class Clocked, class InPlace = RtlModel<Ip>>
 typename Models<Ip>::MakeRtl rtl_model() {

@@ -49,7 +49,7 @@ class IpPorts {
     bool fixed = false;      ///< the model never changes it
     bool unwritten = false;  ///< no reset gives it a value: it means something once it is written
   };
-  /// An output that a memory samples on each edge, as it stands before the edge.
+  /// An output that a memory samples on each edge, as it was before the edge.
   struct MemoryOutput {
     std::string name;
     unsigned bits;
@@ -151,7 +151,7 @@ class IpPorts {
   /// Whether pins that are no ports of the model stand still until one of its ports changes; null:
   /// there are none.
   std::function<bool()> others_stand_still;
-  /// What the IP does besides on each edge of `clk` while RTL stands in its place; null: nothing.
+  /// What the IP does besides on each edge of `clk` while RTL replaces it; null: nothing.
   std::function<void()> before_edge, behind_edge;
 
  private:
@@ -217,7 +217,7 @@ class RtlRest {
 /// Id of the report with which RTL that ends itself ends the simulation.
 inline constexpr const char* rtl_ended = "/markervp/rtl/ended";
 
-/// The pins of a Verilated module, connected with the ports of the IP in whose place it stands.
+/// The pins of a Verilated module, connected with the ports of the IP that it replaces.
 class RtlPins {
  public:
   /// Loads `file` once; it stays loaded. Throws vp::InputError for one that is no RTL, or that of
@@ -228,7 +228,7 @@ class RtlPins {
   RtlPins(const std::string& file, std::uint64_t seed, const std::string& ip,
           const std::string& instance, IpPorts ports);
 
-  /// An edge of a clock: what stands on the inputs is sampled, and the registers of the RTL change.
+  /// An edge of a clock: what is on the inputs is sampled, and the registers of the RTL change.
   /// Clocks whose edges coincide rise together, as the first of them is called for. False: this one
   /// has risen with another.
   bool clock_edge(std::size_t clock = 0) {
@@ -357,7 +357,7 @@ class RtlPins {
   std::vector<std::uint64_t> risen_ps_;  ///< when each rose last, where there are several
   unsigned risen_ = 1;                   ///< on the last edge, a bit for each clock
   std::vector<bool> connected_;          ///< by the number of the port
-  // Each clock goes through them: what it needs stands together.
+  // Each clock goes through them: what it needs is together.
   struct InputPin {
     void* place;
     unsigned bits;

@@ -310,7 +310,7 @@ void RtlVectors::edge_of(std::size_t clock) {
   rises_ |= 1u << (ports_.clocks.size() - 1 - clock);
 }
 
-// An edge samples the inputs; what the one before it made of its own stands at the outputs.
+// An edge samples the inputs; what the one before it made of its own is at the outputs.
 void RtlVectors::begin_line() {
   was_reset_ = was_reset_ || in_reset();
   inputs_.clear();

@@ -133,7 +133,7 @@ void ZynqPower::record(const vp::EnergyLedger& ledger, const std::vector<vp::Int
   for (const vp::EnergyEntry& entry : ledger.entries()) {
     if (entry.kind == vp::PowerKind::event) events_w[entry.group] += entry.joules.nominal / seconds;
   }
-  if (!timeline_.points.empty()) timeline_.points.pop_back();  // the end, which is none any more
+  if (!timeline_.points.empty()) timeline_.points.pop_back();  // the end, which no longer counts
   for (const std::uint64_t ps : times) {
     PowerTimeline::Point point{ps, std::vector<double>(groups_.size(), 0)};
     for (std::size_t i = 0; i < groups_.size() && ps < to_ps; ++i) {

@@ -19,7 +19,7 @@ namespace platform {
 
 /// Power over simulated time: from each point on, until the next, these watts flow.
 ///
-/// A point stands where a clock changes, the processor falls asleep or wakes, the PL begins or ends
+/// A point is where a clock changes, the processor falls asleep or wakes, the PL begins or ends
 /// a frame, and where a frame's period begins or ends. Energy of events is spread evenly over the
 /// period of the frame that they belong to, so the integral over a frame's period is its energy.
 struct PowerTimeline {

@@ -22,7 +22,7 @@ namespace platform {
 /// the application needs, written with the HAL, and the application asks it over a socket.
 ///
 /// The two go in lock step: the application runs natively, which takes no simulated time, until it
-/// accesses a register, calls the kernel or asks for the time; it stands still while that is done.
+/// accesses a register, calls the kernel or asks for the time; it rests while that is done.
 /// So a run is the same run every time. One in a process at a time.
 class LinuxRun {
  public:
@@ -37,7 +37,7 @@ class LinuxRun {
   /// `costs` with what the kernel's work takes.
   ps::CostTable costs(const ps::CostTable& costs) const;
 
-  /// What stands around it, before the simulation.
+  /// What is around it, before the simulation.
   void connect(Zynq& zynq, CacheContract& caches);
 
  private:

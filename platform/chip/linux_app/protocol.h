@@ -4,7 +4,7 @@
 #include <cstdint>
 
 /// What an application's process and the platform say to each other: the shim asks, over a socket
-/// of whole messages, and goes on when it is answered. Both are of one build.
+/// of whole messages, and continues when it is answered. Both are of one build.
 namespace linux_app {
 
 /// What the application's process finds open. Behind what applications open themselves.

@@ -80,7 +80,7 @@ class ProfileFile {
   /// From `min` to `max`.
   double number(const Json& object, const std::string& key, const std::string& where, double min,
                 double max) const;
-  /// Throws if `object` has a key that is none of `known`, with the nearest of them.
+  /// Throws if `object` has a key that is not one of `known`, with the nearest of them.
   void only(const Json& object, const std::set<std::string>& known, const std::string& where) const;
 
  private:

@@ -21,7 +21,7 @@ namespace platform {
 
 namespace {
 
-/// Prints what stands in the UARTs without line end, however the run ends.
+/// Prints what is in the UARTs without line end, however the run ends.
 struct ConsoleFlush {
   ProcessingSystem& ps;
   ~ConsoleFlush() {
@@ -62,7 +62,7 @@ void Simulation::choose_design() {
       program_ ? design_of_program(program_->name()) : *builtin_designs().front();
   design_name_ = std::make_unique<vp::Parameter<std::string>>(
       "design", usual.name, vp::Source::decision,
-      "what stands in the programmable logic: 'markervp designs' lists them");
+      "what is in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
   set_defaults(*design_);
   if (!program_) program_ = ps::Program::load(usual_program(*design_));

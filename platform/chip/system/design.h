@@ -115,7 +115,7 @@ struct Publication {
   std::uint64_t ps;
 };
 
-/// What stands in the programmable logic, and how the platform shows it: the module `pl` derives
+/// What is in the programmable logic, and how the platform shows it: the module `pl` derives
 /// from this, besides. Its parts say themselves what they are as hardware (vp::Ip); memory masters,
 /// DMA engines and register devices are found in the hierarchy, too.
 class Design {

@@ -43,7 +43,7 @@ const DesignInfo& load_design(const std::string& file);
 std::string program_file(const std::string& name);
 
 /// That of the first program that belongs to the design: `<name>.so` in the folder of a design from
-/// outside, or installed. Throws vp::InputError if there is none.
+/// outside, or installed. Throws vp::InputError if missing.
 std::string usual_program(const DesignInfo& design);
 
 /// Whether program_file() takes the name for a file.

@@ -18,7 +18,7 @@ void check_that_parts_are_inside() {
   for (const sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) {
     if (!dynamic_cast<const vp::Ip*>(object)) continue;
     throw vp::InputError(std::string("the part '") + object->name() +
-                         "' stands outside of 'pl': let the constructor of the design take its "
+                         "' is outside of 'pl': let the constructor of the design take its "
                          "name as sc_core::sc_module_name");
   }
 }

@@ -78,7 +78,7 @@ std::uint32_t DeviceNames::address_of(const std::string& name) const {
 
 namespace {
 
-/// The number of all of `text`, decimal or hexadecimal; false if it is none.
+/// The number of all of `text`, decimal or hexadecimal; false if it is not one.
 bool number(const std::string& text, std::uint64_t& value) {
   char* end = nullptr;
   errno = 0;

@@ -140,7 +140,7 @@ struct BusHistoryOptions {
 /// line.
 class BusHistory : public BusWatch {
  public:
-  /// Throws vp::InputError for an address that is none.
+  /// Throws vp::InputError for an invalid address.
   BusHistory(const BusHistoryOptions& options, Zynq& zynq);
 
   /// A line for each, the last one last.
@@ -166,7 +166,7 @@ class BusHistory : public BusWatch {
 ///   pl.axi_dma_1.….burst                    "write 0x00100080 128 bytes", until the next
 ///   pl.axi_dma_1.….burst_address, burst_bytes, bursts
 ///
-/// An access stands from when it leaves the processor to when its answer is there. Polls make every
+/// An access lasts from when it leaves the processor to when its answer is there. Polls make every
 /// read, no time changes by that.
 class BusTrace {
  public:

@@ -5,8 +5,8 @@
 
 #include <chip/system/zynq.h>
 
-/// What a debugger calls by name while the PS program stands at a breakpoint (scripts/markervp.gdb
-/// makes commands of it). Takes no simulated time and changes nothing: registers show what stands
+/// What a debugger calls by name while the PS program is at a breakpoint (scripts/markervp.gdb
+/// makes commands of it). Takes no simulated time and changes nothing: registers show what is
 /// at the time that the simulation has reached. What the program computed since its last HAL call
 /// has not passed yet.
 extern "C" {

@@ -94,7 +94,7 @@ void Profiler::assign(Course& course, std::size_t function) {
   course.last = now;
 }
 
-// What it interrupted goes on later, and is assigned then, without the handler.
+// What it interrupted continues later, and is assigned then, without the handler.
 void Profiler::begin_handler(Course& course) {
   course.interrupted = course.last;
   course.handler_began = course.last = mark(course);

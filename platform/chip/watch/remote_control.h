@@ -18,7 +18,7 @@ namespace platform {
 /// a socket. While it thinks, simulated time stands; docs/software.md has the commands.
 ///
 /// Every answer has `time_ps`, `ended` and `console`, the lines printed since the last one; of a
-/// mistake `error`, and the run goes on. What a test does happens at the time that the run has
+/// mistake `error`, and the run continues. What a test does happens at the time that the run has
 /// reached: where it sends the same commands, the run is the same.
 ///
 /// A test that is gone, however it ended, ends the run, also in the middle of a command.

@@ -26,10 +26,10 @@ struct StopOptions {
 class StopPoint {
  public:
   /// Gets what was met: "access 3 of axi_dma_0.MM2S_DMASR: read 0x00001002, at 15.2 ms of program
-  /// 'mine', pc …". Of accesses and warnings the later ones are told, too.
+  /// 'mine', pc …". Of accesses and warnings the later ones are reported, too.
   using Listener = std::function<void(const std::string& what)>;
 
-  /// Before the simulation starts. Throws vp::InputError for an address that is none.
+  /// Before the simulation starts. Throws vp::InputError for an invalid address.
   StopPoint(const StopOptions& options, Zynq& zynq, vp::ReportRouter& reports, Listener listener);
   ~StopPoint();
   StopPoint(const StopPoint&) = delete;

@@ -83,7 +83,7 @@ std::vector<Device> read_devices(const std::filesystem::path& file);
 bool look_in(const std::filesystem::path& folder);
 
 #ifdef MARKERVP_DEVICES
-/// Where the package has them, for an executable that stands elsewhere.
+/// Where the package has them, for an executable that is elsewhere.
 inline const bool looks_in_package = look_in(MARKERVP_DEVICES);
 #endif
 

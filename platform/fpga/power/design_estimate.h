@@ -57,7 +57,7 @@ vp::LeakageCurve leakage(const PowerTable& table, double scale = 1,
 /// Of signals, a clock: the vendor's default.
 constexpr double default_toggle_rate = 0.125;
 
-/// What stands on one clock of the PL.
+/// What is on one clock of the PL.
 struct ClockDomain {
   std::string name;
   double mhz = 0;

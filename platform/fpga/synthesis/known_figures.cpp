@@ -203,7 +203,7 @@ std::string KnownFigures::Entry::mismatch(const vp::IpEstimate::Foreign& foreign
   if (sources.empty()) return "it does not say which sources it is of";
   for (const auto& [name, hash] : sources) {
     if (!is_among(foreign.sources, hash))
-      return "its " + name + " is none of the sources that the object is built from";
+      return "its " + name + " is not one of the sources that the object is built from";
   }
   for (const auto& [name, value] : built_with) {
     const auto built = foreign.parameters.find(name);

@@ -26,12 +26,12 @@ class KnownFigures {
 
   /// What is installed, read once. Throws vp::InputError if it is not there.
   static const KnownFigures& installed();
-  /// Throws vp::InputError for a file that is none of this kind.
+  /// Throws vp::InputError for a file that is not one of this kind.
   static KnownFigures load(const std::filesystem::path& file);
 
   /// Parameters that the figures do not name are at their default. What was synthesised at the
   /// values given comes first. Between two values of another parameter counts are on a line, and
-  /// Fmax is the range of both. Beyond them the line goes on, and the low end of
+  /// Fmax is the range of both. Beyond them the line continues, and the low end of
   /// Fmax falls as if all of the path were a tree over the parameter. None: no such module.
   std::optional<Point> find(const vp::IpEstimate::Rtl& rtl) const;
 

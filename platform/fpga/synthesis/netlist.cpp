@@ -107,7 +107,7 @@ class Graph {
                          "': put a register into it");
   }
 
-  /// The fan-outs that there are. 0 stands for a path that never leaves its slice.
+  /// The fan-outs that there are. 0 represents a path that never leaves its slice.
   std::set<unsigned> fan_outs() const {
     std::set<unsigned> found{0};
     for (const Bit& bit : bits_) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// How fast a synthesised design can be clocked on a 7-series chip of speed grade -1. Cells follow
-/// from synthesis. Nets are known only after routing: what stands for them was fitted to public
+/// from synthesis. Nets are known only after routing: what represents them was fitted to public
 /// timing reports (docs/rtl.md, calibration/rtl/fit.py).
 namespace platform::synthesis {
 
@@ -37,11 +37,11 @@ class PathTiming {
   static PathTiming load(const std::filesystem::path& file);
 
   /// Delay of a cell's arc or set-up time of a pin, ns, by its name in the file. Throws
-  /// std::logic_error if there is none of that name.
+  /// std::logic_error without one of that name.
   double operator[](const std::string& name) const;
 
   /// The highest clock of a part of the chip, by its name in the file. Throws std::logic_error if
-  /// there is none of that name.
+  /// no such name exists.
   double limit_mhz(const std::string& name) const;
 
   /// What one net adds where no time is to spare, ns.

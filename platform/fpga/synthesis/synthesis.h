@@ -43,7 +43,7 @@ std::string yosys_version();
 /// installed.
 std::vector<Design> own_designs(const std::vector<std::string>& only);
 
-/// The .v and .sv files of a folder and of those below it. Throws vp::InputError if there is none.
+/// The .v and .sv files of a folder and of those below it. Throws vp::InputError if missing.
 std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folder);
 
 /// Those of `sources` that `top` is made of: what declares it, and the modules, packages and

@@ -192,7 +192,7 @@ class Comparer {
   }
 
   void list_images() {
-    if (options_.truth) truth_beside({});  // wrong, it is told whether or not an image needs it
+    if (options_.truth) truth_beside({});  // wrong, it is reported whether or not an image needs it
     for (const input::InputItem& item : input::list_inputs(options_.inputs, input_)) {
       if (item.kind == input::InputItem::Kind::video)
         throw vp::InputError("'" + item.source + "' is a video: give images, folders or scenes");
@@ -309,7 +309,7 @@ constexpr const char* compare_detectors_help =
     R"(  markervp compare-detectors photos --set sw.marker_side=0.05m
   markervp compare-detectors x y z pitch yaw roll
   markervp scenes roll -o rolls; markervp compare-detectors rolls
-Errors are told where the truth is known: of scenes, and of folders with a truth.json (docs/detectors.md). The
+Errors are reported where the truth is known: of scenes, and of folders with a truth.json (docs/detectors.md). The
 libraries look for the dictionary and the size of markers that the designs look for.)";
 
 int compare_detectors(const CompareDetectorsOptions& options, std::ostream& out,

@@ -46,7 +46,7 @@ struct Comparison {
 struct Judgement {
   enum class Verdict {
     found,    ///< it is there
-    wrong,    ///< seen where there is none of this ID, or in another orientation
+    wrong,    ///< seen where none of this ID is, or in another orientation
     missed,   ///< it is there, and was not seen
     unjudged  ///< seen; whether it is there is not known
   };
@@ -82,7 +82,7 @@ std::string markdown_text(const Comparison& comparison);
 std::string scores_csv(const Comparison& comparison);
 /// A line for each marker that a detector saw or missed.
 std::string detections_csv(const Comparison& comparison);
-/// Everything but the single markers. The time of this computer stands in `host_ms`, apart.
+/// Everything but the single markers. The time of this computer is in `host_ms`, apart.
 result::Json to_json(const Comparison& comparison);
 
 }  // namespace platform::detectors

@@ -357,7 +357,7 @@ bool begins(const std::string& text, std::string_view with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-/// What the file is, if its first bytes or its words say that it is none of ours; else empty.
+/// What the file is, if its first bytes or its words say that it is not one of ours; else empty.
 std::string other_format(const std::string& text) {
   using namespace std::string_literals;
   if (begins(text, "MATLAB ")) return "a MAT-file of MATLAB";

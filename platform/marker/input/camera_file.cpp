@@ -158,7 +158,7 @@ class Reader {
     throw vp::InputError("camera file '" + path_ + "' " + problem);
   }
 
-  /// The entry with one of these names; null if there is none. The same thing may be said twice,
+  /// The entry with one of these names; null if missing. The same thing may be said twice,
   /// but not in two ways.
   const CalibrationEntry* find(const Names& names) {
     const CalibrationEntry* found = nullptr;
@@ -175,7 +175,7 @@ class Reader {
     return found;
   }
 
-  /// The same of a matrix; null if there is none, or it is empty or all zero: not set.
+  /// The same of a matrix; null if missing, or it is empty or all zero: not set.
   const CalibrationEntry* find_matrix(const Names& names, std::size_t rows, std::size_t columns) {
     const CalibrationEntry* entry = find(names);
     if (entry == nullptr || (entry->is_list && entry->numbers.empty() && entry->text.empty()))
@@ -303,7 +303,7 @@ class Reader {
              "' whose values are not numbers");
     if (k.empty() && !entry->is_list) {
       refuse("has lens distortion that is not a list of numbers: '" + vp::excerpt(entry->name) +
-             "'; write [] if there is none");
+             "'; write [] if there are none");
     }
     if (!is_finite(k))
       refuse("has lens distortion that is not a number: calibrate anew, or leave it out");

@@ -331,7 +331,7 @@ class ListedFrames : public FrameSource {
     if (item.kind == InputItem::Kind::scene) return scene_frame(item);
     std::optional<GreyImage> image = read_image(item.source);
     if (!image)
-      throw vp::InputError("image '" + item.source + "' has changed and is none any more");
+      throw vp::InputError("image '" + item.source + "' has changed and is no image any more");
     return fitted(item, item.name, *std::move(image));
   }
 

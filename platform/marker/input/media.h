@@ -15,7 +15,7 @@ namespace platform::input {
 /// a header of a few bytes must not claim the memory of the machine.
 constexpr std::uint64_t most_pixels = 8192 * 8192;
 
-/// How a message goes on that says so.
+/// How a message continues that says so.
 constexpr const char* too_many_pixels = "more pixels than 8192x8192: scale it down first";
 
 /// Why codecs give nothing.

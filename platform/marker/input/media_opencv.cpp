@@ -100,7 +100,7 @@ class OpencvMedia : public Media {
   /// (GStreamer), or know nothing that FFmpeg does not.
   Decoded<std::unique_ptr<VideoStream>> open_video(const std::string& path) const override {
     const host::StderrCapture silence;
-    // FFmpeg takes what stands before a colon for a protocol, unless a slash comes first.
+    // FFmpeg takes what is before a colon for a protocol, unless a slash comes first.
     const std::string file = std::filesystem::absolute(path).string();
     try {
       cv::VideoCapture capture(file, cv::CAP_FFMPEG,

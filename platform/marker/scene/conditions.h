@@ -31,7 +31,7 @@ std::vector<Square> squares_around(int count);
 ///   vignetting             share of the light that is missing in the farthest corner
 ///
 /// One of the first four places the marker anew; those of them that are not given are 1 m and 0.
-/// Throws vp::InputError for what is none, and for a scene that cannot be rendered then.
+/// Throws vp::InputError for what is not one, and for a scene that cannot be rendered then.
 void set_conditions(Scene& scene, const std::string& conditions);
 
 }  // namespace platform

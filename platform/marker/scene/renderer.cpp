@@ -165,7 +165,7 @@ std::array<RoomFace, room_faces> room_regions(const Scene& scene) {
 namespace {
 
 /// Gaussian blur, in place, of a picture of width x height values; beyond the border its outermost
-/// value goes on. The kernel ends at four deviations. `sigma` in px; 0 changes nothing.
+/// value continues. The kernel ends at four deviations. `sigma` in px; 0 changes nothing.
 void gaussian_blur(std::vector<double>& picture, int width, int height, double sigma);
 
 /// Weights of offsets -radius to +radius; their sum is 1.

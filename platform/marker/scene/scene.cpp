@@ -72,7 +72,7 @@ void validate_room(const Scene& scene, const Pose& pose) {
   const bool inside = camera.y() < room.floor_v && camera.y() > room.ceiling_v &&
                       std::abs(camera.x()) < room.side_u;
   if (!inside) {
-    refuse(scene, "the camera stands outside the room at U = " + std::to_string(camera.x()) +
+    refuse(scene, "the camera is outside the room at U = " + std::to_string(camera.x()) +
                       " m, V = " + std::to_string(camera.y()) +
                       " m: move it inside or enlarge the room");
   }

@@ -290,7 +290,7 @@ std::optional<OrderStudy> study_orders(const Measured& measured, double publishe
   if (before == 0) return std::nullopt;
   OrderStudy study;
   study.least_ms = study.least_speedup = 1e9;
-  // Bit i: the square that image i + 2 adds stands before the marker.
+  // Bit i: the square that image i + 2 adds precedes the marker.
   for (std::uint32_t order = 0; order < 1u << added; ++order) {
     if (std::bitset<32>(order).count() != before) continue;
     double ms = 0, speedup = 0;

@@ -38,7 +38,7 @@ struct RowRule {
 /// One for each published value, in their order.
 const std::vector<RowRule>& row_rules();
 
-/// The rule of that value; null if there is none.
+/// The rule of that value; null if missing.
 const RowRule* find_rule(const std::string& id);
 
 /// Timing rows must be this near the published value, %.

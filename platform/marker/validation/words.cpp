@@ -205,7 +205,7 @@ markervp validate --profile a9-O2              # nothing fitted to the thesis: t
 markervp validate --markdown docs/validation.md
 ```
 
-Exit code 0: every gate is met, or missed for a reason that stands below with its numbers; 1: a gate failed; 2: a wrong
+Exit code 0: every gate is met, or missed for a reason that is below with its numbers; 1: a gate failed; 2: a wrong
 option or profile. The folder has `validation.json`, `validation.csv` (the rows), `frames.csv` (each frame of each system:
 counts, times, errors), the two systems' `result.json`, and `report.html`, which draws every quantity over the images of each
 test, as the thesis' figures 5.19 to 5.45 do:

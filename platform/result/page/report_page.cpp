@@ -61,7 +61,7 @@ std::string script_safe(std::string_view json) {
 
 namespace {
 
-/// A text of JSON that stands for `text`, which has no quotes.
+/// A text of JSON that represents `text`, which has no quotes.
 std::string with_double_backslashes(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\\' ? "\\\\" : std::string(1, c);

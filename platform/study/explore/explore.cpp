@@ -374,7 +374,7 @@ std::vector<Requirement> candidates(const Explorer& explorer) {
   return found;
 }
 
-/// The point that meets all but this, and needs the least of it; null if there is none.
+/// The point that meets all but this, and needs the least of it; null if missing.
 const study::ResultRow* nearest(const Explorer& explorer, const Goal& goal) {
   const study::ResultRow* best = nullptr;
   double least = 0;

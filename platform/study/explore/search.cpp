@@ -91,7 +91,7 @@ struct Search::State {
     return ours(genome);
   }
 
-  /// The better of two: the one that stands before the other.
+  /// The better of two: the one that precedes the other.
   const Genome& parent() {
     const std::size_t a = random() % members.size(), b = random() % members.size();
     return members[std::min(a, b)].genome;

@@ -39,7 +39,7 @@ class AtPins : public pl::CornerDetection {
 
   sc_signal<bool> corner_out_{"corner_out_wire"};
   sc_signal<uint32_t> corner_data_{"corner_data_wire"};
-  // The word stands before the signal that tells of it.
+  // The word precedes the signal that tells of it.
   vp::Driver<uint32_t, uint32_t> data_driver_{"data_driver", corner_data_, corner_data};
   vp::Driver<bool, bool> out_driver_{"out_driver", corner_out_, corner_out};
   Vcorner rtl_{"rtl"};

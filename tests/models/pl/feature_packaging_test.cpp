@@ -27,7 +27,7 @@ struct Packaging : kit::Simulation {
     pulse_rst();
   }
   void clocks(unsigned n) {
-    sc_core::sc_start(vp::from_ps(n * 10'000u));  // stands in the middle between two edges
+    sc_core::sc_start(vp::from_ps(n * 10'000u));  // is in the middle between two edges
   }
   void pulse_rst() {
     if (kit::now_ps() == 0) sc_core::sc_start(vp::from_ps(5'000));
@@ -52,7 +52,7 @@ struct Packaging : kit::Simulation {
     ready = ready ^ 1;
     clocks(2);
   }
-  /// All words that come, the one that stands included.
+  /// All words that come, including the present one.
   Words read_all() {
     Words words;
     for (std::uint32_t last = 0; ip.feature != last; ask()) {

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(wr_en_low_in_the_middle_holds_the_stream_and_its_rise_start
   s.clocks(1);
   const std::uint32_t first = s.memory()[0] | s.memory()[1] << 8 | s.memory()[2] << 16 |
                               static_cast<std::uint32_t>(s.memory()[3]) << 24;
-  BOOST_TEST(first == words[stored]);  // the stream goes on where it stood
+  BOOST_TEST(first == words[stored]);  // the stream continues where it stood
 }
 
 BOOST_AUTO_TEST_CASE(rst_returns_to_address_0) {

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(the_largest_frames_are_cut_right) {
   BOOST_TEST(*pl::find_otsu_threshold(histogram) == 127);
 }
 
-// The frame is taken on edges 11 to 522; 523 is the edge behind it, and the threshold stands behind
+// The frame is taken on edges 11 to 522; 523 is the edge behind it, and the threshold follows
 // edge 523 + 272: seen one edge later. 40 to 48 and 190 to 198 are cut at (48 + 189) / 2.
 BOOST_AUTO_TEST_CASE(the_threshold_is_loaded_at_this_clock) {
   Random random(2);

@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(a_time_is_met_in_every_kind_of_call_and_nothing_changes) {
     for (std::uint64_t ps = 1'000; ps < alone.end_ps; ps += 61'300) {
       const Course looked = run(ps, settings);
       BOOST_TEST((looked == alone), "at " << ps);
-      // What is on the bus is not cut: the look comes when the program goes on.
+      // What is on the bus is not cut: the look comes when the program continues.
       BOOST_TEST(looked.looked_ps >= ps);
       BOOST_TEST(looked.looked_ps <= ps + 10'000);
     }

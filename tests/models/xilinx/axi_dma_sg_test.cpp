@@ -249,7 +249,7 @@ BOOST_FIXTURE_TEST_CASE(an_interrupt_for_every_third_packet, SgBench) {
     wait_for(mm2s_registers, dmasr::Idle);
     BOOST_TEST(left() == 1u);
     BOOST_TEST(!status(MM2S_DMASR, dmasr::IOC_Irq));
-    write(MM2S_DMACR, three);  // the same threshold: the count goes on
+    write(MM2S_DMACR, three);  // the same threshold: the count continues
     BOOST_TEST(left() == 1u);
     write(MM2S_TAILDESC, nth(ring, 2));
     wait_for(mm2s_registers, dmasr::Idle);

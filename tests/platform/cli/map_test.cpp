@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(the_configuration_counts) {
   BOOST_TEST(run({"map", "--set", "clocks=exact", "--set", "ps.cpu_clk.frequency=850 MHz", "--set",
                   "pl.axi_gpio_1.base_address=0x41220000"}) == 0);
   BOOST_TEST(contains(out,
-                      "850 MHz  ARM_CLK_CTRL (as it stands it gives 666.666667 MHz: from the first "
+                      "850 MHz  ARM_CLK_CTRL (now it gives 666.666667 MHz: from the first "
                       "write on)"),
              out);
   BOOST_TEST(contains(out, "0x41220000..0x4122FFFF    64 KiB  axi_gpio_1"), out);

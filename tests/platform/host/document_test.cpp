@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(depth_is_bounded) {
   BOOST_TEST(complaint(repeated("{\"a\":", 100'000)).find("more than 64") != std::string::npos);
   BOOST_TEST(complaint("[\"" + repeated("[", 1000) + "\\\"" + repeated("{", 1000) + "\"]") ==
                  "nothing thrown",
-             "what stands in a text is no list");
+             "what is in a text is no list");
   BOOST_TEST(complaint("[" + repeated("[],", 1000) + "[]]") == "nothing thrown");
 }
 

@@ -48,7 +48,7 @@ class Story {
   void drop(std::uint64_t ns, const std::string& signal) { values_[ns].erase(signal); }
 
   void write(const std::string& file) const {
-    // Widths and what stands at 0 ns.
+    // Widths and what is at 0 ns.
     using Signal = std::pair<unsigned, std::uint64_t>;
     std::map<std::string, Signal> signals = {{"pl.feature_packaging.depth", {17, 100}},
                                              {"pl.feature_packaging.blob_count", {16, 0}},

@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(a_link) {
   BOOST_TEST(n.whole("waits", 1, "wait_cycles") == 3u);
 }
 
-// tlast stands for three beats: each is a packet of its own.
+// tlast lasts for three beats: each is a packet of its own.
 BOOST_AUTO_TEST_CASE(packets_of_one_beat) {
   const Waves waves(link_signals, "#0 0! 0\" 0# b0 $\n#10 1! 1\" 1#\n#40 0! 0\" 0#\n#60\n");
   const Numbers n(waves);

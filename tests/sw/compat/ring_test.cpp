@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(a_ring_that_goes_round_by_itself) {
   BOOST_CHECK_EQUAL(rx->Cyclic, 0);
 }
 
-// A paused ring takes descriptors, and the hardware hears of them when it goes on.
+// A paused ring takes descriptors, and the hardware hears of them when it continues.
 BOOST_AUTO_TEST_CASE(a_pause) {
   dma.HasS2Mm = 0;
   create(tx, 4);

@@ -83,7 +83,8 @@ BOOST_AUTO_TEST_CASE(priority_and_trigger_of_one_interrupt) {
   BOOST_CHECK_EQUAL(state().registers[distributor + gic::ICDICFR(3)], 0x5D55'5555u);
 }
 
-// Nothing is written to a read-only register that holds it already; what it does not hold is told.
+// Nothing is written to a read-only register that holds it already; what it does not hold is
+// reported.
 BOOST_AUTO_TEST_CASE(the_sense_of_a_cpus_own_interrupt) {
   constexpr std::uint32_t senses = distributor + gic::ICDICFR(1);
   state().registers[senses] = 0x7DC0'0000;

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(from_the_front) {
   BOOST_TEST(poses.best.covariance[35] > 20 * poses.best.covariance[21]);
 }
 
-// A small marker that is tilted a little: both solutions explain the corners, and it is told.
+// A small marker that is tilted a little: both solutions explain the corners, and this is reported.
 BOOST_AUTO_TEST_CASE(the_other_solution) {
   const SeenMarker marker =
       seen(marker::single_marker(0.3), turn(0, 12, 0), {-0.15, -0.15, 4}, 0.5);

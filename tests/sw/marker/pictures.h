@@ -16,7 +16,7 @@ inline std::ostream& operator<<(std::ostream& stream, Refusal refusal) {
 }
 }  // namespace marker
 
-/// Pictures of the scene renderer, and what stands before the code under test: blobs.
+/// Pictures of the scene renderer, and what is before the code under test: blobs.
 namespace pictures {
 
 marker::GreyImage view(const platform::GreyImage& picture);

@@ -290,7 +290,7 @@ BOOST_AUTO_TEST_CASE(nobody_knows_which_of_two_with_an_id_it_was) {
   BOOST_TEST(two->markers[0].motion.frames == 0u);
   BOOST_TEST(two->markers[0].pose.best.translation == there.best.translation);
   BOOST_TEST(two->markers[1].pose.best.translation == here.best.translation);
-  // The next frame with one goes on from the last that had one.
+  // The next frame with one continues from the last that had one.
   const auto one = frame_of({{5, here}});
   filter->follow(*one, 2 * frame_time);
   BOOST_TEST(one->markers[0].motion.frames == 2u);

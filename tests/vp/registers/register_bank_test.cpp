@@ -67,7 +67,7 @@ BOOST_FIXTURE_TEST_CASE(reset_values_and_access_policies, Bench) {
     BOOST_TEST(master.read(0x04) == 0xF0u);
     BOOST_TEST(reports.count("/markervp/register_bank/ignored_write") == 1u);
     master.write(0x04, 0xF0);
-    BOOST_TEST(reports.count("/markervp/register_bank/ignored_write") == 1u, "it stands there");
+    BOOST_TEST(reports.count("/markervp/register_bank/ignored_write") == 1u, "it is there");
 
     master.write(0x08, 0x12345678);
     BOOST_TEST(master.read(0x08) == 0u);

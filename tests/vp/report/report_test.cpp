@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(an_error_never_returns) {
   sc_core::sc_report_handler::set_actions(sc_core::SC_ERROR, actions);
 }
 
-// What happens while the software waits is told where it goes on, in the order in which it
+// What happens while the software waits is reported where it continues, in the order in which it
 // happened, whatever a message looks like.
 BOOST_AUTO_TEST_CASE(lines_wait_for_their_place) {
   bool waits = true;

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(unknown_signals_are_refused_before_the_run) {
 }
 
 BOOST_AUTO_TEST_CASE(a_small_buffer_gives_up_the_beginning) {
-  options.trigger->frame = "top.fast.odd";  // stands still once the counter sleeps
+  options.trigger->frame = "top.fast.odd";  // rests once the counter sleeps
   options.trigger->buffer = 1;
   options.trigger->condition = vp::Expression("slow.count == 15");
   options.level = vp::TraceLevel::registers;

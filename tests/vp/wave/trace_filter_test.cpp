@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(malformed_patterns_are_refused) {
              "between");
   BOOST_TEST(made("-").find("trace filter '-' has an empty level") == 0u);
   BOOST_TEST(made("a.**b") ==
-             "trace filter 'a.**b': '**' stands for whole levels; write '*' inside a level");
-  BOOST_TEST(made("***").find("'**' stands for whole levels") != std::string::npos);
+             "trace filter 'a.**b': '**' represents whole levels; write '*' inside a level");
+  BOOST_TEST(made("***").find("'**' represents whole levels") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_signal_is_found_by_the_end_of_its_path) {

@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(digits_that_are_left_out_or_too_many) {
 BOOST_AUTO_TEST_CASE(a_blank_between_a_bit_and_its_identifier) {
   const Read read(with(bit, "#0\n1 !\n#1\n0!\n"));
   BOOST_TEST((read.lines == Lines{"0 top.a 1", "1 top.a 0"}));
-  BOOST_TEST(read.warns("a blank stands between a bit and its identifier (line 7)"));
+  BOOST_TEST(read.warns("a blank is between a bit and its identifier (line 7)"));
 }
 
 BOOST_AUTO_TEST_CASE(words_in_bits_and_numbers_of_other_types) {

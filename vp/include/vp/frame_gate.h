@@ -20,7 +20,7 @@ struct FrameTrigger {
   unsigned frames_before = 0;          ///< frames kept before such a frame
   /// Bytes of changes held until a frame is judged; about 4 a change. The oldest are given up.
   std::size_t buffer = std::size_t{256} << 20;
-  bool expected = true;  ///< it is told if it never comes true
+  bool expected = true;  ///< it is reported if it never comes true
 };
 
 /// A writer before another one that passes on the frames in which something happens. In between
@@ -31,7 +31,7 @@ class FrameGate final : public WaveWriter {
   ~FrameGate() override;
 
   /// The trigger needs these signals, by their paths of all there are, whatever else is traced.
-  /// Throws InputError for a name that is none or not one only.
+  /// Throws InputError for a name that fits no signal or several.
   std::vector<std::string> needed(const std::vector<std::string>& paths) const;
 
   Id add(std::string_view path, Kind kind, unsigned width) override;
@@ -100,7 +100,7 @@ class FrameGate final : public WaveWriter {
 ///
 /// A list of patterns, each with `+` (take, the default) or `-` (leave out) before it; the last one
 /// that matches a name decides. In a pattern `*` and `?` stand for any characters and one character
-/// within a level, `**` as a whole level stands for any number of levels. A pattern without these
+/// within a level, `**` as a whole level represents any number of levels. A pattern without these
 /// that names a module takes everything below it. If the first pattern is a `-`, everything else is
 /// taken. No pattern at all: everything.
 ///
@@ -122,7 +122,7 @@ class TraceFilter {
   struct Pattern {
     std::string text;  ///< as the user wrote it
     bool take;
-    bool subtree;  ///< no wildcard: a module stands for what is below it
+    bool subtree;  ///< no wildcard: a module represents what is below it
     std::vector<std::string> levels;
   };
   static Pattern parse(std::string_view text);

@@ -42,7 +42,7 @@ struct WaveValue {
   std::string_view text;   ///< as written, small: "0", "1x", "2.5"; of a text what it says
 };
 
-/// The digits that a value stands for: what is left out on the left is 0 before 0 and 1, and the
+/// The digits that a value represents: what is left out on the left is 0 before 0 and 1, and the
 /// leftmost digit before any other (IEEE 1364, 18.2.1).
 std::string full_digits(std::string_view digits, unsigned width);
 
@@ -87,7 +87,7 @@ class WaveReader {
   const std::vector<WaveVariable>& variables() const { return variables_; }
   const std::vector<WaveEnumeration>& enumerations() const { return enumerations_; }
   std::uint32_t nets() const { return static_cast<std::uint32_t>(selected_.size()); }
-  /// Null if there is none.
+  /// Null if missing.
   const WaveVariable* find(const std::string& path) const;
   /// Femtoseconds of a step of the file's time.
   std::uint64_t timescale_fs() const { return timescale_fs_; }

@@ -1,5 +1,5 @@
 // Light or dark, and the colours of charts: Okabe and Ito's, told apart with any colour vision, each in a shade
-// that stands out from its background.
+// that differs from its background.
 const colours = {
   light: {
     blue: "#0072b2", sky: "#3a9bd0", green: "#008a64", orange: "#d98c00", vermilion: "#cf5a00", purple: "#b85f93",

@@ -1,4 +1,4 @@
-// A run as the sections of its page need it: result.json, and what stands only in the page.
+// A run as the sections of its page need it: result.json, and what is only in the page.
 import { fixed, mean, quantile } from "../kit/format.js";
 
 export function makeRun(result, extras = {}) {

@@ -19,7 +19,7 @@ export function opener(open, pick) {
   return (instance, again) => again || instance.on("click", (event) => { const point = pick(event); if (point) open(point); });
 }
 
-/** For a cell; the whole text stands in the point's panel and in the CSV. */
+/** For a cell; the whole text is in the point's panel and in the CSV. */
 function clipped(reason) {
   const text = reason.replace(/^failed: program .*? ended with exit code \d+: /, "failed: ");
   return text.length > 56 ? text.slice(0, 55) + "…" : text;
@@ -36,7 +36,7 @@ export const columnsOf = (sweep, selection, rows = sweep.points) => [
 const mostLines = 1500;
 const spread = (points, most) => (points.length <= most ? points : Array.from({ length: most }, (_, i) => points[Math.floor(i * points.length / most)]));
 
-/** Marks what is kept of an axis. ECharts paints the marks that a drag makes as it is told to, others always grey. */
+/** Marks what is kept of an axis. ECharts paints the marks that a drag makes as it is asked to, others always grey. */
 function mark(instance, model, intervals, { width, color, opacity }) {
   model.setActiveIntervals(intervals);
   instance.getViewOfComponentModel(model)._brushController.updateCovers(intervals.map((range) => ({

@@ -82,7 +82,7 @@ void prepare_stack();
 void describe_overflow(std::uintptr_t address, std::uintptr_t stack_pointer, char* text,
                        std::size_t size);
 
-/// The instruction at which the application stands in the one that is made now, where that is not
+/// The instruction at which the application is in the one that is made now, where that is not
 /// what its stack says: 0.
 void stand_at(std::uintptr_t instruction);
 
@@ -103,7 +103,7 @@ void resume_interrupts(const std::uint32_t* interrupts);
 
 // ---- registers.cpp
 /// mmap() of device registers: pages without access rights. Each access of the application faults,
-/// is made by the platform, and the application goes on: the instruction is stepped over with the
+/// is made by the platform, and the application continues: the instruction is stepped over with the
 /// word in the page, so that it does what it always does.
 void* map_registers(void* address, std::size_t length, int protection, int flags,
                     std::uint32_t bus_address);

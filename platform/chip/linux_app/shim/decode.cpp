@@ -79,7 +79,7 @@ MemoryAccess arithmetic(unsigned char opcode, std::uint8_t size) {
   return form > 1 || compares ? load(bytes) : both(bytes);
 }
 
-/// The part of the opcode that stands in the ModR/M byte.
+/// The part of the opcode that is in the ModR/M byte.
 unsigned extension(const unsigned char* opcode) {
   return opcode[1] >> 3 & 7;
 }

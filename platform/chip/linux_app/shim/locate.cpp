@@ -37,7 +37,7 @@ struct Frames {
   std::size_t count = 0;
 };
 
-// What a signal interrupted stands at its instruction; who called, behind it.
+// What a signal interrupted is at its instruction; who called, behind it.
 _Unwind_Reason_Code take(_Unwind_Context* context, void* data) {
   Frames& frames = *static_cast<Frames*>(data);
   int at_instruction = 0;
@@ -104,7 +104,7 @@ bool is_of_application(const Place& place) {
   return base && base != own_base && base != c_library_base && place.lines != 0;
 }
 
-/// Writes what stands there, as the platform does for programs of its own.
+/// Writes what is there, as the platform does for programs of its own.
 class Writer {
  public:
   explicit Writer(Text& text) : text_(text) {}

@@ -4,7 +4,7 @@
 namespace platform {
 
 // What the thesis compares itself with. Its program does not need the logic, which is left
-// unconfigured on the chip: it draws no power and takes no resources. It stands there all the same,
+// unconfigured on the chip: it draws no power and takes no resources. It is there all the same,
 // so that one configuration is good for both.
 const DesignInfo& ps_only_design() {
   static const DesignInfo info{

@@ -70,8 +70,8 @@ class SignalArray {
   std::vector<std::unique_ptr<vp::Signal<T>>> signals_;
 };
 
-/// Plays an image into a detector, one pixel a clock as the sensor input does: pixel i stands from
-/// edge i + 1 on.
+/// Plays an image into a detector, one pixel a clock as the sensor input does: pixel i is there
+/// from edge i + 1 on.
 template <class Pixel>
 class RasterSource : public vp::Clocked {
  public:

@@ -20,11 +20,11 @@ struct Picture {
     }
     return *this;
   }
-  /// The pixel stands at the module's input from this edge on, and is labelled on the next one.
+  /// The pixel is at the module's input from this edge on, and is labelled on the next one.
   std::uint64_t edge_of(unsigned x, unsigned y) const { return std::uint64_t{y} * width + x + 1; }
 };
 
-/// The labels of the neighbouring window of the pixel that stands at the module's input.
+/// The labels of the neighbouring window of the pixel that is at the module's input.
 class WindowView : public vp::Clocked {
  public:
   WindowView(sc_core::sc_module_name name, vp::Clock& clk, const pl::BlobDetectionClocked& ip,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned width = 64, height = 32;
 constexpr unsigned corner_x = 20, corner_y = 12;
-/// The pixel that completes the window around the corner stands from this edge on.
+/// The pixel that completes the window around the corner is there from this edge on.
 constexpr std::uint64_t window_edge = (corner_y + 4) * width + (corner_x + 4) + 1;
 
 struct Offset {
@@ -54,7 +54,7 @@ class CornerArrayView : public vp::Clocked {
   SignalArray<std::uint16_t> row_strength{"row_strength", 3, 12};
 
  private:
-  /// Newest pixel of a window; 0, 0 while there is none.
+  /// Newest pixel of a window; 0, 0 while missing.
   struct Position {
     unsigned x = 0, y = 0;
   };

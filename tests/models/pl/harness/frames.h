@@ -44,7 +44,7 @@ Image one_rectangle(int width, int height, int sx, int sy, int ex, int ey);
 /// Fills a rectangle, both ends included. Throws std::out_of_range if it does not fit.
 void draw(Image& image, int width, int sx, int sy, int ex, int ey, std::uint8_t level);
 
-/// Reads an 8-bit binary PGM without comments. Throws std::runtime_error if it is none.
+/// Reads an 8-bit binary PGM without comments. Throws std::runtime_error if it is not one.
 Image read_pgm(const std::string& path);
 /// Throws std::runtime_error if the file cannot be written.
 void write_pgm(const std::string& path, const Image& image, int width, int height);

@@ -354,7 +354,7 @@ BOOST_AUTO_TEST_CASE(rtl_of_one_pixel_a_clock_is_refused_where_more_come) {
 }
 #endif
 
-/// A square of 20 px whose last run ends in (39, 24) stands at the outputs behind edge `out`, and
+/// A square of 20 px whose last run ends in (39, 24) is at the outputs behind edge `out`, and
 /// the frame is over behind edge `over`.
 void check_square(const pl::Geometry& size, std::uint64_t out, std::uint64_t over) {
   Binary picture{size.width, size.height, std::vector<std::uint8_t>(size.pixels())};
@@ -380,7 +380,7 @@ void check_square(const pl::Geometry& size, std::uint64_t out, std::uint64_t ove
 }
 
 // Pixel (39, 25) leaves the source on edge 10 + 25 x 64 + 39 and is taken one edge later, the blob
-// stands behind the ninth edge after that.
+// follows the ninth edge after that.
 BOOST_AUTO_TEST_CASE(a_square_is_shown_at_this_time) {
   check_square({64, 32}, 10 + 25 * 64 + 39 + 1 + 9, 11 + 32 * 64 + 64 + 2);
 }

@@ -1,5 +1,5 @@
-// A shared object with the interface of Verilated RTL that is none: its registers are those of the
-// model's core, for noise of 64 x 32 pixels. THRESHOLD, DELAY in clocks, and no RESET of the
+// A shared object with the interface of Verilated RTL that is not one: its registers are those of
+// the model's core, for noise of 64 x 32 pixels. THRESHOLD, DELAY in clocks, and no RESET of the
 // pipeline plant bugs; without STATE it does not show what its evaluations depend on.
 #include <pl/common/rtl_interface.h>
 #include <pl/corner_detection/core.h>
@@ -22,7 +22,7 @@ class CornerObject {
   };
   struct State {
     Pins pins;
-    std::uint64_t core;  ///< stands for it: how often it changed
+    std::uint64_t core;  ///< represents it: how often it changed
     std::array<Output, pl::CornerCore::latency + 1 + DELAY> pipeline;
     std::uint8_t clk_before;
   };

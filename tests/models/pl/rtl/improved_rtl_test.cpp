@@ -454,7 +454,8 @@ BOOST_AUTO_TEST_CASE(each_bug_is_found_at_its_port) {
   }
 }
 
-// RTL for another number of pixels a clock is told by its parameter, or by the pins that it lacks.
+// RTL for another number of pixels a clock is reported by its parameter, or by the pins that it
+// lacks.
 BOOST_AUTO_TEST_CASE(rtl_of_another_number_of_pixels_is_refused) {
   const auto refused = [](std::uint32_t built, std::uint32_t pixels) {
     try {

@@ -1,4 +1,4 @@
-// RTL beside the model of its IP: equal RTL changes nothing, the first difference is told with
+// RTL beside the model of its IP: equal RTL changes nothing, the first difference is reported with
 // clock and values.
 #include <systemc>
 

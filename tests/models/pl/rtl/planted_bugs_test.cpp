@@ -126,7 +126,7 @@ harness::Image posterised(std::uint64_t seed) {
   return image;
 }
 
-/// As many blobs as there are labels, all of which are told behind the frame.
+/// As many blobs as there are labels, all of which are reported behind the frame.
 harness::Image bars() {
   harness::Image image(64 * 32, 200);
   for (int x = 0; x < 64; x += 4) harness::draw(image, 64, x, 20, x + 1, 31, 20);

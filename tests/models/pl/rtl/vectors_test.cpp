@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(a_line_is_a_clock_and_a_column_a_port) {
   BOOST_TEST(stimulus.front().size() == std::string("1 0 00 000 000").size());
 }
 
-// Which clocks rise stands in front: of ten edges of one and thirteen of the other, one is common.
+// Which clocks rise is in front: of ten edges of one and thirteen of the other, one is common.
 BOOST_AUTO_TEST_CASE(edges_of_two_clocks_share_a_line_where_they_coincide) {
   write_crossing();
   const Strings stimulus = lines("stimulus.hex");

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(what_has_no_label_or_no_room_is_told) {
   b.label_overflow = 10;  // of frames before
   b.begin(1);
   b.sink.accept(false);
-  b.blob(0);        // its first word goes on to the register, the others wait
+  b.blob(0);        // its first word moves on to the register, the others wait
   b.blob(100, 20);  // no room for all of it
   b.sink.accept(true);
   b.clocks(20);

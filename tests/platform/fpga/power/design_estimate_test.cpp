@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(logic_between_few_registers_takes_more) {
   const auto logic = [](double lut, double ff) { return logic_energy(table(), lut, ff).nominal; };
   BOOST_TEST(logic(2000, 1000) / logic(2000, 2000) == std::pow(2, 0.59),
              boost::test_tools::tolerance(1e-9));
-  // Beyond what the reports have it stands still.
+  // Beyond what the reports have it rests.
   BOOST_TEST(logic(2000, 10) == logic(2000, 1));
   BOOST_TEST(logic(2000, 0) == logic(2000, 1));
   BOOST_TEST(logic(100, 1000) == logic(100, 2000));

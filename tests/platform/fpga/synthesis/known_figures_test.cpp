@@ -257,7 +257,7 @@ BOOST_FIXTURE_TEST_CASE(figures_of_other_sources_or_parameters_are_not_taken, Mi
     BOOST_TEST(!e.known);
     BOOST_TEST(has(e.source, why), e.source);
   };
-  refused(text("ccc", 640), "mine.sv is none of the sources");
+  refused(text("ccc", 640), "mine.sv is not one of the sources");
   refused(text("aaa", 320), "WIDTH is 320 there, and 640 in the object");
   refused(simple, "does not say which sources");
 }

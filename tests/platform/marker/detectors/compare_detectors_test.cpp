@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(a_folder_brings_its_truth) {
   BOOST_TEST(double(of("improved")["corner_px"]) < 0.1);
   BOOST_TEST(result()["images"] == Json::array({"z1.0@noise=0.02.png"}));
 
-  // The same image without: no errors are told, and nothing is called false.
+  // The same image without: no errors are reported, and nothing is called false.
   BOOST_TEST(run({"scenes", "z1.0", "-o", "plain"}) == 0, err);
   std::filesystem::remove(folder / "plain/truth.json");
   BOOST_TEST(compare({"plain", "--design", "improved"}) == 0, err);
