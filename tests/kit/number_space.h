@@ -10,6 +10,7 @@
 
 namespace space_test {
 
+namespace result = platform::result;
 namespace study = platform::study;
 
 /// Parameters a and b, numbers from 0 to 1000, and a word.

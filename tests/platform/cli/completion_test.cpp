@@ -19,10 +19,6 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-bool has(const std::string& shell) {
-  return std::system(("command -v " + shell + " >/dev/null 2>&1").c_str()) == 0;
-}
-
 struct Completion : Terminal {
   /// The script, and a stand-in for the program that lists two scenes.
   std::string script(const std::string& shell) {

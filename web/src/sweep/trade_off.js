@@ -20,7 +20,9 @@ function scaleOf(values) {
   const [least, most] = [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
   const range = most - least || Math.abs(least) * 0.1 || 0.1;
   const tick = roundStep(range * 1.16, 6);
-  return { min: Math.floor((least - range * 0.08) / tick) * tick, max: Math.ceil((most + range * 0.08) / tick) * tick, tick };
+  const lowest = Math.floor((least - range * 0.08) / tick) * tick;
+  // No room below 0 for what is never negative: a rate, a power.
+  return { min: least >= 0 ? Math.max(0, lowest) : lowest, max: Math.ceil((most + range * 0.08) / tick) * tick, tick };
 }
 
 /** Lines of equal energy a frame, from edge to edge of the plot; none where it does not show rate and power. */
