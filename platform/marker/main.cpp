@@ -7,6 +7,7 @@
 #include <host/process.h>
 #include <host/stack_limit.h>
 #include <marker/commands/commands.h>
+#include <marker/scene/scene.h>
 #include <vp/foreign_object.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
@@ -19,7 +20,8 @@ namespace {
 const platform::cli::Application application{
     {{"scenes", platform::commands::add_scenes},
      {"validate", platform::commands::add_validate},
-     {"compare-detectors", platform::commands::add_compare_detectors}}};
+     {"compare-detectors", platform::commands::add_compare_detectors}},
+    platform::is_scene};
 
 }  // namespace
 

@@ -290,7 +290,7 @@ VcdReader::Status VcdReader::read_window(Clock& clock, WaveHandler& handler) {
       }
       WaveValue value;
       value.known = letter.known;
-      value.bits = static_cast<std::uint64_t>(letter.bit);
+      value.bits = letter.bit > 0 ? 1 : 0;
       value.text = {&letters[static_cast<unsigned char>(letter.small)].small, 1};
       handler.change(net - 1, value);
       continue;
