@@ -53,6 +53,7 @@ std::uint32_t larger_divisor(std::uint32_t product) {
 }
 
 std::uint32_t rounded_hertz(std::uint64_t millihertz, std::uint32_t product) {
+  // A product is 1 at least. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
   const std::uint64_t divided = (millihertz + product / 2) / product;
   return static_cast<std::uint32_t>((divided + 500) / 1000);
 }

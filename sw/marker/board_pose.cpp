@@ -340,6 +340,7 @@ bool GridBoard::find(std::uint32_t id, Places& places) const {
   if (id < first_id || id - first_id >= columns * rows) return false;
   const std::uint32_t index = id - first_id;
   places = square_at(index % columns * (side + gap),
+                     // Whole rows. NOLINTNEXTLINE(bugprone-integer-division)
                      static_cast<double>(index / columns) * (side + gap), side);
   return true;
 }

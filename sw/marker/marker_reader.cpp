@@ -56,6 +56,7 @@ std::uint32_t sum_of(const Cell& cell, const CameraFrame& frame) {
     return sum;
   }
   for (unsigned i = 0; i < samples; ++i) {
+    // Whole rows. NOLINTNEXTLINE(bugprone-integer-division)
     const Point p = first + (i % 3) * cell.right + static_cast<double>(i / 3) * cell.down;
     const bool inside =
         p.x >= part.left && p.x < part.right && p.y >= part.top && p.y < part.bottom;
