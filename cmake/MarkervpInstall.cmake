@@ -88,7 +88,8 @@ markervp_install_headers(sw/marker sw)
 markervp_install_headers(sw/apps/common sw/apps)
 markervp_install_headers(sw/apps/hybrid sw/apps)
 foreach(wing chip facts fpga marker result trace)
-  markervp_install_headers(platform/${wing} platform)
+  markervp_install_headers(platform/${wing} platform
+    SKIP commands detectors linux_app page picture power synthesis validation)
 endforeach()
 
 install(TARGETS hybrid improved ps-only blink two-cores exercise LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")

@@ -399,8 +399,10 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& appli
   add_rtl(*app, target.rtl);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
-  for (const Application::Command& command : application.commands)
-    target.application[command.name] = command.add(*app);
+  for (const auto add : application.commands) {
+    RunCommand run = add(*app);
+    target.application[app->get_subcommands({}).back()->get_name()] = std::move(run);
+  }
   add_completion(*app, target.completion);
   app->footer(examples);  // last: commands would take it over
   return app;

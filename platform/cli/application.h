@@ -18,12 +18,8 @@ using RunCommand = std::function<int(const std::vector<std::string>& arguments, 
 
 /// What an application adds to the platform's command line.
 struct Application {
-  struct Command {
-    std::string name;
-    /// Adds the command of this name to the parser.
-    std::function<RunCommand(CLI::App& parser)> add;
-  };
-  std::vector<Command> commands;
+  /// Each adds one command to the parser, and returns what runs it.
+  std::vector<RunCommand (*)(CLI::App& parser)> commands;
   /// Whether `markervp run WORD` has an input of this name.
   bool (*is_input)(const std::string& word) = [](const std::string&) { return false; };
 };

@@ -19,7 +19,9 @@ ValueKind value_kind(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == "FILE") return {Kind::file, {}};
   if (type == "DIR") return {Kind::folder, {}};
-  if (type.find('|') != std::string::npos) return {Kind::choice, vp::split(type, '|')};
+  const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const bool says_kind = std::any_of(type.begin(), type.end(), is_capital);
+  if (!type.empty() && !says_kind) return {Kind::choice, vp::split(type, '|')};
   if (option.get_name() == "INPUT") return {Kind::input, {}};
   return {Kind::any, {}};
 }

@@ -18,9 +18,8 @@ extern "C" int sc_main(int, char**) {
 namespace {
 
 const platform::cli::Application application{
-    {{"scenes", platform::commands::add_scenes},
-     {"validate", platform::commands::add_validate},
-     {"compare-detectors", platform::commands::add_compare_detectors}},
+    {platform::commands::add_scenes, platform::commands::add_validate,
+     platform::commands::add_compare_detectors},
     platform::is_scene};
 
 }  // namespace

@@ -50,8 +50,8 @@ class PlPorts {
   /// What is behind M_AXI_GP0; null if nothing is.
   const vp::Router* registers() const { return registers_; }
 
-  /// Once the design stands: nothing answers behind a M_AXI_GP0 that it left (DECERR), and nothing
-  /// sends to a S_AXI_HP0.
+  /// Once the design is built: nothing answers behind a M_AXI_GP0 that it left (DECERR), and
+  /// nothing sends to a S_AXI_HP0.
   void tie_off();
 
  private:

@@ -159,7 +159,7 @@ class FiguresReader {
     const YAML::Node node = map[key];
     if (!node) {
       if (otherwise) return *otherwise;
-      fail(map, "'" + key + "' is missing: write 0 if there are none");
+      fail(map, "'" + key + "' is missing: write 0 if the design has none");
     }
     const std::string text = scalar(node, key);
     const double scale = unit == vp::Unit::frequency ? 1 / hz_per_mhz

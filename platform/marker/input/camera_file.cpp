@@ -303,7 +303,7 @@ class Reader {
              "' whose values are not numbers");
     if (k.empty() && !entry->is_list) {
       refuse("has lens distortion that is not a list of numbers: '" + vp::excerpt(entry->name) +
-             "'; write [] if there are none");
+             "'; write [] if the lens has none");
     }
     if (!is_finite(k))
       refuse("has lens distortion that is not a number: calibrate anew, or leave it out");

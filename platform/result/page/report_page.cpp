@@ -68,7 +68,7 @@ std::string with_double_backslashes(const std::string& text) {
   return result;
 }
 
-/// The character for which an escape of JSON stands, if it is one that may be a control character.
+/// The character of an escape of JSON, if it may be a control character.
 std::string escaped_character(std::string_view escape) {
   switch (escape.size() > 1 ? escape[1] : '\0') {
     case 'b':

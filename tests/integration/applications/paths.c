@@ -243,6 +243,15 @@ static void by_system_call(void) {
   struct stat status;
   EXPECT(syscall(SYS_stat, "/dev/uio0", &status) == 0 && S_ISCHR(status.st_mode));
   EXPECT(syscall(SYS_access, "/dev/uio9", F_OK) == -1 && errno == ENOENT);
+  EXPECT(syscall(SYS_faccessat, AT_FDCWD, "/dev/uio9", F_OK) == -1 && errno == ENOENT);
+  struct statx extended;
+  EXPECT(syscall(SYS_statx, AT_FDCWD, "/dev/uio0", 0, STATX_BASIC_STATS, &extended) == 0 &&
+         S_ISCHR(extended.stx_mode));
+  const int first = open("/dev/uio0", O_RDWR);
+  const int second = (int)syscall(SYS_dup2, first, first + 20);
+  EXPECT(second == first + 20 && syscall(SYS_dup3, first, second, O_CLOEXEC) == second);
+  EXPECT(close(first) == 0);
+  check(second, "by syscall(SYS_dup2)");
   EXPECT(syscall(SYS_getpid) == getpid());
 }
 

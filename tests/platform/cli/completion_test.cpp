@@ -59,6 +59,7 @@ BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(offered({"markervp", "run", "z1"}) == "z1.0 ");
   BOOST_TEST(offered({"markervp", "run", "demo", "--repeat", "\"\""}) == " ",
              "numbers are not offered");
+  BOOST_TEST(offered({"markervp", "completion", "b"}) == "bash ");
   BOOST_TEST(contains(offered({"markervp", "scenes", "\"\""}), "roll "));
   BOOST_TEST(contains(offered({"markervp", "config", "--config", "\"\""}), "bash "),
              "files of the folder");

@@ -111,6 +111,16 @@ bool is_led(long number, const Arguments& is, long& result) {
       result =
           ::fstatat(is.number(0), is.text(1), static_cast<struct stat*>(is.place(2)), is.number(3));
       return true;
+    case SYS_statx:
+      result = ::statx(is.number(0), is.text(1), is.number(2), static_cast<unsigned>(is.a[3]),
+                       static_cast<struct statx*>(is.place(4)));
+      return true;
+    case SYS_faccessat:
+      result = ::faccessat(is.number(0), is.text(1), is.number(2), 0);
+      return true;
+    case SYS_readlinkat:
+      result = ::readlinkat(is.number(0), is.text(1), static_cast<char*>(is.place(2)), is.size(3));
+      return true;
     case SYS_read:
       result = ::read(is.number(0), is.place(1), is.size(2));
       return true;
@@ -122,6 +132,16 @@ bool is_led(long number, const Arguments& is, long& result) {
       return true;
     case SYS_dup:
       result = ::dup(is.number(0));
+      return true;
+    case SYS_dup2:
+      result = ::dup2(is.number(0), is.number(1));
+      return true;
+    case SYS_dup3:
+      result = ::dup3(is.number(0), is.number(1), is.number(2));
+      return true;
+    case SYS_close_range:
+      result = ::close_range(static_cast<unsigned>(is.a[0]), static_cast<unsigned>(is.a[1]),
+                             is.number(2));
       return true;
     case SYS_mmap:
       result = reinterpret_cast<long>(::mmap(is.place(0), is.size(1), is.number(2), is.number(3),

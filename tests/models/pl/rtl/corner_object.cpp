@@ -1,10 +1,12 @@
 // A shared object with the interface of Verilated RTL that is not one: its registers are those of
 // the model's core, for noise of 64 x 32 pixels. THRESHOLD, DELAY in clocks, and no RESET of the
-// pipeline plant bugs; without STATE it does not show what its evaluations depend on.
+// pipeline plant bugs; without STATE it does not show what its evaluations depend on. Evaluation
+// KILLED_AT ends the process.
 #include <pl/common/rtl_interface.h>
 #include <pl/corner_detection/core.h>
 
 #include <array>
+#include <csignal>
 #include <cstring>
 
 namespace {
@@ -32,6 +34,7 @@ class CornerObject {
 
   void eval() {
     ++evaluations;
+    if (evaluations == KILLED_AT) std::raise(SIGKILL);
     if (state.pins.clk && !state.clk_before) edge();
     state.clk_before = state.pins.clk;
   }

@@ -1,9 +1,10 @@
 #include <result/metrics.h>
 
-#include "sweep_kit.h"
+#include <boost/test/unit_test.hpp>
+
+#include "input_error.h"
 
 namespace result = platform::result;
-using sweep_test::complaint;
 
 BOOST_AUTO_TEST_SUITE(metric_catalogue)
 
@@ -20,9 +21,9 @@ BOOST_AUTO_TEST_CASE(a_metric_has_unit_and_meaning) {
 BOOST_AUTO_TEST_CASE(what_is_no_metric_is_refused_with_the_nearest) {
   for (const char* wrong : {"summary.fps.men", "frames.markers", "power.modules..w", "clock"})
     BOOST_TEST(result::kind_of_metric(wrong) == nullptr, wrong);
-  BOOST_TEST(complaint([] { result::check_metric("summary.fps.men", {}); }) ==
+  BOOST_TEST(input_error([] { result::check_metric("summary.fps.men", {}); }) ==
              "unknown metric 'summary.fps.men'; did you mean 'summary.fps.mean'?");
-  BOOST_TEST(complaint([] { result::check_metric("pl.widht", {"pl.width"}); }) ==
+  BOOST_TEST(input_error([] { result::check_metric("pl.widht", {"pl.width"}); }) ==
              "unknown metric 'pl.widht'; did you mean 'pl.width'?");
   result::check_metric("pl.width", {"pl.width"});
 }
@@ -33,8 +34,9 @@ BOOST_AUTO_TEST_CASE(the_table_shows_what_is_asked_for) {
   BOOST_TEST(table.find("power") == std::string::npos, table);
   BOOST_TEST(result::metric_table("frames.time_us.pose.mean").find("time of a stage") !=
              std::string::npos);
-  BOOST_TEST(complaint([] { result::metric_table("sumary.fps.mean"); }).find("summary.fps.mean") !=
-             std::string::npos);
+  BOOST_TEST(input_error([] {
+               result::metric_table("sumary.fps.mean");
+             }).find("summary.fps.mean") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
