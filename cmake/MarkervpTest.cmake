@@ -1,4 +1,4 @@
-option(MARKERVP_SLOW_TESTS "Build the benchmarks and the tests labelled slow with everything else" ON)
+option(MARKERVP_SLOW_TESTS "Build the tests labelled slow with everything else" ON)
 set(markervp_join "${CMAKE_CURRENT_LIST_DIR}/MarkervpJoin.cmake")
 
 # Replaces the files *_test.cpp of the list SOURCES by joined ones of at most twelve each: MarkervpJoin.cmake has why. The others
