@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""The coefficients pl.* of data/power from public power reports, and what they are worth for designs that they never saw.
+"""The coefficients pl.* and static.* of data/power that come from public power reports, and what they are worth for designs
+that they never saw.
 
   refit.py REPORTS.csv            prints coefficients, bands and errors
   refit.py REPORTS.csv TABLE.json the same, and ends with 1 where the table has other coefficients
   refit.py --markdown REPORTS.csv the errors as a table
   refit.py --documented REPORTS.csv DOC.md  ends with 1 where that table is not in the document
 
-Every repository has one vote: its reports are of one design, or of variants of one. What is left out in turn is a whole
-repository, and the bands are those of the errors on what was left out: nine of ten reports lie inside.
+Every family has one vote: its reports are of one design, or of variants of one. What is left out in turn is a whole family, and
+the bands are those of the errors on what was left out: nine of ten reports lie inside.
 """
 
 import csv
@@ -16,22 +17,27 @@ import math
 import statistics
 import sys
 
-CLOCK_ROOT_W_PER_MHZ = 1e-5  # pl.clock_root: 1 mW for a clock of 100 MHz
-MMCM_W = 0.106  # pl.mmcm
 PRINTED_W = 0.0005  # half of the last digit of a report
 LEAST_LUT = 100  # below that a report's milliwatts have no digit left
+LEAST_MHZ = 1.5  # below that a clock tree's have none
 AMBIENT_C, THETA_JA = 25, 11.5
 STATIC_BASE_W, STATIC_LEAKAGE_W, STATIC_SLOPE = 0.0634, 0.0399, 0.0342  # static.* of the XC7Z020
+STATIC_BASE_BAND_W = 0.0048
+STATIC_BANDS = {"static.bram": 0.015, "static.older_tool_7020": 0.004, "static.older_tool_7010": 0.004}  # assumed
+BAND_SCALE = 1.2  # of the kinds, so that nine of ten totals lie inside as well
 STATIC_OF_DEVICE = {"xc7z020": 1.0, "xc7z010": 0.874}  # data/devices
-PLACES = 2  # significant digits of a coefficient
+LAST_OLDER_TOOL = (2017, 2)  # its Vccaux is 21 mA on an XC7Z020; that of 2017.3 is 15
+PLACES = 3  # significant digits of a coefficient
 
 
 class Report:
     def __init__(self, row):
-        self.owner = row["repository"].split("/")[0]
-        self.device = row["device"]
+        self.set, self.family, self.device = row["set"], row["family"], row["device"]
+        self.is_zynq = self.device in STATIC_OF_DEVICE
+        self.older_tool = tuple(map(int, row["vivado"].split("."))) <= LAST_OLDER_TOOL
+        self.clocks_mhz = [float(mhz) for mhz in row["clocks_mhz"].split()]
         for key, value in row.items():
-            if key not in ("set", "repository", "commit", "top", "vivado", "device"):
+            if key not in ("set", "family", "repository", "commit", "top", "vivado", "device", "clocks_mhz"):
                 setattr(self, key, float(value) if value else None)
 
 
@@ -40,11 +46,11 @@ def read_reports(path):
         return [Report(row) for row in csv.DictReader(line for line in file if not line.startswith("#"))]
 
 
-def by_owner(reports, value):
-    """One number, or tuple, an owner: the median of its reports."""
+def by_family(reports, value):
+    """One number, or tuple, a family: the median of its reports."""
     groups = {}
     for report in reports:
-        groups.setdefault(report.owner, []).append(value(report))
+        groups.setdefault(report.family, []).append(value(report))
     return [statistics.median(group) if not isinstance(group[0], tuple) else tuple(map(statistics.median, zip(*group)))
             for group in groups.values()]
 
@@ -53,18 +59,20 @@ def by_owner(reports, value):
 
 
 class Logic:
-    """Logic and signals: the more LUT a flip-flop has before it, the more a signal toggles on its way through them."""
+    """Logic and signals: the more LUT a flip-flop has before it, the more a signal toggles on its way through them. Fitted to
+    the reports that came first: the later ones, mostly of small interconnect, gain nothing and pull it away from kernels."""
 
     name, column = "logic and signals", "logic_w"
 
     @staticmethod
     def applies(r):
-        return r.lut > LEAST_LUT and r.clock_mhz > 0 and r.logic_w is not None
+        return r.lut > LEAST_LUT and r.clock_mhz > LEAST_MHZ and r.logic_w is not None
 
     @staticmethod
     def fit(reports):
-        points = by_owner(reports, lambda r: (math.log(r.lut / r.ff),
-                                              math.log(max(r.logic_w, PRINTED_W) / (r.lut * r.clock_mhz) * 1e6)))
+        points = by_family([r for r in reports if r.set not in ("later", "fabric")],
+                           lambda r: (math.log(r.lut / r.ff),
+                                      math.log(max(r.logic_w, PRINTED_W) / (r.lut * r.clock_mhz) * 1e6)))
         slopes = [(b[1] - a[1]) / (b[0] - a[0]) for i, a in enumerate(points) for b in points[:i] if abs(b[0] - a[0]) > 0.2]
         slope = statistics.median(slopes)  # Theil and Sen
         return {"pl.logic": math.exp(statistics.median(y - slope * x for x, y in points)), "pl.logic_depth": slope}
@@ -75,20 +83,40 @@ class Logic:
 
 
 class Clocks:
+    """Each net takes its own, loaded or not, and each flip-flop a share: least squares of relative errors, none negative."""
+
     name, column = "clock trees", "clocks_w"
 
     @staticmethod
     def applies(r):
-        return r.lut > LEAST_LUT and r.clock_mhz > 0 and r.clocks_w is not None
+        return r.lut > LEAST_LUT and r.clock_mhz > LEAST_MHZ and r.clocks_mhz and r.clocks_w is not None
 
     @staticmethod
-    def fit(reports):
-        return {"pl.clock": statistics.median(by_owner(
-            reports, lambda r: max(0, r.clocks_w - CLOCK_ROOT_W_PER_MHZ * r.clock_mhz) / (r.ff * r.clock_mhz) * 1e6))}
+    def of(r):
+        """MHz of all nets, and of the flip-flops in thousands."""
+        return sum(r.clocks_mhz), r.ff * r.clock_mhz * 1e-3
 
-    @staticmethod
-    def predict(r, c):
-        return r.clock_mhz * (CLOCK_ROOT_W_PER_MHZ + c["pl.clock"] * r.ff * 1e-6)
+    @classmethod
+    def fit(cls, reports):
+        votes = {r.family: sum(other.family == r.family for other in reports) for r in reports}
+        nets2 = both = loads2 = nets = loads = 0
+        for r in reports:
+            (n, f), w = cls.of(r), 1 / max(r.clocks_w, PRINTED_W)
+            vote = 1 / votes[r.family]
+            nets2, both, loads2 = nets2 + vote * (n * w) ** 2, both + vote * n * f * w * w, loads2 + vote * (f * w) ** 2
+            nets, loads = nets + vote * n * w, loads + vote * f * w
+        determinant = nets2 * loads2 - both * both
+        root, tree = (nets * loads2 - loads * both) / determinant, (loads * nets2 - nets * both) / determinant
+        if root < 0:
+            root, tree = 0, loads / loads2
+        if tree < 0:
+            root, tree = nets / nets2, 0
+        return {"pl.clock_root": root * 1e3, "pl.clock": tree * 1e3}
+
+    @classmethod
+    def predict(cls, r, c):
+        nets, loads = cls.of(r)
+        return 1e-3 * (c["pl.clock_root"] * nets + c["pl.clock"] * loads)
 
 
 class PerPrimitive:
@@ -98,22 +126,77 @@ class PerPrimitive:
         self.name, self.column, self.coefficient, self.count = name, column, coefficient, count
 
     def applies(self, r):
-        return getattr(r, self.count) > 0 and r.clock_mhz > 0 and getattr(r, self.column) is not None
+        return getattr(r, self.count) > 0 and r.clock_mhz > LEAST_MHZ and getattr(r, self.column) is not None
 
     def fit(self, reports):
-        return {self.coefficient: statistics.mean(by_owner(
+        return {self.coefficient: statistics.mean(by_family(
             reports, lambda r: getattr(r, self.column) / (getattr(r, self.count) * r.clock_mhz) * 1e6))}
 
     def predict(self, r, c):
         return c[self.coefficient] * getattr(r, self.count) * r.clock_mhz * 1e-6
 
 
+class Managers:
+    """Clock managers, of an oscillator at 1 GHz: what most make. A memory controller's, on other devices, are slower."""
+
+    def __init__(self, name, column, coefficient, count):
+        self.name, self.column, self.coefficient, self.count = name, column, coefficient, count
+
+    def applies(self, r):
+        return r.is_zynq and getattr(r, self.count) and getattr(r, self.column) is not None
+
+    def fit(self, reports):
+        return {self.coefficient: statistics.median(by_family(
+            reports, lambda r: getattr(r, self.column) / getattr(r, self.count)))}
+
+    def predict(self, r, c):
+        return c[self.coefficient] * getattr(r, self.count)
+
+
 KINDS = [Logic, Clocks, PerPrimitive("block memories", "bram_w", "pl.bram", "bram36"),
-         PerPrimitive("multipliers", "dsp_w", "pl.dsp", "dsp")]
+         PerPrimitive("multipliers", "dsp_w", "pl.dsp", "dsp"), Managers("MMCM", "mmcm_w", "pl.mmcm", "mmcms"),
+         Managers("PLL", "pll_w", "pl.pll", "plls")]
+
+
+class Leakage:
+    """What a report leaks beyond the curve of static.*: by block memory, W at 25 C, and in the tool's older years."""
+
+    OLDER = {"xc7z020": "static.older_tool_7020", "xc7z010": "static.older_tool_7010"}
+
+    @staticmethod
+    def growth(junction_c):
+        return math.exp(STATIC_SLOPE * (junction_c - 25))
+
+    @classmethod
+    def curve(cls, device, junction_c):
+        return STATIC_OF_DEVICE[device] * (STATIC_BASE_W + STATIC_LEAKAGE_W * cls.growth(junction_c))
+
+    @classmethod
+    def fit(cls, reports):
+        zynq = [r for r in reports if r.is_zynq]
+        beyond = {r: r.static_w - cls.curve(r.device, r.junction_c) for r in zynq}
+        up = down = 0
+        for device in STATIC_OF_DEVICE:
+            newer = [r for r in zynq if r.device == device and not r.older_tool]
+            blocks = [r.bram36 * cls.growth(r.junction_c) for r in newer]
+            x, y = statistics.mean(blocks), statistics.mean(beyond[r] for r in newer)
+            up += sum((b - x) * (beyond[r] - y) for b, r in zip(blocks, newer))
+            down += sum((b - x) ** 2 for b in blocks)
+        fitted = {"static.bram": 1e3 * up / down}
+        for device, name in cls.OLDER.items():
+            older = [r for r in zynq if r.device == device and r.older_tool]
+            fitted[name] = statistics.mean(
+                by_family(older, lambda r: beyond[r] - 1e-3 * fitted["static.bram"] * r.bram36 * cls.growth(r.junction_c)))
+        return fitted
+
+    @classmethod
+    def predict(cls, r, c, junction_c):
+        older = c[cls.OLDER[r.device]] if r.older_tool else 0
+        return cls.curve(r.device, junction_c) + 1e-3 * c["static.bram"] * r.bram36 * cls.growth(junction_c) + older
 
 
 def fit_all(reports):
-    coefficients = {}
+    coefficients = Leakage.fit(reports)
     for kind in KINDS:
         coefficients.update(kind.fit([r for r in reports if kind.applies(r)]))
     return coefficients
@@ -121,19 +204,19 @@ def fit_all(reports):
 
 def total(r, coefficients):
     """What find_static_point() of vp/power_meter.h finds; PS and pins as reported."""
-    dynamic = r.ps_w + r.io_w + r.mmcms * MMCM_W + sum(kind.predict(r, coefficients) for kind in KINDS)
+    dynamic = r.ps_w + r.io_w + (r.xadc_w or 0) + sum(kind.predict(r, coefficients) for kind in KINDS)
     junction = AMBIENT_C
     for _ in range(100):
-        leak = STATIC_OF_DEVICE[r.device] * (STATIC_BASE_W + STATIC_LEAKAGE_W * math.exp(STATIC_SLOPE * (junction - 25)))
+        leak = Leakage.predict(r, coefficients, junction)
         junction = AMBIENT_C + THETA_JA * (dynamic + leak)
     return dynamic + leak
 
 
 def left_out(reports):
-    """Pairs of a report and coefficients fitted to the reports of all other owners."""
-    for owner in sorted({r.owner for r in reports}):
-        coefficients = fit_all([r for r in reports if r.owner != owner])
-        yield from ((r, coefficients) for r in reports if r.owner == owner)
+    """Pairs of a report and coefficients fitted to the reports of all other families."""
+    for family in sorted({r.family for r in reports}):
+        coefficients = fit_all([r for r in reports if r.family != family])
+        yield from ((r, coefficients) for r in reports if r.family == family)
 
 
 def quantile(values, share):
@@ -152,38 +235,67 @@ class Errors:
     def __init__(self, name, pairs):
         self.name, self.count = name, len(pairs)
         said, is_so = [p for p, _ in pairs], [a for _, a in pairs]
+        relative = [abs(p / max(a, PRINTED_W) - 1) for p, a in pairs]
         self.sum = sum(said) / sum(is_so) - 1
-        self.typical = statistics.median(abs(p / max(a, PRINTED_W) - 1) for p, a in pairs)
+        self.typical, self.mean, self.most = statistics.median(relative), statistics.mean(relative), quantile(relative, 0.9)
         self.mw = 1e3 * statistics.mean(abs(p - a) for p, a in pairs)
         ratios = [max(a, PRINTED_W) / p for p, a in pairs if p > 0]
         self.low, self.high = min(1.0, quantile(ratios, 0.05)), max(1.0, quantile(ratios, 0.95))
 
 
-def cross_validate(reports):
-    pairs = list(left_out(reports))
-    errors = [Errors(k.name, [(k.predict(r, c), getattr(r, k.column)) for r, c in pairs if k.applies(r)]) for k in KINDS]
-    errors.append(Errors("total", [(total(r, c), r.total_w) for r, c in pairs]))
-    with_ps = [(total(r, c), r.total_w) for r, c in pairs if r.ps_w > 0]
-    without = [(total(r, c), r.total_w) for r, c in pairs if r.ps_w == 0]
-    return errors + [Errors("total, with PS", with_ps), Errors("total, PL alone", without)]
+class Validation:
+    """Errors by kind and of totals, and whether totals lie within their bands: those of the kinds, in quadrature."""
+
+    def __init__(self, reports):
+        pairs = list(left_out(reports))
+        self.kinds = [Errors(k.name, [(k.predict(r, c), getattr(r, k.column)) for r, c in pairs if k.applies(r)]) for k in KINDS]
+        totals = [(r, c, total(r, c)) for r, c in pairs if r.is_zynq]
+        self.totals = [Errors(name, [(t, r.total_w) for r, _, t in totals if chosen(r)]) for name, chosen in (
+            ("total", lambda r: True), ("total, with PS", lambda r: r.ps_w > 0), ("total, PL alone", lambda r: r.ps_w == 0),
+            ("total, later reports", lambda r: r.set == "later"))]
+        widths, inside = [], 0
+        for r, c, t in totals:
+            low, high = self.band(r, c)
+            inside += t - low <= r.total_w <= t + high
+            widths.append((low + high) / 2 / t)
+        self.inside, self.width = inside / len(totals), statistics.mean(widths)
+
+    def band(self, r, c):
+        """How far a total may be off, W below and above. Logic, memories and multipliers of a design are busy together, so their
+        errors add up; the others are independent."""
+        older_w = STATIC_BANDS[Leakage.OLDER[r.device]] if r.older_tool else 0
+        static_w = math.hypot(STATIC_BASE_BAND_W, older_w)
+        parts = [(kind.predict(r, c), *scaled(e)) for kind, e in zip(KINDS, self.kinds)]
+        busy = [parts[i] for i in (0, 2, 3)]
+        low = [p * (1 - low) for p, low, _ in (parts[1], *parts[4:])] + [sum(p * (1 - low) for p, low, _ in busy)]
+        high = [p * (high - 1) for p, _, high in (parts[1], *parts[4:])] + [sum(p * (high - 1) for p, _, high in busy)]
+        return math.hypot(static_w, *low), math.hypot(static_w, *high)
 
 
-def bands(coefficients, errors):
-    """low, nominal, high of each coefficient."""
-    of_kind = {"pl.logic": 0, "pl.clock": 1, "pl.bram": 2, "pl.dsp": 3}
+def scaled(errors):
+    """Low and high of a coefficient, over its nominal value."""
+    return max(0.0, 1 - BAND_SCALE * (1 - errors.low)), 1 + BAND_SCALE * (errors.high - 1)
+
+
+def bands(coefficients, validation):
+    """low, nominal, high of each coefficient that has a kind's errors."""
+    of_kind = {"pl.logic": 0, "pl.clock": 1, "pl.clock_root": 1, "pl.bram": 2, "pl.dsp": 3, "pl.mmcm": 4, "pl.pll": 5}
     result = {}
     for name, value in coefficients.items():
-        e = errors[of_kind[name]] if name in of_kind else None
-        result[name] = tuple(rounded(v) for v in ((value * e.low, value, value * e.high) if e else (value,) * 3))
+        low, high = scaled(validation.kinds[of_kind[name]]) if name in of_kind else (1, 1)
+        spread = STATIC_BANDS.get(name, 0)
+        result[name] = tuple(rounded(v) for v in (value * low - spread, value, value * high + spread))
     return result
 
 
-def markdown(errors):
-    lines = ["| Kind | Reports | all together | typical report | on average | nine of ten lie within |",
-             "|---|---|---|---|---|---|"]
-    for e in errors:
-        lines.append(f"| {e.name} | {e.count} | {100 * e.sum:+.1f} % | {100 * e.typical:.1f} % | {e.mw:.1f} mW | "
-                     f"x{e.low:.2f} to x{e.high:.2f} |")
+def markdown(validation):
+    lines = ["| Kind | Reports | all together | typical report | mean | nine of ten below | on average | nine of ten lie within |",
+             "|---|---|---|---|---|---|---|---|"]
+    for e in validation.kinds + validation.totals:
+        lines.append(f"| {e.name} | {e.count} | {100 * e.sum:+.1f} % | {100 * e.typical:.1f} % | {100 * e.mean:.1f} % | "
+                     f"{100 * e.most:.1f} % | {e.mw:.1f} mW | x{e.low:.2f} to x{e.high:.2f} |")
+    lines += ["", f"{100 * validation.inside:.0f} % of the totals lie within their bands, which reach {100 * validation.width:.1f} % to "
+              "each side on average."]
     return "\n".join(lines)
 
 
@@ -193,21 +305,20 @@ def main(arguments):
     if (option, len(files)) not in (("", 1), ("", 2), ("--markdown", 1), ("--documented", 2)):
         sys.exit(__doc__)
     reports = read_reports(files[0])
-    errors = cross_validate(reports)
+    validation = Validation(reports)
     if option == "--markdown":
-        print(markdown(errors))
+        print(markdown(validation))
         return 0
     if option == "--documented":
         with open(files[1], encoding="utf-8") as file:
-            if markdown(errors) in file.read():
+            if markdown(validation) in file.read():
                 return 0
         print(f"{files[1]} is old: put what 'refit.py --markdown' prints into it", file=sys.stderr)
         return 1
-    fitted = bands(fit_all(reports), errors)
+    fitted = bands(fit_all(reports), validation)
     for name, (low, nominal, high) in fitted.items():
-        print(f"{name:<16} {low:>8g} {nominal:>8g} {high:>8g}")
-    for e in errors:
-        print(f"{e.name:<18} {e.count:3} reports, together {100 * e.sum:+.1f} %, typical {100 * e.typical:.1f} %")
+        print(f"{name:<24} {low:>8g} {nominal:>8g} {high:>8g}")
+    print(markdown(validation))
     if len(files) == 1:
         return 0
     with open(files[1], encoding="utf-8") as file:

@@ -77,7 +77,8 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
     study::check_names(results, objective.figure());
   for (const vp::Expression& constraint : results.constraints)
     study::check_names(results, constraint);
-  const study::Pareto pareto = study::rank(results, objectives);
+  study::Pareto pareto = study::rank(results, objectives);
+  study::judge_by_bands(pareto, objectives);
   const auto is_best = [](const study::RankedPoint& point) { return point.front == 1; };
   if (std::none_of(pareto.points.begin(), pareto.points.end(), is_best))
     throw vp::InputError(study::why_no_point(results));
@@ -85,6 +86,8 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
   study::write_pareto_csv(csv, results, objectives, pareto);
   out << study::pareto_table(results, objectives, pareto);
   out << "\n" << study::verdicts_text(results) << "\n";
+  const std::string doubt = study::doubt_text(pareto);
+  if (!doubt.empty()) out << doubt << "\n";
   for (const auto& [metric, count] : pareto.lacking)
     out << "\nleft out: " << result::counted(count, "point") << " without '" << metric << "'\n";
   out << "\nwrote " << csv << std::endl;

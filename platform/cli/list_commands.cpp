@@ -14,6 +14,7 @@
 #include <vp/unit.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <ostream>
 
 namespace platform::cli {
@@ -276,6 +277,44 @@ void print_watts(std::ostream& out, const std::string& name, const vp::Band& wat
                      watts.high);
 }
 
+/// What a simulation says of a clock's logic, and which nets make most of it.
+void print_toggles(std::ostream& out, const power::ClockDomain& clock) {
+  constexpr std::size_t most_nets = 8;
+  const power::ToggleCount& count = *clock.toggles;
+  out << fmt::format("\n{}: {:.3g} toggles a bit and clock, of {} bits in {} clocks\n", clock.name,
+                     count.rate(), count.bits, count.clocks);
+  for (std::size_t i = 0; i < std::min(most_nets, count.nets.size()); ++i) {
+    const power::ToggleCount::Net& net = count.nets[i];
+    if (net.toggles == 0) break;
+    out << fmt::format("  {:>5.1f} %  {} ({} bit)\n",
+                       100 * static_cast<double>(net.toggles) / static_cast<double>(count.toggles),
+                       net.path, net.width);
+  }
+}
+
+/// What the estimate had to assume, because the design does not say it.
+void print_assumptions(std::ostream& out, const power::DesignFigures& design) {
+  const auto undeclared = [](const power::ClockDomain& clock) {
+    return (clock.lut > 0 && clock.logic == "pl.logic") ||
+           (clock.bram36 > 0 && clock.memory == "pl.bram") ||
+           (clock.dsp > 0 && clock.multiplier == "pl.dsp");
+  };
+  std::string clocks;
+  for (const power::ClockDomain& clock : design.clocks) {
+    if (undeclared(clock)) clocks += (clocks.empty() ? "" : ", ") + clock.name;
+  }
+  if (!clocks.empty()) {
+    out << "\nNot declared: what the logic, memories and multipliers do on " << clocks
+        << ".\nIts watts are those of a usual design. 'activity', 'bram_activity' and "
+           "'dsp_activity' of a clock narrow the band.\n";
+  }
+  const double has = design.device.cores.value;
+  if (design.ps && !design.ps->known_w && !design.ps->cores && has < 2) {
+    out << "\nThe PS is billed with two cores, as the vendor's tool does, although "
+        << design.device.name() << " has one: 'ps: {cores: 1}' bills what it has.\n";
+  }
+}
+
 }  // namespace
 
 int print_power_estimate(const PowerTableOptions& options, std::ostream& out) {
@@ -284,13 +323,20 @@ int print_power_estimate(const PowerTableOptions& options, std::ostream& out) {
       power::estimate_power(design, power::PowerTable::load(options.table));
   out << fmt::format("{}, table '{}'           W   band\n", design.device.name(), options.table);
   for (const auto& [kind, watts] : estimate.ledger.by_group()) print_watts(out, kind, watts);
-  out << "\nby module\n";
-  for (const auto& [module, watts] : estimate.ledger.by_module()) print_watts(out, module, watts);
+  out << "\nby module, and by which coefficient\n";
+  for (const vp::EnergyEntry& entry : estimate.ledger.entries()) {
+    out << fmt::format("  {:<26}{:>8.3f}   {:.3f} to {:<8.3f}{}\n", entry.module,
+                       entry.joules.nominal, entry.joules.low, entry.joules.high, entry.source);
+  }
   out << "\nby rail\n";
   for (const auto& [rail, watts] : estimate.ledger.by_rail()) print_watts(out, rail, watts);
   out << '\n';
   print_watts(out, "total", estimate.ledger.total());
   out << fmt::format("  {:<26}{:>6.1f} C\n", "junction", estimate.junction_c);
+  for (const power::ClockDomain& clock : design.clocks) {
+    if (clock.toggles) print_toggles(out, clock);
+  }
+  print_assumptions(out, design);
   return done;
 }
 

@@ -7,6 +7,7 @@
 
 #include <result/metrics.h>
 #include <result/table.h>
+#include <study/doubt.h>
 #include <study/pareto.h>
 #include <study/report.h>
 #include <study/results.h>
@@ -33,8 +34,6 @@ std::string figure_text(const std::string& text, const std::string& where) {
 Objective::Objective(const std::string& text, const std::string& where)
     : maximise_(vp::trim(text).substr(0, 3) == "max"), figure_(figure_text(text, where), where) {}
 
-namespace {
-
 bool dominates(const std::vector<double>& a, const std::vector<double>& b,
                const std::vector<bool>& maximise) {
   bool better = false;
@@ -46,6 +45,8 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b,
   }
   return better;
 }
+
+namespace {
 
 std::vector<bool> directions(const std::vector<Objective>& objectives) {
   std::vector<bool> maximise;
@@ -195,6 +196,24 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives) {
   return pareto;
 }
 
+void judge_by_bands(Pareto& pareto, const std::vector<Objective>& objectives) {
+  std::vector<RankedPoint*> ranked;
+  std::vector<std::vector<Span>> spans;
+  for (RankedPoint& point : pareto.points) {
+    if (point.front == 0) continue;
+    ranked.push_back(&point);
+    spans.emplace_back();
+    for (const Objective& objective : objectives) {
+      const double nominal = point.figures[spans.back().size()];
+      const Span span = span_in(*point.row, objective.figure()).value_or(Span{nominal, nominal});
+      pareto.has_bands = pareto.has_bands || span.low != span.high;
+      spans.back().push_back(span);
+    }
+  }
+  const std::vector<result::Holds> dominated = surely_dominated(spans, directions(objectives));
+  for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->dominated = dominated[i];
+}
+
 std::vector<Objective> objectives_of(const Results& results) {
   std::vector<std::string> texts = results.manifest.objectives;
   if (texts.empty()) texts.assign(usual_objectives.begin(), usual_objectives.end());
@@ -289,6 +308,26 @@ std::string why_no_point(const Results& results) {
   return text + "; the nearest is " + described(results, *nearest);
 }
 
+std::string doubt_text(const Pareto& pareto) {
+  if (!pareto.has_bands) return "";
+  std::size_t on_it = 0, sure = 0, others = 0, worse = 0;
+  for (const RankedPoint& point : pareto.points) {
+    if (point.front == 1) {
+      ++on_it;
+      sure += point.dominated == result::Holds::no;
+    } else if (point.front > 1) {
+      ++others;
+      worse += point.dominated == result::Holds::yes;
+    }
+  }
+  std::string text = "By the bands of the figures " + std::to_string(sure) + " of " +
+                     result::counted(on_it, "point") + " on the front can be beaten by no other";
+  if (others > 0)
+    text += "; of " + std::to_string(others) + " behind it " + std::to_string(worse) +
+            (worse == 1 ? " is" : " are") + " worse for sure";
+  return text;
+}
+
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto) {
   std::vector<std::string> names = results.manifest.swept;
@@ -302,7 +341,11 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
     for (const std::string& path : results.manifest.swept)
       row.push_back(pareto.points[i].row->value(path));
     for (const double figure : pareto.points[i].figures) row.push_back(result::readable(figure));
-    row.emplace_back(pareto.knee == i ? "knee" : "");
+    std::vector<std::string> words;
+    if (pareto.knee == i) words.emplace_back("knee");
+    if (pareto.has_bands && pareto.points[i].dominated == result::Holds::no)
+      words.emplace_back("for sure");
+    row.push_back(vp::join(words, ", "));
     table.add(row);
   }
   return table.text();
@@ -311,7 +354,7 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
 void write_pareto_csv(const std::string& path, const Results& results,
                       const std::vector<Objective>& objectives, const Pareto& pareto) {
   vp::OutputFile file(path);
-  std::vector<std::string> head{"key", "front", "knee", "feasible"};
+  std::vector<std::string> head{"key", "front", "knee", "feasible", "dominated"};
   for (const std::string& swept : results.manifest.swept) head.push_back(swept);
   for (const Objective& objective : objectives)
     head.push_back((objective.maximise() ? "max " : "min ") + objective.figure().text());
@@ -319,7 +362,8 @@ void write_pareto_csv(const std::string& path, const Results& results,
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     const RankedPoint& point = pareto.points[i];
     std::vector<std::string> fields{point.row->key, std::to_string(point.front),
-                                    pareto.knee == i ? "1" : "0", to_string(point.feasible)};
+                                    pareto.knee == i ? "1" : "0", to_string(point.feasible),
+                                    point.dominated ? to_string(*point.dominated) : ""};
     for (const std::string& swept : results.manifest.swept)
       fields.push_back(point.row->value(swept));
     for (const double figure : point.figures) fields.push_back(result::csv_number(figure));

@@ -31,6 +31,9 @@ struct RankedPoint {
   const ResultRow* row = nullptr;
   std::vector<double> figures;  ///< of each objective; empty: it has no value of one of them
   result::Holds feasible = result::Holds::yes;
+  /// Whether another point is better, as far as the bands of the figures tell (judge_by_bands()):
+  /// yes, no, or unknown, that is perhaps. None: not judged, or on no front.
+  std::optional<result::Holds> dominated;
   std::size_t front = 0;  ///< 1: nothing is better in all objectives; 2: once the first front
                           ///< is taken away; … 0: not feasible, without figures, or the same as
                           ///< an earlier one
@@ -39,6 +42,7 @@ struct RankedPoint {
 struct Pareto {
   std::vector<RankedPoint> points;  ///< failed ones left out, in the order of the sweep
   std::optional<std::size_t> knee;  ///< position in `points`
+  bool has_bands = false;           ///< of a figure
   /// For each metric that some points lack: how many. A point that found no marker has no error.
   std::map<std::string, std::uint64_t> lacking;
 };
@@ -58,6 +62,9 @@ Pareto rank(const Results& results, const std::vector<Objective>& objectives);
 inline constexpr std::array<const char*, 2> usual_objectives{"max summary.fps.mean",
                                                              "min power.total_w.nominal"};
 
+/// Fills in what the bands of the figures leave of the order.
+void judge_by_bands(Pareto& pareto, const std::vector<Objective>& objectives);
+
 /// The study's objectives, or the usual ones; without those that no point has a value of.
 std::vector<Objective> objectives_of(const Results& results);
 
@@ -70,14 +77,23 @@ std::vector<std::size_t> best_first(const Pareto& pareto, const std::vector<Obje
 /// short the least.
 std::string why_no_point(const Results& results);
 
+/// Whether `a` is no worse than `b` in every objective and better in one.
+bool dominates(const std::vector<double>& a, const std::vector<double>& b,
+               const std::vector<bool>& maximise);
+
 /// The fronts of figures alone, 1 for the best; `maximise` says which way each objective goes.
 std::vector<std::size_t> fronts(const std::vector<std::vector<double>>& figures,
                                 const std::vector<bool>& maximise);
 
-/// The first front as a table, the knee marked.
+/// What is sure of the order: "By the bands of the figures 2 of 7 points on the front can be beaten
+/// by no other; of 12 behind it 3 are worse for sure". Empty if no figure has a band.
+std::string doubt_text(const Pareto& pareto);
+
+/// The first front as a table, the knee marked, and the points that are on it for sure.
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto);
-/// All points: key, front, knee, feasible (yes, no or unknown), swept parameters, objectives.
+/// All points: key, front, knee, feasible and dominated (yes, no or unknown; the latter empty
+/// where it is not judged), swept parameters, objectives.
 /// Throws vp::OutputError.
 void write_pareto_csv(const std::string& path, const Results& results,
                       const std::vector<Objective>& objectives, const Pareto& pareto);

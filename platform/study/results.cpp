@@ -9,6 +9,7 @@
 #include <result/console.h>
 #include <result/metrics.h>
 #include <result/table.h>
+#include <study/doubt.h>
 #include <study/pareto.h>
 #include <study/report.h>
 #include <study/results.h>
@@ -45,7 +46,11 @@ result::Metrics::Names figures_of(const Manifest& manifest,
   if (!manifest.job.empty()) add(vp::Expression(manifest.job, manifest.name));
   names.insert(manifest.metrics.begin(), manifest.metrics.end());
   for (const vp::Expression& expression : more) add(expression);
-  return {names.begin(), names.end()};
+  std::set<std::string> with_bands = names;
+  for (const std::string& name : names) {
+    for (const std::string& end : band_of(name)) with_bands.insert(end);
+  }
+  return {with_bands.begin(), with_bands.end()};
 }
 
 bool has(const ResultRow& row, const std::string& name) {

@@ -76,6 +76,21 @@ class Nets(unittest.TestCase):
         self.assertLess(three.mean, two.mean)
         self.assertLess(two.mean, share.mean)
 
+    def test_clocks_that_leave_nothing_move_what_is_most_likely(self):
+        slow = [path(f"t{i}", 3 + i, 5 + k, requested_ns=1.0, factor=1.5 if i else 9.0, cells_ns=1.0) for i in range(3) for k in range(2)]
+        paths = exact() + slow
+        fit, by_name = nets.Fit(nets.chosen, exact()), nets.groups(slow)
+        factor = nets.tight(fit, by_name)
+        self.assertGreater(factor, 1.0)
+        self.assertLess(factor, 1.5)  # one repository far off has one vote
+        self.assertEqual(nets.tight(fit, nets.groups([path("a", 3, 9, requested_ns=90)])), 1.0)
+        self.assertTrue(nets.is_tight(paths[-1]))
+
+    def test_fmax_is_better_with_what_tight_clocks_say(self):
+        errors = {e.name: e for e in nets.cross_validate(nets.read_paths(PATHS))}
+        self.assertLess(errors["the same, Fmax"].mean, errors["the same, Fmax without `tight`"].mean)
+        self.assertGreaterEqual(errors["the same, Fmax"].coverage, 0.85)
+
     def test_nets_that_need_not_be_short_are_longer(self):
         relaxed, tight = path("a", 4, 9, requested_ns=40), path("a", 4, 9, requested_ns=5)
         model = nets.fitted_model(nets.read_paths(PATHS))

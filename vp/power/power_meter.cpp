@@ -24,10 +24,34 @@ auto step_at(const Steps& steps, std::uint64_t ps) {
   return after == steps.begin() ? after : std::prev(after);
 }
 
+/// Adds up entries: those of one cause as they are, causes in quadrature.
+class Sum {
+ public:
+  void add(const EnergyEntry& entry) {
+    nominal_ += entry.joules.nominal;
+    causes_[entry.cause.empty() ? entry.source : entry.cause] += entry.joules;
+  }
+
+  Band band() const {
+    double below = 0, above = 0;
+    for (const auto& [cause, band] : causes_) {
+      below = std::hypot(below, band.nominal - band.low);
+      above = std::hypot(above, band.high - band.nominal);
+    }
+    return {nominal_ - below, nominal_, nominal_ + above};
+  }
+
+ private:
+  double nominal_ = 0;
+  std::map<std::string, Band> causes_;
+};
+
 template <class Key>
-auto sums(const std::vector<EnergyEntry>& entries, Key EnergyEntry::*key) {
+std::map<Key, Band> sums(const std::vector<EnergyEntry>& entries, Key EnergyEntry::*key) {
+  std::map<Key, Sum> parts;
+  for (const EnergyEntry& entry : entries) parts[entry.*key].add(entry);
   std::map<Key, Band> result;
-  for (const EnergyEntry& entry : entries) result[entry.*key] += entry.joules;
+  for (const auto& [of, sum] : parts) result[of] = sum.band();
   return result;
 }
 
@@ -78,7 +102,8 @@ const char* to_string(PowerKind kind) {
 
 void EnergyLedger::add(const EnergyEntry& entry) {
   const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const EnergyEntry& known) {
-    return known.module == entry.module && known.rail == entry.rail && known.kind == entry.kind;
+    return known.module == entry.module && known.rail == entry.rail && known.kind == entry.kind &&
+           known.source == entry.source;
   });
   if (same == entries_.end()) {
     entries_.push_back(entry);
@@ -92,9 +117,9 @@ void EnergyLedger::add(const EnergyLedger& other) {
 }
 
 Band EnergyLedger::total() const {
-  Band sum;
-  for (const EnergyEntry& entry : entries_) sum += entry.joules;
-  return sum;
+  Sum sum;
+  for (const EnergyEntry& entry : entries_) sum.add(entry);
+  return sum.band();
 }
 
 std::map<std::string, Band> EnergyLedger::by_module() const {
@@ -140,7 +165,7 @@ EnergyLedger PowerMeter::measure(const std::vector<Interval>& intervals) const {
       }
     }
     ledger.add({source.module, source.group, source.rail, source.kind, source.source,
-                source.joules * amount});
+                source.joules * amount, source.cause});
   }
   return ledger;
 }

@@ -232,15 +232,17 @@ class Builder {
   void add(const std::string& module, const std::string& group, const std::string& rail,
            PowerKind kind, const std::string& source, const Band& joules,
            const vp::PiecewiseConstant* state, std::function<double()> count = nullptr) {
-    sources_.push_back({module, group, rail, kind, source, joules, state, std::move(count)});
+    sources_.push_back({module, group, rail, kind, source, joules, state, std::move(count),
+                        power::cause_of(source.substr(0, source.find(' ')))});
   }
   void state(const std::string& module, const std::string& rail, const std::string& coefficient) {
     add(module, "ps", rail, PowerKind::state, origin(coefficient), table_.value(coefficient),
         &states_.always);
   }
 
-  // Vendor: both cores are busy half of the time. Activity: a core is busy while its program does
-  // not wait for an interrupt or an event; core 1 sleeps in WFE until it is started.
+  // Vendor: two cores are busy half of the time, also on a device that has one. Activity: a core is
+  // busy while its program does not wait for an interrupt or an event; core 1 sleeps in WFE until
+  // it is started.
   void add_cores() {
     const Band cycle = table_.value("ps.core_cycle") * nano;
     if (by_activity_) {
@@ -248,7 +250,7 @@ class Builder {
           &states_.cpu_awake_hz);
     } else {
       add("ps.cores", "ps", "Vccpint", PowerKind::state, origin("ps.core_cycle"),
-          cycle * table_.value("ps.default_load") * zynq_.chip.data.cores.value, &states_.cpu_hz);
+          cycle * table_.value("ps.default_load") * power::default_cores(table_), &states_.cpu_hz);
     }
   }
 

@@ -4,7 +4,6 @@
 
 #include <chip/cost/parts.h>
 #include <chip/cost/power_sources.h>
-#include <fpga/power/design_estimate.h>
 
 namespace platform {
 
@@ -33,6 +32,12 @@ bool inside(std::uint64_t ps, const std::vector<vp::Interval>& intervals) {
                      [ps](const vp::Interval& i) { return i.from_ps <= ps && ps < i.to_ps; });
 }
 
+double memories_of(const std::vector<Part>& parts) {
+  double bram36 = 0;
+  for (const Part& part : parts) bram36 += part.estimate.bram36;
+  return bram36;
+}
+
 constexpr double mj_per_j = 1e3;
 
 }  // namespace
@@ -42,8 +47,8 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl, Pow
       options(uses_pl, usual),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
-      static_scale_(power::static_scale(zynq.chip.data)),
       parts_(parts_of(zynq.pl())),
+      leaking_(power::leaking(zynq.chip.data, options.pl_design ? memories_of(parts_) : 0)),
       is_known_(!options.pl_design ||
                 std::all_of(parts_.begin(), parts_.end(),
                             [](const Part& part) { return part.estimate.known; })),
@@ -55,10 +60,10 @@ ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl, Pow
   states_.set_observer(this);
   timeline_.groups = groups_;
   double junction_c = 0;
-  static_w_ = power::static_energy(table_, static_scale_, options.thermal_path(), meter_.power(0),
-                                   1, junction_c)
-                  .total()
-                  .nominal;
+  static_w_ =
+      power::static_energy(table_, leaking_, options.thermal_path(), meter_.power(0), 1, junction_c)
+          .total()
+          .nominal;
   show(0);
 }
 
@@ -79,7 +84,7 @@ void ZynqPower::show(std::uint64_t now_ps) {
 
 vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
                                         double& junction_c) const {
-  ledger.add(power::static_energy(table_, static_scale_, options.thermal_path(),
+  ledger.add(power::static_energy(table_, leaking_, options.thermal_path(),
                                   ledger.total() * (1 / seconds), seconds, junction_c));
   return ledger;
 }

@@ -11,6 +11,7 @@
 #include <chip/system/zynq.h>
 #include <facts/result.h>
 #include <facts/summary.h>
+#include <fpga/power/leakage.h>
 #include <fpga/power/power_table.h>
 #include <vp/power_meter.h>
 #include <vp/signal.h>
@@ -90,8 +91,8 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
 
   Zynq& zynq_;
   power::PowerTable table_;
-  double static_scale_;  ///< of the device
   std::vector<Part> parts_;
+  power::Leaking leaking_;
   bool is_known_;
   std::vector<std::string> groups_;  ///< "ps", those of the design, "static"
   PowerStates states_;

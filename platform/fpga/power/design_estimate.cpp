@@ -1,15 +1,10 @@
 #include <fpga/power/design_estimate.h>
 
-#include <vp/error.h>
-#include <vp/file.h>
-#include <vp/text.h>
-#include <vp/unit.h>
-#include <vp/yaml.h>
+#include <fpga/power/leakage.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace platform::power {
@@ -23,10 +18,14 @@ constexpr double least_depth = 0.5, most_depth = 4.5;
 
 }  // namespace
 
-vp::Band logic_energy(const PowerTable& table, double lut, double ff) {
-  const double depth = ff > 0 ? std::clamp(lut / ff, least_depth, most_depth) : most_depth;
-  const double toggles = std::pow(depth, table.value("pl.logic_depth").nominal);
-  return table.value("pl.logic") * (toggles * lut * per_thousand * nano);
+vp::Band logic_energy(const PowerTable& table, double lut, double ff,
+                      const std::string& coefficient) {
+  double toggles = 1;
+  if (coefficient == "pl.logic") {
+    const double depth = ff > 0 ? std::clamp(lut / ff, least_depth, most_depth) : most_depth;
+    toggles = std::pow(depth, table.value("pl.logic_depth").nominal);
+  }
+  return table.value(coefficient) * (toggles * lut * per_thousand * nano);
 }
 
 vp::Band clock_energy(const PowerTable& table, double ff) {
@@ -37,12 +36,23 @@ vp::Band clock_root_energy(const PowerTable& table) {
   return table.value("pl.clock_root") * nano;
 }
 
-vp::Band block_memory_energy(const PowerTable& table, double bram36) {
-  return table.value("pl.bram") * (bram36 * pico);
+vp::Band block_memory_energy(const PowerTable& table, double bram36,
+                             const std::string& coefficient) {
+  return table.value(coefficient) * (bram36 * pico);
 }
 
-vp::Band dsp_energy(const PowerTable& table, double dsp) {
-  return table.value("pl.dsp") * (dsp * pico);
+vp::Band dsp_energy(const PowerTable& table, double dsp, const std::string& coefficient) {
+  return table.value(coefficient) * (dsp * pico);
+}
+
+std::string cause_of(const std::string& coefficient) {
+  const bool undeclared =
+      coefficient == "pl.logic" || coefficient == "pl.bram" || coefficient == "pl.dsp";
+  return undeclared ? "activity" : coefficient;
+}
+
+double default_cores(const PowerTable& table) {
+  return table.value("ps.default_cores").nominal;
 }
 
 std::string of_width(const std::string& name, unsigned width) {
@@ -60,219 +70,18 @@ vp::Band ddr_io_power(const PowerTable& table, const DdrInterface& ddr) {
   return {watts(&vp::Band::low), watts(&vp::Band::nominal), watts(&vp::Band::high)};
 }
 
-double static_scale(const device::Device& chip) {
-  return chip.static_w.value / device::find_device(PowerTable::part).static_w.value;
-}
-
-vp::EnergyLedger static_energy(const PowerTable& table, double scale, const vp::ThermalPath& path,
-                               const vp::Band& dynamic_w, double seconds, double& junction_c) {
-  const vp::Band base = table.value("static.base") * scale;
-  const auto point = [&](double vp::Band::*estimate) {
-    try {
-      return vp::find_static_point(leakage(table, scale, estimate), path, dynamic_w.*estimate);
-    } catch (const vp::InputError& error) {
-      if (estimate != &vp::Band::high) throw;
-      throw vp::InputError(std::string(error.what()) + " (by the high estimate of the table)");
-    }
-  };
-  const vp::StaticPoint low = point(&vp::Band::low), nominal = point(&vp::Band::nominal),
-                        high = point(&vp::Band::high);
-  junction_c = nominal.junction_c;
-  const vp::Band whole{low.static_w * seconds, nominal.static_w * seconds, high.static_w * seconds};
-  const vp::Band leaking = whole - base * seconds;
-  const std::string source = "static.leakage (" + table.at("static.leakage").status + ")";
-
-  vp::EnergyLedger ledger;
-  vp::Band rest = whole;
-  for (const auto& [rail, share] :
-       {std::pair{"Vccpint", "static.share_vccpint"}, std::pair{"Vccint", "static.share_vccint"}}) {
-    const vp::Band part = leaking * table.value(share);
-    ledger.add({"static", "static", rail, vp::PowerKind::leakage, source, part});
-    rest = rest - part;
-  }
-  ledger.add({"static", "static", "Vccaux and others", vp::PowerKind::leakage, source, rest});
-  return ledger;
-}
-
-vp::LeakageCurve leakage(const PowerTable& table, double scale, double vp::Band::*estimate) {
-  return {scale * table.value("static.base").*estimate,
-          scale * table.value("static.leakage").*estimate, table.value("static.slope").*estimate};
-}
-
 namespace {
 
-using device::Figure;
 using device::hz_per_mhz;
 using vp::PowerKind;
-
-constexpr double per_cent = 1e-2;
-constexpr double default_cpu_mhz = 666.666687,
-                 default_ddr_mhz = 533.333374;  // of ZedBoard's preset
-constexpr double most_mhz = 1000, most_pins = 400, most_mmcm = 8;
-constexpr double hottest_ambient_c = 125, coldest_ambient_c = -55, most_theta_ja = 100;
-
-class FiguresReader {
- public:
-  explicit FiguresReader(std::string file) : file_(std::move(file)) {}
-
-  DesignFigures read() {
-    const YAML::Node root = vp::load_yaml(vp::read_text(file_, "design figures"), file_);
-    if (!root.IsMap()) fail(root, "expected 'key: value' lines: 'clocks:' at least");
-    only(root, "a design", {"device", "clocks", "mmcm", "io", "ps", "ambient", "theta_ja"});
-    design_.device = device_of(root["device"]);
-    read_clocks(root);
-    design_.mmcm = count(root, "mmcm", 0, most_mmcm);
-    if (root["io"]) read_pins(root["io"]);
-    read_ps(root["ps"]);
-    design_.thermal.ambient_c =
-        quantity(root, "ambient", vp::Unit::temperature, 25, coldest_ambient_c, hottest_ambient_c);
-    design_.thermal.theta_ja = quantity(root, "theta_ja", vp::Unit::none, 11.5, 0, most_theta_ja);
-    return design_;
-  }
-
- private:
-  [[noreturn]] void fail(const YAML::Node& node, const std::string& problem) const {
-    vp::fail_in_yaml(file_, node.Mark(), problem);
-  }
-
-  std::string scalar(const YAML::Node& node, const std::string& key) const {
-    if (!node.IsScalar()) fail(node, "'" + key + "' is not one value");
-    return node.Scalar();
-  }
-
-  void only(const YAML::Node& map, const std::string& what, const std::vector<std::string>& keys) {
-    std::set<std::string> seen;
-    for (const auto& entry : map) {
-      const std::string key = scalar(entry.first, what);
-      if (!seen.insert(key).second) fail(entry.first, "'" + key + "' is there twice");
-      if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-      const std::string nearest = vp::nearest_match(key, keys);
-      fail(entry.first, what + " has no '" + vp::excerpt(key) + "'" +
-                            (nearest.empty() ? ": give " + vp::one_of(keys)
-                                             : " (did you mean '" + nearest + "'?)"));
-    }
-  }
-
-  /// In the unit that people write: MHz, percent as a share, else the base unit.
-  double quantity(const YAML::Node& map, const std::string& key, vp::Unit unit,
-                  std::optional<double> otherwise, double least, double most) const {
-    const YAML::Node node = map[key];
-    if (!node) {
-      if (otherwise) return *otherwise;
-      fail(map, "'" + key + "' is missing: write 0 if the design has none");
-    }
-    const std::string text = scalar(node, key);
-    const double scale = unit == vp::Unit::frequency ? 1 / hz_per_mhz
-                         : unit == vp::Unit::percent ? per_cent
-                                                     : 1;
-    double value = 0;
-    try {
-      value = vp::parse_quantity(text, unit).to_double() * scale;
-    } catch (const vp::InputError& error) {
-      fail(node, "'" + key + "' = '" + vp::excerpt(text) + "' " + error.what());
-    }
-    if (value >= least && value <= most) return value;
-    const double nearest = value < least ? least : most;
-    fail(node, "'" + key + "' = " + vp::excerpt(text) +
-                   " is not possible: the nearest that is, is " +
-                   vp::format_quantity(vp::Decimal(nearest / scale), unit));
-  }
-
-  /// A number of primitives, of which the device has `most`.
-  double count(const YAML::Node& map, const std::string& key, std::optional<double> otherwise,
-               double most) const {
-    return quantity(map, key, vp::Unit::none, otherwise, 0, most);
-  }
-
-  const device::Device& device_of(const YAML::Node& node) const {
-    const std::string name = node ? scalar(node, "device") : std::string(PowerTable::part) + "-1";
-    try {
-      return device::find_device(name);
-    } catch (const vp::InputError& error) {
-      fail(node, error.what());
-    }
-  }
-
-  void read_clocks(const YAML::Node& root) {
-    const YAML::Node clocks = root["clocks"];
-    if (!clocks || clocks.IsNull()) return;
-    if (!clocks.IsMap()) fail(clocks, "'clocks' is 'name: {frequency: …, lut: …, ff: …}' lines");
-    const std::vector<std::pair<const char*, const Figure*>> capacities{
-        {"lut", &design_.device.lut},
-        {"ff", &design_.device.ff},
-        {"bram36", &design_.device.bram36},
-        {"dsp", &design_.device.dsp}};
-    std::map<std::string, double> used;
-    for (const auto& entry : clocks) {
-      design_.clocks.push_back(clock_domain(scalar(entry.first, "clocks"), entry.second));
-      const ClockDomain& c = design_.clocks.back();
-      used["lut"] += c.lut;
-      used["ff"] += c.ff;
-      used["bram36"] += c.bram36;
-      used["dsp"] += c.dsp;
-    }
-    for (const auto& [name, capacity] : capacities) {
-      if (used[name] <= capacity->value) continue;
-      fail(clocks, "the clocks have " + vp::Decimal(used[name]).text() + " " + name +
-                       " together, " + design_.device.name() + " has " +
-                       vp::Decimal(capacity->value).text());
-    }
-  }
-
-  ClockDomain clock_domain(const std::string& name, const YAML::Node& node) {
-    if (!node.IsMap()) fail(node, "'" + name + "' is '{frequency: …, lut: …, ff: …}'");
-    only(node, "a clock", {"frequency", "lut", "ff", "bram36", "dsp", "toggle_rate"});
-    const device::Device& d = design_.device;
-    ClockDomain clock;
-    clock.name = name;
-    clock.mhz = quantity(node, "frequency", vp::Unit::frequency, std::nullopt, 0, most_mhz);
-    clock.lut = count(node, "lut", std::nullopt, d.lut.value);
-    clock.ff = count(node, "ff", std::nullopt, d.ff.value);
-    clock.bram36 = count(node, "bram36", 0, d.bram36.value);
-    clock.dsp = count(node, "dsp", 0, d.dsp.value);
-    clock.toggle_rate = quantity(node, "toggle_rate", vp::Unit::percent, default_toggle_rate, 0, 1);
-    return clock;
-  }
-
-  void read_pins(const YAML::Node& node) {
-    if (!node.IsMap()) fail(node, "'io' is '{pins: …, frequency: …}'");
-    only(node, "'io'", {"pins", "frequency", "toggle_rate"});
-    design_.io.count = count(node, "pins", std::nullopt, most_pins);
-    design_.io.mhz = quantity(node, "frequency", vp::Unit::frequency, std::nullopt, 0, most_mhz);
-    design_.io.toggle_rate =
-        quantity(node, "toggle_rate", vp::Unit::percent, default_toggle_rate, 0, 1);
-  }
-
-  void read_ps(const YAML::Node& node) {
-    if (node && node.IsScalar() && node.Scalar() == "none") return;
-    const YAML::Node map = node && !node.IsNull() ? node : YAML::Node(YAML::NodeType::Map);
-    if (!map.IsMap()) fail(map, "'ps' is 'none', or '{cpu_clock: …, load: …, ddr: {…}}'");
-    only(map, "'ps'", {"cpu_clock", "load", "hp_clock", "ddr"});
-    PsSettings ps;
-    ps.cpu_mhz = quantity(map, "cpu_clock", vp::Unit::frequency, default_cpu_mhz, 0,
-                          design_.device.cpu_621_mhz.value);
-    ps.load = quantity(map, "load", vp::Unit::percent, 0.5, 0, 1);
-    ps.hp_mhz = quantity(map, "hp_clock", vp::Unit::frequency, 0, 0, most_mhz);
-    const YAML::Node ddr = map["ddr"] ? map["ddr"] : YAML::Node(YAML::NodeType::Map);
-    if (!ddr.IsMap()) fail(ddr, "'ddr' is '{width: …, frequency: …, voltage: …}'");
-    only(ddr, "'ddr'", {"width", "frequency", "voltage"});
-    ps.ddr.width = static_cast<unsigned>(count(ddr, "width", 32, 32));
-    if (ps.ddr.width != 16 && ps.ddr.width != 32) fail(ddr, "'width' is 16 or 32");
-    ps.ddr.mhz = quantity(ddr, "frequency", vp::Unit::frequency, default_ddr_mhz, 0,
-                          design_.device.ddr_mhz.value);
-    ps.ddr.volts = quantity(ddr, "voltage", vp::Unit::voltage, 1.5, 1.2, 1.8);
-    design_.ps = ps;
-  }
-
-  const std::string file_;
-  DesignFigures design_;
-};
 
 class Estimator {
  public:
   explicit Estimator(const PowerTable& table) : table_(table) {}
 
-  void add_ps(const PsSettings& ps, double cores) {
+  void add_ps(const PsSettings& ps) {
+    if (ps.known_w) return add_known("ps", "PS", *ps.known_w);
+    const double cores = ps.cores.value_or(default_cores(table_));
     const double cycles = ps.cpu_mhz * hz_per_mhz * ps.load * cores;
     add("ps.cores", "Vccpint", PowerKind::state, "ps.core_cycle",
         table_.value("ps.core_cycle") * (nano * cycles));
@@ -293,22 +102,28 @@ class Estimator {
     vp::Band tree = clock_root_energy(table_);
     tree += clock_energy(table_, c.ff);
     add("pl." + c.name, "Vccint", PowerKind::clock, "pl.clock", tree * hz);
-    add("pl." + c.name + ".logic", "Vccint", PowerKind::state, "pl.logic",
-        logic_energy(table_, c.lut, c.ff) * (hz * toggles));
+    if (c.lut > 0)
+      add("pl." + c.name + ".logic", "Vccint", PowerKind::state, c.logic,
+          logic_energy(table_, c.lut, c.ff, c.logic) * (hz * toggles));
     if (c.bram36 > 0)
-      add("pl." + c.name + ".bram36", "Vccbram", PowerKind::state, "pl.bram",
-          block_memory_energy(table_, c.bram36) * hz);
+      add("pl." + c.name + ".bram36", "Vccbram", PowerKind::state, c.memory,
+          block_memory_energy(table_, c.bram36, c.memory) * hz);
     if (c.dsp > 0)
-      add("pl." + c.name + ".dsp", "Vccint", PowerKind::state, "pl.dsp",
-          dsp_energy(table_, c.dsp) * (hz * toggles));
+      add("pl." + c.name + ".dsp", "Vccint", PowerKind::state, c.multiplier,
+          dsp_energy(table_, c.dsp, c.multiplier) * (hz * multiplier_share(c)));
   }
 
-  void add_mmcm(double count) {
-    if (count > 0)
-      add("pl.mmcm", "Vccaux", PowerKind::clock, "pl.mmcm", table_.value("pl.mmcm") * count);
+  void add_clock_managers(const std::string& coefficient, const std::vector<double>& ghz) {
+    for (const double oscillator : ghz)
+      add(coefficient, "Vccaux", PowerKind::clock, coefficient,
+          table_.value(coefficient) * oscillator);
   }
 
   void add_pins(const Pins& io) {
+    if (io.known_w) return add_known("pl.io", "I/O", *io.known_w);
+    if (io.tmds_pairs > 0)
+      add("pl.io.tmds", "Vcco", PowerKind::state, "pl.tmds_pair",
+          table_.value("pl.tmds_pair") * io.tmds_pairs);
     const double toggles = io.toggle_rate / default_toggle_rate;
     if (io.count > 0)
       add("pl.io", "Vcco", PowerKind::state, "pl.io",
@@ -317,25 +132,39 @@ class Estimator {
 
   PowerEstimate take(const DesignFigures& design) {
     PowerEstimate estimate{ledger_, 0};
-    estimate.ledger.add(static_energy(table_, static_scale(design.device), design.thermal,
-                                      ledger_.total(), 1, estimate.junction_c));
+    double bram36 = 0;
+    for (const ClockDomain& clock : design.clocks) bram36 += clock.bram36;
+    estimate.ledger.add(static_energy(table_, leaking(design.device, bram36, design.older_tool),
+                                      design.thermal, ledger_.total(), 1, estimate.junction_c));
     return estimate;
   }
 
  private:
+  /// Of the energy of a multiplier at the default toggle rate. In a simulation it cannot be busier
+  /// than in every clock.
+  static double multiplier_share(const ClockDomain& c) {
+    const double toggles = c.toggle_rate / default_toggle_rate;
+    return c.toggles ? std::min(1.0, toggles) : toggles;
+  }
+
   /// As a vendor's report has them.
   static std::string kind_of(const std::string& coefficient) {
     static const std::map<std::string, std::string> kinds{
         {"pl.clock", "clocks"},   {"pl.logic", "logic and signals"},
         {"pl.bram", "block RAM"}, {"pl.dsp", "DSP"},
-        {"pl.mmcm", "MMCM"},      {"pl.io", "I/O"}};
-    const auto found = kinds.find(coefficient);
+        {"pl.mmcm", "MMCM"},      {"pl.pll", "PLL"},
+        {"pl.io", "I/O"},         {"pl.tmds", "I/O"}};
+    const auto found = kinds.find(coefficient.substr(0, coefficient.find('_')));
     return found == kinds.end() ? "PS" : found->second;
   }
   void add(const std::string& module, const char* rail, PowerKind kind,
            const std::string& coefficient, const vp::Band& watts) {
     ledger_.add({module, kind_of(coefficient), rail, kind,
-                 coefficient + " (" + table_.at(coefficient).status + ")", watts});
+                 coefficient + " (" + table_.at(coefficient).status + ")", watts,
+                 cause_of(coefficient)});
+  }
+  void add_known(const std::string& module, const std::string& kind, double watts) {
+    ledger_.add({module, kind, "not split", PowerKind::state, "declared", {watts, watts, watts}});
   }
   void add_state(const std::string& module, const char* rail, const std::string& coefficient) {
     add(module, rail, PowerKind::state, coefficient, table_.value(coefficient));
@@ -347,15 +176,12 @@ class Estimator {
 
 }  // namespace
 
-DesignFigures read_design_figures(const std::string& file) {
-  return FiguresReader(file).read();
-}
-
 PowerEstimate estimate_power(const DesignFigures& design, const PowerTable& table) {
   Estimator estimator(table);
-  if (design.ps) estimator.add_ps(*design.ps, design.device.cores.value);
+  if (design.ps) estimator.add_ps(*design.ps);
   for (const ClockDomain& clock : design.clocks) estimator.add_clock(clock);
-  estimator.add_mmcm(design.mmcm);
+  estimator.add_clock_managers("pl.mmcm", design.mmcm_ghz);
+  estimator.add_clock_managers("pl.pll", design.pll_ghz);
   estimator.add_pins(design.io);
   return estimator.take(design);
 }

@@ -496,7 +496,7 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
   for (const unsigned fan_out : graph.fan_outs()) {
     const std::optional<Path> path = graph.longest(order, fan_out);
     if (!path) continue;
-    if (!netlist.longest || timing.fmax(*path).nominal < timing.fmax(*netlist.longest).nominal) {
+    if (!netlist.longest || timing.period_ns(*path) > timing.period_ns(*netlist.longest)) {
       netlist.longest = path;
     }
   }

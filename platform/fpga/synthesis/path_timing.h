@@ -48,6 +48,9 @@ class PathTiming {
   double net_ns() const { return nets_.at("per_net_ns") / (1 - nets_.at("slack_share")); }
   /// What all nets of a path take at its highest clock, ns.
   double nets_ns(unsigned nets, unsigned fan_out) const;
+  /// A whole path with its clock's skew and uncertainty, where the clock leaves no time to spare;
+  /// the data path `factor` times what the model says.
+  double period_ns(const Path& path, double factor = 1) const;
   FmaxRange fmax(const Path& path) const;
 
  private:

@@ -60,6 +60,36 @@ BOOST_AUTO_TEST_CASE(the_same_module_rail_and_kind_is_one_entry) {
   BOOST_TEST(ledger.total().high == 14.0);
 }
 
+// Errors of two coefficients are independent; those of one are the same, wherever it is used.
+BOOST_AUTO_TEST_CASE(causes_add_up_in_quadrature) {
+  EnergyLedger ledger;
+  const auto add = [&](const char* module, const char* source, const char* cause, double below,
+                       double above) {
+    ledger.add(
+        {module, "pl", "Vccint", PowerKind::state, source, {10 - below, 10, 10 + above}, cause});
+  };
+  add("pl.a", "logic", "", 3, 6);
+  add("pl.b", "clock", "", 4, 8);
+  BOOST_TEST(ledger.total().low == 15.0);
+  BOOST_TEST(ledger.total().nominal == 20.0);
+  BOOST_TEST(ledger.total().high == 30.0);
+  add("pl.c", "clock", "", 0, 1);  // the same source
+  BOOST_TEST(ledger.total().high == 30 + std::hypot(6, 9));
+  add("pl.d", "memory", "activity", 0, 2);
+  add("pl.e", "multiplier", "activity", 0, 2);  // another source of the same cause
+  BOOST_TEST(ledger.total().high == 50 + std::hypot(std::hypot(6, 9), 4),
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(ledger.by_module().at("pl.b").high == 18.0);
+}
+
+BOOST_AUTO_TEST_CASE(another_source_is_another_entry) {
+  EnergyLedger ledger;
+  ledger.add({"pl.a", "pl", "Vccint", PowerKind::state, "logic", {1, 1, 1}});
+  ledger.add({"pl.a", "pl", "Vccint", PowerKind::state, "multipliers", {1, 2, 3}});
+  BOOST_TEST(ledger.entries().size() == 2u);
+  BOOST_TEST(ledger.by_module().at("pl.a").nominal == 3.0);
+}
+
 BOOST_AUTO_TEST_CASE(ledgers_add_up) {
   EnergyLedger all = some_ledger();
   all.add(some_ledger());

@@ -85,13 +85,16 @@ struct EnergyEntry {
   PowerKind kind = PowerKind::state;
   std::string source;  ///< of the coefficient
   Band joules;
+  /// Entries of one cause are low, or high, together. Empty: those of one source are.
+  std::string cause = {};
 };
 
-/// Where energy went. Every joule is in exactly one entry, so the sums by module, rail, group and
-/// kind all equal the total.
+/// Where energy went. Every joule is in exactly one entry, so the nominal sums by module, rail,
+/// group and kind all equal the total. A band of a sum adds the entries of one cause, and different
+/// causes in quadrature, because their errors are independent.
 class EnergyLedger {
  public:
-  /// Adds to the entry of the same module, rail and kind.
+  /// Adds to the entry of the same module, rail, kind and source.
   void add(const EnergyEntry& entry);
   void add(const EnergyLedger& other);
 
@@ -118,6 +121,7 @@ struct PowerSource {
   Band joules;
   const PiecewiseConstant* state = nullptr;  ///< null for events
   std::function<double()> count;             ///< events since the start; asked at mark and measure
+  std::string cause = {};                    ///< as in EnergyEntry
 };
 
 /// A stretch of simulated time.

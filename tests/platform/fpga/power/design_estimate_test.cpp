@@ -72,9 +72,10 @@ BOOST_AUTO_TEST_CASE(the_settings_of_the_ps_count) {
 BOOST_AUTO_TEST_CASE(every_figure_takes_power) {
   const std::string before = "ps: none\nclocks:\n  c: {frequency: 100 MHz, ";
   const double nothing = watts(before + "lut: 0, ff: 0}\n");
-  for (const char* more : {"lut: 10000, ff: 0}", "lut: 0, ff: 10000}", "lut: 0, ff: 0, bram36: 20}",
-                           "lut: 0, ff: 0, dsp: 50}", "lut: 0, ff: 0}\nmmcm: 1",
-                           "lut: 0, ff: 0}\nio: {pins: 36, frequency: 25 MHz}"})
+  for (const char* more :
+       {"lut: 10000, ff: 0}", "lut: 0, ff: 10000}", "lut: 0, ff: 0, bram36: 20}",
+        "lut: 0, ff: 0, dsp: 50}", "lut: 0, ff: 0}\nmmcm: 1", "lut: 0, ff: 0}\npll: 1",
+        "lut: 0, ff: 0}\nio: {pins: 36, frequency: 25 MHz}"})
     BOOST_TEST(watts(before + more + "\n") > nothing + 0.01, more);
   BOOST_TEST(watts(before + "lut: 9000, ff: 9000, toggle_rate: 25 %}\n") >
              watts(before + "lut: 9000, ff: 9000}\n") + 0.05);
@@ -82,12 +83,98 @@ BOOST_AUTO_TEST_CASE(every_figure_takes_power) {
 
 BOOST_AUTO_TEST_CASE(logic_between_few_registers_takes_more) {
   const auto logic = [](double lut, double ff) { return logic_energy(table(), lut, ff).nominal; };
-  BOOST_TEST(logic(2000, 1000) / logic(2000, 2000) == std::pow(2, 0.59),
-             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(
+      logic(2000, 1000) / logic(2000, 2000) == std::pow(2, table().value("pl.logic_depth").nominal),
+      boost::test_tools::tolerance(1e-9));
   // Beyond what the reports have it rests.
   BOOST_TEST(logic(2000, 10) == logic(2000, 1));
   BOOST_TEST(logic(2000, 0) == logic(2000, 1));
   BOOST_TEST(logic(100, 1000) == logic(100, 2000));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_declared_takes_its_coefficient_and_has_a_narrower_band) {
+  const auto estimate = [](const std::string& said) {
+    return estimate_power(read("ps: none\nclocks:\n  c: {frequency: 100 MHz, lut: 8000, ff: 8000, "
+                               "bram36: 20, dsp: 50" +
+                               said + "}\n"),
+                          table());
+  };
+  const auto width = [](const vp::Band& band) { return band.high - band.low; };
+  const vp::Band undeclared = estimate("").ledger.total();
+  double before = 0;
+  for (const char* activity : {"rest", "control", "arithmetic", "cipher"}) {
+    const auto groups = estimate(std::string(", activity: ") + activity).ledger.by_group();
+    const double rate = table().value(std::string("pl.logic_") + activity).nominal;
+    BOOST_TEST(groups.at("logic and signals").nominal == rate * 8 * 100 * 1e-3,
+               boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(rate > before);
+    before = rate;
+  }
+  const auto all = estimate(", activity: control, bram_activity: buffer, dsp_activity: rest");
+  BOOST_TEST(width(all.ledger.total()) < width(undeclared) / 2);
+  BOOST_TEST(all.ledger.by_group().at("block RAM").nominal == 4e-6 * 20 * 100,
+             boost::test_tools::tolerance(1e-9));
+  // Multipliers do what the logic around them does.
+  BOOST_TEST(
+      estimate(", activity: arithmetic").ledger.by_group().at("DSP").nominal == 10e-6 * 50 * 100,
+      boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(estimate(", activity: rest").ledger.by_group().at("DSP").nominal < 2e-3);
+}
+
+BOOST_AUTO_TEST_CASE(an_oscillator_takes_power_by_its_frequency) {
+  const auto managers = [](const std::string& text) {
+    return estimate_power(read("ps: none\n" + text), table()).ledger.by_group();
+  };
+  const double one = managers("mmcm: 1\n").at("MMCM").nominal;
+  BOOST_TEST(managers("mmcm: [1000 MHz, 800 MHz]\n").at("MMCM").nominal == 1.8 * one,
+             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(managers("pll: [1000 MHz]\n").at("PLL").nominal ==
+             managers("pll: 1\n").at("PLL").nominal);
+}
+
+BOOST_AUTO_TEST_CASE(known_watts_take_the_place_of_an_estimate) {
+  const PowerEstimate estimate =
+      estimate_power(read("ps: {power: 1.256 W}\nio: {power: 40 mW}\n"), table());
+  BOOST_TEST(estimate.ledger.by_group().at("PS").nominal == 1.256);
+  BOOST_TEST(estimate.ledger.by_group().at("PS").high == 1.256);
+  BOOST_TEST(estimate.ledger.by_group().at("I/O").nominal == 0.04);
+  BOOST_TEST(
+      estimate_power(read("io: {tmds_pairs: 4}\n"), table()).ledger.by_group().at("I/O").nominal ==
+          0.136,
+      boost::test_tools::tolerance(1e-9));
+}
+
+// Reports of two such designs say numA9Cores={2}, and 1.253 W of PS.
+BOOST_AUTO_TEST_CASE(a_device_with_one_core_is_billed_as_the_vendor_does) {
+  const auto ps_w = [](const std::string& settings) {
+    return estimate_power(read("device: xc7z007s\nps: {cpu_clock: 650 MHz" + settings +
+                               ", ddr: {width: 16, frequency: 525 MHz}}\n"),
+                          table())
+        .ledger.by_group()
+        .at("PS")
+        .nominal;
+  };
+  BOOST_TEST(ps_w("") == 1.253, boost::test_tools::tolerance(0.01));
+  BOOST_TEST(ps_w(", cores: 1") < ps_w("") - 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(memories_leak_and_so_do_older_tools) {
+  const auto static_w = [](const std::string& text) {
+    return estimate_power(read(text), table()).ledger.by_group().at("static").nominal;
+  };
+  const double bare = static_w("ps: {power: 1.6 W}\n");
+  const double with =
+      static_w("ps: {power: 1.6 W}\nclocks:\n  c: {frequency: 0 MHz, lut: 0, ff: 0, bram36: 80}\n");
+  BOOST_TEST(with - bare > 0.006);
+  BOOST_TEST(with - bare < 0.012);
+  for (const char* newer :
+       {"tool: 2017.3\n", "tool: 2025.1\n", "tool: 2018\n", "tool: v2019.1.1\n"})
+    BOOST_TEST(static_w(std::string("ps: none\n") + newer) == static_w("ps: none\n"), newer);
+  for (const char* older : {"tool: 2017.2\n", "tool: 2014\n"}) {
+    BOOST_TEST(static_w(std::string("ps: none\n") + older) > static_w("ps: none\n") + 0.015, older);
+    BOOST_TEST(static_w(std::string("device: xc7z010\nps: none\n") + older) <
+               static_w("device: xc7z010\nps: none\n") + 0.01);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_smaller_device_leaks_less_and_a_hot_one_more) {
@@ -115,6 +202,21 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_told_with_the_nearest_that_can) {
   told(
       clock + "{frequency: 1 MHz, lut: 30000, ff: 0}\n  d: {frequency: 1 MHz, lut: 30000, ff: 0}\n",
       "60000 lut together, xc7z020-1 has 53200");
+  told(clock + "{frequency: 1 MHz, lut: 1, ff: 1, activity: busy}\n", "rest, control, arithmetic");
+  told(clock + "{frequency: 1 MHz, lut: 1, ff: 1, bram_activity: [a]}\n", "not one value");
+  told(clock + "{frequency: 1 MHz, lut: 1, ff: 1, dsp_activity: cipher}\n", "busy, shared");
+  told("mmcm: 1.5\n", "whole number");
+  told("mmcm: 9\n", "is 8");
+  told("mmcm: [2 GHz]\n", "is 1.6 GHz");
+  told("pll: [100 MHz]\n", "is 600 MHz");
+  told("pll: {a: 1}\n", "not one value");
+  told("tool: old\n", "no version of Vivado");
+  told("ps: {power: 1 W, load: 50 %}\n", "'power' takes the place of 'load'");
+  told("ps: {power: -1 W}\n", "the nearest that is, is 0");
+  told("ps: {cores: 3}\n", "is 2");
+  told("ps: {cores: 1.5}\n", "whole number");
+  told("tool: 2018.3333333333333\n", "no version of Vivado");
+  told("io: {power: 1 mW, pins: 3}\n", "remove one");
   told("device: xc7z030-1\n", "xc7z020-1");
   told("ps: {cpu_clock: 1 GHz}\n", "is 667 MHz");
   told("ps: {ddr: {width: 24}}\n", "16 or 32");

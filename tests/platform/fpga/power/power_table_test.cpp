@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(bad_values_are_refused_by_name) {
 BOOST_AUTO_TEST_CASE(names_are_checked) {
   check_refused([](Json& t) { entry(t, "pl.bram")["name"] = "pl.brem"; },
                 {"'pl.brem'", "unknown", "pl.bram"});
-  check_refused([](Json& t) { t["entries"].erase(3); }, {"missing", "ps.uncore_16"});
+  check_refused([](Json& t) { t["entries"].erase(3); }, {"missing", "ps.uncore_32"});
   check_refused([](Json& t) { t["entries"].push_back(t["entries"][0]); },
                 {"ps.core_cycle", "twice"});
   check_refused([](Json& t) { entry(t, "pl.dsp").erase("low"); }, {"'low'", "pl.dsp", "missing"});
