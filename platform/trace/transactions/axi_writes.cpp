@@ -190,7 +190,11 @@ void AxiWrites::respond(const SampleEdge& edge) {
   } else {
     pass_on(response_, nullptr);
     if (response_.beat()) {
-      report_rule(edge, "ERRS_BRESP_AW",
+      // An id that no write waits for, or a response before any address has passed.
+      const bool others = std::any_of(open_.begin(), open_.end(), [](const Request& request) {
+        return request.accepted && !request.responded;
+      });
+      report_rule(edge, others ? "ERRS_BID" : "ERRS_BRESP_AW",
                   "B of id " + std::to_string(id) + " without a write that is outstanding",
                   nullptr);
     }

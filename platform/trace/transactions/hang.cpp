@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <trace/transactions/transactions.h>
 #include <vp/unit.h>
@@ -27,28 +28,35 @@ std::string party(const SurveyedInterface& surveyed, Side side) {
          " of " + bus.name;
 }
 
-struct Edge {
+struct WaitsFor {
   std::string from, to;
-  const Wait* wait;
+  std::vector<const Wait*> waits;  ///< the longest first
 };
 
 std::string clocks_text(std::uint64_t clocks) {
   return std::to_string(clocks) + (clocks == 1 ? " clock" : " clocks");
 }
 
-std::string waits_text(const Edge& edge) {
-  return edge.from + " waits for " + edge.to + " since " + vp::format_time(edge.wait->since_ps) +
-         " (" + edge.wait->channel + ": " + edge.wait->what + ", " +
-         clocks_text(edge.wait->clocks) + ")";
+std::string waits_text(const WaitsFor& edge) {
+  std::string text = edge.from + " waits for " + edge.to + " since " +
+                     vp::format_time(edge.waits.front()->since_ps) + " (";
+  for (const Wait* wait : edge.waits) {
+    text +=
+        (wait == edge.waits.front() ? "" : "; ") + wait->what + ", " + clocks_text(wait->clocks);
+    if (wait->idle_since_cycle)
+      text += ", low since cycle " + std::to_string(*wait->idle_since_cycle);
+  }
+  return text + ")";
 }
 
 /// The edges from one that nothing else waits for along the waits, as far as they lead.
-std::vector<Edge> chain_from(const std::vector<Edge>& edges, Edge first) {
-  std::vector<Edge> chain = {std::move(first)};
+std::vector<WaitsFor> chain_from(const std::vector<WaitsFor>& edges, WaitsFor first) {
+  std::vector<WaitsFor> chain = {std::move(first)};
   std::set<std::string> seen = {chain.front().from};
   while (seen.insert(chain.back().to).second) {
-    const auto next = std::find_if(edges.begin(), edges.end(),
-                                   [&](const Edge& edge) { return edge.from == chain.back().to; });
+    const auto next = std::find_if(edges.begin(), edges.end(), [&](const WaitsFor& edge) {
+      return edge.from == chain.back().to;
+    });
     if (next == edges.end()) break;
     chain.push_back(*next);
   }
@@ -71,31 +79,47 @@ std::string last_moved(const HangFacts& facts) {
          facts.survey.interfaces[place].bus.name + " at " + vp::format_time(last->ps);
 }
 
+/// One edge from a party to another, with all that it waits for there; the oldest first.
+std::vector<WaitsFor> edges_of(const HangFacts& facts) {
+  std::vector<const Wait*> waits;
+  for (const Wait& wait : facts.waits) waits.push_back(&wait);
+  std::stable_sort(waits.begin(), waits.end(),
+                   [](const Wait* a, const Wait* b) { return a->since_ps < b->since_ps; });
+  std::vector<WaitsFor> edges;
+  for (const Wait* wait : waits) {
+    const SurveyedInterface& bus = facts.survey.interfaces[wait->interface];
+    std::string from = party(bus, Side::subordinate), to = party(bus, Side::manager);
+    if (!wait->for_manager) std::swap(from, to);
+    const auto same = std::find_if(edges.begin(), edges.end(), [&](const WaitsFor& edge) {
+      return edge.from == from && edge.to == to;
+    });
+    if (same == edges.end()) {
+      edges.push_back({from, to, {wait}});
+    } else {
+      same->waits.push_back(wait);
+    }
+  }
+  return edges;
+}
+
 }  // namespace
 
 std::string hang_sentence(const HangFacts& facts) {
-  std::vector<Edge> edges;
-  for (const Wait& wait : facts.waits) {
-    const SurveyedInterface& bus = facts.survey.interfaces[wait.interface];
-    const std::string manager = party(bus, Side::manager), other = party(bus, Side::subordinate);
-    edges.push_back(
-        {wait.for_manager ? other : manager, wait.for_manager ? manager : other, &wait});
-  }
+  const std::vector<WaitsFor> edges = edges_of(facts);
   if (edges.empty()) return "";
-  std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.wait->since_ps < b.wait->since_ps;
-  });
   std::set<std::string> waiting, awaited;
-  for (const Edge& edge : edges) {
+  for (const WaitsFor& edge : edges) {
     waiting.insert(edge.from);
     awaited.insert(edge.to);
   }
   // Begin where nothing waits, so that the chain is as long as it may be.
-  const auto first = std::find_if(edges.begin(), edges.end(),
-                                  [&](const Edge& edge) { return awaited.count(edge.from) == 0; });
-  const std::vector<Edge> chain = chain_from(edges, first == edges.end() ? edges.front() : *first);
+  const auto first = std::find_if(edges.begin(), edges.end(), [&](const WaitsFor& edge) {
+    return awaited.count(edge.from) == 0;
+  });
+  const std::vector<WaitsFor> chain =
+      chain_from(edges, first == edges.end() ? edges.front() : *first);
   std::string text;
-  for (const Edge& edge : chain) text += (text.empty() ? "" : ", ") + waits_text(edge);
+  for (const WaitsFor& edge : chain) text += (text.empty() ? "" : ", ") + waits_text(edge);
   const std::string& root = chain.back().to;
   text += waiting.count(root) != 0 ? ": a deadlock" : ": " + root + " is the root";
   return text + "; " + last_moved(facts) + ".";

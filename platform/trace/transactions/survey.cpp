@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
+#include <tuple>
 #include <utility>
 
 #include <trace/transactions/signal_name.h>
@@ -38,6 +38,14 @@ std::vector<std::string> controls_of(BusKind kind) {
       break;
   }
   return {"line"};
+}
+
+/// A role that every bus of its kind has.
+std::string first_role(const BusInterface& bus) {
+  for (const char* role : {"awvalid", "arvalid", "tvalid", "penable", "cyc", "scl", "sclk"}) {
+    if (bus.role(role)) return role;
+  }
+  return "line";
 }
 
 /// How a reset is called, and whether it is active low.
@@ -249,20 +257,20 @@ void Surveyor::join_copies() {
   copy_.assign(all.size(), false);
   std::vector<std::size_t> order(all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  // What lacks READY is a part of a bus that has it.
   const auto rank = [&](std::size_t i) {
+    const bool half = all[i].role("tvalid") && !all[i].role("tready");
     const auto dots = std::count(all[i].name.begin(), all[i].name.end(), '.');
-    return std::make_pair(dots, -static_cast<std::ptrdiff_t>(all[i].roles.size()));
+    return std::make_tuple(half, dots, -static_cast<std::ptrdiff_t>(all[i].roles.size()));
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   std::map<std::pair<BusKind, std::uint64_t>, std::vector<std::size_t>> kept;
   for (const std::size_t i : order) {
-    std::uint64_t key = change_hash_start;
-    for (const Replay::Slot slot : candidates_[i].controls) {
-      // Of two that never change only the net tells that they are one.
-      const bool moves = candidates_[i].changes != 0 && slot < hash_.size();
-      key = (key ^ (moves ? hash_[slot] : slot)) * change_hash_prime;
-    }
+    // Of two that never change only the net tells that they are one.
+    const Replay::Slot first = candidates_[i].slots.at(first_role(all[i]));
+    const bool moves = candidates_[i].changes != 0 && first < hash_.size();
+    const std::uint64_t key = moves ? hash_[first] : first;
     auto& like = kept[{all[i].kind, key}];
     const auto original =
         std::find_if(like.begin(), like.end(), [&](std::size_t other) { return same(other, i); });

@@ -212,7 +212,7 @@ void Reading::edges_of(std::size_t clock, std::uint64_t ps) {
     seen_[clock] = now;
     return;
   }
-  constexpr std::uint64_t most = 10'000'000;
+  constexpr std::uint64_t most = 1'000'000;
   std::uint64_t looked_at = 0;
   while (seen_[clock] != now && !pending_[clock].empty()) {
     const std::uint64_t n = ++seen_[clock];
