@@ -182,6 +182,12 @@ docs/traces.md has twenty questions with their answers.)";
 constexpr const char* values_help = R"(  markervp trace values t.vcd state count --at 12us --at 15us
   markervp trace values t.vcd tdata tlast --every clk --when 'tvalid and tready' --csv)";
 
+constexpr const char* transactions_help = R"(Buses are found by the names of their signals:
+  markervp trace transactions t.vcd
+  markervp trace transactions t.vcd --kind axi4 --where "operation == 'read' and latency > 2 us"
+  markervp trace transactions t.vcd --csv --data 16 > transfers.csv
+docs/transactions.md has the rules, the fields and the names of errors.)";
+
 /// A command of `trace`, with what all take.
 CLI::App* add(CLI::App& trace, TraceCommandOptions& target, const std::string& name,
               const std::string& what) {
@@ -220,6 +226,27 @@ void add_window(CLI::App& command, TraceCommandOptions& target) {
   command.add_option("--window", target.window, "only then: 6ms:7ms")->type_name("FROM:TO");
 }
 
+void add_clock(CLI::App& command, TraceCommandOptions& target) {
+  command
+      .add_option("--clock", target.clocks,
+                  "of the links: a signal, 'top.clk falling', of one LINK=SIGNAL, or 55MHz if "
+                  "the trace has no clocks (default: found by name and edges, or 100 MHz)")
+      ->type_name("CLOCK")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_most(CLI::App& command, TraceCommandOptions& target, const char* what) {
+  command.add_option("--most", target.most, what)
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62).description(""));
+}
+
+void add_formats(CLI::App& command, TraceCommandOptions& target) {
+  CLI::Option* json = command.add_flag("--json", target.json, "for programs");
+  command.add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
+}
+
 /// What `find` and `values` have in common.
 void add_moments(CLI::App& command, TraceCommandOptions& target) {
   command
@@ -227,11 +254,51 @@ void add_moments(CLI::App& command, TraceCommandOptions& target) {
                   "on these edges only, with the values before them: top.clk, 'top.clk falling'")
       ->type_name("CLOCK");
   add_window(command, target);
-  command.add_option("--most", target.most, "stop after so many lines")
+  add_most(command, target, "stop after so many lines");
+  add_formats(command, target);
+}
+
+void add_transactions(CLI::App& trace, TraceCommandOptions& target) {
+  CLI::App* command =
+      add(trace, target, "transactions", "the transfers on the buses, and who waits for whom");
+  add_file(*command, target);
+  command
+      ->add_option("--kind", target.kinds,
+                   "only these: axi4,axi4-lite,axi-stream,apb,wishbone,uart,i2c,spi,irq")
+      ->type_name("KIND")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  command->add_option("--filter", target.filter, "only buses of these names: 'top.dma.**'")
+      ->type_name("GLOB")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--where", target.where, "only those: \"address == 0x40000000\"")
+      ->type_name("CONDITION");
+  add_window(*command, target);
+  add_clock(*command, target);
+  command
+      ->add_option("--as", target.described,
+                   "a bus that names do not tell: 'uart console: line=top.pin7 baud=115200'")
+      ->type_name("BUS")
+      ->expected(1)
+      ->take_all();
+  add_most(*command, target, "print so many (default: 50, with --csv and --json all)");
+  command->add_option("--data", target.data_beats, "beats whose data are kept (default: 1)")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62).description(""));
-  CLI::Option* json = command.add_flag("--json", target.json, "for programs");
-  command.add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
+      ->check(CLI::Range(0, 256).description(""));
+  command
+      ->add_option("--hang", target.hang_clocks,
+                   "what waits at the end for so many clocks hangs (default: 10)")
+      ->type_name("N");
+  command->add_option("--max-wait", target.max_wait, "report VALID without READY for more clocks")
+      ->type_name("N");
+  command->add_option("--perfetto", target.perfetto, "write lanes for ui.perfetto.dev")
+      ->type_name("FILE");
+  command->add_option("--lanes", target.lanes, "write lanes as signals, .vcd or .fst")
+      ->type_name("FILE");
+  add_formats(*command, target);
+  command->footer(transactions_help);
 }
 
 }  // namespace
@@ -271,15 +338,10 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
                         "handshakes, buffers, interrupts, frames and functions in numbers");
   add_file(*stats, target);
   add_design(*stats, target);
-  stats
-      ->add_option("--clock", target.clocks,
-                   "of the links: a signal, 'top.clk falling', of one LINK=SIGNAL, or 55MHz if "
-                   "the trace has no clocks (default: found by name and edges, or 100 MHz)")
-      ->type_name("CLOCK")
-      ->expected(1)
-      ->take_all();
-  CLI::Option* json = stats->add_flag("--json", target.json, "for programs");
-  stats->add_flag("--csv", target.csv, "for spreadsheets")->excludes(json);
+  add_clock(*stats, target);
+  add_formats(*stats, target);
+
+  add_transactions(*trace, target);
 
   CLI::App* check = add(*trace, target, "check", "assertions; exit code 1 if one fails");
   check->add_option("CHECKS", target.checks, "a .checks file")->type_name("FILE")->required();

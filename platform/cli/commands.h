@@ -97,6 +97,8 @@ int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
 
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
+/// `markervp trace transactions`.
+int list_transactions(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
 
 int print_completion(const CLI::App& app, std::ostream& out);
 

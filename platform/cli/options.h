@@ -185,6 +185,10 @@ struct TraceCommandOptions {
   std::vector<std::string> at;  ///< times of values
   std::optional<std::string> when, every;
   std::optional<std::uint64_t> most;  ///< lines
+  // Of transactions:
+  std::vector<std::string> kinds, described;
+  std::optional<std::string> where, perfetto, lanes;
+  std::uint64_t data_beats = 1, hang_clocks = 10, max_wait = 0;
 };
 
 /// `markervp completion`.

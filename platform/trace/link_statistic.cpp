@@ -2,13 +2,10 @@
 #include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
-#include <utility>
 
+#include <trace/clock_choice.h>
 #include <trace/statistics.h>
 #include <vp/error.h>
-#include <vp/frame_gate.h>
-#include <vp/unit.h>
 
 // Handshakes, counted on clock edges that are never looked at one by one: between two changes all
 // edges see the same.
@@ -19,9 +16,6 @@ namespace {
 
 constexpr double bytes_per_megabyte = 1e6;
 
-/// The most clocks that a link is counted on at a time, until their edges tell which is its own.
-constexpr std::size_t most_clocks = 4;
-
 /// What the edges of one clock saw of a link.
 struct LinkCount {
   std::uint64_t beats = 0, packets = 0, stalls = 0, starved = 0;
@@ -30,14 +24,7 @@ struct LinkCount {
   std::uint64_t waiting = 0, in_burst = 0;
   std::uint64_t longest = 0, longest_ps = 0;
   std::uint64_t first_beat = 0, last_beat = 0;  ///< numbers of edges
-  std::uint64_t on_edge = 0;                    ///< changes that fall on an edge, up or down
-  std::optional<std::uint64_t> delay_ps;        ///< of the first that does not, after an edge
-  std::uint64_t with_delay = 0;                 ///< changes that come as long after an edge
   std::uint64_t edges = 0;                      ///< at the last look
-
-  std::uint64_t explained() const { return std::max(on_edge, with_delay); }
-  /// A change on an edge says more than one with a delay, which every faster clock explains.
-  std::uint64_t weight() const { return std::max(2 * on_edge, with_delay); }
 };
 
 struct Link {
@@ -49,48 +36,28 @@ struct Link {
 
   std::vector<std::size_t> clocks;  ///< that may be its own, the likeliest first
   std::vector<LinkCount> counts;    ///< by clock
+  std::vector<ClockFit> fits;       ///< by clock
   std::size_t best = 0;             ///< of both
   std::uint64_t wait_began_ps = 0;
   bool waits = false;
   std::uint64_t changes = 0;
 };
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return result;
-}
-
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-std::string_view leaf_of(std::string_view path) {
-  return path.substr(path.rfind('.') + 1);
-}
-
-/// How near a clock is to a link: levels that both are in, then letters that their names share.
-std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_view clock) {
-  std::size_t levels = 0, same = 0;
-  for (; same < std::min(link.size(), clock.size()) && link[same] == clock[same]; ++same)
-    levels += link[same] == '.' ? 1 : 0;
-  const std::string_view a = leaf_of(link), b = leaf_of(clock);
-  std::size_t letters = 0;
-  while (letters < std::min(a.size(), b.size()) && a[letters] == b[letters]) ++letters;
-  return {levels, letters};
-}
-
 class LinkStatistic final : public Statistic {
  public:
   LinkStatistic(Replay& replay, TraceFile& file, const StatisticsOptions& options)
-      : replay_(replay), file_(file), options_(options) {
+      : replay_(replay), file_(file), clocks_(replay, file, options) {
     for (std::size_t i = 0; i < file.paths().size(); ++i) add_link(static_cast<std::uint32_t>(i));
-    if (!links_.empty()) find_clocks();
+    for (Link& link : links_) {
+      link.clocks = clocks_.candidates({link.interface, link.name});
+      link.counts.resize(link.clocks.size());
+      link.fits.resize(link.clocks.size());
+    }
   }
   bool found() const override { return !links_.empty(); }
 
   void instant(std::uint64_t ps) override {
-    for (SampleClock& clock : clocks_) clock.instant(ps);
+    clocks_.instant(ps);
     bool any = !started_;
     for (const Replay::Slot slot : replay_.changed()) {
       if (slot < belongs_.size() && belongs_[slot]) any = true;
@@ -108,11 +75,6 @@ class LinkStatistic final : public Statistic {
 
  private:
   void add_link(std::uint32_t variable);
-  void find_clocks();
-  /// The place of a clock's wire among `clocks_`, which gets it.
-  std::size_t clock_of(std::uint32_t variable, bool falling);
-  std::size_t assumed_clock();
-  std::optional<std::size_t> named_clock(const Link& link);
   void choose_clocks();
   Replay::Slot follow(int variable) {
     const Replay::Slot slot = replay_.watch(static_cast<std::uint32_t>(variable));
@@ -140,20 +102,14 @@ class LinkStatistic final : public Statistic {
   void note_changes(Link& link, std::uint64_t ps);
 
   /// Nearly all of its changes follow the clock that it was counted on.
-  static bool fits(const Link& link) {
-    constexpr std::uint64_t one_in = 20;
-    const std::uint64_t off = link.changes - link.counts[link.best].explained();
-    return off * one_in <= link.changes;
-  }
+  static bool fits(const Link& link) { return link.fits[link.best].fits(link.changes); }
   const SampleClock& clock(const Link& link) const { return clocks_[link.clocks[link.best]]; }
-  std::string clock_text(const Link& link) const;
+  std::string clock_text(const Link& link) const { return clocks_.text(link.clocks[link.best]); }
   [[noreturn]] void refuse(const Link& link) const;
 
   Replay& replay_;
   TraceFile& file_;
-  const StatisticsOptions& options_;
-  std::vector<SampleClock> clocks_;
-  std::vector<std::string> clock_names_;
+  ClockSet clocks_;
   std::vector<Link> links_;
   std::vector<char> belongs_;  ///< by slot
   bool started_ = false;
@@ -195,76 +151,6 @@ void LinkStatistic::add_link(std::uint32_t variable) {
   links_.push_back(std::move(link));
 }
 
-/// For each link the clock that the user named, or those that lie near it.
-void LinkStatistic::find_clocks() {
-  const std::string usual = "ps.fclk_clk0.clk";
-  std::vector<std::uint32_t> wires;
-  for (std::uint32_t i = 0; i < file_.paths().size(); ++i) {
-    const std::string leaf = lower(leaf_of(file_.paths()[i]));
-    const bool named =
-        leaf.find("clk") != std::string::npos || leaf.find("clock") != std::string::npos;
-    const bool resets =
-        leaf.find("rst") != std::string::npos || leaf.find("reset") != std::string::npos;
-    const vp::WaveVariable& variable = file_.variable(i);
-    if (named && !resets && variable.width == 1 && variable.kind == vp::WaveVariable::Kind::bits)
-      wires.push_back(i);
-  }
-  for (Link& link : links_) {
-    if (const auto named = named_clock(link)) {
-      link.clocks = {*named};
-    } else {
-      std::vector<std::uint32_t> near = wires;
-      std::stable_sort(near.begin(), near.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const auto how_near = [&](std::uint32_t wire) {
-          const auto [levels, letters] = nearness(link.interface, file_.paths()[wire]);
-          return std::make_tuple(levels, letters, file_.paths()[wire] == usual);
-        };
-        return how_near(a) > how_near(b);
-      });
-      for (const std::uint32_t wire : near) {
-        const std::size_t place = clock_of(wire, false);
-        if (std::find(link.clocks.begin(), link.clocks.end(), place) == link.clocks.end())
-          link.clocks.push_back(place);
-        if (link.clocks.size() == most_clocks) break;
-      }
-      link.clocks.push_back(assumed_clock());
-    }
-    link.counts.resize(link.clocks.size());
-  }
-}
-
-/// For a trace without the wire.
-std::size_t LinkStatistic::assumed_clock() {
-  for (std::size_t i = 0; i < clocks_.size(); ++i) {
-    if (!clocks_[i].has_wire()) return i;
-  }
-  clocks_.emplace_back(options_.system_hz);
-  clock_names_.emplace_back();
-  return clocks_.size() - 1;
-}
-
-std::size_t LinkStatistic::clock_of(std::uint32_t variable, bool falling) {
-  const Replay::Slot slot = replay_.watch(variable);
-  for (std::size_t i = 0; i < clocks_.size(); ++i) {
-    if (clocks_[i].is_of(slot, falling)) return i;
-  }
-  clocks_.emplace_back(replay_, slot, falling);
-  clock_names_.push_back(file_.paths()[variable] + (falling ? " falling" : ""));
-  return clocks_.size() - 1;
-}
-
-std::optional<std::size_t> LinkStatistic::named_clock(const Link& link) {
-  const ClockEdge* edge = options_.clock ? &*options_.clock : nullptr;
-  for (const auto& [name, named] : options_.clock_of_link) {
-    if (name == link.name || name == link.interface || ends_with(link.name, "." + name) ||
-        ends_with(link.interface, "." + name)) {
-      edge = &named;
-    }
-  }
-  if (!edge) return std::nullopt;
-  return clock_of(vp::find_path(edge->signal, file_.paths(), "--clock: "), edge->falling);
-}
-
 void LinkStatistic::count(Link& link, LinkCount& counted, std::uint64_t edges) {
   const bool valid = replay_.bits_before(link.valid) != 0;
   const bool ready = replay_.bits_before(link.ready) != 0;
@@ -303,19 +189,8 @@ void LinkStatistic::note_changes(Link& link, std::uint64_t ps) {
   };
   if (!changed(link.valid) && !changed(link.ready)) return;
   ++link.changes;
-  for (std::size_t i = 0; i < link.clocks.size(); ++i) {
-    LinkCount& counted = link.counts[i];
-    const SampleClock& clock = clocks_[link.clocks[i]];
-    if (clock.falls_on(ps) || clock.goes_back()) {
-      ++counted.on_edge;
-      continue;
-    }
-    // A bench may drive some time after the edge.
-    const std::optional<std::uint64_t> delay = clock.since_edge(ps);
-    if (!delay) continue;
-    if (!counted.delay_ps) counted.delay_ps = delay;
-    counted.with_delay += delay == counted.delay_ps ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < link.clocks.size(); ++i)
+    link.fits[i].note(clocks_[link.clocks[i]], ps);
   const bool waits = replay_.bits(link.valid) != 0 && replay_.bits(link.ready) == 0;
   if (waits && !link.waits) link.wait_began_ps = ps;
   link.waits = waits;
@@ -328,29 +203,15 @@ void LinkStatistic::choose_clocks() {
     for (const Link& other : links_) {
       if (other.interface != link.interface) continue;
       for (std::size_t i = 0; i < other.clocks.size(); ++i)
-        weight[other.clocks[i]] += other.counts[i].weight();
+        weight[other.clocks[i]] += other.fits[i].weight();
     }
-    for (std::size_t i = 1; i < link.clocks.size(); ++i) {
-      const bool is_wire = clocks_[link.clocks[i]].has_wire();
-      if (is_wire && weight[link.clocks[i]] > weight[link.clocks[link.best]]) link.best = i;
-    }
-    // The assumed one counts where no wire is its clock.
-    const std::size_t nearest = link.best, last = link.clocks.size() - 1;
-    if (fits(link) || clocks_[link.clocks[last]].has_wire()) continue;
-    link.best = last;
-    if (!fits(link)) link.best = nearest;
+    link.best = clocks_.best(link.clocks, link.fits, weight, link.changes);
   }
-}
-
-std::string LinkStatistic::clock_text(const Link& link) const {
-  const std::string& name = clock_names_[link.clocks[link.best]];
-  if (!name.empty()) return name;
-  return vp::format_quantity(vp::Decimal(options_.system_hz, 0), vp::Unit::frequency);
 }
 
 void LinkStatistic::refuse(const Link& link) const {
   throw vp::InputError("trace '" + file_.name() +
-                       "': " + std::to_string(link.changes - link.counts[link.best].explained()) +
+                       "': " + std::to_string(link.changes - link.fits[link.best].explained()) +
                        " of " + std::to_string(link.changes) + " changes of " + link.name +
                        (clock(link).has_wire()
                             ? " do not follow the clock " + clock_text(link)
@@ -378,8 +239,8 @@ void LinkStatistic::report(std::vector<Table>& tables) const {
   for (const Link& link : links_) {
     const LinkCount& counted = link.counts[link.best];
     if (!fits(link)) {
-      left_out.rows.push_back(
-          {link.name, link.changes, link.changes - counted.explained(), clock_text(link)});
+      left_out.rows.push_back({link.name, link.changes,
+                               link.changes - link.fits[link.best].explained(), clock_text(link)});
       continue;
     }
     const double period_s = clock(link).period_s();

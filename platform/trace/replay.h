@@ -97,6 +97,7 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   vp::WaveVariable::Kind kind(Slot slot) const { return slots_[slot].now.kind; }
   vp::WaveVariable::Kind kind_before(Slot slot) const { return slots_[slot].before.kind; }
   std::uint32_t variable(Slot slot) const { return slots_[slot].variable; }
+  unsigned width(Slot slot) const { return file_.variable(slots_[slot].variable).width; }
   /// True for a text, and for a vector of bits that has had a word as its value.
   bool has_words(Slot slot) const { return slots_[slot].has_words; }
   /// Binds the names of an expression to slots. Throws vp::InputError.
