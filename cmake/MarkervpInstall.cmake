@@ -140,4 +140,6 @@ install(FILES
   cmake/MarkervpProgram.cpp.in
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVendor.c
+  cmake/MarkervpVendorDefaults.h
+  cmake/MarkervpVendorRows.h
   DESTINATION "${package_folder}")

@@ -4,7 +4,7 @@
 #include <deque>
 #include <systemc>
 
-#include <board/i2c_bus.h>
+#include <board/hosts.h>
 #include <vp/clock.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -14,7 +14,7 @@ namespace ps {
 /// I2C controller of the processing system as a master, at the level of whole bytes: a start takes
 /// one period of SCL, each byte with its acknowledge nine. A slave's side, arbitration and
 /// time-outs are not modelled.
-class I2c : public vp::Clocked {
+class I2c : public vp::Clocked, public board::I2cHost {
  public:
   I2c(sc_core::sc_module_name name, vp::Clock& cpu_1x_clk);
   const char* kind() const override { return "ps::I2c"; }
@@ -24,6 +24,7 @@ class I2c : public vp::Clocked {
   vp::Signal<bool> busy{"busy"};  ///< a transfer has the bus
 
   board::I2cBus bus;  ///< what it is wired to
+  board::I2cBus& i2c_bus() override { return bus; }
 
   /// The SLCR holds the block in reset.
   void hold_in_reset(bool hold);

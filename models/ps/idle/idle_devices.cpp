@@ -8,6 +8,9 @@
 
 #include <vp/report.h>
 
+#include <stdexcept>
+#include <utility>
+
 namespace ps {
 
 namespace {
@@ -131,6 +134,11 @@ Qspi::Qspi(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
     if (!rx_.empty()) rx_.pop_front();
     update();
   });
+}
+
+void Qspi::attach(unsigned slave, std::shared_ptr<board::SpiDevice> flash) {
+  if (slave != 0) throw std::out_of_range("it has slave 0 only");
+  flash_ = std::move(flash);
 }
 
 void Qspi::send(std::uint32_t word, unsigned bytes) {

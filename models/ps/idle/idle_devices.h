@@ -5,7 +5,7 @@
 #include <memory>
 #include <systemc>
 
-#include <board/spi_flash.h>
+#include <board/hosts.h>
 #include <vp/clock.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -49,7 +49,7 @@ class Usb : public sc_core::sc_module {
 /// Quad-SPI controller in I/O mode, one bit wide; transfers take no time. Without a flash its
 /// status register reads 0 (ready) and all else 0xFF, so that a program that waits for the end of a
 /// write does not wait for ever. The memory-mapped mode is not modelled.
-class Qspi : public sc_core::sc_module {
+class Qspi : public sc_core::sc_module, public board::SpiHost {
  public:
   Qspi(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
   const char* kind() const override { return "ps::Qspi"; }
@@ -57,8 +57,8 @@ class Qspi : public sc_core::sc_module {
   vp::RegisterBank registers;
   vp::Signal<bool> irq{"irq"};  ///< interrupt 51, active high
 
-  /// Wires a flash to it.
-  void attach(std::shared_ptr<board::SpiDevice> flash) { flash_ = std::move(flash); }
+  /// Wires a flash to it; std::out_of_range but for slave 0.
+  void attach(unsigned slave, std::shared_ptr<board::SpiDevice> flash) override;
 
  private:
   struct Word {

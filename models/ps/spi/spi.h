@@ -6,7 +6,7 @@
 #include <memory>
 #include <systemc>
 
-#include <board/spi_flash.h>
+#include <board/hosts.h>
 #include <vp/clock.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -16,7 +16,7 @@ namespace ps {
 /// SPI controller of the processing system as a master, at the level of whole bytes: each takes
 /// eight periods of SCK. The slave's side and mode faults are not modelled. Delays between bytes
 /// (DELAY) are stored and take no time.
-class Spi : public vp::Clocked {
+class Spi : public vp::Clocked, public board::SpiHost {
  public:
   static constexpr unsigned slave_count = 3;
 
@@ -29,7 +29,7 @@ class Spi : public vp::Clocked {
 
   /// What is wired to select `slave`; std::out_of_range beyond 2. Where nothing is, bytes read
   /// 0xFF.
-  void attach(unsigned slave, std::shared_ptr<board::SpiDevice> device);
+  void attach(unsigned slave, std::shared_ptr<board::SpiDevice> device) override;
   /// The SLCR holds the block in reset.
   void hold_in_reset(bool hold);
 

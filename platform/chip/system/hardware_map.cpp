@@ -11,8 +11,6 @@
 #include <vp/ip.h>
 #include <vp/register_bank.h>
 #include <vp/text.h>
-#include <xilinx/axi_dma/axi_dma.h>
-#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/concat/concat.h>
 
 namespace platform {
@@ -29,53 +27,6 @@ std::string capitals(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
-}
-
-void add_dma(Device& device, const xilinx::AxiDma& dma) {
-  constexpr std::uint32_t data_width = 32, burst_beats = 16, address_width = 32;
-  const std::uint32_t mm2s = dma.include_mm2s.get(), s2mm = dma.include_s2mm.get();
-  const std::uint32_t sg = dma.include_sg.get(), length_width = dma.length_width;
-  device.compatible = "xlnx,axi-dma-7.1";
-  device.options = {{"SG_INCLUDE_STSCNTRL_STRM", 0},
-                    {"INCLUDE_MM2S", mm2s},
-                    {"INCLUDE_MM2S_DRE", 0},
-                    {"M_AXI_MM2S_DATA_WIDTH", data_width},
-                    {"INCLUDE_S2MM", s2mm},
-                    {"INCLUDE_S2MM_DRE", 0},
-                    {"M_AXI_S2MM_DATA_WIDTH", data_width},
-                    {"INCLUDE_SG", sg},
-                    {"ENABLE_MULTI_CHANNEL", 0},
-                    {"NUM_MM2S_CHANNELS", 1},
-                    {"NUM_S2MM_CHANNELS", 1},
-                    {"MM2S_BURST_SIZE", burst_beats},
-                    {"S2MM_BURST_SIZE", burst_beats},
-                    {"MICRO_DMA", 0},
-                    {"ADDR_WIDTH", address_width},
-                    {"SG_LENGTH_WIDTH", length_width},
-                    {"c_addr_width", address_width},
-                    {"c_sg_length_width", length_width}};
-  device.sdt_options = {
-      {"SG_INCLUDE_STSCNTRL_STRM", 0},  {"INCLUDE_MM2S", mm2s},           {"INCLUDE_MM2S_DRE", 0},
-      {"MM2S_DATA_WIDTH", data_width},  {"INCLUDE_S2MM", s2mm},           {"INCLUDE_S2MM_DRE", 0},
-      {"S2MM_DATA_WIDTH", data_width},  {"NUM_MM2S_CHANNELS", 1},         {"NUM_S2MM_CHANNELS", 1},
-      {"MM2S_BURST_SIZE", burst_beats}, {"S2MM_BURST_SIZE", burst_beats}, {"MICRO_DMA", 0},
-      {"ADDRWIDTH", address_width},     {"SG_LENGTH_WIDTH", length_width}};
-  if (sg != 0) device.sdt_options.emplace_back("INCLUDE_SG", sg);
-}
-
-/// The driver of a device, by its model; "" without one of the vendor's.
-void add_build(Device& device, const sc_core::sc_object& module) {
-  if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
-    device.driver = "AXIDMA";
-    add_dma(device, *dma);
-  } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
-    device.driver = "GPIO";
-    device.compatible = "xlnx,axi-gpio-2.0";
-    device.options = {{"IS_DUAL", gpio->is_dual.get()},
-                      {"INTERRUPT_PRESENT", gpio->interrupt_present.get()}};
-    device.sdt_options = device.options;
-    device.sdt_options.emplace_back("GPIO_WIDTH", gpio->gpio.width);
-  }
 }
 
 Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
@@ -108,7 +59,27 @@ std::string title(const sc_core::sc_object& object) {
       {"ps::Ddr", "DDR memory"},
       {"xilinx::AxiDma", "AXI DMA (PG021)"},
       {"xilinx::AxiGpio", "AXI GPIO (PG144)"},
-      {"xilinx::AxiBramCtrl", "AXI BRAM controller (PG078)"}};
+      {"xilinx::AxiBramCtrl", "AXI BRAM controller (PG078)"},
+      {"xilinx::AxiCdma", "AXI central DMA (PG034)"},
+      {"xilinx::AxiFifoMmS", "AXI4-Stream FIFO (PG080)"},
+      {"xilinx::AxiIic", "AXI IIC (PG090)"},
+      {"xilinx::AxiIntc", "AXI interrupt controller (PG099)"},
+      {"xilinx::AxiQuadSpi", "AXI Quad SPI (PG153)"},
+      {"xilinx::AxiTimer", "AXI timer (PG079)"},
+      {"xilinx::AxiUartlite", "AXI UART Lite (PG142)"},
+      {"xilinx::ClkWiz", "Clocking wizard (PG065)"},
+      {"xilinx::XadcWiz", "XADC wizard (PG091)"},
+      {"ps::Gpio", "GPIO of the PS (MIO and EMIO)"},
+      {"ps::I2c", "I2C"},
+      {"ps::Spi", "SPI"},
+      {"ps::Ttc", "Triple timer counter"},
+      {"ps::SystemWatchdog", "System watchdog"},
+      {"ps::XadcInterface", "XADC interface"},
+      {"ps::Devcfg", "Device configuration, idle"},
+      {"ps::Qspi", "Quad-SPI, I/O mode"},
+      {"ps::Sdio", "SDIO without a card"},
+      {"ps::Gem", "Ethernet without PHY"},
+      {"ps::Usb", "USB without transceiver"}};
   for (const auto& [kind, text] : titles) {
     if (std::string(object.kind()) == kind) return text;
   }

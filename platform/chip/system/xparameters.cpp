@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 
 #include <chip/system/xparameters_text.h>
@@ -87,8 +88,12 @@ void define_sdt(Section& out, const Device& device, unsigned number) {
 
 }  // namespace
 
+// Both flows may write one number in different ways.
 void Section::add(Flow flow, const std::string& name, const std::string& value) {
-  const auto [place, is_new] = by_text_.try_emplace(name + ' ' + value, lines_.size());
+  char* end = nullptr;
+  const unsigned long long number = std::strtoull(value.c_str(), &end, 0);
+  const std::string key = name + ' ' + (end == value.c_str() ? value : std::to_string(number));
+  const auto [place, is_new] = by_text_.try_emplace(key, lines_.size());
   if (is_new) {
     lines_.push_back({name, value, flow});
   } else {
@@ -116,23 +121,25 @@ void Section::plain(Flow flow, const std::string& name, const std::string& value
   add(flow, name, value);
 }
 
-std::string Section::lines_of(unsigned flows) const {
+std::string Section::lines_of(unsigned flows, bool interrupts) const {
   std::string text;
   for (const Line& line : lines_) {
-    if (line.flows == flows)
-      text += "#define " + line.name + (line.value.empty() ? "" : " " + line.value) + "\n";
+    const bool is_interrupt = line.name.find("_INTERRUPT") != std::string::npos;
+    if (line.flows != flows || (flows == sdt && is_interrupt != interrupts)) continue;
+    text += "#define " + line.name + (line.value.empty() ? "" : " " + line.value) + "\n";
   }
   return text;
 }
 
-// The compatibility layer's own sources look devices up in both ways.
+// The compatibility layer's own sources are those of both flows: they know interrupts as SDT does.
 std::string Section::text() const {
   std::string text = "\n/* " + title_ + " */\n" + lines_of(both);
-  const std::string of_classic = lines_of(classic), of_sdt = lines_of(sdt);
-  if (!of_classic.empty())
-    text += "#if !defined SDT || defined MARKERVP_BOTH_FLOWS\n" + of_classic + "#endif\n";
-  if (!of_sdt.empty())
-    text += "#if defined SDT || defined MARKERVP_BOTH_FLOWS\n" + of_sdt + "#endif\n";
+  const auto add_if = [&text](const char* condition, const std::string& lines) {
+    if (!lines.empty()) text += std::string(condition) + "\n" + lines + "#endif\n";
+  };
+  add_if("#ifndef SDT", lines_of(classic));
+  add_if("#ifdef SDT", lines_of(sdt, false));
+  add_if("#if defined SDT || defined MARKERVP_BOTH_FLOWS", lines_of(sdt, true));
   return text;
 }
 

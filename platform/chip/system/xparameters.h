@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <systemc>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct Platform {
   std::vector<Device> devices;  ///< those of one driver in the order of their numbers
   std::string part = "7z020";   ///< as SDT names the device
 };
+
+/// Fills in driver, compatible string and build options of a device of the PL, by its model; none
+/// for one that the vendor has no driver for.
+void add_build(Device& device, const sc_core::sc_object& module);
 
 /// The text of xparameters.h.
 std::string header(const Platform& platform);

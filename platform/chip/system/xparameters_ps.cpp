@@ -353,8 +353,9 @@ std::string processor_devices() {
   out.address(Section::classic, "SCUGIC_0_CPU_HIGHADDR", gic::cpu_interface_base + 0xFF);
   out.address(Section::classic, "SCUGIC_0_DIST_BASEADDR", gic::distributor_base);
   out.number(Section::both, "XSCUGIC_NUM_INSTANCES", 1);
+  out.address(Section::both, "XSCUGIC_0_BASEADDR", gic::distributor_base);
+  out.address(Section::sdt, "INTC_BASEADDR", gic::distributor_base);
   for (const char* name : {"INTC", "XSCUGIC_0"}) {
-    out.address(Section::sdt, std::string(name) + "_BASEADDR", gic::distributor_base);
     out.words(Section::sdt, std::string(name) + "_COMPATIBLE", "arm,cortex-a9-gic");
   }
   out.address(Section::sdt, "INTC_BASEADDR_1", gic::cpu_interface_base);

@@ -33,7 +33,8 @@ class Section {
     unsigned flows;
   };
   void add(Flow flow, const std::string& name, const std::string& value);
-  std::string lines_of(unsigned flows) const;
+  /// `interrupts`: of SDT's lines, those of interrupts or the rest.
+  std::string lines_of(unsigned flows, bool interrupts = false) const;
 
   std::string title_;
   std::vector<Line> lines_;
