@@ -100,7 +100,7 @@ void AxiIic::on_change(vp::SignalBase&, std::uint32_t) {
   s_axi.hold_in_reset(!s_axi_aresetn);
 }
 
-// MSMS going low is a stop after the byte under way.
+// MSMS going low is a stop after the byte under way, or after the next one while SCL waits for it.
 void AxiIic::control_written() {
   if (cr_.any(cr::TX_FIFO_Reset)) tx_.clear();
   if (busy_ && !dynamic_ && !cr_.any(cr::MSMS)) wants_stop_ = true;
@@ -143,9 +143,8 @@ void AxiIic::proceed() {
   if (!tx_.empty()) {
     word_ = tx_.front();
     tx_.pop_front();
-    return take(State::sending, byte_periods);
+    take(State::sending, byte_periods);
   }
-  if (wants_stop_) stop();
 }
 
 void AxiIic::begin(std::uint32_t word) {
@@ -178,7 +177,7 @@ void AxiIic::byte_sent() {
     return stop();
   }
   state_ = State::waiting;
-  if ((word_ & tx_word::Stop) != 0) return stop();
+  if ((word_ & tx_word::Stop) != 0 || (wants_stop_ && tx_.empty())) stop();
 }
 
 // The last byte is not acknowledged, which the core's own error flag shows, too.

@@ -27,22 +27,22 @@ BOOST_AUTO_TEST_CASE(xadc_answers_one_command_later) {
   b.run([] {
     using namespace ps_xadc;
     constexpr std::uint32_t read_command = command::read << command::CMD_shift;
-    set(at + CMDFIFO, read_command);
-    BOOST_TEST(get(at + MSTS) == 0x500u, "in reset");
-    set(at + MCTL, 0);
+    put(at + CMDFIFO, read_command);
+    BOOST_TEST(look(at + MSTS) == 0x500u, "in reset");
+    put(at + MCTL, 0);
     const auto result = [](unsigned address) {
-      set(at + CMDFIFO, read_command | address << command::ADDR_shift);
-      get(at + RDFIFO);
-      set(at + CMDFIFO, 0);
-      return get(at + RDFIFO);
+      put(at + CMDFIFO, read_command | address << command::ADDR_shift);
+      look(at + RDFIFO);
+      put(at + CMDFIFO, 0);
+      return look(at + RDFIFO);
     };
     const double celsius = result(board::Xadc::temperature) / 65536.0 * 503.975 - 273.15;
     BOOST_TEST(celsius > 50.9);
     BOOST_TEST(celsius < 51.1);
     BOOST_TEST(result(board::Xadc::vaux_0 + 1) == 0x4000u);
-    set(at + CMDFIFO, command::write << command::CMD_shift | 0x50u << command::ADDR_shift | 0x1234);
+    put(at + CMDFIFO, command::write << command::CMD_shift | 0x50u << command::ADDR_shift | 0x1234);
     BOOST_TEST(result(0x50) == 0x1234u);
-    BOOST_TEST((get(at + MSTS) & msts::DFIFOE) == 0u, "the write was answered, too");
+    BOOST_TEST((look(at + MSTS) & msts::DFIFOE) == 0u, "the write was answered, too");
     return 0;
   });
   BOOST_CHECK_THROW(b.dut.set_input(0x07, 1), std::out_of_range);
@@ -68,14 +68,14 @@ BOOST_AUTO_TEST_CASE(sd_without_a_card_times_out) {
   Unclocked<ps::Sdio> b("sdio0", at);
   b.run([] {
     using namespace sdio;
-    set(at + CLOCK_RESET, clock_reset::Internal_Enable | clock_reset::Resets);
-    BOOST_TEST(get(at + CLOCK_RESET) ==
+    put(at + CLOCK_RESET, clock_reset::Internal_Enable | clock_reset::Resets);
+    BOOST_TEST(look(at + CLOCK_RESET) ==
                (clock_reset::Internal_Enable | clock_reset::Internal_Stable));
-    set(at + INT_STATUS_EN, event::Command_Timeout);
-    set(at + TRANSFER_COMMAND, 0x08000000);
-    BOOST_TEST(get(at + INT_STATUS) == (event::Command_Timeout | event::Error));
-    set(at + INT_STATUS, event::Command_Timeout);
-    BOOST_TEST(get(at + INT_STATUS) == 0u);
+    put(at + INT_STATUS_EN, event::Command_Timeout);
+    put(at + TRANSFER_COMMAND, 0x08000000);
+    BOOST_TEST(look(at + INT_STATUS) == (event::Command_Timeout | event::Error));
+    put(at + INT_STATUS, event::Command_Timeout);
+    BOOST_TEST(look(at + INT_STATUS) == 0u);
     return 0;
   });
 }
@@ -85,19 +85,19 @@ BOOST_AUTO_TEST_CASE(qspi_with_and_without_flash) {
   Unclocked<ps::Qspi> b("qspi", at);
   const auto ask = [](std::uint32_t word) {
     using namespace qspi;
-    set(at + CONFIG, 0x80000000 | config::Manual_CS);
-    set(at + TXD0, word);
-    const std::uint32_t reply = get(at + RX_DATA);
-    set(at + CONFIG, 0x80000000 | config::Manual_CS | config::PCS);
+    put(at + CONFIG, 0x80000000 | config::Manual_CS);
+    put(at + TXD0, word);
+    const std::uint32_t reply = look(at + RX_DATA);
+    put(at + CONFIG, 0x80000000 | config::Manual_CS | config::PCS);
     return reply;
   };
   b.run([&] {
-    set(at + qspi::EN, 1);
+    put(at + qspi::EN, 1);
     BOOST_TEST(ask(0x05) == 0x000000FFu, "ready");
     BOOST_TEST(ask(0x9F) == 0xFFFFFFFFu);
     b.dut.attach(0, std::make_shared<board::SpiFlash>());
     BOOST_TEST(ask(0x9F) == 0x1640EFFFu);
-    BOOST_TEST(get(at + qspi::INTR_STATUS) == qspi::event::TX_FIFO_not_full);
+    BOOST_TEST(look(at + qspi::INTR_STATUS) == qspi::event::TX_FIFO_not_full);
     return 0;
   });
   BOOST_CHECK_THROW(b.dut.attach(1, nullptr), std::out_of_range);
@@ -110,14 +110,14 @@ BOOST_AUTO_TEST_CASE(a_bitstream_takes_its_time_and_a_phy_is_absent) {
   b.bus.map("gem0", ethernet, 0x1000).bind(gem.registers.socket);
   b.run([] {
     using namespace devcfg;
-    set(at + DMA_SRC_LEN, 1000);
-    set(at + DMA_DEST_LEN, 0);
-    after_ps(9'000'000);
-    BOOST_TEST(get(at + INT_STS) == 0u);
-    after_ps(1'200'000);
-    BOOST_TEST(get(at + INT_STS) == (event::PCFG_DONE | event::D_P_DONE | event::DMA_DONE));
-    set(ethernet + gem::PHY_MAINT, 0x60020000);
-    BOOST_TEST((get(ethernet + gem::PHY_MAINT) & 0xFFFF) == 0xFFFFu);
+    put(at + DMA_SRC_LEN, 1000);
+    put(at + DMA_DEST_LEN, 0);
+    let_pass(9'000'000);
+    BOOST_TEST(look(at + INT_STS) == 0u);
+    let_pass(1'200'000);
+    BOOST_TEST(look(at + INT_STS) == (event::PCFG_DONE | event::D_P_DONE | event::DMA_DONE));
+    put(ethernet + gem::PHY_MAINT, 0x60020000);
+    BOOST_TEST((look(ethernet + gem::PHY_MAINT) & 0xFFFF) == 0xFFFFu);
     return 0;
   });
   BOOST_TEST(b.text.str().find("the PL keeps its design") != std::string::npos);

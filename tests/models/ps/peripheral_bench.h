@@ -37,13 +37,13 @@ struct Unclocked : Bench {
   vp::ReportRouter reports;
 };
 
-inline void after_ps(std::uint64_t ps) {
+inline void let_pass(std::uint64_t ps) {
   hal_work(step, ps / 1000);  // the CPU has 1 GHz
 }
-inline std::uint32_t get(std::uint32_t address) {
+inline std::uint32_t look(std::uint32_t address) {
   return hal_read32(address);
 }
-inline void set(std::uint32_t address, std::uint32_t value) {
+inline void put(std::uint32_t address, std::uint32_t value) {
   hal_write32(address, value);
 }
 

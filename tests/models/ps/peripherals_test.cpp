@@ -28,16 +28,16 @@ BOOST_AUTO_TEST_CASE(gpio_outputs_and_masks) {
   Alone<ps::Gpio> b("gpio", ps_gpio::base);
   b.run([] {
     using namespace ps_gpio;
-    set(base + DIRM_0, 1u << 10 | 1u << 7);
-    set(base + OEN_0, 1u << 10 | 1u << 7);
-    set(base + MASK_DATA_0_LSW, 0xFB7Fu << 16 | 0xFFFF);  // pins 10 and 7 only
-    BOOST_TEST(get(base + DATA_0) == 0x480u);
-    after_ps(100'000);
-    BOOST_TEST(get(base + DATA_0_RO) == 0x400u, "pin 7 is an output only: reads 0");
-    BOOST_TEST(get(base + MASK_DATA_0_LSW) == 0x480u, "the mask reads 0");
-    set(base + MASK_DATA_0_LSW + 4, 0);
-    BOOST_TEST(get(base + DATA_0) == 0x480u);
-    BOOST_TEST(get(base + INT_TYPE_0 + bank_stride) == 0x003FFFFFu);
+    put(base + DIRM_0, 1u << 10 | 1u << 7);
+    put(base + OEN_0, 1u << 10 | 1u << 7);
+    put(base + MASK_DATA_0_LSW, 0xFB7Fu << 16 | 0xFFFF);  // pins 10 and 7 only
+    BOOST_TEST(look(base + DATA_0) == 0x480u);
+    let_pass(100'000);
+    BOOST_TEST(look(base + DATA_0_RO) == 0x400u, "pin 7 is an output only: reads 0");
+    BOOST_TEST(look(base + MASK_DATA_0_LSW) == 0x480u, "the mask reads 0");
+    put(base + MASK_DATA_0_LSW + 4, 0);
+    BOOST_TEST(look(base + DATA_0) == 0x480u);
+    BOOST_TEST(look(base + INT_TYPE_0 + bank_stride) == 0x003FFFFFu);
     return 0;
   });
   BOOST_TEST(b.dut.mio_o.get() == 0x480u);
@@ -50,24 +50,24 @@ BOOST_AUTO_TEST_CASE(gpio_wire_from_pin_to_pin_interrupts) {
   b.run([] {
     using namespace ps_gpio;
     for (unsigned bank = 0; bank < bank_count; ++bank) {
-      set(base + INT_DIS_0 + bank * bank_stride, ~0u);
+      put(base + INT_DIS_0 + bank * bank_stride, ~0u);
     }
-    set(base + DIRM_0, 1u << 10);
-    set(base + OEN_0, 1u << 10);
-    set(base + INT_TYPE_0, 0);
-    set(base + INT_POLARITY_0, 1u << 14);
-    set(base + INT_STAT_0, ~0u);
-    BOOST_TEST((get(base + INT_STAT_0) & 1u << 14) == 0u);
-    set(base + INT_EN_0, 1u << 14);
-    set(base + DATA_0, 1u << 10);
-    after_ps(5 * clock_ps);
-    BOOST_TEST((get(base + DATA_0_RO) & 1u << 14) != 0u);
-    set(base + INT_STAT_0, 1u << 14);
-    BOOST_TEST((get(base + INT_STAT_0) & 1u << 14) != 0u, "a level comes back");
-    set(base + DATA_0, 0);
-    after_ps(5 * clock_ps);
-    set(base + INT_STAT_0, 1u << 14);
-    BOOST_TEST((get(base + INT_STAT_0) & 1u << 14) == 0u);
+    put(base + DIRM_0, 1u << 10);
+    put(base + OEN_0, 1u << 10);
+    put(base + INT_TYPE_0, 0);
+    put(base + INT_POLARITY_0, 1u << 14);
+    put(base + INT_STAT_0, ~0u);
+    BOOST_TEST((look(base + INT_STAT_0) & 1u << 14) == 0u);
+    put(base + INT_EN_0, 1u << 14);
+    put(base + DATA_0, 1u << 10);
+    let_pass(5 * clock_ps);
+    BOOST_TEST((look(base + DATA_0_RO) & 1u << 14) != 0u);
+    put(base + INT_STAT_0, 1u << 14);
+    BOOST_TEST((look(base + INT_STAT_0) & 1u << 14) != 0u, "a level comes back");
+    put(base + DATA_0, 0);
+    let_pass(5 * clock_ps);
+    put(base + INT_STAT_0, 1u << 14);
+    BOOST_TEST((look(base + INT_STAT_0) & 1u << 14) == 0u);
     return 0;
   });
   BOOST_TEST(!b.dut.irq.get());
@@ -82,23 +82,23 @@ BOOST_AUTO_TEST_CASE(gpio_edges_of_the_emio) {
   b.run([&] {
     using namespace ps_gpio;
     const std::uint32_t bank = base + 2 * bank_stride;
-    set(bank + INT_DIS_0, ~0u);
-    set(bank + INT_POLARITY_0, 1u << 3);
-    set(bank + INT_EN_0, 1u << 3);
-    after_ps(1'000'000 - now_ps());
+    put(bank + INT_DIS_0, ~0u);
+    put(bank + INT_POLARITY_0, 1u << 3);
+    put(bank + INT_EN_0, 1u << 3);
+    let_pass(1'000'000 - now_ps());
     wires = 1u << 3;
-    after_ps(100'000);
-    BOOST_TEST(get(base + DATA_0_RO + 2 * data_stride) == 8u);
-    BOOST_TEST(get(base + DATA_0 + 2 * data_stride) == 8u, "an input of the EMIO, by DATA");
-    set(bank + INT_STAT_0, 1u << 3);
+    let_pass(100'000);
+    BOOST_TEST(look(base + DATA_0_RO + 2 * data_stride) == 8u);
+    BOOST_TEST(look(base + DATA_0 + 2 * data_stride) == 8u, "an input of the EMIO, by DATA");
+    put(bank + INT_STAT_0, 1u << 3);
     wires = 0;
-    after_ps(100'000);
-    BOOST_TEST(get(bank + INT_STAT_0) == 0u, "the falling edge is not looked at");
-    set(bank + DIRM_0, 1u << 4);
-    set(bank + OEN_0, 1u << 4);
-    set(base + DATA_0 + 2 * data_stride, 1u << 4);
-    after_ps(100'000);
-    BOOST_TEST(get(base + DATA_0_RO + 2 * data_stride) == 0u, "an output does not come back");
+    let_pass(100'000);
+    BOOST_TEST(look(bank + INT_STAT_0) == 0u, "the falling edge is not looked at");
+    put(bank + DIRM_0, 1u << 4);
+    put(bank + OEN_0, 1u << 4);
+    put(base + DATA_0 + 2 * data_stride, 1u << 4);
+    let_pass(100'000);
+    BOOST_TEST(look(base + DATA_0_RO + 2 * data_stride) == 0u, "an output does not come back");
     return 0;
   });
   BOOST_REQUIRE(irq.times.size() == 2u);
@@ -118,15 +118,15 @@ constexpr std::uint32_t divider = 9u << ps_i2c::cr::DIV_B_shift;
 constexpr std::uint64_t scl_ps = 220 * clock_ps;
 
 void i2c_wait(std::uint32_t event) {
-  while ((get(i2c_at + ps_i2c::ISR) & event) == 0) after_ps(clock_ps);
+  while ((look(i2c_at + ps_i2c::ISR) & event) == 0) let_pass(clock_ps);
 }
 
 void i2c_send(std::uint32_t address, const std::vector<std::uint8_t>& bytes, bool hold = false) {
   using namespace ps_i2c;
-  set(i2c_at + ISR, event::all);
-  set(i2c_at + CR, master | divider | cr::CLR_FIFO | (hold ? cr::HOLD : 0));
-  for (const std::uint8_t byte : bytes) set(i2c_at + DATA, byte);
-  set(i2c_at + ADDR, address);
+  put(i2c_at + ISR, event::all);
+  put(i2c_at + CR, master | divider | cr::CLR_FIFO | (hold ? cr::HOLD : 0));
+  for (const std::uint8_t byte : bytes) put(i2c_at + DATA, byte);
+  put(i2c_at + ADDR, address);
 }
 
 }  // namespace
@@ -138,24 +138,24 @@ BOOST_AUTO_TEST_CASE(i2c_eeprom_is_written_and_read) {
     using namespace ps_i2c;
     i2c_send(0x50, {0x1E, 0xA1, 0xB2, 0xC3});
     const std::uint64_t start = now_ps();
-    BOOST_TEST(get(i2c_at + TRANS_SIZE) == 4u);
+    BOOST_TEST(look(i2c_at + TRANS_SIZE) == 4u);
     i2c_wait(event::COMP);
     // A start and five bytes of nine periods; the loop looks once a bus access.
     BOOST_TEST(now_ps() - start >= 46 * scl_ps);
     BOOST_TEST(now_ps() - start < 46 * scl_ps + 100'000);
-    BOOST_TEST((get(i2c_at + SR) & sr::BA) == 0u);
+    BOOST_TEST((look(i2c_at + SR) & sr::BA) == 0u);
     i2c_send(0x50, {0x1E}, true);
     i2c_wait(event::COMP);
-    BOOST_TEST((get(i2c_at + SR) & sr::BA) != 0u, "HOLD keeps the bus");
-    set(i2c_at + ISR, event::all);
-    set(i2c_at + CR, master | divider | cr::RW);
-    set(i2c_at + TRANS_SIZE, 3);
-    set(i2c_at + ADDR, 0x50);
+    BOOST_TEST((look(i2c_at + SR) & sr::BA) != 0u, "HOLD keeps the bus");
+    put(i2c_at + ISR, event::all);
+    put(i2c_at + CR, master | divider | cr::RW);
+    put(i2c_at + TRANS_SIZE, 3);
+    put(i2c_at + ADDR, 0x50);
     i2c_wait(event::COMP);
-    BOOST_TEST((get(i2c_at + ISR) & event::DATA) != 0u);
-    BOOST_TEST(get(i2c_at + DATA) == 0xA1u);
-    BOOST_TEST(get(i2c_at + DATA) == 0xB2u);
-    BOOST_TEST((get(i2c_at + SR) & sr::RXDV) != 0u);
+    BOOST_TEST((look(i2c_at + ISR) & event::DATA) != 0u);
+    BOOST_TEST(look(i2c_at + DATA) == 0xA1u);
+    BOOST_TEST(look(i2c_at + DATA) == 0xB2u);
+    BOOST_TEST((look(i2c_at + SR) & sr::RXDV) != 0u);
     return 0;
   });
   BOOST_TEST(eeprom.peek(0x10) == 0xC3, "a page wraps");
@@ -166,11 +166,11 @@ BOOST_AUTO_TEST_CASE(i2c_without_a_device) {
   Alone<ps::I2c> b("i2c0", i2c_at);
   b.run([] {
     using namespace ps_i2c;
-    set(i2c_at + IER, event::NACK);
+    put(i2c_at + IER, event::NACK);
     i2c_send(0x42, {1});
     i2c_wait(event::NACK);
-    BOOST_TEST((get(i2c_at + ISR) & event::COMP) == 0u);
-    BOOST_TEST((get(i2c_at + SR) & sr::BA) == 0u);
+    BOOST_TEST((look(i2c_at + ISR) & event::COMP) == 0u);
+    BOOST_TEST((look(i2c_at + SR) & sr::BA) == 0u);
     return 0;
   });
   BOOST_TEST(b.dut.irq.get());
@@ -181,19 +181,19 @@ BOOST_AUTO_TEST_CASE(i2c_slave_monitor_and_full_fifo) {
   b.dut.bus.attach(0x18, std::make_unique<board::I2cRegisterFile>(1, 2));
   b.run([] {
     using namespace ps_i2c;
-    set(i2c_at + CR, master | divider | cr::SLVMON);
-    set(i2c_at + ADDR, 0x18);
+    put(i2c_at + CR, master | divider | cr::SLVMON);
+    put(i2c_at + ADDR, 0x18);
     i2c_wait(event::SLV_RDY);
-    BOOST_TEST((get(i2c_at + CR) & cr::SLVMON) == 0u);
-    set(i2c_at + CR, master | divider | cr::RW | cr::HOLD);
-    set(i2c_at + TRANS_SIZE, 20);
-    set(i2c_at + ADDR, 0x18);
-    after_ps(30 * 9 * scl_ps);
-    BOOST_TEST(get(i2c_at + TRANS_SIZE) == 4u, "SCL is stretched while the FIFO is full");
-    BOOST_TEST((get(i2c_at + ISR) & (event::COMP | event::RX_OVF)) == 0u);
-    get(i2c_at + DATA);
-    after_ps(10 * scl_ps);
-    BOOST_TEST(get(i2c_at + TRANS_SIZE) == 3u);
+    BOOST_TEST((look(i2c_at + CR) & cr::SLVMON) == 0u);
+    put(i2c_at + CR, master | divider | cr::RW | cr::HOLD);
+    put(i2c_at + TRANS_SIZE, 20);
+    put(i2c_at + ADDR, 0x18);
+    let_pass(30 * 9 * scl_ps);
+    BOOST_TEST(look(i2c_at + TRANS_SIZE) == 4u, "SCL is stretched while the FIFO is full");
+    BOOST_TEST((look(i2c_at + ISR) & (event::COMP | event::RX_OVF)) == 0u);
+    look(i2c_at + DATA);
+    let_pass(10 * scl_ps);
+    BOOST_TEST(look(i2c_at + TRANS_SIZE) == 3u);
     return 0;
   });
 }
@@ -206,22 +206,22 @@ BOOST_AUTO_TEST_CASE(spi_reads_a_flash) {
   b.dut.attach(1, std::make_shared<board::SpiFlash>());
   b.run([] {
     using namespace ps_spi;
-    BOOST_TEST(get(at + CR) == 0x20000u);
-    BOOST_TEST(get(at + ISR) == event::TXOW);
-    set(at + CR, cr::MSTREN | cr::SSFORCE | 1u << cr::PRESC_shift | 0xDu << cr::SSCTRL_shift);
-    set(at + ENABLE, 1);
+    BOOST_TEST(look(at + CR) == 0x20000u);
+    BOOST_TEST(look(at + ISR) == event::TXOW);
+    put(at + CR, cr::MSTREN | cr::SSFORCE | 1u << cr::PRESC_shift | 0xDu << cr::SSCTRL_shift);
+    put(at + ENABLE, 1);
     const std::uint64_t start = now_ps();
-    for (const unsigned byte : {0x9F, 0, 0, 0}) set(at + TXD, byte);
-    while ((get(at + ISR) & event::TXOW) == 0) after_ps(clock_ps);
+    for (const unsigned byte : {0x9F, 0, 0, 0}) put(at + TXD, byte);
+    while ((look(at + ISR) & event::TXOW) == 0) let_pass(clock_ps);
     BOOST_TEST(now_ps() - start >= 4 * 8 * 4 * clock_ps, "8 bits of 4 clocks a byte");
-    BOOST_TEST((get(at + ISR) & event::RXNEMPTY) != 0u);
-    BOOST_TEST(get(at + RXD) == 0xFFu);
-    BOOST_TEST(get(at + RXD) == 0xEFu);
-    BOOST_TEST(get(at + RXD) == 0x40u);
-    BOOST_TEST(get(at + RXD) == 0x16u);
-    BOOST_TEST((get(at + ISR) & event::RXNEMPTY) == 0u);
-    BOOST_TEST(get(at + RXD) == 0u, "an empty FIFO");
-    set(at + CR, cr::MSTREN | cr::SSFORCE | 1u << cr::PRESC_shift | 0xFu << cr::SSCTRL_shift);
+    BOOST_TEST((look(at + ISR) & event::RXNEMPTY) != 0u);
+    BOOST_TEST(look(at + RXD) == 0xFFu);
+    BOOST_TEST(look(at + RXD) == 0xEFu);
+    BOOST_TEST(look(at + RXD) == 0x40u);
+    BOOST_TEST(look(at + RXD) == 0x16u);
+    BOOST_TEST((look(at + ISR) & event::RXNEMPTY) == 0u);
+    BOOST_TEST(look(at + RXD) == 0u, "an empty FIFO");
+    put(at + CR, cr::MSTREN | cr::SSFORCE | 1u << cr::PRESC_shift | 0xFu << cr::SSCTRL_shift);
     return 0;
   });
   BOOST_TEST(b.dut.ss_n.get() == 7u);
@@ -233,14 +233,14 @@ BOOST_AUTO_TEST_CASE(spi_without_a_device_says_so) {
   Alone<ps::Spi> b("spi0", at);
   b.run([] {
     using namespace ps_spi;
-    set(at + CR, cr::MSTREN | cr::MANSTRTEN | 1u << cr::PRESC_shift | 0xEu << cr::SSCTRL_shift);
-    set(at + ENABLE, 1);
-    set(at + TXD, 5);
-    after_ps(1'000'000);
-    BOOST_TEST((get(at + ISR) & event::TXOW) == 0u, "it waits for MANSTRT");
-    set(at + CR, get(at + CR) | cr::MANSTRT);
-    after_ps(1'000'000);
-    BOOST_TEST(get(at + RXD) == 0xFFu);
+    put(at + CR, cr::MSTREN | cr::MANSTRTEN | 1u << cr::PRESC_shift | 0xEu << cr::SSCTRL_shift);
+    put(at + ENABLE, 1);
+    put(at + TXD, 5);
+    let_pass(1'000'000);
+    BOOST_TEST((look(at + ISR) & event::TXOW) == 0u, "it waits for MANSTRT");
+    put(at + CR, look(at + CR) | cr::MANSTRT);
+    let_pass(1'000'000);
+    BOOST_TEST(look(at + RXD) == 0xFFu);
     return 0;
   });
   BOOST_TEST(b.text.str().find("no device is attached") != std::string::npos);
@@ -280,15 +280,15 @@ BOOST_AUTO_TEST_CASE(ttc_interval_interrupts_each_period) {
   b.run([] {
     using namespace ttc;
     constexpr std::uint32_t one = counter_stride;
-    BOOST_TEST(get(at + CNT_CTRL_1 + one) == 0x21u);
-    set(at + INTERVAL_CNT_1 + one, 99);
-    set(at + INT_EN_1 + one, event::Interval);
-    set(at + CNT_CTRL_1 + one, cnt_ctrl::INT | cnt_ctrl::RST | cnt_ctrl::Wave_en);
+    BOOST_TEST(look(at + CNT_CTRL_1 + one) == 0x21u);
+    put(at + INTERVAL_CNT_1 + one, 99);
+    put(at + INT_EN_1 + one, event::Interval);
+    put(at + CNT_CTRL_1 + one, cnt_ctrl::INT | cnt_ctrl::RST | cnt_ctrl::Wave_en);
     for (int n = 0; n < 3; ++n) {
-      while (get(at + INT_STS_1 + one) == 0) after_ps(clock_ps);
+      while (look(at + INT_STS_1 + one) == 0) let_pass(clock_ps);
     }
-    BOOST_TEST(get(at + INT_STS_1 + one) == 0u, "a read clears");
-    BOOST_TEST(get(at + CNT_VAL_1) == 0u, "its neighbour stands still");
+    BOOST_TEST(look(at + INT_STS_1 + one) == 0u, "a read clears");
+    BOOST_TEST(look(at + CNT_VAL_1) == 0u, "its neighbour stands still");
     return 0;
   });
   std::vector<std::uint64_t> rises;
@@ -303,18 +303,18 @@ BOOST_AUTO_TEST_CASE(ttc_matches_and_prescaler) {
   Alone<ps::Ttc> b("ttc0", at);
   b.run([] {
     using namespace ttc;
-    set(at + CLK_CTRL_1, clk_ctrl::Prescale_En | 1u << clk_ctrl::Prescale_shift);  // by 4
-    set(at + MATCH_1_CNT_1, 50);
-    set(at + CNT_CTRL_1, cnt_ctrl::DEC | cnt_ctrl::Match | cnt_ctrl::RST | cnt_ctrl::Wave_en);
+    put(at + CLK_CTRL_1, clk_ctrl::Prescale_En | 1u << clk_ctrl::Prescale_shift);  // by 4
+    put(at + MATCH_1_CNT_1, 50);
+    put(at + CNT_CTRL_1, cnt_ctrl::DEC | cnt_ctrl::Match | cnt_ctrl::RST | cnt_ctrl::Wave_en);
     const std::uint64_t start = now_ps();
-    after_ps(400 * clock_ps);
-    const std::uint32_t value = get(at + CNT_VAL_1);
+    let_pass(400 * clock_ps);
+    const std::uint32_t value = look(at + CNT_VAL_1);
     BOOST_TEST(value <= 0xFFFFu - 100u);
     BOOST_TEST(value >= 0xFFFFu - 100u - (now_ps() - start - 400 * clock_ps) / (4 * clock_ps) - 1u);
-    BOOST_TEST(get(at + INT_STS_1) == 0u);
-    after_ps(4 * 0x10000 * clock_ps);
-    BOOST_TEST(get(at + INT_STS_1) == (event::Match_1 | event::Overflow));
-    set(at + CLK_CTRL_1, clk_ctrl::Source);
+    BOOST_TEST(look(at + INT_STS_1) == 0u);
+    let_pass(4 * 0x10000 * clock_ps);
+    BOOST_TEST(look(at + INT_STS_1) == (event::Match_1 | event::Overflow));
+    put(at + CLK_CTRL_1, clk_ctrl::Source);
     return 0;
   });
   BOOST_TEST(b.text.str().find("external clock, which is not modelled") != std::string::npos);
@@ -327,10 +327,10 @@ BOOST_AUTO_TEST_CASE(ttc_waveform) {
   Changes<bool> wave{b.dut.counter(0).wave, b.scheduler};
   b.run([] {
     using namespace ttc;
-    set(at + INTERVAL_CNT_1, 199);
-    set(at + MATCH_1_CNT_1, 150);
-    set(at + CNT_CTRL_1, cnt_ctrl::INT | cnt_ctrl::Match | cnt_ctrl::RST);
-    after_ps(1000 * clock_ps);
+    put(at + INTERVAL_CNT_1, 199);
+    put(at + MATCH_1_CNT_1, 150);
+    put(at + CNT_CTRL_1, cnt_ctrl::INT | cnt_ctrl::Match | cnt_ctrl::RST);
+    let_pass(1000 * clock_ps);
     return 0;
   });
   BOOST_REQUIRE(wave.times.size() >= 4u);
@@ -348,18 +348,18 @@ BOOST_AUTO_TEST_CASE(watchdog_needs_its_keys_and_expires) {
   std::uint64_t started = 0;
   b.run([&] {
     using namespace system_watchdog;
-    set(at + MODE, mode::WDEN);
-    BOOST_TEST(get(at + MODE) == 0x1C0u, "without its key");
-    set(at + CONTROL, control_key << control_key_shift);  // CRV 0, a count every 8 clocks
-    BOOST_TEST(get(at + CONTROL) == 0u);
-    set(at + MODE, mode_key << mode_key_shift | mode::WDEN | mode::IRQEN | mode::RSTEN);
-    after_ps(4000 * 8 * clock_ps);
-    set(at + RESTART, restart_key);
+    put(at + MODE, mode::WDEN);
+    BOOST_TEST(look(at + MODE) == 0x1C0u, "without its key");
+    put(at + CONTROL, control_key << control_key_shift);  // CRV 0, a count every 8 clocks
+    BOOST_TEST(look(at + CONTROL) == 0u);
+    put(at + MODE, mode_key << mode_key_shift | mode::WDEN | mode::IRQEN | mode::RSTEN);
+    let_pass(4000 * 8 * clock_ps);
+    put(at + RESTART, restart_key);
     started = now_ps();
-    after_ps(4000 * 8 * clock_ps);
-    BOOST_TEST(get(at + STATUS) == 0u);
-    after_ps(200 * 8 * clock_ps);
-    BOOST_TEST(get(at + STATUS) == status::WDZ);
+    let_pass(4000 * 8 * clock_ps);
+    BOOST_TEST(look(at + STATUS) == 0u);
+    let_pass(200 * 8 * clock_ps);
+    BOOST_TEST(look(at + STATUS) == status::WDZ);
     return 0;
   });
   BOOST_REQUIRE(irq.times.size() == 2u);

@@ -8,6 +8,7 @@
 
 #define XPLAT_ZYNQ_ULTRA_MP 0x1U
 #define XPLAT_VERSAL 0x2U
+#define XPLAT_versal XPLAT_VERSAL /* as 2019.1 spells it */
 #define XPLAT_ZYNQ 0x4U
 
 /** The core that asks. */
