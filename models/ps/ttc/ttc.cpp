@@ -202,6 +202,7 @@ void Ttc::wire(TtcCounter& counter) {
     counter.update_irq();
     update();
   });
+  counter.status.set_writable(0);  // releases before 2019.1 write what they read
   counter.status.after_read([this, &counter](std::uint32_t) {
     counter.status_read();
     update();

@@ -114,9 +114,9 @@ inline constexpr vp::RegisterField cnt_ctrl_fields[] = {
       {"INT_STS_" #n,                                                                     \
        INT_STS_1 + ((n)-1) * counter_stride,                                              \
        0,                                                                                 \
-       vp::Access::read_only,                                                             \
-       0,                                                                                 \
-       "Events of counter " #n "; a read clears them"},                                   \
+       vp::Access::read_write,                                                            \
+       0x3F,                                                                              \
+       "Events of counter " #n "; a read clears them, a write changes nothing"},          \
       {"INT_EN_" #n, INT_EN_1 + ((n)-1) * counter_stride,      0, vp::Access::read_write, \
        0x3F,         "Events of counter " #n " that interrupt"},                          \
       {"EVENT_CTRL_" #n,                                                                  \
