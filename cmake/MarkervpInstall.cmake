@@ -44,6 +44,7 @@ markervp_export(systemc COMPONENT designs)
 markervp_export(eigen COMPONENT designs)
 markervp_export(wave COMPONENT models ROOT vp)
 markervp_export(vp COMPONENT models ROOT vp)
+markervp_export(board COMPONENT models ROOT models)
 markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
@@ -79,7 +80,7 @@ foreach(folder IN LISTS register_folders)
 endforeach()
 markervp_install_headers(vp/registers/include/ registers)
 markervp_install_headers(vp/include/ vp)
-foreach(group pl ps xilinx)
+foreach(group board pl ps xilinx)
   markervp_install_headers(models/${group} models SKIP registers)
 endforeach()
 markervp_install_headers(sw/hal/include/ hal)
@@ -140,4 +141,6 @@ install(FILES
   cmake/MarkervpProgram.cpp.in
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVendor.c
+  cmake/MarkervpVendorDefaults.h
+  cmake/MarkervpVendorRows.h
   DESTINATION "${package_folder}")

@@ -1,34 +1,70 @@
 set(markervp_program_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpProgram.cpp.in")
-set(markervp_vendor_tables "${CMAKE_CURRENT_LIST_DIR}/MarkervpVendor.c")
+set(markervp_vendor_folder "${CMAKE_CURRENT_LIST_DIR}")
+
+# The folders of the vendor's drivers that VENDOR_BSP looks for: those whose devices are modelled are built, of the others a
+# program finds the headers.
+set(markervp_vendor_built axicdma axidma devcfg gpio gpiops iic iicps intc llfifo qspips scugic scutimer scuwdt spi spips sysmon
+  tmrctr ttcps uartlite uartps wdtps xadcps)
+set(markervp_vendor_headers axivdma bram canps clk_wiz dmaps emacps sdps usbps vtc)
+
+# The folder with the sources of DRIVER below FOLDER, in SOURCE; empty if there is none.
+function(_markervp_find_vendor_driver NAME FOLDER DRIVER SOURCE)
+  set(place "${DRIVER}/src" "${DRIVER}_v*/src")
+  set(found "")
+  string(REGEX REPLACE "^x?" "x" header "${DRIVER}.h")  # xadcps has its x already
+  foreach(start "${FOLDER}" "${FOLDER}/libsrc" "${FOLDER}/*/libsrc" "${FOLDER}/XilinxProcessorIPLib/drivers")
+    list(TRANSFORM place PREPEND "${start}/" OUTPUT_VARIABLE patterns)
+    foreach(pattern IN LISTS patterns)
+      file(GLOB headers "${pattern}/${header}")
+      list(APPEND found ${headers})
+    endforeach()
+  endforeach()
+  list(LENGTH found count)
+  if(count GREATER 1)
+    list(JOIN found ", " found)
+    message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): which ${DRIVER}? There are ${found}: "
+      "name the folder that holds one of them")
+  endif()
+  set(folder "")
+  if(found)
+    cmake_path(GET found PARENT_PATH folder)
+  endif()
+  set(${SOURCE} "${folder}" PARENT_SCOPE)
+endfunction()
 
 # Drivers of the vendor's in place of those of markervp::compat, from a copy that the user has: those that are found in
-# FOLDER, the libsrc of a board support package or a checkout of the vendor's repository.
+# FOLDER, the libsrc of a board support package or a checkout of the vendor's repository. Their release does not matter: what
+# their records hold is seen in their headers.
 function(_markervp_use_vendor_drivers NAME FOLDER)
   get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
   if(NOT CMAKE_C_COMPILER)
     message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP): the vendor's drivers are C, write project(… LANGUAGES C CXX)")
   endif()
   set(drivers "")
-  foreach(driver axidma gpio scugic scutimer scuwdt uartps)
-    set(place "${driver}*/src/x${driver}.c")
-    file(GLOB found "${folder}/${place}" "${folder}/libsrc/${place}" "${folder}/*/libsrc/${place}"
-      "${folder}/XilinxProcessorIPLib/drivers/${place}")
-    list(LENGTH found count)
-    if(count EQUAL 0)
+  foreach(driver IN LISTS markervp_vendor_built markervp_vendor_headers)
+    _markervp_find_vendor_driver(${NAME} "${folder}" ${driver} source)
+    if(NOT source)
       continue()
-    elseif(count GREATER 1)
-      list(JOIN found ", " found)
-      message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): which ${driver}? There are ${found}: "
-        "name the folder that holds one of them")
     endif()
-    cmake_path(GET found PARENT_PATH source)
+    target_include_directories(${NAME} BEFORE PRIVATE "${source}")
+    if(driver IN_LIST markervp_vendor_headers)
+      continue()
+    endif()
     file(GLOB sources CONFIGURE_DEPENDS "${source}/*.c")
     list(FILTER sources EXCLUDE REGEX "_g\\.c$")  # the devices of another design
-    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-w;-include;${markervp_vendor_folder}/MarkervpVendorDefaults.h")
     target_sources(${NAME} PRIVATE ${sources})
-    target_include_directories(${NAME} BEFORE PRIVATE "${source}")
     string(TOUPPER "${driver}" upper)
     target_compile_definitions(${NAME} PRIVATE "MARKERVP_VENDOR_${upper}")
+    foreach(field SgLengthWidth FifosDepth)
+      file(GLOB headers "${source}/x*${driver}.h" "${source}/${driver}.h")
+      list(GET headers 0 header)
+      file(STRINGS "${header}" has REGEX "[ \t]${field};")
+      if(has)
+        string(TOUPPER "${field}" upper_field)
+        target_compile_definitions(${NAME} PRIVATE "MARKERVP_HAS_${upper}_${upper_field}")
+      endif()
+    endforeach()
     if(driver STREQUAL "scugic")
       # How many interrupts there are, its releases before 2019 see by the compiler's processor: 95, or a Zynq UltraScale+'s 195.
       target_compile_definitions(${NAME} PRIVATE __ARM_NEON__)
@@ -36,11 +72,14 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
     list(APPEND drivers ${driver})
   endforeach()
   if(NOT drivers)
+    list(JOIN markervp_vendor_built ", " names)
     message(FATAL_ERROR "markervp_add_program(${NAME} … VENDOR_BSP '${FOLDER}'): no driver of the vendor's is there. "
       "Name the libsrc of a board support package or a checkout of the vendor's repository; looked for "
-      "axidma, gpio, scugic, scutimer, scuwdt and uartps, each as <driver>*/src/x<driver>.c")
+      "${names}, each as <driver>/src/x<driver>.h or <driver>_v<version>/src/x<driver>.h")
   endif()
-  target_sources(${NAME} PRIVATE "${markervp_vendor_tables}")
+  set_source_files_properties("${markervp_vendor_folder}/MarkervpVendor.c" PROPERTIES
+    COMPILE_OPTIONS "-w;-include;${markervp_vendor_folder}/MarkervpVendorDefaults.h")
+  target_sources(${NAME} PRIVATE "${markervp_vendor_folder}/MarkervpVendor.c")
   list(JOIN drivers ", " drivers)
   message(STATUS "${NAME}: the vendor's drivers of ${drivers}")
 endfunction()

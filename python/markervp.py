@@ -325,6 +325,20 @@ def _time(value):
 Beat = collections.namedtuple("Beat", "cycle data last keep")
 
 
+class Partner:
+    """A device that a Session attached: its contents, by the device's own addresses."""
+
+    def __init__(self, session, bus, address):
+        self._session = session
+        self._place = {"bus": bus, "address": address}
+
+    def read(self, at, count=1):
+        return bytes(self._session._ask("contents", at=at, count=count, **self._place)["bytes"])
+
+    def write(self, at, data):
+        self._session._ask("contents", at=at, bytes=list(bytes(data)), **self._place)
+
+
 class _ScratchFolder:
     """A folder that a process beside this one makes and removes: at remove(), or once this process and those that have `token` are
     gone, killed ones included. So there is no moment at which a kill leaves it."""
@@ -475,6 +489,26 @@ class Session:
     def drive(self, name, value):
         """Sets a signal, such as a pin from outside; what drives it in the design may change it again."""
         self._ask("drive", name=name, value=int(value))
+
+    def pin(self, number, level=None, wire_to=None, released=False):
+        """A pin of the processing system as its GPIO numbers it: 0 to 53 MIO, 54 to 117 EMIO. `level` drives it from outside,
+        `released=True` no longer does, `wire_to` lets another pin follow it. Returns its level."""
+        change = {} if level is None else {"level": int(level)}
+        if wire_to is not None:
+            change["wire_to"] = wire_to
+        if released:
+            change["released"] = 1
+        return bool(self._ask("pin", number=number, **change)["level"])
+
+    def attach(self, bus, device, **build):
+        """Wires a device to a controller, "ps.i2c0" or "pl.axi_iic_0": "eeprom" (address, size=256, page=16) or "registers"
+        (address, index_bytes=1, value_bytes=1) to I2C, "flash" (slave=0, size=4 MiB) to SPI. Returns a Partner."""
+        self._ask("attach", bus=bus, device=device, **build)
+        return Partner(self, bus, build.get("address", build.get("slave", 0)))
+
+    def analogue(self, channel, value, converter="ps.xadc"):
+        """Sets an input of the XADC: the temperature (channel 0) in °C, the others in V (16 to 31 are VAUX0 to VAUX15)."""
+        self._ask("analogue", name=converter, channel=channel, value=float(value))
 
     def interrupt(self, number, level=True):
         """Sets the wire of an interrupt, 32 to 95."""

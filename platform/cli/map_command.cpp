@@ -3,6 +3,7 @@
 #include <chip/linux_app/linux_devices.h>
 #include <chip/run/simulation.h>
 #include <chip/system/hardware_map.h>
+#include <chip/system/ps_blocks.h>
 #include <cli/commands.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -81,52 +82,6 @@ std::string devices(const HardwareMap& map) {
   return text;
 }
 
-/// The register blocks of the PS that a program may expect (UG585 chapter 4 and appendix B).
-struct Block {
-  std::uint64_t base;
-  const char* name;
-};
-constexpr Block ps_blocks[] = {
-    {0xE000'0000, "UART 0"},
-    {0xE000'1000, "UART 1"},
-    {0xE000'2000, "USB 0"},
-    {0xE000'3000, "USB 1"},
-    {0xE000'4000, "I2C 0"},
-    {0xE000'5000, "I2C 1"},
-    {0xE000'6000, "SPI 0"},
-    {0xE000'7000, "SPI 1"},
-    {0xE000'8000, "CAN 0"},
-    {0xE000'9000, "CAN 1"},
-    {0xE000'A000, "GPIO of the PS (MIO and EMIO)"},
-    {0xE000'B000, "Ethernet (GEM) 0"},
-    {0xE000'C000, "Ethernet (GEM) 1"},
-    {0xE000'D000, "Quad-SPI; its flash would be at 0xFC00_0000"},
-    {0xE000'E000, "Static memory controller; its memories would be from 0xE100_0000 on"},
-    {0xE010'0000, "SDIO 0"},
-    {0xE010'1000, "SDIO 1"},
-    {0xF800'0000, "System level control registers"},
-    {0xF800'1000, "Triple timer counter 0"},
-    {0xF800'2000, "Triple timer counter 1"},
-    {0xF800'3000, "DMA controller of the PS (PL330), secure"},
-    {0xF800'4000, "DMA controller of the PS (PL330), non-secure"},
-    {0xF800'5000, "System watchdog"},
-    {0xF800'6000, "DDR memory controller: boot code waits for mode_sts_reg, 0xF800_6054"},
-    {0xF800'7000, "Device configuration (bitstreams) and XADC interface"},
-    {0xF800'8000, "AXI_HP 0 interface"},
-    {0xF800'9000, "AXI_HP 1 interface"},
-    {0xF800'A000, "AXI_HP 2 interface"},
-    {0xF800'B000, "AXI_HP 3 interface"},
-    {0xF800'C000, "On-chip memory control"},
-    {0xF880'0000, "CoreSight debug"},
-    {0xF890'0000, "Interconnect control (GPV)"},
-    {0xF8F0'0000, "Snoop control unit"},
-    {0xF8F0'0100, "Interrupt controller, CPU interface"},
-    {0xF8F0'0200, "Global timer"},
-    {0xF8F0'0600, "Private timer and watchdog"},
-    {0xF8F0'1000, "Interrupt controller, distributor"},
-    {0xF8F0'2000, "L2 cache controller (PL310)"},
-};
-
 /// Those where no device of the map is.
 std::string blocks_without_model(const HardwareMap& map) {
   std::string text =
@@ -139,7 +94,7 @@ std::string blocks_without_model(const HardwareMap& map) {
       "abort, which ends the program with their address.\nThe DDR works without its controller, "
       "and "
       "the caches are in the cost of memory accesses.\n\n| From | Block |\n|---|---|\n";
-  for (const Block& block : ps_blocks) {
+  for (const PsBlock& block : ps_blocks) {
     const bool modelled = std::any_of(
         map.devices.begin(), map.devices.end(), [&block](const HardwareMap::Device& device) {
           return block.base >= device.base && block.base - device.base < device.size;

@@ -29,6 +29,12 @@ void AxiInterconnect::connect(AxiDma& dma) {
   if (dma.include_sg) add(dma.scatter_gather().m_axi);
 }
 
+void AxiInterconnect::connect(MemoryPort& master) {
+  master.share(memory_path_);
+  master.link.socket.bind(socket);
+  ++memory_masters_;
+}
+
 // With the protocol converter of the registers, or the width converter of the memory port.
 vp::IpEstimate AxiInterconnect::own_estimate() const {
   if (memory_masters_ != 0) {

@@ -33,6 +33,8 @@ class AxiInterconnect : public vp::Router, public vp::Ip {
   /// engines. The estimate is that of 32-bit masters at a port of 64 bit (HP0) then; otherwise that
   /// of one AXI3 master (GP0) before AXI4-Lite slaves.
   void connect(AxiDma& dma);
+  /// The same for another master of the PL.
+  void connect(MemoryPort& master);
 
  private:
   vp::IpEstimate own_estimate() const override;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include <chip/system/hardware_map.h>
+#include <chip/system/ps_blocks.h>
 #include <gic_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
@@ -55,7 +56,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
   scheduler.set_batch(true);
   for (ps::Cpu* core : ps.cpus()) {
     const ps::Gic& gic = core->number() == 0 ? ps.gic : ps.second_core()->gic;
-    core->name_devices([this](std::uint32_t address) { return device_at(address); });
+    core->name_devices([this](std::uint32_t address) { return answerer_at(address); });
     core->describe_registers([this](std::uint32_t address, std::uint32_t value) {
       return register_text(hardware_map(*this), address, value);
     });
@@ -105,6 +106,15 @@ bool Zynq::poke(std::uint32_t address, std::uint32_t word) {
   const bool answered = look(tlm::TLM_WRITE_COMMAND, address, word);
   if (answered && poke_listener_) poke_listener_(address);
   return answered;
+}
+
+// The buses have names of their own, which say nothing of what a program wanted there.
+std::string Zynq::answerer_at(std::uint32_t address) const {
+  const std::string device = device_at(address);
+  const bool is_bus = device == "peripheral_bus" || device == "private_bus";
+  if (!device.empty() && !is_bus) return device;
+  const PsBlock* block = ps_block_at(address);
+  return block ? std::string(block->name) + ": not modelled" : device;
 }
 
 std::string Zynq::device_at(std::uint32_t address) const {

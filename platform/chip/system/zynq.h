@@ -53,6 +53,8 @@ struct Zynq {
   std::string device_at(std::uint32_t address) const;
 
  private:
+  /// The same for messages: a block of the chip without a model is named, too.
+  std::string answerer_at(std::uint32_t address) const;
   std::string request_text(const ps::Gic& gic, const ps::Gic::Request& request);
   bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
 

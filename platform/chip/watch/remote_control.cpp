@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <chip/system/hardware_map.h>
+#include <chip/watch/board_control.h>
 #include <chip/watch/bus_log.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -264,9 +265,13 @@ Json RemoteControl::obey_in_time(const std::string& what, const Json& command) {
   if (what == "receive") return receive(command);
   if (what == "interrupt") return interrupt(command);
   if (what == "send") return send(command);
+  if (is_for_the_board(what)) {
+    zynq_.settle();
+    return obey_for_the_board(zynq_, what, command);
+  }
   throw vp::InputError("no command '" + vp::excerpt(what) +
                        "': there are run, wait, wait_text, read, signal, write, drive, receive, "
-                       "interrupt, send, received and finish");
+                       "interrupt, send, received, pin, attach, contents, analogue and finish");
 }
 
 /// Lets simulated time pass, less if what the test waits for comes.

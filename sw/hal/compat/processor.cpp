@@ -1,4 +1,6 @@
 // xtime_l.h and sleep.h.
+#include <cstdarg>
+
 #include <algorithm>
 
 #include <global_timer_registers.h>
@@ -96,21 +98,39 @@ void Xil_Assert(const char8* File, s32 Line) {
 
 void XNullHandler(void*) {}
 
-u32 Xil_WaitForEvent(u32 RegAddr, u32 EventMask, u32 Event, u32 Timeout) {
-  u32 seen = 0;
-  return Xil_WaitForEvents(RegAddr, EventMask, Event, &seen, Timeout);
+u32 Xil_WaitForEvent(UINTPTR RegAddr, u32 EventMask, u32 Event, u32 Timeout) {
+  for (u32 looks = 0; looks < Timeout; ++looks) {
+    if ((Xil_In32(RegAddr) & EventMask) == Event) return XST_SUCCESS;
+    usleep(1);
+  }
+  return XST_FAILURE;
 }
 
-u32 Xil_WaitForEvents(u32 EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32* Events, u32 Timeout) {
+u32 Xil_WaitForEvents(UINTPTR EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32 Timeout,
+                      u32* Events) {
+  *Events = 0;
   for (u32 looks = 0; looks < Timeout; ++looks) {
     const u32 seen = Xil_In32(EventsRegAddr) & EventsMask;
-    if ((seen & WaitEvents) == WaitEvents) {
+    if ((seen & WaitEvents) != 0) {
       *Events = seen;
       return XST_SUCCESS;
     }
     usleep(1);
   }
-  return XST_FAILURE;
+  return XST_TIMEOUT;
+}
+
+u32 Xil_WaitForEventSet(u32 Timeout, u32 NumOfEvents, volatile u32* EventAddr, ...) {
+  va_list addresses;
+  va_start(addresses, EventAddr);
+  u32 looks = 0;
+  volatile u32* address = EventAddr;
+  for (u32 event = 0; event < NumOfEvents; ++event) {
+    if (event > 0) address = va_arg(addresses, volatile u32*);
+    for (; looks < Timeout && Xil_In32(reinterpret_cast<UINTPTR>(address)) == 0; ++looks) usleep(1);
+  }
+  va_end(addresses);
+  return looks < Timeout ? XST_SUCCESS : XST_FAILURE;
 }
 
 u32 Xil_ConvertCharToNibble(u8 InChar, u8* Num) {

@@ -28,33 +28,36 @@ void XNullHandler(void* NullParameter);
 
 #ifndef NDEBUG
 
+/* A block, as the vendor's: drivers write it with and without a semicolon. */
 #define Xil_AssertVoid(Expression)            \
-  do {                                        \
+  {                                           \
     Xil_AssertStatus = XIL_ASSERT_NONE;       \
     if (!(Expression)) {                      \
       Xil_Assert(__FILE__, __LINE__);         \
       Xil_AssertStatus = XIL_ASSERT_OCCURRED; \
       return;                                 \
     }                                         \
-  } while (0)
+  }
 
 #define Xil_AssertNonvoid(Expression)         \
-  do {                                        \
+  {                                           \
     Xil_AssertStatus = XIL_ASSERT_NONE;       \
     if (!(Expression)) {                      \
       Xil_Assert(__FILE__, __LINE__);         \
       Xil_AssertStatus = XIL_ASSERT_OCCURRED; \
       return 0;                               \
     }                                         \
-  } while (0)
+  }
 
 #define Xil_AssertVoidAlways() Xil_AssertVoid(0)
 #define Xil_AssertNonvoidAlways() Xil_AssertNonvoid(0)
 
 #else
 
-#define Xil_AssertVoid(Expression) ((void)0)
-#define Xil_AssertNonvoid(Expression) ((void)0)
+#define Xil_AssertVoid(Expression) \
+  {}
+#define Xil_AssertNonvoid(Expression) \
+  {}
 #define Xil_AssertVoidAlways() ((void)0)
 #define Xil_AssertNonvoidAlways() ((void)0)
 

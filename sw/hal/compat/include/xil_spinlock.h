@@ -6,6 +6,8 @@
 #include <xil_types.h>
 
 #define XIL_SPINLOCK_ENABLED 0
+#define XIL_SPINLOCK()
+#define XIL_SPINUNLOCK()
 
 static inline void Xil_SpinLock(void) {}
 static inline void Xil_SpinUnlock(void) {}

@@ -16,6 +16,8 @@ typedef int16_t s16;
 typedef int32_t s32;
 typedef int64_t s64;
 typedef char char8;
+typedef long LONG;
+typedef unsigned long ULONG;
 
 /** Wide enough for a pointer: 32 bits on the chip, 64 on the virtual platform. */
 typedef uintptr_t UINTPTR;
@@ -42,6 +44,8 @@ typedef void (*XExceptionHandler)(void* InstancePtr);
 #define ULONG64_LO_MASK (~ULONG64_HI_MASK)
 #define UPPER_32_BITS(n) ((u32)(((u64)(n)) >> 32))
 #define LOWER_32_BITS(n) ((u32)(n))
+/* Addresses have 32 bits on the chip: the upper half of one is 0. */
+#define LEFT_SHIFT_BY_32_BITS(n) ((u64)0U)
 
 #ifndef INLINE
 #define INLINE __inline

@@ -11,13 +11,14 @@
 extern "C" {
 #endif
 
-/** Looks at the register once a microsecond until the bits of `EventMask` are those of `Event`.
- * XST_FAILURE after `Timeout` looks. */
-u32 Xil_WaitForEvent(u32 RegAddr, u32 EventMask, u32 Event, u32 Timeout);
-
-/** The same for any of `EventsMask`; tells which in `Events`. */
-u32 Xil_WaitForEvents(u32 EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32* Events, u32 Timeout);
-
+/** Looks at the register once a microsecond until its bits of `EventMask` are `Event`. XST_FAILURE
+ * after `Timeout` looks. */
+u32 Xil_WaitForEvent(UINTPTR RegAddr, u32 EventMask, u32 Event, u32 Timeout);
+/** The same for any of `WaitEvents`; tells in `Events` which of `EventsMask` are set. XST_TIMEOUT. */
+u32 Xil_WaitForEvents(UINTPTR EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32 Timeout,
+                      u32* Events);
+/** Waits until each of `NumOfEvents` words, whose addresses follow, is not 0. */
+u32 Xil_WaitForEventSet(u32 Timeout, u32 NumOfEvents, volatile u32* EventAddr, ...);
 /** A hexadecimal digit. XST_FAILURE for anything else. */
 u32 Xil_ConvertCharToNibble(u8 InChar, u8* Num);
 

@@ -1,0 +1,159 @@
+#include <chip/system/xparameters.h>
+
+#include <xilinx/axi_cdma/axi_cdma.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_fifo_mm_s/axi_fifo_mm_s.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
+#include <xilinx/axi_iic/axi_iic.h>
+#include <xilinx/axi_intc/axi_intc.h>
+#include <xilinx/axi_quad_spi/axi_quad_spi.h>
+#include <xilinx/axi_timer/axi_timer.h>
+#include <xilinx/axi_uartlite/axi_uartlite.h>
+#include <xilinx/clk_wiz/clk_wiz.h>
+#include <xilinx/xadc_wiz/xadc_wiz.h>
+
+namespace xparameters {
+
+namespace {
+
+std::uint32_t hz(const vp::Clocked& module) {
+  return static_cast<std::uint32_t>(module.clock().frequency_hz());
+}
+
+void add_dma(Device& device, const xilinx::AxiDma& dma) {
+  constexpr std::uint32_t data_width = 32, burst_beats = 16, address_width = 32;
+  const std::uint32_t mm2s = dma.include_mm2s.get(), s2mm = dma.include_s2mm.get();
+  const std::uint32_t sg = dma.include_sg.get(), length_width = dma.length_width;
+  device.driver = "AXIDMA";
+  device.compatible = "xlnx,axi-dma-7.1";
+  device.options = {{"SG_INCLUDE_STSCNTRL_STRM", 0},
+                    {"INCLUDE_MM2S", mm2s},
+                    {"INCLUDE_MM2S_DRE", 0},
+                    {"M_AXI_MM2S_DATA_WIDTH", data_width},
+                    {"INCLUDE_S2MM", s2mm},
+                    {"INCLUDE_S2MM_DRE", 0},
+                    {"M_AXI_S2MM_DATA_WIDTH", data_width},
+                    {"INCLUDE_SG", sg},
+                    {"ENABLE_MULTI_CHANNEL", 0},
+                    {"NUM_MM2S_CHANNELS", 1},
+                    {"NUM_S2MM_CHANNELS", 1},
+                    {"MM2S_BURST_SIZE", burst_beats},
+                    {"S2MM_BURST_SIZE", burst_beats},
+                    {"MICRO_DMA", 0},
+                    {"ADDR_WIDTH", address_width},
+                    {"SG_LENGTH_WIDTH", length_width},
+                    {"c_addr_width", address_width},
+                    {"c_sg_length_width", length_width}};
+  device.sdt_options = {
+      {"SG_INCLUDE_STSCNTRL_STRM", 0},  {"INCLUDE_MM2S", mm2s},           {"INCLUDE_MM2S_DRE", 0},
+      {"MM2S_DATA_WIDTH", data_width},  {"INCLUDE_S2MM", s2mm},           {"INCLUDE_S2MM_DRE", 0},
+      {"S2MM_DATA_WIDTH", data_width},  {"NUM_MM2S_CHANNELS", 1},         {"NUM_S2MM_CHANNELS", 1},
+      {"MM2S_BURST_SIZE", burst_beats}, {"S2MM_BURST_SIZE", burst_beats}, {"MICRO_DMA", 0},
+      {"ADDRWIDTH", address_width},     {"SG_LENGTH_WIDTH", length_width}};
+  if (sg != 0) device.sdt_options.emplace_back("INCLUDE_SG", sg);
+}
+
+void add_gpio(Device& device, const xilinx::AxiGpio& gpio) {
+  device.driver = "GPIO";
+  device.compatible = "xlnx,axi-gpio-2.0";
+  device.options = {{"IS_DUAL", gpio.is_dual.get()},
+                    {"INTERRUPT_PRESENT", gpio.interrupt_present.get()}};
+  device.sdt_options = device.options;
+  device.sdt_options.emplace_back("GPIO_WIDTH", gpio.gpio.width);
+}
+
+void add_intc(Device& device, const xilinx::AxiIntc& intc) {
+  constexpr std::uint32_t no_address = 0;
+  device.driver = "INTC";
+  device.compatible = "xlnx,axi-intc-4.1";
+  device.options = {{"KIND_OF_INTR", intc.kind_of_intr},
+                    {"HAS_FAST", 0},
+                    {"IVAR_RESET_VALUE", no_address},
+                    {"NUM_INTR_INPUTS", intc.num_intr_inputs},
+                    {"NUM_SW_INTR", 0},
+                    {"ADDR_WIDTH", 32},
+                    {"INTC_TYPE", 0}};
+  device.sdt_options = {{"KIND_OF_INTR", intc.kind_of_intr},
+                        {"NUM_INTR_INPUTS", intc.num_intr_inputs},
+                        {"NUM_SW_INTR", 0}};
+}
+
+void add_quad_spi(Device& device, const xilinx::AxiQuadSpi& spi) {
+  constexpr std::uint32_t word_bits = 8;
+  device.driver = "SPI";
+  device.compatible = "xlnx,axi-quad-spi-3.2";
+  device.options = {{"FIFO_EXIST", 1},
+                    {"FIFO_DEPTH", spi.fifo_depth},
+                    {"SPI_SLAVE_ONLY", 0},
+                    {"NUM_SS_BITS", spi.num_ss_bits},
+                    {"NUM_TRANSFER_BITS", word_bits},
+                    {"SPI_MODE", 0},
+                    {"TYPE_OF_AXI4_INTERFACE", 0},
+                    {"AXI4_BASEADDR", 0},
+                    {"AXI4_HIGHADDR", 0},
+                    {"XIP_MODE", 0},
+                    {"USE_STARTUP", 0}};
+  device.sdt_options = {{"FIFO_EXIST", 1},
+                        {"FIFO_SIZE", spi.fifo_depth},
+                        {"NUM_SS_BITS", spi.num_ss_bits},
+                        {"NUM_TRANSFER_BITS", word_bits},
+                        {"SPI_MODE", 0}};
+}
+
+void add_uartlite(Device& device, const xilinx::AxiUartlite& uart) {
+  device.driver = "UARTLITE";
+  device.compatible = "xlnx,axi-uartlite-2.0";
+  device.options = {{"BAUDRATE", uart.baudrate},
+                    {"USE_PARITY", uart.use_parity.get()},
+                    {"ODD_PARITY", 0},
+                    {"DATA_BITS", uart.data_bits}};
+  device.sdt_options = device.options;
+}
+
+}  // namespace
+
+void add_build(Device& device, const sc_core::sc_object& module) {
+  if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
+    add_dma(device, *dma);
+  } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
+    add_gpio(device, *gpio);
+  } else if (const auto* timer = dynamic_cast<const xilinx::AxiTimer*>(&module)) {
+    device.driver = "TMRCTR";
+    device.compatible = "xlnx,axi-timer-2.0";
+    device.options = {{"CLOCK_FREQ_HZ", hz(*timer)}};
+    device.sdt_options = {{"CLOCK_FREQUENCY", hz(*timer)}};
+  } else if (const auto* intc = dynamic_cast<const xilinx::AxiIntc*>(&module)) {
+    add_intc(device, *intc);
+  } else if (const auto* iic = dynamic_cast<const xilinx::AxiIic*>(&module)) {
+    device.driver = "IIC";
+    device.compatible = "xlnx,axi-iic-2.1";
+    device.options = {{"TEN_BIT_ADR", 0}, {"GPO_WIDTH", iic->gpo_width}};
+    device.sdt_options = {{"IIC_FREQ", iic->iic_freq}, {"GPO_WIDTH", iic->gpo_width}};
+  } else if (const auto* spi = dynamic_cast<const xilinx::AxiQuadSpi*>(&module)) {
+    add_quad_spi(device, *spi);
+  } else if (const auto* uart = dynamic_cast<const xilinx::AxiUartlite*>(&module)) {
+    add_uartlite(device, *uart);
+  } else if (dynamic_cast<const xilinx::AxiFifoMmS*>(&module)) {
+    device.driver = "AXI_FIFO";
+    device.compatible = "xlnx,axi-fifo-mm-s-4.2";
+    device.options = {{"AXI4_BASEADDR", 0}, {"AXI4_HIGHADDR", 0}, {"DATA_INTERFACE_TYPE", 0}};
+    device.sdt_options = {{"DATA_INTERFACE_TYPE", 0}};
+  } else if (const auto* cdma = dynamic_cast<const xilinx::AxiCdma*>(&module)) {
+    device.driver = "AXICDMA";
+    device.compatible = "xlnx,axi-cdma-4.1";
+    device.options = {{"INCLUDE_DRE", 0},       {"USE_DATAMOVER_LITE", 0},
+                      {"M_AXI_DATA_WIDTH", 32}, {"M_AXI_MAX_BURST_LEN", cdma->burst_beats},
+                      {"ADDR_WIDTH", 32},       {"INCLUDE_SG", 0}};
+    device.sdt_options = {
+        {"DATA_WIDTH", 32}, {"MAX_BURST_LEN", cdma->burst_beats}, {"ADDRWIDTH", 32}};
+  } else if (dynamic_cast<const xilinx::XadcWiz*>(&module)) {
+    device.driver = "SYSMON";
+    device.compatible = "xlnx,xadc-wiz-3.3";
+    device.options = {{"INCLUDE_INTR", 1}, {"IP_TYPE", 0}};
+  } else if (dynamic_cast<const xilinx::ClkWiz*>(&module)) {
+    device.driver = "CLK_WIZ";
+    device.compatible = "xlnx,clocking-wizard";
+  }
+}
+
+}  // namespace xparameters
