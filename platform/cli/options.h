@@ -142,6 +142,15 @@ struct MapOptions {
   ConfigurationOptions configuration;
 };
 
+/// `markervp import`.
+struct ImportOptions {
+  std::string file;                   ///< .hwh, .xsa or .hdf
+  std::string block_design;           ///< which one of several in an archive; empty: the only one
+  std::vector<std::string> programs;  ///< sources of the PS program
+  std::vector<std::string> rtl;       ///< folders with RTL of its IP
+  std::string output;                 ///< folder; empty: the name of the block design
+};
+
 /// `markervp report`.
 struct ReportOptions {
   std::vector<std::string> folders;   ///< one: its page again; two: a comparison
@@ -260,6 +269,7 @@ struct CommandLine {
   DesignsOptions designs;
   ConfigOptions config;
   MapOptions map;
+  ImportOptions import;
   ReportOptions report;
   DevicesOptions devices;
   ClocksOptions clocks;

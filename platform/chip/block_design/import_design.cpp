@@ -1,6 +1,8 @@
 #include <chip/block_design/import_design.h>
 
 #include <chip/handoff/netlist.h>
+#include <fpga/device/clock_plan.h>
+#include <fpga/device/device.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -21,6 +23,10 @@ using handoff::Module;
 using handoff::Netlist;
 using handoff::parameter;
 using handoff::Port;
+
+constexpr double hz_per_mhz = 1e6;
+/// Vivado writes 666.666687 MHz for 666.666667: it computes with single precision.
+constexpr double cpu_rounding_hz = 100;
 
 /// A word as YAML has it: in quotes where it could be read as something else.
 std::string yaml(const std::string& word) {
@@ -66,7 +72,8 @@ bool is_noise(const std::string& name) {
 /// Writes the sections of design.yaml one after the other.
 class Writer {
  public:
-  explicit Writer(const Handoff& handoff) : handoff_(handoff), nets_(handoff) {}
+  Writer(const Handoff& handoff, const handoff::RtlFinder& rtl)
+      : handoff_(handoff), rtl_(rtl), nets_(handoff) {}
 
   ImportedDesign write() {
     line("# Design '" + handoff_.name + "' of " + handoff_.file + ", Vivado " + handoff_.tool +
@@ -104,26 +111,22 @@ class Writer {
     line("  " + path + ": " + value);
   }
 
-  /// A frequency of the PS in MHz; nothing if the hand-off has none.
-  void megahertz(const std::string& path, const std::string& name) {
-    const auto value = vp::Decimal::parse(ps(name));
-    if (value) setting(path, hertz(value->to_double() * 1e6));
-  }
-
-  // Clocks are as the hand-off computed them: nothing is planned anew.
+  // Of equal wishes the platform's plan of the PLLs is that of the vendor's tool.
   void write_settings() {
     line("\n# Parameters of the platform; 'markervp config --design design.yaml' explains each.");
     line("settings:");
     setting("device", handoff_.device);
-    setting("clocks", "exact");
     const auto crystal = vp::Decimal::parse(ps("PCW_CRYSTAL_PERIPHERAL_FREQMHZ"));
     if (crystal) setting("ps.slcr.ps_clk", crystal->text() + " MHz");
-    megahertz("ps.cpu_clk.frequency", "PCW_ACT_APU_PERIPHERAL_FREQMHZ");
-    for (const Port& port : handoff_.ps().ports) {
-      const bool is_clock = port.direction == 'O' && port.name.rfind("FCLK_CLK", 0) == 0;
-      if (is_clock && port.hz)
-        setting("ps.fclk_clk" + port.name.substr(8) + ".frequency", hertz(*port.hz));
-    }
+    device::ClockWishes wishes;
+    wishes.ethernet = ps_is("PCW_ENET0_PERIPHERAL_ENABLE");
+    const auto cpu = vp::Decimal::parse(ps("PCW_ACT_APU_PERIPHERAL_FREQMHZ"));
+    if (cpu) wishes.cpu_hz = cpu->to_double() * hz_per_mhz;
+    if (cpu) setting("ps.cpu_clk.frequency", hertz(wishes.cpu_hz));
+    wishes.fclk_hz = write_fclks();
+    if (!is_planned(wishes,
+                    crystal ? crystal->to_double() * hz_per_mhz : device::zedboard_crystal_hz))
+      setting("clocks", "exact  # no PLL of the platform's plan gives them all");
     const auto last = vp::Decimal::parse(ps("PCW_DDR_RAM_HIGHADDR"));
     const auto whole = last ? last->whole() : std::nullopt;
     constexpr vp::Decimal::Whole mib = 1 << 20;
@@ -132,8 +135,36 @@ class Writer {
               vp::format_quantity(vp::Decimal(*whole + 1 - mib, 0), vp::Unit::bytes));
     }
     if (ps("PCW_UIPARAM_DDR_BUS_WIDTH").rfind("16", 0) == 0) setting("power.ddr.width", "16");
-    setting("ps.ethernet", ps_is("PCW_ENET0_PERIPHERAL_ENABLE") ? "true" : "false");
+    setting("ps.ethernet", wishes.ethernet ? "true" : "false");
     write_uarts();
+  }
+
+  /// The clocks of the PL that are on. FCLK_CLK1 exists in any case: unused, it asks for nothing
+  /// that the first one does not.
+  std::vector<double> write_fclks() {
+    std::map<unsigned, double> on;
+    for (const Port& port : handoff_.ps().ports) {
+      const bool is_clock = port.direction == 'O' && port.name.rfind("FCLK_CLK", 0) == 0 &&
+                            port.name.size() == 9 && port.name[8] >= '0' && port.name[8] <= '3';
+      if (is_clock && port.hz) on[static_cast<unsigned>(port.name[8] - '0')] = *port.hz;
+    }
+    if (on.count(0) == 1 && on.count(1) == 0) on[1] = on[0];
+    std::vector<double> wishes;
+    for (const auto& [number, hz] : on) {
+      setting("ps.fclk_clk" + std::to_string(number) + ".frequency", hertz(hz));
+      wishes.push_back(hz);
+    }
+    return wishes;
+  }
+
+  /// Whether the clocks come out within a hertz.
+  bool is_planned(const device::ClockWishes& wishes, double crystal_hz) const {
+    const device::ClockPlan plan =
+        device::ClockPlanner(device::find_device(handoff_.device), crystal_hz).plan(wishes);
+    for (std::size_t i = 0; i < wishes.fclk_hz.size(); ++i) {
+      if (std::abs(plan.fclk[i].hz - wishes.fclk_hz[i]) > 1) return false;
+    }
+    return std::abs(plan.cpu.hz - wishes.cpu_hz) < cpu_rounding_hz;
   }
 
   // Without any, Linux was booted by another image, and the wizard's defaults are in the file.
@@ -152,19 +183,34 @@ class Writer {
 
   void write_part(const Module& module) {
     const IpRule* rule = rule_for(module.vlnv);
-    ImportedPart part{module.full_name.substr(1), module.vlnv, rule ? rule->kind : Kind::stub, ""};
-    if (rule) part.why = misfit(*rule, module);
-    if (!rule)
-      part.why =
-          module.is_vendors() ? "the platform has no model of it" : "no RTL was named for it";
-    if (!part.why.empty()) part.kind = Kind::stub;
+    ImportedPart part{module.full_name.substr(1), module.vlnv, rule ? rule->kind : Kind::stub, "",
+                      module.instance};
+    if (rule) {
+      part.why = misfit(*rule, module);
+      if (!part.why.empty()) part.kind = Kind::stub;
+    } else {
+      look_for_rtl(module, part);
+    }
     line("  " + module.instance + ":");
     line("    ip: " + yaml(module.vlnv));
     if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
+    if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
     write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
     write_pins(module);
     write_buses(module);
     result_.parts.push_back(std::move(part));
+  }
+
+  void look_for_rtl(const Module& module, ImportedPart& part) const {
+    if (rtl_.empty()) {
+      part.why =
+          module.is_vendors() ? "the platform has no model of it" : "no RTL was named for it";
+      return;
+    }
+    part.rtl = rtl_.find(module);
+    part.why = part.rtl.why;
+    if (part.rtl.files.empty()) return;
+    part.kind = Kind::rtl;
   }
 
   /// Why the model cannot be built as the design wants it; "" if it can.
@@ -199,7 +245,7 @@ class Writer {
   void write_pins(const Module& module) {
     std::set<std::string> of_buses;
     for (const BusInterface& bus : module.interfaces) {
-      if (!is_bus(bus) && bus.kind != "ddrx") continue;
+      if (!is_bus(bus) && bus.kind != "ddrx" && bus.kind != "bram") continue;
       for (const auto& [logical, physical] : bus.pins) of_buses.insert(physical);
     }
     const IpRule* rule = rule_for(module.vlnv);
@@ -289,6 +335,7 @@ class Writer {
   }
 
   const Handoff& handoff_;
+  const handoff::RtlFinder& rtl_;
   Netlist nets_;
   ImportedDesign result_;
   std::set<std::string> used_pins_;
@@ -296,8 +343,8 @@ class Writer {
 
 }  // namespace
 
-ImportedDesign import_design(const Handoff& handoff) {
-  return Writer(handoff).write();
+ImportedDesign import_design(const Handoff& handoff, const handoff::RtlFinder& rtl) {
+  return Writer(handoff, rtl).write();
 }
 
 }  // namespace platform::block_design

@@ -101,6 +101,22 @@ std::vector<IpRule> rules() {
       {"axi_clock_converter", Kind::bus, "AXI clock converter (PG059)"},
       {"axi_register_slice", Kind::bus, "AXI register slice (PG059)"},
       {"axi_data_fifo", Kind::bus, "AXI data FIFO (PG059)"},
+      {"axis_data_fifo",
+       Kind::model,
+       "AXI4-Stream FIFO of up to 32 bits (PG085)",
+       {{"FIFO_DEPTH", "512"},
+        {"FIFO_MODE", "1", {"1"}},
+        {"IS_ACLK_ASYNC", "0", {"0"}},
+        {"TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
+      {"axis_register_slice",
+       Kind::model,
+       "AXI4-Stream register slice of up to 32 bits (PG085)",
+       {{"TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
+      {"axis_dwidth_converter",
+       Kind::model,
+       "AXI4-Stream width converter, 8 to 32 bits (PG085)",
+       {{"S_TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}},
+        {"M_TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
       {"xlconcat", Kind::wiring, "concat", concat_parameters()},
       {"ilconcat", Kind::wiring, "concat", concat_parameters()},
       {"xlslice", Kind::wiring, "slice", slice},
@@ -135,6 +151,8 @@ const char* to_string(Kind kind) {
       return "wiring";
     case Kind::left_out:
       return "left out";
+    case Kind::rtl:
+      return "RTL";
     case Kind::stub:
       break;
   }

@@ -12,10 +12,11 @@ enum class Kind {
   bus,       ///< a way between masters and slaves: interconnects and converters
   wiring,    ///< a function of wires without a clock
   left_out,  ///< it changes nothing that software sees: logic analysers and the like
+  rtl,       ///< the user's RTL, Verilated
   stub,      ///< neither model nor RTL: it answers with zeros
 };
 
-/// "model", "bus", "wiring", "left out", "stub".
+/// "model", "bus", "wiring", "left out", "RTL", "stub".
 const char* to_string(Kind kind);
 
 /// A parameter of an IP that the platform's stand-in depends on.
