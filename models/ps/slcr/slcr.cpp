@@ -32,6 +32,7 @@ constexpr BootValue boot_values[] = {
     {slcr::ARM_CLK_CTRL, 0x1F000200},
     {slcr::DDR_CLK_CTRL, 0x0C200003},
     {slcr::UART_CLK_CTRL, 0x00001403},  // 1000 MHz / 20, both UARTs
+    {slcr::SPI_CLK_CTRL, 0x00000603},   // 1000 MHz / 6, both SPIs
     {slcr::FPGA_RST_CTRL, 0x00000000},
     {slcr::LVL_SHFTR_EN, slcr::lvl_shftr_en::all},
     {slcr::OCM_CFG, ocm_all_high},
@@ -171,6 +172,30 @@ void Slcr::drive_cpu(vp::Clock& clock) {
       clock_tree::nearest_cpu_divisor(clock.frequency_hz(), cpu_source_hz());
   arm_clk_ctrl_.clear_bits(slcr::clk_ctrl::DIVISOR0);
   arm_clk_ctrl_.set_bits(divisor << slcr::clk_ctrl::DIVISOR0_shift);
+}
+
+void Slcr::drive_cpu_1x(vp::Clock& clock) {
+  cpu_1x_ = &clock;
+  update_cpu_1x();
+}
+
+void Slcr::drive_spi_ref(vp::Clock& clock) {
+  spi_ref_ = &clock;
+  update_spi();
+}
+
+void Slcr::on_reset(std::uint32_t offset, std::uint32_t bits, std::function<void(bool)> hold) {
+  resets_.push_back({offset, bits, std::move(hold), false});
+  on_write(offset, [this, offset] { resets_written(offset); });
+}
+
+void Slcr::resets_written(std::uint32_t offset) {
+  for (Reset& reset : resets_) {
+    const bool held = registers[offset].any(reset.bits);
+    if (reset.offset != offset || reset.held == held) continue;
+    reset.held = held;
+    reset.hold(held);
+  }
 }
 
 // ---- the lock

@@ -86,6 +86,14 @@ class Slcr : public sc_core::sc_module {
                   std::optional<clock_tree::Dividers> chosen = std::nullopt);
   void drive_uart_ref(unsigned number, vp::Clock& clock);
   void drive_cpu(vp::Clock& clock);
+  /// CPU_1x, which most peripherals have: a sixth (6:2:1) or a fourth (4:2:1) of the CPU's clock.
+  /// After drive_cpu().
+  void drive_cpu_1x(vp::Clock& clock);
+  /// The reference clock of both SPI controllers.
+  void drive_spi_ref(vp::Clock& clock);
+  /// Calls `hold` when software asserts (true) or releases the reset in `bits` of the register at
+  /// `offset`.
+  void on_reset(std::uint32_t offset, std::uint32_t bits, std::function<void(bool)> hold);
 
   /// Outputs of the PLLs now, Hz. 0: powered down or in reset, and not bypassed. A PLL that has not
   /// locked yet counts as locked.
@@ -135,6 +143,9 @@ class Slcr : public sc_core::sc_module {
   void follow_plls();
   void update_uarts();
   void update_cpu();
+  void update_cpu_1x();
+  void update_spi();
+  void resets_written(std::uint32_t offset);
   void update_fclk_resets();
   void update_uart_resets();
   void dci_written();
@@ -152,6 +163,15 @@ class Slcr : public sc_core::sc_module {
   std::deque<Fclk> fclk_;
   std::array<vp::Clock*, 2> uart_ref_{};
   vp::Clock* cpu_ = nullptr;
+  vp::Clock* cpu_1x_ = nullptr;
+  vp::Clock* spi_ref_ = nullptr;
+  /// Resets of peripherals.
+  struct Reset {
+    std::uint32_t offset, bits;
+    std::function<void(bool)> hold;
+    bool held;
+  };
+  std::vector<Reset> resets_;
   std::uint64_t highest_fclk_hz_ = ~std::uint64_t{0};
   double cpu_source_hz_ = 0.0;
   bool dci_reset_ = false;      ///< RESET of DDRIOB_DCI_CTRL as it was

@@ -213,6 +213,8 @@ void Slcr::wire_clocks() {
   for (Pll& pll : pll_) on_write(pll.ctrl.info().offset, [this, &pll] { pll_written(pll); });
   on_write(slcr::ARM_CLK_CTRL, [this] { update_cpu(); });
   on_write(slcr::UART_CLK_CTRL, [this] { update_uarts(); });
+  on_write(slcr::SPI_CLK_CTRL, [this] { update_spi(); });
+  on_write(slcr::CLK_621_TRUE, [this] { update_cpu_1x(); });
   for (unsigned n = 0; n < slcr::fclk_count; ++n) {
     const std::uint32_t at = n * slcr::fclk_stride;
     on_write(slcr::FPGA0_CLK_CTRL + at, [this, n] { fclk_written(n); });
@@ -296,6 +298,7 @@ std::uint64_t Slcr::programmed_fclk_hz(unsigned number) const {
 void Slcr::follow_plls() {
   for (unsigned n = 0; n < slcr::fclk_count; ++n) fclk_[n].follow(fclk_source_hz(n));
   update_uarts();
+  update_spi();
   if (cpu_source_hz() != cpu_source_hz_) update_cpu();
 }
 
@@ -323,6 +326,19 @@ void Slcr::update_cpu() {
   }
   cpu_source_hz_ = cpu_source_hz();
   follow(cpu_, hertz);
+  update_cpu_1x();
+}
+
+void Slcr::update_cpu_1x() {
+  if (cpu_) follow(cpu_1x_, cpu_->frequency_hz() / (ratio_621() ? 6 : 4));
+}
+
+void Slcr::update_spi() {
+  const vp::Register& control = registers[slcr::SPI_CLK_CTRL];
+  constexpr std::uint32_t both = slcr::uart_clk_ctrl::CLKACT0 | slcr::uart_clk_ctrl::CLKACT0 << 1;
+  const std::uint64_t hertz = clock_tree::divided_hz(
+      peripheral_source_hz(clock_tree::source(control)), clock_tree::divisor0(control));
+  follow(spi_ref_, control.any(both) ? hertz : 0);
 }
 
 Slcr::CpuClocks Slcr::cpu_clocks() const {

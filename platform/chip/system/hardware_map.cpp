@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <map>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include <gic_registers.h>
-#include <slcr_registers.h>
 #include <uart_registers.h>
 #include <vp/ip.h>
 #include <vp/register_bank.h>
@@ -19,155 +16,6 @@
 #include <xilinx/concat/concat.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
-
-namespace xparameters {
-
-namespace {
-
-/// The lines "#define NAME value", all beginning with XPAR_.
-class Definitions {
- public:
-  void number(const std::string& name, std::uint64_t value) { line(name, std::to_string(value)); }
-
-  void address(const std::string& name, std::uint32_t value) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "0x%08XU", static_cast<unsigned>(value));
-    line(name, digits);
-  }
-
-  void line(const std::string& name, const std::string& value) {
-    text += "#define XPAR_" + name + " " + value + "\n";
-  }
-
-  std::string text;
-};
-
-/// What releases from 2023.2 on have besides, under the driver's name with an X before it: devices
-/// are known by their addresses, and an interrupt has its sense with it (level high is 4), as in a
-/// device tree (xinterrupt_wrap.h).
-void define_interrupts(Definitions& out, const std::string& name,
-                       const std::vector<std::uint32_t>& ids) {
-  constexpr std::uint32_t level_high = 4u << 12;
-  for (std::size_t n = 0; n < ids.size(); ++n) {
-    const std::string number = n == 0 ? "" : "_" + std::to_string(n);
-    out.address(name + "_INTERRUPTS" + number, (ids[n] - gic::first_spi) | level_high);
-  }
-  if (!ids.empty()) out.address(name + "_INTERRUPT_PARENT", gic::distributor_base);
-}
-
-/// Both under the instance's name and under that of the driver: code uses either. Interrupts end in
-/// INTR under the one, in VEC_ID under the other, which leaves the line out if there is only one.
-void define_device(Definitions& out, const Device& device, unsigned number) {
-  out.text += "\n/* " + device.name + " */\n";
-  const bool has_driver = !device.driver.empty();
-  std::vector<std::string> names{device.name};
-  if (has_driver) names.push_back(device.driver + "_" + std::to_string(number));
-  for (const std::string& name : names) {
-    if (has_driver) out.number(name + "_DEVICE_ID", number);
-    out.address(name + "_BASEADDR", device.base);
-    out.address(name + "_HIGHADDR", device.last);
-    for (const auto& [option, value] : device.options) out.number(name + "_" + option, value);
-  }
-  std::vector<std::uint32_t> interrupts;
-  for (const auto& [line, id] : device.interrupts) {
-    interrupts.push_back(id);
-    out.number("FABRIC_" + device.name + "_" + line + "_INTR", id);
-    if (has_driver) out.number("FABRIC_" + names.back() + "_" + line + "_VEC_ID", id);
-  }
-  if (has_driver && device.interrupts.size() == 1) {
-    out.number("FABRIC_" + names.back() + "_VEC_ID", device.interrupts.front().second);
-  }
-  if (has_driver) {
-    const std::string name = "X" + names.back();
-    out.address(name + "_BASEADDR", device.base);
-    out.address(name + "_HIGHADDR", device.last);
-    define_interrupts(out, name, interrupts);
-  }
-}
-
-constexpr const char* beginning =
-    "#ifndef XPARAMETERS_H\n"
-    "#define XPARAMETERS_H\n"
-    "\n"
-    "/*\n"
-    " * Written from the memory map of the platform: what Vivado would export for it. A test "
-    "holds\n"
-    " * the two together.\n"
-    " */\n";
-
-/// The private devices of the Cortex-A9 MPCore are where they are (UG585 table 4-7).
-constexpr const char* processor_devices =
-    "\n/* Cortex-A9 MPCore */\n"
-    "#define XPAR_PS7_SCUGIC_0_DEVICE_ID 0\n"
-    "#define XPAR_SCUGIC_0_DEVICE_ID 0\n"
-    "#define XPAR_SCUGIC_SINGLE_DEVICE_ID 0\n"
-    "#define XPAR_XSCUGIC_NUM_INSTANCES 1\n"
-    "#define XPAR_SCUGIC_0_CPU_BASEADDR 0xF8F00100U\n"
-    "#define XPAR_SCUGIC_0_DIST_BASEADDR 0xF8F01000U\n"
-    "#define XPAR_XSCUGIC_0_BASEADDR 0xF8F01000U\n"
-    "#define XPAR_GLOBAL_TMR_BASEADDR 0xF8F00200U\n"
-    "#define XPAR_GLOBAL_TMR_INTR 27\n"
-    "#define XPAR_SCUTIMER_0_BASEADDR 0xF8F00600U\n"
-    "#define XPAR_SCUTIMER_INTR 29\n"
-    "#define XPAR_SCUTIMER_DEVICE_ID 0\n"
-    "#define XPAR_XSCUTIMER_NUM_INSTANCES 1\n"
-    "#define XPAR_XSCUTIMER_0_DEVICE_ID 0\n"
-    "#define XPAR_XSCUTIMER_0_BASEADDR 0xF8F00600U\n"
-    "#define XPAR_XSCUTIMER_0_INTERRUPTS 0x0010100DU\n"
-    "#define XPAR_XSCUTIMER_0_INTERRUPT_PARENT 0xF8F01000U\n"
-    "#define XPAR_XSCUWDT_NUM_INSTANCES 1\n"
-    "#define XPAR_SCUWDT_0_DEVICE_ID 0\n"
-    "#define XPAR_SCUWDT_0_BASEADDR 0xF8F00620U\n"
-    "#define XPAR_XSCUWDT_0_DEVICE_ID 0\n"
-    "#define XPAR_XSCUWDT_0_BASEADDR 0xF8F00620U\n"
-    "#define XPAR_XSCUWDT_0_INTERRUPTS 0x0010100EU\n"
-    "#define XPAR_XSCUWDT_0_INTERRUPT_PARENT 0xF8F01000U\n"
-    "#define XPAR_PS7_SLCR_0_S_AXI_BASEADDR 0xF8000000U\n"
-    "\n/* UARTs, and what the processing system has besides */\n";
-constexpr std::uint32_t uart_ref_hz = 50'000'000;
-
-}  // namespace
-
-std::string header(const Platform& platform) {
-  Definitions out;
-  out.text = beginning;
-  out.text += "\n/* Clocks, Hz */\n";
-  out.number("CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ", platform.cpu_hz);
-  out.number("CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ", platform.cpu_hz);
-  out.number("PS7_CRYSTAL_FREQ_HZ", platform.ps_clock_hz);
-  out.text += "\n/* Memory */\n";
-  out.address("PS7_DDR_0_S_AXI_BASEADDR", platform.ddr_base);
-  out.address("PS7_DDR_0_S_AXI_HIGHADDR", platform.ddr_last);
-  out.text += processor_devices;
-  for (std::size_t n = 0; n < platform.uarts.size(); ++n) {
-    const std::string name = "XUARTPS_" + std::to_string(n);
-    out.number(name + "_DEVICE_ID", n);
-    out.address(name + "_BASEADDR", platform.uarts[n]);
-    out.number(name + "_UART_CLK_FREQ_HZ", uart_ref_hz);
-    define_interrupts(
-        out, name,
-        {platform.uarts[n] == uart::uart0_base ? uart::uart0_interrupt : uart::uart1_interrupt});
-  }
-  out.number("XUARTPS_NUM_INSTANCES", platform.uarts.size());
-  out.text += "#include <xparameters_ps.h>\n";
-  std::map<std::string, unsigned> numbers;
-  for (const Device& device : platform.devices) {
-    define_device(out, device, numbers[device.driver]++);
-  }
-  out.text += "\n/* How many a driver has */\n";
-  for (const auto& [driver, count] : numbers) {
-    if (!driver.empty()) out.number("X" + driver + "_NUM_INSTANCES", count);
-  }
-  if (!platform.uarts.empty()) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "0x%08XU\n", static_cast<unsigned>(platform.uarts.back()));
-    out.text += std::string("\n/* Console */\n#define STDOUT_BASEADDRESS ") + digits;
-  }
-  out.text += "\n#endif\n";
-  return out.text;
-}
-
-}  // namespace xparameters
 
 namespace platform {
 
@@ -185,20 +33,50 @@ std::string capitals(std::string text) {
   return text;
 }
 
+void add_dma(Device& device, const xilinx::AxiDma& dma) {
+  constexpr std::uint32_t data_width = 32, burst_beats = 16, address_width = 32;
+  const std::uint32_t mm2s = dma.include_mm2s.get(), s2mm = dma.include_s2mm.get();
+  const std::uint32_t sg = dma.include_sg.get(), length_width = dma.length_width;
+  device.compatible = "xlnx,axi-dma-7.1";
+  device.options = {{"SG_INCLUDE_STSCNTRL_STRM", 0},
+                    {"INCLUDE_MM2S", mm2s},
+                    {"INCLUDE_MM2S_DRE", 0},
+                    {"M_AXI_MM2S_DATA_WIDTH", data_width},
+                    {"INCLUDE_S2MM", s2mm},
+                    {"INCLUDE_S2MM_DRE", 0},
+                    {"M_AXI_S2MM_DATA_WIDTH", data_width},
+                    {"INCLUDE_SG", sg},
+                    {"ENABLE_MULTI_CHANNEL", 0},
+                    {"NUM_MM2S_CHANNELS", 1},
+                    {"NUM_S2MM_CHANNELS", 1},
+                    {"MM2S_BURST_SIZE", burst_beats},
+                    {"S2MM_BURST_SIZE", burst_beats},
+                    {"MICRO_DMA", 0},
+                    {"ADDR_WIDTH", address_width},
+                    {"SG_LENGTH_WIDTH", length_width},
+                    {"c_addr_width", address_width},
+                    {"c_sg_length_width", length_width}};
+  device.sdt_options = {
+      {"SG_INCLUDE_STSCNTRL_STRM", 0},  {"INCLUDE_MM2S", mm2s},           {"INCLUDE_MM2S_DRE", 0},
+      {"MM2S_DATA_WIDTH", data_width},  {"INCLUDE_S2MM", s2mm},           {"INCLUDE_S2MM_DRE", 0},
+      {"S2MM_DATA_WIDTH", data_width},  {"NUM_MM2S_CHANNELS", 1},         {"NUM_S2MM_CHANNELS", 1},
+      {"MM2S_BURST_SIZE", burst_beats}, {"S2MM_BURST_SIZE", burst_beats}, {"MICRO_DMA", 0},
+      {"ADDRWIDTH", address_width},     {"SG_LENGTH_WIDTH", length_width}};
+  if (sg != 0) device.sdt_options.emplace_back("INCLUDE_SG", sg);
+}
+
 /// The driver of a device, by its model; "" without one of the vendor's.
 void add_build(Device& device, const sc_core::sc_object& module) {
   if (const auto* dma = dynamic_cast<const xilinx::AxiDma*>(&module)) {
     device.driver = "AXIDMA";
-    device.options = {{"INCLUDE_MM2S", dma->include_mm2s.get()},
-                      {"INCLUDE_S2MM", dma->include_s2mm.get()},
-                      {"INCLUDE_SG", dma->include_sg.get()},
-                      {"SG_LENGTH_WIDTH", dma->length_width},
-                      {"M_AXI_MM2S_DATA_WIDTH", 32},
-                      {"M_AXI_S2MM_DATA_WIDTH", 32}};
+    add_dma(device, *dma);
   } else if (const auto* gpio = dynamic_cast<const xilinx::AxiGpio*>(&module)) {
     device.driver = "GPIO";
+    device.compatible = "xlnx,axi-gpio-2.0";
     device.options = {{"IS_DUAL", gpio->is_dual.get()},
                       {"INTERRUPT_PRESENT", gpio->interrupt_present.get()}};
+    device.sdt_options = device.options;
+    device.sdt_options.emplace_back("GPIO_WIDTH", gpio->gpio.width);
   }
 }
 

@@ -5,11 +5,22 @@
 #include <stdexcept>
 #include <string>
 
+#include <devcfg_registers.h>
+#include <gem_registers.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <private_timer_registers.h>
+#include <ps_gpio_registers.h>
+#include <ps_i2c_registers.h>
+#include <ps_spi_registers.h>
+#include <ps_xadc_registers.h>
+#include <qspi_registers.h>
+#include <sdio_registers.h>
 #include <slcr_registers.h>
+#include <system_watchdog_registers.h>
+#include <ttc_registers.h>
 #include <uart_registers.h>
+#include <usb_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 
@@ -80,6 +91,8 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
               "clock of the Cortex-A9 cores (CPU_6x4x)"),
       uart0_ref_clk("uart0_ref_clk", scheduler, 0),  // the SLCR sets it
       uart1_ref_clk("uart1_ref_clk", scheduler, 0),
+      cpu_1x_clk("cpu_1x_clk", scheduler, 0),
+      spi_ref_clk("spi_ref_clk", scheduler, 0),
       poll_elision("poll_elision", true, vp::Source::decision,
                    "polls pass over reads that cannot see anything new; false: every read is made "
                    "(no result depends on it)"),
@@ -104,6 +117,23 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       slcr("slcr", scheduler, chip.data.idcode()),
       uart0("uart0", uart0_ref_clk),
       uart1("uart1", uart1_ref_clk),
+      gpio("gpio", cpu_1x_clk),
+      i2c0("i2c0", cpu_1x_clk),
+      i2c1("i2c1", cpu_1x_clk),
+      spi0("spi0", spi_ref_clk),
+      spi1("spi1", spi_ref_clk),
+      ttc0("ttc0", cpu_1x_clk),
+      ttc1("ttc1", cpu_1x_clk),
+      swdt("swdt", cpu_1x_clk),
+      xadc("xadc", scheduler),
+      devcfg("devcfg", cpu_1x_clk),
+      qspi("qspi", scheduler),
+      sdio0("sdio0", scheduler),
+      sdio1("sdio1", scheduler),
+      gem0("gem0", scheduler),
+      gem1("gem1", scheduler),
+      usb0("usb0", scheduler),
+      usb1("usb1", scheduler),
       ocm("ocm", cpu_clk.clk),
       ddr("ddr"),
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
@@ -123,6 +153,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   connect_interrupts();
   uart0.rst(slcr.uart0_rst);
   uart1.rst(slcr.uart1_rst);
+  connect_resets();
   slcr.level_shifters.guard(*interconnect.find(gp0_base)->link);
   cpu.connect(ddr.dma_memory());
   cpu.set_poll_elision(poll_elision);
@@ -196,6 +227,39 @@ void ProcessingSystem::map_peripherals() {
   devices.map("uart0", uart::uart0_base, device_size).bind(uart0.registers.socket);
   devices.map("uart1", uart::uart1_base, device_size).bind(uart1.registers.socket);
   devices.map("slcr", slcr::base, device_size).bind(slcr.registers.socket);
+  const auto map = [&devices](const char* name, std::uint32_t base, vp::RegisterBank& bank,
+                              std::uint64_t size = device_size) {
+    devices.map(name, base, size).bind(bank.socket);
+  };
+  map("usb0", usb::usb0_base, usb0.registers);
+  map("usb1", usb::usb1_base, usb1.registers);
+  map("i2c0", ps_i2c::i2c0_base, i2c0.registers);
+  map("i2c1", ps_i2c::i2c1_base, i2c1.registers);
+  map("spi0", ps_spi::spi0_base, spi0.registers);
+  map("spi1", ps_spi::spi1_base, spi1.registers);
+  map("gpio", ps_gpio::base, gpio.registers);
+  map("gem0", gem::gem0_base, gem0.registers);
+  map("gem1", gem::gem1_base, gem1.registers);
+  map("qspi", qspi::base, qspi.registers);
+  map("sdio0", sdio::sd0_base, sdio0.registers);
+  map("sdio1", sdio::sd1_base, sdio1.registers);
+  map("ttc0", ttc::ttc0_base, ttc0.registers);
+  map("ttc1", ttc::ttc1_base, ttc1.registers);
+  map("swdt", system_watchdog::base, swdt.registers);
+  map("devcfg", devcfg::base, devcfg.registers, private_device_size);
+  map("xadc", ps_xadc::base, xadc.registers, private_device_size);
+}
+
+// Software resets one block at a time, by its bit of the SLCR.
+void ProcessingSystem::connect_resets() {
+  const auto connect = [this](std::uint32_t offset, std::uint32_t bits, auto& device) {
+    slcr.on_reset(offset, bits, [&device](bool held) { device.hold_in_reset(held); });
+  };
+  connect(slcr::GPIO_RST_CTRL, 1, gpio);
+  connect(slcr::I2C_RST_CTRL, 1, i2c0);
+  connect(slcr::I2C_RST_CTRL, 2, i2c1);
+  connect(slcr::SPI_RST_CTRL, 1, spi0);
+  connect(slcr::SPI_RST_CTRL, 2, spi1);
 }
 
 void ProcessingSystem::connect_interrupts() {
@@ -203,7 +267,22 @@ void ProcessingSystem::connect_interrupts() {
                  {gic::private_timer_id, &private_timer.irq},
                  {gic::watchdog_id, &private_timer.watchdog_irq},
                  {uart::uart0_interrupt, &uart0.irq},
-                 {uart::uart1_interrupt, &uart1.irq}};
+                 {uart::uart1_interrupt, &uart1.irq},
+                 {ps_xadc::interrupt_id, &xadc.irq},
+                 {devcfg::interrupt_id, &devcfg.irq},
+                 {system_watchdog::interrupt_id, &swdt.irq},
+                 {qspi::interrupt_id, &qspi.irq},
+                 {ps_gpio::interrupt_id, &gpio.irq},
+                 {sdio::sd0_interrupt, &sdio0.irq},
+                 {sdio::sd1_interrupt, &sdio1.irq},
+                 {ps_i2c::i2c0_interrupt, &i2c0.irq},
+                 {ps_i2c::i2c1_interrupt, &i2c1.irq},
+                 {ps_spi::spi0_interrupt, &spi0.irq},
+                 {ps_spi::spi1_interrupt, &spi1.irq}};
+  for (unsigned n = 0; n < ttc::counter_count; ++n) {
+    interrupts_.push_back({ttc::ttc0_interrupt + n, &ttc0.counter(n).irq});
+    interrupts_.push_back({ttc::ttc1_interrupt + n, &ttc1.counter(n).irq});
+  }
   for (const Interrupt& interrupt : interrupts_) gic.connect(interrupt.id, *interrupt.source);
   cpu.n_irq(gic.n_irq);
 }
@@ -232,11 +311,13 @@ void ProcessingSystem::start_clocks() {
     cpu_clk.make(plan_.cpu.hz);
   }
   slcr.drive_cpu(cpu_clk.clk);
+  slcr.drive_cpu_1x(cpu_1x_clk);
   slcr.limit_fclk(static_cast<std::uint64_t>(device::hz_per_mhz *
                                              limit_of(chip_.data, device::ClockKind::fclk).value));
   drive_fclks();
   slcr.drive_uart_ref(0, uart0_ref_clk);
   slcr.drive_uart_ref(1, uart1_ref_clk);
+  slcr.drive_spi_ref(spi_ref_clk);
 }
 
 void ProcessingSystem::drive_fclks() {

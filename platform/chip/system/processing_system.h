@@ -12,11 +12,18 @@
 #include <ps/cpu/cpu.h>
 #include <ps/gic/gic.h>
 #include <ps/global_timer/global_timer.h>
+#include <ps/gpio/gpio.h>
+#include <ps/i2c/i2c.h>
+#include <ps/idle/idle_devices.h>
 #include <ps/interconnect/interconnect.h>
 #include <ps/memory/memory.h>
 #include <ps/private_timer/private_timer.h>
 #include <ps/slcr/slcr.h>
+#include <ps/spi/spi.h>
+#include <ps/system_watchdog/system_watchdog.h>
+#include <ps/ttc/ttc.h>
 #include <ps/uart/uart.h>
+#include <ps/xadc/xadc.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
 #include <vp/router.h>
@@ -56,9 +63,9 @@ class ClockSource : public sc_core::sc_module {
   std::uint64_t start_hz_;
 };
 
-/// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): the
-/// Cortex-A9 cores with their private devices, DDR and on-chip memory, UARTs, the GP0 and HP0
-/// ports, and the clocks of the PL, which follow the SLCR.
+/// The processing system of a Zynq-7000 (UG585): the Cortex-A9 cores with their private devices,
+/// DDR and on-chip memory, the I/O peripherals, the GP0 and HP0 ports, and the clocks of the PL,
+/// which follow the SLCR. Peripherals sleep until software uses them.
 class ProcessingSystem : public sc_core::sc_module {
  public:
   /// `chip` must outlive it. `usual_cores`: if the user says nothing else. Throws vp::InputError
@@ -72,6 +79,8 @@ class ProcessingSystem : public sc_core::sc_module {
   ClockSource cpu_clk;
   vp::Clock uart0_ref_clk;
   vp::Clock uart1_ref_clk;
+  vp::Clock cpu_1x_clk;
+  vp::Clock spi_ref_clk;
 
   vp::Parameter<bool> poll_elision;
   vp::Parameter<std::uint32_t> cache_guard_steps;
@@ -87,6 +96,23 @@ class ProcessingSystem : public sc_core::sc_module {
   ps::Slcr slcr;
   ps::Uart uart0;
   ps::Uart uart1;
+  ps::Gpio gpio;
+  ps::I2c i2c0;
+  ps::I2c i2c1;
+  ps::Spi spi0;
+  ps::Spi spi1;
+  ps::Ttc ttc0;
+  ps::Ttc ttc1;
+  ps::SystemWatchdog swdt;
+  ps::XadcInterface xadc;
+  ps::Devcfg devcfg;
+  ps::Qspi qspi;
+  ps::Sdio sdio0;
+  ps::Sdio sdio1;
+  ps::Gem gem0;
+  ps::Gem gem1;
+  ps::Usb usb0;
+  ps::Usb usb1;
   ps::Ocm ocm;
   ps::Ddr ddr;
   static constexpr std::uint64_t gp0_base = 0x4000'0000, gp0_size = 0x4000'0000;  // UG585 table 4-1
@@ -148,6 +174,7 @@ class ProcessingSystem : public sc_core::sc_module {
   void map_private_bus();
   void map_peripherals();
   void connect_interrupts();
+  void connect_resets();
   void drive_fclks();
   std::string device_at(std::uint32_t address) const;
 

@@ -1,0 +1,190 @@
+#include <chip/system/xparameters.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+
+#include <chip/system/xparameters_text.h>
+#include <gic_registers.h>
+
+namespace xparameters {
+
+namespace {
+
+std::string digits(const char* format, std::uint32_t value) {
+  char text[16];
+  std::snprintf(text, sizeof text, format, static_cast<unsigned>(value));
+  return text;
+}
+
+constexpr const char* beginning =
+    "#ifndef XPARAMETERS_H\n"
+    "#define XPARAMETERS_H\n"
+    "\n"
+    "/*\n"
+    " * Written from the memory map of the platform: what Vivado would export for it. A test "
+    "holds\n"
+    " * the two together. Names without a condition are those of both flows.\n"
+    " */\n";
+
+/// The drivers of the PL whose interrupts have another name than their other values.
+std::string interrupt_driver(const std::string& driver) {
+  return driver == "AXI_FIFO" ? "LLFIFO" : driver;
+}
+
+/// The name that SDT makes of the driver's folder.
+std::string sdt_driver(const std::string& driver) {
+  return "X" + interrupt_driver(driver);
+}
+
+void define_classic(Section& out, const Device& device, unsigned number) {
+  const bool has_driver = !device.driver.empty();
+  std::vector<std::string> names{device.name};
+  if (has_driver) names.push_back(device.driver + "_" + std::to_string(number));
+  for (const std::string& name : names) {
+    if (has_driver) out.number(Section::classic, name + "_DEVICE_ID", number);
+    out.address(Section::classic, name + "_BASEADDR", device.base);
+    out.address(Section::classic, name + "_HIGHADDR", device.last);
+    for (const auto& [option, value] : device.options)
+      out.number(Section::classic, name + "_" + option, value);
+  }
+  for (const auto& [line, id] : device.interrupts)
+    out.number(Section::classic, "FABRIC_" + device.name + "_" + line + "_INTR", id);
+  if (!has_driver) return;
+  const std::string fabric =
+      "FABRIC_" + interrupt_driver(device.driver) + "_" + std::to_string(number);
+  for (const auto& [line, id] : device.interrupts)
+    out.number(Section::classic, fabric + "_" + line + "_VEC_ID", id);
+  if (device.interrupts.size() == 1)
+    out.number(Section::classic, fabric + "_VEC_ID", device.interrupts.front().second);
+}
+
+/// Under the label and, but for what only the label has, under the driver's name.
+void define_sdt(Section& out, const Device& device, unsigned number) {
+  std::vector<std::string> names{device.name};
+  if (!device.driver.empty())
+    names.push_back(sdt_driver(device.driver) + "_" + std::to_string(number));
+  for (const std::string& name : names) {
+    out.address(Section::sdt, name + "_BASEADDR", device.base);
+    out.address(Section::sdt, name + "_HIGHADDR", device.last);
+    if (!device.compatible.empty())
+      out.words(Section::sdt, name + "_COMPATIBLE", device.compatible);
+    for (const auto& [option, value] : device.sdt_options)
+      out.hex(Section::sdt, name + "_" + option, value);
+    for (std::size_t n = 0; n < device.interrupts.size(); ++n) {
+      if (n > 0 && name != device.name) break;
+      const std::uint32_t id = device.interrupts[n].second;
+      out.hex(Section::sdt, name + "_INTERRUPTS" + (n == 0 ? "" : "_" + std::to_string(n)),
+              sdt_interrupt(id));
+      out.number(Section::sdt, "FABRIC_" + name + "_INTR" + (n == 0 ? "" : "_" + std::to_string(n)),
+                 id - gic::first_spi);
+    }
+    if (!device.interrupts.empty())
+      out.address(Section::sdt, name + "_INTERRUPT_PARENT", gic::distributor_base);
+  }
+}
+
+}  // namespace
+
+void Section::add(Flow flow, const std::string& name, const std::string& value) {
+  const auto [place, is_new] = by_text_.try_emplace(name + ' ' + value, lines_.size());
+  if (is_new) {
+    lines_.push_back({name, value, flow});
+  } else {
+    lines_[place->second].flows |= flow;
+  }
+}
+
+void Section::number(Flow flow, const std::string& name, std::uint64_t value) {
+  add(flow, "XPAR_" + name, std::to_string(value));
+}
+
+void Section::hex(Flow flow, const std::string& name, std::uint32_t value) {
+  add(flow, "XPAR_" + name, digits("0x%x", value));
+}
+
+void Section::address(Flow flow, const std::string& name, std::uint32_t value) {
+  add(flow, "XPAR_" + name, digits("0x%08XU", value));
+}
+
+void Section::words(Flow flow, const std::string& name, const std::string& text) {
+  add(flow, "XPAR_" + name, '"' + text + '"');
+}
+
+void Section::plain(Flow flow, const std::string& name, const std::string& value) {
+  add(flow, name, value);
+}
+
+std::string Section::lines_of(unsigned flows) const {
+  std::string text;
+  for (const Line& line : lines_) {
+    if (line.flows == flows)
+      text += "#define " + line.name + (line.value.empty() ? "" : " " + line.value) + "\n";
+  }
+  return text;
+}
+
+// The compatibility layer's own sources look devices up in both ways.
+std::string Section::text() const {
+  std::string text = "\n/* " + title_ + " */\n" + lines_of(both);
+  const std::string of_classic = lines_of(classic), of_sdt = lines_of(sdt);
+  if (!of_classic.empty())
+    text += "#if !defined SDT || defined MARKERVP_BOTH_FLOWS\n" + of_classic + "#endif\n";
+  if (!of_sdt.empty())
+    text += "#if defined SDT || defined MARKERVP_BOTH_FLOWS\n" + of_sdt + "#endif\n";
+  return text;
+}
+
+namespace {
+
+std::string clocks_and_memory(const Platform& platform) {
+  Section out("Processor and memory");
+  for (const char* name : {"CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ", "CPU_CORTEXA9_0_CPU_CLK_FREQ_HZ",
+                           "PS7_CORTEXA9_0_CPU_CLK_FREQ_HZ"})
+    out.number(Section::classic, name, platform.cpu_hz);
+  out.number(Section::sdt, "CPU_CORE_CLOCK_FREQ_HZ", platform.cpu_hz);
+  // The compatibility layer's timers count by it in both flows.
+  out.number(Section::sdt, "CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ", platform.cpu_hz);
+  out.number(Section::both, "PS7_CRYSTAL_FREQ_HZ", platform.ps_clock_hz);
+  out.words(Section::sdt, "DEVICE_ID", platform.part);
+  out.address(Section::classic, "PS7_DDR_0_S_AXI_BASEADDR", platform.ddr_base);
+  out.address(Section::classic, "PS7_DDR_0_S_AXI_HIGHADDR", platform.ddr_last);
+  out.address(Section::sdt, "PS7_DDR_0_BASEADDRESS", platform.ddr_base);
+  out.address(Section::sdt, "PS7_DDR_0_HIGHADDRESS", platform.ddr_last);
+  out.plain(Section::classic, "PLATFORM_ZYNQ", "");
+  out.plain(Section::classic, "XSLEEP_TIMER_IS_DEFAULT_TIMER", "");
+  return out.text();
+}
+
+std::string console(const Platform& platform) {
+  if (platform.uarts.empty()) return {};
+  Section out("Console");
+  const std::string at = digits("0x%08XU", platform.uarts.back());
+  out.plain(Section::both, "STDIN_BASEADDRESS", at);
+  out.plain(Section::both, "STDOUT_BASEADDRESS", at);
+  return out.text();
+}
+
+}  // namespace
+
+std::string header(const Platform& platform) {
+  std::string text = beginning + clocks_and_memory(platform) +
+                     processing_system(platform.cpu_hz, platform.uarts) +
+                     "#include <xparameters_ps.h>\n";
+  std::map<std::string, unsigned> numbers;
+  for (const Device& device : platform.devices) {
+    Section out(device.name);
+    const unsigned number = numbers[device.driver]++;
+    define_classic(out, device, number);
+    define_sdt(out, device, number);
+    text += out.text();
+  }
+  Section counts("How many a driver has");
+  for (const auto& [driver, count] : numbers) {
+    if (!driver.empty()) counts.number(Section::both, sdt_driver(driver) + "_NUM_INSTANCES", count);
+  }
+  return text + counts.text() + console(platform) + "\n#endif\n";
+}
+
+}  // namespace xparameters

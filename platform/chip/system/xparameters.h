@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Writes xparameters.h as the vendor's tools do, in the names of both flows: the classic one, and
+/// the one with a system device tree (SDT, releases from 2023.2 on).
+namespace xparameters {
+
+using Options = std::vector<std::pair<std::string, std::uint32_t>>;
+
+/// One device of the PL as its driver sees it.
+struct Device {
+  std::string name;    ///< of the instance in capitals: "AXI_GPIO_0"
+  std::string driver;  ///< of the vendor's driver in capitals: "GPIO"; empty: it has none
+  std::uint32_t base;
+  std::uint32_t last;  ///< last address of its segment
+  /// Build options in the names of the classic flow: "IS_DUAL", 0.
+  Options options;
+  /// Lines to the interrupt controller: "MM2S_INTROUT", 61.
+  std::vector<std::pair<std::string, std::uint32_t>> interrupts;
+  /// Those of the SDT flow, where the tree has them.
+  Options sdt_options = {};
+  std::string compatible = {};  ///< "xlnx,axi-gpio-2.0"
+};
+
+struct Platform {
+  std::uint64_t cpu_hz;
+  std::uint64_t ps_clock_hz;
+  std::uint32_t ddr_base;
+  std::uint32_t ddr_last;
+  /// Base addresses in the order of their numbers; the last is the console.
+  std::vector<std::uint32_t> uarts;
+  std::vector<Device> devices;  ///< those of one driver in the order of their numbers
+  std::string part = "7z020";   ///< as SDT names the device
+};
+
+/// The text of xparameters.h.
+std::string header(const Platform& platform);
+
+}  // namespace xparameters
