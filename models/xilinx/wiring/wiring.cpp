@@ -64,11 +64,7 @@ BitOrigin Wiring::origin(const vp::SignalBase& signal, unsigned bit) {
   const vp::SignalBase* at = &signal;
   while (bit < at->width()) {
     const sc_core::sc_object* parent = at->get_parent_object();
-    if (const auto* adapter = dynamic_cast<const WireAdapter<bool>*>(parent)) {
-      at = &adapter->source();
-      continue;
-    }
-    if (const auto* adapter = dynamic_cast<const WireAdapter<std::uint32_t>*>(parent)) {
+    if (const auto* adapter = dynamic_cast<const WireAdapterBase*>(parent)) {
       at = &adapter->source();
       continue;
     }

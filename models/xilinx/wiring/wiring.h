@@ -59,18 +59,29 @@ class Wiring : public sc_core::sc_module, private vp::SignalListener {
   bool updating_ = false;
 };
 
-/// A signal of another type that follows `source`: for inputs of one bit, or of a word.
-template <class T>
-class WireAdapter : public sc_core::sc_module, private vp::SignalListener {
+/// What an adapter is, whatever the type of its output.
+class WireAdapterBase : public sc_core::sc_module, protected vp::SignalListener {
  public:
-  WireAdapter(sc_core::sc_module_name name, vp::SignalBase& source, bool inverted = false)
-      : sc_module(name), source_(source), inverted_(inverted) {
+  const char* kind() const override { return "xilinx::WireAdapter"; }
+  const vp::SignalBase& source() const { return source_; }
+
+ protected:
+  WireAdapterBase(sc_core::sc_module_name name, vp::SignalBase& source)
+      : sc_module(name), source_(source) {
     source.defer_writes();
     source.attach(*this);
   }
-  const char* kind() const override { return "xilinx::WireAdapter"; }
 
-  const vp::SignalBase& source() const { return source_; }
+  vp::SignalBase& source_;
+};
+
+/// A signal of another type that follows `source`, or its inverse: for inputs of one bit, or of a
+/// word.
+template <class T>
+class WireAdapter : public WireAdapterBase {
+ public:
+  WireAdapter(sc_core::sc_module_name name, vp::SignalBase& source, bool inverted = false)
+      : WireAdapterBase(name, source), inverted_(inverted) {}
 
   vp::Signal<T> out{"out"};
 
@@ -82,7 +93,6 @@ class WireAdapter : public sc_core::sc_module, private vp::SignalListener {
     out = std::is_same_v<T, bool> ? static_cast<T>((bits & 1) != 0) : static_cast<T>(bits);
   }
 
-  vp::SignalBase& source_;
   bool inverted_;
 };
 

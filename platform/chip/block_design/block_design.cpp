@@ -90,10 +90,16 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
         });
     if (asked_for) placed.clocks["FCLK_CLK" + number] = &ports_.fclk_clk(n);
   }
-  placed.outputs = {{"FCLK_RESET0_N", &ps.slcr.fclk_reset0_n},
-                    {"FCLK_RESET1_N", &ps.slcr.fclk_reset1_n},
-                    {"FCLK_RESET2_N", &ps.slcr.fclk_reset2_n},
-                    {"FCLK_RESET3_N", &ps.slcr.fclk_reset3_n}};
+  placed.outputs = {
+      {"FCLK_RESET0_N", &ps.slcr.fclk_reset0_n}, {"FCLK_RESET1_N", &ps.slcr.fclk_reset1_n},
+      {"FCLK_RESET2_N", &ps.slcr.fclk_reset2_n}, {"FCLK_RESET3_N", &ps.slcr.fclk_reset3_n},
+      {"GPIO_O", &ps.gpio.emio_gpio_o},          {"GPIO_T", &ps.gpio.emio_gpio_t}};
+  placed.inputs["GPIO_I"] = [this, &part](vp::SignalBase& source) {
+    auto pins = std::make_unique<xilinx::WireAdapter<std::uint64_t>>(
+        (part.name + "_GPIO_I").c_str(), source);
+    ports_.ps.gpio.emio_gpio_i(pins->out);
+    adapters_.push_back(std::move(pins));
+  };
   placed.inputs["IRQ_F2P"] = [this, &part](vp::SignalBase& source) {
     auto lines = std::make_unique<xilinx::WireAdapter<std::uint32_t>>(
         (part.name + "_IRQ_F2P").c_str(), source);

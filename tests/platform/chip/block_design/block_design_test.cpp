@@ -126,6 +126,20 @@ BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {
   BOOST_TEST(!chip.zynq->ps.gic.logic().wire[62]);
 }
 
+BOOST_AUTO_TEST_CASE(pins_of_the_ps_lead_through_gates_and_back) {
+  const std::string gates =
+      "  low: {ip: 'xilinx.com:ip:xlslice:1.0', parameters: {DIN_FROM: 3}, pins: {Din: "
+      "ps.GPIO_O}}\n  inverter: {ip: 'xilinx.com:ip:util_vector_logic:2.0', parameters: "
+      "{C_OPERATION: not, C_SIZE: 4}, pins: {Op1: low.Dout}}\n";
+  Chip chip(replaced(replaced(small_design(), "    pins:\n      M_AXI_GP0_ACLK",
+                              "    pins:\n      GPIO_I: inverter.Res\n      M_AXI_GP0_ACLK"),
+                     "\n# What each master sees", gates + "\n# What each master sees"));
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  BOOST_TEST(chip.zynq->ps.gpio.emio_gpio_i.read() == 0xFu);
+  chip.zynq->ps.gpio.emio_gpio_o = 0x35;
+  BOOST_TEST(chip.zynq->ps.gpio.emio_gpio_i.read() == 0xAu);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_joined_is_refused_with_its_line) {
   BOOST_TEST(
       refusal("axi_gpio_0.S_AXI: [0x41200000", "axi_gpio_0.S_AXI: [0x40400000").find("overlaps") !=
