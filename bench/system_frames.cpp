@@ -25,7 +25,7 @@
 namespace {
 
 using platform::Simulation;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
 
@@ -60,7 +60,7 @@ class Frames {
     return state_.KeepRunning() ? frame_ : nullptr;
   }
 
-  bool take(FrameReport&& report) {
+  bool take(UnitReport&& report) {
     if (taken_++ + 1 == bench::warm_up_frames) warm_ps_ = report.end_ps;
     last_ = std::move(report);
     return true;
@@ -70,7 +70,8 @@ class Frames {
     const auto timed = static_cast<double>(taken_ - bench::warm_up_frames);
     state_.counters["simulated_ms"] = static_cast<double>(last_.end_ps - warm_ps_) / 1e9 / timed;
     state_.counters["feature_words"] = static_cast<double>(last_.counts["feature_words"]);
-    state_.counters["marker"] = last_.markers.empty() ? -1.0 : last_.markers.front().id;
+    const auto& markers = platform::marker_frame(last_).markers;
+    state_.counters["marker"] = markers.empty() ? -1.0 : markers.front().id;
   }
 
  private:
@@ -78,7 +79,7 @@ class Frames {
   const SharedFrame frame_;
   int given_ = 0, taken_ = 0;
   std::uint64_t warm_ps_ = 0;  ///< simulated end of the warm-up
-  FrameReport last_;
+  UnitReport last_;
 };
 
 double peak_memory_mb() {
@@ -162,7 +163,8 @@ void measure_alone(benchmark::State& state, const bench::Arguments& arguments) {
   const vp::Configuration::Scope scope(configuration);
   Simulation simulation(platform::SimulationOptions{});
   configuration.check_unused();
-  const SharedFrame frame = frame_of(arguments.image, simulation.image_size());
+  const SharedFrame frame =
+      frame_of(arguments.image, platform::input::image_size(simulation.input()));
   bench::Recording& noted = recording();
   int given = 0;
   std::size_t begin = 0, end = 0;
@@ -170,7 +172,7 @@ void measure_alone(benchmark::State& state, const bench::Arguments& arguments) {
     begin = std::exchange(end, noted.evaluations);  // from one image to the next
     return given++ <= bench::warm_up_frames ? frame : nullptr;
   };
-  simulation.run(next, [](FrameReport&&) { return true; });
+  simulation.run(next, [](UnitReport&&) { return true; });
   Replay replay(noted);
   replay.play(0, begin);
   for (auto _ : state) replay.play(begin, end);
@@ -183,9 +185,9 @@ void measure(benchmark::State& state, const bench::Arguments& arguments) {
   const vp::Configuration::Scope scope(configuration);
   Simulation simulation(platform::SimulationOptions{});
   configuration.check_unused();
-  Frames frames(state, arguments.image, simulation.image_size());
+  Frames frames(state, arguments.image, platform::input::image_size(simulation.input()));
   simulation.run([&] { return frames.next(); },
-                 [&](FrameReport&& report) { return frames.take(std::move(report)); });
+                 [&](UnitReport&& report) { return frames.take(std::move(report)); });
   frames.describe_last();
   state.counters["memory_mb"] = peak_memory_mb();
   state.SetLabel(simulation.facts().fidelity);

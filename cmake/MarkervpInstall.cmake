@@ -54,7 +54,8 @@ markervp_export(device COMPONENT models ROOT platform)
 markervp_export(processing_system COMPONENT models ROOT platform)
 # For designs: headers only. The code is in the executable.
 add_library(markervp_design INTERFACE)
-target_link_libraries(markervp_design INTERFACE markervp_systemc markervp_eigen)
+find_package(nlohmann_json REQUIRED)
+target_link_libraries(markervp_design INTERFACE markervp_systemc markervp_eigen nlohmann_json::nlohmann_json)
 target_compile_definitions(markervp_design INTERFACE MARKERVP_VERSION="${PROJECT_VERSION}")
 markervp_export(design COMPONENT designs ROOT registers hal sw models vp platform)
 # What the headers ask of those who include them.

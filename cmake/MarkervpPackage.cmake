@@ -23,6 +23,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 # Libraries that the executable is linked with are found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For designs, PS programs and platforms of one's own.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libsystemc-dev, libeigen3-dev, gtkwave")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libsystemc-dev, libeigen3-dev, nlohmann-json3-dev, gtkwave")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gdb, gcc-arm-none-eabi, qemu-system-arm, slurm-wlm, sqlite3")
 include(CPack)

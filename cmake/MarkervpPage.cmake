@@ -14,12 +14,13 @@ if(NOT MARKERVP_PAGE)
 endif()
 
 set(MARKERVP_PAGE_FOLDER "${PROJECT_BINARY_DIR}/web")
+# With the pages of the marker application, and without those of any.
 set(MARKERVP_PAGE_TEMPLATE "${MARKERVP_PAGE_FOLDER}/report-template.html")
+set(MARKERVP_PLAIN_PAGE_TEMPLATE "${MARKERVP_PAGE_FOLDER}/plain-template.html")
 set(MARKERVP_PAGE_MODULES "${MARKERVP_PAGE_FOLDER}/node_modules")
 
-# Defines the rule that makes MARKERVP_PAGE_TEMPLATE. build.js lists the sources that it bundled in a dependency file, so
-# a change of any of them makes the page again.
-function(markervp_page_rule)
+# Defines the rule that fetches the packages. Once, before the rules of pages.
+function(markervp_page_packages)
   set(web "${PROJECT_SOURCE_DIR}/web")
   set(packages "")
   if(DEFINED BUILD_TESTING AND NOT BUILD_TESTING)
@@ -36,11 +37,22 @@ function(markervp_page_rule)
     DEPENDS "${web}/package.json" "${web}/package-lock.json" "${web}/.npmrc"
     COMMENT "Fetching the page's packages (npm; -DMARKERVP_PAGE=OFF builds without report.html)"
     VERBATIM)
-  add_custom_command(OUTPUT "${MARKERVP_PAGE_TEMPLATE}"
-    COMMAND "${MARKERVP_NODE}" "${web}/build.js" "${MARKERVP_PAGE_TEMPLATE}" "${MARKERVP_PAGE_MODULES}"
-      "${MARKERVP_PAGE_TEMPLATE}.d"
-    DEPENDS "${installed}" "${web}/build.js"
-    DEPFILE "${MARKERVP_PAGE_TEMPLATE}.d"
+  add_custom_target(markervp_page_packages DEPENDS "${installed}")
+endfunction()
+
+# Puts the page of an application of web/src ("" for none) into the target. build.js lists the sources that it bundled in a
+# dependency file, so a change of any of them makes the page again. The object with a page in an executable comes before
+# that in the library of pages.
+function(markervp_add_page TARGET TEMPLATE APPLICATION)
+  set(web "${PROJECT_SOURCE_DIR}/web")
+  add_custom_command(OUTPUT "${TEMPLATE}"
+    COMMAND "${MARKERVP_NODE}" "${web}/build.js" "${TEMPLATE}" "${MARKERVP_PAGE_MODULES}" "${TEMPLATE}.d" "${APPLICATION}"
+    DEPENDS markervp_page_packages "${web}/build.js"
+    DEPFILE "${TEMPLATE}.d"
     COMMENT "Bundling report.html"
     VERBATIM)
+  set(source "${PROJECT_SOURCE_DIR}/platform/result/page/template.S")
+  target_sources(${TARGET} PRIVATE "${source}" "${TEMPLATE}")
+  set_source_files_properties("${source}" PROPERTIES OBJECT_DEPENDS "${TEMPLATE}"
+    COMPILE_DEFINITIONS "MARKERVP_PAGE_TEMPLATE=\"${TEMPLATE}\"")
 endfunction()

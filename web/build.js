@@ -1,6 +1,7 @@
 // Makes one HTML file of src/: script and style inlined, nothing to load.
-//   node build.js OUTPUT [MODULES [DEPFILE]]
+//   node build.js OUTPUT [MODULES [DEPFILE [APPLICATION]]]
 // MODULES: folder of the npm packages, if not beside this file. DEPFILE: lists the sources, as a rule for make or ninja.
+// APPLICATION: the folder of src/ whose main.js and page.css add to the pages; "" for the pages alone.
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve, sep } from "node:path";
@@ -9,18 +10,21 @@ import { fileURLToPath } from "node:url";
 const here = dirname(fileURLToPath(import.meta.url));
 const output = resolve(process.argv[2] ?? "report-template.html");
 const modules = resolve(process.argv[3] ?? join(here, "node_modules"));
+const application = process.argv[5] ?? "marker";
+const script_file = join(here, "src", application, "main.js");
+const style_file = join(here, "src", application || "style", "page.css");
 const esbuild = createRequire(join(modules, "x.js"))("esbuild");
 
 const common = { bundle: true, write: false, metafile: true, minify: true, nodePaths: [modules], logLevel: "warning" };
 const script = await esbuild.build({
   ...common,
-  entryPoints: [join(here, "src/main.js")],
+  entryPoints: [script_file],
   format: "iife",
   target: ["chrome100", "firefox100", "safari15"],
   loader: { ".csv": "text" },
   legalComments: "none",
 });
-const style = await esbuild.build({ ...common, entryPoints: [join(here, "src/style/page.css")] });
+const style = await esbuild.build({ ...common, entryPoints: [style_file] });
 
 // Text inside <script> ends at the first "</script", and "<!--" changes how it is read.
 const inScript = (text) => text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");

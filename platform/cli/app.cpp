@@ -1,9 +1,14 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <string_view>
 
 #include <cli/app.h>
 #include <cli/program.h>
+#include <study/inputs.h>
 #include <vp/text.h>
 
 namespace platform::cli {
@@ -22,24 +27,24 @@ void add_configuration_options(CLI::App& command, ConfigurationOptions& target) 
 namespace {
 
 constexpr const char* examples = R"(Examples:
-  markervp run                              the demo scene, results in out/
-  markervp run z1.0 roll30 photo.png        scenes and files, one after the other
-  markervp run roll                         every scene of a group
-  markervp run clip.avi --fit scale --camera camera.yaml
-  markervp run --linux ./my_app -- -v       an unmodified Linux application
+{}  markervp run --linux ./my_app -- -v       an unmodified Linux application
   markervp run --trace run.vcd --trace-window 6ms:7ms
-  markervp run --set ps.fclk_clk1.frequency="40 MHz" --output slower
-  markervp sweep pixel-clock                many design points, a ready study
-  markervp scenes                           what can be run
+  markervp run --set ps.fclk_clk0.frequency="40 MHz" --output slower
+  markervp sweep mine.yaml                  many design points
   markervp config > platform.yaml           every parameter with its default
   markervp report slower out                compare two runs in a page
   markervp trace stats run.vcd              what a trace says: handshakes, buffers, stages
   markervp map axi_dma_0                    addresses and registers that software sees
-  markervp validate                         the thesis' chapter 5, value by value
 
-Exit codes: 0 done, 1 the program failed or a required marker was not found, 2 wrong usage,
+Exit codes: 0 done, 1 the program failed or a required job was not done, 2 wrong usage,
 configuration or input, or something could not be written, 3 hardware or software broke a protocol
 rule.)";
+
+/// Of a program without an application.
+constexpr const char* usual_examples =
+    R"(  markervp run --design mine.so             a design of your own, results in out/
+  markervp run --design mine.so samples.bin with its input, block by block
+)";
 
 constexpr const char* rtl_check_help =
     R"(  markervp rtl check corner_detection --rtl build demo z2.0 noise.png
@@ -60,10 +65,9 @@ The inputs tell how many clocks one lies behind the other. The first clock in wh
 is reported in both, with both values; compare.vcd and compare.gtkw show the clocks around it.
 docs/rtl.md has a map.)";
 
-constexpr const char* run_examples =
-    R"(INPUT is a scene, a group of scenes, an image file, a folder of images or a video. Without
-any the demo scene runs. With --linux it is an argument of the application. Results: result.json
-and an annotated picture per frame.)";
+constexpr const char* usual_run_help =
+    R"(INPUT is what the design takes: files of samples, or nothing. With --linux it is an argument of
+the application. Results: result.json and report.html.)";
 
 constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
@@ -90,14 +94,33 @@ void add_design_option(CLI::App& command, ConfigurationOptions& target) {
       ->type_name("NAME");
 }
 
+/// "scenes, images, folders, videos; files of samples": those of the application first.
+std::string what_inputs_are() {
+  std::vector<std::string> kinds;
+  for (const study::InputKind* kind : study::input_kinds()) {
+    if (kind->name != std::string_view("none")) kinds.insert(kinds.begin(), kind->what);
+  }
+  return vp::join(kinds, "; ");
+}
+
+void add_input_settings(CLI::App& command, std::map<std::string, std::string>& target) {
+  for (const study::InputKind* kind : study::input_kinds()) {
+    for (const study::InputSetting& setting : kind->settings) {
+      const std::string name = setting.name;
+      CLI::Option* option = command.add_option_function<std::string>(
+          "--" + name, [&target, name](const std::string& value) { target[name] = value; },
+          setting.meaning);
+      option->type_name(setting.value);
+      const std::vector<std::string> choices = vp::split(setting.value, '|');
+      if (choices.size() > 1) option->check(CLI::IsMember(choices).description(""));
+    }
+  }
+}
+
 void add_input_options(CLI::App& command, RunOptions& target) {
-  command.add_option("INPUT", target.inputs, "scenes, images, folders, videos")->type_name("");
-  command.add_option("--camera", target.camera, "camera calibration (OpenCV or ROS)")
-      ->type_name("FILE");
-  command.add_option("--fit", target.fit, "make images of another size fit")
-      ->type_name("crop|scale")
-      ->check(CLI::IsMember({"crop", "scale"}).description(""));
-  command.add_option("--frames", target.frames, "stop after this many frames")
+  command.add_option("INPUT", target.inputs, what_inputs_are())->type_name("");
+  add_input_settings(command, target.input_settings);
+  command.add_option("--frames", target.frames, "stop after this many inputs")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, most_frames).description(""));
   command.add_option("--repeat", target.repeat, "run all inputs this many times")
@@ -109,7 +132,7 @@ void add_platform_options(CLI::App& command, PlatformOptions& target) {
   command.add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
       ->type_name("tlm|clocked");
   command
-      .add_option("--rate", target.rate, "images come at this rate: 60 fps (default: when wanted)")
+      .add_option("--rate", target.rate, "inputs come at this rate: 60 fps (default: when wanted)")
       ->type_name("RATE");
   command
       .add_option("--program", target.program,
@@ -132,21 +155,26 @@ void add_point_option(CLI::App& command, RunOptions& target) {
 void add_output_options(CLI::App& command, RunOptions& target) {
   command.add_option("-o,--output", target.output, "folder for the results (default: out)")
       ->type_name("DIR");
-  command.add_flag("--require-marker", target.require_marker,
-                   "exit code 1 if a frame has no marker");
+  command.add_flag("--require-job", target.require_job,
+                   "exit code 1 if a unit of work, or the run, did not do its job");
+  for (const Requirement& requirement : application().requirements) {
+    const std::string tally = requirement.tally;
+    command.add_flag_callback(
+        requirement.option, [&target, tally] { target.required.push_back(tally); },
+        requirement.meaning);
+  }
   command.add_flag("--strict", target.strict, "exit code 1 if the run was warned of something");
-  command.add_flag("--no-pictures", target.no_pictures, "no annotated pictures");
+  if (application().draw)
+    command.add_flag("--no-pictures", target.no_pictures, "no annotated pictures");
   command.add_flag("--no-report", target.no_report, "no page report.html");
-  command.add_flag("-q,--quiet", target.quiet, "no report per frame");
+  command.add_flag("-q,--quiet", target.quiet, "no lines for each unit of work");
 }
 
 void add_trace_options(CLI::App& command, RunOptions& target) {
   command.add_option("--trace", target.trace, "record waveforms, .vcd or .fst")->type_name("FILE");
   command.add_option("--trace-window", target.trace_window, "record only then: 6ms:7ms")
       ->type_name("FROM:TO");
-  command
-      .add_option("--trace-filter", target.trace_filter,
-                  "record only these: 'pl.corner_detection.**'")
+  command.add_option("--trace-filter", target.trace_filter, "record only these: 'pl.axi_dma_0.**'")
       ->type_name("GLOB")
       ->expected(1)
       ->take_all();
@@ -159,7 +187,7 @@ void add_trace_options(CLI::App& command, RunOptions& target) {
   CLI::Option* trigger =
       command
           .add_option("--trace-trigger", target.trace_trigger,
-                      "keep the frames in which this comes true: 'feature_overflow rises'")
+                      "keep the frames in which this comes true: 'pl.axi_dma_0.mm2s_introut rises'")
           ->type_name("CONDITION");
   command.add_option("--trace-before", target.trace_before, "and so many frames before them")
       ->type_name("N")
@@ -214,7 +242,7 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
 }
 
 void add_run(CLI::App& app, RunOptions& target) {
-  CLI::App* command = app.add_subcommand("run", "run the platform on images");
+  CLI::App* command = app.add_subcommand("run", "run the platform");
   add_input_options(*command, target);
   add_design_option(*command, target.configuration);
   add_platform_options(*command, target);
@@ -224,7 +252,7 @@ void add_run(CLI::App& app, RunOptions& target) {
   add_output_options(*command, target);
   add_trace_options(*command, target);
   add_debug_options(*command, target);
-  command->footer(run_examples);
+  command->footer(application().run_help ? application().run_help : usual_run_help);
 }
 
 void add_rtl(CLI::App& app, RtlOptions& target) {
@@ -289,13 +317,6 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
 void add_designs(CLI::App& app, DesignsOptions& target) {
   CLI::App* command =
       app.add_subcommand("designs", "list what may stand in the programmable logic");
-  command
-      ->add_option("INPUT", target.inputs,
-                   "what figures are measured with (default: the 41 poses of chapter 5)")
-      ->type_name("");
-  command->add_flag("--figures", target.figures, "run each, show rate, errors, resources, power");
-  command->add_flag("--changes", target.changes,
-                    "the same for each change from thesis to improved");
   command->add_flag("--json", target.json, "for scripts");
 }
 
@@ -400,9 +421,9 @@ void add_completion(CLI::App& app, CompletionOptions& target) {
 
 }  // namespace
 
-std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& application) {
-  auto app = std::make_unique<CLI::App>(
-      "Virtual platform of a Zynq-7020 that finds ArUco markers at a high frame rate.", "markervp");
+std::unique_ptr<CLI::App> make_app(CommandLine& target) {
+  const Application& own = application();
+  auto app = std::make_unique<CLI::App>(own.description, "markervp");
   app->set_version_flag("--version", version_text());
   app->set_help_flag("-h,--help", "print this help");
   app->require_subcommand(1);
@@ -419,12 +440,13 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& appli
   add_rtl(*app, target.rtl);
   add_trace_command(*app, target.trace);
   add_exploration(*app, target);
-  for (const auto add : application.commands) {
-    RunCommand run = add(*app);
-    target.application[app->get_subcommands({}).back()->get_name()] = std::move(run);
+  for (const auto add : own.commands) {
+    Command command = add(*app);
+    target.application[command.name] = std::move(command.run);
   }
   add_completion(*app, target.completion);
-  app->footer(examples);  // last: commands would take it over
+  // Last: commands would take it over.
+  app->footer(fmt::format(examples, own.examples ? own.examples : usual_examples));
   return app;
 }
 
@@ -464,23 +486,30 @@ std::string see_help(const CLI::App& app) {
                           : "'markervp " + command.get_name() + " --help' shows how";
 }
 
-std::string unknown_command(const CLI::App& app, const Application& application,
-                            const std::string& word) {
+bool is_input(const std::string& word) {
+  const auto& kinds = study::input_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const study::InputKind* kind) {
+    if (!kind->names) return false;
+    const std::vector<std::string> names = kind->names();
+    return std::find(names.begin(), names.end(), word) != names.end();
+  });
+}
+
+std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::string hint = did_you_mean(word, command_names(app));
-  if (hint.empty() && application.is_input(word))
-    hint = "did you mean 'markervp run " + word + "'? ";
+  if (hint.empty() && is_input(word)) hint = "did you mean 'markervp run " + word + "'? ";
   return "unknown command '" + word + "': " + hint + "there are " +
          vp::join(command_names(app), ", ");
 }
 
 }  // namespace
 
-std::string usage_error(const CLI::App& app, const Application& application,
-                        const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
+                        const std::vector<std::string>& arguments) {
   if (arguments.empty()) return "a command is missing: " + vp::one_of(command_names(app));
   const CLI::App& command = chosen(app);
   const bool is_word = arguments.front().rfind('-', 0) != 0;
-  if (&command == &app && is_word) return unknown_command(app, application, arguments.front());
+  if (&command == &app && is_word) return unknown_command(app, arguments.front());
   const std::vector<std::string> extras = app.remaining(true);
   if (!extras.empty()) {
     const std::string name = extras.front().substr(0, extras.front().find('='));

@@ -12,7 +12,7 @@ namespace platform::cli {
 
 /// The commands and options of the program, with those of its application; parsing fills `target`,
 /// which must live as long.
-std::unique_ptr<CLI::App> make_app(CommandLine& target, const Application& application);
+std::unique_ptr<CLI::App> make_app(CommandLine& target);
 
 /// Adds --config and --set.
 void add_configuration_options(CLI::App& command, ConfigurationOptions& target);
@@ -25,8 +25,8 @@ void add_again(CLI::App& app, CommandLine& target);
 
 /// One line on what was wrong with `arguments` (without the program's name), with the nearest match
 /// of a misspelled command or option.
-std::string usage_error(const CLI::App& app, const Application& application,
-                        const CLI::ParseError& error, const std::vector<std::string>& arguments);
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
+                        const std::vector<std::string>& arguments);
 
 /// Adds `trace` and its commands.
 void add_trace_command(CLI::App& app, TraceCommandOptions& target);

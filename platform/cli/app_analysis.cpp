@@ -210,7 +210,7 @@ void add_design(CLI::App& command, TraceCommandOptions& target) {
 }
 
 void add_filter(CLI::App& command, TraceCommandOptions& target) {
-  command.add_option("--filter", target.filter, "only these: 'pl.corner_detection.**'")
+  command.add_option("--filter", target.filter, "only these: 'pl.axi_dma_0.**'")
       ->type_name("GLOB")
       ->expected(1)
       ->take_all();

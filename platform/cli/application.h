@@ -5,8 +5,14 @@
 #include <string>
 #include <vector>
 
+#include <facts/result.h>
+#include <facts/summary.h>
+
 namespace CLI {
 class App;
+}
+namespace platform::host {
+class OutputFolder;
 }
 
 namespace platform::cli {
@@ -16,12 +22,46 @@ namespace platform::cli {
 using RunCommand = std::function<int(const std::vector<std::string>& arguments, std::ostream& out,
                                      std::ostream& err)>;
 
-/// What an application adds to the platform's command line.
+/// A command by its name.
+struct Command {
+  std::string name;
+  RunCommand run;
+};
+
+/// An option of `run`: exit code 1 if a tally of the design's does not hold for a unit.
+struct Requirement {
+  const char* option;  ///< "--require-marker"
+  const char* tally;   ///< facts::Tally::name
+  const char* meaning;
+};
+
+/// What an application adds to the platform: commands, what it calls itself and its runs, and views
+/// of its units of work. Its kinds of input, designs and metrics register themselves
+/// (study::InputKindRegistration, DesignRegistration, result::UnitMetrics).
 struct Application {
-  /// Each adds one command to the parser, and returns what runs it.
-  std::vector<RunCommand (*)(CLI::App& parser)> commands;
-  /// Whether `markervp run WORD` has an input of this name.
-  bool (*is_input)(const std::string& word) = [](const std::string&) { return false; };
+  const char* description = "Virtual platform of a Zynq-7000 with a design of yours.";
+  const char* examples = nullptr;       ///< of runs, for --help; null: none of its own
+  const char* run_help = nullptr;       ///< what INPUT is, below the help of `run`
+  const char* input_command = nullptr;  ///< a command that prints the names of inputs, for shells
+  /// Each adds one command to the parser, or options to one that is there, and returns what runs
+  /// it.
+  std::vector<Command (*)(CLI::App& parser)> commands = {};
+  std::vector<Requirement> requirements = {};
+  /// Lines for the summary of a run; may be null.
+  std::vector<std::string> (*summary_lines)(const facts::Summary&) = nullptr;
+  /// Draws a unit into a file of the folder; may be null.
+  void (*draw)(const facts::UnitReport& unit, host::OutputFolder& folder) = nullptr;
+  /// What the page shows of a unit, a JSON text; may be null.
+  std::string (*page_view)(const facts::UnitReport& unit) = nullptr;
+};
+
+/// The one of this program.
+const Application& application();
+
+/// Makes it that: an object of the application, before main().
+class ApplicationRegistration {
+ public:
+  explicit ApplicationRegistration(Application application);
 };
 
 }  // namespace platform::cli

@@ -94,9 +94,11 @@ std::string bash_values(const ValueKind& value) {
       return fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")",
                          vp::join(value.choices, " "));
     case Kind::input:
-      return "mapfile -t COMPREPLY < <(compgen -W \"$(\"$program\" scenes --names 2>/dev/null)\" "
-             "-- "
-             "\"$word\"; compgen -f -- \"$word\"); compopt -o filenames";
+      if (!application().input_command) return bash_values({Kind::file, {}});
+      return fmt::format(
+          "mapfile -t COMPREPLY < <(compgen -W \"$(\"$program\" {} 2>/dev/null)\" -- "
+          "\"$word\"; compgen -f -- \"$word\"); compopt -o filenames",
+          application().input_command);
     default:
       return ":";
   }

@@ -1,25 +1,26 @@
 #include <cli/frame_runner.h>
 
+#include <algorithm>
 #include <ostream>
 #include <utility>
 
+#include <cli/application.h>
 #include <host/process.h>
-#include <marker/picture/picture.h>
 #include <result/console.h>
 #include <vp/error.h>
 
 namespace platform::cli {
 
-FrameRunner::FrameRunner(input::FrameSource& source) : source_(source), first_(source.next()) {}
+FrameRunner::FrameRunner(facts::InputSource& source) : source_(source), first_(source.next()) {}
 
 void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
   const std::optional<std::uint64_t> total = source_.size();
   if (outputs.progress && total && *total > 1) {
-    progress_ = std::make_unique<vp::Progress>("frames", *total);
+    progress_ = std::make_unique<vp::Progress>(simulation.work().many(), *total);
   }
   try {
-    simulation.run([this] { return give(source_); },
-                   [&](facts::FrameReport&& report) { return take(std::move(report), outputs); });
+    simulation.run([this] { return give(); },
+                   [&](facts::UnitReport&& report) { return take(report, outputs); });
   } catch (...) {
     // An error of our own, below, came first and is the cause.
     if (!error_) error_ = std::current_exception();
@@ -27,59 +28,32 @@ void FrameRunner::run(Simulation& simulation, const Outputs& outputs) {
   progress_.reset();
 }
 
-input::SharedFrame FrameRunner::give(input::FrameSource& source) {
+facts::SharedInput FrameRunner::give() {
   if (error_ || host::InterruptGuard::noted()) return nullptr;
   try {
-    input::SharedFrame frame = first_ ? std::move(first_) : source.next();
-    if (frame) pending_.push_back(frame);
-    return frame;
+    return first_ ? std::move(first_) : source_.next();
   } catch (...) {
     error_ = std::current_exception();
     return nullptr;
   }
 }
 
-bool FrameRunner::take(facts::FrameReport report, const Outputs& outputs) {
+bool FrameRunner::take(const facts::UnitReport& report, const Outputs& outputs) {
   if (error_) return false;
   try {
-    write(report, input_of(report), outputs);
-    pending_.pop_front();
-    ++first_pending_;
+    write(report, outputs);
   } catch (...) {
     error_ = std::current_exception();
   }
   return !error_;
 }
 
-/// A program may leave out frames, but not go back or ahead.
-const input::InputFrame& FrameRunner::input_of(const facts::FrameReport& report) {
-  while (first_pending_ < report.index && !pending_.empty()) {
-    pending_.pop_front();
-    ++first_pending_;
-  }
-  if (first_pending_ != report.index || pending_.empty()) {
-    throw vp::ProtocolError("the program reported frame " + std::to_string(report.index) +
-                            ", which it was not given or reported already");
-  }
-  return *pending_.front();
-}
-
-void FrameRunner::write(facts::FrameReport& report, const input::InputFrame& input,
-                        const Outputs& outputs) {
-  report.input = input.name;
-  report.truth = input.truth;
-  report.further_truth = input.further_truth;
-  report.camera = input.camera;
-  if (outputs.pictures) {
-    write_png(picture::annotate(input.image, report),
-              outputs.pictures->add(picture::picture_name(report)));
-  }
-  if (outputs.page) outputs.page->add(input.image, report);
+void FrameRunner::write(const facts::UnitReport& report, const Outputs& outputs) {
+  const Application& own = application();
+  if (outputs.pictures && own.draw) own.draw(report, *outputs.pictures);
+  if (outputs.page && own.page_view) outputs.page->add(report.index, own.page_view(report));
   outputs.result.add(report);
-  if (report.markers.empty() && without_marker_++ == 0) first_without_marker_ = input.name;
-  if (report.board && report.board->misfit.empty()) boards_fit_ = true;
-  if (report.board && misfit_.empty() && !report.board->misfit.empty())
-    misfit_ = input.name + ": " + report.board->misfit;
+  judge(report);
   warnings_ += report.warnings.size();
   ++frames_;
   if (progress_) progress_->update(frames_);
@@ -87,6 +61,28 @@ void FrameRunner::write(facts::FrameReport& report, const input::InputFrame& inp
   if (!outputs.text) return;
   outputs.out << result::frame_text(report, source_.size());
   host::check_written(outputs.out);
+}
+
+void FrameRunner::Missing::add(const facts::UnitReport& unit) {
+  if (units++ == 0) first = unit.input.empty() ? std::to_string(unit.index + 1) : unit.input;
+}
+
+FrameRunner::Missing FrameRunner::without(const std::string& tally) const {
+  const auto known = without_.find(tally);
+  return known == without_.end() ? Missing{} : known->second;
+}
+
+void FrameRunner::judge(const facts::UnitReport& report) {
+  if (!report.fulfilled()) unfulfilled_.add(report);
+  for (const Requirement& requirement : application().requirements) {
+    const auto& held = report.tallies;
+    if (std::find(held.begin(), held.end(), requirement.tally) == held.end())
+      without_[requirement.tally].add(report);
+  }
+  const std::optional<std::string> misfit = report.extra ? report.extra->misfit() : std::nullopt;
+  if (!misfit) return;
+  if (misfit->empty()) fits_ = true;
+  if (misfit_.empty() && !misfit->empty()) misfit_ = report.input + ": " + *misfit;
 }
 
 }  // namespace platform::cli

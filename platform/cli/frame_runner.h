@@ -2,72 +2,78 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <exception>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 
 #include <chip/run/simulation.h>
+#include <facts/unit.h>
 #include <host/output_folder.h>
-#include <marker/input/frame_source.h>
 #include <result/page/report_page.h>
 #include <result/result_json.h>
 #include <vp/progress.h>
 
 namespace platform::cli {
 
-/// Where a run's frames come from and where its reports go: between inputs, simulation, pictures,
-/// console and result file. Memory does not grow with the number of frames.
+/// Where a run's inputs come from and where its reports go: between inputs, simulation, pictures,
+/// console and result file. Memory does not grow with the number of units.
 class FrameRunner {
  public:
   struct Outputs {
-    host::OutputFolder* pictures = nullptr;  ///< gets a picture a frame; null: none
-    bool text = true;                        ///< a few lines per frame on `out`
+    host::OutputFolder* pictures = nullptr;  ///< gets a picture of each unit; null: none
+    bool text = true;                        ///< a few lines per unit on `out`
     bool progress = false;                   ///< a bar on stderr
-    std::atomic<std::uint64_t>* done;        ///< counts frames; may be null
+    std::atomic<std::uint64_t>* done;        ///< counts units; may be null
     std::ostream& out;
     result::ResultSink& result;
-    page::RunExtras* page = nullptr;  ///< gets images and features; null: no page
+    page::RunExtras* page = nullptr;  ///< gets what the application shows; null: no page
   };
 
-  /// Makes the first frame, so that a bad input shows before anything else happens. Throws
+  /// Makes the first input, so that a bad one shows before anything else happens. Throws
   /// vp::InputError.
-  explicit FrameRunner(input::FrameSource& source);
+  explicit FrameRunner(facts::InputSource& source);
 
-  /// Runs the simulation on all frames. Errors of inputs, outputs and simulation are kept in
+  /// Runs the simulation on all inputs. Errors of inputs, outputs and simulation are kept in
   /// error(), not thrown.
   void run(Simulation& simulation, const Outputs& outputs);
 
   /// What ended the run early; null if nothing did. An interrupt is none.
   std::exception_ptr error() const { return error_; }
   std::uint64_t frames() const { return frames_; }
-  /// In the reports of all frames.
+  /// In the reports of all units.
   std::uint64_t warnings() const { return warnings_; }
-  std::uint64_t without_marker() const { return without_marker_; }
-  /// Why the first board was refused; empty if one fitted in any frame, or none was seen.
-  std::string misfit() const { return boards_fit_ ? std::string() : misfit_; }
-  /// The first input in which no marker was found.
-  const std::string& first_without_marker() const { return first_without_marker_; }
+  /// Units that lack something, and the first of them.
+  struct Missing {
+    std::uint64_t units = 0;
+    std::string first;
+    void add(const facts::UnitReport& unit);
+  };
+  /// Those that did not do their job.
+  const Missing& unfulfilled() const { return unfulfilled_; }
+  /// Those for which the tally of this name does not hold.
+  Missing without(const std::string& tally) const;
+  /// Why settings and inputs do not belong together, of the first unit that says so; empty if they
+  /// do in any unit, or that is not known.
+  std::string misfit() const { return fits_ ? std::string() : misfit_; }
 
  private:
-  input::SharedFrame give(input::FrameSource& source);
-  bool take(facts::FrameReport report, const Outputs& outputs);
-  const input::InputFrame& input_of(const facts::FrameReport& report);
-  void write(facts::FrameReport& report, const input::InputFrame& input, const Outputs& outputs);
+  facts::SharedInput give();
+  bool take(const facts::UnitReport& report, const Outputs& outputs);
+  void write(const facts::UnitReport& report, const Outputs& outputs);
+  void judge(const facts::UnitReport& report);
 
-  input::FrameSource& source_;
-  input::SharedFrame first_;
-  std::deque<input::SharedFrame> pending_;  ///< given to the simulation, report not yet taken
-  std::uint32_t first_pending_ = 0;         ///< index of the first of them
+  facts::InputSource& source_;
+  facts::SharedInput first_;
   std::unique_ptr<vp::Progress> progress_;
   std::exception_ptr error_;
   std::uint64_t frames_ = 0;
   std::uint64_t warnings_ = 0;
-  std::uint64_t without_marker_ = 0;
-  std::string first_without_marker_;
+  Missing unfulfilled_;
+  std::map<std::string, Missing> without_;  ///< of the required tallies
   std::string misfit_;
-  bool boards_fit_ = false;
+  bool fits_ = false;
 };
 
 }  // namespace platform::cli

@@ -21,7 +21,7 @@ struct ConfigurationOptions {
 
 /// What the platform is, in words of their own: --fidelity, --program, --rate.
 struct PlatformOptions {
-  std::optional<std::string> rate;  ///< of the camera: "60" or "60 fps"
+  std::optional<std::string> rate;  ///< of the inputs: "60" or "60 fps"
   std::optional<std::string> fidelity;
   std::optional<std::string> program;
 };
@@ -52,9 +52,8 @@ struct RunOptions : PlatformOptions {
   std::vector<std::string> inputs;
   ConfigurationOptions configuration;
   std::string output = "out";
-  std::optional<std::string> camera;
-  std::optional<std::string> fit;
-  std::optional<std::string> point;  ///< file of a sweep's point, to run it again
+  std::map<std::string, std::string> input_settings;  ///< by study::InputSetting::name
+  std::optional<std::string> point;                   ///< file of a sweep's point, to run it again
   std::optional<std::string> trace;
   std::optional<std::string> trace_window;
   std::vector<std::string> trace_filter;
@@ -76,14 +75,15 @@ struct RunOptions : PlatformOptions {
   std::vector<std::string> terminals;    ///< "uart1", "uart1=LINK"
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
-  bool require_marker = false;
-  bool strict = false;  ///< warnings of the run are failures
+  bool require_job = false;
+  std::vector<std::string> required;  ///< tallies that must hold for each unit
+  bool strict = false;                ///< warnings of the run are failures
   bool no_pictures = false;
   bool no_report = false;
   bool quiet = false;
   std::optional<HistoryOptions> history;  ///< what a second run is to find out
   std::optional<DebugOptions> debug;      ///< where a second run is to stop
-  /// Counts frames that are done, in memory that another process may watch; may be null.
+  /// Counts units that are done, in memory that another process may watch; may be null.
   std::atomic<std::uint64_t>* frames_done = nullptr;
 };
 
@@ -116,9 +116,6 @@ struct RtlOptions {
 
 /// `markervp designs`.
 struct DesignsOptions {
-  std::vector<std::string> inputs;  ///< of figures; none: the 41 poses of the thesis
-  bool figures = false;             ///< what each one reaches and takes
-  bool changes = false;             ///< the same for each step from thesis to improved
   bool json = false;
 };
 

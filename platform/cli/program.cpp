@@ -3,12 +3,31 @@
 #include <cli/app.h>
 #include <cli/commands.h>
 #include <host/process.h>
+#include <study/inputs.h>
 #include <vp/error.h>
 #include <CLI/CLI.hpp>
 
 #include <ostream>
+#include <utility>
 
 namespace platform::cli {
+
+namespace {
+
+Application& registered() {
+  static Application of_program;
+  return of_program;
+}
+
+}  // namespace
+
+const Application& application() {
+  return registered();
+}
+
+ApplicationRegistration::ApplicationRegistration(Application application) {
+  registered() = std::move(application);
+}
 
 std::string program_version() {
   return MARKERVP_VERSION;
@@ -34,7 +53,9 @@ facts::Provenance provenance(const RunOptions& options, const std::vector<std::s
   result.host = host::host_name();
   result.date = host::utc_now();
   result.details.emplace_back("output", options.output);
-  if (options.camera) result.details.emplace_back("camera", *options.camera);
+  for (const auto& [name, value] : options.input_settings) {
+    if (study::is_file_setting(name)) result.details.emplace_back(name, value);
+  }
   if (options.program) result.details.emplace_back("program_file", *options.program);
   if (options.linux_app) result.details.emplace_back("linux_application", *options.linux_app);
   if (options.trace) result.details.emplace_back("trace", *options.trace);
@@ -46,6 +67,8 @@ namespace {
 int run_command(const CLI::App& app, const CommandLine& line,
                 const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   const std::string command = app.get_subcommands().front()->get_name();
+  const auto own = line.application.find(command);
+  if (own != line.application.end()) return own->second(arguments, out, err);
   if (command == "run") return run(line.run, arguments, out, err);
   if (command == "history") return tell_history(line.history, out);
   if (command == "debug") return debug_run(line.debug, out, err);
@@ -68,8 +91,6 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
   if (command == "compare") return compare_runs(line.compare, out);
-  const auto own = line.application.find(command);
-  if (own != line.application.end()) return own->second(arguments, out, err);
   return print_completion(app, out);
 }
 
@@ -97,22 +118,21 @@ std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
 
 void parse_again(const std::vector<std::string>& arguments, CommandLine& line) {
   try {
-    make_app(line, {})->parse(for_parser(arguments));
+    make_app(line)->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
     throw vp::InputError(std::string("the run's command line is not one of this version: ") +
                          error.what());
   }
 }
 
-int run_program(const Application& application, const std::vector<std::string>& arguments,
-                std::ostream& out, std::ostream& err) {
+int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CommandLine line;
-  const std::unique_ptr<CLI::App> app = make_app(line, application);
+  const std::unique_ptr<CLI::App> app = make_app(line);
   try {
     app->parse(for_parser(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      return host::fail(err, usage_error(*app, application, error, arguments), wrong_input);
+      return host::fail(err, usage_error(*app, error, arguments), wrong_input);
     }
     app->exit(error, out, err);
     return host::exit_code_of([&] { return written(done, out); }, err);

@@ -10,11 +10,10 @@
 
 namespace platform::cli {
 
-/// The whole program but main(), with what the application adds: parses `arguments` (without the
+/// The whole program but main(), with what its application adds: parses `arguments` (without the
 /// program's name), runs the command, writes what the user reads to `out` and one line on what went
 /// wrong to `err`. Returns the exit code.
-int run_program(const Application& application, const std::vector<std::string>& arguments,
-                std::ostream& out, std::ostream& err);
+int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
 
 /// Parses the arguments of a run that was made before. Throws vp::InputError if they are none.
 void parse_again(const std::vector<std::string>& arguments, CommandLine& line);

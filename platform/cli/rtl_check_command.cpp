@@ -193,22 +193,34 @@ std::string value_of(const study::Elaborated& platform, const std::string& path)
   return "";
 }
 
+struct FrameSize {
+  int width = 0, height = 0;
+};
+
+/// Of the frames that the design takes. Throws vp::InputError if it takes none.
+FrameSize frame_size(const study::Elaborated& platform) {
+  FrameSize size;
+  if (std::sscanf(platform.input.shape.c_str(), "%dx%d", &size.width, &size.height) != 2)
+    throw vp::InputError("this design takes no frames: 'rtl check' plays frames to it");
+  return size;
+}
+
 PinPlay pins_of(const RtlOptions& options, const study::Elaborated& platform,
                 const RunOptions& run) {
   const auto number = [&](const std::string& path, std::uint32_t otherwise) {
     const std::string text = value_of(platform, path);
     return text.empty() ? otherwise : static_cast<std::uint32_t>(std::stoul(text));
   };
+  const FrameSize size = frame_size(platform);
   PinPlay play;
   play.instance = options.ip;
   play.object = object_of(options.rtl, options.ip);
   play.seed = number("pl.fidelity." + options.ip + "_seed", 0);
-  play.geometry = {static_cast<std::uint32_t>(platform.size.width),
-                   static_cast<std::uint32_t>(platform.size.height),
+  play.geometry = {static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
                    number("pl.burst_words", marker_logic::usual_burst_words),
                    number("pl.pixels_per_clock", 1)};
   play.parameters = platform.parameters;
-  for (StimulusPicture& picture : stimulus_pictures(platform.size.width, platform.size.height)) {
+  for (StimulusPicture& picture : stimulus_pictures(size.width, size.height)) {
     // Where there is most to see, more often.
     const int times = picture.name == "noise" || picture.name == "few_levels" ? 8 : 1;
     for (int i = 0; i < times; ++i) play.pictures.push_back(picture.pixels);
@@ -232,16 +244,17 @@ std::vector<Play> plays_of(const RtlOptions& options) {
   ConfigurationOptions watched = lockstep_options(options, folder).configuration;
   watched.assignments.push_back("fidelity=clocked");  // as a run with a trace has it
   const study::Elaborated platform = elaborate(watched, options.run.program);
+  const FrameSize size = frame_size(platform);
   const auto value = [&](const std::string& path) { return value_of(platform, path); };
   const std::string pictures = (fs::path(folder) / "stimuli").string();
   fs::create_directories(pictures);
-  auto files = write_stimuli(pictures, platform.size.width, platform.size.height);
-  const bool is_large = platform.size.width * platform.size.height > 1 << 16;
+  auto files = write_stimuli(pictures, size.width, size.height);
+  const bool is_large = size.width * size.height > 1 << 16;
   if (is_large) files.resize(most_large);  // that a check takes a minute
   const auto add = [&](const std::string& name) -> RunOptions& {
     RunOptions play = lockstep_options(options, (fs::path(folder) / name).string());
     play.inputs = files;
-    play.camera.reset();
+    play.input_settings.erase("camera");
     return plays.emplace_back(Play{name, play}).options;
   };
   const std::string design = value("design");

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <cli/application.h>
 #include <cli/commands.h>
 #include <cli/frame_runner.h>
 #include <cli/options.h>
@@ -9,6 +10,8 @@
 #include <result/console.h>
 #include <result/page/report_page.h>
 #include <result/result_json.h>
+#include <result/verdict.h>
+#include <study/inputs.h>
 #include <study/manifest.h>
 #include <study/point.h>
 #include <vp/error.h>
@@ -40,7 +43,20 @@ void refuse_doubles(const RunOptions& options) {
   };
   if (!options.inputs.empty()) refuse("inputs already: leave out INPUT");
   if (options.program) refuse("PS program already: leave out --program");
-  if (options.camera) refuse("camera already: leave out --camera");
+  for (const auto& [setting, unused] : options.input_settings) {
+    if (study::is_file_setting(setting)) refuse(setting + " already: leave out --" + setting);
+  }
+}
+
+/// Those of earlier versions had members of their own.
+study::Json input_settings_of(const study::PointRecord& record) {
+  study::Json settings = record.run.value("input", study::Json::object());
+  for (const study::Json& from : {record.run, record.identity_json()}) {
+    for (const char* setting : {"camera", "fit"}) {
+      if (from.contains(setting) && from[setting].is_string()) settings[setting] = from[setting];
+    }
+  }
+  return settings;
 }
 
 RunOptions options_of(const study::PointRecord& record, const RunOptions& options,
@@ -53,9 +69,8 @@ RunOptions options_of(const study::PointRecord& record, const RunOptions& option
   result.inputs = record.run.at("inputs").get<std::vector<std::string>>();
   const auto program = record.run.at("program").get<std::string>();
   if (!program.empty()) result.program = program;
-  if (record.run.contains("camera")) result.camera = record.run.at("camera").get<std::string>();
-  if (!identity.at("fit").is_null() && !result.fit)
-    result.fit = identity.at("fit").get<std::string>();
+  for (const auto& [setting, value] : input_settings_of(record).items())
+    result.input_settings.emplace(setting, value.get<std::string>());
   if (!identity.at("frames").is_null() && !result.frames)
     result.frames = identity.at("frames").get<std::uint64_t>();
   if (result.repeat == 1) result.repeat = identity.at("repeat").get<std::uint64_t>();
@@ -146,12 +161,11 @@ StopOptions stop_options(const DebugOptions& options) {
 LinuxOptions linux_options(const RunOptions& options) {
   const auto refuse = [](const std::string& option) {
     throw vp::InputError("--linux with " + option +
-                         ": a Linux application takes no images, and is no PS program; leave one "
+                         ": a Linux application takes no inputs, and is no PS program; leave one "
                          "of the two out");
   };
   if (options.program) refuse("--program");
-  if (options.camera) refuse("--camera");
-  if (options.fit) refuse("--fit");
+  if (!options.input_settings.empty()) refuse("--" + options.input_settings.begin()->first);
   if (options.rate) refuse("--rate");
   if (options.frames) refuse("--frames");
   if (options.repeat != 1) refuse("--repeat");
@@ -194,15 +208,12 @@ SimulationOptions simulation_options(const RunOptions& options) {
   return result;
 }
 
-input::InputOptions input_options(const RunOptions& options, const Simulation& simulation) {
-  input::InputOptions result;
-  result.size = simulation.image_size();
-  result.corrects_lens = simulation.corrects_lens();
-  if (options.fit) result.fit = *options.fit == "crop" ? input::Fit::crop : input::Fit::scale;
-  if (options.camera) result.camera = input::read_camera_file(*options.camera);
-  result.repeat = options.repeat;
-  result.limit = options.frames;
-  return result;
+/// A Linux application has the inputs' words for arguments.
+study::InputRequest input_request(const RunOptions& options, const Simulation& simulation) {
+  study::InputRequest request{options.inputs, options.input_settings, simulation.input(),
+                              options.repeat, options.frames};
+  if (options.linux_app) request.names.clear();
+  return request;
 }
 
 /// Without "." and a "/" at the end, so that two ways to write it are equal.
@@ -345,13 +356,18 @@ std::string trace_text(const RunOptions& options, const trace::Vocabulary& words
                              ": --fidelity clocked does";
 }
 
+std::vector<std::string> own_lines(const facts::Summary& summary) {
+  const Application& own = application();
+  return own.summary_lines ? own.summary_lines(summary) : std::vector<std::string>();
+}
+
 /// `failed`: something could not be written, which has its own message.
 std::string written_text(const RunOptions& options, const FrameRunner& runner,
                          const Simulation& simulation, const vp::Configuration& configuration,
                          bool has_page, bool failed) {
   const bool has_trace = simulation.wrote_trace();
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
-  if (!options.no_pictures && runner.frames() > 0)
+  if (application().draw && !options.no_pictures && runner.frames() > 0)
     text += ", " + result::counted(runner.frames(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
   if (!failed) {
@@ -365,9 +381,10 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
   return text + "\n";
 }
 
-/// `warnings`: those of the run as a whole, which no frame's report has.
+/// `warnings`: those of the run as a whole, which no unit's report has. `job`: of the verdict.
 int verdict(const RunOptions& options, const FrameRunner& runner, const facts::RunFacts& facts,
-            std::uint64_t warnings, const std::exception_ptr& error, std::ostream& err) {
+            const result::Verdict::Part& job, std::uint64_t warnings,
+            const std::exception_ptr& error, std::ostream& err) {
   if (error) std::rethrow_exception(error);
   if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted; results up to here are kept" << std::endl;
@@ -382,10 +399,22 @@ int verdict(const RunOptions& options, const FrameRunner& runner, const facts::R
     err << "markervp: " << misfit << std::endl;
     return host::wrong_input;
   }
-  if (options.require_marker && runner.without_marker() > 0) {
-    err << "markervp: no marker in " << runner.without_marker() << " of "
-        << result::counted(runner.frames(), "frame") << ", first in "
-        << runner.first_without_marker() << std::endl;
+  const auto missing = [&](const std::string& what, const FrameRunner::Missing& units) {
+    err << "markervp: " << what << " in " << units.units << " of "
+        << facts.work.counted(runner.frames()) << ", first in " << units.first << std::endl;
+    return run_failed;
+  };
+  for (const facts::Tally& tally : facts.work.tallies) {
+    const auto& required = options.required;
+    const FrameRunner::Missing units = runner.without(tally.name);
+    if (std::find(required.begin(), required.end(), tally.name) != required.end() &&
+        units.units > 0)
+      return missing(tally.without, units);
+  }
+  if (options.require_job && runner.unfulfilled().units > 0)
+    return missing("job not done", runner.unfulfilled());
+  if (options.require_job && job.holds != result::Holds::yes) {
+    err << "markervp: job not done: " << job.why << std::endl;
     return run_failed;
   }
   warnings += runner.warnings();
@@ -411,9 +440,7 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   if (!page && !options.timeline) asked.timeline_frames = 0;
   asked.console = memory ? memory->console : &out;
   const std::unique_ptr<Simulation> simulation = build(configuration, asked);
-  const auto source =
-      input::open_inputs(options.linux_app ? std::vector<std::string>() : options.inputs,
-                         input_options(options, *simulation));
+  const auto source = study::open_inputs(input_request(options, *simulation));
   FrameRunner runner(*source);
   check_outputs_differ(options);
   check_trace(options);
@@ -454,20 +481,22 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
   warnings.insert(warnings.end(), facts.warnings.begin(), facts.warnings.end());
   facts.incomplete = incomplete(runner);
   result.finish(facts, origin, warnings);
+  const result::Verdict::Part job = result::job_of(facts, result.summary());
   if (memory) {
     memory->configuration = configuration.values();
     memory->history = simulation->history();
     memory->missed_stop = simulation->missed_stop();
-    return verdict(options, runner, facts, warnings.size(), runner.error(), err);
+    return verdict(options, runner, facts, job, warnings.size(), runner.error(), err);
   }
   std::exception_ptr error = runner.error();
   const bool has_page = write_views(
       {timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder, configuration},
       *simulation, error);
-  out << (options.quiet ? "" : "\n") << result::summary_text(result.summary(), facts)
+  out << (options.quiet ? "" : "\n")
+      << result::summary_text(result.summary(), facts, own_lines(result.summary()))
       << written_text(options, runner, *simulation, configuration, has_page, error != nullptr)
       << std::flush;
-  return verdict(options, runner, facts, warnings.size(), error, err);
+  return verdict(options, runner, facts, job, warnings.size(), error, err);
 }
 
 }  // namespace

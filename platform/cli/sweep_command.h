@@ -38,7 +38,7 @@ bool runs_own_code(const std::string& program,
 /// loaded.
 int run_point(const study::PointRun& point, study::PointResult& result, std::ostream& err);
 
-/// Renders the scenes of the points before processes are forked.
+/// Makes inputs of the points that take long before processes are forked.
 void warm_up(const study::Manifest& manifest, const std::vector<std::size_t>& positions);
 
 /// Positions of the points from `first` on that have no result yet. Results that no log knows are

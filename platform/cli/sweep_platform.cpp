@@ -9,10 +9,10 @@
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <host/process.h>
-#include <marker/input/frame_source.h>
 #include <pl/common/known_frames.h>
 #include <ps/cpu/program.h>
 #include <study/axes.h>
+#include <study/inputs.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
@@ -23,9 +23,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Memory for scenes that were rendered before: 200 at 640×480.
-constexpr std::size_t most_scene_bytes = std::size_t{64} << 20;
-/// The same for pictures whose words are known.
+/// Memory for inputs that were made before: 200 of 640×480 bytes.
+constexpr std::size_t most_input_bytes = std::size_t{64} << 20;
+/// The same for frames whose words are known.
 constexpr std::size_t most_known_bytes = std::size_t{32} << 20;
 
 std::optional<std::string> if_named(const std::string& text) {
@@ -37,9 +37,10 @@ std::string last_line(const std::string& text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-Json to_json(const std::vector<vp::ParameterDescription>& parameters, input::ImageSize size) {
+Json to_json(const std::vector<vp::ParameterDescription>& parameters,
+             const facts::InputNeed& input) {
   Json json;
-  json["size"] = {size.width, size.height};
+  json["input"] = {input.kind, input.bytes, input.shape};
   json["parameters"] = Json::array();
   for (const vp::ParameterDescription& p : parameters)
     json["parameters"].push_back({p.path, p.value, p.default_value, p.allowed});
@@ -48,7 +49,9 @@ Json to_json(const std::vector<vp::ParameterDescription>& parameters, input::Ima
 
 study::Elaborated elaborated_from(const Json& json) {
   study::Elaborated result;
-  result.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+  const Json& input = json.at("input");
+  result.input = {input.at(0).get<std::string>(), input.at(1).get<std::size_t>(),
+                  input.at(2).get<std::string>()};
   for (const Json& p : json.at("parameters")) {
     vp::ParameterDescription description;
     description.path = p.at(0).get<std::string>();
@@ -64,7 +67,7 @@ Json built(vp::Configuration& configuration, const std::optional<std::string>& p
   SimulationOptions options;
   options.program = program;
   const auto simulation = cli::build(configuration, options);
-  return to_json(configuration.parameters(), simulation->image_size());
+  return to_json(configuration.parameters(), simulation->input());
 }
 
 }  // namespace
@@ -126,8 +129,7 @@ RunOptions options_of(const study::PointRun& point) {
   RunOptions options;
   options.inputs = point.inputs;
   options.program = if_named(point.program);
-  options.camera = point.input.camera;
-  options.fit = point.input.fit;
+  options.input_settings = point.input.settings;
   options.frames = point.input.frames;
   options.repeat = point.input.repeat;
   for (const auto& [path, value] : point.settings)
@@ -167,13 +169,10 @@ void warm_up(const study::Manifest& manifest, const std::vector<std::size_t>& po
     const std::size_t index = manifest.points[position].input_set;
     if (!seen.insert(index).second) continue;
     const study::InputSet& set = manifest.input_sets[index];
-    input::InputOptions options;
-    options.size = set.size;
-    if (manifest.input.camera) options.camera = input::read_camera_file(*manifest.input.camera);
-    if (manifest.input.fit)
-      options.fit = *manifest.input.fit == "crop" ? input::Fit::crop : input::Fit::scale;
     try {
-      input::keep_scenes(set.inputs, options, most_scene_bytes);
+      const study::InputKind& kind = study::input_kind(set.need.kind);
+      if (kind.warm_up)
+        kind.warm_up({set.inputs, manifest.input.settings, set.need}, most_input_bytes);
     } catch (const vp::InputError&) {
       // The points fail then, and say why.
     }

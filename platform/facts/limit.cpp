@@ -20,7 +20,7 @@ constexpr const char* camera = "camera";
 constexpr double nearly_all_percent = 99.5;
 
 /// The stages that do the work of a frame: none that only contains others, or waits for them.
-Stages working_stages(const FrameReport& frame) {
+Stages working_stages(const UnitReport& frame) {
   Stages list;
   for (const StageTime& stage : frame.times) {
     if (!stage.part_of.empty() && !stage.waits && !has_parts(frame.times, stage.name))
@@ -31,7 +31,7 @@ Stages working_stages(const FrameReport& frame) {
 
 /// Takes those out of `stages` that began before the frame before had its result, at
 /// `last_end_ps`. A design need not say when a stage began.
-Stages take_ahead(Stages& stages, const FrameReport& frame, std::uint64_t last_end_ps) {
+Stages take_ahead(Stages& stages, const UnitReport& frame, std::uint64_t last_end_ps) {
   const auto behind =
       std::stable_partition(stages.begin(), stages.end(), [&](const StageTime* stage) {
         return frame.start_ps <= stage->start_ps && stage->start_ps < last_end_ps;
@@ -67,7 +67,7 @@ const char* to_string(Limit::Kind kind) {
   return "";
 }
 
-std::string Limit::text() const {
+std::string Limit::text(const Work& work) const {
   const std::string one = kind == Kind::camera ? camera : stages.front();
   const auto share = std::find_if(percent.begin(), percent.end(),
                                   [&](const auto& entry) { return entry.first == one; });
@@ -75,12 +75,13 @@ std::string Limit::text() const {
                                ? fmt::format(" for {:.0f} % of the run", share->second)
                                : "";
   if (kind == Kind::camera) {
-    return fmt::format("the camera sets the frame rate{}: an image each {:.1f} us", part,
-                       period_us);
+    const bool is_vowel = std::string("aeiou").find(work.given.front()) != std::string::npos;
+    return fmt::format("the camera sets the {} rate{}: {} {} each {:.1f} us", work.unit, part,
+                       is_vowel ? "an" : "a", work.given, period_us);
   }
   return fmt::format(
-      "{} {} the frame rate{}: {:.1f} of {:.1f} us, {}", names_text(stages),
-      stages.size() > 1 ? "set" : "sets", part, stages_us, period_us,
+      "{} {} the {} rate{}: {:.1f} of {:.1f} us, {}", names_text(stages),
+      stages.size() > 1 ? "set" : "sets", work.unit, part, stages_us, period_us,
       kind == Kind::sequence ? "one stage follows the other" : "other stages overlap");
 }
 
@@ -100,7 +101,7 @@ bool LimitFinder::Group::has_same_stages(const Group& other) const {
   return limit.kind == other.limit.kind && limit.stages == other.limit.stages;
 }
 
-std::optional<LimitFinder::Group> LimitFinder::judge(const FrameReport& frame,
+std::optional<LimitFinder::Group> LimitFinder::judge(const UnitReport& frame,
                                                      std::uint64_t period_ps) const {
   Group group;
   group.period_ps = period_ps;
@@ -136,7 +137,7 @@ std::optional<LimitFinder::Group> LimitFinder::judge(const FrameReport& frame,
   return group;
 }
 
-void LimitFinder::note_stages(const FrameReport& frame) {
+void LimitFinder::note_stages(const UnitReport& frame) {
   for (const StageTime* stage : working_stages(frame)) {
     if (std::find(names_.begin(), names_.end(), stage->name) == names_.end())
       names_.push_back(stage->name);
@@ -154,7 +155,7 @@ void LimitFinder::keep(Group group) {
   }
 }
 
-void LimitFinder::add(const FrameReport& frame, std::uint64_t period_ps) {
+void LimitFinder::add(const UnitReport& frame, std::uint64_t period_ps) {
   if (frame.settling_showings > 0)
     last_end_ps_ = std::max(last_end_ps_.value_or(0), frame.settled_ps);
   std::optional<Group> group;

@@ -19,7 +19,7 @@ struct Limit {
     ahead,
     /// The stages that follow those take longer.
     behind,
-    /// The next image comes later than the program wants it.
+    /// The next input comes later than the program wants it.
     camera,
   };
 
@@ -34,7 +34,7 @@ struct Limit {
   std::vector<std::string> levers;
 
   /// "capture sets the frame rate: 3072.0 of 3080.1 us, other stages overlap".
-  std::string text() const;
+  std::string text(const Work& work) const;
   /// "pl.pixels_per_clock=2, or a higher ps.fclk_clk0.frequency"; empty: no lever is known.
   std::string levers_text() const;
 };
@@ -47,7 +47,7 @@ const char* to_string(Limit::Kind kind);
 class LimitFinder {
  public:
   /// `period_ps`: the frame's own (FramePeriods).
-  void add(const FrameReport& frame, std::uint64_t period_ps);
+  void add(const UnitReport& frame, std::uint64_t period_ps);
   /// None: no result has stages that are parts of its frame.
   std::optional<Limit> limit() const;
 
@@ -63,8 +63,8 @@ class LimitFinder {
     bool has_same_stages(const Group& other) const;
   };
 
-  void note_stages(const FrameReport& frame);
-  std::optional<Group> judge(const FrameReport& frame, std::uint64_t period_ps) const;
+  void note_stages(const UnitReport& frame);
+  std::optional<Group> judge(const UnitReport& frame, std::uint64_t period_ps) const;
   void keep(Group group);
 
   std::optional<std::uint64_t> last_end_ps_;

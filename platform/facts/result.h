@@ -1,20 +1,18 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <marker/feature_set.h>
-#include <marker/scene/pose.h>
-#include <marker/scene/scene.h>
+#include <facts/unit.h>
 #include <vp/power_meter.h>
 
 /// What a run found, as plain values: filled by the simulation, read by
-/// result.json, the console and the pictures. No simulation inside.
+/// result.json, the console and the page. No simulation inside.
 
 namespace platform::facts {
 
@@ -24,9 +22,9 @@ struct GroupEnergy {
   double mj = 0;
 };
 
-/// Mean power until the last result of a run, image upload excluded; of a run without results over
-/// all frames, without frames over the whole run. Watts are on-chip power: the DDR chips are not in
-/// them.
+/// Mean power until the last result of a run, upload of inputs excluded; of a run without results
+/// over all frames, without frames over the whole run. Watts are on-chip power: the DDR chips are
+/// not in them.
 struct PowerReport {
   struct Module {
     std::string name;
@@ -142,7 +140,7 @@ struct ClockReport {
 };
 
 /// What a design counts of a frame, in the order of reports. Names are keys in `counts` of
-/// result.json: "corners", "feature_words".
+/// result.json: "words", "late_packets".
 class Counts {
  public:
   struct Count {
@@ -168,54 +166,6 @@ class Counts {
   std::vector<Count> list_;
 };
 
-/// How well a pose is known: covariance of a small turn about the camera's axes, rad, followed by
-/// its translation, m; 6 × 6, row by row.
-using PoseCovariance = std::array<double, 36>;
-
-/// How a pose moves along and about the camera's axes, where a filter follows it.
-struct PoseMotion {
-  std::uint32_t frames = 0;  ///< of which the pose is made; 1: it begins anew
-  std::array<double, 3> velocity_m_s{};
-  std::array<double, 3> turn_rate_rad_s{};
-};
-
-/// A marker that the software identified.
-struct FoundMarker {
-  int id = 0;
-  int rotation = 0;                      ///< quarter turns clockwise from upright, 0 to 3
-  std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
-  bool has_pose = true;  ///< false: the corners admit none, or it is one of a board's
-  Pose pose;
-  // Of the pose, where the program tells them.
-  std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
-  std::optional<std::uint32_t> iterations;
-  std::optional<PoseCovariance> covariance;
-  std::optional<PoseMotion> motion = {};
-  /// Of a board's marker: how far its corners are from where the board has them, px, root of the
-  /// mean square.
-  std::optional<double> residual_px = {};
-};
-
-/// The pose of several markers with known places to each other.
-struct FoundBoard {
-  std::uint32_t markers = 0;  ///< of which the pose was made
-  Pose pose;
-  PoseCovariance covariance{};
-  std::optional<PoseMotion> motion = {};
-  std::optional<double> residual_px = {};  ///< the same of all its markers
-  /// Why the markers cannot be those of this board, so that its pose is wrong; empty: they fit.
-  std::string misfit = {};
-  std::vector<std::string> layouts = {};  ///< of a misfit: boards that the markers fit
-};
-
-/// What a picture shows besides the marker. Not part of result.json.
-struct Features {
-  std::vector<marker::Corner> corners;
-  std::vector<marker::BoundingBox> blobs;
-  /// Corners of each candidate as pixel indices, clockwise from the top left.
-  std::vector<std::array<PixelPoint, 4>> candidates;
-};
-
 /// Simulated time that one stage took, ps. The name is the key in `time_us`.
 struct StageTime {
   std::string name;
@@ -232,52 +182,54 @@ struct StageTime {
 /// it out.
 bool has_parts(const std::vector<StageTime>& stages, const std::string& stage);
 
-/// One image and what came of it.
-struct FrameReport {
-  std::string input;            ///< name of the input, no path
-  std::uint32_t index = 0;      ///< 0, 1, 2 … in the order of the run
-  std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
+/// One unit of work and what came of it.
+struct UnitReport {
+  std::string input;        ///< name of the input, no path; empty: the design takes none
+  SharedInput given = {};   ///< the input; null: the design takes none
+  std::uint32_t index = 0;  ///< 0, 1, 2 … in the order of the run
   Counts counts;
-  std::vector<FoundMarker> markers;
-  std::optional<FoundBoard> board;              ///< where the program looks for one, and sees it
-  std::optional<GroundTruth> truth;             ///< of the scene's marker, where known
-  std::vector<GroundTruth> further_truth = {};  ///< of the other markers in the scene
+  std::vector<UnitFigure> figures = {};
   std::vector<StageTime> times;  ///< in the order of the flow; "frame" and "upload" among them
-  std::uint64_t start_ps = 0;    ///< simulated time at which work on the frame began, upload done
+  std::uint64_t start_ps = 0;    ///< simulated time at which work on the unit began, upload done
   std::uint64_t end_ps = 0;      ///< simulated time of its last result
-  /// From the camera's image to its next one that the program took, where the camera has a rate.
-  std::optional<vp::Interval> camera_period;
-  /// Images that came in it while the program was busy; 0: the program waited for the next one.
-  /// None: no next image came.
+  /// From its input to the next one that the program took, where inputs come at a fixed rate.
+  std::optional<vp::Interval> camera_period = {};
+  /// Inputs that came in it while the program was busy; 0: the program waited for the next one.
+  /// None: no next input came.
   std::optional<std::uint64_t> camera_missed = {};
-  /// How often the image was shown before, so that the threshold in this frame is its own, and when
-  /// the last of these results came: the period of this frame begins there.
+  /// How often the input was given before, so that what the logic learns from it is its own, and
+  /// when the last of these results came: the period of this unit begins there.
   std::uint32_t settling_showings = 0;
   std::uint64_t settled_ps = 0;
-  std::uint64_t upload_ps = 0;      ///< time before `start_ps` in which the image was only uploaded
-  std::string gave_up;              ///< why the software gave the frame up; empty: it has a result
-  std::vector<GroupEnergy> energy;  ///< its period's, upload excluded; empty: not known
+  std::uint64_t upload_ps = 0;  ///< time before `start_ps` in which the input was only uploaded
+  std::string gave_up = {};     ///< why the software gave the unit up; empty: it has a result
+  /// Why the unit does not do the design's job, by the design's own rule: "with an echo". A unit
+  /// that was given up, or lost something, fails it in any case.
+  std::vector<std::string> failures = {};
+  std::vector<std::string> tallies = {};  ///< names of Work::tallies that hold for it
+  std::vector<GroupEnergy> energy;        ///< its period's, upload excluded; empty: not known
   std::vector<std::string> warnings;
-  Camera camera;      ///< that took the image
-  Features features;  ///< dropped once the picture is drawn
+  std::shared_ptr<UnitExtra> extra = {};  ///< of the application; may be null
 
-  /// Whether a result was delivered: only such frames make rates, latency and energy.
+  /// Whether a result was delivered: only such units make rates, latency and energy.
   bool delivered() const { return gave_up.empty(); }
+  /// Whether it did its job.
+  bool fulfilled() const { return delivered() && failures.empty() && counts.lost() == 0; }
 };
 
-/// A camera of a fixed rate, and how the program kept up with it.
+/// Inputs that come at a fixed rate, as of a camera, and how the program kept up with it.
 ///
-/// An image comes every 1 / rate. One that comes while the program is busy is dropped as a whole.
+/// One comes every 1 / rate. One that comes while the program is busy is dropped as a whole.
 struct CameraReport {
   double rate_fps = 0;
-  std::uint64_t offered = 0;  ///< images that came until the program was ready for one more
+  std::uint64_t offered = 0;  ///< inputs that came until the program was ready for one more
   std::uint64_t dropped = 0;  ///< of these
-  // Of each image that was taken.
-  double busy_ps = 0;  ///< mean, from the image until the program was ready for the next
+  // Of each input that was taken.
+  double busy_ps = 0;  ///< mean, from the input until the program was ready for the next
   double most_busy_ps = 0;
 
   double period_ps() const { return 1e12 / rate_fps; }
-  /// Share of the period in which the program was busy, %; above 100 images are lost.
+  /// Share of the period in which the program was busy, %; above 100 inputs are lost.
   double utilisation_percent() const { return 100 * busy_ps / period_ps(); }
 };
 
@@ -292,17 +244,20 @@ struct RunFacts {
   std::string fidelity;                                  ///< "tlm" or "clocked"
   std::string system;                                    ///< the PS program
   std::string design;                                    ///< what is in the PL
+  Work work = {};                                        ///< what the design does
   std::string profile;                                   ///< cost table of the software
   std::map<std::string, std::string> configuration;      ///< path -> "value unit"
   std::optional<ProgramEnd> end = std::nullopt;          ///< of the program; none: it was stopped
   std::optional<std::string> incomplete = std::nullopt;  ///< why the run ended early, if it did
-  std::uint64_t unpublished = 0;  ///< images of which the program that ended published nothing
-  std::optional<CameraReport> camera = std::nullopt;  ///< none: images came when they were wanted
+  std::uint64_t unpublished = 0;  ///< inputs of which the program that ended published nothing
+  std::optional<CameraReport> camera = std::nullopt;  ///< none: inputs came when they were wanted
   // What the design costs; none: not known.
   std::optional<PowerReport> power = std::nullopt;
   std::optional<ResourceReport> resources = std::nullopt;
   std::optional<TimingReport> timing = std::nullopt;
   std::optional<ClockReport> clocks = std::nullopt;
+  /// Parts of the design in whose place a stub answered the program: what came of it rests on them.
+  std::vector<std::string> stubs = {};
   std::vector<std::string> warnings = {};  ///< that belong to no frame
   std::vector<std::string> notes = {};     ///< what was assumed of the inputs, or done to them
 };

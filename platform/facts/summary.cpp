@@ -1,4 +1,3 @@
-#include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
 
@@ -25,43 +24,7 @@ std::uint64_t Counts::lost() const {
       [](std::uint64_t sum, const Count& count) { return sum + (count.lost ? count.value : 0); });
 }
 
-MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth) {
-  MarkerError error;
-  for (std::size_t i = 0; i < found.corners_px.size(); ++i) {
-    const PixelPoint &a = found.corners_px[i], &b = truth.corners_px[i];
-    error.corner_px += Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() / 4;
-  }
-  if (has_pose_error(found, truth)) {
-    error.translation_mm = translation_error_mm(found.pose, truth.pose);
-    error.rotation_deg = rotation_error_deg(found.pose, truth.pose);
-  }
-  return error;
-}
-
-bool has_pose_error(const FoundMarker& found, const GroundTruth& truth) {
-  return found.has_pose && truth.is_usual;
-}
-
-const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found) {
-  const GroundTruth* nearest = nullptr;
-  const auto consider = [&](const GroundTruth& truth) {
-    if (truth.marker_id != found.id) return;
-    const bool is_nearer = !nearest || measure_error(found, truth).corner_px <
-                                           measure_error(found, *nearest).corner_px;
-    if (is_nearer) nearest = &truth;
-  };
-  if (frame.truth) consider(*frame.truth);
-  for (const GroundTruth& truth : frame.further_truth) consider(truth);
-  return nearest;
-}
-
-std::string another_marker_text(const FrameReport& frame) {
-  std::string text = "another marker: the scene has " + std::to_string(frame.truth->marker_id);
-  const std::size_t more = frame.further_truth.size();
-  return more == 0 ? text : text + " and " + std::to_string(more) + " more";
-}
-
-std::vector<vp::Interval> FramePeriods::next(const FrameReport& frame) {
+std::vector<vp::Interval> FramePeriods::next(const UnitReport& frame) {
   if (frame.camera_period) {
     end_ps_ = frame.camera_period->to_ps;
     return {*frame.camera_period};
@@ -91,7 +54,7 @@ void Statistic::add(double value) {
   ++count_;
 }
 
-void Summary::add(const FrameReport& frame) {
+void Summary::add(const UnitReport& frame) {
   ++frames_;
   if (!frame.warnings.empty()) ++warned_;
   if (frame.settling_showings > 0) ++settled_;
@@ -106,7 +69,8 @@ void Summary::add(const FrameReport& frame) {
   open_ps_ = 0;
   latency_us_.add(static_cast<double>(frame.end_ps - frame.start_ps) / ps_per_us);
   add_stages(frame);
-  add_markers(frame);
+  add_job(frame);
+  add_figures(frame);
 }
 
 double Summary::mean_fps() const {
@@ -114,7 +78,7 @@ double Summary::mean_fps() const {
   return static_cast<double>(delivered()) * ps_per_s / static_cast<double>(busy_ps_);
 }
 
-void Summary::add_stages(const FrameReport& frame) {
+void Summary::add_stages(const UnitReport& frame) {
   for (const StageTime& time : frame.times) {
     auto stage = std::find_if(stages_.begin(), stages_.end(),
                               [&](const Stage& known) { return known.name == time.name; });
@@ -125,24 +89,39 @@ void Summary::add_stages(const FrameReport& frame) {
   }
 }
 
-void Summary::add_markers(const FrameReport& frame) {
-  if (!frame.markers.empty()) ++detected_;
-  bool right = false, wrong = false;
-  for (const FoundMarker& found : frame.markers) {
-    const GroundTruth* truth = truth_of(frame, found);
-    if (truth == nullptr) wrong = true;
-    if (truth == nullptr) continue;
-    if (truth->marker_id == frame.truth->marker_id) right = true;
-    const MarkerError error = measure_error(found, *truth);
-    corner_px_.add(error.corner_px);
-    if (!has_pose_error(found, *truth)) continue;
-    translation_mm_.add(error.translation_mm);
-    rotation_deg_.add(error.rotation_deg);
+void Summary::add_job(const UnitReport& frame) {
+  if (frame.fulfilled()) ++fulfilled_;
+  for (const std::string& tally : frame.tallies) ++tallies_[tally];
+  for (const std::string& reason : frame.failures) {
+    const auto known = std::find_if(failures_.begin(), failures_.end(),
+                                    [&](const auto& failure) { return failure.first == reason; });
+    ++(known == failures_.end() ? failures_.emplace_back(reason, 0) : *known).second;
   }
-  const bool overlooked = frame.truth && !right;
-  if (overlooked) ++overlooked_;
-  if (overlooked && wrong) ++mistaken_;
-  if (!overlooked && frame.counts.lost() == 0) ++fulfilled_;
+}
+
+void Summary::add_figures(const UnitReport& frame) {
+  for (const UnitFigure& figure : frame.figures) {
+    auto known = std::find_if(figures_.begin(), figures_.end(),
+                              [&](const Figure& other) { return other.name == figure.name; });
+    if (known == figures_.end())
+      known = figures_.insert(figures_.end(), Figure{figure.name, figure.unit, {}});
+    known->values.add(figure.value);
+  }
+  if (frame.extra) {
+    frame.extra->add_samples(
+        [this](const std::string& name, double value) { samples_[name].add(value); });
+  }
+}
+
+std::uint64_t Summary::tally(const std::string& name) const {
+  const auto known = tallies_.find(name);
+  return known == tallies_.end() ? 0 : known->second;
+}
+
+const Statistic& Summary::samples(const std::string& name) const {
+  static const Statistic none;
+  const auto known = samples_.find(name);
+  return known == samples_.end() ? none : known->second;
 }
 
 }  // namespace platform::facts

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <facts/limit.h>
@@ -11,38 +13,17 @@
 
 namespace platform::facts {
 
-/// Distance of a found marker from the truth.
-struct MarkerError {
-  double corner_px = 0;       ///< mean distance of the four corners
-  double translation_mm = 0;  ///< distance of the translations
-  double rotation_deg = 0;    ///< angle of the rotation between the two
-};
-
-/// Translation and rotation are meaningless unless has_pose_error().
-MarkerError measure_error(const FoundMarker& found, const GroundTruth& truth);
-
-/// False: the marker has no pose, or none that could be right, for it is larger or smaller than the
-/// program knows.
-bool has_pose_error(const FoundMarker& found, const GroundTruth& truth);
-
-/// The truth of this marker: of those with its ID the one that is nearest. Null if the scene has
-/// none, or is not known.
-const GroundTruth* truth_of(const FrameReport& frame, const FoundMarker& found);
-
-/// For a marker that the scene does not have: "another marker: the scene has 0 and 9 more".
-std::string another_marker_text(const FrameReport& frame);
-
 /// Cuts a run into the periods of its frames, for all that divides by time: the frame rate and the
 /// power use the same ones.
 ///
 /// A period reaches from the end of the frame before it (its own start, for the first) to its own
-/// end, without the time in which its image was only uploaded (thesis 5.5: images are preloaded) or
-/// shown for the threshold to settle (settled_ps).
-/// With a camera of a fixed rate it reaches from image to image, the wait for the next included.
+/// end, without the time in which its input was only uploaded (thesis 5.5: inputs are preloaded) or
+/// given for the logic to settle (settled_ps).
+/// With inputs at a fixed rate it reaches from one to the next, the wait for that included.
 class FramePeriods {
  public:
   /// The period of the next frame, in order of time.
-  std::vector<vp::Interval> next(const FrameReport& frame);
+  std::vector<vp::Interval> next(const UnitReport& frame);
   /// End of the last period; 0 before the first.
   std::uint64_t end_ps() const { return end_ps_.value_or(0); }
 
@@ -83,26 +64,24 @@ class Summary {
     Statistic us;
   };
 
-  void add(const FrameReport& frame);
+  void add(const UnitReport& frame);
 
-  /// Frames that the program worked on.
+  /// Units that the program worked on.
   std::uint64_t frames() const { return frames_; }
-  /// Frames with a result; the software gave up the others.
+  /// Units with a result; the software gave up the others.
   std::uint64_t delivered() const { return latency_us_.count(); }
-  /// Frames in which a marker was identified.
-  std::uint64_t detected() const { return detected_; }
-  /// Frames in which a marker was identified that the scene does not have, and not the scene's own.
-  std::uint64_t mistaken() const { return mistaken_; }
-  /// Frames in which something was lost.
+  /// Delivered units for which the tally of this name holds (Work::tallies).
+  std::uint64_t tally(const std::string& name) const;
+  /// Units in which something was lost.
   std::uint64_t lossy() const { return lossy_; }
-  /// Frames with a result that lacks the marker of the scene.
-  std::uint64_t overlooked() const { return overlooked_; }
-  /// Frames that did their job: a result, nothing lost, and the marker of the scene, if it is
-  /// known.
+  /// Units that did their job (UnitReport::fulfilled).
   std::uint64_t fulfilled() const { return fulfilled_; }
-  /// Frames whose image was shown before, so that the threshold is its own.
+  /// Why delivered units did not by the design's own rule, and how many of them, in the order in
+  /// which the reasons came.
+  const std::vector<std::pair<std::string, std::uint64_t>>& failures() const { return failures_; }
+  /// Units whose input was given before, so that what the logic learned from it is its own.
   std::uint64_t settled() const { return settled_; }
-  /// Frames with warnings.
+  /// Units with warnings.
   std::uint64_t warned() const { return warned_; }
   /// Results per second from the first frame's start to the last result; 0 without any.
   double mean_fps() const;
@@ -112,32 +91,35 @@ class Summary {
   const std::vector<Stage>& stages() const { return stages_; }
   /// None: no result tells what its frame consists of.
   std::optional<Limit> limit() const { return limit_.limit(); }
-  /// Over the markers whose truth is known.
-  const Statistic& corner_px() const { return corner_px_; }
-  const Statistic& translation_mm() const { return translation_mm_; }
-  const Statistic& rotation_deg() const { return rotation_deg_; }
+  /// Of the samples of that name (UnitExtra::add_samples).
+  const Statistic& samples(const std::string& name) const;
+  /// Of the figures of delivered units, in the order in which they came.
+  struct Figure {
+    std::string name, unit;
+    Statistic values;
+  };
+  const std::vector<Figure>& figures() const { return figures_; }
 
  private:
-  void add_stages(const FrameReport& frame);
-  void add_markers(const FrameReport& frame);
+  void add_stages(const UnitReport& frame);
+  void add_job(const UnitReport& frame);
+  void add_figures(const UnitReport& frame);
 
   std::uint64_t frames_ = 0;
-  std::uint64_t detected_ = 0;
-  std::uint64_t mistaken_ = 0;
   std::uint64_t lossy_ = 0;
-  std::uint64_t overlooked_ = 0;
   std::uint64_t fulfilled_ = 0;
   std::uint64_t warned_ = 0;
   std::uint64_t settled_ = 0;
   std::uint64_t busy_ps_ = 0;  ///< until the last result
   std::uint64_t open_ps_ = 0;  ///< since then
+  std::vector<std::pair<std::string, std::uint64_t>> failures_;
+  std::map<std::string, std::uint64_t> tallies_;
+  std::map<std::string, Statistic> samples_;
+  std::vector<Figure> figures_;
   FramePeriods periods_;
   LimitFinder limit_;
   Statistic fps_;
   Statistic latency_us_;
-  Statistic corner_px_;
-  Statistic translation_mm_;
-  Statistic rotation_deg_;
   std::vector<Stage> stages_;
 };
 

@@ -13,32 +13,11 @@
 
 namespace platform::result {
 
-namespace {
-
-constexpr double degrees_per_radian = 57.29577951308232;
-
-std::string degrees(double radians) {
-  return vp::format_fixed(radians * degrees_per_radian, 1);
-}
-
-/// With so many places; with two more if fewer than two digits were left of it.
-std::string error_figure(double value, int places) {
-  const bool little = value > 0 && value * std::pow(10, places) < 10;
-  return vp::format_fixed(value, little ? places + 2 : places);
-}
-
-std::string pose_error_text(double translation_mm, double rotation_deg) {
-  return "   translation " + error_figure(translation_mm, 1) + " mm   rotation " +
-         error_figure(rotation_deg, 2) + " deg";
-}
-
-}  // namespace
-
 std::string counted(std::uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string counts_text(const facts::FrameReport& frame) {
+std::string counts_text(const facts::UnitReport& frame) {
   std::string text;
   for (const facts::Counts::Count& count : frame.counts.list()) {
     if (count.lost) continue;
@@ -46,20 +25,8 @@ std::string counts_text(const facts::FrameReport& frame) {
     std::replace(noun.begin(), noun.end(), '_', ' ');
     text += counted(count.value, noun) + "   ";
   }
-  return text + "threshold " + std::to_string(frame.threshold);
-}
-
-std::string angles_text(const Eigen::Matrix3d& r) {
-  return "pitch " + degrees(std::atan2(r(2, 1), r(2, 2))) + " yaw " +
-         degrees(std::asin(std::clamp(-r(2, 0), -1.0, 1.0))) + " roll " +
-         degrees(std::atan2(r(1, 0), r(0, 0))) + " deg";
-}
-
-std::string error_text(const facts::FoundMarker& found, const GroundTruth& truth) {
-  const facts::MarkerError error = facts::measure_error(found, truth);
-  std::string text = "corner " + error_figure(error.corner_px, 2) + " px";
-  if (!facts::has_pose_error(found, truth)) return text;
-  return text + pose_error_text(error.translation_mm, error.rotation_deg);
+  if (frame.extra) text += frame.extra->counts_text();
+  return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
 namespace {
@@ -71,55 +38,6 @@ constexpr int bar_width = 30;
 
 std::string line(const char* label, const std::string& text) {
   return fmt::format(label_format, label, text);
-}
-
-std::string orientation(int quarter_turns) {
-  if (quarter_turns == 0) return "upright";
-  return fmt::format("turned {} deg clockwise", 90 * quarter_turns);
-}
-
-std::string corners_text(const std::array<PixelPoint, 4>& corners) {
-  std::string text;
-  for (const PixelPoint& corner : corners) {
-    text += fmt::format("{}({:.2f}, {:.2f})", text.empty() ? "" : "  ", corner.x, corner.y);
-  }
-  return text;
-}
-
-std::string pose_text(const Pose& pose) {
-  const auto metres = [&](std::size_t axis) { return vp::format_fixed(pose.translation[axis], 3); };
-  return fmt::format("t ({}, {}, {}) m   {}", metres(0), metres(1), metres(2),
-                     angles_text(pose.rotation));
-}
-
-std::string fit_text(const facts::FoundMarker& found) {
-  std::string text;
-  if (found.iterations) text += "   " + counted(*found.iterations, "iteration");
-  if (found.reprojection_px) text += fmt::format(" to {:.2f} px", *found.reprojection_px);
-  return text;
-}
-
-std::string marker_text(const facts::FrameReport& frame, const facts::FoundMarker& found) {
-  std::string text = line("corners px", corners_text(found.corners_px));
-  if (found.residual_px) {
-    text += line("on board", fmt::format("{:.2f} px from its place", *found.residual_px));
-  } else if (!frame.board || found.has_pose) {
-    text += line("pose", found.has_pose ? pose_text(found.pose) + fit_text(found)
-                                        : "none: the corners admit no pose");
-  }
-  if (const GroundTruth* truth = facts::truth_of(frame, found)) {
-    text += line("error", error_text(found, *truth));
-  } else if (frame.truth) {
-    text += line("error", facts::another_marker_text(frame));
-  }
-  return text;
-}
-
-std::string board_text(const facts::FoundBoard& board) {
-  if (!board.misfit.empty()) return line("board", "refused: " + board.misfit);
-  std::string text = counted(board.markers, "marker") + "   " + pose_text(board.pose);
-  if (board.residual_px) text += fmt::format("   {:.2f} px from their places", *board.residual_px);
-  return line("board", text);
 }
 
 /// Stage names over their times; as many lines as the width demands.
@@ -144,19 +62,15 @@ std::string times_text(const std::vector<facts::StageTime>& times) {
   return text;
 }
 
-std::string heading(const facts::FrameReport& frame, std::optional<std::uint64_t> total) {
+std::string heading(const facts::UnitReport& frame, std::optional<std::uint64_t> total) {
   const std::string number = fmt::format("{}", frame.index + 1);
   std::string text =
       total ? fmt::format("[{:>{}}/{}]", number, fmt::formatted_size("{}", *total), *total)
             : fmt::format("[{}]", number);
-  text += " " + frame.input + ": ";
+  text += (frame.input.empty() ? "" : " " + frame.input) + ": ";
   if (!frame.delivered()) return text + "no result, the software gave up: " + frame.gave_up + "\n";
-  if (frame.markers.empty()) return text + "no marker\n";
-  std::vector<std::string> markers;
-  for (const facts::FoundMarker& found : frame.markers) {
-    markers.push_back(fmt::format("marker {}, {}", found.id, orientation(found.rotation)));
-  }
-  return fmt::format("{}{}\n", text, fmt::join(markers, "; "));
+  if (frame.extra) return text + frame.extra->heading() + "\n";
+  return text + (frame.failures.empty() ? "done" : vp::join(frame.failures, ", ")) + "\n";
 }
 
 /// How much of `whole` a stage takes, with a bar.
@@ -184,44 +98,61 @@ std::string stage_lines(const facts::Summary& summary, const std::string& of, in
   return text;
 }
 
-std::string stage_table(const facts::Summary& summary) {
-  return fmt::format("{:<22}{:>12}{:>12}{:>12}   share of frame\n", "stage", "mean us", "min us",
-                     "max us") +
+std::string stage_table(const facts::Summary& summary, const facts::Work& work) {
+  return fmt::format("{:<22}{:>12}{:>12}{:>12}   share of {}\n", "stage", "mean us", "min us",
+                     "max us", work.unit) +
          stage_lines(summary, "", 0, 0);
 }
 
-/// The camera whose images the results are of, and how much time there was between them.
-std::string camera_text(const facts::CameraReport& camera) {
+/// The rate at which inputs came, and how much time there was between them.
+std::string camera_text(const facts::CameraReport& camera, const facts::Work& work) {
   constexpr double ps_per_ms = 1e9;
   return fmt::format(
       "camera   {:.6g} fps: {} of {} dropped   busy {:.1f} %   slack {:.3f} ms, least {:.3f} ms\n",
-      camera.rate_fps, camera.dropped, counted(camera.offered, "frame"),
-      camera.utilisation_percent(), (camera.period_ps() - camera.busy_ps) / ps_per_ms,
+      camera.rate_fps, camera.dropped, work.counted(camera.offered), camera.utilisation_percent(),
+      (camera.period_ps() - camera.busy_ps) / ps_per_ms,
       (camera.period_ps() - camera.most_busy_ps) / ps_per_ms);
 }
 
-std::string fps_text(const facts::Summary& summary, bool has_camera) {
-  if (summary.delivered() == 0) return "no result: there is no frame rate and no latency\n";
+std::string fps_text(const facts::Summary& summary, const facts::RunFacts& facts) {
+  const facts::Work& work = facts.work;
+  if (summary.delivered() == 0)
+    return fmt::format("no result: there is no {} rate and no latency\n", work.unit);
   const facts::Statistic& fps = summary.fps();
   const facts::Statistic& latency = summary.latency_us();
   return fmt::format(
-      "FPS      mean {:.1f}   min {:.1f}   max {:.1f}   ({})\n"
+      "{:<8} mean {:.1f}   min {:.1f}   max {:.1f}   ({})\n"
       "latency  mean {:.3f} ms   max {:.3f} ms\n",
-      summary.mean_fps(), fps.min(), fps.max(), has_camera ? "delivered" : "image upload excluded",
-      latency.mean() / us_per_ms, latency.max() / us_per_ms);
+      work.unit == "frame" ? "FPS" : work.many() + "/s", summary.mean_fps(), fps.min(), fps.max(),
+      facts.camera ? "delivered" : work.given + " upload excluded", latency.mean() / us_per_ms,
+      latency.max() / us_per_ms);
 }
 
 /// What sets the rate, and below it what raises the rate.
-std::string limit_text(const facts::Limit& limit) {
+std::string limit_text(const facts::Limit& limit, const facts::Work& work) {
   const std::string levers = limit.levers_text();
-  return "limit    " + limit.text() + "\n" +
+  return "limit    " + limit.text(work) + "\n" +
          (levers.empty() ? "" : "         faster with " + levers + "\n");
 }
 
-std::string mean_error_text(const facts::Summary& summary) {
-  return "error    corner " + error_figure(summary.corner_px().mean(), 2) + " px" +
-         pose_error_text(summary.translation_mm().mean(), summary.rotation_deg().mean()) +
-         "   (mean over " + counted(summary.corner_px().count(), "marker") + ")\n";
+/// Units of 1 are left out.
+std::string figure_value(double value, const std::string& unit) {
+  return fmt::format("{:.6g}{}", value, unit == "1" ? "" : " " + unit);
+}
+
+std::string figures_text(const std::vector<facts::UnitFigure>& figures) {
+  std::string text;
+  for (const facts::UnitFigure& figure : figures) {
+    text +=
+        (text.empty() ? "" : "   ") + figure.name + " " + figure_value(figure.value, figure.unit);
+  }
+  return text;
+}
+
+std::string figure_text(const facts::Summary::Figure& figure) {
+  const auto value = [&](double number) { return figure_value(number, figure.unit); };
+  return fmt::format("{:<8} mean {}   min {}   max {}\n", figure.name, value(figure.values.mean()),
+                     value(figure.values.min()), value(figure.values.max()));
 }
 
 std::string verdict_text(const Verdict& verdict) {
@@ -240,55 +171,63 @@ std::string verdict_text(const Verdict& verdict) {
 }
 
 std::string end_text(const facts::RunFacts& facts) {
-  if (!facts.end) return "no frames: the program was stopped";
-  return fmt::format("no frames: the program ended at {} with exit code {}",
+  const std::string none = facts.work.unit.empty() ? "" : "no " + facts.work.many() + ": ";
+  if (!facts.end) return none + "the program was stopped";
+  return fmt::format("{}the program ended at {} with exit code {}", none,
                      vp::format_time(facts.end->ps), facts.end->exit_code);
 }
 
 }  // namespace
 
-std::string frame_text(const facts::FrameReport& frame, std::optional<std::uint64_t> total) {
+std::string frame_text(const facts::UnitReport& frame, std::optional<std::uint64_t> total) {
   std::string text = heading(frame, total);
-  for (const facts::FoundMarker& found : frame.markers) text += marker_text(frame, found);
-  if (frame.board) text += board_text(*frame.board);
-  text += line("counts", counts_text(frame));
+  if (frame.extra) {
+    for (const auto& [label, said] : frame.extra->lines()) text += line(label.c_str(), said);
+  }
+  if (const std::string counts = counts_text(frame); !counts.empty())
+    text += line("counts", counts);
+  if (!frame.figures.empty()) text += line("figures", figures_text(frame.figures));
   for (const std::string& warning : frame.warnings) text += line("warning", warning);
   return text + times_text(frame.times);
 }
 
-std::string summary_text(const facts::Summary& summary, const facts::RunFacts& facts) {
+std::string summary_text(const facts::Summary& summary, const facts::RunFacts& facts,
+                         const std::vector<std::string>& own) {
   const std::string point = fmt::format("   ({}, design {}, {}, profile {})\n", facts.system,
                                         facts.design, facts.fidelity, facts.profile);
   if (summary.frames() == 0) return end_text(facts) + point;
-  std::string text =
-      fmt::format("{}, {} with a marker", counted(summary.frames(), "frame"), summary.detected());
-  if (summary.mistaken() > 0) text += fmt::format(", {} of them a wrong one", summary.mistaken());
+  std::string text = facts.work.counted(summary.frames());
+  for (const facts::Tally& tally : facts.work.tallies) {
+    const std::uint64_t units = summary.tally(tally.name);
+    if (tally.is_figure || units > 0) text += fmt::format(", {} {}", units, tally.with);
+  }
   if (const std::uint64_t without = summary.frames() - summary.delivered()) {
     text += fmt::format(", {} without a result", without);
   }
   if (facts.unpublished > 0) text += fmt::format(", {} never published", facts.unpublished);
   text += point;
-  text += fps_text(summary, facts.camera.has_value());
-  if (facts.camera) text += camera_text(*facts.camera);
-  if (const std::optional<facts::Limit> limit = summary.limit()) text += limit_text(*limit);
-  if (summary.corner_px().count() > 0) text += mean_error_text(summary);
+  text += fps_text(summary, facts);
+  if (facts.camera) text += camera_text(*facts.camera, facts.work);
+  if (const std::optional<facts::Limit> limit = summary.limit())
+    text += limit_text(*limit, facts.work);
+  for (const facts::Summary::Figure& figure : summary.figures()) text += figure_text(figure);
+  for (const std::string& added : own) text += added + "\n";
   text += verdict_text(verdict_of(facts, summary));
   if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {
     text += design_text(facts.power, *facts.resources, *facts.timing);
   }
   if (facts.clocks) text += clock_text(*facts.clocks);
   if (summary.settled() > 0) {
-    text += fmt::format(
-        "settled  the images of {} were shown before, so that each has a threshold of its own; "
-        "that is in no time or energy\n",
-        counted(summary.settled(), "frame"));
+    text +=
+        fmt::format("settled  the {}s of {} {}; that is in no time or energy\n", facts.work.given,
+                    facts.work.counted(summary.settled()), facts.work.settled);
   }
   for (const std::string& note : facts.notes) text += "note     " + note + "\n";
   if (summary.warned() > 0) {
-    text +=
-        fmt::format("warnings in {}, listed in result.json\n", counted(summary.warned(), "frame"));
+    text += fmt::format("warnings in {}, listed in result.json\n",
+                        facts.work.counted(summary.warned()));
   }
-  if (!summary.stages().empty()) text += "\n" + stage_table(summary);
+  if (!summary.stages().empty()) text += "\n" + stage_table(summary, facts.work);
   return text;
 }
 

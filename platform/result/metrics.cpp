@@ -83,42 +83,40 @@ void gather(const Json& json, std::string path, Gathering& into) {
   walk(json, path, [&](const std::string& name, double value) { into[name].add(value); });
 }
 
-bool has_marker(const Json& frame, const Json& id) {
-  const auto markers = frame.find("markers");
-  return markers != frame.end() &&
-         std::any_of(markers->begin(), markers->end(),
-                     [&](const Json& marker) { return marker.value("id", Json()) == id; });
+std::vector<UnitMetrics>& unit_metrics() {
+  static std::vector<UnitMetrics> registered;
+  return registered;
+}
+
+/// Whether an application has read the member.
+bool is_taken(const std::string& name, const Json& value, const UnitMetrics::Found& found) {
+  const auto& readers = unit_metrics();
+  return std::any_of(readers.begin(), readers.end(),
+                     [&](const UnitMetrics& reader) { return reader.take(name, value, found); });
 }
 
 template <class Found>
 void find_in_frames(const Json& frames, const Found& found) {
-  Gathering all;
-  Gathered detected;
+  Gathering all, rates;
+  const UnitMetrics::Found add = [&](const std::string& name, double value) {
+    all["frames." + name].add(value);
+  };
+  const UnitMetrics::Found add_rate = [&](const std::string& name, double value) {
+    rates["summary." + name].add(value);
+  };
   for (const Json& frame : frames) {
-    if (frame.contains("scene_marker"))
-      detected.add(has_marker(frame, frame["scene_marker"]) ? 1 : 0);
+    for (const UnitMetrics& reader : unit_metrics()) reader.rates(frame, add_rate);
     for (const auto& [name, value] : frame.items()) {
-      if (name == "markers") {
-        all["frames.markers"].add(static_cast<double>(value.size()));
-        for (const Json& marker : value) {
-          if (marker.contains("error")) gather(marker["error"], "frames.error", all);
-          for (const char* figure : {"reprojection_px", "iterations"}) {
-            if (marker.contains(figure))
-              gather(marker[figure], std::string("frames.") + figure, all);
-          }
-        }
-      } else if (name == "time_us" && frame.contains("gave_up")) {
-        continue;  // stages that were not reached
-      } else if (name != "index" && name != "scene_marker" && name != "further_scene_markers") {
-        gather(value, "frames." + name, all);
-      }
+      if (name == "index" || is_taken(name, value, add)) continue;
+      if (name == "time_us" && frame.contains("gave_up")) continue;  // stages that were not reached
+      gather(value, "frames." + name, all);
     }
   }
   for (const auto& [name, gathered] : all) {
     found(name + ".mean", gathered.sum / gathered.count);
     found(name + ".max", gathered.max);
   }
-  if (detected.count != 0) found("summary.detection_rate", detected.sum / detected.count);
+  for (const auto& [name, gathered] : rates) found(name, gathered.sum / gathered.count);
 }
 
 /// A limit that is only known to be no lower says nothing about a clock above it.
@@ -328,13 +326,12 @@ std::vector<std::string> names_without_star() {
 
 }  // namespace
 
-const std::vector<MetricKind>& metric_kinds() {
-  static const std::vector<MetricKind> kinds{
+namespace {
+
+std::vector<MetricKind>& known_kinds() {
+  static std::vector<MetricKind> kinds{
       {"summary.frames", "", "frames that the software worked on"},
       {"summary.delivered", "", "of them with a result"},
-      {"summary.detected", "", "of them with a marker"},
-      {"summary.detection_rate", "",
-       "share of the scenes whose marker was found, with its ID; 1: all"},
       {"summary.fps.mean", "1/s", "frame rate: results over the time that they took"},
       {"summary.fps.min", "1/s", "frame rate of the slowest result"},
       {"summary.fps.max", "1/s", "frame rate of the fastest result"},
@@ -359,17 +356,11 @@ const std::vector<MetricKind>& metric_kinds() {
       {"camera.slack_us.mean", "µs", "what a frame leaves of the camera's period"},
       {"camera.slack_us.min", "µs", "the same of the longest frame"},
       {"frames.counts.*", "", "what the design counts of a frame; some of it is lost work"},
-      {"frames.markers", "", "markers found"},
-      {"frames.threshold", "", "grey level at which the image was made binary"},
+      {"frames.figures.*", "", "what the design finds of a frame, in the unit that it says"},
       {"frames.time_us.frame", "µs", "from the start of a frame to its result"},
       {"frames.time_us.*", "µs", "time of a stage"},
       {"frames.energy_mj.total", "mJ", "energy of the chip for the frame"},
       {"frames.energy_mj.*", "mJ", "of it one group of modules"},
-      {"frames.error.corner_px", "px", "distance of the marker's corners from the truth"},
-      {"frames.error.translation_mm", "mm", "distance of the marker's place from the truth"},
-      {"frames.error.rotation_deg", "°", "angle of the marker's rotation from the truth"},
-      {"frames.reprojection_px", "px", "distance of the corners from those of the pose"},
-      {"frames.iterations", "", "iterations of the pose"},
       {"power.total_w.nominal", "W", "mean power of the chip"},
       {"power.total_w.low", "W", "lower end of its error band"},
       {"power.total_w.high", "W", "upper end of its error band"},
@@ -405,6 +396,20 @@ const std::vector<MetricKind>& metric_kinds() {
       {"program_end.time_us", "µs", "when it ended"},
   };
   return kinds;
+}
+
+}  // namespace
+
+const std::vector<MetricKind>& metric_kinds() {
+  return known_kinds();
+}
+
+UnitMetrics::UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
+                         void (*find_rates)(const Json&, const Found&),
+                         std::initializer_list<MetricKind> kinds)
+    : take(take_member), rates(find_rates) {
+  unit_metrics().push_back(*this);
+  known_kinds().insert(known_kinds().end(), kinds);
 }
 
 const MetricKind* kind_of_metric(const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -25,6 +26,22 @@ struct MetricKind {
 
 /// All that a result may have. Those of frames stand here without their end: ".mean", ".max".
 const std::vector<MetricKind>& metric_kinds();
+
+/// How an application reads what it adds to a unit's entry in result.json, and what its metrics
+/// mean. One object of the application, before main(), registers itself.
+struct UnitMetrics {
+  using Found = std::function<void(const std::string& name, double value)>;
+
+  UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
+              void (*find_rates)(const Json&, const Found&),
+              std::initializer_list<MetricKind> kinds);
+
+  /// Finds the figures in a member: `name` becomes frames.<name>.mean and .max. False: it is none
+  /// of the application's, and is read as all others are.
+  bool (*take)(const std::string& name, const Json& value, const Found& found);
+  /// Finds what a unit counts for, 1 or 0: `name` becomes summary.<name>, the mean over all units.
+  void (*rates)(const Json& unit, const Found& found);
+};
 
 /// Null if no result has a metric of this name.
 const MetricKind* kind_of_metric(const std::string& name);

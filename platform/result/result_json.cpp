@@ -13,11 +13,21 @@
 
 namespace platform::result {
 
+namespace {
+
+/// What a unit is called where result.json does not say it.
+constexpr const char* usual_unit = "frame";
+
+}  // namespace
+
 void add_run(Json& json, const facts::RunFacts& facts) {
   json["fidelity"] = facts.fidelity;
   json["system"] = facts.system;
   json["design"] = facts.design;
   json["profile"] = facts.profile;
+  if (facts.work.unit == usual_unit) return;
+  if (!facts.work.unit.empty()) json["unit"] = facts.work.unit;
+  json["job"] = facts.work.job;
 }
 
 void add_end(Json& json, const facts::RunFacts& facts, const std::vector<std::string>& warnings) {
@@ -29,8 +39,9 @@ void add_end(Json& json, const facts::RunFacts& facts, const std::vector<std::st
 
 void add_figures(Json& json, const facts::RunFacts& facts, const facts::Summary& summary) {
   if (!summary.stages().empty()) json["stages"] = stages_json(summary);
-  json["summary"] = to_json(summary);
-  if (const std::optional<facts::Limit> limit = summary.limit()) json["limit"] = to_json(*limit);
+  json["summary"] = to_json(summary, facts.work);
+  if (const std::optional<facts::Limit> limit = summary.limit())
+    json["limit"] = to_json(*limit, facts.work);
   if (facts.power) {
     json["summary"]["power_w"] = power_summary_json(*facts.power);
     if (facts.power->per_frame) {
@@ -49,115 +60,11 @@ void add_figures(Json& json, const facts::RunFacts& facts, const facts::Summary&
 
 namespace {
 
-constexpr int px_places = 6;
-constexpr int rotation_places = 9;
-constexpr int metre_places = 9;
-constexpr int mm_places = 6;
-constexpr int degree_places = 6;
+constexpr int figure_places = 9;
 constexpr int us_places = 6;
 constexpr int fps_places = 6;
 constexpr int second_places = 3;
 constexpr int percent_places = 3;
-
-}  // namespace
-
-Json to_json(const std::array<PixelPoint, 4>& corners) {
-  Json array = Json::array();
-  for (const PixelPoint& corner : corners) {
-    array.push_back({rounded(corner.x, px_places), rounded(corner.y, px_places)});
-  }
-  return array;
-}
-
-Json to_json(const Pose& pose) {
-  Json rotation = Json::array();
-  for (const auto& row : pose.rotation.rowwise()) {
-    Json values = Json::array();
-    for (const double value : row) values.push_back(rounded(value, rotation_places));
-    rotation.push_back(values);
-  }
-  Json translation = Json::array();
-  for (const double value : pose.translation) translation.push_back(rounded(value, metre_places));
-  Json json;
-  json["rotation"] = rotation;
-  json["translation_m"] = translation;
-  return json;
-}
-
-namespace {
-
-/// To six digits: the smallest of them are 10⁻¹² times the largest.
-double six_digits(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 5);
-  double result = 0;
-  std::from_chars(text, end.ptr, result);
-  return result;
-}
-
-Json covariance_json(const facts::PoseCovariance& covariance) {
-  Json rows = Json::array();
-  for (std::size_t row = 0; row < 6; ++row) {
-    Json values = Json::array();
-    for (std::size_t column = 0; column < 6; ++column)
-      values.push_back(six_digits(covariance[row * 6 + column]));
-    rows.push_back(values);
-  }
-  return rows;
-}
-
-Json motion_json(const facts::PoseMotion& motion) {
-  Json json = {{"frames", motion.frames}};
-  for (const double value : motion.velocity_m_s) json["velocity_m_s"].push_back(six_digits(value));
-  for (const double value : motion.turn_rate_rad_s)
-    json["turn_rate_rad_s"].push_back(six_digits(value));
-  return json;
-}
-
-Json board_json(const facts::FoundBoard& board) {
-  Json json = {{"markers", board.markers}};
-  if (board.residual_px) json["residual_px"] = rounded(*board.residual_px, px_places);
-  if (!board.misfit.empty()) {
-    json["refused"] = board.misfit;
-    json["layouts"] = board.layouts;
-    return json;
-  }
-  json["pose"] = to_json(board.pose);
-  json["covariance"] = covariance_json(board.covariance);
-  if (board.motion) json["motion"] = motion_json(*board.motion);
-  return json;
-}
-
-Json error_json(const facts::FoundMarker& found, const GroundTruth& truth) {
-  const facts::MarkerError error = facts::measure_error(found, truth);
-  Json json;
-  json["corner_px"] = rounded(error.corner_px, px_places);
-  if (!facts::has_pose_error(found, truth)) return json;
-  json["translation_mm"] = rounded(error.translation_mm, mm_places);
-  json["rotation_deg"] = rounded(error.rotation_deg, degree_places);
-  return json;
-}
-
-Json marker_json(const facts::FrameReport& frame, const facts::FoundMarker& found) {
-  Json json;
-  json["id"] = found.id;
-  json["rotation"] = found.rotation;
-  json["corners_px"] = to_json(found.corners_px);
-  if (found.has_pose) {
-    json["pose"] = to_json(found.pose);
-    if (found.reprojection_px) json["reprojection_px"] = rounded(*found.reprojection_px, px_places);
-    if (found.iterations) json["iterations"] = *found.iterations;
-    if (found.covariance) json["covariance"] = covariance_json(*found.covariance);
-    if (found.motion) json["motion"] = motion_json(*found.motion);
-  }
-  if (found.residual_px) json["residual_px"] = rounded(*found.residual_px, px_places);
-  if (const GroundTruth* truth = facts::truth_of(frame, found)) {
-    json["truth"]["corners_px"] = to_json(truth->corners_px);
-    if (truth->is_usual) json["truth"]["pose"] = to_json(truth->pose);
-    json["error"] = error_json(found, *truth);
-  }
-  return json;
-}
 
 Json counts_json(const facts::Counts& counts) {
   Json json = Json::object();
@@ -174,36 +81,45 @@ double rounded(double value, int places) {
   return result;
 }
 
-Json to_json(const facts::FrameReport& frame) {
+namespace {
+
+using Place = facts::UnitExtra::Place;
+
+void add_extra(const facts::UnitReport& unit, Place place, Json& json) {
+  if (unit.extra) unit.extra->add_members(place, json);
+}
+
+}  // namespace
+
+Json to_json(const facts::UnitReport& unit) {
   Json json;
-  json["input"] = frame.input;
-  json["index"] = frame.index;
-  json["threshold"] = frame.threshold;
-  if (frame.settling_showings > 0) json["settling_showings"] = frame.settling_showings;
-  if (!frame.delivered()) json["gave_up"] = frame.gave_up;
-  if (frame.truth) json["scene_marker"] = frame.truth->marker_id;
-  for (const GroundTruth& truth : frame.further_truth)
-    json["further_scene_markers"].push_back(truth.marker_id);
-  json["counts"] = counts_json(frame.counts);
-  json["markers"] = Json::array();
-  for (const facts::FoundMarker& found : frame.markers)
-    json["markers"].push_back(marker_json(frame, found));
-  if (frame.board) json["board"] = board_json(*frame.board);
+  if (!unit.input.empty()) json["input"] = unit.input;
+  json["index"] = unit.index;
+  add_extra(unit, Place::behind_index, json);
+  if (unit.settling_showings > 0) json["settling_showings"] = unit.settling_showings;
+  if (!unit.delivered()) json["gave_up"] = unit.gave_up;
+  add_extra(unit, Place::before_counts, json);
+  json["counts"] = counts_json(unit.counts);
+  for (const facts::UnitFigure& figure : unit.figures)
+    json["figures"][figure.name] = rounded(figure.value, figure_places);
+  add_extra(unit, Place::behind_counts, json);
   json["time_us"] = Json::object();
-  for (const facts::StageTime& time : frame.times) {
+  for (const facts::StageTime& time : unit.times) {
     json["time_us"][time.name] =
         rounded(static_cast<double>(time.ps) / facts::ps_per_us, us_places);
   }
-  if (!frame.energy.empty()) json["energy_mj"] = energy_json(frame.energy);
-  if (!frame.warnings.empty()) json["warnings"] = frame.warnings;
+  if (!unit.energy.empty()) json["energy_mj"] = energy_json(unit.energy);
+  if (!unit.warnings.empty()) json["warnings"] = unit.warnings;
   return json;
 }
 
-Json to_json(const facts::Summary& summary) {
+Json to_json(const facts::Summary& summary, const facts::Work& work) {
   Json json;
   json["frames"] = summary.frames();
   json["delivered"] = summary.delivered();
-  json["detected"] = summary.detected();
+  for (const facts::Tally& tally : work.tallies) {
+    if (tally.is_figure) json[tally.name] = summary.tally(tally.name);
+  }
   if (summary.fps().count() > 0) {
     json["fps"]["mean"] = rounded(summary.mean_fps(), fps_places);
     json["fps"]["min"] = rounded(summary.fps().min(), fps_places);
@@ -242,7 +158,7 @@ Json stages_json(const facts::Summary& summary) {
   return json;
 }
 
-Json to_json(const facts::Limit& limit) {
+Json to_json(const facts::Limit& limit, const facts::Work& work) {
   Json json;
   json["kind"] = to_string(limit.kind);
   json["stages"] = limit.stages;
@@ -253,7 +169,7 @@ Json to_json(const facts::Limit& limit) {
   if (!limit.clock.empty()) json["clock"] = limit.clock;
   if (!limit.why.empty()) json["why"] = limit.why;
   json["levers"] = limit.levers;
-  json["text"] = limit.text();
+  json["text"] = limit.text(work);
   json["faster_with"] = limit.levers_text();
   return json;
 }
@@ -378,7 +294,7 @@ Json to_json(const Verdict& verdict) {
   return json;
 }
 
-void ResultDocument::add(const facts::FrameReport& frame) {
+void ResultDocument::add(const facts::UnitReport& frame) {
   frames_.push_back(to_json(frame));
   summary_.add(frame);
 }
@@ -432,7 +348,7 @@ ResultWriter::ResultWriter(host::OutputFolder& folder)
 
 ResultWriter::~ResultWriter() = default;
 
-void ResultWriter::add(const facts::FrameReport& frame) {
+void ResultWriter::add(const facts::UnitReport& frame) {
   const std::string text = (summary_.frames() == 0 ? "\n    " : ",\n    ") + dump(to_json(frame));
   file_.reserve(around_frames + bytes_ + text.size());
   if (std::fwrite(text.data(), 1, text.size(), frames_.get()) != text.size() ||

@@ -21,7 +21,7 @@ class ResultSink {
  public:
   virtual ~ResultSink() = default;
 
-  virtual void add(const facts::FrameReport& frame) = 0;
+  virtual void add(const facts::UnitReport& frame) = 0;
   /// `warnings` are those of the whole run.
   virtual void finish(const facts::RunFacts& facts, const facts::Provenance& provenance,
                       const std::vector<std::string>& warnings) = 0;
@@ -42,11 +42,7 @@ class ResultSink {
 ///
 ///   | Key                                          | Unit   | Places |
 ///   |----------------------------------------------|--------|--------|
-///   | corners_px, reprojection_px, corner_px       | px     | 6      |
-///   | pose.rotation                                |        | 9      |
-///   | pose.translation_m                           | m      | 9      |
-///   | translation_mm                               | mm     | 6      |
-///   | rotation_deg                                 | degree | 6      |
+///   | figures of a unit                            |        | 9      |
 ///   | time_us, latency_us (6 places are 1 ps)      | us     | 6      |
 ///   | fps                                          | 1/s    | 6      |
 ///   | power: w, total_w, rails; power_w            | W      | 12     |
@@ -57,8 +53,7 @@ class ResultSink {
 ///   | bram36                                       |        | 1      |
 ///   | provenance.wall_time_s                       | s      | 3      |
 ///
-/// `reprojection_px` and `iterations` are there if the program tells them. A marker without pose
-/// has neither, no `pose`, and its error has `corner_px` only.
+/// What an application adds has places of its own (facts::UnitExtra::add_members).
 class ResultWriter : public ResultSink {
  public:
   /// Throws vp::OutputError if the disk has no room for a result. `folder` outlives this.
@@ -67,7 +62,7 @@ class ResultWriter : public ResultSink {
 
   /// Throws vp::OutputError if the file cannot be written, as finish() does. A frame that failed is
   /// left out.
-  void add(const facts::FrameReport& frame) override;
+  void add(const facts::UnitReport& frame) override;
   void finish(const facts::RunFacts& facts, const facts::Provenance& provenance,
               const std::vector<std::string>& warnings) override;
 
@@ -88,18 +83,14 @@ using Json = nlohmann::ordered_json;
 /// ResultWriter.
 double rounded(double value, int places);
 
-/// Corners and poses as a marker of result.json has them.
-Json to_json(const std::array<PixelPoint, 4>& corners_px);
-Json to_json(const Pose& pose);
-
 /// One element of `frames`.
-Json to_json(const facts::FrameReport& frame);
-Json to_json(const facts::Summary& summary);
+Json to_json(const facts::UnitReport& frame);
+Json to_json(const facts::Summary& summary, const facts::Work& work);
 /// `camera`: how the program kept up with its rate.
 Json camera_json(const facts::CameraReport& camera, const facts::Summary& summary);
 /// The keys of `time_us` in the order of the flow; `part_of` names the stage that contains one.
 Json stages_json(const facts::Summary& summary);
-Json to_json(const facts::Limit& limit);
+Json to_json(const facts::Limit& limit, const facts::Work& work);
 Json to_json(const facts::ProgramEnd& end);
 Json to_json(const facts::Provenance& provenance);
 
@@ -121,7 +112,7 @@ class ResultDocument : public ResultSink {
  public:
   using Json = nlohmann::ordered_json;
 
-  void add(const facts::FrameReport& frame) override;
+  void add(const facts::UnitReport& frame) override;
   void finish(const facts::RunFacts& facts, const facts::Provenance& provenance,
               const std::vector<std::string>& warnings) override;
 

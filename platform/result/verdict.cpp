@@ -37,13 +37,15 @@ Part ran(const facts::RunFacts& facts) {
   return {"ran"};
 }
 
-Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
+Part counted_job(const facts::RunFacts& facts, const facts::Summary& summary) {
   Part part{"job"};
+  const facts::Work& work = facts.work;
   const std::uint64_t dropped = facts.camera ? facts.camera->dropped : 0;
+  if (work.unit.empty() && summary.frames() == 0) return part;  // "ran" says whether it is done
   const std::uint64_t all = summary.frames() + facts.unpublished + dropped;
   if (all == 0) {
     part.holds = Holds::no;
-    part.why = "no frames";
+    part.why = "no " + work.many();
     return part;
   }
   part.margin_percent =
@@ -51,16 +53,25 @@ Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
   if (summary.fulfilled() == all) return part;
   part.holds = Holds::no;
   std::vector<std::string> reasons;
-  const auto add = [&](std::uint64_t frames, const char* what) {
-    if (frames != 0)
-      reasons.push_back(fmt::format("{} of {} {}", frames, counted(all, "frame"), what));
+  const auto add = [&](std::uint64_t units, const std::string& what) {
+    if (units != 0) reasons.push_back(fmt::format("{} of {} {}", units, work.counted(all), what));
   };
   add(dropped, "of the camera dropped");
   add(facts.unpublished, "taken and never published");
   add(summary.frames() - summary.delivered(), "without a result");
   add(summary.lossy(), "with losses");
-  add(summary.overlooked(), "without the marker of the scene");
+  for (const auto& [reason, units] : summary.failures()) add(units, reason);
   part.why = vp::join(reasons, ", ");
+  return part;
+}
+
+/// What stubs had a part in is not known to be done.
+Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
+  Part part = counted_job(facts, summary);
+  if (part.holds != Holds::yes || facts.stubs.empty()) return part;
+  part.holds = Holds::unknown;
+  part.why = fmt::format("job not known: {} answered in the place of {}",
+                         facts.stubs.size() == 1 ? "a stub" : "stubs", vp::join(facts.stubs, ", "));
   return part;
 }
 
@@ -136,6 +147,10 @@ const char* to_string(Holds holds) {
       break;
   }
   return "yes";
+}
+
+Verdict::Part job_of(const facts::RunFacts& facts, const facts::Summary& summary) {
+  return job(facts, summary);
 }
 
 const facts::TimingReport::Module& critical_module(const facts::TimingReport& timing) {

@@ -30,9 +30,10 @@ struct Verdict {
   };
 
   /// "ran": the program ended by itself, with 0.
-  /// "job": each frame has a result, nothing was lost in buffers, and the marker was found wherever
-  ///        the scene has one; a camera of a fixed rate lost no frame. The margin is the share of
-  ///        such frames, less 100 %.
+  /// "job": each unit of work has a result, nothing was lost in buffers, and the design's own rule
+  ///        holds (facts::Work, UnitReport::failures); of inputs at a fixed rate none was lost. The
+  ///        margin is the share of such units, less 100 %. Of a design that delivers nothing it is
+  ///        done when the program ends well, which "ran" says.
   /// "fits": LUT, flip-flops, block memories and DSP of the device; unknown where those of a part
   ///         are, unless the others alone are too many.
   /// "clocks": CPU and DDR, and those FCLK that the design uses, are within the speed grade, and
@@ -50,6 +51,9 @@ struct Verdict {
 /// What is not known of the facts is `unknown`. Without a PL there is nothing that must fit or be
 /// fast enough.
 Verdict verdict_of(const facts::RunFacts& facts, const facts::Summary& summary);
+
+/// Its part "job".
+Verdict::Part job_of(const facts::RunFacts& facts, const facts::Summary& summary);
 
 /// The module that says most about the clocks: the one with the least margin, up to the clock at
 /// which it surely works; of those that miss theirs if there are any, else of those of which it is

@@ -76,7 +76,7 @@ vp::ExpressionValue value_of(const ParameterKind& kind, const std::string& text)
 }
 
 ParameterTable::ParameterTable(const Elaborated& elaborated)
-    : parameters_(elaborated.parameters), size_(elaborated.size) {
+    : parameters_(elaborated.parameters), input_(elaborated.input) {
   for (std::size_t i = 0; i < parameters_.size(); ++i) index_[parameters_[i].path] = i;
 }
 

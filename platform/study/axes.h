@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <marker/input/image_file.h>
+#include <facts/unit.h>
 #include <study/spec.h>
 #include <vp/configuration.h>
 #include <vp/expression.h>
@@ -42,7 +42,7 @@ struct Build {
 /// A platform that was built, and is gone.
 struct Elaborated {
   std::vector<vp::ParameterDescription> parameters;
-  input::ImageSize size;
+  facts::InputNeed input;  ///< what its design takes
 };
 
 /// The parameters of a platform.
@@ -60,12 +60,12 @@ class ParameterTable {
   std::map<std::string, std::string> values() const;
   /// The defaults by path: some follow from other values.
   std::map<std::string, std::string> defaults() const;
-  input::ImageSize size() const { return size_; }
+  const facts::InputNeed& input() const { return input_; }
 
  private:
   std::vector<vp::ParameterDescription> parameters_;
   std::map<std::string, std::size_t> index_;
-  input::ImageSize size_;
+  facts::InputNeed input_;
 };
 
 /// The values of an axis, as they stand in the effective configuration: a list, or any value

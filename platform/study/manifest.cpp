@@ -3,9 +3,6 @@
 #include <host/digest.h>
 #include <host/document.h>
 #include <host/process.h>
-#include <marker/input/camera_file.h>
-#include <marker/input/frame_source.h>
-#include <marker/scene/scene.h>
 #include <study/point.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -39,19 +36,9 @@ void append_text(std::string& json, const std::string& text) {
   json += '"';
 }
 
-Json optional_text(const std::optional<std::string>& text) {
-  return text ? Json(*text) : Json(nullptr);
-}
-
-std::optional<std::string> text_or_none(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  return json.get<std::string>();
-}
-
 Json input_json(const InputChoice& input) {
   Json json;
-  json["camera"] = optional_text(input.camera);
-  json["fit"] = optional_text(input.fit);
+  json["settings"] = input.settings;
   json["frames"] = input.frames ? Json(*input.frames) : Json(nullptr);
   json["repeat"] = input.repeat;
   return json;
@@ -59,8 +46,11 @@ Json input_json(const InputChoice& input) {
 
 InputChoice input_from(const Json& json) {
   InputChoice input;
-  input.camera = text_or_none(json.at("camera"));
-  input.fit = text_or_none(json.at("fit"));
+  input.settings = json.value("settings", input.settings);
+  for (const char* setting : {"camera", "fit"}) {  // of earlier versions
+    if (json.contains(setting) && json[setting].is_string())
+      input.settings[setting] = json[setting].get<std::string>();
+  }
   if (!json.at("frames").is_null()) input.frames = json.at("frames").get<std::uint64_t>();
   input.repeat = json.at("repeat").get<std::uint64_t>();
   return input;
@@ -179,7 +169,6 @@ const Identities::Shared& Identities::shared_by(std::size_t family, std::size_t 
   shared.text += ",\"tables\":" + manifest_.tables.dump();
   shared.text += ",\"contents\":" + of_point.contents.dump();
   shared.text += ",\"inputs\":" + manifest_.input_sets[input_set].contents.dump();
-  shared.text += ",\"fit\":" + optional_text(input.fit).dump();
   shared.text += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
   shared.text += ",\"repeat\":" + std::to_string(input.repeat);
   shared.text += ",\"configuration\":{";
@@ -247,7 +236,7 @@ Json facts_json(const Manifest& manifest) {
   for (const InputSet& set : manifest.input_sets)
     json["input_sets"].push_back({{"inputs", set.inputs},
                                   {"contents", set.contents},
-                                  {"size", {set.size.width, set.size.height}}});
+                                  {"need", {set.need.kind, set.need.bytes, set.need.shape}}});
   json["effects"] = Json::array();
   for (const KeyedEffect& effect : manifest.effects)
     json["effects"].push_back({effect.from, effect.to, effect.path, effect.delta});
@@ -304,10 +293,11 @@ Manifest facts_from(const Json& json, const std::string& origin) {
          family.at("defaults").get<std::map<std::string, std::string>>(), family.at("contents")});
   }
   for (const Json& set : json.at("input_sets")) {
-    const Json size = set.value("size", Json{0, 0});  // not in files of earlier versions
+    const Json need = set.value("need", Json{"none", 0, ""});  // not in files of earlier versions
     manifest.input_sets.push_back({set.at("inputs").get<std::vector<std::string>>(),
                                    set.at("contents"),
-                                   {size.at(0).get<int>(), size.at(1).get<int>()}});
+                                   {need.at(0).get<std::string>(), need.at(1).get<std::size_t>(),
+                                    need.at(2).get<std::string>()}});
   }
   for (const Json& effect : json.at("effects")) {
     manifest.effects.push_back({effect.at(0).get<std::string>(), effect.at(1).get<std::string>(),
@@ -360,42 +350,6 @@ bool is_table(const fs::path& relative) {
   const std::string first = relative.begin()->string();
   return first != "programs" && first != "studies" && relative.has_parent_path() &&
          relative.extension() != ".so";
-}
-
-Json scene_json(const Scene& scene) {
-  Json json;
-  json["marker"] = scene.marker_id;
-  json["camera"] = {scene.camera.fx, scene.camera.fy, scene.camera.cx, scene.camera.cy};
-  json["rotation"] = Json::array();
-  for (const auto& row : scene.pose.rotation.rowwise()) {
-    json["rotation"].push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  json["translation"] =
-      std::vector<double>(scene.pose.translation.begin(), scene.pose.translation.end());
-  json["squares"] = Json::array();
-  for (const Square& square : scene.squares)
-    json["squares"].push_back({square.u, square.v, square.side, square.word});
-  const Brightness& light = scene.brightness;
-  json["brightness"] = {light.black, light.border,  light.wall,
-                        light.floor, light.ceiling, light.side_walls};
-  json["room"] = {scene.room.wall_w, scene.room.floor_v, scene.room.ceiling_v, scene.room.side_u};
-  const Motion& motion = scene.motion;
-  json["motion"] = {motion.velocity.x(), motion.velocity.y(), motion.velocity.z(),
-                    motion.spin_deg_per_s, scene.time_s};
-  json["shutter"] = {scene.shutter.exposure_s, scene.shutter.readout_s};
-  json["vignetting"] = scene.vignetting;
-  json["noise"] = scene.noise_sigma;
-  json["blur"] = scene.blur_sigma_px;
-  json["seed"] = scene.seed;
-  return json;
-}
-
-input::InputOptions options_of(const InputChoice& choice, input::ImageSize size) {
-  input::InputOptions options;
-  options.size = size;
-  if (choice.fit) options.fit = *choice.fit == "crop" ? input::Fit::crop : input::Fit::scale;
-  if (choice.camera) options.camera = input::read_camera_file(*choice.camera);
-  return options;
 }
 
 /// The tables that a scaled cost profile refers to stand beside it.
@@ -452,26 +406,6 @@ Json file_contents(const std::string& program_file,
     json["files"][path] = host::file_hash(value);
     add_named_tables(value, json["files"]);
   }
-  return json;
-}
-
-Json input_contents(const std::vector<std::string>& inputs, const InputChoice& choice,
-                    input::ImageSize size) {
-  const input::InputOptions options = options_of(choice, size);
-  const std::vector<std::string> asked = inputs.empty() ? std::vector<std::string>{"demo"} : inputs;
-  Json json = Json::array();
-  for (const input::InputItem& item : input::list_inputs(asked, options)) {
-    Json entry;
-    entry["name"] = item.name;
-    if (item.kind == input::InputItem::Kind::scene) {
-      const Scene scene = make_scene(item.source, camera_of(options, size));
-      entry["scene"] = host::content_hash(scene_json(scene).dump());
-    } else {
-      entry["file"] = host::file_hash(item.source);
-    }
-    json.push_back(entry);
-  }
-  if (choice.camera) json.push_back({{"camera", host::file_hash(*choice.camera)}});
   return json;
 }
 

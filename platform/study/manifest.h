@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <marker/input/image_file.h>
+#include <facts/unit.h>
 #include <study/expansion.h>
 #include <study/spec.h>
 #include <nlohmann/json.hpp>
@@ -16,10 +16,9 @@ namespace platform::study {
 
 using Json = nlohmann::ordered_json;
 
-/// How inputs become frames, for all points.
+/// How inputs become units of work, for all points.
 struct InputChoice {
-  std::optional<std::string> camera;
-  std::optional<std::string> fit;
+  std::map<std::string, std::string> settings;  ///< InputRequest::settings
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
 };
@@ -38,7 +37,7 @@ struct Family {
 struct InputSet {
   std::vector<std::string> inputs;
   Json contents;            ///< name and hash of each
-  input::ImageSize size{};  ///< that the platform takes
+  facts::InputNeed need{};  ///< what the design takes
 };
 
 /// One point.
@@ -152,10 +151,5 @@ Json table_contents();
 /// that those name in turn.
 Json file_contents(const std::string& program_file,
                    const std::map<std::string, std::string>& configuration);
-
-/// Name and hash of each input, groups and folders resolved: of a file its bytes, of a scene its
-/// definition. Throws vp::InputError for one that does not exist or does not fit.
-Json input_contents(const std::vector<std::string>& inputs, const InputChoice& choice,
-                    input::ImageSize size);
 
 }  // namespace platform::study

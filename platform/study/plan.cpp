@@ -14,6 +14,7 @@
 #include <result/metrics.h>
 #include <study/axes.h>
 #include <study/expansion.h>
+#include <study/inputs.h>
 #include <study/manifest.h>
 #include <study/pareto.h>
 #include <study/plan.h>
@@ -76,7 +77,7 @@ std::vector<std::string> extremes(const std::vector<std::string>& values,
 }
 
 bool changes_others(const Elaborated& built, const ParameterTable& base, const std::string& path) {
-  if (built.size.width != base.size().width || built.size.height != base.size().height) return true;
+  if (built.input < base.input() || base.input() < built.input) return true;
   const std::map<std::string, std::string> before = base.values();
   for (const vp::ParameterDescription& parameter : built.parameters) {
     const auto found = before.find(parameter.path);
@@ -321,7 +322,7 @@ class Planner {
     manifest_.source = spec_.source;
     manifest_.program = program_identity(platform_.version, platform_.revision);
     manifest_.tables = table_contents();
-    manifest_.input = {spec_.camera, spec_.fit, spec_.frames, spec_.repeat};
+    manifest_.input = {spec_.input_settings, spec_.frames, spec_.repeat};
     manifest_.sampling = to_string(spec_.sampling.method);
     if (spec_.job) manifest_.job = spec_.job->text;
     manifest_.metrics = spec_.metrics;
@@ -370,7 +371,7 @@ class Planner {
     const BuiltFamily& family = family_of(build);
     point.family = family.index;
     const std::string* label = find(point.swept, "inputs");
-    point.input_set = input_set_of(label != nullptr ? *label : "", family.size);
+    point.input_set = input_set_of(label != nullptr ? *label : "", family.input);
     const auto& configuration = manifest_.families[point.family].configuration;
     const auto is_none = [&](const auto& change) {
       const auto found = configuration.find(change.first);
@@ -386,19 +387,19 @@ class Planner {
 
   struct BuiltFamily {
     std::size_t index;
-    input::ImageSize size;
+    facts::InputNeed input;
   };
 
   const BuiltFamily& family_of(const Build& build) {
     const auto known = families_.find({build.program, build.settings});
     if (known != families_.end()) return known->second;
     Family family{build.program, {}, {}, {}, {}};
-    input::ImageSize size{};
+    facts::InputNeed input;
     try {
       const ParameterTable table(platform_.elaborate(build, spec_.origin));
       family.configuration = table.values();
       family.defaults = table.defaults();
-      size = table.size();
+      input = table.input();
     } catch (const vp::InputError& error) {
       family.problem = error.what();
       // These values do not go together: the points run, fail and say why.
@@ -408,24 +409,25 @@ class Planner {
           })->table;
       family.configuration = table.values();
       family.defaults = table.defaults();
-      size = table.size();
+      input = table.input();
       for (const auto& [path, value] : build.settings) family.configuration[path] = value;
     }
     family.contents =
         file_contents(platform_.program_file(build.program, family.configuration["design"]),
                       family.configuration);
     manifest_.families.push_back(std::move(family));
-    const BuiltFamily built{manifest_.families.size() - 1, size};
+    const BuiltFamily built{manifest_.families.size() - 1, input};
     return families_.emplace(std::pair(build.program, build.settings), built).first->second;
   }
 
-  std::size_t input_set_of(const std::string& label, input::ImageSize size) {
-    const auto id = std::make_tuple(label, size.width, size.height);
+  std::size_t input_set_of(const std::string& label, const facts::InputNeed& need) {
+    const auto id = std::make_pair(label, need);
     const auto known = input_sets_.find(id);
     if (known != input_sets_.end()) return known->second;
     const std::vector<std::string>& inputs =
         label.empty() ? spec_.inputs : spec_.input_sets.at(label);
-    manifest_.input_sets.push_back({inputs, input_contents(inputs, manifest_.input, size), size});
+    const InputRequest request{inputs, manifest_.input.settings, need};
+    manifest_.input_sets.push_back({inputs, contents_of(request), need});
     return input_sets_[id] = manifest_.input_sets.size() - 1;
   }
 
@@ -438,7 +440,7 @@ class Planner {
   std::vector<vp::Expression> constraints_;
   std::set<std::string> influential_;  ///< parameters from which others follow
   std::map<std::pair<std::string, std::map<std::string, std::string>>, BuiltFamily> families_;
-  std::map<std::tuple<std::string, int, int>, std::size_t> input_sets_;
+  std::map<std::pair<std::string, facts::InputNeed>, std::size_t> input_sets_;
   Manifest manifest_;
   Identities identities_{manifest_};
 };

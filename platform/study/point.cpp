@@ -31,7 +31,7 @@ PointRecord new_record(const Manifest& manifest, const PlannedPoint& point) {
   record.run["program"] = manifest.families[point.family].program;
   record.run["inputs"] = manifest.input_sets[point.input_set].inputs;
   record.run["settings"] = manifest.settings(point);
-  if (manifest.input.camera) record.run["camera"] = *manifest.input.camera;
+  if (!manifest.input.settings.empty()) record.run["input"] = manifest.input.settings;
   return record;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <host/process.h>
+#include <study/inputs.h>
 #include <study/spec.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -73,21 +74,15 @@ class Reader : private vp::YamlReader {
 
   void read(const YAML::Node& root) {
     if (!root.IsMap()) fail(root, "expected 'key: value' lines");
-    const Keys keys{
+    Keys keys{
         {"title", [&](const YAML::Node& n) { spec_.title = scalar(n, "title"); }},
         {"text", [&](const YAML::Node& n) { spec_.text = scalar(n, "text"); }},
         {"inputs",
          [&](const YAML::Node& n) {
            for (std::string& input : scalars(n, "inputs")) spec_.inputs.push_back(std::move(input));
          }},
-        {"scenes", [&](const YAML::Node& n) { read_scenes(n); }},
         {"system", [&](const YAML::Node& n) { read_program(n, "system"); }},
         {"program", [&](const YAML::Node& n) { read_program(n, "program"); }},
-        {"camera", [&](const YAML::Node& n) { spec_.camera = scalar(n, "camera"); }},
-        {"fit",
-         [&](const YAML::Node& n) {
-           spec_.fit = choice(n, "fit", {"crop", "scale"});
-         }},
         {"frames", [&](const YAML::Node& n) { spec_.frames = whole(n, "frames", 1, most_frames); }},
         {"repeat", [&](const YAML::Node& n) { spec_.repeat = whole(n, "repeat", 1, most_frames); }},
         {"fidelity", [&](const YAML::Node& n) { set("fidelity", scalar(n, "fidelity"), n); }},
@@ -104,6 +99,7 @@ class Reader : private vp::YamlReader {
         {"target_rate", [&](const YAML::Node& n) { read_rate(n); }},
         {"metrics", [&](const YAML::Node& n) { spec_.metrics = scalars(n, "metrics"); }},
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
+    for (const InputKind* kind : input_kinds()) add_keys(*kind, keys);
     refuse_controls(root, "");
     for_each(root, keys, "a sweep");
     check_bounds(spec_.constraints);
@@ -113,8 +109,6 @@ class Reader : private vp::YamlReader {
   static constexpr std::uint64_t most_frames = 1'000'000;
   static constexpr std::uint64_t most_points = 10'000'000;
   static constexpr double most_rate = 1e6;
-  static constexpr std::size_t most_scenes = 10'000;
-  static constexpr const char* usual_scene = "front0";
   static constexpr std::uint64_t most_seed = 1'000'000'000'000;
 
   /// A text of the study reaches terminals and files: none of it may command them.
@@ -277,28 +271,33 @@ class Reader : private vp::YamlReader {
       fail(node, counted ? "'sample' needs 'points'" : "this method takes no 'points'");
   }
 
-  /// Every combination of conditions becomes an input: "demo@distance=2 m,noise=0.02".
-  void read_scenes(const YAML::Node& node) {
-    if (!node.IsMap() || node.size() == 0)
-      fail(node, "'scenes' is 'condition: values' lines: 'noise: [0.01, 0.03]'");
-    std::vector<std::string> scenes{""};
-    std::string base = usual_scene;
-    for (const auto& entry : node) {
-      const std::string key = scalar(entry.first, "scenes");
-      if (key == "base") {
-        base = scalar(entry.second, key);
-        continue;
-      }
-      std::vector<std::string> longer;
-      for (const std::string& scene : scenes) {
-        for (const std::string& value : scalars(entry.second, key))
-          longer.push_back(scene + (scene.empty() ? "" : ",") + key + "=" + value);
-      }
-      if (longer.size() > most_scenes) fail(node, "'scenes' has more than 10000 combinations");
-      scenes = std::move(longer);
+  /// What a kind of input may be asked for in a file.
+  void add_keys(const InputKind& kind, Keys& keys) {
+    for (const InputSetting& setting : kind.settings) {
+      const std::string name = setting.name;
+      const std::vector<std::string> choices = vp::split(setting.value, '|');
+      keys.emplace(name, [this, name, choices](const YAML::Node& n) {
+        spec_.input_settings[name] =
+            choices.size() > 1 ? choice(n, name, choices) : scalar(n, name);
+      });
     }
-    for (const std::string& conditions : scenes)
-      spec_.inputs.push_back(conditions.empty() ? base : base + "@" + conditions);
+    if (kind.key) keys.emplace(kind.key, [&](const YAML::Node& n) { read_lists(n, kind); });
+  }
+
+  void read_lists(const YAML::Node& node, const InputKind& kind) {
+    const std::string key = kind.key;
+    if (!node.IsMap() || node.size() == 0)
+      fail(node, "'" + key + "' is 'condition: values' lines: 'noise: [0.01, 0.03]'");
+    InputKind::Lists lists;
+    for (const auto& entry : node) {
+      const std::string name = scalar(entry.first, key);
+      lists.emplace_back(name, scalars(entry.second, name));
+    }
+    try {
+      for (std::string& input : kind.expand(lists)) spec_.inputs.push_back(std::move(input));
+    } catch (const vp::InputError& error) {
+      fail(node, error.what());
+    }
   }
 
   void read_search(const YAML::Node& node) {

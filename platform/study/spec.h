@@ -65,11 +65,10 @@ struct Spec {
   std::string origin;
   std::string source;  ///< the file's text
 
-  std::vector<std::string> inputs;                             ///< empty: the demo scene
+  std::vector<std::string> inputs;                             ///< empty: the usual
   std::map<std::string, std::vector<std::string>> input_sets;  ///< of the axis `inputs`, by label
   std::string program;                                         ///< or system; empty: the usual
-  std::optional<std::string> camera;
-  std::optional<std::string> fit;
+  std::map<std::string, std::string> input_settings;           ///< by InputSetting::name
   std::optional<std::uint64_t> frames;
   std::uint64_t repeat = 1;
   std::map<std::string, std::string> set;

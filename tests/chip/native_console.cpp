@@ -17,6 +17,6 @@ std::vector<std::string> native_console(
   std::vector<std::string> lines;
   simulation.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
   simulation.run([] { return platform::input::SharedFrame(); },
-                 [](platform::facts::FrameReport&&) { return true; });
+                 [](platform::facts::UnitReport&&) { return true; });
   return lines;
 }

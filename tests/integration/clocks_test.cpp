@@ -5,7 +5,7 @@
 #include "platform_run.h"
 
 using namespace integration;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 
 namespace {
 
@@ -35,32 +35,38 @@ Settings cpu_clock(const std::string& frequency) {
   return exactly("ps.cpu_clk", frequency);
 }
 
-bool some_warning_has(const FrameReport& frame, const std::string& text) {
+bool some_warning_has(const UnitReport& frame, const std::string& text) {
   return std::any_of(frame.warnings.begin(), frame.warnings.end(), [&](const std::string& warning) {
     return warning.find(text) != std::string::npos;
   });
 }
 
 /// Same words, same marker, same corners and pose, nothing lost.
-void check_same_finds(const FrameReport& frame, const FrameReport& expected) {
+void check_same_finds(const UnitReport& frame, const UnitReport& expected) {
   BOOST_TEST(overflows(frame) == 0u);
   BOOST_TEST(frame.warnings.empty());
-  BOOST_TEST(frame.threshold == expected.threshold);
+  BOOST_TEST(platform::marker_frame(frame).threshold == platform::marker_frame(expected).threshold);
   BOOST_TEST(features(frame) == features(expected), boost::test_tools::per_element());
-  BOOST_TEST_REQUIRE(frame.markers.size() == 1u);
-  BOOST_TEST(frame.markers[0].id == expected.markers[0].id);
-  BOOST_TEST(frame.markers[0].rotation == expected.markers[0].rotation);
+  BOOST_TEST_REQUIRE(platform::marker_frame(frame).markers.size() == 1u);
+  BOOST_TEST(platform::marker_frame(frame).markers[0].id ==
+             platform::marker_frame(expected).markers[0].id);
+  BOOST_TEST(platform::marker_frame(frame).markers[0].rotation ==
+             platform::marker_frame(expected).markers[0].rotation);
   for (std::size_t i = 0; i < 4; ++i) {
-    BOOST_TEST(frame.markers[0].corners_px[i].x == expected.markers[0].corners_px[i].x);
-    BOOST_TEST(frame.markers[0].corners_px[i].y == expected.markers[0].corners_px[i].y);
+    BOOST_TEST(platform::marker_frame(frame).markers[0].corners_px[i].x ==
+               platform::marker_frame(expected).markers[0].corners_px[i].x);
+    BOOST_TEST(platform::marker_frame(frame).markers[0].corners_px[i].y ==
+               platform::marker_frame(expected).markers[0].corners_px[i].y);
   }
-  BOOST_TEST((frame.markers[0].pose.translation == expected.markers[0].pose.translation));
-  BOOST_TEST((frame.markers[0].pose.rotation == expected.markers[0].pose.rotation));
+  BOOST_TEST((platform::marker_frame(frame).markers[0].pose.translation ==
+              platform::marker_frame(expected).markers[0].pose.translation));
+  BOOST_TEST((platform::marker_frame(frame).markers[0].pose.rotation ==
+              platform::marker_frame(expected).markers[0].pose.rotation));
 }
 
 /// The end word is read within 3 us: an interrupt handler and a few reads of the feature register
 /// may lie before.
-void check_feature_extraction(const FrameReport& frame, double pixel_mhz) {
+void check_feature_extraction(const UnitReport& frame, double pixel_mhz) {
   const double end_word_us = end_word_clocks / pixel_mhz;
   const double time = stage_us(frame, "feature_extraction");
   BOOST_TEST(time > end_word_us);
@@ -130,10 +136,10 @@ BOOST_AUTO_TEST_CASE(quantum_changes_nothing) {
 BOOST_AUTO_TEST_CASE(a_system_clock_that_is_far_too_slow_is_told_and_ends) {
   const PlatformRun run = run_scenes(pictures, system_clock("1 MHz"));
   BOOST_TEST_REQUIRE(run.frames.size() == pictures.size());
-  for (const FrameReport& frame : run.frames) {
+  for (const UnitReport& frame : run.frames) {
     BOOST_TEST(frame.counts["crossing_overflow"] > 0u);
     BOOST_TEST(frame.counts["bridge_overflow"] > 0u);
-    BOOST_TEST(frame.markers.empty());
+    BOOST_TEST(platform::marker_frame(frame).markers.empty());
     BOOST_TEST(some_warning_has(frame, "the system clock is too slow"));
     BOOST_TEST(some_warning_has(frame, "binary image timed out"));
   }
@@ -142,8 +148,8 @@ BOOST_AUTO_TEST_CASE(a_system_clock_that_is_far_too_slow_is_told_and_ends) {
 BOOST_AUTO_TEST_CASE(an_upload_that_takes_too_long_is_told_and_ends) {
   const PlatformRun run = run_scenes(pictures, system_clock("100 kHz"));
   BOOST_TEST_REQUIRE(run.frames.size() == pictures.size());
-  for (const FrameReport& frame : run.frames) {
-    BOOST_TEST(frame.markers.empty());
+  for (const UnitReport& frame : run.frames) {
+    BOOST_TEST(platform::marker_frame(frame).markers.empty());
     BOOST_TEST(some_warning_has(frame, "upload timed out"));
   }
 }
@@ -151,7 +157,7 @@ BOOST_AUTO_TEST_CASE(an_upload_that_takes_too_long_is_told_and_ends) {
 BOOST_AUTO_TEST_CASE(a_processor_that_is_far_too_slow_is_told_and_ends) {
   const PlatformRun run = run_scenes(pictures, cpu_clock("1 MHz"));
   BOOST_TEST_REQUIRE(run.frames.size() == pictures.size());
-  for (const FrameReport& frame : run.frames) {
+  for (const UnitReport& frame : run.frames) {
     BOOST_TEST(frame.counts["bridge_overflow"] > 0u);
     BOOST_TEST(some_warning_has(frame, "DMA 1 was not armed again in time"));
   }

@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(all_that_software_loses_is_counted_and_told) {
 
 BOOST_AUTO_TEST_CASE(more_corners_than_the_software_has_room_for_are_warned_of) {
   const PlatformRun run = run_images({dots()}, {}, System::ps_only);
-  const platform::facts::FrameReport& frame = run.frames.at(0);
+  const platform::facts::UnitReport& frame = run.frames.at(0);
   BOOST_TEST(frame.counts["corners"] > 8192u);
   BOOST_TEST(frame.counts["software_overflow"] == frame.counts["corners"] - 8192);
   BOOST_TEST(

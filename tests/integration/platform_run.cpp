@@ -6,7 +6,8 @@
 #include <stdexcept>
 
 #include <chip/run/simulation.h>
-#include <marker/input/frame_source.h>
+#include <marker/input/image_input.h>
+#include <marker/report/marker_frame.h>
 #include <vp/configuration.h>
 
 #include "simulation.h"
@@ -16,7 +17,7 @@ namespace integration {
 namespace {
 
 using platform::Simulation;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 using platform::input::ImageSize;
 using platform::input::InputFrame;
 using platform::input::SharedFrame;
@@ -33,13 +34,9 @@ PlatformRun run(const Settings& settings, System system,
   configuration.check_unused();
 
   PlatformRun result;
-  const Next next = open(simulation.image_size());
-  SharedFrame current;
-  simulation.run([&] { return current = next(); },
-                 [&](FrameReport&& report) {
-                   report.input = current->name;
-                   report.truth = current->truth;
-                   report.camera = current->camera;
+  const Next next = open(platform::input::image_size(simulation.input()));
+  simulation.run([&] { return next(); },
+                 [&](UnitReport&& report) {
                    result.frames.push_back(std::move(report));
                    return true;
                  });
@@ -67,32 +64,32 @@ PlatformRun run_images(const std::vector<platform::GreyImage>& images, const Set
     return [&images, camera, given = std::size_t{0}]() mutable -> SharedFrame {
       if (given == images.size()) return nullptr;
       const std::string name = "image" + std::to_string(given);
-      return std::make_shared<InputFrame>(InputFrame{name, images[given++], camera, std::nullopt});
+      return std::make_shared<InputFrame>(InputFrame{name, images[given++], camera});
     };
   });
 }
 
-double stage_us(const FrameReport& frame, const std::string& stage) {
+double stage_us(const UnitReport& frame, const std::string& stage) {
   for (const auto& time : frame.times) {
     if (time.name == stage) return static_cast<double>(time.ps) / 1e6;
   }
   throw std::out_of_range("no stage " + stage);
 }
 
-std::uint64_t overflows(const FrameReport& frame) {
+std::uint64_t overflows(const UnitReport& frame) {
   const auto& counts = frame.counts;
   return counts["feature_overflow"] + counts["label_overflow"] + counts["bridge_overflow"] +
          counts["crossing_overflow"];
 }
 
-std::vector<std::string> features(const FrameReport& frame) {
+std::vector<std::string> features(const UnitReport& frame) {
   std::vector<std::string> words;
-  for (const marker::Corner& c : frame.features.corners) {
+  for (const marker::Corner& c : platform::marker_frame(frame).features.corners) {
     words.push_back("corner " + std::to_string(c.x) + " " + std::to_string(c.y) + " " +
                     std::to_string(c.strength) + " " +
                     std::to_string(static_cast<int>(c.direction)));
   }
-  for (const marker::BoundingBox& b : frame.features.blobs) {
+  for (const marker::BoundingBox& b : platform::marker_frame(frame).features.blobs) {
     words.push_back("blob " + std::to_string(b.sx) + " " + std::to_string(b.sy) + " " +
                     std::to_string(b.ex) + " " + std::to_string(b.ey));
   }

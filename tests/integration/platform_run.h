@@ -6,6 +6,7 @@
 
 #include <facts/result.h>
 #include <marker/input/frame_source.h>
+#include <marker/report/marker_frame.h>
 
 namespace integration {
 
@@ -13,7 +14,7 @@ namespace integration {
 struct PlatformRun {
   platform::facts::RunFacts facts;
   /// With input, truth and camera filled in.
-  std::vector<platform::facts::FrameReport> frames;
+  std::vector<platform::facts::UnitReport> frames;
 };
 
 /// Parameters by path: {"ps.fclk_clk1.frequency", "40 MHz"}.
@@ -33,12 +34,12 @@ PlatformRun run_images(const std::vector<platform::GreyImage>& images,
 
 /// Duration of one stage of a frame, us. Throws std::out_of_range if the frame has none of that
 /// name.
-double stage_us(const platform::facts::FrameReport& frame, const std::string& stage);
+double stage_us(const platform::facts::UnitReport& frame, const std::string& stage);
 
 /// The overflow counters together.
-std::uint64_t overflows(const platform::facts::FrameReport& frame);
+std::uint64_t overflows(const platform::facts::UnitReport& frame);
 
 /// What was found, in words that compare: "corner x y strength direction", "blob sx sy ex ey".
-std::vector<std::string> features(const platform::facts::FrameReport& frame);
+std::vector<std::string> features(const platform::facts::UnitReport& frame);
 
 }  // namespace integration

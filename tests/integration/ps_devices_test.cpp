@@ -1,6 +1,6 @@
 // SLCR, UART and private timer in the whole platform, through their drivers.
 #include <chip/run/simulation.h>
-#include <marker/input/frame_source.h>
+#include <marker/input/image_input.h>
 #include <vp/configuration.h>
 #include <boost/test/unit_test.hpp>
 #include <string>
@@ -10,7 +10,7 @@
 #include "simulation.h"
 
 using platform::Simulation;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 
 namespace {
 
@@ -27,17 +27,17 @@ struct DeviceRun {
     zynq.ps.uart1.console.connect([this](const std::string& line) { lines.push_back(line); });
 
     platform::input::InputOptions options;
-    options.size = simulation.image_size();
+    options.size = platform::input::image_size(simulation.input());
     auto source = platform::input::open_inputs(scenes, options);
     simulation.run([&] { return source->next(); },
-                   [&](FrameReport&& report) {
+                   [&](UnitReport&& report) {
                      frames.push_back(std::move(report));
                      pixel_clocks.push_back(zynq.ps.fclk_clk1.clk.frequency_hz());
                      return true;
                    });
     warnings = simulation.reports().count(sc_core::SC_WARNING);
   }
-  std::vector<FrameReport> frames;
+  std::vector<UnitReport> frames;
   std::vector<std::uint64_t> pixel_clocks;  ///< when each frame's report came
   std::vector<std::string> lines;
   std::uint64_t warnings = 0;
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(software_sets_the_pixel_clock_and_the_frame_takes_as_long) 
 }
 
 BOOST_AUTO_TEST_CASE(it_may_change_in_the_midst_of_a_frame) {
-  const FrameReport& frame = five_frames().frames.at(4);
+  const UnitReport& frame = five_frames().frames.at(4);
   // 50 MHz before, 100 MHz after: the first microseconds only.
   const double whole_us = end_word_clocks / 100;
   const double time_us = integration::stage_us(frame, "feature_extraction");
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(the_uart_sends_at_its_baud_rate) {
   const std::vector<std::string> expected{"frame 0", "frame 1", "frame 2", "frame 3", "frame 4"};
   BOOST_TEST(run.lines == expected, boost::test_tools::per_element());
   // 8 characters of 10 bits at 115 207 baud, seen with one poll's delay.
-  for (const FrameReport& frame : run.frames) {
+  for (const UnitReport& frame : run.frames) {
     const double time_us = integration::stage_us(frame, "upload");
     BOOST_TEST(time_us > 694.4);
     BOOST_TEST(time_us < 695.4);

@@ -10,7 +10,7 @@
 
 using namespace integration;
 using platform::GreyImage;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 
 namespace {
 
@@ -42,7 +42,7 @@ GreyImage dark_square(Size size, int left, int top, int side) {
   return image;
 }
 
-void check_time(const FrameReport& frame, Size size) {
+void check_time(const UnitReport& frame, Size size) {
   const double end_word_us = (size.width * size.height + 17) / 50.0;
   BOOST_TEST(stage_us(frame, "feature_extraction") > end_word_us);
   BOOST_TEST(stage_us(frame, "feature_extraction") < end_word_us + 2);
@@ -61,12 +61,13 @@ BOOST_AUTO_TEST_CASE(markers_are_found_in_scenes_of_other_sizes) {
        {Size{320, 240}, {160, 128}, {512, 512}, {640, 512}, {1024, 512}, {1280, 720}}) {
     BOOST_TEST_CONTEXT(size.width << "x" << size.height) {
       const PlatformRun run = run_scenes({"z1.0", "roll90"}, resolution(size));
-      for (const FrameReport& frame : run.frames) {
+      for (const UnitReport& frame : run.frames) {
         BOOST_TEST(overflows(frame) == 0u);
         BOOST_TEST(frame.warnings.empty());
-        BOOST_TEST_REQUIRE(frame.markers.size() == 1u);
-        BOOST_TEST(frame.markers[0].id == 0);
-        const auto error = platform::facts::measure_error(frame.markers[0], *frame.truth);
+        BOOST_TEST_REQUIRE(platform::marker_frame(frame).markers.size() == 1u);
+        BOOST_TEST(platform::marker_frame(frame).markers[0].id == 0);
+        const auto error = platform::measure_error(platform::marker_frame(frame).markers[0],
+                                                   *platform::marker_frame(frame).truth);
         BOOST_TEST(error.corner_px < 3);
         check_time(frame, size);
       }
@@ -81,10 +82,10 @@ BOOST_AUTO_TEST_CASE(a_square_is_found_to_the_pixel_in_any_size) {
       const int top = size.height / 2 - 16;
       const PlatformRun run = run_images({dark_square(size, left, top, 30)}, resolution(size));
       BOOST_TEST_REQUIRE(run.frames.size() == 1u);
-      const FrameReport& frame = run.frames[0];
+      const UnitReport& frame = run.frames[0];
       BOOST_TEST(frame.counts["blobs"] == 1u);
       BOOST_TEST(frame.counts["candidates"] == 1u);
-      BOOST_TEST(frame.markers.empty(), "a plain square is no marker");
+      BOOST_TEST(platform::marker_frame(frame).markers.empty(), "a plain square is no marker");
       BOOST_TEST(has(features(frame), "blob " + std::to_string(left) + " " + std::to_string(top) +
                                           " " + std::to_string(left + 29) + " " +
                                           std::to_string(top + 29)));
@@ -98,7 +99,7 @@ BOOST_AUTO_TEST_CASE(smallest_and_longest_frames_run) {
     BOOST_TEST_CONTEXT(size.width << "x" << size.height) {
       const PlatformRun run = run_images({plain(size, 255), plain(size, 255)}, resolution(size));
       BOOST_TEST_REQUIRE(run.frames.size() == 2u);
-      for (const FrameReport& frame : run.frames) {
+      for (const UnitReport& frame : run.frames) {
         BOOST_TEST(frame.counts["feature_words"] == 1u, "the end word alone");
         BOOST_TEST(frame.warnings.empty());
         check_time(frame, size);

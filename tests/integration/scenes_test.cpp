@@ -9,8 +9,8 @@
 #include "platform_run.h"
 
 using namespace integration;
-using platform::facts::FoundMarker;
-using platform::facts::FrameReport;
+using platform::FoundMarker;
+using platform::facts::UnitReport;
 
 namespace {
 
@@ -36,25 +36,26 @@ int true_rotation(const platform::GroundTruth& truth) {
   return right ? 1 : 0;
 }
 
-void check_nothing_lost(const FrameReport& frame) {
+void check_nothing_lost(const UnitReport& frame) {
   BOOST_TEST(overflows(frame) == 0u);
   BOOST_TEST(frame.warnings.size() == 0u, (frame.warnings.empty() ? "" : frame.warnings.front()));
 }
 
-void check_marker(const FrameReport& frame) {
-  BOOST_TEST_REQUIRE(frame.truth.has_value());
-  BOOST_TEST_REQUIRE(frame.markers.size() == 1u);
-  const FoundMarker& found = frame.markers.front();
-  BOOST_TEST(found.id == frame.truth->marker_id);
-  BOOST_TEST(found.rotation == true_rotation(*frame.truth));
+void check_marker(const UnitReport& frame) {
+  BOOST_TEST_REQUIRE(platform::marker_frame(frame).truth.has_value());
+  BOOST_TEST_REQUIRE(platform::marker_frame(frame).markers.size() == 1u);
+  const FoundMarker& found = platform::marker_frame(frame).markers.front();
+  BOOST_TEST(found.id == platform::marker_frame(frame).truth->marker_id);
+  BOOST_TEST(found.rotation == true_rotation(*platform::marker_frame(frame).truth));
   BOOST_TEST(found.has_pose);
-  const auto error = platform::facts::measure_error(found, *frame.truth);
+  const auto error = platform::measure_error(found, *platform::marker_frame(frame).truth);
   BOOST_TEST(error.corner_px < corner_tolerance_px);
   // The thesis' pose is coarse; this one is of the right marker, on the right side.
-  BOOST_TEST(error.translation_mm < 0.2 * 1000 * frame.truth->pose.translation[2]);
+  BOOST_TEST(error.translation_mm <
+             0.2 * 1000 * platform::marker_frame(frame).truth->pose.translation[2]);
 }
 
-void check_time(const FrameReport& frame) {
+void check_time(const UnitReport& frame) {
   const double time = stage_us(frame, "feature_extraction");
   BOOST_TEST(std::abs(time - feature_extraction_us) < feature_extraction_tolerance_us,
              "feature extraction takes " << time << " us");
@@ -63,7 +64,7 @@ void check_time(const FrameReport& frame) {
 PlatformRun check_run(const std::vector<std::string>& scenes, std::size_t count) {
   PlatformRun run = run_scenes(scenes);
   BOOST_TEST(run.frames.size() == count);
-  for (const FrameReport& frame : run.frames) {
+  for (const UnitReport& frame : run.frames) {
     BOOST_TEST_CONTEXT(frame.input) {
       check_marker(frame);
       check_nothing_lost(frame);
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(poses_and_squares_of_chapter_5) {
   const PlatformRun run = check_run(chapter_5, 41 + 15);
   BOOST_TEST(run.facts.fidelity == "tlm");
   BOOST_TEST(run.facts.system == "hybrid");
-  for (const FrameReport& frame : run.frames) {
+  for (const UnitReport& frame : run.frames) {
     BOOST_TEST_CONTEXT(frame.input) check_time(frame);
   }
 }
@@ -88,9 +89,11 @@ BOOST_AUTO_TEST_CASE(poses_and_squares_of_chapter_5) {
 BOOST_AUTO_TEST_CASE(threshold_adapts_from_127) {
   const PlatformRun run = run_scenes({"z1.0", "z1.0", "z1.0"});
   BOOST_TEST_REQUIRE(run.frames.size() == 3u);
-  BOOST_TEST(run.frames[0].threshold == 127u);
-  BOOST_TEST(run.frames[1].threshold != 127u);
-  BOOST_TEST(run.frames[2].threshold == run.frames[1].threshold, "the picture is the same");
+  BOOST_TEST(platform::marker_frame(run.frames[0]).threshold == 127u);
+  BOOST_TEST(platform::marker_frame(run.frames[1]).threshold != 127u);
+  BOOST_TEST(platform::marker_frame(run.frames[2]).threshold ==
+                 platform::marker_frame(run.frames[1]).threshold,
+             "the picture is the same");
 }
 
 /// Before the threshold has adapted, and with nothing left over from other frames.
@@ -110,7 +113,7 @@ BOOST_AUTO_TEST_CASE(all_markers_of_the_dictionary_from_the_front) {
 }
 
 BOOST_AUTO_TEST_CASE(demo_has_about_110_words) {
-  for (const FrameReport& frame : check_run({"demo", "demo"}, 2).frames) {
+  for (const UnitReport& frame : check_run({"demo", "demo"}, 2).frames) {
     BOOST_TEST(frame.counts["feature_words"] >= 100u);
     BOOST_TEST(frame.counts["feature_words"] <= 125u);
     check_time(frame);

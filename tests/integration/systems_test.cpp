@@ -7,7 +7,7 @@
 #include "platform_run.h"
 
 using namespace integration;
-using platform::facts::FrameReport;
+using platform::facts::UnitReport;
 
 namespace {
 
@@ -17,10 +17,12 @@ std::vector<std::string> all_groups() {
   return names;
 }
 
-void check_same_marker(const FrameReport& a, const FrameReport& b) {
-  BOOST_TEST_REQUIRE(a.markers.size() == b.markers.size());
-  for (std::size_t i = 0; i < a.markers.size(); ++i) {
-    const auto &one = a.markers[i], &other = b.markers[i];
+void check_same_marker(const UnitReport& a, const UnitReport& b) {
+  BOOST_TEST_REQUIRE(platform::marker_frame(a).markers.size() ==
+                     platform::marker_frame(b).markers.size());
+  for (std::size_t i = 0; i < platform::marker_frame(a).markers.size(); ++i) {
+    const auto &one = platform::marker_frame(a).markers[i],
+               &other = platform::marker_frame(b).markers[i];
     BOOST_TEST(one.id == other.id);
     BOOST_TEST(one.rotation == other.rotation);
     BOOST_TEST((one.iterations == other.iterations));
@@ -38,7 +40,8 @@ void check_same_results(const PlatformRun& a, const PlatformRun& b) {
   BOOST_TEST_REQUIRE(a.frames.size() == b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
     BOOST_TEST_CONTEXT(a.frames[i].input) {
-      BOOST_TEST(a.frames[i].threshold == b.frames[i].threshold);
+      BOOST_TEST(platform::marker_frame(a.frames[i]).threshold ==
+                 platform::marker_frame(b.frames[i]).threshold);
       BOOST_TEST(features(a.frames[i]) == features(b.frames[i]), boost::test_tools::per_element());
       BOOST_TEST(a.frames[i].counts["candidates"] == b.frames[i].counts["candidates"]);
       check_same_marker(a.frames[i], b.frames[i]);
@@ -47,7 +50,7 @@ void check_same_results(const PlatformRun& a, const PlatformRun& b) {
 }
 
 /// What the thesis' figures 5.28 and 5.31 stack.
-void check_stages(const FrameReport& frame) {
+void check_stages(const UnitReport& frame) {
   const double parts = stage_us(frame, "capture") + stage_us(frame, "corner_detection") +
                        stage_us(frame, "threshold") + stage_us(frame, "blob_detection");
   const double features = stage_us(frame, "feature_extraction");
@@ -69,7 +72,7 @@ BOOST_AUTO_TEST_CASE(both_find_the_same_in_every_scene) {
   BOOST_TEST(hybrid.facts.system == "hybrid");
   BOOST_TEST(ps_only.facts.system == "ps-only");
   check_same_results(hybrid, ps_only);
-  for (const FrameReport& frame : ps_only.frames) {
+  for (const UnitReport& frame : ps_only.frames) {
     BOOST_TEST_CONTEXT(frame.input) check_stages(frame);
   }
 }

@@ -5,7 +5,7 @@
 
 #include <chip/run/simulation.h>
 #include <marker/designs/marker/marker_design.h>
-#include <marker/input/frame_source.h>
+#include <marker/input/image_input.h>
 #include <trace/statistics.h>
 #include <vp/configuration.h>
 #include <vp/counter.h>
@@ -47,10 +47,10 @@ Counted run(const std::vector<std::pair<std::string, std::string>>& settings) {
   trace.file = folder / "t.vcd";
   platform::Simulation simulation({MARKERVP_HYBRID, trace});
   platform::input::InputOptions options;
-  options.size = simulation.image_size();
+  options.size = platform::input::image_size(simulation.input());
   const auto source = platform::input::open_inputs({"demo", "z0.5", "z1.0"}, options);
   simulation.run([&] { return source->next(); },
-                 [](platform::facts::FrameReport&&) { return true; });
+                 [](platform::facts::UnitReport&&) { return true; });
   Counted result;
   for (const vp::Counter* counter : vp::all_counters()) {
     result.counters[counter->name()] = counter->get();

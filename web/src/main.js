@@ -1,19 +1,15 @@
 // Looks which data there are, and shows their page.
 import { h, s } from "./kit/dom.js";
 import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
+import { application } from "./application.js";
 import { comparePage } from "./compare/page.js";
-import { detectorsPage } from "./detectors/page.js";
 import { runPage } from "./run/page.js";
 import { sweepPage } from "./sweep/page.js";
-import { validationPage } from "./validation/page.js";
 
 function block(id) {
   const element = document.getElementById(id);
   return element ? JSON.parse(element.textContent) : undefined;
 }
-
-// A marker of 6 x 6 cells.
-const cells = "M0 0h6v6h-6zM1 1v1h1v-1zM3 1v1h2v-1zM2 2v2h1v-1h1v-1zM1 3v2h1v-2zM4 4v1h1v-1z";
 
 function themeButton() {
   const button = h("button", { type: "button", onclick: toggleTheme });
@@ -29,7 +25,7 @@ function frame({ title, subtitle, sections }) {
   const links = shown.filter((section) => !section.hidden).map((section) => [section.id, section.querySelector("h2")?.textContent]).filter(([, name]) => name);
   document.getElementById("page").replaceChildren(
     h("header", { class: "bar" }, h("div", { class: "bar-inner" },
-      h("div", { class: "mark" }, s("svg", { viewBox: "0 0 6 6", "aria-hidden": "true" }, s("path", { d: cells, "fill-rule": "evenodd" })), h("span", {}, "markervp")),
+      h("div", { class: "mark" }, s("svg", { viewBox: "0 0 6 6", "aria-hidden": "true" }, s("path", { d: application.mark, "fill-rule": "evenodd" })), h("span", {}, "markervp")),
       h("nav", { "aria-label": "Sections" }, h("ul", {}, links.map(([id, name]) => h("li", {}, h("a", { href: "#" + id }, name))))),
       h("div", { class: "tools" }, themeButton(), h("button", { type: "button", onclick: () => window.print() }, "Print")))),
     h("main", {}, h("div", { class: "masthead" }, h("h1", {}, title), h("p", {}, subtitle)), shown),
@@ -40,10 +36,10 @@ function show() {
   const result = block("result");
   const sweep = block("sweep");
   if (sweep) return frame(sweepPage(sweep));
-  const validation = block("validation");
-  if (validation) return frame(validationPage(validation, block("frames")));
-  const detectors = block("detectors");
-  if (detectors) return frame(detectorsPage(detectors));
+  for (const [id, page] of Object.entries(application.pages)) {
+    const data = block(id);
+    if (data) return frame(page(data, block));
+  }
   const folders = block("comparison");
   if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
   if (result) return frame(runPage(result, block("extras")));

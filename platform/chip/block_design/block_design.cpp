@@ -3,6 +3,7 @@
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
+#include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
 
 #include <algorithm>
@@ -228,6 +229,13 @@ void BlockDesign::close_open_streams() {
       port.bind(link, *port.clock);
     }
   }
+}
+
+std::vector<std::string> BlockDesign::used_stubs() const {
+  std::vector<std::string> names;
+  for (const auto* stub : vp::all_below<xilinx::RegisterStub>(*this))
+    if (stub->used()) names.emplace_back(stub->basename());
+  return names;
 }
 
 DesignInfo load(const std::string& file) {

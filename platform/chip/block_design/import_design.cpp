@@ -167,14 +167,14 @@ class Writer {
     return std::abs(plan.cpu.hz - wishes.cpu_hz) < cpu_rounding_hz;
   }
 
-  // Without any, Linux was booted by another image, and the wizard's defaults are in the file.
+  // Without any, Linux was booted by other code, and the wizard's defaults are in the file.
   void write_uarts() {
     const bool first = ps_is("PCW_UART0_PERIPHERAL_ENABLE");
     const bool second = ps_is("PCW_UART1_PERIPHERAL_ENABLE");
     if (!first && !second) {
       result_.notes.push_back(
           "the PS has no UART: a PYNQ overlay often has the wizard's defaults there, and the board "
-          "was booted by another image; set ps.uart0.enabled, ps.slcr.ps_clk and "
+          "was set up by another boot loader; set ps.uart0.enabled, ps.slcr.ps_clk and "
           "ps.cpu_clk.frequency as on your board");
     }
     setting("ps.uart0.enabled", first ? "true" : "false");

@@ -84,7 +84,7 @@ vp::EnergyLedger ZynqPower::with_static(vp::EnergyLedger ledger, double seconds,
   return ledger;
 }
 
-void ZynqPower::frame_ends(facts::FrameReport& frame) {
+void ZynqPower::frame_ends(facts::UnitReport& frame) {
   const std::uint64_t from_ps = periods_.end_ps();
   const std::vector<vp::Interval> period = periods_.next(frame);
   const std::uint64_t end_ps = periods_.end_ps();
@@ -101,7 +101,7 @@ void ZynqPower::frame_ends(facts::FrameReport& frame) {
 }
 
 /// All that was taken since the last result is this one's.
-void ZynqPower::deliver(facts::FrameReport& frame) {
+void ZynqPower::deliver(facts::UnitReport& frame) {
   double junction_c = 0;
   const vp::EnergyLedger ledger = with_static(open_, open_seconds_, junction_c);
   const auto sums = ledger.by_group();

@@ -63,7 +63,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   /// The program takes an image: events from here on are its frame's.
   void frame_begins() { meter_.mark(); }
   /// The program published a result, now: fills in `energy`, unless it gave the frame up.
-  void frame_ends(facts::FrameReport& frame);
+  void frame_ends(facts::UnitReport& frame);
 
   /// The figures of all parts are. If not, frames get no energy, and there is nothing to report or
   /// to follow.
@@ -83,7 +83,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
  private:
   void states_changed(std::uint64_t ps) override;
   vp::EnergyLedger with_static(vp::EnergyLedger ledger, double seconds, double& junction_c) const;
-  void deliver(facts::FrameReport& frame);
+  void deliver(facts::UnitReport& frame);
   void record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
               double seconds, std::uint64_t from_ps, std::uint64_t to_ps);
   void show(std::uint64_t ps);

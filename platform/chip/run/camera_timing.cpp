@@ -51,8 +51,8 @@ void FrameRate::read(const vp::Setting& given) {
 CameraTiming::CameraTiming(sc_core::sc_module_name name)
     : sc_module(name),
       rate("rate",
-           "images that the camera takes; one that comes while the program is busy is lost (none: "
-           "the next image is there as soon as it is wanted)") {}
+           "inputs that come in a second; one that comes while the program is busy is lost (none: "
+           "the next one is there as soon as it is wanted)") {}
 
 double CameraTiming::fps() const {
   return static_cast<double>(*rate.micro_fps()) / micro_per_one;
@@ -64,7 +64,7 @@ std::uint64_t CameraTiming::offset_ps(std::uint64_t number) const {
 }
 
 std::uint64_t CameraTiming::first_after(std::uint64_t offset) const {
-  // Rounding moves an image by less than one number.
+  // Rounding moves an input by less than one number.
   auto number = static_cast<std::uint64_t>(offset * Wide{*rate.micro_fps()} / micro_ps_per_s);
   while (offset_ps(number) < offset) ++number;
   return number;

@@ -24,10 +24,10 @@ class FrameRate : public vp::ParameterBase {
   std::optional<std::uint64_t> micro_fps_;
 };
 
-/// When the camera has images: whenever one is wanted, or at a fixed rate, whether anybody is ready
-/// for them or not.
+/// When inputs come: whenever one is wanted, or at a fixed rate as of a camera, whether the program
+/// is ready for them or not.
 ///
-/// At a rate, image n comes round(n / rate) ps after the first, which comes when the first one is
+/// At a rate, input n comes round(n / rate) ps after the first, which comes when the first one is
 /// wanted.
 class CameraTiming : public sc_core::sc_module {
  public:
@@ -38,9 +38,9 @@ class CameraTiming : public sc_core::sc_module {
   bool has_rate() const { return rate.micro_fps().has_value(); }
   // With a rate only.
   double fps() const;
-  /// From the first image to image `number`.
+  /// From the first input to input `number`.
   std::uint64_t offset_ps(std::uint64_t number) const;
-  /// The first image that comes `offset_ps` or more after the first.
+  /// The first input that comes `offset_ps` or more after the first.
   std::uint64_t first_after(std::uint64_t offset_ps) const;
 };
 

@@ -13,15 +13,18 @@ namespace platform {
 
 FrameBench::FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
                        const vp::ReportRouter& reports)
-    : zynq_(zynq), cache_contract_(zynq), camera_(camera), options_(options), reports_(reports) {
-  const input::ImageSize size = zynq_.design().frame_size();
-  const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-  const auto address = zynq_.ps.ddr.dma_memory().allocate(pixels, 4096);
-  if (!address) throw vp::InputError("ps.ddr.size leaves no memory for an image");
-  frame_.width = static_cast<std::uint32_t>(size.width);
-  frame_.height = static_cast<std::uint32_t>(size.height);
+    : zynq_(zynq),
+      cache_contract_(zynq),
+      camera_(camera),
+      options_(options),
+      reports_(reports),
+      takes_input_(zynq.design().input().bytes > 0) {
+  if (!takes_input_) return;
+  const std::size_t bytes = zynq_.design().input().bytes;
+  const auto address = zynq_.ps.ddr.dma_memory().allocate(bytes, 4096);
+  if (!address) throw vp::InputError("ps.ddr.size leaves no memory for an input");
   frame_.bus_address = *address;
-  frame_.pixels = zynq_.ps.ddr.at(*address, pixels);
+  frame_.pixels = zynq_.ps.ddr.at(*address, bytes);
 }
 
 void FrameBench::start(FrameBegins begins, NextFrame next, FrameDone done) {
@@ -30,8 +33,8 @@ void FrameBench::start(FrameBegins begins, NextFrame next, FrameDone done) {
   done_ = std::move(done);
 }
 
-// The image after the last one that the program took at the earliest; it was busy since then. One
-// that settles stays before the camera.
+// The input after the last one that the program took at the earliest; it was busy since then. One
+// that settles is given again.
 std::uint64_t FrameBench::next_frame_ps(std::uint64_t now_ps) {
   if (!camera_.has_rate()) return now_ps;
   if (!first_ps_) {
@@ -53,71 +56,65 @@ const hal_frame* FrameBench::next_frame(std::uint64_t) {
     hand_over(came_ps(awaited_));
   }
   begins_();
-  if (showings_left_ == 0 && !take_image()) return nullptr;
+  if (showings_left_ == 0 && !take_input()) return nullptr;
   --showings_left_;
-  place(image_);
+  place(input_);
   return &frame_;
 }
 
-input::SharedFrame FrameBench::next_image() {
-  input::SharedFrame frame = stop_ ? nullptr : next_();
-  if (frame) ++images_;
-  return frame;
+facts::SharedInput FrameBench::next_input() {
+  facts::SharedInput input = stop_ ? nullptr : next_();
+  if (input) ++inputs_;
+  return input;
 }
 
 /// False: there is none.
-bool FrameBench::take_image() {
-  input::SharedFrame frame = next_image();
-  for (; frame && missed_ > 0; --missed_) frame = next_image();
-  if (!frame) return false;
-  showings_left_ = 1 + (settles(*frame) ? zynq_.design().settling_showings() : 0);
-  image_ = std::move(frame);
+bool FrameBench::take_input() {
+  facts::SharedInput input = next_input();
+  for (; input && missed_ > 0; --missed_) input = next_input();
+  if (!input) return false;
+  const bool settles = input->settles_after(input_.get());
+  showings_left_ = 1 + (settles ? zynq_.design().settling_showings() : 0);
+  input_ = std::move(input);
   ++taken_;
   return true;
-}
-
-bool FrameBench::settles(const input::InputFrame& frame) const {
-  using Kind = input::InputItem::Kind;
-  const bool is_behind_still = image_ && image_->kind == Kind::image;
-  if (frame.kind != Kind::image && !(frame.kind == Kind::scene && is_behind_still)) return false;
-  return !image_ || image_->image.pixels != frame.image.pixels;
 }
 
 std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
   return *first_ps_ + camera_.offset_ps(number);
 }
 
-// Of a program that does not upload its images: in the image store, or before the camera.
-void FrameBench::place(const input::SharedFrame& frame) {
-  if (!options_.uploads()) zynq_.design().show_image({frame, &frame->image});
-  const std::vector<std::uint8_t>& pixels = frame->image.pixels;
-  std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, pixels.size()), pixels.data(), pixels.size());
-  cache_contract_.placed(frame_.bus_address, pixels.size());
+// Of a program that does not upload its inputs: in the logic.
+void FrameBench::place(const facts::SharedInput& input) {
+  if (!options_.uploads()) zynq_.design().place(input);
+  if (takes_input_) {
+    const std::vector<std::uint8_t>& bytes = input->bytes();
+    std::memcpy(zynq_.ps.ddr.behind(frame_.bus_address, bytes.size()), bytes.data(), bytes.size());
+    cache_contract_.placed(frame_.bus_address, bytes.size());
+    frame_.width = input->width();
+    frame_.height = input->height();
+  }
   const bool counts = showings_left_ == 0;
-  frame_.index = images_ - 1 + settling_showings_;
-  shown_.push_back({frame, frame_.index, images_ - 1, counts});
+  frame_.index = inputs_ - 1 + settling_showings_;
+  if (takes_input_) shown_.push_back({input, frame_.index, inputs_ - 1, counts});
   if (!counts) ++settling_showings_;
-  const Camera& camera = frame->camera;
-  frame_.fx = camera.fx;
-  frame_.fy = camera.fy;
-  frame_.cx = camera.cx;
-  frame_.cy = camera.cy;
-  std::copy(camera.distortion.begin(), camera.distortion.end(), frame_.distortion);
+  zynq_.design().describe(*input, frame_);
 }
 
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
                          std::uint64_t now_ps) {
   zynq_.settle();
-  facts::FrameReport report;
+  facts::UnitReport report;
   if (!zynq_.design().report({kind, data, size, now_ps}, report)) {
     throw vp::ProtocolError(
         "the program published a result of unknown kind or size: build it against the HAL and "
-        "marker headers of this version" +
+        "the headers of this version" +
         zynq_.ps.cpu.where());
   }
   const Shown shown = published(report.index);
   report.index = shown.index;
-  report.camera = shown.frame->camera;
+  report.given = shown.input;
+  if (takes_input_) report.input = shown.input->name;
   zynq_.design().check(report);
   take_new_warnings(report.warnings);
   const bool delivered = report.delivered();
@@ -129,8 +126,10 @@ bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   return delivered;
 }
 
-/// A program may leave out images, but not go back or ahead.
+/// A program may leave out inputs, but not go back or ahead. One that gets none counts what it
+/// publishes.
 FrameBench::Shown FrameBench::published(std::uint32_t number) {
+  if (!takes_input_) return {nullptr, 0, static_cast<std::uint32_t>(published_), true};
   while (!shown_.empty() && shown_.front().number < number) shown_.pop_front();
   if (shown_.empty() || shown_.front().number != number) {
     throw vp::ProtocolError("the program reported frame " + std::to_string(number) +
@@ -148,7 +147,7 @@ void FrameBench::hand_over(std::optional<std::uint64_t> until_ps) {
     waiting_->camera_period = vp::Interval{period_from_ps_, *until_ps};
     period_from_ps_ = *until_ps;
   }
-  facts::FrameReport report = *std::exchange(waiting_, std::nullopt);
+  facts::UnitReport report = *std::exchange(waiting_, std::nullopt);
   if (!waiting_counts_) return keep_settling(report);
   if (settling_.index == report.index && settling_.settling_showings > 0) {
     report.settling_showings = settling_.settling_showings;
@@ -161,7 +160,7 @@ void FrameBench::hand_over(std::optional<std::uint64_t> until_ps) {
 }
 
 /// Of a showing that does not count: what its frame needs to know.
-void FrameBench::keep_settling(const facts::FrameReport& report) {
+void FrameBench::keep_settling(const facts::UnitReport& report) {
   if (settling_.index != report.index) settling_ = {};
   settling_.index = report.index;
   settling_.end_ps = report.end_ps;

@@ -96,6 +96,10 @@ void Simulation::build() {
   zynq_ =
       std::make_unique<Zynq>(*design_, options_.trace ? pl::Fidelity::clocked : pl::Fidelity::tlm,
                              program_->may_start_core() ? 2 : 1);
+  work_ = zynq_->design().work();
+  if (work_.job.empty())
+    throw vp::InputError("design '" + design_->name +
+                         "' names no job: its work() says what each unit, or its program, must do");
   reports_.set_time_source([this] { return zynq_->scheduler.now_ps(); });
   reports_.set_place_source([this] { return zynq_->ps.cpu.place(); });
   profile_name_ = std::make_unique<vp::Parameter<std::string>>(
@@ -137,15 +141,13 @@ void Simulation::build() {
   connect_consoles();
 }
 
-input::ImageSize Simulation::image_size() const {
-  return zynq_->design().frame_size();
-}
-
 facts::RunFacts Simulation::facts() const {
   facts::RunFacts facts;
   facts.fidelity = zynq_->fidelity.text();
   facts.system = program_->name();
   facts.design = design_->name;
+  facts.work = work_;
+  facts.stubs = zynq_->design().used_stubs();
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;
@@ -233,8 +235,9 @@ std::uint64_t Simulation::progress(const void* simulation) {
 }
 
 std::string Simulation::frame_text() const {
-  return bench_->taken() == 0 ? "before the first frame"
-                              : "in frame " + std::to_string(bench_->taken());
+  if (work_.unit.empty()) return "in the run";
+  return bench_->taken() == 0 ? "before the first " + work_.unit
+                              : "in " + work_.unit + " " + std::to_string(bench_->taken());
 }
 
 std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::FrameDone done) {
@@ -245,7 +248,7 @@ std::exception_ptr Simulation::simulate(FrameBench::NextFrame next, FrameBench::
         power_->frame_begins();
       },
       std::move(next),
-      [this, done = std::move(done)](facts::FrameReport&& frame) {
+      [this, done = std::move(done)](facts::UnitReport&& frame) {
         folder_.restore();
         power_->frame_ends(frame);
         recorder_->frame_done(frame);

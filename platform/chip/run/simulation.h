@@ -22,7 +22,6 @@
 #include <chip/watch/timeline_recorder.h>
 #include <facts/result.h>
 #include <host/process.h>
-#include <marker/input/image_file.h>
 #include <ps/cpu/program.h>
 #include <vp/parameter.h>
 #include <vp/report.h>
@@ -56,21 +55,22 @@ class Simulation {
   /// not cover it.
   explicit Simulation(const SimulationOptions& options);
 
-  /// The resolution that the platform is built for.
-  input::ImageSize image_size() const;
-  bool corrects_lens() const { return design_->corrects_lens; }
+  /// What the design takes for each unit of work.
+  facts::InputNeed input() const { return zynq_->design().input(); }
+  /// What it does.
+  const facts::Work& work() const { return work_; }
   /// What runs; the configuration is left to the caller.
   facts::RunFacts facts() const;
 
   /// How long the software takes, and what that was fitted to. Not of one that is only shown.
   const profiles::CostProfile& costs() const { return *costs_; }
 
-  /// Runs the program until `next` gives no more images; `done` takes each frame's report, in
-  /// order, and says whether to go on. Neither throws. `index` in a report counts the images given;
-  /// it lacks `input`, `truth` and `camera`, which the caller knows. Files are made here, not
-  /// earlier, and are whole when this returns or throws. Throws vp::ProtocolError if hardware or
-  /// software broke a rule, vp::OutputError if a file cannot be written, vp::InputError if a filter
-  /// selects nothing; the reports until then were handed over.
+  /// Runs the program until `next` gives no more inputs; `done` takes each unit's report, in order,
+  /// and says whether to continue. Neither throws. `index` in a report counts the inputs given, or
+  /// the units of a design that takes none. Files are made here, not earlier, and are whole when
+  /// this returns or throws. Throws vp::ProtocolError if hardware or software broke a rule,
+  /// vp::OutputError if a file cannot be written, vp::InputError if a filter selects nothing; the
+  /// reports until then were handed over.
   void run(FrameBench::NextFrame next, FrameBench::FrameDone done);
 
   /// Lets run() return soon, in the middle of a frame. May be called in a signal handler, at any
@@ -104,7 +104,7 @@ class Simulation {
   void start();
   void run_until(std::uint64_t ps);
   static std::uint64_t progress(const void* simulation);
-  /// "in frame 3": the one that the program works on.
+  /// "in frame 3": the unit that the program works on.
   std::string frame_text() const;
   /// The error that ended it; null for none.
   std::exception_ptr simulate(FrameBench::NextFrame next, FrameBench::FrameDone done);
@@ -115,6 +115,7 @@ class Simulation {
   vp::ReportRouter reports_;
   std::unique_ptr<vp::Parameter<std::string>> design_name_;
   const DesignInfo* design_ = nullptr;
+  facts::Work work_;
   std::unique_ptr<LinuxRun> linux_run_;
   std::unique_ptr<ps::Program> program_;
   std::optional<profiles::CostProfile> costs_;

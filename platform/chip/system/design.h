@@ -11,8 +11,8 @@
 
 #include <chip/system/processing_system.h>
 #include <facts/result.h>
-#include <marker/input/image_file.h>
-#include <marker/scene/grey_image.h>
+#include <facts/unit.h>
+#include <hal/hal.h>
 #include <pl/common/fidelity.h>
 #include <trace/vocabulary.h>
 #include <vp/router.h>
@@ -66,7 +66,7 @@ class PlPorts {
   std::optional<vp::MmLink> no_memory_master_;
 };
 
-/// What a design shows on the timeline of its first frames, between software and frame: signals
+/// What a design shows on the timeline of its first units, between software and unit: signals
 /// that exist at both fidelities.
 struct TimelineEngines {
   /// Works while the signal is high.
@@ -130,10 +130,14 @@ class Design {
   /// The module.
   sc_core::sc_module& module() { return dynamic_cast<sc_core::sc_module&>(*this); }
 
-  /// Of the images that the program is given.
-  virtual input::ImageSize frame_size() const = 0;
-  /// Puts an image where it need not be uploaded: into a sensor's memory. Default: nowhere.
-  virtual void show_image(const std::shared_ptr<const GreyImage>& /*image*/) {}
+  /// What it delivers, and when it has done its job. Must name a job.
+  virtual facts::Work work() const = 0;
+  /// What the program is given for each unit of work. Default: nothing.
+  virtual facts::InputNeed input() const { return {}; }
+  /// Says of an input what the program must know beside its bytes and their width and height.
+  virtual void describe(const facts::UnitInput& /*input*/, hal_frame& /*frame*/) const {}
+  /// Puts an input where it need not be uploaded: into a sensor's memory. Default: nowhere.
+  virtual void place(const facts::SharedInput& /*input*/) {}
   /// Brings memories and counters up to now, for observers from outside.
   virtual void settle() {}
 
@@ -143,19 +147,22 @@ class Design {
   /// A program's option as it is in this run, in the option's unit: each, before the program runs;
   /// and "unoptimised", 1 if it is compiled with -O0 and sw.opt=O2 would be faster.
   virtual void note_option(const std::string& /*name*/, double /*value*/) {}
-  /// How often an image that has nothing to do with the one before it must be shown until the
-  /// logic's threshold is its own: the frames until then do not count.
+  /// How often an input that has nothing to do with the one before it must be given until what the
+  /// logic learns from it is its own: the units until then do not count.
   virtual std::uint32_t settling_showings() const { return 0; }
 
-  /// Fills in a frame: times, counts, markers, features, and warnings of what was lost. False: no
-  /// program of this design publishes such a thing.
-  virtual bool report(const Publication& publication, facts::FrameReport& frame) = 0;
-  /// Looks over a frame whose `camera` is known by now, too.
-  virtual void check(facts::FrameReport& /*frame*/) {}
-  /// The run is over, perhaps in the middle of a frame: watchers warn of what they still know.
+  /// Fills in a unit: times, counts, figures, failures, and warnings of what was lost; of a design
+  /// that takes inputs also the `index` that the program knows the input by. False: no program of
+  /// this design publishes such a thing.
+  virtual bool report(const Publication& /*publication*/, facts::UnitReport& /*unit*/) {
+    return false;
+  }
+  /// Looks over a unit whose input is known by now, too.
+  virtual void check(facts::UnitReport& /*unit*/) {}
+  /// The run is over, perhaps in the middle of a unit: watchers warn of what they still know.
   virtual void finish() {}
 
-  /// High while a frame passes the logic, which works then, where it does not count its work. Null:
+  /// High while a unit passes the logic, which works then, where it does not count its work. Null:
   /// it always works.
   virtual vp::Signal<bool>* busy() { return nullptr; }
   /// The groups of its parts, in the order of reports. Groups that are missing follow.
@@ -168,6 +175,9 @@ class Design {
   };
   /// Default: the clocks of its parts, each in the group of the first one.
   virtual std::vector<ClockRole> clock_roles();
+
+  /// Parts in whose place a stub answered the program so far.
+  virtual std::vector<std::string> used_stubs() const { return {}; }
 
   /// What the timeline shows of the logic.
   virtual TimelineEngines timeline() { return {}; }
@@ -192,7 +202,6 @@ struct DesignInfo {
   /// them:
   /// {"power.ddr.width", "16"}.
   std::vector<std::pair<std::string, std::string>> defaults = {};
-  bool corrects_lens = false;  ///< its programs free what they see from the lens (hal_frame)
 };
 
 }  // namespace platform

@@ -171,7 +171,7 @@ void TimelineRecorder::add_span(std::size_t track, const std::string& name, std:
   spans.push_back({start_ps, end_ps - start_ps, timeline_.name(name), critical});
 }
 
-void TimelineRecorder::frame_done(const facts::FrameReport& done) {
+void TimelineRecorder::frame_done(const facts::UnitReport& done) {
   if (left_ == 0) return;
   for (std::size_t i = 0; i < bursts_.size(); ++i) {
     const auto last_end = bursts_[i].end;
@@ -192,7 +192,7 @@ void TimelineRecorder::frame_done(const facts::FrameReport& done) {
 
 /// The stages of the PS follow one another, so all are critical; while they wait for the logic, its
 /// slowest engine is in their place: that which ends last, and what feeds it.
-void TimelineRecorder::mark_critical_path(const facts::FrameReport& done) {
+void TimelineRecorder::mark_critical_path(const facts::UnitReport& done) {
   for (const facts::StageTime& stage : done.times) {
     if (stage.part_of.empty() || facts::has_parts(done.times, stage.name)) continue;
     const bool waits = stage.name == logic_.waiting;

@@ -58,7 +58,7 @@ class TimelineRecorder : private vp::SignalListener {
   /// Whether frames are left to record.
   bool records() const { return left_ > 0; }
   /// A frame's results are there.
-  void frame_done(const facts::FrameReport& frame);
+  void frame_done(const facts::UnitReport& frame);
   /// What was recorded; open intervals are left out.
   const facts::Timeline& timeline() const { return timeline_; }
 
@@ -91,7 +91,7 @@ class TimelineRecorder : private vp::SignalListener {
                 std::uint64_t end_ps, bool critical = false);
   void transfer(std::size_t channel, bool begins);
   void burst_done(std::size_t peak);
-  void mark_critical_path(const facts::FrameReport& frame);
+  void mark_critical_path(const facts::UnitReport& frame);
 
   Zynq& zynq_;
   std::uint32_t left_;

@@ -6,13 +6,16 @@
 namespace platform::commands {
 
 /// Lists scenes, or writes their images and what is in them.
-cli::RunCommand add_scenes(CLI::App& parser);
+cli::Command add_scenes(CLI::App& parser);
+
+/// Adds --figures and --changes to `designs`: runs each to see what it reaches and takes.
+cli::Command add_design_figures(CLI::App& parser);
 
 /// Runs the tests of thesis chapter 5 on both systems, each in a process of its own, and compares
 /// them with what the thesis prints. run_failed: a gate failed.
-cli::RunCommand add_validate(CLI::App& parser);
+cli::Command add_validate(CLI::App& parser);
 
 /// Shows the same images to our designs, OpenCV's ArUco and AprilTag 3.
-cli::RunCommand add_compare_detectors(CLI::App& parser);
+cli::Command add_compare_detectors(CLI::App& parser);
 
 }  // namespace platform::commands

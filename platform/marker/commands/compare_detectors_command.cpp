@@ -9,6 +9,7 @@
 #include <marker/commands/commands.h>
 #include <marker/detectors/comparison.h>
 #include <marker/input/frame_source.h>
+#include <marker/input/image_input.h>
 #include <result/page/report_page.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -62,6 +63,10 @@ struct Candidate {
   std::string name;
   study::ParameterTable parameters;
 };
+
+input::ImageSize size_of(const Candidate& candidate) {
+  return input::image_size(candidate.parameters.input());
+}
 
 bool same(input::ImageSize a, input::ImageSize b) {
   return a.width == b.width && a.height == b.height;
@@ -122,7 +127,7 @@ class Comparer {
   /// That of the first image, unless images are made to fit; of scenes alone what the first design
   /// takes.
   void choose_size() {
-    input_.size = candidates_.front().parameters.size();
+    input_.size = size_of(candidates_.front());
     if (options_.camera) input_.camera = input::read_camera_file(*options_.camera);
     if (options_.fit) input_.fit = *options_.fit == "crop" ? input::Fit::crop : input::Fit::scale;
     if (options_.fit) return;
@@ -138,11 +143,11 @@ class Comparer {
 
   void leave_out_other_sizes() {
     const auto fits = [&](const Candidate& candidate) {
-      return same(candidate.parameters.size(), input_.size);
+      return same(size_of(candidate), input_.size);
     };
     for (const Candidate& candidate : candidates_) {
       if (!fits(candidate))
-        leave_out(candidate.name, "it takes images of " + text(candidate.parameters.size()));
+        leave_out(candidate.name, "it takes images of " + text(size_of(candidate)));
     }
     if (std::none_of(candidates_.begin(), candidates_.end(), fits)) {
       throw vp::InputError("no design takes images of " + text(input_.size) +
@@ -225,8 +230,8 @@ class Comparer {
     RunOptions run;
     run.inputs = options_.inputs;
     run.configuration = configuration_of(name);
-    run.fit = options_.fit;
-    run.camera = options_.camera;
+    if (options_.fit) run.input_settings["fit"] = *options_.fit;
+    if (options_.camera) run.input_settings["camera"] = *options_.camera;
     const HostClock::time_point start = HostClock::now();
     const Json found = made_apart([&](std::ostream& err) {
       MemoryRun result;
@@ -341,7 +346,7 @@ int compare_detectors(const CompareDetectorsOptions& options, std::ostream& out,
 
 }  // namespace
 
-cli::RunCommand add_compare_detectors(CLI::App& parser) {
+cli::Command add_compare_detectors(CLI::App& parser) {
   const auto options = std::make_shared<CompareDetectorsOptions>();
   CompareDetectorsOptions& target = *options;
   CLI::App* command = parser.add_subcommand(
@@ -370,9 +375,10 @@ cli::RunCommand add_compare_detectors(CLI::App& parser) {
   command->add_flag("--no-report", target.no_report, "no page report.html");
   add_configuration_options(*command, target.configuration);
   command->footer(compare_detectors_help);
-  return [options](const std::vector<std::string>&, std::ostream& out, std::ostream& err) {
-    return compare_detectors(*options, out, err);
-  };
+  return {"compare-detectors",
+          [options](const std::vector<std::string>&, std::ostream& out, std::ostream& err) {
+            return compare_detectors(*options, out, err);
+          }};
 }
 
 }  // namespace platform::commands

@@ -6,6 +6,7 @@
 #include <marker/detectors/truth.h>
 #include <marker/input/frame_source.h>
 #include <marker/picture/picture.h>
+#include <marker/report/marker_text.h>
 #include <marker/scene/scene.h>
 #include <result/console.h>
 #include <vp/error.h>
@@ -57,7 +58,7 @@ void print_group(const SceneGroup& group, std::ostream& out) {
     const auto metres = [&](std::size_t axis) { return vp::format_fixed(t[axis], 3); };
     out << fmt::format("{:<11} {:>6}  {:>7}  {:>8}{:>8}{:>8}  {}\n", name, scene.marker_id,
                        scene.squares.size() + 1, metres(0), metres(1), metres(2),
-                       result::angles_text(scene.pose.rotation));
+                       angles_text(scene.pose.rotation));
   }
 }
 
@@ -113,7 +114,7 @@ std::vector<std::string> group_names() {
 
 }  // namespace
 
-cli::RunCommand add_scenes(CLI::App& parser) {
+cli::Command add_scenes(CLI::App& parser) {
   const auto options = std::make_shared<ScenesOptions>();
   ScenesOptions& target = *options;
   CLI::App* command = parser.add_subcommand("scenes", "list the scenes that can be rendered");
@@ -122,9 +123,9 @@ cli::RunCommand add_scenes(CLI::App& parser) {
   command->add_flag("--names", target.names_only, "one name a line, for scripts");
   command->add_option("-o,--output", target.output, "write images and truth.json of them")
       ->type_name("DIR");
-  return [options](const std::vector<std::string>&, std::ostream& out, std::ostream&) {
-    return list_scenes(*options, out);
-  };
+  return {"scenes", [options](const std::vector<std::string>&, std::ostream& out, std::ostream&) {
+            return list_scenes(*options, out);
+          }};
 }
 
 }  // namespace platform::commands

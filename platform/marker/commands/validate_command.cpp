@@ -148,7 +148,7 @@ int validate(const ValidateOptions& options, const std::vector<std::string>& arg
 
 }  // namespace
 
-cli::RunCommand add_validate(CLI::App& parser) {
+cli::Command add_validate(CLI::App& parser) {
   const auto options = std::make_shared<ValidateOptions>();
   ValidateOptions& target = *options;
   CLI::App* command = parser.add_subcommand("validate", "compare with what the thesis measured");
@@ -171,8 +171,9 @@ cli::RunCommand add_validate(CLI::App& parser) {
       ->type_name("FILE");
   command->add_flag("--no-report", target.no_report, "no page report.html");
   add_configuration_options(*command, target.configuration);
-  return [options](const std::vector<std::string>& arguments, std::ostream& out,
-                   std::ostream& err) { return validate(*options, arguments, out, err); };
+  return {"validate",
+          [options](const std::vector<std::string>& arguments, std::ostream& out,
+                    std::ostream& err) { return validate(*options, arguments, out, err); }};
 }
 
 }  // namespace platform::commands

@@ -1,4 +1,7 @@
 #include <chip/system/designs.h>
+#include <marker/input/image_input.h>
+#include <marker/report/marker_metrics.h>
+#include <study/inputs.h>
 
 namespace platform {
 
@@ -10,9 +13,11 @@ const DesignInfo& eco_design();
 
 namespace {
 
-/// The designs of this application; the thesis' is the usual one.
+/// The designs of this application, the thesis' being the usual one; what they take and find.
 const DesignRegistration registration{thesis_design, ps_only_design, improved_design, hd_design,
                                       eco_design};
+const study::InputKindRegistration images(input::image_input);
+const bool has_metrics = register_marker_metrics();
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include <marker/detectors/truth.h>
 
 #include <host/document.h>
+#include <marker/report/marker_json.h>
 #include <vp/error.h>
 
 namespace platform::detectors {
@@ -14,8 +15,8 @@ constexpr int schema = 1;
 Json to_json(const TrueMarker& marker) {
   Json json;
   json["id"] = marker.id;
-  if (marker.corners_px) json["corners_px"] = result::to_json(*marker.corners_px);
-  if (marker.pose) json["pose"] = result::to_json(*marker.pose);
+  if (marker.corners_px) json["corners_px"] = corners_json(*marker.corners_px);
+  if (marker.pose) json["pose"] = pose_json(*marker.pose);
   return json;
 }
 

@@ -16,6 +16,14 @@
 
 namespace platform::input {
 
+bool InputFrame::settles_after(const facts::UnitInput* before) const {
+  const auto* last = dynamic_cast<const InputFrame*>(before);
+  const bool is_behind_still = last && last->kind == InputItem::Kind::image;
+  if (kind != InputItem::Kind::image && !(kind == InputItem::Kind::scene && is_behind_still))
+    return false;
+  return !last || last->image.pixels != image.pixels;
+}
+
 Camera camera_of(const InputOptions& options, ImageSize size) {
   return options.camera ? camera_for(*options.camera, size)
                         : Camera::for_resolution(size.width, size.height);

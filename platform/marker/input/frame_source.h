@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <facts/unit.h>
 #include <marker/input/camera_file.h>
 #include <marker/input/fit.h>
 #include <marker/input/image_file.h>
@@ -49,13 +51,32 @@ std::vector<InputItem> list_inputs(const std::vector<std::string>& inputs,
 bool natural_less(const std::string& a, const std::string& b);
 
 /// One image as the platform takes it: of the platform's resolution, with the camera that saw it.
-struct InputFrame {
-  std::string
-      name;  ///< scene, file ("photo.png") or file and picture number ("clip.avi#12"); no folders
+/// Its name is that of a scene, a file ("photo.png"), or file and picture number ("clip.avi#12").
+struct InputFrame : facts::UnitInput {
+  using Truths = std::vector<GroundTruth>;
+
+  InputFrame() = default;
+  InputFrame(std::string frame_name, GreyImage picture, const Camera& taken_by,
+             const std::optional<GroundTruth>& own = std::nullopt, Truths further = {},
+             InputItem::Kind of_kind = InputItem::Kind::scene)
+      : UnitInput(std::move(frame_name)),
+        image(std::move(picture)),
+        camera(taken_by),
+        truth(own),
+        further_truth(std::move(further)),
+        kind(of_kind) {}
+
+  const std::vector<std::uint8_t>& bytes() const override { return image.pixels; }
+  std::uint32_t width() const override { return static_cast<std::uint32_t>(image.width); }
+  std::uint32_t height() const override { return static_cast<std::uint32_t>(image.height); }
+  /// The threshold comes from the picture before. An image file that is not the one before it
+  /// settles, and so does a scene behind one; pictures of a video are shown once.
+  bool settles_after(const facts::UnitInput* before) const override;
+
   GreyImage image;
   Camera camera;
-  std::optional<GroundTruth> truth;             ///< of a scene: its own marker
-  std::vector<GroundTruth> further_truth = {};  ///< of a scene: its other markers
+  std::optional<GroundTruth> truth;  ///< of a scene: its own marker
+  Truths further_truth = {};         ///< of a scene: its other markers
   InputItem::Kind kind = InputItem::Kind::scene;
 };
 

@@ -4,6 +4,8 @@
 #include <facts/summary.h>
 #include <fmt/format.h>
 #include <marker/picture/canvas.h>
+#include <marker/report/marker_frame.h>
+#include <marker/report/marker_text.h>
 #include <png.h>
 #include <result/console.h>
 #include <vp/error.h>
@@ -30,7 +32,7 @@ constexpr int strip_height = 118;
 
 /// Fills the strip: ID and time, pose, error and counts on the left, on the right what the colours
 /// mean that were drawn, if there is room.
-void draw_strip(cv::Mat& strip, const facts::FrameReport& frame);
+void draw_strip(cv::Mat& strip, const facts::UnitReport& frame);
 
 constexpr double title_size = 0.62;
 constexpr double line_size = 0.48;
@@ -45,34 +47,35 @@ constexpr int legend_columns = 2;
 constexpr int legend_sample = 12;  ///< half the length of a sample line
 constexpr double ps_per_ms = 1e9;
 
-std::string title(const facts::FrameReport& frame) {
+std::string title(const facts::UnitReport& frame) {
   std::string text = frame.input;
   if (!frame.delivered()) return text + "   no result: " + frame.gave_up;
-  if (frame.markers.empty()) return text + "   no marker";
-  for (const facts::FoundMarker& marker : frame.markers) text += fmt::format("   ID {}", marker.id);
+  const MarkerFrame& found = marker_frame(frame);
+  if (found.markers.empty()) return text + "   no marker";
+  for (const FoundMarker& marker : found.markers) text += fmt::format("   ID {}", marker.id);
   return text;
 }
 
 /// No rate: frames may overlap.
-std::string time_taken(const facts::FrameReport& frame) {
+std::string time_taken(const facts::UnitReport& frame) {
   if (!frame.delivered() || frame.end_ps <= frame.start_ps) return "";
   return fmt::format("{:.2f} ms", static_cast<double>(frame.end_ps - frame.start_ps) / ps_per_ms);
 }
 
-std::string pose_line(const facts::FoundMarker& marker) {
+std::string pose_line(const FoundMarker& marker) {
   if (!marker.has_pose) return "no pose: the corners admit none";
   const auto metres = [&](std::size_t axis) {
     return vp::format_fixed(marker.pose.translation[axis], 3);
   };
   return fmt::format("x {}   y {}   z {} m     {}", metres(0), metres(1), metres(2),
-                     result::angles_text(marker.pose.rotation));
+                     angles_text(marker.pose.rotation));
 }
 
-std::string error_line(const facts::FrameReport& frame, const facts::FoundMarker& marker) {
-  if (const GroundTruth* truth = facts::truth_of(frame, marker)) {
-    return "error   " + result::error_text(marker, *truth);
+std::string error_line(const MarkerFrame& frame, const FoundMarker& marker) {
+  if (const GroundTruth* truth = truth_of(frame, marker)) {
+    return "error   " + error_text(marker, *truth);
   }
-  if (frame.truth) return facts::another_marker_text(frame);
+  if (frame.truth) return another_marker_text(frame);
   if (!marker.reprojection_px) return {};
   return fmt::format("reprojection {:.2f} px", *marker.reprojection_px);
 }
@@ -87,9 +90,9 @@ struct Entry {
 constexpr int legend_rows = 4;
 
 /// Of what the frame shows; column by column, legend_rows each.
-std::vector<Entry> legend(const facts::FrameReport& frame) {
+std::vector<Entry> legend(const MarkerFrame& frame) {
   std::vector<Entry> entries;
-  const facts::Features& drawn = frame.features;
+  const Features& drawn = frame.features;
   if (!drawn.corners.empty()) {
     entries = {{"corner, tip north", palette::sky_blue, Entry::corner, 0, -1},
                {"corner, tip east", palette::bluish_green, Entry::corner, 1, 0},
@@ -133,7 +136,7 @@ void draw_legend(cv::Mat& strip, const std::vector<Entry>& entries) {
   }
 }
 
-void draw_strip(cv::Mat& strip, const facts::FrameReport& frame) {
+void draw_strip(cv::Mat& strip, const facts::UnitReport& frame) {
   strip.setTo(palette::strip);
   const std::string head = title(frame);
   draw_text(strip, {left_margin, first_baseline}, head, palette::text, title_size);
@@ -143,12 +146,13 @@ void draw_strip(cv::Mat& strip, const facts::FrameReport& frame) {
   const auto add_line = [&](const std::string& text, const cv::Scalar& colour) {
     draw_text(strip, {left_margin, baseline += line_pitch}, text, colour, line_size);
   };
-  if (!frame.markers.empty()) {
-    add_line(pose_line(frame.markers.front()), palette::text);
-    add_line(error_line(frame, frame.markers.front()), palette::text);
+  const MarkerFrame& found = marker_frame(frame);
+  if (!found.markers.empty()) {
+    add_line(pose_line(found.markers.front()), palette::text);
+    add_line(error_line(found, found.markers.front()), palette::text);
   }
   add_line(result::counts_text(frame), palette::faint_text);
-  if (strip.cols >= widest_text + legend_columns * legend_column) draw_legend(strip, legend(frame));
+  if (strip.cols >= widest_text + legend_columns * legend_column) draw_legend(strip, legend(found));
 }
 
 }  // namespace
@@ -184,7 +188,7 @@ Heading heading(marker::Direction direction) {
   }
 }
 
-void draw_features(Canvas& canvas, const facts::Features& features) {
+void draw_features(Canvas& canvas, const Features& features) {
   for (const marker::BoundingBox& box : features.blobs) {
     canvas.box(box.sx, box.sy, box.ex + 1, box.ey + 1, palette::reddish_purple);
   }
@@ -231,7 +235,7 @@ PixelPoint outwards(PixelPoint middle, PixelPoint corner, double px) {
   return {corner.x + dx / length * px, corner.y + dy / length * px};
 }
 
-void draw_marker(Canvas& canvas, const facts::FoundMarker& found, const Camera& camera) {
+void draw_marker(Canvas& canvas, const FoundMarker& found, const Camera& camera) {
   const auto& corners = found.corners_px;
   PixelPoint middle;
   double top = corners[0].y;
@@ -262,7 +266,7 @@ void draw_image(const GreyImage& image, int enlargement, cv::Mat target) {
 
 }  // namespace
 
-Picture annotate(const GreyImage& image, const facts::FrameReport& frame) {
+Picture annotate(const GreyImage& image, const facts::UnitReport& frame) {
   cv::setNumThreads(1);  // a pool of threads costs more than it gives here
   const int enlargement = std::max(1, usual_width / image.width);
   const int rows = image.height * enlargement;
@@ -273,20 +277,21 @@ Picture annotate(const GreyImage& image, const facts::FrameReport& frame) {
   cv::Mat view = whole.rowRange(0, rows);
   draw_image(image, enlargement, view);
   Canvas canvas(view, enlargement);
-  draw_features(canvas, frame.features);
-  for (const facts::FoundMarker& found : frame.markers) draw_marker(canvas, found, frame.camera);
+  const MarkerFrame& found = marker_frame(frame);
+  draw_features(canvas, found.features);
+  for (const FoundMarker& marker : found.markers) draw_marker(canvas, marker, found.camera);
   cv::Mat strip = whole.rowRange(rows, picture.height);
   draw_strip(strip, frame);
   return picture;
 }
 
-std::string picture_name(const facts::FrameReport& frame) {
+std::string picture_name(const facts::UnitReport& frame) {
   // Names of files have at most 255 bytes, and more is added to this one.
   constexpr std::size_t longest_stem = 200;
   std::string stem = frame.input.substr(0, frame.input.rfind('.'));
   const std::size_t number = frame.input.rfind('#');  // of a video's picture
   if (number != std::string::npos && number > stem.size()) stem += frame.input.substr(number);
-  if (frame.truth) stem = frame.input;  // a scene: "z1.0" has no extension
+  if (marker_frame(frame).truth) stem = frame.input;  // a scene: "z1.0" has no extension
   stem.resize(std::min(stem.size(), longest_stem));
   for (char& c : stem) {
     const bool usual =

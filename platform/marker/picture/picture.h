@@ -29,10 +29,10 @@ void write_png(const Picture& picture, const std::string& path);
 /// top left, the axes u, v, w, the ID; below a strip with time, pose and error, and the legend. The
 /// image is enlarged by whole numbers so that single pixels and features stay visible (twice at 640
 /// px); colours are Okabe and Ito's, told apart with any colour vision.
-Picture annotate(const GreyImage& image, const facts::FrameReport& frame);
+Picture annotate(const GreyImage& image, const facts::UnitReport& frame);
 
 /// File name of a frame's picture: "0007_photo.png". Unusual characters of the input's name become
 /// '_'.
-std::string picture_name(const facts::FrameReport& frame);
+std::string picture_name(const facts::UnitReport& frame);
 
 }  // namespace platform::picture

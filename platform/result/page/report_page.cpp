@@ -11,13 +11,12 @@
 
 #include <fmt/format.h>
 #include <host/document.h>
-#include <marker/picture/picture.h>
 #include <result/result_json.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
 
-#ifdef MARKERVP_PAGE_TEMPLATE
+#ifdef MARKERVP_PAGE
 
 extern "C" {
 extern const char markervp_page_begin[] __attribute__((visibility("hidden")));
@@ -29,7 +28,7 @@ extern const char markervp_page_end[] __attribute__((visibility("hidden")));
 namespace platform::page {
 
 std::string_view page_template() {
-#ifdef MARKERVP_PAGE_TEMPLATE
+#ifdef MARKERVP_PAGE
   return {markervp_page_begin, static_cast<std::size_t>(markervp_page_end - markervp_page_begin)};
 #else
   return {};
@@ -175,51 +174,15 @@ std::string text_of(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Appends "[a,b],[c,d]": thousands of corners a frame are too many for a tree of values.
-template <class Items, class Write>
-void append_list(std::string& out, const char* name, const Items& items, Write write) {
-  out += fmt::format(",\"{}\":[", name);
-  bool first = true;
-  for (const auto& item : items) {
-    if (!first) out += ',';
-    first = false;
-    write(out, item);
-  }
-  out += ']';
-}
-
-std::string view_json(const GreyImage& image, const facts::FrameReport& frame) {
-  const Camera& camera = frame.camera;
-  std::string out = fmt::format(
-      R"({{"width":{},"height":{},"camera":{{"fx":{},"fy":{},"cx":{},"cy":{}}},"png":")",
-      image.width, image.height, camera.fx, camera.fy, camera.cx, camera.cy);
-  out += base64(picture::encode_png(image));
-  out += '"';
-  const facts::Features& features = frame.features;
-  append_list(out, "corners", features.corners, [](std::string& to, const marker::Corner& c) {
-    to += fmt::format("[{},{},{}]", c.x, c.y, static_cast<int>(c.direction));
-  });
-  append_list(out, "blobs", features.blobs, [](std::string& to, const marker::BoundingBox& b) {
-    to += fmt::format("[{},{},{},{}]", b.sx, b.sy, b.ex, b.ey);
-  });
-  append_list(out, "candidates", features.candidates,
-              [](std::string& to, const std::array<PixelPoint, 4>& quad) {
-                to += fmt::format("[[{},{}],[{},{}],[{},{}],[{},{}]]", quad[0].x, quad[0].y,
-                                  quad[1].x, quad[1].y, quad[2].x, quad[2].y, quad[3].x, quad[3].y);
-              });
-  return out + "}";
-}
-
 }  // namespace
 
-void RunExtras::add(const GreyImage& image, const facts::FrameReport& frame) {
+void RunExtras::add(std::uint32_t index, const std::string& view) {
   if (full_ || count_ >= most_frames) return;
-  const std::string view = view_json(image, frame);
   if (count_ > 0 && frames_.size() + view.size() > most_bytes) {
     full_ = true;
     return;
   }
-  frames_ += fmt::format("{}\"{}\":{}", count_++ == 0 ? "" : ",", frame.index, view);
+  frames_ += fmt::format("{}\"{}\":{}", count_++ == 0 ? "" : ",", index, view);
 }
 
 void RunExtras::add_member(const std::string& name, const std::string& json) {

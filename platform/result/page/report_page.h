@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <facts/result.h>
-#include <marker/scene/grey_image.h>
 #include <vp/configuration.h>
 
 /// `report.html`: the page built from web/, with data put into it. The page itself knows how to
@@ -44,15 +43,15 @@ std::string block_of(std::string_view page, std::string_view id);
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
-/// What the page of a run shows besides result.json: images with their features, and what the
-/// parameters mean. Memory does not grow with the number of frames.
+/// What the page of a run shows besides result.json: what the application says of units of work,
+/// and what the parameters mean. Memory does not grow with the number of units.
 class RunExtras {
  public:
-  static constexpr std::size_t most_frames = 24;        ///< with their images
-  static constexpr std::size_t most_bytes = 3'000'000;  ///< of images, as text
+  static constexpr std::size_t most_frames = 24;        ///< that the application speaks of
+  static constexpr std::size_t most_bytes = 3'000'000;  ///< of it
 
-  /// Keeps a frame as long as there is room.
-  void add(const GreyImage& image, const facts::FrameReport& frame);
+  /// Keeps what the application says of a unit, a JSON text, as long as there is room.
+  void add(std::uint32_t index, const std::string& view);
   /// A member of the block, for instance "timeline", as JSON text.
   void add_member(const std::string& name, const std::string& json);
   /// The block "extras".

@@ -1,5 +1,6 @@
 // No marker detector: frames, stages, counts and words of its own, and nothing in the PL.
 #include <chip/system/design_plugin.h>
+#include <marker/input/image_need.h>
 
 #include <cstring>
 #include <utility>
@@ -12,10 +13,13 @@ class Brightness : public sc_core::sc_module, public platform::Design {
  public:
   explicit Brightness(sc_core::sc_module_name name) : sc_module(name) {}
 
-  platform::input::ImageSize frame_size() const override { return {64, 48}; }
+  platform::facts::Work work() const override { return {"frame", "no pixel is left uncounted"}; }
+  platform::facts::InputNeed input() const override {
+    return platform::input::image_need({64, 48});
+  }
 
   bool report(const platform::Publication& publication,
-              platform::facts::FrameReport& frame) override {
+              platform::facts::UnitReport& frame) override {
     brightness::Result result;
     if (publication.kind != brightness::kind || publication.size != sizeof result) return false;
     std::memcpy(&result, publication.data, sizeof result);

@@ -3,6 +3,7 @@
 #include <vp/text.h>
 #include <boost/test/unit_test.hpp>
 
+#include <marker/report/marker_text.h>
 #include "report_kit.h"
 
 using namespace platform;
@@ -42,16 +43,16 @@ BOOST_AUTO_TEST_CASE(a_frame_in_a_few_lines) {
 }
 
 BOOST_AUTO_TEST_CASE(small_errors_keep_two_digits) {
-  facts::FrameReport frame = found_frame("z1.0");
-  frame.markers[0].corners_px[0].x -= 2 - 0.0172;
-  frame.markers[0].pose.translation[2] -= 0.012 - 0.0001654;
+  facts::UnitReport frame = found_frame("z1.0");
+  marker_frame(frame).markers[0].corners_px[0].x -= 2 - 0.0172;
+  marker_frame(frame).markers[0].pose.translation[2] -= 0.012 - 0.0001654;
   const std::string text = result::frame_text(frame);
   BOOST_TEST(contains(text, "corner 0.0043 px   translation 0.165 mm   rotation 0.00 deg"), text);
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_without_marker) {
-  facts::FrameReport frame = found_frame("z1.0");
-  frame.markers.clear();
+  facts::UnitReport frame = found_frame("z1.0");
+  marker_frame(frame).markers.clear();
   frame.warnings = {"3 features dropped"};
   const std::string text = result::frame_text(frame);
   BOOST_TEST(contains(text, "[1] z1.0: no marker\n"), text);
@@ -59,15 +60,15 @@ BOOST_AUTO_TEST_CASE(a_frame_without_marker) {
 }
 
 BOOST_AUTO_TEST_CASE(a_wrong_marker_is_called_one) {
-  facts::FrameReport frame = found_frame("z1.0");
-  frame.markers[0].id = 3;
-  frame.markers[0].rotation = 1;
+  facts::UnitReport frame = found_frame("z1.0");
+  marker_frame(frame).markers[0].id = 3;
+  marker_frame(frame).markers[0].rotation = 1;
   BOOST_TEST(contains(result::frame_text(frame), "marker 3, turned 90 deg clockwise"));
   BOOST_TEST(contains(result::frame_text(frame), "another marker: the scene has 0"));
 }
 
 BOOST_AUTO_TEST_CASE(many_stages_wrap) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   for (int i = 0; i < 12; ++i)
     frame.times.push_back({"further_stage_" + std::to_string(i), 1'000'000});
   check_width(result::frame_text(frame));
@@ -84,11 +85,11 @@ BOOST_AUTO_TEST_CASE(angles_are_those_of_the_scene) {
 BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
   facts::Summary summary;
   summary.add(found_frame("z1.0", 0));
-  facts::FrameReport wrong = found_frame("z2.0", 1);
-  wrong.markers[0].id = 5;
+  facts::UnitReport wrong = found_frame("z2.0", 1);
+  marker_frame(wrong).markers[0].id = 5;
   wrong.warnings = {"a word was lost"};
-  summary.add(wrong);
-  const std::string text = result::summary_text(summary, run_facts());
+  summary.add(judged(wrong));
+  const std::string text = result::summary_text(summary, run_facts(), marker_summary(summary));
   check_width(text);
   BOOST_TEST(contains(text, "2 frames, 2 with a marker, 1 of them a wrong one"), text);
   BOOST_TEST(contains(text, "FPS      mean 125.0   min 125.0   max 125.0"), text);
@@ -110,23 +111,23 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_fps_latency_errors_and_stages) {
 
 BOOST_AUTO_TEST_CASE(a_run_that_gave_up_has_no_rate) {
   facts::Summary summary;
-  facts::FrameReport frame = given_up_frame("z1.0");
+  facts::UnitReport frame = given_up_frame("z1.0");
   BOOST_TEST(contains(result::frame_text(frame),
                       "[1] z1.0: no result, the software gave up: binary image timed out\n"));
-  summary.add(frame);
-  std::string text = result::summary_text(summary, run_facts());
+  summary.add(judged(frame));
+  std::string text = result::summary_text(summary, run_facts(), marker_summary(summary));
   check_width(text);
   BOOST_TEST(contains(text, "1 frame, 0 with a marker, 1 without a result"), text);
   BOOST_TEST(contains(text, "no result: there is no frame rate and no latency"), text);
   BOOST_TEST(!contains(text, "FPS"), text);
   summary.add(found_frame("z1.0", 1));
-  text = result::summary_text(summary, run_facts());
+  text = result::summary_text(summary, run_facts(), marker_summary(summary));
   BOOST_TEST(contains(text, "2 frames, 1 with a marker, 1 without a result"), text);
   BOOST_TEST(contains(text, "FPS      mean 62.5"), text);
 }
 
 BOOST_AUTO_TEST_CASE(parts_stand_below_the_stage_that_contains_them) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   frame.times = {{"upload", 3'000'000'000},
                  {"capture", 2'000'000'000, 0, "feature_extraction"},
                  {"threshold", 4'000'000'000, 0, "feature_extraction"},
@@ -134,8 +135,8 @@ BOOST_AUTO_TEST_CASE(parts_stand_below_the_stage_that_contains_them) {
                  {"pose", 2'000'000'000, 0, "frame"},
                  {"frame", 8'000'000'000}};
   facts::Summary summary;
-  summary.add(frame);
-  const std::string text = result::summary_text(summary, run_facts());
+  summary.add(judged(frame));
+  const std::string text = result::summary_text(summary, run_facts(), marker_summary(summary));
   check_width(text);
   const auto line = [](const std::string& name, const std::string& us, const std::string& share) {
     const std::string time = std::string(12 - us.size(), ' ') + us;

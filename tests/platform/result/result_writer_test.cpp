@@ -14,13 +14,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json written(const std::vector<facts::FrameReport>& frames,
+Json written(const std::vector<facts::UnitReport>& frames,
              const std::vector<std::string>& warnings = {},
              const std::optional<std::string>& incomplete = std::nullopt) {
   const kit::TemporaryFolder folder;
   host::OutputFolder output(folder.path());
   result::ResultWriter writer(output);
-  for (const facts::FrameReport& frame : frames) writer.add(frame);
+  for (const facts::UnitReport& frame : frames) writer.add(judged(frame));
   BOOST_TEST(!std::filesystem::exists(folder / "result.json"), "not before it is complete");
   facts::RunFacts facts = report_test::run_facts();
   facts.incomplete = incomplete;
@@ -63,13 +63,13 @@ BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
 
 // Where the program tells them.
 BOOST_AUTO_TEST_CASE(covariance_and_board) {
-  platform::facts::FrameReport frame = found_frame("z1.0");
-  platform::facts::PoseCovariance covariance{};
+  platform::facts::UnitReport frame = found_frame("z1.0");
+  platform::PoseCovariance covariance{};
   covariance[1] = -1.23456789e-9;
   covariance[35] = 0.25;
-  frame.markers[0].covariance = covariance;
-  frame.markers[0].motion = platform::facts::PoseMotion{12, {0.123456789, 0, -1}, {0, 2, 0}};
-  frame.board = {7, frame.markers[0].pose, covariance};
+  marker_frame(frame).markers[0].covariance = covariance;
+  marker_frame(frame).markers[0].motion = platform::PoseMotion{12, {0.123456789, 0, -1}, {0, 2, 0}};
+  marker_frame(frame).board = {7, marker_frame(frame).markers[0].pose, covariance};
   const Json written_frame = written({frame})["frames"][0];
   const Json& rows = written_frame["markers"][0]["covariance"];
   BOOST_REQUIRE(rows.size() == 6u);
@@ -115,9 +115,9 @@ BOOST_AUTO_TEST_CASE(the_summary_excludes_the_upload) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_known_is_absent) {
-  facts::FrameReport frame = found_frame("z1.0");
-  frame.truth.reset();
-  frame.markers[0].has_pose = false;
+  facts::UnitReport frame = found_frame("z1.0");
+  marker_frame(frame).truth.reset();
+  marker_frame(frame).markers[0].has_pose = false;
   const Json marker = written({frame})["frames"][0]["markers"][0];
   BOOST_TEST(keys(marker) == (Keys{"id", "rotation", "corners_px"}));
   const Json nothing = written({});
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(stages_say_what_they_are_parts_of) {
 }
 
 BOOST_AUTO_TEST_CASE(the_limit_has_its_stages_shares_and_levers) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   frame.times[1].levers = {"a.b=2"};
   frame.times[2].waits = true;
   const Json json = written({frame});
@@ -156,15 +156,15 @@ BOOST_AUTO_TEST_CASE(a_frame_given_up_says_so_and_makes_no_figures) {
 }
 
 BOOST_AUTO_TEST_CASE(another_marker_than_the_scenes_has_no_error) {
-  facts::FrameReport frame = found_frame("z1.0");
-  frame.markers[0].id = 77;
+  facts::UnitReport frame = found_frame("z1.0");
+  marker_frame(frame).markers[0].id = 77;
   const Json marker = written({frame})["frames"][0]["markers"][0];
   BOOST_TEST(!marker.contains("error"));
   BOOST_TEST(!marker.contains("truth"));
 }
 
 BOOST_AUTO_TEST_CASE(warnings_and_an_early_end_are_told) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   frame.warnings = {"a word was lost"};
   const Json json = written({frame}, {"no camera"}, "interrupted");
   BOOST_TEST(json["frames"][0]["warnings"][0] == "a word was lost");
@@ -173,21 +173,21 @@ BOOST_AUTO_TEST_CASE(warnings_and_an_early_end_are_told) {
 }
 
 BOOST_AUTO_TEST_CASE(equal_runs_give_equal_bytes_and_bad_utf8_does_no_harm) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   frame.input = "caf\xE9.png";
   BOOST_TEST(written({frame}).dump() == written({frame}).dump());
 }
 
 BOOST_AUTO_TEST_CASE(in_memory_it_is_the_same_without_provenance_and_configuration) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   frame.input = "caf\xE9.png";
-  for (const std::vector<facts::FrameReport>& frames :
-       {std::vector<facts::FrameReport>{}, {frame}, {frame, found_frame("z4.0")}}) {
+  for (const std::vector<facts::UnitReport>& frames :
+       {std::vector<facts::UnitReport>{}, {frame}, {frame, found_frame("z4.0")}}) {
     Json file = written(frames, {"no camera"}, "interrupted");
     file.erase("provenance");
     file.erase("configuration");
     result::ResultDocument document;
-    for (const facts::FrameReport& one : frames) document.add(one);
+    for (const facts::UnitReport& one : frames) document.add(judged(one));
     BOOST_TEST(document.json().is_null());
     facts::RunFacts stopped = run_facts();
     stopped.incomplete = "interrupted";

@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::uint64_t ms = 1'000'000'000;
 
-facts::FrameReport frame(std::uint64_t start_ms, std::uint64_t end_ms, std::uint64_t upload_ms) {
-  facts::FrameReport report;
+facts::UnitReport frame(std::uint64_t start_ms, std::uint64_t end_ms, std::uint64_t upload_ms) {
+  facts::UnitReport report;
   report.start_ps = start_ms * ms;
   report.end_ps = end_ms * ms;
   report.upload_ps = upload_ms * ms;
   return report;
 }
 
-facts::FrameReport given_up(facts::FrameReport report) {
+facts::UnitReport given_up(facts::UnitReport report) {
   report.gave_up = "feature words timed out";
   return report;
 }
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(a_period_begins_with_the_last_one_and_leaves_the_upload_out
 }
 
 BOOST_AUTO_TEST_CASE(showings_that_settle_the_threshold_are_in_no_period) {
-  const auto settled = [](facts::FrameReport frame, std::uint64_t settled_ms) {
+  const auto settled = [](facts::UnitReport frame, std::uint64_t settled_ms) {
     frame.settling_showings = 1;
     frame.settled_ps = settled_ms * ms;
     return frame;
@@ -71,40 +71,42 @@ BOOST_AUTO_TEST_CASE(showings_that_settle_the_threshold_are_in_no_period) {
 }
 
 BOOST_AUTO_TEST_CASE(every_marker_of_a_scene_has_its_truth) {
-  facts::FrameReport frame = found_frame("z1.0");
+  facts::UnitReport frame = found_frame("z1.0");
   const auto truths = platform::ground_truths(platform::make_scene("z2.0@markers=10"));
   BOOST_TEST_REQUIRE(truths.size() == 10u);
-  frame.truth = truths.front();
-  frame.further_truth = {truths.begin() + 1, truths.end()};
-  frame.markers.clear();
+  marker_frame(frame).truth = truths.front();
+  marker_frame(frame).further_truth = {truths.begin() + 1, truths.end()};
+  marker_frame(frame).markers.clear();
   for (const platform::GroundTruth& truth : truths) {
-    facts::FoundMarker& found = frame.markers.emplace_back();
+    FoundMarker& found = marker_frame(frame).markers.emplace_back();
     found.id = truth.marker_id;
     found.corners_px = truth.corners_px;
     found.pose = truth.pose;
-    BOOST_TEST_REQUIRE(facts::truth_of(frame, found) != nullptr);
-    BOOST_TEST(facts::measure_error(found, *facts::truth_of(frame, found)).corner_px == 0);
+    BOOST_TEST_REQUIRE(truth_of(marker_frame(frame), found) != nullptr);
+    BOOST_TEST(measure_error(found, *truth_of(marker_frame(frame), found)).corner_px == 0);
   }
   facts::Summary summary;
-  summary.add(frame);
-  BOOST_TEST(summary.corner_px().count() == 10u);
-  BOOST_TEST(summary.mistaken() == 0u);
-  frame.markers.erase(frame.markers.begin());
-  summary.add(frame);
-  BOOST_TEST(summary.overlooked() == 1u, "the scene's own one decides");
-  BOOST_TEST(summary.mistaken() == 0u);
-  frame.markers[0].id = 200;
-  BOOST_TEST(facts::truth_of(frame, frame.markers[0]) == nullptr);
-  BOOST_TEST(facts::another_marker_text(frame) == "another marker: the scene has 0 and 9 more");
-  summary.add(frame);
-  BOOST_TEST(summary.mistaken() == 1u);
+  summary.add(judged(frame));
+  BOOST_TEST(summary.samples("corner_px").count() == 10u);
+  BOOST_TEST(summary.tally("mistaken") == 0u);
+  marker_frame(frame).markers.erase(marker_frame(frame).markers.begin());
+  summary.add(judged(frame));
+  BOOST_TEST(summary.failures().size() == 1u, "the scene's own one decides");
+  BOOST_TEST(summary.tally("mistaken") == 0u);
+  marker_frame(frame).markers[0].id = 200;
+  BOOST_TEST(truth_of(marker_frame(frame), marker_frame(frame).markers[0]) == nullptr);
+  BOOST_TEST(another_marker_text(marker_frame(frame)) ==
+             "another marker: the scene has 0 and 9 more");
+  summary.add(judged(frame));
+  BOOST_TEST(summary.tally("mistaken") == 1u);
   // Of two with one ID the nearer one is meant; of one of another size the pose says nothing.
-  frame.further_truth[0].marker_id = frame.further_truth[1].marker_id;
-  frame.markers[1].id = frame.further_truth[1].marker_id;
-  frame.markers[1].corners_px = frame.further_truth[1].corners_px;
-  BOOST_TEST(facts::truth_of(frame, frame.markers[1]) == &frame.further_truth[1]);
-  frame.further_truth[1].is_usual = false;
-  BOOST_TEST(!facts::has_pose_error(frame.markers[1], frame.further_truth[1]));
+  marker_frame(frame).further_truth[0].marker_id = marker_frame(frame).further_truth[1].marker_id;
+  marker_frame(frame).markers[1].id = marker_frame(frame).further_truth[1].marker_id;
+  marker_frame(frame).markers[1].corners_px = marker_frame(frame).further_truth[1].corners_px;
+  BOOST_TEST(truth_of(marker_frame(frame), marker_frame(frame).markers[1]) ==
+             &marker_frame(frame).further_truth[1]);
+  marker_frame(frame).further_truth[1].is_usual = false;
+  BOOST_TEST(!has_pose_error(marker_frame(frame).markers[1], marker_frame(frame).further_truth[1]));
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_given_up_counts_as_time_and_not_as_result) {
@@ -142,7 +144,7 @@ BOOST_AUTO_TEST_CASE(without_a_result_there_is_no_rate) {
 
 BOOST_AUTO_TEST_CASE(stages_are_those_of_results) {
   facts::Summary summary;
-  facts::FrameReport stopped = given_up_frame("z1.0");
+  facts::UnitReport stopped = given_up_frame("z1.0");
   for (facts::StageTime& time : stopped.times) time.ps *= 7;
   summary.add(stopped);
   summary.add(found_frame("z1.0", 1));

@@ -8,6 +8,7 @@
 
 #include "report_kit.h"
 
+using namespace platform;
 using namespace platform::facts;
 using namespace platform::result;
 using namespace report_test;
@@ -51,10 +52,10 @@ struct Point {
     frame();
   }
 
-  FrameReport& frame() { return frames.emplace_back(found_frame("z1.0")); }
+  UnitReport& frame() { return frames.emplace_back(found_frame("z1.0")); }
   Verdict verdict() const {
     Summary summary;
-    for (const FrameReport& frame : frames) summary.add(frame);
+    for (const UnitReport& frame : frames) summary.add(judged(frame));
     return verdict_of(facts, summary);
   }
   Verdict::Part part(const std::string& name) const {
@@ -75,7 +76,7 @@ struct Point {
   }
 
   RunFacts facts = report_test::run_facts();
-  std::vector<FrameReport> frames;
+  std::vector<UnitReport> frames;
 };
 
 }  // namespace
@@ -116,11 +117,20 @@ BOOST_AUTO_TEST_CASE(a_job_that_is_not_done) {
   point.fails("job", Holds::no, "1 of 1 frame without a result");
   BOOST_TEST(*point.part("job").margin_percent == -100);
   point.frame();
-  point.frame().markers.clear();
-  point.frame().markers[0].id += 1;
+  marker_frame(point.frame()).markers.clear();
+  marker_frame(point.frame()).markers[0].id += 1;
   point.fails("job", Holds::no,
               "1 of 4 frames without a result, 2 of 4 frames without the marker of the scene");
   BOOST_TEST(*point.part("job").margin_percent == -75);
+}
+
+BOOST_AUTO_TEST_CASE(a_job_that_rests_on_a_stub_is_not_known) {
+  Point point;
+  point.facts.stubs = {"filter_0"};
+  point.fails("job", Holds::unknown, "job not known: a stub answered in the place of filter_0");
+  point.facts.stubs.push_back("can_0");
+  point.fails("job", Holds::unknown,
+              "job not known: stubs answered in the place of filter_0, can_0");
 }
 
 BOOST_AUTO_TEST_CASE(frames_that_were_dropped_or_never_published_are_no_job_done) {
@@ -152,8 +162,8 @@ BOOST_AUTO_TEST_CASE(whatever_a_design_counts_as_lost_counts) {
 
 BOOST_AUTO_TEST_CASE(an_image_of_which_nobody_knows_needs_no_marker) {
   Point point;
-  point.frames[0].truth.reset();
-  point.frames[0].markers.clear();
+  marker_frame(point.frames[0]).truth.reset();
+  marker_frame(point.frames[0]).markers.clear();
   BOOST_TEST((point.verdict().feasible() == Holds::yes));
 }
 

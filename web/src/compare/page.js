@@ -1,24 +1,27 @@
 // Two runs beside each other.
+import { application } from "../application.js";
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
-import { significant, signed, tidy, time, words } from "../kit/format.js";
+import { heading, mean, significant, signed, tidy, time, words } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour } from "../kit/theme.js";
-import { countsOf, makeRun } from "../run/facts.js";
+import { countsOf, figuresOf, makeRun } from "../run/facts.js";
 import { gantt } from "../run/gantt.js";
 import { stageBars, stagesOf } from "../run/stages.js";
 
 function figures(a, b) {
   const pick = (title, unit, of, better) => ({ title, unit, a: of(a) ?? NaN, b: of(b) ?? NaN, better });
   const counts = (key) => (run) => run.frames.reduce((sum, f) => sum + (f.counts?.[key] ?? 0), 0) / run.frames.length;
+  const figure = (key) => (run) => mean(run.frames.map((f) => f.figures?.[key]).filter(Number.isFinite));
   const stages = [...new Set([...a.stages, ...b.stages])];
   return [
-    pick("Frame rate", "frames/s", (r) => r.summary.fps?.mean, 1), pick("Latency", "ms", (r) => r.summary.latency_us?.mean / 1e3, -1),
-    pick("Power", "W", (r) => r.summary.power_w?.total, -1), pick("Energy per frame", "mJ", (r) => r.summary.energy_per_frame_mj, -1), pick("Junction", "°C", (r) => r.result.power?.junction_c, -1),
-    pick("Frames with result", "", (r) => r.summary.delivered, 1), pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1), pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1),
+    pick(`${heading(a.unit)} rate`, `${a.unit}s/s`, (r) => r.summary.fps?.mean, 1), pick("Latency", "ms", (r) => r.summary.latency_us?.mean / 1e3, -1),
+    pick("Power", "W", (r) => r.summary.power_w?.total, -1), pick(`Energy per ${a.unit}`, "mJ", (r) => r.summary.energy_per_frame_mj, -1), pick("Junction", "°C", (r) => r.result.power?.junction_c, -1),
+    pick(`${heading(a.unit)}s with result`, "", (r) => r.summary.delivered, 1), ...application.figures(pick),
+    ...figuresOf([...a.frames, ...b.frames]).map((name) => pick(words(name), "", figure(name), 0)),
     ...stages.map((name) => pick(`Stage: ${words(name)}`, "µs", (r) => r.stageMean(name), -1)),
     ...["lut", "ff", "bram36", "dsp"].map((kind) => pick(kind.toUpperCase(), "", (r) => r.result.resources?.total?.[kind], -1)),
-    ...countsOf([...a.frames, ...b.frames]).map((name) => pick(`${words(name)} a frame`, "", counts(name), 0)),
+    ...countsOf([...a.frames, ...b.frames]).map((name) => pick(`${words(name)} a ${a.unit}`, "", counts(name), 0)),
   ].filter((row) => Number.isFinite(row.a) || Number.isFinite(row.b));
 }
 
@@ -43,7 +46,7 @@ function latencies(runs, names) {
     option: () => ({
       legend: { top: 0, left: 0, icon: "circle", itemWidth: 8, itemHeight: 8, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true }, xAxis: axis({ type: "value", min: 1 }), yAxis: axis({ type: "value", scale: true }),
       tooltip: { show: true, trigger: "axis", valueFormatter: (v) => significant(v, 4) },
-      series: runs.map((run, i) => ({ name: names[i], type: "line", symbolSize: 5, showSymbol: run.delivered.length < 60, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) }, data: run.delivered.map((f) => [f.index + 1, f.time_us.frame / 1e3]) })),
+      series: runs.map((run, i) => ({ name: names[i], type: "line", symbolSize: 5, showSymbol: run.delivered.length < 60, lineStyle: { width: 1.5, color: seriesColour(i) }, itemStyle: { color: seriesColour(i) }, data: run.delivered.map((f) => [f.index + 1, f.time_us[run.unit] / 1e3]) })),
     }),
   });
 }

@@ -1,11 +1,12 @@
 // A run as the sections of its page need it: result.json, and what is only in the page.
+import { application } from "../application.js";
 import { fixed, mean, quantile } from "../kit/format.js";
 
 export function makeRun(result, extras = {}) {
   const frames = result.frames ?? [];
   const delivered = frames.filter((frame) => !frame.gave_up);
-  const latencies = delivered.map((frame) => frame.time_us?.frame).filter(Number.isFinite).sort((a, b) => a - b);
-  const errors = frames.flatMap((frame) => frame.markers.map((marker) => marker.error).filter(Boolean));
+  const whole = result.unit ?? "frame"; // the stage that a result's latency is
+  const latencies = delivered.map((frame) => frame.time_us?.[whole]).filter(Number.isFinite).sort((a, b) => a - b);
   const stages = [];
   for (const frame of frames) {
     for (const name of Object.keys(frame.time_us ?? {})) if (!stages.includes(name)) stages.push(name);
@@ -17,24 +18,25 @@ export function makeRun(result, extras = {}) {
     const scale = { Hz: 1e-6, kHz: 1e-3, MHz: 1, GHz: 1e3 }[text.split(" ")[1]];
     return scale ? parseFloat(text) * scale : undefined;
   };
-  return {
-    result, extras, frames, delivered, stages, errors, configured, megahertz,
+  const run = {
+    result, extras, frames, delivered, stages, configured, megahertz,
+    /** What a unit of work is called. */
+    unit: result.unit ?? "frame",
     summary: result.summary ?? {},
     latency: latencies.length ? {
       low: latencies[0], median: quantile(latencies, 0.5), p95: quantile(latencies, 0.95), high: latencies.at(-1),
       mean: mean(latencies),
     } : null,
-    error: errors.length ? {
-      corner: mean(errors.map((e) => e.corner_px)),
-      translation: mean(errors.map((e) => e.translation_mm).filter(Number.isFinite)),
-      rotation: mean(errors.map((e) => e.rotation_deg).filter(Number.isFinite)),
-      count: errors.length,
-    } : null,
     /** What is known of a stage beside its times: {name, part_of, clock, why}. */
     stage: (name) => (result.stages ?? []).find((stage) => stage.name === name) ?? { name },
     stageMean: (name) => mean(delivered.map((frame) => frame.time_us?.[name]).filter(Number.isFinite)),
   };
+  application.complete(run);
+  return run;
 }
+
+/** Names of the figures that a design finds of its units. */
+export const figuresOf = (frames) => [...new Set(frames.flatMap((frame) => Object.keys(frame.figures ?? {})))];
 
 /** Power of each module over all its entries, most first: [{name, w}]. */
 export function powerByModule(power) {

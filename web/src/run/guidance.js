@@ -1,7 +1,11 @@
 // What limits this design point, in sentences.
+import { application } from "../application.js";
 import { h } from "../kit/dom.js";
 import { counted, fixed, percent, significant, tidy, words } from "../kit/format.js";
 import { partsOf, powerByModule, timingOf, warningsOf } from "./facts.js";
+
+/** What a unit is known by. */
+const nameOf = (unit) => unit.input ?? `number ${unit.index + 1}`;
 
 const plain = (name) => words(name.replace(/^(pl|ps)\./, "")).replace(/\b(cpu|ddr|dma|ocm|axi|gpio|pl|ps|bram)\b/g, (word) => word.toUpperCase());
 
@@ -28,15 +32,15 @@ function timing(run, say) {
   const { kind, stages = [] } = run.result.limit ?? {};
   const paced = run.stages.filter((name) => run.stage(name).clock === module.clock && (kind !== "behind" || stages.includes(name)));
   const gain = paced.reduce((sum, name) => sum + run.stageMean(name), 0) * (1 - module.frequency_mhz / next);
-  const frame = run.stageMean("frame");
+  const frame = run.stageMean(run.unit);
   // Where frames overlap, the time of one says nothing of the rate.
-  const rate = kind === "sequence" ? `: ${fixed(1e6 / (frame - gain), 0)} frames/s` : "";
+  const rate = kind === "sequence" ? `: ${fixed(1e6 / (frame - gain), 0)} ${run.unit}s/s` : "";
   const more = gain > 0
-    ? ` At ${tidy(next)} MHz${next < module.fmax_mhz ? ", the next clock that the PLLs make," : ""} a frame would take about ${significant((frame - gain) / 1e3, 3)} ms${rate} (derived).` : "";
+    ? ` At ${tidy(next)} MHz${next < module.fmax_mhz ? ", the next clock that the PLLs make," : ""} a ${run.unit} would take about ${significant((frame - gain) / 1e3, 3)} ms${rate} (derived).` : "";
   say("info", `${plain(module.name)}'s Fmax of ${fmax} MHz limits its clock, now ${now} MHz.${more}`);
 }
 
-/** What sets the frame rate, in the words of the console, and with which lever it rises. */
+/** What sets the rate, in the words of the console, and with which lever it rises. */
 function limit(run, say) {
   const found = run.result.limit;
   if (!found) return;
@@ -47,7 +51,7 @@ function limit(run, say) {
 
 /** Where a result's latency comes from. What only waits is the cause of nothing. */
 function stages(run, say) {
-  const whole = run.stageMean("frame");
+  const whole = run.stageMean(run.unit);
   const working = run.result.limit?.percent;
   const longest = partsOf(run).filter((name) => !working || name in working).map((name) => ({ name, us: run.stageMean(name) })).sort((a, b) => b.us - a.us);
   if (!(whole > 0) || longest.length === 0) return;
@@ -57,22 +61,17 @@ function stages(run, say) {
     return why ? `: ${why}${megahertz ? `, at ${tidy(megahertz)} MHz` : ""}` : "";
   };
   const [first, second] = longest;
-  say("info", `Of the time from a frame to its result, ${words(first.name)} takes ${percent(first.us / whole, 0)}${because(first)}.`);
+  say("info", `Of the time from a ${run.unit} to its result, ${words(first.name)} takes ${percent(first.us / whole, 0)}${because(first)}.`);
   if (second && second.us / whole > 0.1) say("info", `${words(second.name)} comes second with ${percent(second.us / whole, 0)}${because(second)}.`);
 }
 
 function losses(run, say) {
-  for (const { text, frames } of warningsOf(run)) say("bad", `${text} (${counted(frames.length, "frame")}, first ${frames[0].input}).`);
+  for (const { text, frames } of warningsOf(run)) say("bad", `${text} (${counted(frames.length, run.unit)}, first ${nameOf(frames[0])}).`);
 }
 
 function results(run, say) {
   const without = run.frames.filter((frame) => frame.gave_up);
-  if (without.length > 0) say("bad", `The software gave up ${counted(without.length, "frame")}, first ${without[0].input}: ${without[0].gave_up}. Rates, latency and energy are those of delivered results.`);
-}
-
-function markers(run, say) {
-  const without = run.delivered.filter((frame) => frame.markers.length === 0);
-  if (without.length > 0) say("bad", `No marker in ${counted(without.length, "frame")}, first ${without[0].input}.`);
+  if (without.length > 0) say("bad", `The software gave up ${counted(without.length, run.unit)}, first ${nameOf(without[0])}: ${without[0].gave_up}. Rates, latency and energy are those of delivered results.`);
 }
 
 function budgets(run, say) {
@@ -90,7 +89,7 @@ export function guidanceOf(run) {
   const list = [];
   const say = (kind, text) => list.push({ kind, text: text[0].toUpperCase() + text.slice(1) });
   results(run, say);
-  markers(run, say);
+  application.guidance(run, say);
   losses(run, say);
   limit(run, say);
   timing(run, say);

@@ -30,7 +30,7 @@ export function overTime(run) {
   const frames = run.delivered;
   if (frames.length < 4) return null;
   const x = frames.map((frame) => frame.index + 1);
-  const y = frames.map((frame) => frame.time_us.frame / 1e3);
+  const y = frames.map((frame) => frame.time_us[run.unit] / 1e3);
   return chart({
     name: "latency", title: "Latency of each frame, ms", height: 240,
     summary: `From ${fixed(run.latency.low / 1e3, 3)} to ${fixed(run.latency.high / 1e3, 3)} ms, mean ${fixed(run.latency.mean / 1e3, 3)} ms.`,
@@ -41,6 +41,6 @@ export function overTime(run) {
     }),
     table: () => ({ caption: "Latency of each frame", rows: frames, columns: [
       { title: "Frame", value: (f) => f.index + 1, number: true }, { title: "Input", value: (f) => f.input },
-      { title: "Latency", unit: "ms", csv: "Latency ms", value: (f) => f.time_us.frame / 1e3, show: (v) => fixed(v, 3), number: true }] }),
+      { title: "Latency", unit: "ms", csv: "Latency ms", value: (f) => f.time_us[run.unit] / 1e3, show: (v) => fixed(v, 3), number: true }] }),
   });
 }

@@ -1,7 +1,7 @@
 // The page of a run.
+import { application } from "../application.js";
 import { counted } from "../kit/format.js";
 import { makeRun } from "./facts.js";
-import { frameView } from "./frame_view.js";
 import { guidance } from "./guidance.js";
 import { handshakes } from "./handshakes.js";
 import { power } from "./power.js";
@@ -13,14 +13,14 @@ import { timing } from "./timeline.js";
 import { verdict } from "./verdict.js";
 
 function title(run) {
-  const names = [...new Set(run.frames.map((frame) => frame.input))];
-  if (names.length === 0) return "A run without frames";
+  const names = [...new Set(run.frames.map((frame) => frame.input).filter(Boolean))];
+  if (names.length === 0) return run.frames.length ? run.result.design : `A run without ${run.unit}s`;
   return names.length <= 3 ? names.join(", ") : `${names[0]} to ${names.at(-1)}`;
 }
 
 function subtitle(run) {
   const { system, design, fidelity, profile } = run.result;
-  return [run.summary.frames !== undefined && counted(run.summary.frames, "frame"), system && `program ${system}`, design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
+  return [run.summary.frames !== undefined && counted(run.summary.frames, run.unit), system && `program ${system}`, design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
 }
 
 export function runPage(result, extras) {
@@ -28,6 +28,6 @@ export function runPage(result, extras) {
   run.overTime = () => overTime(run);
   return {
     title: title(run), subtitle: subtitle(run),
-    sections: [verdict(run), guidance(run), frameView(run), timing(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
+    sections: [verdict(run), guidance(run), ...application.sections(run), timing(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
   };
 }

@@ -1,4 +1,5 @@
 // Where the energy goes.
+import { application } from "../application.js";
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
 import { fixed, significant, words } from "../kit/format.js";
@@ -6,7 +7,6 @@ import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour } from "../kit/theme.js";
 import { powerByModule } from "./facts.js";
-import { systems, thesisOf } from "./thesis.js";
 
 function moduleChart(run) {
   const rows = run.result.power.modules.filter((m) => m.w > 0);
@@ -35,33 +35,6 @@ const columns = () => [
   { title: "Origin", value: (m) => m.source, node: (m) => (m.source ? origin(m.source) : "") },
 ];
 
-/** This run beside the same work on the PS alone: the thesis' times at the power of this run's PS. */
-function energyChart(run) {
-  const power = run.summary.power_w;
-  const software = systems.find((system) => !system.logic);
-  if (!power || !Number.isFinite(run.summary.energy_per_frame_mj) || !thesisOf(run)?.logic) return null;
-  const seconds = run.summary.energy_per_frame_mj / power.total / 1e3;
-  const other = software.stages.reduce((sum, stage) => sum + stage.us, 0) / 1e6;
-  const parts = [["PS", power.ps, power.ps], ["PL", power.pl, 0], ["Static", power.static, power.static]].filter(([, w]) => Number.isFinite(w));
-  const bars = ["PS only (derived)", "This run"];
-  const sums = [parts.reduce((sum, p) => sum + p[2] * other * 1e3, 0), parts.reduce((sum, p) => sum + p[1] * seconds * 1e3, 0)];
-  return chart({
-    name: "energy-per-frame", title: "Energy per frame, mJ", height: 150,
-    note: `PS only: the thesis' times of the same work on the PS (${fixed(other * 1e3, 0)} ms a frame) at the power that the PS draws here, without the logic's own power.`,
-    summary: `This run needs ${significant(sums[1], 3)} mJ a frame; the PS alone would need ${significant(sums[0], 3)} mJ.`,
-    option: () => ({
-      legend: { top: 0, left: 0, icon: "roundRect", itemWidth: 10, itemHeight: 10, textStyle: { color: palette().soft } },
-      grid: { left: 8, right: 24, top: 30, bottom: 4, containLabel: true },
-      xAxis: axis({ type: "value" }), yAxis: axis({ type: "category", data: bars, splitLine: { show: false } }),
-      tooltip: { show: true, trigger: "item", valueFormatter: (v) => significant(v, 3) + " mJ" },
-      series: parts.map(([name, here, there], i) => ({ name, type: "bar", stack: "all", barMaxWidth: 20, itemStyle: { color: seriesColour(i) }, data: [there * other * 1e3, here * seconds * 1e3] })),
-    }),
-    table: () => ({ caption: "Energy per frame", rows: parts, columns: [{ title: "Part", value: (p) => p[0], head: true },
-      { title: "This run mJ", number: true, value: (p) => p[1] * seconds * 1e3, show: (v) => significant(v, 3) },
-      { title: "PS only mJ", number: true, value: (p) => p[2] * other * 1e3, show: (v) => significant(v, 3) }] }),
-  });
-}
-
 function rails(power) {
   const rows = Object.entries(power.rails ?? {});
   if (rows.length === 0) return null;
@@ -75,6 +48,6 @@ export function power(run) {
   const about = [facts.mode && `mode ${facts.mode}`, facts.table && `coefficients ${facts.table}`, Number.isFinite(facts.ambient_c) && `ambient ${fixed(facts.ambient_c, 0)} °C`].filter(Boolean).join(", ");
   return h("section", { id: "power", "aria-labelledby": "power-title" }, h("h2", { id: "power-title" }, "Power and energy"),
     about && h("p", { class: "note", style: { marginBottom: "20px" } }, about[0].toUpperCase() + about.slice(1) + "."),
-    h("div", { class: "stack" }, energyChart(run), moduleChart(run),
+    h("div", { class: "stack" }, application.energy(run), moduleChart(run),
       h("div", {}, h("details", {}, h("summary", {}, "Modules with the origin of their numbers"), dataTable({ caption: "Power by module", name: "power", exportable: true, rows: facts.modules, columns: columns() })), rails(facts))));
 }

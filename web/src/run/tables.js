@@ -1,33 +1,34 @@
 // Frames, configuration, provenance.
+import { application } from "../application.js";
 import { h } from "../kit/dom.js";
-import { error, fixed, words } from "../kit/format.js";
+import { fixed, heading, significant, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
-import { countsOf } from "./facts.js";
+import { countsOf, figuresOf } from "./facts.js";
 
 export function frameTable(run) {
   if (run.frames.length === 0) return null;
   const has = (pick) => run.frames.some((frame) => pick(frame) !== undefined);
-  const first = (frame) => frame.markers[0];
   const number = (title, unit, value, places, show) => ({ title, unit, value, number: true, csv: unit ? `${title} ${unit}` : title, show: show ?? ((v) => fixed(v, places)) });
+  const own = application.columns(number);
   const columns = [
     number("#", null, (f) => f.index + 1, 0),
     { title: "Input", value: (f) => f.input, head: true },
-    { title: "Marker", value: (f) => f.markers.map((m) => m.id).join(", ") || (f.gave_up ? "no result" : "none") },
+    ...own.front,
+    { title: "No result", value: (f) => (own.front.length > 0 ? undefined : f.gave_up) },
     ...run.stages.map((name) => number(words(name), "µs", (f) => f.time_us?.[name], 1)),
     number("Energy", "mJ", (f) => f.energy_mj?.total ?? f.energy_mj, 3),
     ...countsOf(run.frames).map((name) => number(words(name), null, (f) => f.counts[name], 0)),
-    number("Error", "px", (f) => first(f)?.error?.corner_px, 2, (v) => error(v, 2)),
-    number("Error", "mm", (f) => first(f)?.error?.translation_mm, 1, (v) => error(v, 1)),
-    number("Error", "°", (f) => first(f)?.error?.rotation_deg, 2, (v) => error(v, 2)),
+    ...figuresOf(run.frames).map((name) => number(words(name), null, (f) => f.figures?.[name], 0, (v) => significant(v, 6))),
+    ...own.back,
     { title: "Warnings", value: (f) => f.warnings?.join("; ") },
   ].filter((column) => has(column.value));
   const left = (run.summary.frames ?? 0) - run.frames.length;
   return h("section", { id: "frames", "aria-labelledby": "frames-title" },
-    h("h2", { id: "frames-title" }, "Frames"),
+    h("h2", { id: "frames-title" }, `${heading(run.unit)}s`),
     left > 0 && h("p", { class: "note" }, `The first ${fixed(run.frames.length, 0)}; ${fixed(left, 0)} more stand in result.json.`),
     run.overTime?.(),
-    dataTable({ columns, rows: run.frames, caption: "Frames with times, counts and errors", name: "frames", exportable: true, limit: 25 }));
+    dataTable({ columns, rows: run.frames, caption: `${heading(run.unit)}s with times, counts and figures`, name: "frames", exportable: true, limit: 25 }));
 }
 
 export function configuration(run) {

@@ -1,12 +1,12 @@
 // The points of a sweep as numbers: "50 MHz" is 50 on an axis in MHz.
+import { application } from "../application.js";
 
 /** Name, unit and which way is better, where the path says less. */
 const names = {
   "summary.fps.mean": ["Frame rate", "frames/s", 1], "summary.latency_us.mean": ["Latency", "ms", -1, 1e-3], "power.total_w.nominal": ["Power", "W", -1],
-  "summary.energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power.junction_c": ["Junction", "°C", -1], "summary.detected": ["Frames with marker", "", 1], "summary.detection_rate": ["Share of markers found", "", 1], "summary.frames": ["Frames", "", 1],
+  "summary.energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power.junction_c": ["Junction", "°C", -1], "summary.frames": ["Frames", "", 1],
   "resources.total.lut": ["LUT", "", -1], "resources.total.ff": ["Flip-flops", "", -1], "resources.total.bram36": ["BRAM 36 Kb", "", -1],
-  "resources.total.dsp": ["DSP", "", -1], "frames.error.corner_px.mean": ["Corner error", "px", -1], "frames.error.translation_mm.mean": ["Translation error", "mm", -1],
-  "frames.error.rotation_deg.mean": ["Rotation error", "°", -1],
+  "resources.total.dsp": ["DSP", "", -1],
 };
 
 const scales = { Hz: ["MHz", 1e-6], kHz: ["MHz", 1e-3], MHz: ["MHz", 1], GHz: ["MHz", 1e3] };
@@ -36,7 +36,7 @@ function parameterAxis(sweep, index) {
 
 /** {name, unit, better, scale} of a metric. */
 export function metricName({ path, unit: given }) {
-  const [name, unit, better, scale = 1] = names[path] ?? [path, given, 0];
+  const [name, unit, better, scale = 1] = names[path] ?? application.metrics[path] ?? [path, given, 0];
   return { name, unit, better, scale };
 }
 

@@ -10,6 +10,8 @@
 #include <blob_stream.h>
 #include <chip/system/designs.h>
 #include <facts/result.h>
+#include <marker/input/image_need.h>
+#include <marker/report/marker_frame.h>
 #include <marker_logic.h>
 #include <vp/clock.h>
 #include <vp/text.h>
@@ -26,14 +28,14 @@ Pose pose_of(const marker::BoardPose& pose) {
           Eigen::Vector3d::Map(pose.translation.data())};
 }
 
-std::optional<facts::PoseMotion> motion_of(const marker::PoseMotion& motion) {
+std::optional<PoseMotion> motion_of(const marker::PoseMotion& motion) {
   if (motion.frames == 0) return std::nullopt;
-  return facts::PoseMotion{motion.frames, motion.velocity, motion.turn_rate};
+  return PoseMotion{motion.frames, motion.velocity, motion.turn_rate};
 }
 
-facts::FoundMarker found_marker(const marker::Detection& detection) {
+FoundMarker found_marker(const marker::Detection& detection) {
   const marker::DetectedMarker& m = detection.marker;
-  facts::FoundMarker found;
+  FoundMarker found;
   found.id = m.id;
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.fit.image[i].x, m.fit.image[i].y};
   found.has_pose = detection.pose.valid;
@@ -71,8 +73,18 @@ ImprovedDesign::ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports,
   logic_rst().attach(*this);
 }
 
-input::ImageSize ImprovedDesign::frame_size() const {
-  return {static_cast<int>(geometry().width), static_cast<int>(geometry().height)};
+facts::Work ImprovedDesign::work() const {
+  return marker_work();
+}
+
+facts::InputNeed ImprovedDesign::input() const {
+  constexpr bool corrects_lens = true;
+  return input::image_need(
+      {static_cast<int>(geometry().width), static_cast<int>(geometry().height)}, corrects_lens);
+}
+
+void ImprovedDesign::describe(const facts::UnitInput& input, hal_frame& frame) const {
+  input::describe_camera(input, frame);
 }
 
 void ImprovedDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
@@ -113,7 +125,7 @@ void ImprovedDesign::note_blob() {
   slot(camera.frame_number).blobs.push_back(box);
 }
 
-bool ImprovedDesign::report(const Publication& publication, facts::FrameReport& frame) {
+bool ImprovedDesign::report(const Publication& publication, facts::UnitReport& frame) {
   if (!read(publication, result_)) return false;
   fill_in(frame, publication.ps);
   add_times(frame, publication.ps);
@@ -121,24 +133,25 @@ bool ImprovedDesign::report(const Publication& publication, facts::FrameReport& 
   return true;
 }
 
-void ImprovedDesign::fill_in(facts::FrameReport& frame, std::uint64_t now_ps) const {
+void ImprovedDesign::fill_in(facts::UnitReport& frame, std::uint64_t now_ps) const {
   frame.index = result_.frame;
-  frame.threshold = result_.threshold;
+  MarkerFrame& found = marker_frame(frame);
+  found.threshold = result_.threshold;
   if (result_.status != marker::DetectionStatus::ok) {
     frame.gave_up = marker::status_name(result_.status);
     frame.warnings.push_back("the software gave up: " + frame.gave_up);
   }
   for (std::uint32_t i = 0; i < result_.found.count; ++i)
-    frame.markers.push_back(found_marker(result_.found.markers[i]));
+    found.markers.push_back(found_marker(result_.found.markers[i]));
   const marker::BoardPoses& board = result_.found.board;
   if (board.valid) {
-    frame.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance,
+    found.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance,
                    motion_of(result_.found.board_motion)};
   }
   frame.end_ps = now_ps;
 }
 
-void ImprovedDesign::add_times(facts::FrameReport& frame, std::uint64_t now_ps) {
+void ImprovedDesign::add_times(facts::UnitReport& frame, std::uint64_t now_ps) {
   // Stamps count pairs of CPU cycles.
   const vp::Clock& cpu = ports_.ps.cpu_clk.clk;
   const auto duration = [&cpu](std::uint64_t counts) {
@@ -182,7 +195,7 @@ void ImprovedDesign::add_times(facts::FrameReport& frame, std::uint64_t now_ps) 
       "had to do for the one before";
   wait.waits = true;
   frame.times.insert(frame.times.begin(), {capture, wait});
-  frame.features.blobs = std::move(sent.blobs);
+  marker_frame(frame).features.blobs = std::move(sent.blobs);
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, ""));
   frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, ""));
 }
@@ -278,8 +291,15 @@ std::uint32_t ImprovedDesign::settling_showings() const {
   return has_option("overlap") ? 2 : 1;
 }
 
-void ImprovedDesign::check(facts::FrameReport& frame) {
-  if (!frame.board) return;
+void ImprovedDesign::check(facts::UnitReport& frame) {
+  take_truth(frame);
+  judge(frame);
+  check_board(frame);
+}
+
+void ImprovedDesign::check_board(facts::UnitReport& frame) {
+  MarkerFrame& found = marker_frame(frame);
+  if (!found.board) return;
   std::vector<BoardMarker> markers;
   for (std::uint32_t i = 0; i < result_.found.count; ++i) {
     const marker::DetectedMarker& m = result_.found.markers[i].marker;
@@ -288,19 +308,19 @@ void ImprovedDesign::check(facts::FrameReport& frame) {
     for (std::size_t k = 0; k < 4; ++k) seen.ideal_px[k] = {m.fit.ideal[k].x, m.fit.ideal[k].y};
   }
   const marker::Board board = board_of(options_);
-  const BoardFit fit = check_board(board, frame.camera, frame.board->pose, markers);
+  const BoardFit fit = platform::check_board(board, found.camera, found.board->pose, markers);
   for (std::size_t i = 0; i < markers.size(); ++i)
-    frame.markers[i].residual_px = markers[i].residual_px;
-  frame.board->residual_px = fit.residual_px;
+    found.markers[i].residual_px = markers[i].residual_px;
+  found.board->residual_px = fit.residual_px;
   if (!fit.is_odd() && fit.strangers == 0) return;
   const std::vector<std::string> layouts = fitting_layouts(board, markers);
   const bool explains_strangers = fit.strangers > 0 && !layouts.empty();
   if (!fit.is_odd() && !explains_strangers) return;
   frame.warnings.push_back(board_text(fit, layouts));
   // A single marker fits any place.
-  if (fit.is_good() && !(explains_strangers && frame.board->markers == 1)) return;
-  frame.board->misfit = frame.warnings.back();
-  frame.board->layouts = layouts;
+  if (fit.is_good() && !(explains_strangers && found.board->markers == 1)) return;
+  found.board->misfit = frame.warnings.back();
+  found.board->layouts = layouts;
 }
 
 ImprovedDesign::Dropped ImprovedDesign::counters() const {
@@ -326,7 +346,7 @@ std::string lost_in_logic_warning(std::uint32_t pixels_per_clock) {
 
 }  // namespace
 
-void ImprovedDesign::add_counts(facts::FrameReport& frame) {
+void ImprovedDesign::add_counts(facts::UnitReport& frame) {
   const marker::Detections& found = result_.found;
   frame.counts.set("blobs", found.blobs.received);
   frame.counts.set("markers", found.count);
@@ -379,8 +399,7 @@ const DesignInfo& improved_design() {
         return std::make_unique<ImprovedDesign>(name, ports,
                                                 ImprovedDesign::usual_geometry(640, 480));
       },
-      {},
-      true};
+      {}};
   return info;
 }
 
@@ -438,8 +457,7 @@ const DesignInfo& hd_design() {
                                  return std::make_unique<ImprovedDesign>(
                                      name, ports, ImprovedDesign::usual_geometry(1280, 720));
                                },
-                               {{"ps.fclk_clk0.frequency", "111.111111 MHz"}},
-                               true};
+                               {{"ps.fclk_clk0.frequency", "111.111111 MHz"}}};
   return info;
 }
 
@@ -456,8 +474,7 @@ const DesignInfo& eco_design() {
                                 {"ps.cpu_clk.frequency", "333.333333 MHz"},
                                 {"power.ddr.width", "16"},
                                 {"power.ddr.frequency", "400 MHz"},
-                                {"power.ddr.voltage", "1.35 V"}},
-                               true};
+                                {"power.ddr.voltage", "1.35 V"}}};
   return info;
 }
 

@@ -25,15 +25,15 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
     return {width, height, marker_logic::max_burst_words};
   }
 
-  input::ImageSize frame_size() const override;
-  void show_image(const std::shared_ptr<const GreyImage>& image) override {
-    camera.show({image, &image->pixels});
-  }
+  facts::Work work() const override;
+  facts::InputNeed input() const override;
+  void describe(const facts::UnitInput& input, hal_frame& frame) const override;
+  void place(const facts::SharedInput& input) override { camera.show({input, &input->bytes()}); }
   void settle() override { settle_counters(); }
   void note_option(const std::string& name, double value) override { options_[name] = value; }
   std::uint32_t settling_showings() const override;
-  bool report(const Publication& publication, facts::FrameReport& frame) override;
-  void check(facts::FrameReport& frame) override;
+  bool report(const Publication& publication, facts::UnitReport& frame) override;
+  void check(facts::UnitReport& frame) override;
 
   vp::Signal<bool>* busy() override { return &camera.frame_ena; }
   std::vector<std::string> groups() const override { return {"feature_extraction", "data_bridge"}; }
@@ -56,12 +56,14 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void note_blob();
   /// Where the camera's frame of this number stands, or stood.
   Sent& slot(std::uint32_t number) { return sent_[number % sent_.size()]; }
-  void fill_in(facts::FrameReport& frame, std::uint64_t now_ps) const;
-  void add_times(facts::FrameReport& frame, std::uint64_t now_ps);
+  void fill_in(facts::UnitReport& frame, std::uint64_t now_ps) const;
+  void add_times(facts::UnitReport& frame, std::uint64_t now_ps);
   void explain_capture(facts::StageTime& capture);
   bool has_option(const char* name) const;
   std::vector<std::string> software_levers() const;
-  void add_counts(facts::FrameReport& frame);
+  void add_counts(facts::UnitReport& frame);
+  /// Whether the markers can be those of the board, if one was seen.
+  void check_board(facts::UnitReport& frame);
   Dropped counters() const;
   void note_dropped();
 

@@ -2,6 +2,8 @@
 
 #include <axi_gpio_registers.h>
 #include <facts/result.h>
+#include <marker/input/image_need.h>
+#include <marker/report/marker_frame.h>
 #include <marker/result.h>
 #include <marker_logic.h>
 #include <vp/clock.h>
@@ -204,8 +206,8 @@ std::uint64_t HandshakeWatch::finish_frame() {
 
 namespace {
 
-facts::FoundMarker found_marker(const marker::Marker& m) {
-  facts::FoundMarker found;
+FoundMarker found_marker(const marker::Marker& m) {
+  FoundMarker found;
   found.id = m.identity.id;
   found.rotation = m.identity.rotation;
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.corners[i].x, m.corners[i].y};
@@ -217,8 +219,8 @@ facts::FoundMarker found_marker(const marker::Marker& m) {
   return found;
 }
 
-facts::Features features_of(const marker::FrameResult& result) {
-  facts::Features features;
+Features features_of(const marker::FrameResult& result) {
+  Features features;
   const auto& set = result.features;
   features.corners.assign(set.corners.begin(), set.corners.begin() + set.corner_count);
   features.blobs.assign(set.blobs.begin(), set.blobs.begin() + set.blob_count);
@@ -234,13 +236,14 @@ facts::Features features_of(const marker::FrameResult& result) {
 /// Fills in what the software knows of a frame that it published at `now_ps`: times, counts,
 /// markers, features. Its stamps count pairs of cycles of `cpu_clk`; `levers` make the software
 /// faster.
-void fill_in(facts::FrameReport& report, const marker::FrameResult& result, std::uint64_t now_ps,
+void fill_in(facts::UnitReport& report, const marker::FrameResult& result, std::uint64_t now_ps,
              const vp::Clock& cpu_clk, const std::vector<std::string>& levers) {
   report.index = result.frame;
   if (result.status != marker::Status::ok) report.gave_up = marker::status_name(result.status);
-  if (result.has_threshold) report.threshold = result.threshold;
+  MarkerFrame& found = marker_frame(report);
+  if (result.has_threshold) found.threshold = result.threshold;
   for (std::uint32_t i = 0; i < result.marker_count; ++i)
-    report.markers.push_back(found_marker(result.markers[i]));
+    found.markers.push_back(found_marker(result.markers[i]));
   // Stamps count pairs of CPU cycles.
   const auto duration = [&](const marker::StageTime& stage) {
     return cpu_clk.duration_ps(2.0 * static_cast<double>(stage.end - stage.start));
@@ -288,7 +291,7 @@ void fill_in(facts::FrameReport& report, const marker::FrameResult& result, std:
   report.end_ps = now_ps;
   report.start_ps = start_ps;
   report.upload_ps = duration(t.upload);
-  report.features = features_of(result);
+  found.features = features_of(result);
 }
 
 /// What was found, and what was lost: in the logic, between the clocks, in the software.
@@ -310,7 +313,7 @@ facts::Counts counts_of(const marker::FrameResult& result, const ProgrammableLog
 }
 
 /// Adds the warnings that follow from the frame's counts and the software's own.
-void add_losses(facts::FrameReport& report, const marker::FrameResult& result) {
+void add_losses(facts::UnitReport& report, const marker::FrameResult& result) {
   if (!report.delivered()) report.warnings.push_back("the software gave up: " + report.gave_up);
   const auto lost = [&](std::uint64_t count, const char* what) {
     if (count != 0) report.warnings.push_back(std::to_string(count) + " " + what);
@@ -353,12 +356,22 @@ std::unique_ptr<Design> make_marker_design(const char* name, PlPorts& ports) {
   return std::make_unique<MarkerDesign>(name, ports);
 }
 
-input::ImageSize MarkerDesign::frame_size() const {
-  return {static_cast<int>(geometry().width), static_cast<int>(geometry().height)};
+facts::Work MarkerDesign::work() const {
+  return marker_work();
 }
 
-void MarkerDesign::show_image(const std::shared_ptr<const GreyImage>& image) {
-  bram.load(image->pixels);
+facts::InputNeed MarkerDesign::input() const {
+  return input::image_need(
+      {static_cast<int>(geometry().width), static_cast<int>(geometry().height)});
+}
+
+void MarkerDesign::describe(const facts::UnitInput& input, hal_frame& frame) const {
+  input::describe_camera(input, frame);
+}
+
+void MarkerDesign::check(facts::UnitReport& frame) {
+  take_truth(frame);
+  judge(frame);
 }
 
 std::optional<double> MarkerDesign::program_option(const std::string& name) const {
@@ -371,7 +384,7 @@ void MarkerDesign::on_change(vp::SignalBase& signal, std::uint32_t) {
   if (signal.bits() != 0) threshold_ = global_threshold.active_threshold;
 }
 
-bool MarkerDesign::report(const Publication& publication, facts::FrameReport& frame) {
+bool MarkerDesign::report(const Publication& publication, facts::UnitReport& frame) {
   if (publication.kind != marker::frame_result_kind ||
       publication.size != sizeof(marker::FrameResult)) {
     return false;
@@ -379,7 +392,7 @@ bool MarkerDesign::report(const Publication& publication, facts::FrameReport& fr
   // Static: a result is too large for the stack of the program's thread.
   static marker::FrameResult result;
   std::memcpy(&result, publication.data, publication.size);
-  frame.threshold = threshold_;
+  marker_frame(frame).threshold = threshold_;
   std::vector<std::string> levers;
   if (is_unoptimised_) levers.emplace_back("sw.opt=O2");
   fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk, levers);

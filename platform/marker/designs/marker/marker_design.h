@@ -86,8 +86,10 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   MarkerDesign(sc_core::sc_module_name name, PlPorts& ports,
                const pl::Models<pl::PixelFilter>* filter = nullptr);
 
-  input::ImageSize frame_size() const override;
-  void show_image(const std::shared_ptr<const GreyImage>& image) override;
+  facts::Work work() const override;
+  facts::InputNeed input() const override;
+  void describe(const facts::UnitInput& input, hal_frame& frame) const override;
+  void place(const facts::SharedInput& input) override { bram.load(input->bytes()); }
   void settle() override { ProgrammableLogic::settle(); }
   std::optional<double> program_option(const std::string& name) const override;
   void note_option(const std::string& name, double value) override {
@@ -95,7 +97,8 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   }
   /// The threshold in use is that of the frame before.
   std::uint32_t settling_showings() const override { return 1; }
-  bool report(const Publication& publication, facts::FrameReport& frame) override;
+  bool report(const Publication& publication, facts::UnitReport& frame) override;
+  void check(facts::UnitReport& frame) override;
   void finish() override { handshake_.finish_frame(); }
 
   vp::Signal<bool>* busy() override { return &sensor_input.frame_ena; }

@@ -42,7 +42,7 @@ struct Platform : kit::Simulation {
   /// Energy of the modules in a frame of that time, mJ by module.
   std::map<std::string, double> frame(std::uint64_t from_ps, std::uint64_t to_ps) {
     run_until(to_ps);
-    facts::FrameReport report;
+    facts::UnitReport report;
     report.start_ps = from_ps;
     report.end_ps = to_ps;
     power->frame_ends(report);
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(the_next_frame_begins_where_the_last_one_ended_without_its_
   Platform platform;
   platform.frame(0, 2 * ms);
   platform.run_until(10 * ms);
-  facts::FrameReport second;
+  facts::UnitReport second;
   second.start_ps = 7 * ms;
   second.upload_ps = 4 * ms;  // from 3 to 7 ms
   second.end_ps = 10 * ms;
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(the_energy_of_a_frame_given_up_is_that_of_the_next_result) 
   platform.frame(0, 2 * ms);
   const auto ends = [&](std::uint64_t from_ms, std::uint64_t to_ms, const char* gave_up) {
     platform.run_until(to_ms * ms);
-    facts::FrameReport frame;
+    facts::UnitReport frame;
     frame.start_ps = from_ms * ms;
     frame.end_ps = to_ms * ms;
     frame.gave_up = gave_up;
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_gave_up_takes_power_and_no_energy_per_frame) {
   const double usual = report_of({}).total_w;
   Platform platform;
   platform.run_until(2 * ms);
-  facts::FrameReport frame;
+  facts::UnitReport frame;
   frame.start_ps = ms;
   frame.end_ps = 2 * ms;
   frame.gave_up = "no DMA memory";

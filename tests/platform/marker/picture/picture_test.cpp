@@ -34,12 +34,12 @@ bool is_grey(const Rgb& c) {
 
 struct Example {
   GreyImage image = render(make_scene("z1.0"));
-  facts::FrameReport frame = report_test::found_frame("z1.0");
+  facts::UnitReport frame = report_test::found_frame("z1.0");
 
   Example() {
-    frame.markers[0].corners_px = frame.truth->corners_px;
-    frame.features.corners.push_back({100, 100, 50, marker::Direction::north, 0});
-    frame.features.blobs.push_back({50, 300, 119, 359, 0});
+    marker_frame(frame).markers[0].corners_px = marker_frame(frame).truth->corners_px;
+    marker_frame(frame).features.corners.push_back({100, 100, 50, marker::Direction::north, 0});
+    marker_frame(frame).features.blobs.push_back({50, 300, 119, 359, 0});
   }
 };
 
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(features_stand_where_they_were_found) {
   BOOST_TEST(colour(picture, 100.6, 100.6) == sky_blue);
   BOOST_TEST(colour(picture, 85, 299.9) == reddish_purple, "the box encloses its pixels");
   BOOST_TEST(colour(picture, 85, 360.1) == reddish_purple);
-  const auto& corners = example.frame.markers[0].corners_px;
+  const auto& corners = marker_frame(example.frame).markers[0].corners_px;
   BOOST_TEST(colour(picture, (corners[1].x + corners[2].x) / 2,
                     (corners[1].y + corners[2].y) / 2) == yellow);
   BOOST_TEST(is_grey(colour(picture, 200, 60)));
@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(features_stand_where_they_were_found) {
 
 BOOST_AUTO_TEST_CASE(an_empty_frame_is_the_image_alone) {
   Example example;
-  example.frame.markers.clear();
-  example.frame.features = {};
+  marker_frame(example.frame).markers.clear();
+  marker_frame(example.frame).features = {};
   const Picture picture = annotate(example.image, example.frame);
   for (std::size_t i = 0; i < 1280u * 960u * 3u; i += 3) {
     if (picture.rgb[i] != picture.rgb[i + 1]) BOOST_FAIL("colour at byte " << i);
@@ -97,12 +97,12 @@ BOOST_AUTO_TEST_CASE(the_legend_has_what_is_drawn_and_nothing_else) {
   Picture picture = annotate(example.image, example.frame);
   for (const auto tint : {is_sky_blue, is_purple, is_yellow})
     BOOST_TEST(strip_has(picture, tint, true));
-  example.frame.features.corners.clear();
+  marker_frame(example.frame).features.corners.clear();
   picture = annotate(example.image, example.frame);
   BOOST_TEST(!strip_has(picture, is_sky_blue, true));
   BOOST_TEST(strip_has(picture, is_purple, true));
-  example.frame.features.blobs.clear();
-  example.frame.markers.clear();
+  marker_frame(example.frame).features.blobs.clear();
+  marker_frame(example.frame).markers.clear();
   picture = annotate(example.image, example.frame);
   BOOST_TEST(!strip_has(picture, is_purple, true));
   BOOST_TEST(!strip_has(picture, is_yellow, true));
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(the_legend_has_what_is_drawn_and_nothing_else) {
 
 BOOST_AUTO_TEST_CASE(what_lies_outside_the_image_or_behind_the_camera_does_no_harm) {
   Example example;
-  facts::FoundMarker& marker = example.frame.markers[0];
+  FoundMarker& marker = marker_frame(example.frame).markers[0];
   marker.corners_px = {{{-1e9, 5}, {1e12, -4}, {700, 1e7}, {-50, 500}}};
   annotate(example.image, example.frame);
   marker.pose.translation[2] = -1;
@@ -150,9 +150,9 @@ BOOST_AUTO_TEST_CASE(the_file_holds_the_picture_and_equal_ones_are_equal) {
 }
 
 BOOST_AUTO_TEST_CASE(names_are_safe_and_sort) {
-  facts::FrameReport frame = report_test::found_frame("z1.0", 7);
+  facts::UnitReport frame = report_test::found_frame("z1.0", 7);
   BOOST_TEST(picture_name(frame) == "0007_z1.0.png");
-  frame.truth.reset();
+  marker_frame(frame).truth.reset();
   frame.input = "my photo/1.jpeg";
   BOOST_TEST(picture_name(frame) == "0007_my_photo_1.png");
   frame.input = "clip.avi#12";

@@ -29,7 +29,7 @@ struct Folder : kit::TemporaryFolder {
     platform::host::OutputFolder output(path());
     result::ResultWriter writer(output);
     for (std::uint32_t i = 0; i < frames; ++i) {
-      facts::FrameReport frame = report_test::found_frame("z1.0", i);
+      facts::UnitReport frame = report_test::found_frame("z1.0", i);
       frame.input = input;
       writer.add(frame);
     }

@@ -6,23 +6,12 @@
 #include <cli/program.h>
 #include <host/process.h>
 #include <host/stack_limit.h>
-#include <marker/commands/commands.h>
-#include <marker/scene/scene.h>
 #include <vp/foreign_object.h>
 
 /// libsystemc refers to sc_main; the program has a main() of its own.
 extern "C" int sc_main(int, char**) {
   return 1;
 }
-
-namespace {
-
-const platform::cli::Application application{
-    {platform::commands::add_scenes, platform::commands::add_validate,
-     platform::commands::add_compare_detectors},
-    platform::is_scene};
-
-}  // namespace
 
 int main(int argc, char* argv[]) {
   platform::host::fill_standard_descriptors();
@@ -39,9 +28,8 @@ int main(int argc, char* argv[]) {
   int code = platform::host::exit_code_of(
       [&] {
         int ended = platform::host::done;
-        vp::call_objects([&] {
-          ended = platform::cli::run_program(application, arguments, std::cout, std::cerr);
-        });
+        vp::call_objects(
+            [&] { ended = platform::cli::run_program(arguments, std::cout, std::cerr); });
         return ended;
       },
       std::cerr);

@@ -1,6 +1,6 @@
 // What the thesis states of its systems, to stand beside runs of the same PS program.
 import text from "../../../data/thesis_systems.csv";
-import { parse } from "../published.js";
+import { parse } from "./published.js";
 
 /** [{system, title, logic, frameUs, stages: [{name, us}]}]; `logic`: it uses the PL. */
 export const systems = [];

@@ -1,5 +1,5 @@
 // What the thesis states, by the id of data/published.csv.
-import text from "../../data/published.csv";
+import text from "../../../data/published.csv";
 
 /** The rows of a CSV file as objects. */
 export function parse(csv) {

@@ -2,7 +2,7 @@
 import { download, h, s } from "../kit/dom.js";
 import { counted, error, fixed, heading, significant, time, words } from "../kit/format.js";
 import { stageColour } from "../kit/theme.js";
-import { countsOf, partsOf } from "./facts.js";
+import { countsOf, partsOf } from "../run/facts.js";
 
 const side = 0.3; // m, of a marker (thesis 5.1)
 const directions = ["north", "south", "east", "west"]; // as the corner words number them

@@ -1,0 +1,65 @@
+#include <marker/report/marker_metrics.h>
+
+#include <result/metrics.h>
+
+#include <algorithm>
+
+namespace platform {
+
+namespace {
+
+using result::Json;
+using Found = result::UnitMetrics::Found;
+
+/// Calls found("NAME.PART", value) for each number of an object, found(NAME, value) for a number.
+void find_numbers(const std::string& name, const Json& json, const Found& found) {
+  if (json.is_number()) found(name, json.get<double>());
+  if (!json.is_object()) return;
+  for (const auto& [part, value] : json.items()) {
+    if (value.is_number()) found(name + "." + part, value.get<double>());
+  }
+}
+
+bool take(const std::string& name, const Json& value, const Found& found) {
+  if (name == "scene_marker" || name == "further_scene_markers") return true;
+  if (name != "markers") return false;
+  found("markers", static_cast<double>(value.size()));
+  for (const Json& marker : value) {
+    for (const char* figure : {"error", "reprojection_px", "iterations"}) {
+      if (marker.contains(figure)) find_numbers(figure, marker[figure], found);
+    }
+  }
+  return true;
+}
+
+bool has_marker(const Json& frame, const Json& id) {
+  const auto markers = frame.find("markers");
+  return markers != frame.end() &&
+         std::any_of(markers->begin(), markers->end(),
+                     [&](const Json& marker) { return marker.value("id", Json()) == id; });
+}
+
+void rates(const Json& frame, const Found& found) {
+  if (frame.contains("scene_marker"))
+    found("detection_rate", has_marker(frame, frame["scene_marker"]) ? 1 : 0);
+}
+
+}  // namespace
+
+bool register_marker_metrics() {
+  static const result::UnitMetrics metrics(
+      take, rates,
+      {{"summary.detected", "", "of them with a marker"},
+       {"summary.detection_rate", "",
+        "share of the scenes whose marker was found, with its ID; 1: all"},
+       {"frames.markers", "", "markers found"},
+       {"frames.threshold", "", "grey level at which the image was made binary"},
+       {"frames.error.corner_px", "px", "distance of the marker's corners from the truth"},
+       {"frames.error.translation_mm", "mm", "distance of the marker's place from the truth"},
+       {"frames.error.rotation_deg", "°", "angle of the marker's rotation from the truth"},
+       {"frames.reprojection_px", "px", "distance of the corners from those of the pose"},
+       {"frames.iterations", "", "iterations of the pose"}});
+  return true;
+}
+
+}  // namespace platform

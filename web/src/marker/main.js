@@ -1,0 +1,3 @@
+// The pages of the marker application.
+import "./application.js";
+import "../main.js";
