@@ -384,8 +384,10 @@ void add_clocks(CLI::App& app, ClocksOptions& target) {
       ->type_name("")
       ->required();
   command->add_option("--for", target.kind, "which clock (default: fclk)")
-      ->type_name("fclk|cpu|cpu-421|ddr")
-      ->check(CLI::IsMember({"fclk", "cpu", "cpu-421", "ddr"}).description(""));
+      ->type_name("fclk|cpu|cpu-421|ddr|mmcm|pll")
+      ->check(CLI::IsMember({"fclk", "cpu", "cpu-421", "ddr", "mmcm", "pll"}).description(""));
+  command->add_option("--input", target.input, "of an MMCM or PLL (default: 100 MHz)")
+      ->type_name("FREQUENCY");
   command->add_option("--device", target.device, "on this chip (default: xc7z020-1)")
       ->type_name("DEVICE");
   command->add_option("--crystal", target.crystal, "PS_CLK (default: 33.333 MHz)")

@@ -163,7 +163,8 @@ struct DevicesOptions {
 /// `markervp clocks`.
 struct ClocksOptions {
   std::vector<std::string> wishes;
-  std::string kind = "fclk";  ///< or "cpu", "cpu-421", "ddr"
+  std::string kind = "fclk";      ///< or "cpu", "cpu-421", "ddr"; of the fabric "mmcm", "pll"
+  std::string input = "100 MHz";  ///< of a clock manager of the fabric
   std::string device = "xc7z020-1";
   std::optional<std::string> crystal;  ///< default: that of a ZedBoard
   std::size_t count = 8;

@@ -6,33 +6,22 @@
 #include <vp/unit.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace xilinx {
 
 namespace {
 
-constexpr std::uint64_t steps = 8;  ///< of a fractional divider (UG472)
 constexpr double hz_per_mhz = 1e6;
 
-/// Limits of the oscillator by speed grade 1 to 3, MHz (DS187, tables of MMCM and PLL).
-struct OscillatorLimits {
-  double lowest;
-  std::array<double, 3> highest;
-};
-constexpr OscillatorLimits mmcm_limits{600, {1200, 1440, 1600}};
-constexpr OscillatorLimits pll_limits{800, {1600, 1866, 2133}};
-constexpr double slowest_detector_mhz = 10;  ///< DS187: F_PFDMIN, high and optimised bandwidth
-
 /// A divider or multiplier in eighths.
-std::uint64_t eighths(const vp::Parameter<std::string>& parameter, double lowest, double highest,
-                      bool fractional) {
+std::uint64_t in_eighths(const vp::Parameter<std::string>& parameter, double lowest, double highest,
+                         bool fractional) {
   const auto value = vp::Decimal::parse(parameter.get());
-  const auto whole = value ? value->scaled(steps, 0).whole() : std::nullopt;
-  const bool fits = whole && *whole >= static_cast<vp::Decimal::Whole>(lowest * steps) &&
-                    *whole <= static_cast<vp::Decimal::Whole>(highest * steps) &&
-                    (fractional || *whole % steps == 0);
+  const auto whole = value ? value->scaled(eighths, 0).whole() : std::nullopt;
+  const bool fits = whole && *whole >= static_cast<vp::Decimal::Whole>(lowest * eighths) &&
+                    *whole <= static_cast<vp::Decimal::Whole>(highest * eighths) &&
+                    (fractional || *whole % eighths == 0);
   if (fits) return static_cast<std::uint64_t>(*whole);
   throw vp::InputError(std::string(parameter.name()) + " = " + vp::excerpt(parameter.get()) +
                        ": must be " + vp::format_fixed(lowest, 0) + " to " +
@@ -46,7 +35,7 @@ FabricClock::Output::Output(sc_core::sc_module_name name, vp::ClockScheduler& sc
                             const std::string& usual, bool fractional)
     : sc_module(name),
       divide("divide", usual, vp::Source::published, "divider of this output (UG472)"),
-      eighths(xilinx::eighths(divide, 1, 128, fractional)),
+      divider(in_eighths(divide, 1, 128, fractional)),
       clk("clk", scheduler, 0) {}
 
 FabricClock::FabricClock(sc_core::sc_module_name name, vp::Clock& clk_in1, unsigned grade,
@@ -58,8 +47,9 @@ FabricClock::FabricClock(sc_core::sc_module_name name, vp::Clock& clk_in1, unsig
       clkfbout_mult("clkfbout_mult", build.multiplier, vp::Source::published,
                     "multiplier of the oscillator (UG472)"),
       input_(clk_in1),
-      input_eighths_(eighths(divclk_divide, 1, build.pll ? 56 : 106, false)),
-      multiplier_eighths_(eighths(clkfbout_mult, 2, 64, !build.pll)) {
+      input_eighths_(
+          in_eighths(divclk_divide, 1, manager_limits(build.pll, grade).divclk_max, false)),
+      multiplier_eighths_(in_eighths(clkfbout_mult, 2, 64, !build.pll)) {
   bool fractional = !build.pll;
   for (const auto& [output, divider] : build.outputs) {
     outputs_.emplace_back(output.c_str(), clk_in1.scheduler(), divider, fractional);
@@ -82,19 +72,20 @@ double FabricClock::vco_hz() const {
 }
 
 void FabricClock::check_oscillator(unsigned grade, bool pll) const {
-  const OscillatorLimits& limits = pll ? pll_limits : mmcm_limits;
-  const double highest = limits.highest.at(std::clamp(grade, 1u, 3u) - 1);
-  const double mhz = vco_hz() / hz_per_mhz;
-  const double detector_mhz = static_cast<double>(input_.frequency_hz()) * steps /
-                              static_cast<double>(input_eighths_) / hz_per_mhz;
-  if (mhz >= limits.lowest && mhz <= highest && detector_mhz >= slowest_detector_mhz) return;
-  throw vp::InputError(std::string(name()) + ": its oscillator would run at " +
-                       vp::format_fixed(mhz, 3) + " MHz, its phase detector at " +
-                       vp::format_fixed(detector_mhz, 3) + " MHz; a" + (pll ? " PLL" : "n MMCM") +
-                       " of speed grade -" + std::to_string(grade) + " runs from " +
-                       vp::format_fixed(limits.lowest, 0) + " to " + vp::format_fixed(highest, 0) +
-                       " MHz, the detector from 10 MHz: change " + clkfbout_mult.name() + " or " +
-                       divclk_divide.name());
+  const ManagerLimits limits = manager_limits(pll, grade);
+  const double vco = vco_hz();
+  const double detector =
+      static_cast<double>(input_.frequency_hz()) * eighths / static_cast<double>(input_eighths_);
+  if (vco >= limits.vco_min && vco <= limits.vco_max && detector >= limits.detector_min) return;
+  const auto mhz = [](double hz, int decimals) {
+    return vp::format_fixed(hz / hz_per_mhz, decimals);
+  };
+  throw vp::InputError(
+      std::string(name()) + ": its oscillator would run at " + mhz(vco, 3) +
+      " MHz, its phase detector at " + mhz(detector, 3) + " MHz; a" + (pll ? " PLL" : "n MMCM") +
+      " of speed grade -" + std::to_string(grade) + " runs from " + mhz(limits.vco_min, 0) +
+      " to " + mhz(limits.vco_max, 0) + " MHz, the detector from " + mhz(limits.detector_min, 0) +
+      " MHz: 'markervp clocks --for " + (pll ? "pll" : "mmcm") + "' lists settings");
 }
 
 // Input · multiplier / divider of the input / divider of the output; the eighths of the dividers
@@ -102,8 +93,8 @@ void FabricClock::check_oscillator(unsigned grade, bool pll) const {
 void FabricClock::follow() {
   using Wide = unsigned __int128;
   for (Output& output : outputs_) {
-    const Wide over = Wide{input_eighths_} * output.eighths;
-    const Wide made = Wide{input_.frequency_hz()} * multiplier_eighths_ * steps;
+    const Wide over = Wide{input_eighths_} * output.divider;
+    const Wide made = Wide{input_.frequency_hz()} * multiplier_eighths_ * eighths;
     const auto hz = static_cast<std::uint64_t>((made + over / 2) / over);
     if (output.clk.frequency_hz() != hz) output.clk.set_frequency(hz);
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vp/ip.h>
 #include <vp/parameter.h>
 #include <vp/signal.h>
+#include <xilinx/fabric_clock/clock_settings.h>
 
 namespace xilinx {
 
@@ -54,7 +54,7 @@ class FabricClock : public sc_core::sc_module, public vp::Ip, private vp::ClockL
     const char* kind() const override { return "xilinx::FabricClockOutput"; }
 
     vp::Parameter<std::string> divide;
-    std::uint64_t eighths;  ///< its divider in steps of 1/8
+    std::uint64_t divider;  ///< in eighths
     vp::Clock clk;
   };
 

@@ -100,20 +100,35 @@ SlavePort BlockDesign::slave_of(const AddressSegment& segment) {
 /// Where software finds a slave is a property of it.
 std::uint64_t BlockDesign::base_of(const AddressSegment& segment, SlavePort& slave) {
   if (slave.absolute || segment.master.part != ps_) return segment.base;
-  auto& base = bases_[segment.slave.text()];
+  const std::string number = number_of(segment);
+  auto& base = bases_[segment.slave.text() + number];
   if (!base) {
     sc_core::sc_module* module = placed(segment.slave.part).object.get();
     const vp::HierarchyScope scope(*module);
-    const bool only = std::count_if(design_.addresses.begin(), design_.addresses.end(),
-                                    [&](const AddressSegment& other) {
-                                      return other.slave.part == segment.slave.part;
-                                    }) == 1;
-    const std::string name = only ? "base_address" : lower(segment.slave.port) + "_base_address";
+    const bool has_others = std::any_of(
+        design_.addresses.begin(), design_.addresses.end(), [&](const AddressSegment& other) {
+          return other.slave.part == segment.slave.part && other.slave.port != segment.slave.port;
+        });
+    const std::string name =
+        (has_others ? lower(segment.slave.port) + "_" : "") + "base_address" + number;
     base = std::make_unique<vp::Parameter<std::uint64_t>>(
         name.c_str(), segment.base, vp::Unit::address, vp::Range<std::uint64_t>{0, 0xFFFF'FFFF},
         vp::Source::decision, "where software finds it, " + vp::hex(segment.size) + " bytes");
   }
   return base->get();
+}
+
+/// Of a slave that its master sees in several places: "", "_1", "_2" …
+std::string BlockDesign::number_of(const AddressSegment& segment) const {
+  std::size_t number = 0;
+  for (const AddressSegment& other : design_.addresses) {
+    if (&other == &segment) break;
+    number +=
+        other.slave.text() == segment.slave.text() && other.master.text() == segment.master.text()
+            ? 1
+            : 0;
+  }
+  return number == 0 ? "" : "_" + std::to_string(number);
 }
 
 void BlockDesign::join_segment(const AddressSegment& segment) {
@@ -135,6 +150,7 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
         return other.slave.part == segment.slave.part && other.slave.port != segment.slave.port;
       });
   if (!is_port && twice != 0) name += "_" + lower(segment.slave.port);
+  name += number_of(segment);
   using Addresses = vp::Router::Addresses;
   for (std::size_t i = 0; i < routers.size(); ++i) {
     const bool last = i + 1 == routers.size();

@@ -64,6 +64,7 @@ class BlockDesign : public sc_core::sc_module, public Design {
                 unsigned depth) const;
   vp::Router& router(const std::string& name);
   vp::Router& way_of(const End& master, const std::vector<std::string>& way);
+  std::string number_of(const AddressSegment& segment) const;
   std::uint64_t base_of(const AddressSegment& segment, SlavePort& slave);
   SlavePort slave_of(const AddressSegment& segment);
   void close_open_masters();

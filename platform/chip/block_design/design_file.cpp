@@ -166,16 +166,23 @@ class DesignReader : vp::YamlReader {
   void read_addresses(const YAML::Node& map) {
     entries(map, "addresses", [&](const std::string& master, const auto& key, const auto& slaves) {
       entries(slaves, master, [&](const std::string& slave, const auto& place, const auto& range) {
-        if (!range.IsSequence() || range.size() != 2)
-          fail(range, "where '" + slave + "' is: write [base, size], as [0x40400000, 64 KiB]");
-        AddressSegment segment{end(key, master), end(place, slave),
-                               quantity(range[0], "the base", vp::Unit::none),
-                               quantity(range[1], "the size", vp::Unit::bytes)};
-        if (segment.size == 0 || segment.base + segment.size > most_addresses)
-          fail(range, "the segment of '" + slave + "' does not lie within 32 bits of address");
-        design_.addresses.push_back(std::move(segment));
+        const bool several = range.IsSequence() && range.size() > 0 && range[0].IsSequence();
+        for (std::size_t i = 0; i < (several ? range.size() : 1); ++i)
+          read_segment(end(key, master), end(place, slave), several ? range[i] : range);
       });
     });
+  }
+
+  void read_segment(const End& master, const End& slave, const YAML::Node& range) {
+    if (!range.IsSequence() || range.size() != 2) {
+      fail(range, "where '" + slave.text() +
+                      "' is: write [base, size], as [0x40400000, 64 KiB], or a list of such");
+    }
+    AddressSegment segment{master, slave, quantity(range[0], "the base", vp::Unit::none),
+                           quantity(range[1], "the size", vp::Unit::bytes)};
+    if (segment.size == 0 || segment.base + segment.size > most_addresses)
+      fail(range, "the segment of '" + slave.text() + "' does not lie within 32 bits of address");
+    design_.addresses.push_back(std::move(segment));
   }
 
   void read_external(const YAML::Node& map) {

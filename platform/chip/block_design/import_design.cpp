@@ -291,23 +291,29 @@ class Writer {
   }
 
   void write_addresses() {
-    std::map<std::string, std::vector<std::string>> masters;
+    using Ranges = std::vector<std::string>;
+    std::map<std::string, std::vector<std::pair<std::string, Ranges>>> masters;
     for (const Module& module : handoff_.modules) {
       for (const handoff::Segment& segment : module.segments) {
+        auto& slaves = masters[module.instance + "." + segment.master];
+        const std::string slave = segment.instance + "." + segment.slave;
+        if (slaves.empty() || slaves.back().first != slave) slaves.emplace_back(slave, Ranges());
         const std::string size = vp::format_quantity(
             vp::Decimal(static_cast<vp::Decimal::Whole>(segment.last - segment.base + 1), 0),
             vp::Unit::bytes);
-        masters[module.instance + "." + segment.master].push_back(
-            "    " + yaml(segment.instance + "." + segment.slave) + ": [" + vp::hex(segment.base) +
-            ", " + size + "]");
+        slaves.back().second.push_back("[" + vp::hex(segment.base) + ", " + size + "]");
       }
     }
     if (masters.empty()) return;
     line("\n# What each master sees, and where: [base, size].");
     line("addresses:");
-    for (const auto& [master, segments] : masters) {
+    for (const auto& [master, slaves] : masters) {
       line("  " + yaml(master) + ":");
-      for (const std::string& segment : segments) line(segment);
+      for (const auto& [slave, ranges] : slaves) {
+        const bool one = ranges.size() == 1;
+        line("    " + yaml(slave) + ": " +
+             (one ? ranges.front() : "[" + vp::join(ranges, ", ") + "]"));
+      }
     }
   }
 

@@ -8,6 +8,7 @@
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -174,6 +175,23 @@ BOOST_FIXTURE_TEST_CASE(limits_of_the_speed_grade, Wires) {
       std::string::npos);
   BOOST_TEST(refusal({false, "11", "64", {{"a", "10"}}}, 1).find("phase detector at 9.091 MHz") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(settings_near_a_wish) {
+  const xilinx::ManagerLimits mmcm = xilinx::manager_limits(false, 1);
+  const auto exact = xilinx::settings_near(100e6, 74.25e6, mmcm, 3);
+  BOOST_TEST_REQUIRE(exact.size() == 3u);
+  BOOST_TEST(exact[0].hz == 74.25e6);
+  BOOST_TEST(exact[0].vco_hz <= 1200e6);
+  for (std::size_t i = 1; i < exact.size(); ++i)
+    BOOST_TEST(std::abs(exact[i].hz - 74.25e6) >= std::abs(exact[i - 1].hz - 74.25e6));
+  // A PLL has whole numbers alone.
+  for (const auto& setting :
+       xilinx::settings_near(100e6, 74.25e6, xilinx::manager_limits(true, 1), 5)) {
+    BOOST_TEST(setting.multiplier % xilinx::eighths == 0u);
+    BOOST_TEST(setting.divider % xilinx::eighths == 0u);
+  }
+  BOOST_TEST(xilinx::settings_near(5e6, 74.25e6, mmcm, 3).empty());  // the detector is too slow
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -60,6 +60,15 @@ BOOST_AUTO_TEST_CASE(what_a_file_says) {
   BOOST_TEST(design.pin("buttons")->level == 5u);
 }
 
+BOOST_AUTO_TEST_CASE(a_slave_in_two_places) {
+  std::string two = text;
+  two.replace(two.find("[0x41200000, 64 KiB]"), 20, "[[0x41200000, 64 KiB], [0x41300000, 4 KiB]]");
+  const DesignFile design = parse_design(two, "d.yaml");
+  BOOST_TEST_REQUIRE(design.addresses.size() == 2u);
+  BOOST_TEST(design.addresses[1].base == 0x4130'0000u);
+  BOOST_TEST(design.addresses[1].size == 4096u);
+}
+
 BOOST_AUTO_TEST_CASE(errors_have_line_and_nearest_name) {
   BOOST_TEST(error_with("ip: xilinx.com:ip:axi_gpio", "pi: xilinx.com:ip:axi_gpio") ==
              "d.yaml:9: unknown key 'pi' of a part: did you mean 'ip'? there are as, buses, ip, "
@@ -80,6 +89,8 @@ BOOST_AUTO_TEST_CASE(errors_have_line_and_nearest_name) {
 BOOST_AUTO_TEST_CASE(values_that_cannot_be) {
   BOOST_TEST(error_with("[0x41200000, 64 KiB]", "0x41200000")
                  .find("d.yaml:19: where 'axi_gpio_0.S_AXI' is: write [base, size]") == 0u);
+  BOOST_TEST(error_with("[0x41200000, 64 KiB]", "[[0x41200000, 64 KiB], [0x41300000]]")
+                 .find("d.yaml:19: where") == 0u);
   BOOST_TEST(error_with("64 KiB", "0 B").find("does not lie within 32 bits") != std::string::npos);
   BOOST_TEST(error_with("64 KiB", "64 Hz").find("d.yaml:19: '64 Hz' for the size") == 0u);
   BOOST_TEST(error_with("level: 0x5", "level: 0x55").find("more bits than the pin") !=
