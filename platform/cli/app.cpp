@@ -72,6 +72,10 @@ the application. Results: result.json and report.html.)";
 constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
 
+constexpr const char* import_help =
+    R"(Writes design.yaml, xparameters.h, pl.dtsi (devices for Linux), CMakeLists.txt, and IMPORT.md,
+which says what became of each part. Importing again brings in what changed in Vivado, and keeps your changes of design.yaml.)";
+
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
 
@@ -338,6 +342,21 @@ void add_map(CLI::App& app, MapOptions& target) {
   add_configuration_options(*command, target.configuration);
 }
 
+void add_import(CLI::App& app, ImportOptions& target) {
+  CLI::App* command =
+      app.add_subcommand("import", "make a design of a Vivado hand-off: .hwh, .xsa or .hdf");
+  command->add_option("FILE", target.file, "the hand-off")->type_name("")->required();
+  command->add_option("-o,--output", target.output, "folder (default: the design's name)")
+      ->type_name("DIR");
+  command->add_option("--rtl", target.rtl, "folders with RTL of its IP")->type_name("DIR");
+  command->add_option("--program", target.programs, "sources of its PS program: main.c …")
+      ->type_name("FILE");
+  command
+      ->add_option("--block-design", target.block_design, "which one, of an archive with several")
+      ->type_name("NAME");
+  command->footer(import_help);
+}
+
 void add_report(CLI::App& app, ReportOptions& target) {
   CLI::App* command =
       app.add_subcommand("report", "make the page of a result again, or compare two");
@@ -365,8 +384,10 @@ void add_clocks(CLI::App& app, ClocksOptions& target) {
       ->type_name("")
       ->required();
   command->add_option("--for", target.kind, "which clock (default: fclk)")
-      ->type_name("fclk|cpu|cpu-421|ddr")
-      ->check(CLI::IsMember({"fclk", "cpu", "cpu-421", "ddr"}).description(""));
+      ->type_name("fclk|cpu|cpu-421|ddr|mmcm|pll")
+      ->check(CLI::IsMember({"fclk", "cpu", "cpu-421", "ddr", "mmcm", "pll"}).description(""));
+  command->add_option("--input", target.input, "of an MMCM or PLL (default: 100 MHz)")
+      ->type_name("FREQUENCY");
   command->add_option("--device", target.device, "on this chip (default: xc7z020-1)")
       ->type_name("DEVICE");
   command->add_option("--crystal", target.crystal, "PS_CLK (default: 33.333 MHz)")
@@ -413,6 +434,7 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target) {
   add_designs(*app, target.designs);
   add_config(*app, target.config);
   add_map(*app, target.map);
+  add_import(*app, target.import);
   add_report(*app, target.report);
   add_devices(*app, target.devices);
   add_clocks(*app, target.clocks);

@@ -67,6 +67,10 @@ int print_configuration(const ConfigOptions& options, std::ostream& out);
 /// Prints memory map, registers and interrupts of the platform as it is configured.
 int print_map(const MapOptions& options, std::ostream& out);
 
+/// Makes a design of a hand-off of Vivado: a folder with design.yaml and what belongs to it. What
+/// the user changed in it since the last import stays.
+int import_handoff(const ImportOptions& options, std::ostream& out);
+
 /// Makes the page of a folder again, or one that compares two runs.
 int make_report(const ReportOptions& options, std::ostream& out);
 

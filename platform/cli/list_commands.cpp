@@ -12,6 +12,7 @@
 #include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
+#include <xilinx/fabric_clock/clock_settings.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -260,7 +261,45 @@ class Question {
 
 }  // namespace
 
+namespace {
+
+/// What a clock manager of the fabric makes of an input.
+void list_fabric_clocks(const ClocksOptions& options, std::ostream& out) {
+  const Device& device = device::find_device(options.device);
+  const bool pll = options.kind == "pll";
+  const double input_hz = frequency(options.input, "the input");
+  const xilinx::ManagerLimits limits = xilinx::manager_limits(
+      pll, device.grade.empty() ? 1 : static_cast<unsigned>(device.grade.front() - '0'));
+  const auto steps = [](std::uint64_t in_eighths) {
+    return fmt::format("{:.3f}", static_cast<double>(in_eighths) / xilinx::eighths);
+  };
+  out << fmt::format("{}, {} from {}: oscillator {} to {}\n", device.name(), pll ? "PLL" : "MMCM",
+                     mhz(input_hz), mhz(limits.vco_min), mhz(limits.vco_max));
+  for (const std::string& wish : options.wishes) {
+    const double wish_hz = frequency(wish, "the wish");
+    const auto settings = xilinx::settings_near(input_hz, wish_hz, limits, options.count);
+    if (settings.empty())
+      throw vp::InputError("no setting makes a clock of " + mhz(input_hz) +
+                           ": give another --input");
+    out << fmt::format("\n{:>14} {:>11} {:>8} {:>12} {:>9}  {}\n", "MHz", "offset, %", "DIVCLK",
+                       "CLKFBOUT", "CLKOUT0", "oscillator");
+    for (const xilinx::ManagerSetting& s : settings) {
+      out << fmt::format("{:>14.6f} {:>+11.4f} {:>8} {:>12} {:>9}  {}\n", s.hz / hz_per_mhz,
+                         percent(s.hz, wish_hz), s.divclk, steps(s.multiplier), steps(s.divider),
+                         mhz(s.vco_hz));
+    }
+  }
+}
+
+}  // namespace
+
 int list_clocks(const ClocksOptions& options, std::ostream& out) {
+  if (options.kind == "mmcm" || options.kind == "pll") {
+    if (options.json)
+      throw vp::InputError("--json lists the clocks of the PS: leave it out for " + options.kind);
+    list_fabric_clocks(options, out);
+    return done;
+  }
   const Question question(options);
   if (options.json) {
     out << question.json().dump(2) << "\n";

@@ -139,6 +139,15 @@ struct MapOptions {
   ConfigurationOptions configuration;
 };
 
+/// `markervp import`.
+struct ImportOptions {
+  std::string file;                   ///< .hwh, .xsa or .hdf
+  std::string block_design;           ///< which one of several in an archive; empty: the only one
+  std::vector<std::string> programs;  ///< sources of the PS program
+  std::vector<std::string> rtl;       ///< folders with RTL of its IP
+  std::string output;                 ///< folder; empty: the name of the block design
+};
+
 /// `markervp report`.
 struct ReportOptions {
   std::vector<std::string> folders;   ///< one: its page again; two: a comparison
@@ -154,7 +163,8 @@ struct DevicesOptions {
 /// `markervp clocks`.
 struct ClocksOptions {
   std::vector<std::string> wishes;
-  std::string kind = "fclk";  ///< or "cpu", "cpu-421", "ddr"
+  std::string kind = "fclk";      ///< or "cpu", "cpu-421", "ddr"; of the fabric "mmcm", "pll"
+  std::string input = "100 MHz";  ///< of a clock manager of the fabric
   std::string device = "xc7z020-1";
   std::optional<std::string> crystal;  ///< default: that of a ZedBoard
   std::size_t count = 8;
@@ -261,6 +271,7 @@ struct CommandLine {
   DesignsOptions designs;
   ConfigOptions config;
   MapOptions map;
+  ImportOptions import;
   ReportOptions report;
   DevicesOptions devices;
   ClocksOptions clocks;

@@ -75,6 +75,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, out);
   if (command == "map") return print_map(line.map, out);
+  if (command == "import") return import_handoff(line.import, out);
   if (command == "report") return make_report(line.report, out);
   if (command == "devices") return list_devices(line.devices, out);
   if (command == "clocks") return list_clocks(line.clocks, out);

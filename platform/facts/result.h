@@ -256,6 +256,8 @@ struct RunFacts {
   std::optional<ResourceReport> resources = std::nullopt;
   std::optional<TimingReport> timing = std::nullopt;
   std::optional<ClockReport> clocks = std::nullopt;
+  /// Parts of the design in whose place a stub answered the program: what came of it rests on them.
+  std::vector<std::string> stubs = {};
   std::vector<std::string> warnings = {};  ///< that belong to no frame
   std::vector<std::string> notes = {};     ///< what was assumed of the inputs, or done to them
 };

@@ -37,7 +37,7 @@ Part ran(const facts::RunFacts& facts) {
   return {"ran"};
 }
 
-Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
+Part counted_job(const facts::RunFacts& facts, const facts::Summary& summary) {
   Part part{"job"};
   const facts::Work& work = facts.work;
   const std::uint64_t dropped = facts.camera ? facts.camera->dropped : 0;
@@ -62,6 +62,16 @@ Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
   add(summary.lossy(), "with losses");
   for (const auto& [reason, units] : summary.failures()) add(units, reason);
   part.why = vp::join(reasons, ", ");
+  return part;
+}
+
+/// What stubs had a part in is not known to be done.
+Part job(const facts::RunFacts& facts, const facts::Summary& summary) {
+  Part part = counted_job(facts, summary);
+  if (part.holds != Holds::yes || facts.stubs.empty()) return part;
+  part.holds = Holds::unknown;
+  part.why = fmt::format("job not known: {} answered in the place of {}",
+                         facts.stubs.size() == 1 ? "a stub" : "stubs", vp::join(facts.stubs, ", "));
   return part;
 }
 

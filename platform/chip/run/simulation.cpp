@@ -39,6 +39,10 @@ std::string place_in_object(const vp::Fault& fault) {
   return ", " + code.path(calls);
 }
 
+/// Of a design that names none, where it is only shown.
+const hal_program no_program = {HAL_ABI, "none", [] { return 0; }, nullptr, 0,
+                                nullptr, 0,      nullptr,          0};
+
 /// What the user sets wins.
 void set_defaults(const DesignInfo& design) {
   vp::Configuration* configuration = vp::Configuration::current();
@@ -65,6 +69,8 @@ void Simulation::choose_design() {
       "what is in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
   set_defaults(*design_);
+  if (!program_ && design_->programs.empty() && options_.is_only_shown)
+    program_ = ps::Program::linked(no_program);
   if (!program_) program_ = ps::Program::load(usual_program(*design_));
 }
 
@@ -141,6 +147,7 @@ facts::RunFacts Simulation::facts() const {
   facts.system = program_->name();
   facts.design = design_->name;
   facts.work = work_;
+  facts.stubs = zynq_->design().used_stubs();
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;

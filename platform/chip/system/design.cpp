@@ -19,6 +19,11 @@ void PlPorts::m_axi_gp0(vp::Router& registers) {
   registers_ = &registers;
 }
 
+void PlPorts::m_axi_gp1(vp::Router& registers, const vp::Clock& aclk) {
+  ps.m_axi_gp1(aclk).link.socket.bind(registers.socket);
+  registers_gp1_ = &registers;
+}
+
 void PlPorts::s_axi_hp0(vp::Router& memory) {
   memory.map("s_axi_hp0", hp0_base, hp0_size, vp::Router::Addresses::absolute)
       .bind(ps.s_axi_hp0.socket);

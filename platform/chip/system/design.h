@@ -42,6 +42,8 @@ class PlPorts {
   vp::Signal<bool>& fclk_reset0_n() { return ps.fclk_reset0_n; }
   /// M_AXI_GP0, 0x4000'0000 to 0x7FFF'FFFF: what software reaches is behind `registers`.
   void m_axi_gp0(vp::Router& registers);
+  /// M_AXI_GP1, 0x8000'0000 to 0xBFFF'FFFF, on the clock `aclk` of the PL.
+  void m_axi_gp1(vp::Router& registers, const vp::Clock& aclk);
   /// S_AXI_HP0: masters behind `memory` reach the DDR.
   void s_axi_hp0(vp::Router& memory);
   /// IRQ_F2P: bits 0 to 7 are interrupts 61 to 68, bits 8 to 15 are 84 to 91.
@@ -49,6 +51,8 @@ class PlPorts {
 
   /// What is behind M_AXI_GP0; null if nothing is.
   const vp::Router* registers() const { return registers_; }
+  /// The same of M_AXI_GP1.
+  const vp::Router* registers_gp1() const { return registers_gp1_; }
 
   /// Once the design is built: nothing answers behind a M_AXI_GP0 that it left (DECERR), and
   /// nothing sends to a S_AXI_HP0.
@@ -56,6 +60,7 @@ class PlPorts {
 
  private:
   const vp::Router* registers_ = nullptr;
+  const vp::Router* registers_gp1_ = nullptr;
   bool has_memory_master_ = false;
   std::optional<vp::Router> no_registers_;
   std::optional<vp::MmLink> no_memory_master_;
@@ -171,6 +176,9 @@ class Design {
   /// Default: the clocks of its parts, each in the group of the first one.
   virtual std::vector<ClockRole> clock_roles();
 
+  /// Parts in whose place a stub answered the program so far.
+  virtual std::vector<std::string> used_stubs() const { return {}; }
+
   /// What the timeline shows of the logic.
   virtual TimelineEngines timeline() { return {}; }
 };
@@ -189,7 +197,7 @@ struct DesignInfo {
   /// The words of its signals. Default: none are known.
   const trace::Vocabulary& (*words)() = no_words;
   /// Builds it as the module `name`, wired to `ports`, which outlive it.
-  std::unique_ptr<Design> (*make)(const char* name, PlPorts& ports);
+  std::function<std::unique_ptr<Design>(const char* name, PlPorts& ports)> make;
   /// Parameters of the whole platform that are otherwise with this design unless the user sets
   /// them:
   /// {"power.ddr.width", "16"}.

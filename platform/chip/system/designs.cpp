@@ -1,5 +1,7 @@
 #include <chip/system/designs.h>
 
+#include <chip/block_design/block_design.h>
+#include <chip/block_design/design_file.h>
 #include <chip/system/design_plugin.h>
 #include <dlfcn.h>
 #include <host/process.h>
@@ -64,7 +66,8 @@ std::map<std::string, DesignInfo>& loaded() {
 }  // namespace
 
 bool is_design_file(const std::string& name) {
-  return name.find('/') != std::string::npos || fs::path(name).extension() == ".so";
+  return name.find('/') != std::string::npos || fs::path(name).extension() == ".so" ||
+         block_design::is_design_yaml(name);
 }
 
 std::string folder_of(const DesignInfo& design) {
@@ -77,7 +80,9 @@ std::string folder_of(const DesignInfo& design) {
 const DesignInfo& load_design(const std::string& file) {
   const std::string path = fs::absolute(file).lexically_normal().string();
   const auto found = loaded().find(path);
-  return found != loaded().end() ? found->second : loaded().emplace(path, open(path)).first->second;
+  if (found != loaded().end()) return found->second;
+  DesignInfo info = block_design::is_design_yaml(path) ? block_design::load(file) : open(path);
+  return loaded().emplace(path, std::move(info)).first->second;
 }
 
 namespace {
@@ -114,7 +119,7 @@ const DesignInfo& design_named(const std::string& name) {
   throw vp::InputError("no design '" + name +
                        "': " + (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
                        (names.empty() ? "give" : "choose " + vp::one_of(names) + ", or") +
-                       " the file of another one, .so");
+                       " the file of another one, .so or .yaml");
 }
 
 const DesignInfo& design_of_program(const std::string& program) {
@@ -123,7 +128,8 @@ const DesignInfo& design_of_program(const std::string& program) {
     if (std::find(own.begin(), own.end(), program) != own.end()) return *design;
   }
   if (builtin_designs().empty())
-    throw vp::InputError("no design: this program has none of its own; give the file of one, .so");
+    throw vp::InputError(
+        "no design: this program has none of its own; give the file of one, .so or .yaml");
   return *builtin_designs().front();
 }
 
@@ -162,6 +168,11 @@ std::string installed_program(const std::string& name) {
 }  // namespace
 
 std::string usual_program(const DesignInfo& design) {
+  if (design.programs.empty()) {
+    throw vp::InputError("design '" + design.name +
+                         "' names no PS program: give one with --program, or list it under "
+                         "'programs' of its file");
+  }
   const std::string name = design.programs.front(), folder = folder_of(design);
   if (folder.empty()) return installed_program(name);
   std::vector<std::string> folders = program_folders();

@@ -12,6 +12,8 @@
 #include <vp/register_bank.h>
 #include <vp/text.h>
 #include <xilinx/concat/concat.h>
+#include <xilinx/register_stub/register_stub.h>
+#include <xilinx/wiring/wiring.h>
 
 namespace platform {
 
@@ -47,6 +49,23 @@ Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
   return device;
 }
 
+/// Memory, or an IP of which only the address is known. The vendor's tools name the interface of an
+/// IP that is not theirs: EXAMPLE_0_S_AXI_CONTROL.
+Device without_registers(const HardwareMap::Device& place) {
+  Device device{capitals(place.name),
+                {},
+                static_cast<std::uint32_t>(place.base),
+                static_cast<std::uint32_t>(place.base + place.size - 1),
+                {},
+                {}};
+  const auto* stub =
+      dynamic_cast<const xilinx::RegisterStub*>(sc_core::sc_find_object(place.path.c_str()));
+  if (!stub || stub->ip().rfind("xilinx.com:ip:", 0) == 0) return device;
+  const auto slaves = vp::all_below<xilinx::RegisterStub::Slave>(*stub);
+  if (slaves.size() == 1) device.name += "_" + capitals(slaves.front()->basename());
+  return device;
+}
+
 /// What a module is, for people.
 std::string title(const sc_core::sc_object& object) {
   static const std::pair<const char*, const char*> titles[] = {
@@ -79,7 +98,8 @@ std::string title(const sc_core::sc_object& object) {
       {"ps::Qspi", "Quad-SPI, I/O mode"},
       {"ps::Sdio", "SDIO without a card"},
       {"ps::Gem", "Ethernet without PHY"},
-      {"ps::Usb", "USB without transceiver"}};
+      {"ps::Usb", "USB without transceiver"},
+      {"xilinx::RegisterStub", "Stub without model or RTL: reads give 0"}};
   for (const auto& [kind, text] : titles) {
     if (std::string(object.kind()) == kind) return text;
   }
@@ -169,9 +189,11 @@ void add_devices(HardwareMap& map, const vp::Router& router, const std::string& 
   }
 }
 
-void add_gp0_devices(HardwareMap& map, Zynq& zynq) {
+void add_pl_devices(HardwareMap& map, Zynq& zynq) {
   const vp::Router* bus = zynq.ports.registers();
   if (bus) add_devices(map, *bus, zynq.pl().name(), "m_axi_gp0");
+  const vp::Router* second = zynq.ports.registers_gp1();
+  if (second) add_devices(map, *second, zynq.pl().name(), "m_axi_gp1");
 }
 
 void add_interrupts(HardwareMap& map, Zynq& zynq) {
@@ -186,6 +208,12 @@ void add_interrupts(HardwareMap& map, Zynq& zynq) {
       const vp::SignalBase* source = concat->in(bit).signal();
       if (source) map.interrupts.push_back({gic::irq_f2p_id(bit), source->name()});
     }
+  }
+  // Other wiring is followed bit by bit.
+  for (unsigned bit = 0; lines && bit < gic::irq_f2p_bits; ++bit) {
+    const xilinx::BitOrigin origin = xilinx::Wiring::origin(*lines, bit);
+    if (origin.signal && origin.signal != lines)
+      map.interrupts.push_back({gic::irq_f2p_id(bit), origin.signal->name()});
   }
   std::sort(map.interrupts.begin(), map.interrupts.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -209,7 +237,7 @@ void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
 
 std::string xparameters_header(Zynq& zynq) {
   HardwareMap map;
-  add_gp0_devices(map, zynq);
+  add_pl_devices(map, zynq);
   add_interrupts(map, zynq);
   xparameters::Platform platform;
   const std::uint64_t cpu_hz = zynq.ps.cpu_clk.clk.frequency_hz();
@@ -225,6 +253,9 @@ std::string xparameters_header(Zynq& zynq) {
       if (place.path == bank->name()) platform.devices.push_back(exported(map, *bank, place));
     }
   }
+  for (const HardwareMap::Device& place : map.devices) {
+    if (place.registers.empty()) platform.devices.push_back(without_registers(place));
+  }
   std::stable_sort(platform.devices.begin(), platform.devices.end(),
                    [](const Device& a, const Device& b) { return a.driver < b.driver; });
   return xparameters::header(platform);
@@ -234,9 +265,9 @@ facts::HardwareMap hardware_map(Zynq& zynq) {
   HardwareMap map;
   ProcessingSystem& ps = zynq.ps;
   add_devices(map, ps.s_axi_hp0, ps.name(), "its own port; s_axi_hp0 of the PL");
-  add_gp0_devices(map, zynq);
+  add_pl_devices(map, zynq);
   add_devices(map, ps.interconnect, ps.name(), "interconnect",
-              {"m_axi_gp0", "private_bus", "peripheral_bus"});
+              {"m_axi_gp0", "m_axi_gp1", "private_bus", "peripheral_bus"});
   add_devices(map, ps.private_bus.devices, ps.name(), "private_bus");
   add_devices(map, ps.peripheral_bus.devices, ps.name(), "peripheral_bus");
   std::sort(map.devices.begin(), map.devices.end(),

@@ -348,6 +348,20 @@ ClockSource& ProcessingSystem::fclk_clk(unsigned number) {
   return *source;
 }
 
+ps::GpPort& ProcessingSystem::m_axi_gp1(const vp::Clock& aclk) {
+  if (m_axi_gp1_) return *m_axi_gp1_;
+  using Addresses = vp::Router::Addresses;
+  const vp::HierarchyScope scope(*this);
+  m_axi_gp1_ = std::make_unique<ps::GpPort>("m_axi_gp1", aclk);
+  interconnect.map("m_axi_gp1", gp1_base, gp0_size, Addresses::absolute).bind(m_axi_gp1_->socket);
+  slcr.level_shifters.guard(*interconnect.find(gp1_base)->link);
+  if (second_core_) {
+    second_core_->interconnect.map("m_axi_gp1", gp1_base, gp0_size, Addresses::absolute)
+        .bind(interconnect.socket);
+  }
+  return *m_axi_gp1_;
+}
+
 std::map<unsigned, ClockSource*> ProcessingSystem::fclks() {
   std::map<unsigned, ClockSource*> sources{{0, &fclk_clk0}, {1, &fclk_clk1}};
   if (fclk_clk2_) sources[2] = fclk_clk2_.get();

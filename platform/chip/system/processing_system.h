@@ -117,6 +117,7 @@ class ProcessingSystem : public sc_core::sc_module {
   ps::Ddr ddr;
   static constexpr std::uint64_t gp0_base = 0x4000'0000, gp0_size = 0x4000'0000;  // UG585 table 4-1
   ps::GpPort m_axi_gp0;
+  static constexpr std::uint64_t gp1_base = 0x8000'0000;  ///< as large as GP0's
   vp::Router s_axi_hp0;
 
   vp::Signal<bool>& fclk_reset0_n;  ///< to the PL
@@ -144,6 +145,10 @@ class ProcessingSystem : public sc_core::sc_module {
   ClockSource& fclk_clk(unsigned number);
   /// Those that there are, by number.
   std::map<unsigned, ClockSource*> fclks();
+
+  /// M_AXI_GP1, on the clock `aclk` of the PL: made when a design first asks for it, in its
+  /// constructor.
+  ps::GpPort& m_axi_gp1(const vp::Clock& aclk);
 
   /// An interrupt of the PS and the signal that raises it.
   struct Interrupt {
@@ -177,6 +182,7 @@ class ProcessingSystem : public sc_core::sc_module {
   std::unique_ptr<SecondCore> second_core_;
   vp::ClockScheduler& scheduler_;
   std::unique_ptr<ClockSource> fclk_clk2_, fclk_clk3_;
+  std::unique_ptr<ps::GpPort> m_axi_gp1_;
   const Chip& chip_;
   device::ClockPlanner planner_;
   device::ClockPlan plan_;

@@ -24,16 +24,16 @@ void check_that_parts_are_inside() {
   }
 }
 
-void check_that_parts_are_reached(const PlPorts& ports, const sc_core::sc_module& pl) {
-  if (!ports.registers()) return;
-  constexpr std::uint64_t first = ProcessingSystem::gp0_base;
-  constexpr std::uint64_t last = first + ProcessingSystem::gp0_size - 1;
-  for (const vp::Router::Region& region : ports.registers()->regions()) {
+void check_that_parts_are_reached(const vp::Router* registers, const std::string& port,
+                                  std::uint64_t first, const sc_core::sc_module& pl) {
+  if (!registers) return;
+  const std::uint64_t last = first + ProcessingSystem::gp0_size - 1;
+  for (const vp::Router::Region& region : registers->regions()) {
     if (first <= region.base && region.last() <= last) continue;
     const std::string part = std::string(pl.name()) + "." + region.name;
     const bool is_set = sc_core::sc_find_object((part + ".base_address").c_str()) != nullptr;
     throw vp::InputError(part + " is at " + vp::hex(region.base) + " to " + vp::hex(region.last()) +
-                         ", but m_axi_gp0 reaches " + vp::hex(first) + " to " + vp::hex(last) +
+                         ", but " + port + " reaches " + vp::hex(first) + " to " + vp::hex(last) +
                          ": " + (is_set ? "set " + part + ".base_address" : "map it") +
                          " to a place there");
   }
@@ -51,7 +51,9 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
       design_(design.make("pl", ports)) {
   ports.tie_off();
   check_that_parts_are_inside();
-  check_that_parts_are_reached(ports, pl());
+  check_that_parts_are_reached(ports.registers(), "m_axi_gp0", ProcessingSystem::gp0_base, pl());
+  check_that_parts_are_reached(ports.registers_gp1(), "m_axi_gp1", ProcessingSystem::gp1_base,
+                               pl());
   ps.start_clocks();
   scheduler.set_batch(true);
   for (ps::Cpu* core : ps.cpus()) {
@@ -118,9 +120,9 @@ std::string Zynq::answerer_at(std::uint32_t address) const {
 }
 
 std::string Zynq::device_at(std::uint32_t address) const {
-  for (const vp::Router* bus :
-       {ports.registers(), static_cast<const vp::Router*>(&ps.private_bus.devices),
-        &ps.peripheral_bus.devices, &ps.interconnect}) {
+  for (const vp::Router* bus : {ports.registers(), ports.registers_gp1(),
+                                static_cast<const vp::Router*>(&ps.private_bus.devices),
+                                &ps.peripheral_bus.devices, &ps.interconnect}) {
     const vp::Router::Region* region = bus ? bus->find(address) : nullptr;
     if (region) return region->name;
   }

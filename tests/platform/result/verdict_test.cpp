@@ -124,6 +124,15 @@ BOOST_AUTO_TEST_CASE(a_job_that_is_not_done) {
   BOOST_TEST(*point.part("job").margin_percent == -75);
 }
 
+BOOST_AUTO_TEST_CASE(a_job_that_rests_on_a_stub_is_not_known) {
+  Point point;
+  point.facts.stubs = {"filter_0"};
+  point.fails("job", Holds::unknown, "job not known: a stub answered in the place of filter_0");
+  point.facts.stubs.push_back("can_0");
+  point.fails("job", Holds::unknown,
+              "job not known: stubs answered in the place of filter_0, can_0");
+}
+
 BOOST_AUTO_TEST_CASE(frames_that_were_dropped_or_never_published_are_no_job_done) {
   Point point;
   point.facts.camera = CameraReport{60, 1, 0, 1e10, 1e10};

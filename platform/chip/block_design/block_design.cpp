@@ -1,0 +1,254 @@
+#include <chip/block_design/block_design.h>
+
+#include <vp/error.h>
+#include <vp/ip.h>
+#include <vp/text.h>
+#include <xilinx/register_stub/register_stub.h>
+#include <xilinx/wiring/wiring.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace platform::block_design {
+
+ExternalInput::ExternalInput(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+                             const ExternalPin& description)
+    : sc_module(name), pin("pin", description.width) {
+  if (description.hz != 0) {
+    frequency = std::make_unique<vp::Parameter<std::uint64_t>>(
+        "frequency", description.hz, vp::Unit::frequency,
+        vp::Range<std::uint64_t>{1, 1'000'000'000}, vp::Source::decision,
+        "of the oscillator at this pin");
+    clk = std::make_unique<vp::Clock>("clk", scheduler, frequency->get());
+    return;
+  }
+  const std::uint64_t most =
+      description.width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << description.width) - 1;
+  level = std::make_unique<vp::Parameter<std::uint64_t>>(
+      "level", description.level, vp::Unit::none, vp::Range<std::uint64_t>{0, most},
+      vp::Source::decision, "what is at the pin from time 0 on");
+  pin = level->get();
+}
+
+BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const DesignFile& design)
+    : sc_module(name), ports_(ports), design_(design) {
+  for (const PlacedPart& part : design_.parts) {
+    if (vp::split(part.vlnv, ':').at(2) == "processing_system7") ps_ = part.name;
+  }
+  place_all();
+  for (const PlacedPart& part : design_.parts) join_pins(part);
+  join_streams();
+  join_addresses();
+  close_open_streams();
+  close_open_masters();
+}
+
+BlockDesign::~BlockDesign() = default;
+
+void BlockDesign::refuse(const End& end, const std::string& problem,
+                         const std::vector<std::string>& names) const {
+  const std::string nearest = vp::nearest_match(end.port, names);
+  throw vp::InputError(end.place + ": '" + end.text() + "' " + problem +
+                       (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
+}
+
+void BlockDesign::place_all() {
+  for (const ExternalPin& pin : design_.external) {
+    external_[pin.name] =
+        std::make_unique<ExternalInput>(("external_" + pin.name).c_str(), ports_.scheduler, pin);
+  }
+  for (const PlacedPart& part : design_.parts) placed(part.name);
+}
+
+// Clock managers are placed before what they clock.
+Placed& BlockDesign::placed(const std::string& name) {
+  const auto known = placed_.find(name);
+  if (known != placed_.end()) return known->second;
+  const PlacedPart& part = *design_.part(name);
+  if (std::find(being_placed_.begin(), being_placed_.end(), name) != being_placed_.end())
+    throw vp::InputError(part.place + ": the clock of " + name + " is made from itself");
+  being_placed_.push_back(name);
+  const Placement placement{part, ports_, design_,
+                            [this, &part](const std::string& pin) -> vp::Clock* {
+                              const auto source = part.pins.find(pin);
+                              return source == part.pins.end() ? nullptr : clock_of(source->second);
+                            },
+                            adapters_};
+  Placed made = name == ps_ ? place_processing_system(part) : place_part(placement);
+  being_placed_.pop_back();
+  return placed_.emplace(name, std::move(made)).first->second;
+}
+
+Placed BlockDesign::place_processing_system(const PlacedPart& part) {
+  Placed placed;
+  ProcessingSystem& ps = ports_.ps;
+  for (unsigned n = 0; n < 4; ++n) {
+    const std::string number = std::to_string(n);
+    const bool asked_for =
+        n < 2 ||
+        std::any_of(design_.settings.begin(), design_.settings.end(), [&](const auto& setting) {
+          return setting.first == "ps.fclk_clk" + number + ".frequency";
+        });
+    if (asked_for) placed.clocks["FCLK_CLK" + number] = &ports_.fclk_clk(n);
+  }
+  placed.outputs = {
+      {"FCLK_RESET0_N", &ps.slcr.fclk_reset0_n}, {"FCLK_RESET1_N", &ps.slcr.fclk_reset1_n},
+      {"FCLK_RESET2_N", &ps.slcr.fclk_reset2_n}, {"FCLK_RESET3_N", &ps.slcr.fclk_reset3_n},
+      {"GPIO_O", &ps.gpio.emio_gpio_o},          {"GPIO_T", &ps.gpio.emio_gpio_t}};
+  placed.inputs["GPIO_I"] = [this, &part](vp::SignalBase& source) {
+    auto pins = std::make_unique<xilinx::WireAdapter<std::uint64_t>>(
+        (part.name + "_GPIO_I").c_str(), source);
+    ports_.ps.gpio.emio_gpio_i(pins->out);
+    adapters_.push_back(std::move(pins));
+  };
+  placed.inputs["IRQ_F2P"] = [this, &part](vp::SignalBase& source) {
+    auto lines = std::make_unique<xilinx::WireAdapter<std::uint32_t>>(
+        (part.name + "_IRQ_F2P").c_str(), source);
+    ports_.irq_f2p(lines->out);
+    adapters_.push_back(std::move(lines));
+  };
+  placed.masters["M_AXI_GP0"] = {[this](vp::Router& way) { ports_.m_axi_gp0(way); }};
+  placed.masters["M_AXI_GP1"] = {[this, &part](vp::Router& way) {
+    const auto clock = part.pins.find("M_AXI_GP1_ACLK");
+    vp::Clock* aclk = clock == part.pins.end() ? nullptr : clock_of(clock->second);
+    if (!aclk) refuse({part.name, "M_AXI_GP1_ACLK", part.place}, "has no clock");
+    ports_.m_axi_gp1(way, *aclk);
+  }};
+  for (const char* port :
+       {"S_AXI_HP0", "S_AXI_HP1", "S_AXI_HP2", "S_AXI_HP3", "S_AXI_GP0", "S_AXI_GP1"}) {
+    placed.slaves[port] = {[&ps](RegionSocket& socket) { socket.bind(ps.s_axi_hp0.socket); }, true};
+  }
+  for (const auto& [pin, source] : part.pins) {
+    if (placed.inputs.count(pin) == 0) placed.unused_inputs.insert(pin);
+  }
+  return placed;
+}
+
+vp::Clock* BlockDesign::clock_of(const End& source) {
+  if (source.part == "external") return external_.at(source.port)->clk.get();
+  Placed& driver = placed(source.part);
+  const auto found = driver.clocks.find(source.port);
+  return found == driver.clocks.end() ? nullptr : found->second;
+}
+
+// What the platform does not model of the PS drives 0.
+vp::SignalBase& BlockDesign::signal_of(const End& source) {
+  if (source.part == "external") return external_.at(source.port)->pin;
+  Placed& driver = placed(source.part);
+  const auto found = driver.outputs.find(source.port);
+  if (found != driver.outputs.end()) return *found->second;
+  if (driver.any_output) return *driver.any_output(source.port);
+  std::vector<std::string> names;
+  for (const auto& [name, signal] : driver.outputs) names.push_back(name);
+  if (source.part != ps_ && driver.object) refuse(source, "is no output of " + source.part, names);
+  auto& tied = tied_[source.text()];
+  if (!tied) {
+    std::string name = "tied_" + source.part + "_" + source.port;
+    tied = std::make_unique<vp::Signal<std::uint64_t>>(name.c_str(), 64u);
+  }
+  return *tied;
+}
+
+void BlockDesign::join_pins(const PlacedPart& part) {
+  Placed& here = placed(part.name);
+  if (!here.object && part.name != ps_) return;
+  for (const auto& [pin, source] : part.pins) {
+    if (clock_of(source) || here.unused_inputs.count(pin) != 0 || here.any_output) continue;
+    const auto input = here.inputs.find(pin);
+    if (input != here.inputs.end()) {
+      input->second(signal_of(source));
+      continue;
+    }
+    if (is_bus(part.name)) continue;  // resets of interconnects
+    std::vector<std::string> names;
+    for (const auto& [name, join] : here.inputs) names.push_back(name);
+    refuse({part.name, pin, source.place}, "is no input of " + part.vlnv, names);
+  }
+}
+
+bool BlockDesign::is_bus(const std::string& name) const {
+  const PlacedPart* part = design_.part(name);
+  const IpRule* rule = part && part->as != "stub" ? rule_for(part->vlnv) : nullptr;
+  return rule && rule->kind == Kind::bus;
+}
+
+// A bus that no segment of addresses goes through is a stream, if one of its ends says so.
+void BlockDesign::join_streams() {
+  for (const PlacedPart& part : design_.parts) {
+    Placed& here = placed(part.name);
+    for (const auto& [bus, master] : part.buses) {
+      Placed& there = placed(master.part);
+      const bool is_stream =
+          here.stream_slaves.count(bus) != 0 || there.stream_masters.count(master.port) != 0;
+      if (is_stream) join_stream(master, {part.name, bus, master.place});
+    }
+  }
+}
+
+void BlockDesign::join_stream(const End& master, const End& slave) {
+  const auto port = [this](const End& end, std::map<std::string, StreamPort>& known,
+                           const auto& any) -> StreamPort {
+    const auto found = known.find(end.port);
+    if (found != known.end()) return found->second;
+    if (any) return any(end.port);
+    std::vector<std::string> names;
+    for (const auto& [name, stream] : known) names.push_back(name);
+    refuse(end, "is no stream of " + design_.part(end.part)->vlnv, names);
+  };
+  Placed& source = placed(master.part);
+  Placed& sink = placed(slave.part);
+  const StreamPort from = port(master, source.stream_masters, source.any_stream_master);
+  const StreamPort to = port(slave, sink.stream_slaves, sink.any_stream_slave);
+  if (from.clock && to.clock && from.clock != to.clock) {
+    refuse(slave, "and " + master.text() +
+                      " have different clocks: put an AXI4-Stream clock "
+                      "converter between them");
+  }
+  vp::Clock& clock = from.clock ? *from.clock : to.clock ? *to.clock : ports_.fclk_clk(0);
+  vp::AxiStream& link = streams_.emplace_back((master.part + "_" + master.port).c_str());
+  from.bind(link, clock);
+  to.bind(link, clock);
+  streams_joined_[master.text()] = streams_joined_[slave.text()] = true;
+}
+
+// Nothing comes from an open input, and an open output is never ready.
+void BlockDesign::close_open_streams() {
+  for (auto& [name, part] : placed_) {
+    for (auto& [bus, port] : part.stream_masters) {
+      if (streams_joined_.count(name + "." + bus) != 0) continue;
+      vp::AxiStream& link = streams_.emplace_back((name + "_" + bus).c_str());
+      port.bind(link, *port.clock);
+      auto& end = blocked_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock);
+      end.ready_on = [](std::uint64_t) { return false; };
+      end.s_axis(link);
+    }
+    for (auto& [bus, port] : part.stream_slaves) {
+      if (streams_joined_.count(name + "." + bus) != 0) continue;
+      vp::AxiStream& link = streams_.emplace_back((name + "_" + bus).c_str());
+      silent_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock).m_axis(link);
+      port.bind(link, *port.clock);
+    }
+  }
+}
+
+std::vector<std::string> BlockDesign::used_stubs() const {
+  std::vector<std::string> names;
+  for (const auto* stub : vp::all_below<xilinx::RegisterStub>(*this))
+    if (stub->used()) names.emplace_back(stub->basename());
+  return names;
+}
+
+DesignInfo load(const std::string& file) {
+  const auto design = std::make_shared<const DesignFile>(read_design_file(file));
+  DesignInfo info;
+  info.name = design->name;
+  info.description = "the block design of " + file;
+  info.programs = design->programs;
+  info.defaults = design->settings;
+  info.make = [design](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
+    return std::make_unique<BlockDesign>(name, ports, *design);
+  };
+  return info;
+}
+
+}  // namespace platform::block_design

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include <chip/block_design/design_file.h>
+#include <chip/block_design/place.h>
+#include <chip/system/design.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+#include <vp/parameter.h>
+#include <vp/router.h>
+#include <vp/signal.h>
+#include <xilinx/axi_dma/memory_port.h>
+
+namespace platform::block_design {
+
+/// A pin of the chip that drives the design: a level that the user sets, or a clock.
+class ExternalInput : public sc_core::sc_module {
+ public:
+  ExternalInput(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
+                const ExternalPin& pin);
+  const char* kind() const override { return "ExternalInput"; }
+
+  std::unique_ptr<vp::Parameter<std::uint64_t>> level;      ///< null: it is a clock
+  std::unique_ptr<vp::Parameter<std::uint64_t>> frequency;  ///< null: it is none
+  vp::Signal<std::uint64_t> pin;
+  std::unique_ptr<vp::Clock> clk;
+};
+
+/// The programmable logic as a design file describes it: its parts, wired.
+///
+/// Object names are those of the file: `pl.axi_dma_0`, `pl.xlconcat_0.dout`, `pl.external.btns`.
+class BlockDesign : public sc_core::sc_module, public Design {
+ public:
+  /// Throws vp::InputError with file and line for what cannot be built or joined.
+  BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const DesignFile& design);
+  ~BlockDesign() override;
+  const char* kind() const override { return "BlockDesign"; }
+
+  facts::Work work() const override { return {"", "the program ends well"}; }
+  std::vector<std::string> used_stubs() const override;
+
+ private:
+  struct Way;
+
+  void place_all();
+  Placed& placed(const std::string& name);
+  Placed place_processing_system(const PlacedPart& part);
+  vp::Clock* clock_of(const End& source);
+  vp::SignalBase& signal_of(const End& source);
+  void join_pins(const PlacedPart& part);
+  void join_streams();
+  void join_stream(const End& master, const End& slave);
+  void close_open_streams();
+  void join_addresses();
+  void join_segment(const AddressSegment& segment);
+  std::vector<std::string> way_between(const AddressSegment& segment) const;
+  bool find_way(const End& from, const End& master, std::vector<std::string>& way,
+                unsigned depth) const;
+  vp::Router& router(const std::string& name);
+  vp::Router& way_of(const End& master, const std::vector<std::string>& way);
+  std::string number_of(const AddressSegment& segment) const;
+  std::uint64_t base_of(const AddressSegment& segment, SlavePort& slave);
+  SlavePort slave_of(const AddressSegment& segment);
+  void close_open_masters();
+  bool is_bus(const std::string& part) const;
+  [[noreturn]] void refuse(const End& end, const std::string& problem,
+                           const std::vector<std::string>& names = {}) const;
+
+  PlPorts& ports_;
+  const DesignFile& design_;
+  std::string ps_;  ///< the name of the processing system among the parts
+  std::map<std::string, Placed> placed_;
+  std::vector<std::string> being_placed_;
+  std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
+  std::map<std::string, std::unique_ptr<ExternalInput>> external_;
+  std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
+  std::deque<vp::AxiStream> streams_;
+  std::deque<vp::StreamSource> silent_;
+  std::deque<vp::StreamSink> blocked_;
+  std::deque<vp::Router> direct_;  ///< of masters that meet no interconnect
+  std::map<std::string, vp::Router*> direct_of_;
+  std::map<std::string, vp::Router*> first_of_;      ///< where the way of a master begins
+  std::map<std::string, xilinx::MemoryPath> paths_;  ///< by the port at the end
+  std::map<std::string, std::unique_ptr<vp::Parameter<std::uint64_t>>> bases_;
+  std::map<std::string, bool> streams_joined_;
+  std::map<std::string, std::uint64_t> mapped_;  ///< base of a slave at a router, once
+};
+
+/// The design of a YAML file, ready to be built. Throws vp::InputError.
+DesignInfo load(const std::string& file);
+
+}  // namespace platform::block_design

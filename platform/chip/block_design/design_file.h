@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace platform::block_design {
+
+/// An end of a wire or a bus: "axi_dma_0.M_AXIS_MM2S"; `part` is "external" for a pin of the chip.
+struct End {
+  std::string part;
+  std::string port;
+  std::string place;  ///< file and line, for messages
+
+  std::string text() const { return part + "." + port; }
+};
+
+/// How a part is placed.
+struct PlacedPart {
+  std::string name;
+  std::string vlnv;
+  std::string as;     ///< "stub": not its model; "": what the shelf says
+  std::string place;  ///< file and line
+  std::map<std::string, std::string> parameters;
+  std::map<std::string, End> pins;   ///< input: what drives it
+  std::map<std::string, End> buses;  ///< slave: its master
+};
+
+/// Where a master sees a slave.
+struct AddressSegment {
+  End master;
+  End slave;
+  std::uint64_t base = 0, size = 0;
+};
+
+/// A pin of the chip.
+struct ExternalPin {
+  std::string name;
+  std::string place;
+  unsigned width = 1;
+  std::uint64_t level = 0;  ///< of an input
+  std::uint64_t hz = 0;     ///< of an input that is a clock; 0: it is none
+};
+
+/// A block design as its YAML file describes it.
+struct DesignFile {
+  std::string file;
+  std::string name;
+  std::vector<std::string> programs;  ///< of the PS, relative to the file
+  /// Parameters of the platform, unless the user sets others: {"ps.cpu_clk.frequency", "650 MHz"}.
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::vector<PlacedPart> parts;
+  std::vector<AddressSegment> addresses;
+  std::vector<ExternalPin> external;
+
+  /// The part of that name; null if there is none.
+  const PlacedPart* part(const std::string& wanted) const;
+  const ExternalPin* pin(const std::string& wanted) const;
+
+  std::map<std::string, std::size_t> part_index = {};  ///< places in `parts`, by name
+};
+
+/// Reads one. Throws vp::InputError with file, line and the nearest name for what is unknown, twice
+/// there, or does not fit together.
+DesignFile read_design_file(const std::string& file);
+/// The same for its text.
+DesignFile parse_design(const std::string& text, const std::string& origin);
+
+/// Whether a file's name is that of a design in YAML.
+bool is_design_yaml(const std::string& file);
+
+}  // namespace platform::block_design

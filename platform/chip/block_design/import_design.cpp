@@ -1,0 +1,356 @@
+#include <chip/block_design/import_design.h>
+
+#include <chip/handoff/netlist.h>
+#include <fpga/device/clock_plan.h>
+#include <fpga/device/device.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace platform::block_design {
+
+namespace {
+
+using handoff::BusInterface;
+using handoff::Handoff;
+using handoff::Module;
+using handoff::Netlist;
+using handoff::parameter;
+using handoff::Port;
+
+constexpr double hz_per_mhz = 1e6;
+/// Vivado writes 666.666687 MHz for 666.666667: it computes with single precision.
+constexpr double cpu_rounding_hz = 100;
+
+/// A word as YAML has it: in quotes where it could be read as something else.
+std::string yaml(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '.' || c == '/' || c == '-';
+  };
+  const auto of_vlnv = [&](unsigned char c) { return plain(c) || c == ':'; };
+  const bool good = !word.empty() && std::isalnum(static_cast<unsigned char>(word.front())) &&
+                    std::isalnum(static_cast<unsigned char>(word.back())) &&
+                    std::all_of(word.begin(), word.end(), of_vlnv);
+  if (good) return word;
+  std::string quoted = "\"";
+  for (const char c : word) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string hertz(double hz) {
+  return vp::format_quantity(vp::Decimal(static_cast<vp::Decimal::Whole>(std::llround(hz)), 0),
+                             vp::Unit::frequency);
+}
+
+bool is_memory_mapped(const BusInterface& bus) {
+  return bus.kind == "aximm" || bus.kind == "lmb";
+}
+
+bool is_bus(const BusInterface& bus) {
+  return is_memory_mapped(bus) || bus.kind == "axis";
+}
+
+/// Parameters that say nothing of what an IP of the owner's does.
+bool is_noise(const std::string& name) {
+  static const std::set<std::string> names{"Component_Name", "EDK_IPTYPE", "C_BASEADDR",
+                                           "C_HIGHADDR"};
+  const auto ends_with = [&](const std::string& end) {
+    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  return names.count(name) != 0 || ends_with("_BASEADDR") || ends_with("_HIGHADDR");
+}
+
+/// Writes the sections of design.yaml one after the other.
+class Writer {
+ public:
+  Writer(const Handoff& handoff, const handoff::RtlFinder& rtl)
+      : handoff_(handoff), rtl_(rtl), nets_(handoff) {}
+
+  ImportedDesign write() {
+    line("# Design '" + handoff_.name + "' of " + handoff_.file + ", Vivado " + handoff_.tool +
+         ", for an " + handoff_.part + ".");
+    line(
+        "# Yours to edit: another 'markervp import' brings in what changed in Vivado, and keeps "
+        "your");
+    line("# changes.");
+    line("name: " + identifier(handoff_.name));
+    write_settings();
+    line("\nparts:");
+    for (const Module& module : handoff_.modules) write_part(module);
+    write_addresses();
+    write_external();
+    return std::move(result_);
+  }
+
+ private:
+  void line(const std::string& text) { result_.text += text + "\n"; }
+
+  static std::string identifier(std::string text) {
+    for (char& c : text) {
+      if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    }
+    return text;
+  }
+
+  std::string ps(const std::string& name) const {
+    return parameter(handoff_.ps().parameters, name);
+  }
+
+  bool ps_is(const std::string& name) const { return ps(name) == "1"; }
+
+  void setting(const std::string& path, const std::string& value) {
+    line("  " + path + ": " + value);
+  }
+
+  // Of equal wishes the platform's plan of the PLLs is that of the vendor's tool.
+  void write_settings() {
+    line("\n# Parameters of the platform; 'markervp config --design design.yaml' explains each.");
+    line("settings:");
+    setting("device", handoff_.device);
+    const auto crystal = vp::Decimal::parse(ps("PCW_CRYSTAL_PERIPHERAL_FREQMHZ"));
+    if (crystal) setting("ps.slcr.ps_clk", crystal->text() + " MHz");
+    device::ClockWishes wishes;
+    wishes.ethernet = ps_is("PCW_ENET0_PERIPHERAL_ENABLE");
+    const auto cpu = vp::Decimal::parse(ps("PCW_ACT_APU_PERIPHERAL_FREQMHZ"));
+    if (cpu) wishes.cpu_hz = cpu->to_double() * hz_per_mhz;
+    if (cpu) setting("ps.cpu_clk.frequency", hertz(wishes.cpu_hz));
+    wishes.fclk_hz = write_fclks();
+    if (!is_planned(wishes,
+                    crystal ? crystal->to_double() * hz_per_mhz : device::zedboard_crystal_hz))
+      setting("clocks", "exact  # no PLL of the platform's plan gives them all");
+    const auto last = vp::Decimal::parse(ps("PCW_DDR_RAM_HIGHADDR"));
+    const auto whole = last ? last->whole() : std::nullopt;
+    constexpr vp::Decimal::Whole mib = 1 << 20;
+    if (whole && *whole >= 2 * mib) {
+      setting("ps.ddr.size",
+              vp::format_quantity(vp::Decimal(*whole + 1 - mib, 0), vp::Unit::bytes));
+    }
+    if (ps("PCW_UIPARAM_DDR_BUS_WIDTH").rfind("16", 0) == 0) setting("power.ddr.width", "16");
+    setting("ps.ethernet", wishes.ethernet ? "true" : "false");
+    write_uarts();
+  }
+
+  /// The clocks of the PL that are on. FCLK_CLK1 exists in any case: unused, it asks for nothing
+  /// that the first one does not.
+  std::vector<double> write_fclks() {
+    std::map<unsigned, double> on;
+    for (const Port& port : handoff_.ps().ports) {
+      const bool is_clock = port.direction == 'O' && port.name.rfind("FCLK_CLK", 0) == 0 &&
+                            port.name.size() == 9 && port.name[8] >= '0' && port.name[8] <= '3';
+      if (is_clock && port.hz) on[static_cast<unsigned>(port.name[8] - '0')] = *port.hz;
+    }
+    if (on.count(0) == 1 && on.count(1) == 0) on[1] = on[0];
+    std::vector<double> wishes;
+    for (const auto& [number, hz] : on) {
+      setting("ps.fclk_clk" + std::to_string(number) + ".frequency", hertz(hz));
+      wishes.push_back(hz);
+    }
+    return wishes;
+  }
+
+  /// Whether the clocks come out within a hertz.
+  bool is_planned(const device::ClockWishes& wishes, double crystal_hz) const {
+    const device::ClockPlan plan =
+        device::ClockPlanner(device::find_device(handoff_.device), crystal_hz).plan(wishes);
+    for (std::size_t i = 0; i < wishes.fclk_hz.size(); ++i) {
+      if (std::abs(plan.fclk[i].hz - wishes.fclk_hz[i]) > 1) return false;
+    }
+    return std::abs(plan.cpu.hz - wishes.cpu_hz) < cpu_rounding_hz;
+  }
+
+  // Without any, Linux was booted by other code, and the wizard's defaults are in the file.
+  void write_uarts() {
+    const bool first = ps_is("PCW_UART0_PERIPHERAL_ENABLE");
+    const bool second = ps_is("PCW_UART1_PERIPHERAL_ENABLE");
+    if (!first && !second) {
+      result_.notes.push_back(
+          "the PS has no UART: a PYNQ overlay often has the wizard's defaults there, and the board "
+          "was set up by another boot loader; set ps.uart0.enabled, ps.slcr.ps_clk and "
+          "ps.cpu_clk.frequency as on your board");
+    }
+    setting("ps.uart0.enabled", first ? "true" : "false");
+    setting("ps.uart1.enabled", second ? "true" : "false");
+  }
+
+  void write_part(const Module& module) {
+    const IpRule* rule = rule_for(module.vlnv);
+    ImportedPart part{module.full_name.substr(1), module.vlnv, rule ? rule->kind : Kind::stub, "",
+                      module.instance};
+    if (rule) {
+      part.why = misfit(*rule, module);
+      if (!part.why.empty()) part.kind = Kind::stub;
+    } else {
+      look_for_rtl(module, part);
+    }
+    line("  " + module.instance + ":");
+    line("    ip: " + yaml(module.vlnv));
+    if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
+    if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
+    write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
+    write_pins(module);
+    write_buses(module);
+    result_.parts.push_back(std::move(part));
+  }
+
+  void look_for_rtl(const Module& module, ImportedPart& part) const {
+    if (rtl_.empty()) {
+      part.why =
+          module.is_vendors() ? "the platform has no model of it" : "no RTL was named for it";
+      return;
+    }
+    part.rtl = rtl_.find(module);
+    part.why = part.rtl.why;
+    if (part.rtl.files.empty()) return;
+    part.kind = Kind::rtl;
+  }
+
+  /// Why the model cannot be built as the design wants it; "" if it can.
+  static std::string misfit(const IpRule& rule, const Module& module) {
+    for (const ParameterRule& known : rule.parameters) {
+      const std::string value = parameter(module.parameters, known.name);
+      if (!value.empty() && !is_allowed(known, value)) {
+        return known.name + " = " + value + " is not modelled, but " + vp::one_of(known.allowed);
+      }
+    }
+    return {};
+  }
+
+  /// Of the shelf's IP those that matter and are not as usual; of the owner's all.
+  void write_parameters(const Module& module, const IpRule* rule) {
+    std::vector<std::pair<std::string, std::string>> list;
+    if (rule) {
+      for (const ParameterRule& known : rule->parameters) {
+        const std::string value = parameter(module.parameters, known.name);
+        if (!value.empty() && value != known.usual) list.emplace_back(known.name, value);
+      }
+    } else if (!module.is_vendors()) {
+      for (const auto& [name, value] : module.parameters)
+        if (!is_noise(name)) list.emplace_back(name, value);
+    }
+    if (list.empty()) return;
+    line("    parameters:");
+    for (const auto& [name, value] : list) line("      " + yaml(name) + ": " + yaml(value));
+  }
+
+  /// Inputs that are driven, but those of buses.
+  void write_pins(const Module& module) {
+    std::set<std::string> of_buses;
+    for (const BusInterface& bus : module.interfaces) {
+      if (!is_bus(bus) && bus.kind != "ddrx" && bus.kind != "bram") continue;
+      for (const auto& [logical, physical] : bus.pins) of_buses.insert(physical);
+    }
+    const IpRule* rule = rule_for(module.vlnv);
+    const bool is_interconnect = rule && rule->kind == Kind::bus;
+    std::string main_clock;
+    bool first = true;
+    for (const Port& port : module.ports) {
+      if (port.direction != 'I' || of_buses.count(port.name) != 0) continue;
+      const auto source = nets_.driver(port);
+      if (!source) continue;
+      const std::string text = pin_text(*source);
+      if (is_interconnect) {
+        if (port.kind != "clk") continue;
+        if (main_clock.empty()) {
+          main_clock = text;
+        } else if (text == main_clock) {
+          continue;
+        }
+      }
+      if (first) line("    pins:");
+      first = false;
+      line("      " + yaml(port.name) + ": " + yaml(text));
+    }
+  }
+
+  std::string pin_text(const handoff::Pin& pin) {
+    if (pin.module) return pin.module->instance + "." + pin.port->name;
+    used_pins_.insert(pin.port->name);
+    return "external." + pin.port->name;
+  }
+
+  void write_buses(const Module& module) {
+    bool first = true;
+    for (const BusInterface& bus : module.interfaces) {
+      if (!is_bus(bus) || bus.sends || bus.listens) continue;
+      const auto sender = nets_.sender(bus);
+      if (!sender) continue;
+      if (first) line("    buses:");
+      first = false;
+      line("      " + yaml(bus.name) + ": " +
+           yaml(sender->module->instance + "." + sender->interface->name));
+    }
+  }
+
+  void write_addresses() {
+    using Ranges = std::vector<std::string>;
+    std::map<std::string, std::vector<std::pair<std::string, Ranges>>> masters;
+    for (const Module& module : handoff_.modules) {
+      for (const handoff::Segment& segment : module.segments) {
+        auto& slaves = masters[module.instance + "." + segment.master];
+        const std::string slave = segment.instance + "." + segment.slave;
+        if (slaves.empty() || slaves.back().first != slave) slaves.emplace_back(slave, Ranges());
+        const std::string size = vp::format_quantity(
+            vp::Decimal(static_cast<vp::Decimal::Whole>(segment.last - segment.base + 1), 0),
+            vp::Unit::bytes);
+        slaves.back().second.push_back("[" + vp::hex(segment.base) + ", " + size + "]");
+      }
+    }
+    if (masters.empty()) return;
+    line("\n# What each master sees, and where: [base, size].");
+    line("addresses:");
+    for (const auto& [master, slaves] : masters) {
+      line("  " + yaml(master) + ":");
+      for (const auto& [slave, ranges] : slaves) {
+        const bool one = ranges.size() == 1;
+        line("    " + yaml(slave) + ": " +
+             (one ? ranges.front() : "[" + vp::join(ranges, ", ") + "]"));
+      }
+    }
+  }
+
+  // What nothing inside reads needs no level.
+  void write_external() {
+    std::vector<std::string> lines;
+    for (const Port& port : handoff_.ports) {
+      if (port.direction != 'I' || used_pins_.count(port.name) == 0) continue;
+      if (port.kind == "clk") {
+        const double hz = port.hz.value_or(1e8);
+        lines.push_back("  " + yaml(port.name) + ": {clock: " + hertz(hz) + "}");
+        result_.notes.push_back("the clock at pin " + port.name + " is " + hertz(hz) +
+                                " as typed in Vivado, where 100 MHz is the default: correct it "
+                                "under 'external' if the board has another");
+      } else {
+        const std::string width =
+            port.width > 1 ? "width: " + std::to_string(port.width) + ", " : "";
+        lines.push_back("  " + yaml(port.name) + ": {" + width + "level: 0}");
+      }
+    }
+    if (lines.empty()) return;
+    line("\n# Pins of the chip that drive the design, and what is at them.");
+    line("external:");
+    for (const std::string& text : lines) line(text);
+  }
+
+  const Handoff& handoff_;
+  const handoff::RtlFinder& rtl_;
+  Netlist nets_;
+  ImportedDesign result_;
+  std::set<std::string> used_pins_;
+};
+
+}  // namespace
+
+ImportedDesign import_design(const Handoff& handoff, const handoff::RtlFinder& rtl) {
+  return Writer(handoff, rtl).write();
+}
+
+}  // namespace platform::block_design

@@ -1,0 +1,166 @@
+#include <chip/block_design/import_design.h>
+
+#include <chip/handoff/netlist.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace platform::block_design {
+
+namespace {
+
+using handoff::Handoff;
+using handoff::Module;
+using handoff::Netlist;
+
+std::string quantity(std::uint64_t value, vp::Unit unit) {
+  return vp::format_quantity(vp::Decimal(static_cast<vp::Decimal::Whole>(value), 0), unit);
+}
+
+std::string parts_table(const ImportedDesign& design) {
+  std::string text = "\n## Parts\n\n| Part | IP | Here | |\n|---|---|---|---|\n";
+  for (const ImportedPart& part : design.parts) {
+    const IpRule* rule = rule_for(part.vlnv);
+    const std::string remark = part.kind == Kind::stub ? part.why : rule ? rule->what : "";
+    text += "| `" + part.name + "` | " + part.vlnv + " | " + to_string(part.kind) + " | " + remark +
+            " |\n";
+  }
+  return text;
+}
+
+std::string missing(const ImportedDesign& design) {
+  const auto stubs = std::count_if(design.parts.begin(), design.parts.end(),
+                                   [](const ImportedPart& p) { return p.kind == Kind::stub; });
+  if (stubs == 0) return "\nEvery part has its model: verdicts rest on all of the design.\n";
+  return "\n" + std::to_string(stubs) + (stubs == 1 ? " part is a stub" : " parts are stubs") +
+         ". A stub answers each read of its registers with 0 and warns, swallows what streams "
+         "bring, "
+         "and drives 0.\nWhat it takes of the chip and how fast it is are unknown, so the "
+         "verdict's "
+         "parts \"fits\" and \"timing\" are unknown, too.\n";
+}
+
+std::string addresses_table(const Handoff& handoff) {
+  std::string rows;
+  for (const Module& module : handoff.modules) {
+    for (const handoff::Segment& segment : module.segments) {
+      rows += "| `" + module.instance + "." + segment.master + "` | `" + segment.instance + "." +
+              segment.slave + "` | " + vp::hex(segment.base) + " | " +
+              quantity(segment.last - segment.base + 1, vp::Unit::bytes) + " |\n";
+    }
+  }
+  if (rows.empty()) return "\n## Addresses\n\nNo master sees a slave.\n";
+  return "\n## Addresses\n\n| Master | Slave | Base | Size |\n|---|---|---|---|\n" + rows;
+}
+
+std::string interrupts_table(const Handoff& handoff, const Netlist& nets) {
+  std::string rows;
+  for (const Netlist::Interrupt& interrupt : nets.interrupts()) {
+    const handoff::PinBit& source = interrupt.source;
+    rows += "| " + std::to_string(interrupt.id) + " | `" +
+            (source.pin.module ? source.pin.module->instance : "external") + "." +
+            source.pin.port->name +
+            (source.pin.port->width > 1 ? "[" + std::to_string(source.bit) + "]" : "") + "` |\n";
+  }
+  const bool has_lines = handoff.ps().port("IRQ_F2P") != nullptr;
+  if (rows.empty()) {
+    return std::string("\n## Interrupts\n\n") +
+           (has_lines ? "IRQ_F2P is there, and nothing drives it: programs poll.\n"
+                      : "None: programs poll.\n");
+  }
+  return "\n## Interrupts\n\n| Number | Source |\n|---|---|\n" + rows;
+}
+
+std::string clocks_table(const Handoff& handoff) {
+  std::string rows;
+  const auto add = [&](const std::string& where, const handoff::Port& port, bool drives) {
+    if (port.kind != "clk" || !port.hz || !drives) return;
+    rows += "| `" + where + "." + port.name + "` | " +
+            quantity(static_cast<std::uint64_t>(std::llround(*port.hz)), vp::Unit::frequency) +
+            " |\n";
+  };
+  for (const Module& module : handoff.modules)
+    for (const handoff::Port& port : module.ports)
+      add(module.instance, port, port.direction == 'O' && !port.signal.empty());
+  for (const handoff::Port& port : handoff.ports) add("external", port, port.direction == 'I');
+  if (rows.empty()) return "";
+  return "\n## Clocks\n\n| Source | Frequency |\n|---|---|\n" + rows;
+}
+
+}  // namespace
+
+std::string import_report(const Handoff& handoff, const ImportedDesign& design,
+                          const std::string& problem) {
+  const Netlist nets(handoff);
+  std::string text =
+      "# Import of " + handoff.name + "\n\nFrom " + handoff.file + ", written by Vivado " +
+      handoff.tool + (handoff.date.empty() ? "" : " on " + handoff.date) + ", for an " +
+      handoff.part + (handoff.board.empty() ? "" : " (board " + handoff.board + ")") + ".\n";
+  if (!problem.empty()) text += "\n**The design cannot be built as it is:** " + problem + "\n";
+  text += missing(design);
+  if (!design.notes.empty()) text += "\n## To look at\n\n";
+  for (const std::string& note : design.notes) text += "* " + note + "\n";
+  text += parts_table(design) + addresses_table(handoff) + interrupts_table(handoff, nets) +
+          clocks_table(handoff);
+  return text +
+         "\n## Next\n\n```\nmarkervp map --design design.yaml\nmarkervp config --design "
+         "design.yaml\n"
+         "cmake -S . -B build -DCMAKE_PREFIX_PATH=<where markervp is installed>\ncmake --build "
+         "build\n"
+         "markervp run --design design.yaml --program build/" +
+         handoff.name + ".so\n```\n";
+}
+
+namespace {
+
+std::string quoted_lines(const std::vector<std::string>& files) {
+  return "\n  \"" + vp::join(files, "\"\n  \"") + "\"";
+}
+
+/// The user's RTL in the place of parts, each an object of its own.
+std::string rtl_targets(const ImportedDesign& design) {
+  std::string text;
+  for (const ImportedPart& part : design.parts) {
+    if (part.kind != Kind::rtl) continue;
+    text += "markervp_add_rtl(" + part.target + " TOP " + part.rtl.top + " SOURCES" +
+            quoted_lines(part.rtl.files) +
+            (part.rtl.parameters.empty() ? ""
+                                         : "\n  PARAMETERS " + vp::join(part.rtl.parameters, " ")) +
+            ")\nset_target_properties(" + part.target +
+            " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string import_cmake(const std::string& name, const ImportedDesign& design,
+                         const std::vector<std::string>& sources) {
+  const std::string rtl = rtl_targets(design);
+  std::string text =
+      "# What belongs to this design: its PS program, in C or C++, as written for the vendor's "
+      "tools" +
+      std::string(rtl.empty() ? "" : ",\n# and the RTL of its parts") +
+      ".\n#   cmake -S . -B build -DCMAKE_PREFIX_PATH=<where markervp is installed>\n"
+      "#   cmake --build build\n"
+      "cmake_minimum_required(VERSION 3.25)\n"
+      "project(" +
+      name +
+      " LANGUAGES C CXX)\n"
+      "find_package(markervp REQUIRED COMPONENTS programs" +
+      (rtl.empty() ? "" : " rtl") + ")\n\n" + rtl;
+  text += sources.empty() ? "file(GLOB sources CONFIGURE_DEPENDS software/*.c software/*.cpp)\n"
+                          : "set(sources" + quoted_lines(sources) + ")\n";
+  return text + "if(sources)\n  markervp_add_program(" + name +
+         " SOURCES ${sources} LIBRARIES markervp::compat)\n"
+         "  # xparameters.h of this design, before that of the package.\n"
+         "  target_include_directories(" +
+         name +
+         " BEFORE PRIVATE \"${CMAKE_CURRENT_SOURCE_DIR}\")\n"
+         "  set_target_properties(" +
+         name + " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\nendif()\n";
+}
+
+}  // namespace platform::block_design

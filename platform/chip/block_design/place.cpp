@@ -1,0 +1,404 @@
+#include <chip/block_design/place.h>
+
+#include <strings.h>
+#include <vp/error.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
+#include <xilinx/axi_interconnect/axi_interconnect.h>
+#include <xilinx/axis_buffer/axis_buffer.h>
+#include <xilinx/fabric_clock/fabric_clock.h>
+#include <xilinx/proc_sys_reset/proc_sys_reset.h>
+#include <xilinx/register_stub/register_stub.h>
+#include <xilinx/wiring/wiring.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace platform::block_design {
+
+std::string Placement::text(const std::string& name) const {
+  for (const auto& [key, value] : part.parameters)
+    if (::strcasecmp(key.c_str(), name.c_str()) == 0) return value;
+  const IpRule* rule = rule_for(part.vlnv);
+  const ParameterRule* known = rule ? find_parameter(*rule, name) : nullptr;
+  return known ? known->usual : std::string();
+}
+
+std::uint64_t Placement::number(const std::string& name) const {
+  std::string digits = text(name);
+  digits.erase(std::remove(digits.begin(), digits.end(), '"'), digits.end());  // "000" of Vivado's
+  const auto value = vp::Decimal::parse(digits);
+  const auto whole = value ? value->whole() : std::nullopt;
+  if (!whole || *whole < 0 || *whole > UINT64_MAX)
+    refuse(name + " = '" + vp::excerpt(digits) + "' is not a whole number");
+  return static_cast<std::uint64_t>(*whole);
+}
+
+vp::Clock& Placement::clock(const std::vector<std::string>& pins) const {
+  vp::Clock* found = nullptr;
+  std::string of;
+  for (const std::string& pin : pins) {
+    vp::Clock* clock = clock_at(pin);
+    if (!clock) continue;
+    if (found && clock != found) {
+      refuse("its pins " + of + " and " + pin +
+             " have different clocks, and its model has one: 'as: stub' leaves it out");
+    }
+    found = clock;
+    of = pin;
+  }
+  if (!found) refuse("none of its clock pins is driven: " + vp::one_of(pins));
+  return *found;
+}
+
+void Placement::refuse(const std::string& problem) const {
+  throw vp::InputError(part.place + ": " + part.name + ": " + problem);
+}
+
+namespace {
+
+/// Binds a port of a model by the name that it has in the design.
+template <class T>
+std::function<void(vp::SignalBase&)> input(const Placement& at, const std::string& pin,
+                                           vp::In<T>& port, bool inverted = false) {
+  const std::string name = at.part.name + "_" + pin;
+  return [&port, name, inverted, &adapters = at.adapters](vp::SignalBase& source) {
+    auto* same = dynamic_cast<vp::Signal<T>*>(&source);
+    if (same && !inverted) return port(*same);
+    auto adapter = std::make_unique<xilinx::WireAdapter<T>>(name.c_str(), source, inverted);
+    port(adapter->out);
+    adapters.push_back(std::move(adapter));
+  };
+}
+
+SlavePort registers(vp::RegisterBank& bank) {
+  return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
+}
+
+xilinx::GpioChannelBuild gpio_channel(const Placement& at, const std::string& number) {
+  xilinx::GpioChannelBuild build;
+  const std::string end = number.empty() ? "" : "_" + number;
+  if (at.flag("C_ALL_INPUTS" + end)) build.direction = xilinx::GpioDirection::all_inputs;
+  if (at.flag("C_ALL_OUTPUTS" + end)) build.direction = xilinx::GpioDirection::all_outputs;
+  build.width = static_cast<std::uint32_t>(at.number("C_GPIO" + number + "_WIDTH"));
+  build.dout_default = static_cast<std::uint32_t>(at.number("C_DOUT_DEFAULT" + end));
+  build.tri_default = static_cast<std::uint32_t>(at.number("C_TRI_DEFAULT" + end));
+  return build;
+}
+
+Placed place_gpio(const Placement& at) {
+  xilinx::AxiGpioBuild build;
+  build.gpio = gpio_channel(at, "");
+  build.gpio2 = gpio_channel(at, "2");
+  build.is_dual = at.flag("C_IS_DUAL");
+  build.interrupt_present = at.flag("C_INTERRUPT_PRESENT");
+  auto gpio =
+      std::make_unique<xilinx::AxiGpio>(at.part.name.c_str(), at.clock({"s_axi_aclk"}), build);
+  Placed placed;
+  placed.slaves = {{"S_AXI", registers(gpio->s_axi)}};
+  placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", gpio->s_axi_aresetn)},
+                   {"gpio_io_i", input(at, "gpio_io_i", gpio->gpio.io_i)},
+                   {"gpio2_io_i", input(at, "gpio2_io_i", gpio->gpio2.io_i)}};
+  placed.outputs = {{"gpio_io_o", &gpio->gpio.io_o},
+                    {"gpio_io_t", &gpio->gpio.io_t},
+                    {"gpio2_io_o", &gpio->gpio2.io_o},
+                    {"gpio2_io_t", &gpio->gpio2.io_t},
+                    {"ip2intc_irpt", &gpio->ip2intc_irpt}};
+  placed.object = std::move(gpio);
+  return placed;
+}
+
+xilinx::AxiDmaBuild dma_build(const Placement& at) {
+  xilinx::AxiDmaBuild build;
+  build.include_mm2s = at.flag("C_INCLUDE_MM2S");
+  build.include_s2mm = at.flag("C_INCLUDE_S2MM");
+  build.include_sg = at.flag("C_INCLUDE_SG");
+  build.length_width = static_cast<std::uint32_t>(at.number("C_SG_LENGTH_WIDTH"));
+  build.mm2s_dre = at.flag("C_INCLUDE_MM2S_DRE");
+  build.s2mm_dre = at.flag("C_INCLUDE_S2MM_DRE");
+  build.burst_beats = static_cast<std::uint32_t>(
+      at.number(build.include_mm2s ? "C_MM2S_BURST_SIZE" : "C_S2MM_BURST_SIZE"));
+  build.memory_words = at.number("C_M_AXI_S2MM_DATA_WIDTH") > 32 ? 2 : 1;
+  return build;
+}
+
+MasterPort memory_master(xilinx::MemoryPort& port) {
+  return {[&port](vp::Router& way) { port.link.socket.bind(way.socket); },
+          [&port](xilinx::MemoryPath& path) { port.share(path); }};
+}
+
+constexpr std::uint32_t widest_stream_bytes = 4, bits_per_byte = 8;
+
+/// The engine's streams are 32 bits wide. Narrower ones end in a converter, which takes a clock
+/// (assumed): the same bytes, counted as bytes.
+class NarrowStream : public sc_core::sc_module {
+ public:
+  NarrowStream(sc_core::sc_module_name name, vp::Clock& clock, std::uint32_t in_bytes,
+               std::uint32_t out_bytes)
+      : sc_module(name),
+        buffer("buffer", clock, {in_bytes, out_bytes, 2 * widest_stream_bytes, 1}) {}
+  const char* kind() const override { return "NarrowStream"; }
+
+  vp::AxiStream inside{"inside"};
+  xilinx::AxisBuffer buffer;
+};
+
+void add_mm2s(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed& placed) {
+  placed.masters["M_AXI_MM2S"] = memory_master(dma.mm2s().m_axi);
+  const auto bytes =
+      static_cast<std::uint32_t>(at.number("C_M_AXIS_MM2S_TDATA_WIDTH") / bits_per_byte);
+  std::function<void(vp::AxiStream&, vp::Clock&)> bind = [&dma](vp::AxiStream& link, vp::Clock&) {
+    dma.mm2s().m_axis(link);
+  };
+  if (bytes != widest_stream_bytes) {
+    auto narrow = std::make_unique<NarrowStream>((at.part.name + "_mm2s_width").c_str(), clock,
+                                                 widest_stream_bytes, bytes);
+    dma.mm2s().m_axis(narrow->inside);
+    narrow->buffer.s_axis(narrow->inside);
+    bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.m_axis(link); };
+    at.adapters.push_back(std::move(narrow));
+  }
+  placed.stream_masters["M_AXIS_MM2S"] = {bind, &clock};
+}
+
+void add_s2mm(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed& placed) {
+  placed.masters["M_AXI_S2MM"] = memory_master(dma.s2mm().m_axi);
+  const auto bytes =
+      static_cast<std::uint32_t>(at.number("C_S_AXIS_S2MM_TDATA_WIDTH") / bits_per_byte);
+  std::function<void(vp::AxiStream&, vp::Clock&)> bind = [&dma](vp::AxiStream& link, vp::Clock&) {
+    dma.s2mm().s_axis(link);
+  };
+  if (bytes != widest_stream_bytes) {
+    auto narrow = std::make_unique<NarrowStream>((at.part.name + "_s2mm_width").c_str(), clock,
+                                                 bytes, widest_stream_bytes);
+    narrow->buffer.m_axis(narrow->inside);
+    dma.s2mm().s_axis(narrow->inside);
+    bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.s_axis(link); };
+    at.adapters.push_back(std::move(narrow));
+  }
+  placed.stream_slaves["S_AXIS_S2MM"] = {bind, &clock};
+}
+
+Placed place_dma(const Placement& at) {
+  const xilinx::AxiDmaBuild build = dma_build(at);
+  vp::Clock& clock =
+      at.clock({"s_axi_lite_aclk", "m_axi_mm2s_aclk", "m_axi_s2mm_aclk", "m_axi_sg_aclk"});
+  auto dma = std::make_unique<xilinx::AxiDma>(at.part.name.c_str(), clock, build);
+  Placed placed;
+  placed.slaves = {{"S_AXI_LITE", registers(dma->s_axi_lite)}};
+  placed.inputs = {{"axi_resetn", input(at, "axi_resetn", dma->axi_resetn)}};
+  placed.outputs = {{"mm2s_introut", &dma->mm2s_introut}, {"s2mm_introut", &dma->s2mm_introut}};
+  if (dma->include_mm2s) add_mm2s(at, *dma, clock, placed);
+  if (dma->include_s2mm) add_s2mm(at, *dma, clock, placed);
+  if (dma->include_sg) placed.masters["M_AXI_SG"] = memory_master(dma->scatter_gather().m_axi);
+  placed.object = std::move(dma);
+  return placed;
+}
+
+/// Its memory is as large as the segment in which it is seen.
+Placed place_bram_ctrl(const Placement& at) {
+  xilinx::AxiBramCtrlBuild build;
+  build.axi4_lite = at.text("C_S_AXI_PROTOCOL") == "AXI4LITE";
+  build.single_port = at.flag("C_SINGLE_PORT_BRAM");
+  for (const AddressSegment& segment : at.design.addresses) {
+    if (segment.slave.part == at.part.name)
+      build.memory_size =
+          static_cast<std::uint32_t>(std::min<std::uint64_t>(segment.size, 1u << 30));
+  }
+  auto memory =
+      std::make_unique<xilinx::AxiBramCtrl>(at.part.name.c_str(), at.clock({"s_axi_aclk"}), build);
+  Placed placed;
+  xilinx::AxiBramCtrl* target = memory.get();
+  placed.slaves = {{"S_AXI", {[target](RegionSocket& socket) { socket.bind(target->s_axi); }}}};
+  placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", memory->s_axi_aresetn)}};
+  placed.unused_inputs = {"bram_rddata_a", "bram_rddata_b"};  // of the memory, which is part of it
+  placed.object = std::move(memory);
+  return placed;
+}
+
+Placed place_reset(const Placement& at) {
+  auto reset =
+      std::make_unique<xilinx::ProcSysReset>(at.part.name.c_str(), at.clock({"slowest_sync_clk"}));
+  Placed placed;
+  // The model takes the external reset active low, the auxiliary one active high.
+  placed.inputs = {
+      {"ext_reset_in", input(at, "ext_reset_in", reset->ext_reset_in, at.flag("C_EXT_RESET_HIGH"))},
+      {"aux_reset_in",
+       input(at, "aux_reset_in", reset->aux_reset_in, !at.flag("C_AUX_RESET_HIGH"))},
+      {"dcm_locked", input(at, "dcm_locked", reset->dcm_locked)}};
+  placed.unused_inputs = {"mb_debug_sys_rst"};
+  placed.outputs = {{"bus_struct_reset", &reset->bus_struct_reset},
+                    {"interconnect_aresetn", &reset->interconnect_aresetn},
+                    {"peripheral_reset", &reset->peripheral_reset},
+                    {"peripheral_aresetn", &reset->peripheral_aresetn},
+                    {"mb_reset", &reset->mb_reset}};
+  placed.object = std::move(reset);
+  return placed;
+}
+
+unsigned speed_grade(const Placement& at) {
+  const std::string& grade = at.ports.ps.clock_planner().device().grade;
+  return grade.empty() || grade.front() < '1' || grade.front() > '3'
+             ? 1
+             : static_cast<unsigned>(grade.front() - '0');
+}
+
+/// Outputs are those whose pins the design uses.
+Placed place_fabric_clock(const Placement& at) {
+  xilinx::FabricClockBuild build;
+  build.pll = at.text("PRIMITIVE") == "PLL";
+  build.input_divider = at.text("MMCM_DIVCLK_DIVIDE");
+  build.multiplier = at.text("MMCM_CLKFBOUT_MULT_F");
+  build.outputs.clear();
+  for (unsigned i = 0; i < 7; ++i) {
+    const std::string divider =
+        "MMCM_CLKOUT" + std::to_string(i) + (i == 0 ? "_DIVIDE_F" : "_DIVIDE");
+    build.outputs.emplace_back(at.text("CLK_OUT" + std::to_string(i + 1) + "_PORT"),
+                               at.text(divider));
+  }
+  // Vivado leaves the name of an unused output as it was, even if another one has it.
+  std::set<std::string> names;
+  const auto repeated = [&](const auto& output) { return !names.insert(output.first).second; };
+  build.outputs.erase(std::remove_if(build.outputs.begin(), build.outputs.end(), repeated),
+                      build.outputs.end());
+  auto clocks = std::make_unique<xilinx::FabricClock>(at.part.name.c_str(), at.clock({"clk_in1"}),
+                                                      speed_grade(at), build);
+  Placed placed;
+  for (const auto& [name, divider] : build.outputs) placed.clocks[name] = clocks->output(name);
+  placed.outputs = {{"locked", &clocks->locked}};
+  placed.unused_inputs = {"clk_in1", "reset", "resetn"};
+  placed.object = std::move(clocks);
+  return placed;
+}
+
+/// Clocks from a beat in to that beat on offer, assumed: through a FIFO's memory, or one register.
+constexpr std::uint32_t fifo_latency = 3, slice_latency = 1;
+
+Placed place_stream_buffer(const Placement& at, const std::string& ip) {
+  xilinx::AxisBufferBuild build;
+  const auto bytes = [&](const char* name) { return static_cast<std::uint32_t>(at.number(name)); };
+  if (ip == "axis_dwidth_converter") {
+    build.in_bytes = bytes("S_TDATA_NUM_BYTES");
+    build.out_bytes = bytes("M_TDATA_NUM_BYTES");
+    build.depth = 2 * widest_stream_bytes;
+  } else {
+    build.in_bytes = build.out_bytes = bytes("TDATA_NUM_BYTES");
+    const bool is_fifo = ip == "axis_data_fifo";
+    build.depth = is_fifo ? static_cast<std::uint32_t>(at.number("FIFO_DEPTH")) : 2;
+    build.latency = is_fifo ? fifo_latency : slice_latency;
+  }
+  vp::Clock& clock = at.clock({"s_axis_aclk", "aclk"});
+  auto buffer = std::make_unique<xilinx::AxisBuffer>(at.part.name.c_str(), clock, build);
+  Placed placed;
+  xilinx::AxisBuffer* line = buffer.get();
+  placed.inputs = {{"aresetn", input(at, "aresetn", buffer->aresetn)},
+                   {"s_axis_aresetn", input(at, "s_axis_aresetn", buffer->aresetn)}};
+  placed.stream_slaves["S_AXIS"] = {[line](vp::AxiStream& link, vp::Clock&) { line->s_axis(link); },
+                                    &clock};
+  placed.stream_masters["M_AXIS"] = {
+      [line](vp::AxiStream& link, vp::Clock&) { line->m_axis(link); }, &clock};
+  placed.object = std::move(buffer);
+  return placed;
+}
+
+Placed place_bus(const Placement& at) {
+  std::vector<std::string> clocks{"ACLK", "aclk", "s_axi_aclk"};
+  Placed placed;
+  placed.object = std::make_unique<xilinx::AxiInterconnect>(at.part.name.c_str(), at.clock(clocks));
+  return placed;
+}
+
+std::unique_ptr<xilinx::Wiring> make_wiring(const Placement& at) {
+  const std::string ip = vp::split(at.part.vlnv, ':').at(2);
+  const char* name = at.part.name.c_str();
+  const auto number = [&](const std::string& parameter) {
+    return static_cast<unsigned>(std::min<std::uint64_t>(at.number(parameter), 4096));
+  };
+  if (ip == "xlconcat" || ip == "ilconcat") {
+    std::vector<unsigned> widths;
+    for (unsigned i = 0; i < number("NUM_PORTS"); ++i)
+      widths.push_back(number("IN" + std::to_string(i) + "_WIDTH"));
+    return xilinx::make_concat(name, widths);
+  }
+  if (ip == "xlslice" || ip == "ilslice")
+    return xilinx::make_slice(name, number("DIN_FROM"), number("DIN_TO"));
+  if (ip == "xlconstant" || ip == "ilconstant")
+    return xilinx::make_constant(name, number("CONST_WIDTH"), at.number("CONST_VAL"));
+  if (ip == "util_reduced_logic")
+    return xilinx::make_reduction(name, at.text("C_OPERATION"), number("C_SIZE"));
+  return xilinx::make_gates(name, at.text("C_OPERATION"), number("C_SIZE"));
+}
+
+/// Names of inputs by number: In0, Din, Op1.
+std::vector<std::string> wiring_inputs(const std::string& ip, std::size_t count) {
+  if (ip == "xlslice" || ip == "ilslice") return {"Din"};
+  std::vector<std::string> names;
+  const bool is_concat = ip == "xlconcat" || ip == "ilconcat";
+  for (std::size_t i = 0; i < count; ++i)
+    names.push_back(is_concat ? "In" + std::to_string(i) : "Op" + std::to_string(i + 1));
+  return names;
+}
+
+Placed place_wiring(const Placement& at) {
+  std::unique_ptr<xilinx::Wiring> wiring = make_wiring(at);
+  Placed placed;
+  xilinx::Wiring* wires = wiring.get();
+  const auto names = wiring_inputs(vp::split(at.part.vlnv, ':').at(2), wires->inputs());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    placed.inputs[names[i]] = [wires, i](vp::SignalBase& source) { wires->connect(i, source); };
+  }
+  placed.outputs[wires->out.basename()] = &wires->out;
+  placed.object = std::move(wiring);
+  return placed;
+}
+
+/// Any pin, register interface and stream that the design speaks of.
+Placed place_stub(const Placement& at) {
+  vp::Clock* clock = nullptr;
+  for (const auto& [pin, source] : at.part.pins) {
+    if (!clock) clock = at.clock_at(pin);
+  }
+  vp::Clock& own = clock ? *clock : at.ports.fclk_clk(0);
+  auto stub = std::make_unique<xilinx::RegisterStub>(at.part.name.c_str(), own, at.part.vlnv);
+  Placed placed;
+  xilinx::RegisterStub* stand_in = stub.get();
+  placed.any_output = [stand_in](const std::string& pin) -> vp::SignalBase* {
+    return &stand_in->output(pin);
+  };
+  placed.any_slave = [stand_in](const std::string& interface) {
+    return SlavePort{[stand_in, interface](RegionSocket& socket) {
+      socket.bind(stand_in->add_slave(interface).socket);
+    }};
+  };
+  placed.any_stream_master = [stand_in](const std::string&) {
+    return StreamPort{
+        [stand_in](vp::AxiStream& link, vp::Clock& clock) { stand_in->offer_stream(link, clock); }};
+  };
+  placed.any_stream_slave = [stand_in](const std::string&) {
+    return StreamPort{
+        [stand_in](vp::AxiStream& link, vp::Clock& clock) { stand_in->take_stream(link, clock); }};
+  };
+  placed.object = std::move(stub);
+  return placed;
+}
+
+}  // namespace
+
+Placed place_part(const Placement& at) {
+  const IpRule* rule = rule_for(at.part.vlnv);
+  if (!rule || at.part.as == "stub") return place_stub(at);
+  if (rule->kind == Kind::left_out) return {};
+  if (rule->kind == Kind::bus) return place_bus(at);
+  if (rule->kind == Kind::wiring) return place_wiring(at);
+  if (rule->ip == "axi_gpio") return place_gpio(at);
+  if (rule->ip == "axi_dma") return place_dma(at);
+  if (rule->ip == "axi_bram_ctrl") return place_bram_ctrl(at);
+  if (rule->ip == "proc_sys_reset") return place_reset(at);
+  if (rule->ip.rfind("axis_", 0) == 0) return place_stream_buffer(at, rule->ip);
+  return place_fabric_clock(at);
+}
+
+}  // namespace platform::block_design

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// A design that is data: parts by their VLNV, and how they are wired.
+namespace platform::block_design {
+
+/// What a part of a design is in the platform.
+enum class Kind {
+  model,     ///< a model of the IP
+  bus,       ///< a way between masters and slaves: interconnects and converters
+  wiring,    ///< a function of wires without a clock
+  left_out,  ///< it changes nothing that software sees: logic analysers and the like
+  rtl,       ///< the user's RTL, Verilated
+  stub,      ///< neither model nor RTL: it answers with zeros
+};
+
+/// "model", "bus", "wiring", "left out", "RTL", "stub".
+const char* to_string(Kind kind);
+
+/// A parameter of an IP that the platform's stand-in depends on.
+struct ParameterRule {
+  std::string name;                       ///< as the vendor writes it; capitals do not count
+  std::string usual;                      ///< its value where the design says nothing
+  std::vector<std::string> allowed = {};  ///< values that are modelled; empty: any number
+};
+
+/// What is known of an IP before it is placed.
+struct IpRule {
+  std::string ip;  ///< the name in its VLNV: "axi_dma"
+  Kind kind;
+  std::string what;  ///< for people: "AXI DMA, direct and scatter-gather (PG021)"
+  std::vector<ParameterRule> parameters = {};
+};
+
+/// All IP that the platform knows, by name.
+const std::vector<IpRule>& shelf();
+
+/// The rule for a VLNV; null for an IP that is not on the shelf, or not the vendor's.
+const IpRule* rule_for(const std::string& vlnv);
+
+/// The rule of a parameter; null if the IP has no such one that matters.
+const ParameterRule* find_parameter(const IpRule& rule, const std::string& name);
+
+/// Whether a value is modelled.
+bool is_allowed(const ParameterRule& rule, const std::string& value);
+
+}  // namespace platform::block_design

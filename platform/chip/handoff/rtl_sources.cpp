@@ -1,0 +1,224 @@
+#include <chip/handoff/rtl_sources.h>
+
+#include <chip/handoff/xml.h>
+#include <vp/error.h>
+#include <vp/file.h>
+#include <vp/text.h>
+#include <vp/unit.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+namespace platform::handoff {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_files = 50'000;
+constexpr std::uint64_t largest_source = 1 << 24;
+
+bool is_verilog(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  return ending == ".v" || ending == ".sv";
+}
+
+bool is_vhdl(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  return ending == ".vhd" || ending == ".vhdl";
+}
+
+/// The words of a source, comments of a line left out.
+std::vector<std::string_view> words(std::string_view text, std::string_view comment) {
+  std::vector<std::string_view> list;
+  std::size_t at = 0;
+  const auto in_word = [&](std::size_t i) {
+    return std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_' || text[i] == '$';
+  };
+  while (at < text.size()) {
+    if (text.compare(at, comment.size(), comment) == 0) {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (in_word(at)) {
+      const std::size_t first = at;
+      while (at < text.size() && in_word(at)) ++at;
+      list.push_back(text.substr(first, at - first));
+    } else {
+      ++at;
+    }
+  }
+  return list;
+}
+
+std::string text_of(const std::string& path) {
+  return vp::read_text(path, "RTL", largest_source);
+}
+
+std::string child(const pugi::xml_node& node, const char* name) {
+  return vp::visible(node.child((std::string("spirit:") + name).c_str()).text().get());
+}
+
+/// The revision that the vendor's tool counted or stamped: of all of the file's, the only one.
+std::string revision_of(const pugi::xml_node& component) {
+  const pugi::xml_node node = component.find_node([](const pugi::xml_node& one) {
+    return std::string_view(one.name()) == "xilinx:coreRevision";
+  });
+  return vp::visible(node.text().get());
+}
+
+}  // namespace
+
+RtlFinder::RtlFinder(const std::vector<std::string>& folders) : empty_(folders.empty()) {
+  std::size_t count = 0;
+  for (const std::string& folder : folders) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored))
+      throw vp::InputError("no folder '" + folder + "' of RTL");
+    std::vector<std::string> files;
+    const auto options = fs::directory_options::skip_permission_denied;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
+      if (++count > most_files) {
+        throw vp::InputError("more than " + std::to_string(most_files) + " files in '" + folder +
+                             "': name the folders of the RTL");
+      }
+      if (entry.is_regular_file(ignored)) files.push_back(fs::absolute(entry.path()).string());
+    }
+    std::sort(files.begin(), files.end());
+    for (const std::string& file : files) add_file(file);
+  }
+}
+
+void RtlFinder::add_file(const std::string& path) {
+  if (fs::path(path).filename() == "component.xml") {
+    const XmlDocument xml(text_of(path), path);
+    const pugi::xml_node root = xml.root("spirit:component");
+    const std::string name =
+        child(root, "vendor") + ":" + child(root, "library") + ":" + child(root, "name");
+    components_[name].push_back(path);
+    return;
+  }
+  if (!is_verilog(path) && !is_vhdl(path)) return;
+  const std::string text = text_of(path);
+  const auto list = words(text, is_vhdl(path) ? "--" : "//");
+  for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+    const bool declares = is_vhdl(path)
+                              ? list[i] == "entity" && i + 2 < list.size() && list[i + 2] == "is"
+                              : list[i] == "module" && (i == 0 || list[i - 1] != "end");
+    if (declares) modules_.emplace(list[i + 1], path);
+  }
+}
+
+namespace {
+
+/// The numbers among the parameters of the design that the module declares, in its header or behind
+/// the word `parameter`; "NAME=number".
+std::vector<std::string> declared_parameters(const std::string& file, const Module& module,
+                                             const std::string& top) {
+  const std::string text = text_of(file);
+  const auto list = words(text, is_vhdl(file) ? "--" : "//");
+  std::set<std::string_view> declared;
+  bool in_header = false;
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    if (list[i] == top && (list[i - 1] == "module" || list[i - 1] == "entity")) in_header = true;
+    if (list[i] == "input" || list[i] == "output" || list[i] == "port") in_header = false;
+    const bool behind = list[i - 1] == "parameter" || (i > 1 && list[i - 2] == "parameter");
+    if (in_header || behind) declared.insert(list[i]);
+  }
+  std::vector<std::string> result;
+  for (const auto& [name, value] : module.parameters) {
+    const auto number = vp::Decimal::parse(value);
+    const auto whole = number ? number->whole() : std::nullopt;
+    if (declared.count(name) != 0 && whole && *whole >= 0 && *whole <= UINT32_MAX)
+      result.push_back(name + "=" + std::to_string(static_cast<std::uint64_t>(*whole)));
+  }
+  return result;
+}
+
+}  // namespace
+
+RtlSources RtlFinder::find(const Module& module) const {
+  RtlSources sources = look(module);
+  const auto file = modules_.find(sources.top);
+  if (!sources.files.empty() && file != modules_.end())
+    sources.parameters = declared_parameters(file->second, module, sources.top);
+  return sources;
+}
+
+RtlSources RtlFinder::look(const Module& module) const {
+  const auto vlnv = vp::split(module.vlnv, ':');
+  const auto packaged_as = components_.find(vlnv[0] + ":" + vlnv[1] + ":" + vlnv[2]);
+  if (packaged_as == components_.end()) return by_name(module);
+  RtlSources last;
+  for (const std::string& component : packaged_as->second) {
+    last = packaged(module, component);
+    if (!last.files.empty()) return last;
+  }
+  return last;
+}
+
+RtlSources RtlFinder::packaged(const Module& module, const std::string& component) const {
+  const XmlDocument xml(text_of(component), component);
+  const pugi::xml_node root = xml.root("spirit:component");
+  RtlSources sources;
+  const std::string revision = revision_of(root);
+  if (!revision.empty() && !module.revision.empty() && revision != module.revision) {
+    sources.why =
+        component + " is revision " + revision + " of it, the design has " + module.revision;
+    return sources;
+  }
+  std::string set;
+  for (const auto& view :
+       root.child("spirit:model").child("spirit:views").children("spirit:view")) {
+    const std::string name = child(view, "name");
+    const bool synthesis = name.find("synthesis") != std::string::npos;
+    const bool first_choice = name.find("verilogsynthesis") != std::string::npos;
+    if (!synthesis || (!set.empty() && !first_choice)) continue;
+    sources.top = child(view, "modelName");
+    set = vp::visible(view.child("spirit:fileSetRef").child("spirit:localName").text().get());
+  }
+  for (const auto& files : root.child("spirit:fileSets").children("spirit:fileSet")) {
+    if (child(files, "name") != set) continue;
+    for (const auto& file : files.children("spirit:file")) {
+      const fs::path path =
+          (fs::path(component).parent_path() / child(file, "name")).lexically_normal();
+      if (is_verilog(path) || is_vhdl(path)) sources.files.push_back(path.string());
+    }
+  }
+  std::error_code ignored;
+  for (const std::string& file : sources.files) {
+    if (fs::exists(file, ignored)) continue;
+    sources.why = component + " lists '" + file + "', which is missing";
+    sources.files.clear();
+    break;
+  }
+  if (sources.files.empty() && sources.why.empty())
+    sources.why = component + " lists no Verilog or VHDL for synthesis";
+  return sources;
+}
+
+// A file that names a module of another one needs it.
+RtlSources RtlFinder::by_name(const Module& module) const {
+  RtlSources sources;
+  sources.top = module.type;
+  const auto top = modules_.find(module.type);
+  if (top == modules_.end()) {
+    sources.why = "no module '" + module.type + "' and no component.xml of " + module.vlnv +
+                  " in the folders of RTL";
+    return sources;
+  }
+  std::set<std::string> seen{top->second};
+  sources.files = {top->second};
+  for (std::size_t i = 0; i < sources.files.size(); ++i) {
+    const std::string file = sources.files[i], text = text_of(file);
+    for (const std::string_view word : words(text, is_vhdl(file) ? "--" : "//")) {
+      const auto used = modules_.find(std::string(word));
+      if (used != modules_.end() && seen.insert(used->second).second)
+        sources.files.push_back(used->second);
+    }
+  }
+  return sources;
+}
+
+}  // namespace platform::handoff

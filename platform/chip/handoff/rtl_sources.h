@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <chip/handoff/handoff.h>
+
+namespace platform::handoff {
+
+/// RTL of an IP in the user's folders.
+struct RtlSources {
+  std::string top;                 ///< module or entity
+  std::vector<std::string> files;  ///< absolute; empty: none were found
+  std::vector<std::string> parameters =
+      {};                ///< that the top declares and the design sets: "WIDTH=8"
+  std::string why = {};  ///< why there are none, or what does not fit
+};
+
+/// Finds RTL of the owner's IP: by the component.xml of a packaged IP, which lists its files, else
+/// by the name of the module, with the files of what it instantiates.
+class RtlFinder {
+ public:
+  /// Looks through the folders, 50 000 files at most. Throws vp::InputError for one that is
+  /// missing.
+  explicit RtlFinder(const std::vector<std::string>& folders);
+
+  RtlSources find(const Module& module) const;
+  /// No folder was named.
+  bool empty() const { return empty_; }
+
+ private:
+  RtlSources look(const Module& module) const;
+  void add_file(const std::string& path);
+  RtlSources packaged(const Module& module, const std::string& component) const;
+  RtlSources by_name(const Module& module) const;
+
+  bool empty_;
+  std::map<std::string, std::vector<std::string>> components_;  ///< by vendor:library:name
+  std::map<std::string, std::string> modules_;                  ///< name: file
+};
+
+}  // namespace platform::handoff

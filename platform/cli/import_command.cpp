@@ -1,0 +1,141 @@
+#include <chip/block_design/import_design.h>
+#include <chip/handoff/handoff.h>
+#include <chip/handoff/rtl_sources.h>
+#include <chip/run/simulation.h>
+#include <chip/system/hardware_map.h>
+#include <cli/commands.h>
+#include <host/output_folder.h>
+#include <host/process.h>
+#include <result/console.h>
+#include <vp/error.h>
+#include <vp/file.h>
+#include <vp/text.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+namespace platform::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the import before this one wrote, to tell the user's changes from Vivado's.
+constexpr const char* last_import = ".import/design.yaml";
+
+/// Writes design.yaml anew, with what the user changed in it since the last import.
+class DesignMerge {
+ public:
+  DesignMerge(fs::path folder, std::string imported)
+      : folder_(std::move(folder)), imported_(std::move(imported)) {}
+
+  /// What was done, for people. Throws vp::InputError where both changed the same lines.
+  std::string write() const {
+    const std::string design = (folder_ / "design.yaml").string();
+    const std::string base = (folder_ / last_import).string();
+    std::error_code ignored;
+    if (!fs::exists(design, ignored)) return replace("wrote");
+    if (!fs::exists(base, ignored)) {
+      throw vp::InputError("'" + design +
+                           "' was not written by 'markervp import': move it away, or "
+                           "name another folder");
+    }
+    const std::string mine = vp::read_text(design, "design"), old = vp::read_text(base, "design");
+    if (mine == old) return replace(old == imported_ ? "nothing changed in" : "wrote");
+    if (old == imported_) return "kept your " + design + ": nothing changed in Vivado";
+    return merge(design, base);
+  }
+
+ private:
+  std::string replace(const std::string& what) const {
+    const std::string design = (folder_ / "design.yaml").string();
+    vp::write_file(design, imported_);
+    keep_import();
+    return what + " " + design;
+  }
+
+  void keep_import() const {
+    fs::create_directories(folder_ / ".import");
+    vp::write_file((folder_ / last_import).string(), imported_);
+  }
+
+  std::string merge(const std::string& design, const std::string& base) const {
+    const std::string theirs = (folder_ / "design.yaml.new").string();
+    vp::write_file(theirs, imported_);
+    const host::CommandEnd end = host::run_command({"diff3", "-m", "-E", design, base, theirs});
+    if (end.exit_code != 0) {
+      throw vp::InputError("you and Vivado changed the same lines of '" + design +
+                           "', which stays as it is: bring "
+                           "the changes of '" +
+                           theirs + "' into it, and import again");
+    }
+    vp::write_file(design, end.out);
+    fs::remove(theirs);
+    keep_import();
+    return "brought the changes of Vivado into " + design + " and kept yours";
+  }
+
+  fs::path folder_;
+  std::string imported_;
+};
+
+/// The platform of the design, built to see that it can be, and for its xparameters.h.
+std::string xparameters_of(const fs::path& design, std::string& problem) {
+  try {
+    vp::Configuration configuration;
+    configuration.set("design", design.string(), "markervp import");
+    SimulationOptions asked;
+    asked.is_only_shown = true;
+    return xparameters_header(build(configuration, asked)->zynq());
+  } catch (const vp::InputError& error) {
+    problem = error.what();
+    return {};
+  }
+}
+
+/// Sources as CMake finds them from the folder.
+std::vector<std::string> from_folder(const std::vector<std::string>& files,
+                                     const fs::path& folder) {
+  std::vector<std::string> paths;
+  std::error_code ignored;
+  for (const std::string& file : files) {
+    if (!fs::exists(file, ignored)) throw vp::InputError("no program source '" + file + "'");
+    const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
+    paths.push_back(fs::weakly_canonical(fs::absolute(file), ignored).lexically_relative(from));
+  }
+  return paths;
+}
+
+}  // namespace
+
+int import_handoff(const ImportOptions& options, std::ostream& out) {
+  const handoff::Handoff handoff = handoff::read_handoff(options.file, options.block_design);
+  const block_design::ImportedDesign design =
+      block_design::import_design(handoff, handoff::RtlFinder(options.rtl));
+  const fs::path folder = options.output.empty() ? handoff.name : options.output;
+  const std::vector<std::string> sources = from_folder(options.programs, folder);
+  host::prepare_output_folder(folder.string());
+  out << DesignMerge(folder, design.text).write() << "\n";
+  const auto write = [&](const std::string& name, const std::string& text) {
+    vp::write_file((folder / name).string(), text);
+    out << "wrote " << (folder / name).string() << "\n";
+  };
+  std::error_code ignored;
+  if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
+    write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources));
+  std::string problem;
+  const std::string xparameters = xparameters_of(folder / "design.yaml", problem);
+  if (!xparameters.empty()) write("xparameters.h", xparameters);
+  write("pl.dtsi", block_design::device_tree(handoff));
+  write("IMPORT.md", block_design::import_report(handoff, design, problem));
+  const auto stubs = std::count_if(design.parts.begin(), design.parts.end(), [](const auto& part) {
+    return part.kind == block_design::Kind::stub;
+  });
+  out << result::counted(design.parts.size(), "part") << ", " << result::counted(stubs, "stub")
+      << ": IMPORT.md has the list\n";
+  if (problem.empty()) return done;
+  throw vp::InputError(problem);
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,113 @@
+// From a hand-off to a run: markervp import, and a program of the vendor's style on the design.
+#include <boost/test/unit_test.hpp>
+#include <string>
+
+#include "executable.h"
+#include "small_handoff.h"
+
+using namespace integration;
+
+namespace {
+
+/// A folder with small.hwh, imported into `mine`.
+struct Imported : Workplace {
+  Imported() { write_handoff(kit::small_handoff().text()); }
+
+  void write_handoff(const std::string& text) const { kit::write_file(*this / "small.hwh", text); }
+  kit::Outcome markervp(const Arguments& arguments) const {
+    return kit::run_process(MARKERVP_EXECUTABLE, arguments, path());
+  }
+  kit::Outcome import() const { return markervp({"import", "small.hwh", "-o", "mine"}); }
+  std::string file(const std::string& name) const {
+    return kit::read_file(*this / ("mine/" + name));
+  }
+  kit::Outcome run_program(Arguments more = {}) const {
+    Arguments all{"--design", "mine/design.yaml", "--program", MARKERVP_IMPORTED, "--no-report"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  }
+};
+
+bool has(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  BOOST_TEST_REQUIRE(at != std::string::npos, what);
+  return text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(imports)
+
+BOOST_FIXTURE_TEST_CASE(a_program_runs_on_what_was_imported, Imported) {
+  const kit::Outcome imported = import();
+  BOOST_TEST(imported.exit_code == 0, imported.err);
+  BOOST_TEST(has(imported.out, "10 parts, 1 stub"));
+  BOOST_TEST(has(file("xparameters.h"), "#define XPAR_OWN_0_S00_AXI_BASEADDR 0x43C00000U"));
+  const kit::Outcome ran = run_program({"--set", "pl.external_buttons.level=9"});
+  BOOST_TEST(ran.exit_code == 0, ran.out + ran.err);
+  BOOST_TEST(has(ran.out, "0 bytes wrong, length 101, interrupts 1, buttons 9, own 0"), ran.out);
+  BOOST_TEST(has(ran.err, "me:user:own:1.0 has neither model nor RTL"), ran.err);
+  const Json result = this->result();
+  BOOST_TEST(result.at("resources").dump().find("a stub is in the place of me:user:own:1.0") !=
+             std::string::npos);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_stream_of_eight_bits_carries_the_same_bytes, Imported) {
+  write_handoff(replaced(kit::small_handoff().text(), kit::parameter("C_SG_LENGTH_WIDTH", "20"),
+                         kit::parameter("C_SG_LENGTH_WIDTH", "20") +
+                             kit::parameter("C_M_AXIS_MM2S_TDATA_WIDTH", "8") +
+                             kit::parameter("C_S_AXIS_S2MM_TDATA_WIDTH", "8")));
+  import();
+  const kit::Outcome ran = run_program();
+  BOOST_TEST(has(ran.out, "0 bytes wrong, length 101, interrupts 1, buttons 0, own 0"),
+             ran.out + ran.err);
+}
+
+BOOST_FIXTURE_TEST_CASE(importing_again_keeps_what_the_user_changed, Imported) {
+  import();
+  kit::write_file(*this / "mine/design.yaml",
+                  replaced(file("design.yaml"), "ps.cpu_clk.frequency: 650 MHz",
+                           "ps.cpu_clk.frequency: 600 MHz  # as on my board"));
+  write_handoff(replaced(kit::small_handoff().text(), "0x41200000", "0x41230000"));
+  write_handoff(replaced(kit::read_file(*this / "small.hwh"), "0x4120FFFF", "0x4123FFFF"));
+  const kit::Outcome again = import();
+  BOOST_TEST(has(again.out, "brought the changes of Vivado into mine/design.yaml and kept yours"),
+             again.out + again.err);
+  BOOST_TEST(has(file("design.yaml"), "600 MHz  # as on my board"));
+  BOOST_TEST(has(file("design.yaml"), "axi_gpio_0.S_AXI: [0x41230000, 64 KiB]"));
+  BOOST_TEST(has(import().out, "kept your mine/design.yaml: nothing changed in Vivado"));
+  // The same line on both sides.
+  write_handoff(replaced(kit::read_file(*this / "small.hwh"), "650.000000", "666.666687"));
+  const kit::Outcome conflict = import();
+  BOOST_TEST(conflict.exit_code == 2);
+  BOOST_TEST(has(conflict.err, "you and Vivado changed the same lines"), conflict.err);
+  BOOST_TEST(has(file("design.yaml"), "600 MHz  # as on my board"));
+  BOOST_TEST(has(file("design.yaml.new"), "ps.cpu_clk.frequency: 666.666687 MHz"));
+}
+
+BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
+  import();
+  const kit::Outcome map = markervp({"map", "--design", "mine/design.yaml"});
+  BOOST_TEST(map.exit_code == 0, map.err);
+  BOOST_TEST(has(map.out, "axi_gpio_0"), map.out);
+  const kit::Outcome config = markervp({"config", "pl", "--design", "mine/design.yaml"});
+  BOOST_TEST(has(config.out, "length_width: 20"), config.out + config.err);
+  const kit::Outcome none = markervp({"run", "--design", "mine/design.yaml"});
+  BOOST_TEST(none.exit_code == 2);
+  BOOST_TEST(has(none.err, "design 'small' names no PS program: give one with --program"),
+             none.err);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_folder_of_the_users_is_left_alone, Imported) {
+  import();
+  std::filesystem::remove_all(*this / "mine/.import");
+  const kit::Outcome again = import();
+  BOOST_TEST(again.exit_code == 2);
+  BOOST_TEST(has(again.err, "was not written by 'markervp import'"), again.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

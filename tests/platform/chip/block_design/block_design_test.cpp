@@ -1,0 +1,167 @@
+// Designs of YAML, built: addresses, interrupts, clocks, wires, and what is refused.
+#include <chip/block_design/block_design.h>
+#include <chip/block_design/import_design.h>
+#include <chip/system/hardware_map.h>
+#include <chip/system/zynq.h>
+#include <simulation.h>
+#include <vp/configuration.h>
+#include <vp/error.h>
+#include <vp/file.h>
+#include <xilinx/axi_dma/axi_dma.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
+#include <xilinx/fabric_clock/fabric_clock.h>
+#include <boost/test/unit_test.hpp>
+
+#include <memory>
+#include <string>
+
+#include "input_error.h"
+#include "small_handoff.h"
+#include "temporary_files.h"
+
+using namespace platform;
+
+namespace {
+
+std::string small_design() {
+  const auto handoff = handoff::read_hwh(kit::small_handoff().text(), "small.hwh");
+  return block_design::import_design(handoff).text;
+}
+
+/// A chip with a design of this text, and `settings` of the user.
+struct Chip : kit::Simulation {
+  explicit Chip(const std::string& text = small_design(),
+                const std::vector<std::string>& settings = {}) {
+    const kit::TemporaryFolder folder;
+    const std::string file = folder / "design.yaml";
+    vp::write_file(file, text);
+    info = block_design::load(file);
+    for (const std::string& setting : settings) configuration.set(setting);
+    for (const auto& [path, value] : info.defaults) {
+      if (!configuration.find(path)) configuration.set(path, value, file);
+    }
+    const vp::Configuration::Scope scope(configuration);
+    zynq = std::make_unique<Zynq>(info);
+  }
+
+  template <class T>
+  T& part(const std::string& name) {
+    auto* object = sc_core::sc_find_object(("pl." + name).c_str());
+    BOOST_TEST_REQUIRE(object != nullptr, name);
+    return dynamic_cast<T&>(*object);
+  }
+
+  vp::Configuration configuration;
+  DesignInfo info;
+  std::unique_ptr<Zynq> zynq;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  BOOST_TEST_REQUIRE(at != std::string::npos, what);
+  return text.replace(at, what.size(), by);
+}
+
+std::string refusal(const std::string& what, const std::string& by) {
+  return input_error([&] { const Chip chip(replaced(small_design(), what, by)); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(built_block_designs)
+
+BOOST_AUTO_TEST_CASE(software_finds_what_the_address_editor_says) {
+  Chip chip;
+  const facts::HardwareMap map = hardware_map(*chip.zynq);
+  const auto base = [&](const std::string& name) -> std::uint64_t {
+    for (const auto& device : map.devices)
+      if (device.name == name) return device.base;
+    return 0;
+  };
+  BOOST_TEST(base("axi_dma_0") == 0x4040'0000u);
+  BOOST_TEST(base("axi_gpio_0") == 0x4120'0000u);
+  BOOST_TEST(base("own_0") == 0x43C0'0000u);
+  BOOST_TEST_REQUIRE(map.interrupts.size() >= 3u);
+  const auto source = [&](std::uint32_t id) -> std::string {
+    for (const auto& interrupt : map.interrupts)
+      if (interrupt.id == id) return interrupt.source;
+    return "none";
+  };
+  BOOST_TEST(source(61) == "pl.axi_dma_0.s2mm_introut");
+  BOOST_TEST(source(62) == "pl.axi_dma_0.mm2s_introut");
+  BOOST_TEST(source(63) == "pl.axi_gpio_0.ip2intc_irpt");
+  const std::string& header = map.xparameters;
+  for (const char* line : {"#define XPAR_AXI_DMA_0_BASEADDR 0x40400000U",
+                           "#define XPAR_OWN_0_S00_AXI_BASEADDR 0x43C00000U"})
+    BOOST_TEST(header.find(line) != std::string::npos, line);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_and_clocks_are_those_of_the_hand_off) {
+  Chip chip;
+  BOOST_TEST(chip.part<xilinx::AxiGpio>("axi_gpio_0").gpio.width.get() == 4u);
+  BOOST_TEST(chip.part<xilinx::AxiDma>("axi_dma_0").length_width.get() == 20u);
+  auto& mmcm = chip.part<xilinx::FabricClock>("clk_0");
+  BOOST_TEST(mmcm.output("pixel_clk")->frequency_hz() == 74'250'000u);
+  BOOST_TEST(chip.zynq->ps.cpu_clk.clk.frequency_hz() == 650'000'000u);
+}
+
+BOOST_AUTO_TEST_CASE(each_of_them_can_be_set) {
+  Chip chip(small_design(), {"pl.axi_gpio_0.base_address=0x41300000", "pl.axi_gpio_0.gpio_width=8",
+                             "ps.fclk_clk0.frequency=80 MHz", "pl.external_buttons.level=9"});
+  BOOST_TEST(chip.zynq->peek(0x4130'0004).has_value());
+  BOOST_TEST(!chip.zynq->peek(0x4120'0004).has_value());
+  BOOST_TEST(chip.part<xilinx::AxiGpio>("axi_gpio_0").gpio.width.get() == 8u);
+  BOOST_TEST(chip.part<xilinx::FabricClock>("clk_0").output("pixel_clk")->frequency_hz() ==
+             59'400'000u);
+  sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
+  BOOST_TEST(*chip.zynq->peek(0x4130'0000) == 9u);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {
+  Chip chip;
+  sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
+  chip.part<xilinx::AxiGpio>("axi_gpio_0").ip2intc_irpt = true;
+  BOOST_TEST(chip.zynq->ps.gic.logic().wire[63]);
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[61]);
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[62]);
+}
+
+BOOST_AUTO_TEST_CASE(pins_of_the_ps_lead_through_gates_and_back) {
+  const std::string gates =
+      "  low: {ip: 'xilinx.com:ip:xlslice:1.0', parameters: {DIN_FROM: 3}, pins: {Din: "
+      "ps.GPIO_O}}\n  inverter: {ip: 'xilinx.com:ip:util_vector_logic:2.0', parameters: "
+      "{C_OPERATION: not, C_SIZE: 4}, pins: {Op1: low.Dout}}\n";
+  Chip chip(replaced(replaced(small_design(), "    pins:\n      M_AXI_GP0_ACLK",
+                              "    pins:\n      GPIO_I: inverter.Res\n      M_AXI_GP0_ACLK"),
+                     "\n# What each master sees", gates + "\n# What each master sees"));
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  BOOST_TEST(chip.zynq->ps.gpio.emio_gpio_i.read() == 0xFu);
+  chip.zynq->ps.gpio.emio_gpio_o = 0x35;
+  BOOST_TEST(chip.zynq->ps.gpio.emio_gpio_i.read() == 0xAu);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_joined_is_refused_with_its_line) {
+  BOOST_TEST(
+      refusal("axi_gpio_0.S_AXI: [0x41200000", "axi_gpio_0.S_AXI: [0x40400000").find("overlaps") !=
+      std::string::npos);
+  BOOST_TEST(refusal("axi_gpio_0.S_AXI: [0x41200000", "axi_gpio_0.S_AXI: [0x91200000")
+                 .find("m_axi_gp0 reaches 0x40000000 to 0x7FFFFFFF") != std::string::npos);
+  const std::string pin =
+      refusal("      gpio_io_i: external.buttons", "      gpio_oi_i: external.buttons");
+  BOOST_TEST(pin.find("'axi_gpio_0.gpio_oi_i' is no input of xilinx.com:ip:axi_gpio:2.0: did you "
+                      "mean 'gpio_io_i'?") != std::string::npos,
+             pin);
+  const std::string output = refusal("In0: axi_dma_0.s2mm_introut", "In0: axi_dma_0.s2mm_intout");
+  BOOST_TEST(output.find("'axi_dma_0.s2mm_intout' is no output of axi_dma_0: did you mean "
+                         "'s2mm_introut'?") != std::string::npos,
+             output);
+  BOOST_TEST(refusal("      S_AXI: periph.M01_AXI\n", "").find("no bus leads from there to it") !=
+             std::string::npos);
+  BOOST_TEST(
+      refusal("      m_axi_mm2s_aclk: ps.FCLK_CLK0", "      m_axi_mm2s_aclk: clk_0.pixel_clk")
+          .find("have different clocks, and its model has one") != std::string::npos);
+  BOOST_TEST(refusal("MMCM_CLKFBOUT_MULT_F: 37.125", "MMCM_CLKFBOUT_MULT_F: 63.000")
+                 .find("would run at 1575.000 MHz") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

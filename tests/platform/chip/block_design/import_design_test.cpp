@@ -1,0 +1,116 @@
+// A hand-off as a design: what becomes of each part, and what is said of it.
+#include <chip/block_design/design_file.h>
+#include <chip/block_design/import_design.h>
+#include <boost/test/unit_test.hpp>
+
+#include <string>
+
+#include "input_error.h"
+#include "small_handoff.h"
+
+using namespace platform::block_design;
+using platform::handoff::read_hwh;
+
+namespace {
+
+ImportedDesign imported(const kit::HwhText& text) {
+  return import_design(read_hwh(text.text(), "small.hwh"));
+}
+
+bool has(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(imported_designs)
+
+BOOST_AUTO_TEST_CASE(what_is_written_is_read_back) {
+  const ImportedDesign design = imported(kit::small_handoff());
+  const DesignFile file = parse_design(design.text, "design.yaml");
+  BOOST_TEST(file.parts.size() == 10u);
+  BOOST_TEST(file.part("lines")->pins.at("In0").text() == "of_dma.dout");
+  BOOST_TEST(file.part("axi_dma_0")->buses.at("S_AXIS_S2MM").text() == "axi_dma_0.M_AXIS_MM2S");
+  BOOST_TEST(file.addresses.size() == 5u);
+  BOOST_TEST_REQUIRE(file.external.size() == 1u);
+  BOOST_TEST(file.external.front().width == 4u);
+  const auto setting = [&](const std::string& path) -> std::string {
+    for (const auto& [key, value] : file.settings)
+      if (key == path) return value;
+    return "none";
+  };
+  BOOST_TEST(setting("device") == "xc7z020-1");
+  BOOST_TEST(setting("ps.slcr.ps_clk") == "50 MHz");
+  BOOST_TEST(setting("ps.cpu_clk.frequency") == "650 MHz");
+  BOOST_TEST(setting("ps.fclk_clk0.frequency") == "100 MHz");
+  BOOST_TEST(setting("ps.ddr.size") == "511 MiB");
+  BOOST_TEST(setting("power.ddr.width") == "16");
+  BOOST_TEST(setting("ps.uart1.enabled") == "false");
+}
+
+BOOST_AUTO_TEST_CASE(parameters_as_usual_are_left_out) {
+  const std::string text = imported(kit::small_handoff()).text;
+  BOOST_TEST(has(text, "      C_GPIO_WIDTH: 4\n"));
+  BOOST_TEST(!has(text, "C_IS_DUAL"));
+  BOOST_TEST(has(text, "      WIDTH: 8\n"));  // of an IP of the owner's
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_model_is_a_stub_with_a_reason) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("axi_dma_1", "xilinx.com:ip:axi_dma:7.1",
+              kit::parameter("C_ENABLE_MULTI_CHANNEL", "1"), "");
+  text.module("can_0", "xilinx.com:ip:can:5.0", "", "");
+  const ImportedDesign design = imported(text);
+  for (const ImportedPart& part : design.parts) {
+    if (part.name == "own_0") BOOST_TEST(part.why == "no RTL was named for it");
+    if (part.name == "can_0") BOOST_TEST(part.why == "the platform has no model of it");
+    if (part.name == "axi_dma_1")
+      BOOST_TEST(part.why == "C_ENABLE_MULTI_CHANNEL = 1 is not modelled, but 0");
+    if (part.name == "axi_dma_0") BOOST_TEST(part.why == "");
+  }
+  BOOST_TEST(has(design.text, "    as: stub  # C_ENABLE_MULTI_CHANNEL = 1 is not modelled"));
+  const auto handoff = read_hwh(text.text(), "small.hwh");
+  const std::string report = import_report(handoff, design, "");
+  BOOST_TEST(has(report, "\n3 parts are stubs."));
+  BOOST_TEST(has(report, "| `own_0` | me:user:own:1.0 | stub | no RTL was named for it |"));
+  BOOST_TEST(has(report, "| 63 | `axi_gpio_0.ip2intc_irpt` |"));
+  BOOST_TEST(has(report, "| `clk_0.pixel_clk` | 74.25 MHz |"));
+  const std::string with_problem = import_report(handoff, design, "a reason");
+  BOOST_TEST(has(with_problem, "cannot be built as it is:** a reason"));
+}
+
+BOOST_AUTO_TEST_CASE(devices_for_linux) {
+  const std::string tree = device_tree(read_hwh(kit::small_handoff().text(), "small.hwh"));
+  BOOST_TEST(has(tree,
+                 "\t\taxi_dma_0: dma@40400000 {\n"
+                 "\t\t\tcompatible = \"xlnx,axi-dma-7.1\", \"xlnx,axi-dma-1.00.a\";\n"
+                 "\t\t\treg = <0x40400000 0x10000>;\n"
+                 "\t\t\tinterrupt-parent = <&intc>;\n"
+                 "\t\t\tinterrupts = <0 29 4 0 30 4>;\n"
+                 "\t\t\tinterrupt-names = \"s2mm_introut\", \"mm2s_introut\";\n"
+                 "\t\t\tclocks = <&clkc 15>"));
+  BOOST_TEST(has(tree, "xlnx,sg-length-width = <0x14>;"));
+  BOOST_TEST(has(tree, "own_0: own@43c00000"));
+}
+
+BOOST_AUTO_TEST_CASE(words_that_yaml_would_take_for_something_else) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("own_1", "me:user:own:1.0",
+              kit::parameter("A", "#1 &quot;x&quot;: y\\") + kit::parameter("B", "- z"), "");
+  const DesignFile file = parse_design(imported(text).text, "design.yaml");
+  BOOST_TEST(file.part("own_1")->parameters.at("A") == "#1 \"x\": y\\");
+  BOOST_TEST(file.part("own_1")->parameters.at("B") == "- z");
+}
+
+BOOST_AUTO_TEST_CASE(ten_thousand_parts) {
+  kit::HwhText text = kit::small_handoff();
+  for (int i = 0; i < 10'000; ++i) {
+    text.module("c" + std::to_string(i), "xilinx.com:ip:xlconstant:1.1",
+                kit::parameter("CONST_WIDTH", "4"),
+                kit::pin("O", "dout", "n" + std::to_string(i), 4));
+  }
+  const ImportedDesign design = imported(text);
+  BOOST_TEST(parse_design(design.text, "design.yaml").parts.size() == 10'010u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
