@@ -47,6 +47,7 @@ markervp_export(vp COMPONENT models ROOT vp)
 markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
+markervp_export(axi COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
 markervp_export(host COMPONENT models)
 markervp_export(device COMPONENT models ROOT platform)
@@ -78,7 +79,7 @@ foreach(folder IN LISTS register_folders)
 endforeach()
 markervp_install_headers(vp/registers/include/ registers)
 markervp_install_headers(vp/include/ vp)
-foreach(group pl ps xilinx)
+foreach(group axi pl ps xilinx)
   markervp_install_headers(models/${group} models SKIP registers)
 endforeach()
 markervp_install_headers(sw/hal/include/ hal)
@@ -138,5 +139,6 @@ install(FILES
   cmake/MarkervpRtl.cmake
   cmake/MarkervpProgram.cpp.in
   cmake/MarkervpRtl.cpp.in
+  cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c
   DESTINATION "${package_folder}")
