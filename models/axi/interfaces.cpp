@@ -114,7 +114,15 @@ class Finder {
     }
     return false;
   }
-  std::string said_clock(const std::string& note) const {
+  /// "" if it says only other things: "clock b_clk", "high".
+  static std::string said_kind(const std::string& note) {
+    std::istringstream words(note);
+    std::string first, second;
+    words >> first >> second;
+    if (first == "clock") return second.empty() ? first : "";
+    return first == "reset" || first == "interrupt" || first == "wire" ? first : "";
+  }
+  static std::string said_clock(const std::string& note) {
     std::istringstream words(note);
     for (std::string word; words >> word;) {
       if (word == "clock" && words >> word) return word;
@@ -252,13 +260,8 @@ Interface Finder::single(std::uint32_t number) const {
   const std::string said = note("interface", one.name), info = note("info", one.name);
   const bool bit = port(number).bits == 1;
   const auto is = [&](const char* word, const char* vlnv, bool by_name) {
-    if (!said.empty()) {
-      std::istringstream words(said);
-      std::string first;
-      words >> first;
-      if (known_words().count(first) && first != "high" && first != "low" && first != "rising")
-        return first == word;
-    }
+    const std::string kind = said_kind(said);
+    if (!kind.empty()) return kind == word;
     if (!info.empty()) return info.find(vlnv) != info.npos;
     return bit && by_name;
   };

@@ -60,11 +60,12 @@ auto request_changes(const AddressChannel& held, const AddressChannel& now) {
 void LinkChecker::edge(const Wires& wires, bool in_reset) {
   if (in_reset || was_reset_) check_reset(wires, in_reset);
   if (in_reset) return;
+  const bool new_response = !held_.b.valid, new_data = !held_.r.valid;
   check_stable(wires);
   if (wires.quiet()) return;
   // Responses first: what they answer passed on an earlier edge.
-  if (wires.b.valid) check_response(wires);
-  if (wires.r.valid) check_read_data(wires);
+  if (wires.b.valid) check_response(wires, new_response);
+  if (wires.r.valid) check_read_data(wires, new_data);
   if (wires.aw.passes()) {
     check_request(wires.aw.beat, false);
     writes_.push_back({wires.aw.beat});
@@ -80,11 +81,12 @@ void LinkChecker::edge(const Wires& wires, bool in_reset) {
 // During reset and on the first edge behind it no VALID is high. What was under way is forgotten.
 void LinkChecker::check_reset(const Wires& wires, bool in_reset) {
   if (was_reset_) {
-    const std::pair<bool, Rule> channels[] = {{wires.aw.valid, Rule::aw_valid_reset},
-                                              {wires.w.valid, Rule::w_valid_reset},
-                                              {wires.ar.valid, Rule::ar_valid_reset},
-                                              {wires.b.valid, Rule::b_valid_reset},
-                                              {wires.r.valid, Rule::r_valid_reset}};
+    const bool manager = resets_ != Resets::subordinate, subordinate = resets_ != Resets::manager;
+    const std::pair<bool, Rule> channels[] = {{manager && wires.aw.valid, Rule::aw_valid_reset},
+                                              {manager && wires.w.valid, Rule::w_valid_reset},
+                                              {manager && wires.ar.valid, Rule::ar_valid_reset},
+                                              {subordinate && wires.b.valid, Rule::b_valid_reset},
+                                              {subordinate && wires.r.valid, Rule::r_valid_reset}};
     for (const auto& [valid, rule] : channels) {
       if (valid) broken(rule, "it is high");
     }
@@ -209,29 +211,28 @@ void LinkChecker::check_write_beat(const WriteChannel& beat) {
   open->complete = last || open->beats == a.beats;
 }
 
-void LinkChecker::check_response(const Wires& wires) {
+void LinkChecker::check_response(const Wires& wires, bool is_new) {
   const auto of_id = [&](const Open& write) { return write.address.id == wires.b.id; };
   const auto oldest = std::find_if(writes_.begin(), writes_.end(), of_id);
-  const bool first_seen = !held_.b.valid || wires.b.ready;
   if (oldest == writes_.end()) {
-    if (first_seen && !writes_.empty())
+    if (is_new && !writes_.empty())
       broken(Rule::b_id, "BID is " + std::to_string(wires.b.id));
-    else if (first_seen)
+    else if (is_new)
       broken(Rule::b_resp_aw, "BVALID without a write");
     return;
   }
-  if (first_seen && !oldest->complete)
+  if (is_new && !oldest->complete)
     broken(Rule::b_resp_wlast, "BVALID for " + text_of(oldest->address));
   if (wires.b.response == Response::exokay && (shape_.lite || !oldest->address.lock))
     broken(Rule::b_resp_exokay, "BRESP of " + text_of(oldest->address));
   if (wires.b.passes()) writes_.erase(oldest);
 }
 
-void LinkChecker::check_read_data(const Wires& wires) {
+void LinkChecker::check_read_data(const Wires& wires, bool is_new) {
   const auto oldest = std::find_if(reads_.begin(), reads_.end(),
                                    [&](const Open& read) { return read.address.id == wires.r.id; });
   if (oldest == reads_.end()) {
-    if (!held_.r.valid || wires.r.ready)
+    if (is_new)
       broken(Rule::r_id, "RID is " + std::to_string(wires.r.id) + ", and " +
                              std::to_string(reads_.size()) + " reads wait");
     return;

@@ -15,8 +15,12 @@ namespace axi {
 /// costs a look at five of them.
 class LinkChecker {
  public:
-  LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape)
-      : clock_(clock), shape_(shape), reports_(link) {}
+  /// Which side the reset belongs to: its VALIDs are low meanwhile.
+  enum class Resets { manager, subordinate, both };
+
+  LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape,
+              Resets resets = Resets::both)
+      : clock_(clock), shape_(shape), resets_(resets), reports_(link) {}
 
   /// `in_reset`: the edge samples an active reset.
   void edge(const Wires& wires, bool in_reset);
@@ -36,8 +40,8 @@ class LinkChecker {
   void check_stable(const Wires& wires);
   template <class Channel, class Changes>
   void check_stable(Channel& held, const Channel& now, vp::Rule fell, Changes changes);
-  void check_response(const Wires& wires);
-  void check_read_data(const Wires& wires);
+  void check_response(const Wires& wires, bool is_new);
+  void check_read_data(const Wires& wires, bool is_new);
   void check_request(const Address& request, bool read);
   void check_write_beat(const WriteChannel& beat);
   void match_data();
@@ -45,6 +49,7 @@ class LinkChecker {
 
   const vp::Clock& clock_;
   const Shape shape_;
+  const Resets resets_;
   vp::RuleReports reports_;
   Wires held_;  ///< channels on which VALID waited on the last edge
   bool was_reset_ = false;

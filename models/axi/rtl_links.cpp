@@ -11,7 +11,7 @@ SlaveLink::SlaveLink(const Interface& interface, std::size_t clock, const pl::Rt
     : RtlLink(interface, clock),
       pins_(interface, rtl),
       adapter_(name.c_str(), clk, pins_.shape(), wires_, std::move(begin)),
-      checker_(adapter_, clk, pins_.shape()) {
+      checker_(adapter_, clk, pins_.shape(), LinkChecker::Resets::subordinate) {
   pins_.write(wires_);
 }
 
@@ -34,7 +34,7 @@ MasterLink::MasterLink(const Interface& interface, std::size_t clock, const pl::
     : RtlLink(interface, clock),
       pins_(interface, rtl),
       adapter_(name.c_str(), clk, pins_.shape(), wires_),
-      checker_(adapter_, clk, pins_.shape()) {}
+      checker_(adapter_, clk, pins_.shape(), LinkChecker::Resets::manager) {}
 
 void MasterLink::sample(bool in_reset) {
   pins_.read(wires_);

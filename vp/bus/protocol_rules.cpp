@@ -88,11 +88,4 @@ const RuleInfo& info_of(Rule rule) {
   return rules[static_cast<std::size_t>(rule)];
 }
 
-std::optional<Rule> find_rule(const std::string& name) {
-  for (std::size_t i = 0; i < rule_count; ++i) {
-    if (name == rules[i].name) return static_cast<Rule>(i);
-  }
-  return {};
-}
-
 }  // namespace vp

@@ -18,8 +18,8 @@ constexpr auto writing = tlm::TLM_WRITE_COMMAND;
 /// Least latencies on both sides of the link.
 struct Fast {
   Fast() {
-    configuration.set("pair.subordinate.read_latency", "1");
-    configuration.set("pair.subordinate.write_latency", "1");
+    configuration.set("pair.subordinate.read_latency", "1 cycles");
+    configuration.set("pair.subordinate.write_latency", "1 cycles");
   }
   vp::Configuration configuration;
   vp::Configuration::Scope scope{configuration};
@@ -52,6 +52,7 @@ std::array<unsigned char, 2048> buffer;
 }  // namespace
 
 BOOST_FIXTURE_TEST_CASE(a_word_takes_two_clocks_each_way, Bench) {
+  memory.direct = true;
   software.simulate([&] {
     software.wait_until(period);
     BOOST_TEST(access(writing, 0x100, buffer.data(), 4) == 2u);
@@ -62,6 +63,7 @@ BOOST_FIXTURE_TEST_CASE(a_word_takes_two_clocks_each_way, Bench) {
 }
 
 BOOST_FIXTURE_TEST_CASE(a_burst_of_n_beats_takes_n_plus_1, Bench) {
+  memory.direct = true;
   software.simulate([&] {
     software.wait_until(period);
     BOOST_TEST(access(writing, 0x200, buffer.data(), 64) == 17u);
@@ -70,10 +72,10 @@ BOOST_FIXTURE_TEST_CASE(a_burst_of_n_beats_takes_n_plus_1, Bench) {
   });
   BOOST_TEST(requests.size() == 3u);
   BOOST_TEST(requests[2].beats == 16u);
-  BOOST_TEST(memory.accesses.size() == 3u);
 }
 
 BOOST_FIXTURE_TEST_CASE(an_access_begins_at_the_first_edge_behind_its_delay, Bench) {
+  memory.direct = true;
   software.simulate([&] {
     software.prepare(reading, 0, buffer.data(), 4);
     software.delay = sc_core::sc_time(23, sc_core::SC_NS);
@@ -83,6 +85,7 @@ BOOST_FIXTURE_TEST_CASE(an_access_begins_at_the_first_edge_behind_its_delay, Ben
 }
 
 BOOST_FIXTURE_TEST_CASE(unaligned_bytes_are_exact, Bench) {
+  memory.direct = true;
   software.simulate([&] {
     const std::vector<unsigned char> written{1, 2, 3, 4, 5, 6};
     std::copy(written.begin(), written.end(), buffer.begin());
@@ -195,8 +198,9 @@ BOOST_FIXTURE_TEST_CASE(what_is_no_access_never_moves_the_pins, Bench) {
 BOOST_FIXTURE_TEST_CASE(lite_has_single_words_one_behind_the_other, Lite) {
   software.simulate([&] {
     software.wait_until(period);
-    BOOST_TEST(access(writing, 0x100, buffer.data(), 16) == 5u);
-    BOOST_TEST(access(reading, 0x102, buffer.data(), 2) == 2u);
+    // One clock more than with memory that gives direct access: the target is called in between.
+    BOOST_TEST(access(writing, 0x100, buffer.data(), 16) == 6u);
+    BOOST_TEST(access(reading, 0x102, buffer.data(), 2) == 3u);
   });
   BOOST_TEST(requests.size() == 5u);
   BOOST_TEST(memory.accesses.size() == 5u);
@@ -207,8 +211,8 @@ BOOST_FIXTURE_TEST_CASE(a_slow_target_holds_its_answer_back, Bench) {
   memory.delay_of_all = sc_core::sc_time(100, sc_core::SC_NS);
   software.simulate([&] {
     software.wait_until(period);
-    BOOST_TEST(access(reading, 0x100, buffer.data(), 4) == 12u);
-    BOOST_TEST(access(writing, 0x100, buffer.data(), 4) == 12u);
+    BOOST_TEST(access(reading, 0x100, buffer.data(), 4) == 13u);
+    BOOST_TEST(access(writing, 0x100, buffer.data(), 4) == 13u);
   });
 }
 

@@ -196,6 +196,12 @@ BOOST_FIXTURE_TEST_CASE(valid_behind_reset, Bench) {
   r(true), edge();
   BOOST_TEST(broken() == "AXI4_ERRM_ARVALID_RESET");
 }
+BOOST_FIXTURE_TEST_CASE(bvalid_during_reset, Bench) {
+  edge(true);
+  b(Response::okay, 0, false), edge(true);
+  edge();
+  BOOST_TEST(broken() == "AXI4_ERRS_BVALID_RESET");
+}
 BOOST_FIXTURE_TEST_CASE(a_reset_ends_what_is_under_way, Bench) {
   ar(request(0x100), false), edge();
   edge(true);

@@ -149,9 +149,20 @@ BOOST_FIXTURE_TEST_CASE(wires_follow_within_the_instant, Bench) {
   });
 }
 
-BOOST_FIXTURE_TEST_CASE(rtl_at_rest_sleeps, Bench) {
-  software.simulate([&] { wait_clocks(10'000); });
-  BOOST_TEST(clock.edges_run() < 100u);
+BOOST_FIXTURE_TEST_CASE(rtl_at_rest_sleeps_and_wakes, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::BusMaster software("software");
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  software.socket.bind(part.slave("s_axi_control").socket);
+  for (const char* open : {"m_axi_gmem", "in", "out"}) part.leave_open(open);
+  part.tie("mode", 3);
+  software.simulate([&] {
+    software.wait_until(100'000'000);
+    BOOST_TEST(clock.edges_run() < 100u);
+    software.write(0x18, 7);
+    BOOST_TEST(software.read(0x18) == 7u);
+  });
 }
 
 BOOST_FIXTURE_TEST_CASE(an_access_in_reset_ends_the_run, Bench) {
@@ -177,3 +188,36 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_go_together_is_refused, Bench) {
   refused([&] { axi::RtlPart other("other", everything, {}); }, {"needs a clock"});
   refused([&] { axi::RtlPart other("other", everything, {{"clk", &clock}}); }, {"clk", "ap_clk"});
 }
+
+#ifdef MARKERVP_CHOICE_RTL
+BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_defaults_and_its_names, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  vp::Signal<bool> go("go");
+  vp::Signal<std::uint8_t> sel("sel"), reg("reg");
+  axi::RtlPart part("part", MARKERVP_CHOICE_RTL, {{"clk", &clock}});
+  part.input("go", go);
+  part.input("sel", sel);
+  part.input("reg", reg);
+  auto& output = part.output<std::uint8_t>("output");
+  auto& pulse = part.output<bool>("pulse");
+  std::string pulses;
+  script.simulate([&] {
+    script.wait_until(15'000);
+    reg = 0xC;
+    for (const unsigned choice : {0u, 1u, 2u, 7u, 0u}) {
+      sel = static_cast<std::uint8_t>(choice);
+      BOOST_TEST(output == (choice == 0 ? 0xA : choice == 1 ? 0x5 : 0xC));
+    }
+    go = true;  // a pulse on every third clock: the machine returns to its first state
+    for (unsigned i = 0; i < 9; ++i) {
+      sc_core::wait(10, sc_core::SC_NS);
+      pulses += pulse ? '1' : '0';
+    }
+  });
+  BOOST_TEST(pulses == "010010010");
+}
+#endif

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 
 /// The rules of the links that checkers watch, once for models and documentation (docs/rules.md).
 /// Names are those of the field: Arm's, as AMD's and Intel's public guides print them (PG101,
@@ -99,7 +97,5 @@ struct RuleInfo {
 };
 
 const RuleInfo& info_of(Rule rule);
-/// None if no rule is called so.
-std::optional<Rule> find_rule(const std::string& name);
 
 }  // namespace vp
