@@ -310,6 +310,16 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
       ->type_name("NAME=NUMBER")
       ->expected(1)
       ->take_all();
+  synth
+      ->add_option("--include", options.includes,
+                   "where `include finds files, besides the sources' folders")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  synth->add_option("--define", options.defines, "a macro: FAST, DEPTH=16")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
   synth->add_flag("--no-dsp", options.no_dsp, "build multiplications from LUT");
   synth->add_option("-o,--output", options.output, "the figures as JSON")->type_name("FILE");
 }

@@ -124,13 +124,20 @@ int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out) {
   const std::string tool = synthesis::yosys_version();
   const synthesis::PathTiming timing = synthesis::PathTiming::installed();
   std::vector<Design> designs = designs_of(options);
-  for (Design& design : designs) design.dsp = !options.no_dsp;
+  for (Design& design : designs) {
+    design.dsp = !options.no_dsp;
+    design.includes.assign(options.includes.begin(), options.includes.end());
+    design.defines = options.defines;
+  }
   std::optional<vp::OutputFile> file;
   if (options.output) file.emplace(*options.output);
   out << tool << ", 7 series, speed grade -1, not routed\n"
       << fmt::format(fmt::runtime(row), "module", "LUT", "pairs", "LUTRAM", "through", "FF",
                      "CARRY4", "RAMB18", "RAMB36", "DSP", "Fmax, longest path");
   const std::vector<Figures> figures = synthesise_all(designs, timing, out);
+  out << "LUT is logic, LUTRAM memory and shift registers, through what only leads to a carry "
+         "chain. "
+         "Vivado's Slice LUTs are\ntheir sum, less the pairs that it joins.\n";
   if (file) {
     file->write(synthesis::to_json(figures, tool, timing));
     file->commit();

@@ -19,9 +19,8 @@ AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& 
     : Router(name, &aclk), Ip(&aclk) {}
 
 void AxiInterconnect::connect(AxiDma& dma) {
-  dma.share_memory_path(memory_path_);
   const auto add = [this](MemoryPort& port) {
-    port.link.socket.bind(socket);
+    share(port);
     ++memory_masters_;
   };
   if (dma.include_mm2s) add(dma.mm2s().m_axi);
@@ -30,9 +29,19 @@ void AxiInterconnect::connect(AxiDma& dma) {
 }
 
 void AxiInterconnect::connect(MemoryPort& master) {
-  master.share(memory_path_);
-  master.link.socket.bind(socket);
+  share(master);
   ++memory_masters_;
+}
+
+void AxiInterconnect::connect(MemoryPort& read, MemoryPort& write) {
+  share(read);
+  share(write);
+  ++memory_masters_;
+}
+
+void AxiInterconnect::share(MemoryPort& port) {
+  port.share(memory_path_);
+  port.link.socket.bind(socket);
 }
 
 // With the protocol converter of the registers, or the width converter of the memory port.

@@ -35,11 +35,15 @@ class AxiInterconnect : public vp::Router, public vp::Ip {
   void connect(AxiDma& dma);
   /// The same for another master of the PL.
   void connect(MemoryPort& master);
+  /// The same for one master, which has a port for each direction.
+  void connect(MemoryPort& read, MemoryPort& write);
 
  private:
   vp::IpEstimate own_estimate() const override;
 
   std::vector<std::unique_ptr<vp::Parameter<std::uint64_t>>> base_addresses_;
+
+  void share(MemoryPort& port);
 
   std::uint32_t memory_masters_ = 0;
   MemoryPath memory_path_;

@@ -12,6 +12,7 @@
 #include <chip/system/processing_system.h>
 #include <vp/clock_scheduler.h>
 #include <vp/parameter.h>
+#include <vp/rule_reports.h>
 
 namespace platform {
 
@@ -24,6 +25,7 @@ struct Zynq {
 
   vp::Parameter<pl::Fidelity> fidelity;
   Chip chip;
+  vp::ProtocolChecks checks{"checks"};
   vp::ClockScheduler scheduler{"scheduler"};
   ProcessingSystem ps;
   PlPorts ports{ps, scheduler, fidelity};

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -45,6 +43,12 @@ void check_name(const std::string& name, const char* what) {
                        ": give one of letters, digits and _");
 }
 
+void check_definition(const std::string& definition) {
+  static const std::regex form("[A-Za-z_][A-Za-z0-9_]*(=[A-Za-z0-9_'.+-]+)?");
+  if (std::regex_match(definition, form)) return;
+  throw vp::InputError("'" + definition + "' is no macro: give NAME or NAME=VALUE");
+}
+
 // In the scratch folder, where Yosys runs: `tee` takes no name with a space in it.
 constexpr const char *check_log = "check.txt", *netlist_file = "netlist.json",
                      *instance_file = "instance.v";
@@ -78,18 +82,43 @@ std::string elaboration_of(const Design& design) {
   return command;
 }
 
-std::string script_of(const Design& design) {
+/// What maps logic into LUT. ABC9 knows delays, and crashes on memories with byte enables or with
+/// two ports that write (yosys#3384, open since 0.17); ABC does not.
+enum class Mapper { abc9, abc };
+
+/// Folders in which sources find what they include.
+std::vector<fs::path> include_folders(const Design& design) {
+  std::vector<fs::path> folders = design.includes;
+  for (const fs::path& source : design.sources) {
+    const fs::path folder = fs::absolute(source).parent_path();
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end())
+      folders.push_back(folder);
+  }
+  return folders;
+}
+
+/// What `read_verilog` gets; `sources` in place of the design's own.
+std::string reading_of(const Design& design, const std::vector<fs::path>& sources) {
+  std::string command = "read_verilog -sv -defer";
+  for (const fs::path& folder : include_folders(design))
+    command += " -I " + quoted(fs::absolute(folder));
+  for (const std::string& definition : design.defines) command += " -D " + definition;
+  for (const fs::path& source : sources) command += " " + quoted(fs::absolute(source));
+  return command;
+}
+
+std::string script_of(const Design& design, const std::vector<fs::path>& sources, Mapper mapper) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
   // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
   // for there each pass goes through all of its 800 cells.
   std::string script =
       "read_verilog -lib -specify +/xilinx/cells_sim.v\n"
-      "read_verilog -lib -defer +/xilinx/cells_xtra.v\n"
-      "read_verilog -sv -defer";
-  for (const fs::path& source : design.sources) script += " " + quoted(fs::absolute(source));
+      "read_verilog -lib -defer +/xilinx/cells_xtra.v\n" +
+      reading_of(design, sources);
   script += "\n" + elaboration_of(design) + "\nproc";
   script += std::string("\ntee -q -o ") + check_log + " check";
-  script += "\nsynth_xilinx -family xc7 -flatten -abc9 -run prepare: -top " + design.top;
+  script += std::string("\nsynth_xilinx -family xc7 -flatten") +
+            (mapper == Mapper::abc9 ? " -abc9" : "") + " -run prepare: -top " + design.top;
   if (!design.dsp) script += " -nodsp";
   return script + "\nwrite_json " + netlist_file + "\n";
 }
@@ -124,6 +153,20 @@ std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
   return names;
 }
 
+/// "file:line: " of the `include of a name.
+std::string includer_of(const Design& design, const std::string& name) {
+  for (const fs::path& source : design.sources) {
+    std::istringstream lines(vp::read_text(source, "source"));
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (line.find("`include") != line.npos && line.find(name) != line.npos)
+        return source.string() + ":" + std::to_string(number) + ": ";
+    }
+  }
+  return {};
+}
+
 /// What Yosys says of an error, in our words where we know better.
 [[noreturn]] void refuse_as_yosys_does(const Design& design, const std::string& out) {
   std::smatch found;
@@ -135,7 +178,15 @@ std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
     refuse(design, "yosys itself failed" + (last.empty() ? "" : ": " + last) +
                        "; other parameters may work");
   }
-  const std::string where = found[1], what = found[2];
+  // Yosys knows no line of what it prints while it elaborates.
+  const std::string where = std::regex_replace(found[1].str(), std::regex(":0: $"), ": ");
+  const std::string what = found[2];
+  static const std::regex missing("Can't open include file `([^']+)'");
+  std::smatch file;
+  if (std::regex_search(what, file, missing)) {
+    refuse(design, includer_of(design, file[1]) + "no file '" + file[1].str() +
+                       "' to include: name its folder with --include");
+  }
   if (what.find("Module `" + design.top + "' not found") != std::string::npos) {
     const std::vector<std::string> modules = modules_in(design.sources);
     throw vp::InputError("no module '" + design.top + "' in the sources" +
@@ -218,10 +269,6 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"stream_crossing", {{"DEPTH", 256}}}};
 }
 
-double rounded(double value, double scale) {
-  return std::round(value * scale) / scale;
-}
-
 /// The sources that the top needs, and what those include.
 std::map<std::string, std::string> hashes_of(const Design& design) {
   static const std::regex include(R"re(`include\s+"([^"]+)")re");
@@ -235,8 +282,13 @@ std::map<std::string, std::string> hashes_of(const Design& design) {
     if (!fresh) continue;
     const std::string text = vp::read_text(source.string(), "source");
     for (std::sregex_iterator m(text.begin(), text.end(), include), end; m != end; ++m) {
-      const fs::path file = source.parent_path() / (*m)[1].str();
-      if (fs::exists(file)) open.push_back(file);
+      std::vector<fs::path> folders{source.parent_path()};
+      folders.insert(folders.end(), design.includes.begin(), design.includes.end());
+      for (const fs::path& folder : folders) {
+        if (!fs::exists(folder / (*m)[1].str())) continue;
+        open.push_back(folder / (*m)[1].str());
+        break;
+      }
     }
   }
   return hashes;
@@ -322,69 +374,86 @@ namespace {
 /// That Yosys and its ABC have open at once, besides the standard ones.
 constexpr int yosys_descriptors = 9;
 
+/// Yosys stopped without a word about an error.
+bool crashed(const host::CommandEnd& end) {
+  return end.exit_code != 0 && end.exit_code != host::no_such_command &&
+         end.out.find("ERROR: ") == std::string::npos;
+}
+
+/// Yosys prints what a $display says while it elaborates, and knows no widths in its formats:
+/// "%2d".
+bool stumbled_over_a_format(const host::CommandEnd& end) {
+  return end.exit_code != 0 &&
+         end.out.find("called with invalid/unsupported format specifier") != std::string::npos;
+}
+
+/// Copies of the sources, of the same lines, without widths in formats.
+std::vector<fs::path> without_format_widths(const Design& design, const fs::path& folder) {
+  static const std::regex width(R"((%)[0-9]+([a-zA-Z]))");
+  std::vector<fs::path> copies;
+  for (const fs::path& source : design.sources) {
+    std::istringstream lines(vp::read_text(source, "source"));
+    std::string text;
+    for (std::string line; std::getline(lines, line); text += line + "\n") {
+      if (line.find("$") != line.npos) line = std::regex_replace(line, width, "$1$2");
+    }
+    const std::string number = std::to_string(copies.size()) + "_";
+    copies.push_back(folder / (number + source.filename().string()));
+    vp::write_file(copies.back().string(), text);
+  }
+  return copies;
+}
+
+/// With the design's own sources in messages, in place of their copies.
+void name_originals(std::string& text, const Design& design, const std::vector<fs::path>& copies) {
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    for (std::size_t at; (at = text.find(copies[i].string())) != text.npos;)
+      text.replace(at, copies[i].string().size(), design.sources[i].string());
+  }
+}
+
+host::CommandEnd run_yosys(const Design& design, const std::vector<fs::path>& sources,
+                           Mapper mapper, const fs::path& folder) {
+  constexpr const char* script = "synthesise.ys";
+  vp::write_file((folder / script).string(), script_of(design, sources, mapper));
+  vp::write_file((folder / instance_file).string(), instance_of(design));
+  // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
+  return host::run_command({"env", "--chdir=" + folder.string(), "yosys", "-q", "-s", script}, ".");
+}
+
 }  // namespace
 
 Figures synthesise(const Design& design, const PathTiming& timing) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
+  for (const std::string& definition : design.defines) check_definition(definition);
   const host::ScratchFolder scratch("synth");
-  constexpr const char* script = "synthesise.ys";
-  vp::write_file((scratch / script).string(), script_of(design));
-  vp::write_file((scratch / instance_file).string(), instance_of(design));
   host::require_descriptors(yosys_descriptors, "yosys");
-  // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
-  const host::CommandEnd end = host::run_command(
-      {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, ".");
+  std::vector<fs::path> sources = design.sources;
+  host::CommandEnd end = run_yosys(design, sources, Mapper::abc9, scratch.path());
+  if (stumbled_over_a_format(end)) {
+    sources = without_format_widths(design, scratch.path());
+    end = run_yosys(design, sources, Mapper::abc9, scratch.path());
+    name_originals(end.out, design, sources);
+  }
+  const bool fell_back = crashed(end);
+  if (fell_back) end = run_yosys(design, sources, Mapper::abc, scratch.path());
   refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
   try {
-    return {design.ip, design.parameters, hashes_of(design),
-            read_netlist(scratch / netlist_file, design.top, timing), design.own};
+    Figures figures{design.ip, design.parameters, hashes_of(design),
+                    read_netlist(scratch / netlist_file, design.top, timing), design.own};
+    if (fell_back) {
+      figures.netlist.not_covered.push_back(
+          "ABC9 fails on a memory of this RTL (yosys#3384), so ABC mapped the logic, without "
+          "delays: "
+          "what the other would make shorter");
+    }
+    return figures;
   } catch (const vp::InputError& error) {
     refuse(design, error.what());
   }
-}
-
-std::string to_json(const std::vector<Figures>& figures, const std::string& tool,
-                    const PathTiming& timing) {
-  using Json = nlohmann::ordered_json;
-  Json entries = Json::array();
-  for (const Figures& f : figures) {
-    const Cells& cells = f.netlist.cells;
-    Json entry{{"ip", f.ip},
-               {"parameters", f.parameters},
-               {"lut", cells.lut},
-               {"lut_pairs", cells.lut_pairs},
-               {"lut_memory", cells.lut_memory},
-               {"lut_through", cells.lut_through},
-               {"ff", cells.ff},
-               {"carry4", cells.carry4},
-               {"ramb18", cells.ramb18},
-               {"ramb36", cells.ramb36},
-               {"dsp", cells.dsp}};
-    if (const std::optional<Fmax> fmax = f.netlist.fmax(timing)) {
-      const Path& path = *f.netlist.longest;
-      entry["longest_path"] = {{"from", path.from},
-                               {"to", path.to},
-                               {"levels", path.cells.size()},
-                               {"cells_ns", rounded(path.cells_ns, 1e3)},
-                               {"nets", path.nets},
-                               {"fan_out", path.fan_out},
-                               {"setup_ns", rounded(path.setup_ns, 1e3)}};
-      entry["fmax_mhz"] = {{"low", rounded(fmax->mhz.low, 10)},
-                           {"nominal", rounded(fmax->mhz.nominal, 10)},
-                           {"high", rounded(fmax->mhz.high, 10)}};
-      if (!fmax->limited_by.empty()) entry["limited_by"] = fmax->limited_by;
-    }
-    if (!f.own) {  // for `pl.<ip>.figures`
-      entry["built_with"] = f.netlist.parameters;
-      entry["sources"] = f.sources;
-      if (!f.netlist.not_covered.empty()) entry["not_covered"] = f.netlist.not_covered;
-    }
-    entries.push_back(entry);
-  }
-  return Json{{"version", 1}, {"tool", tool}, {"entries", entries}}.dump(2) + "\n";
 }
 
 }  // namespace platform::synthesis

@@ -23,6 +23,8 @@ struct Design {
   Parameters parameters;
   bool dsp = true;   ///< multiplications may become DSP48E1; else all of them are LUT
   bool own = false;  ///< comes with markervp
+  std::vector<std::filesystem::path> includes = {};  ///< folders, besides those of the sources
+  std::vector<std::string> defines = {};             ///< NAME or NAME=VALUE
 };
 
 struct Figures {

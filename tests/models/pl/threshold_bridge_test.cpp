@@ -84,6 +84,25 @@ BOOST_AUTO_TEST_CASE(every_32nd_word_is_the_last_of_its_packet) {
   BOOST_TEST(b.link.packets.get() == 3u);
 }
 
+// Without `ena` nothing is taken or offered; a word that is offered passes once, as TREADY says.
+BOOST_AUTO_TEST_CASE(each_word_passes_once_while_ena_comes_and_goes) {
+  Bridge b;
+  for (std::uint32_t i = 0; i < 96; ++i) {
+    b.word(i);
+    b.ena = i % 3 == 0;
+    b.sink.accept(i % 5 != 0);
+    b.clocks(i % 4);
+    b.ena = true;
+    b.clocks(1);
+  }
+  b.sink.accept(true);
+  b.clocks(70);
+  BOOST_TEST(b.overflow() == 0u);
+  BOOST_REQUIRE(b.sink.beats.size() == 96u);
+  for (std::uint32_t i = 0; i < 96; ++i) BOOST_TEST(b.sink.beats[i].data == i);
+  check_packets(b.sink.beats, 32);
+}
+
 BOOST_AUTO_TEST_CASE(sixty_four_words_wait_besides_the_output_register) {
   Bridge b;
   b.sink.accept(false);
