@@ -137,6 +137,8 @@ install(FILES
   cmake/MarkervpProgram.cmake
   cmake/MarkervpRtl.cmake
   cmake/MarkervpProgram.cpp.in
+  cmake/MarkervpCharge.cpp.in
+  cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVendor.c
   DESTINATION "${package_folder}")

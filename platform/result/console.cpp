@@ -241,6 +241,11 @@ std::string verdict_text(const Verdict& verdict) {
 
 std::string end_text(const facts::RunFacts& facts) {
   if (!facts.end) return "no frames: the program was stopped";
+  if (facts.end->reached_limit) {
+    return fmt::format(
+        "no frames: the program reached its time limit, {}, in an endless loop (ps.cpu.timeout)",
+        vp::format_time(facts.end->ps));
+  }
   return fmt::format("no frames: the program ended at {} with exit code {}",
                      vp::format_time(facts.end->ps), facts.end->exit_code);
 }

@@ -125,6 +125,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   uart1.rst(slcr.uart1_rst);
   slcr.level_shifters.guard(*interconnect.find(gp0_base)->link);
   cpu.connect(ddr.dma_memory());
+  cpu.end_stack_at(ddr.dma_memory().first());
   cpu.set_poll_elision(poll_elision);
   cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
   if (cores == 1) return;
