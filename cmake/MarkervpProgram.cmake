@@ -47,7 +47,30 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
   message(STATUS "${NAME}: the vendor's drivers of ${drivers}")
 endfunction()
 
-# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER])
+# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
+# The kernel of FreeRTOS from a copy that the user has, with the port of this package. FOLDER has tasks.c, or its subfolder Source does.
+# FreeRTOSConfig.h is the program's.
+function(_markervp_use_freertos NAME FOLDER)
+  get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  find_path(kernel tasks.c PATHS "${folder}" "${folder}/Source" NO_DEFAULT_PATH NO_CACHE)
+  find_path(port port.c PATHS "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/freertos" "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../sw/hal/freertos"
+    NO_DEFAULT_PATH NO_CACHE)
+  if(NOT kernel OR NOT EXISTS "${kernel}/include/FreeRTOS.h")
+    message(FATAL_ERROR "markervp_add_program(${NAME} … FREERTOS '${FOLDER}'): no kernel of FreeRTOS is there. "
+      "Name a checkout of FreeRTOS-Kernel, which has tasks.c and include/FreeRTOS.h")
+  endif()
+  set(sources "${port}/port.c")
+  foreach(part tasks list queue timers event_groups stream_buffer)
+    list(APPEND sources "${kernel}/${part}.c")
+  endforeach()
+  if(NOT "${ARGN}" MATCHES "heap_[1-5]\\.c")
+    list(APPEND sources "${kernel}/portable/MemMang/heap_4.c")
+  endif()
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
+  target_sources(${NAME} PRIVATE ${sources})
+  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}")
+endfunction()
+
 # Sets VARIABLE to true if one of the sources defines hal_program_info, and so says what it does and counts its work.
 function(_markervp_is_annotated VARIABLE)
   set(${VARIABLE} FALSE PARENT_SCOPE)
@@ -67,9 +90,10 @@ endfunction()
 # define hal_program_info, or main(). Drivers of VENDOR_BSP stand on markervp::compat, which need not be named.
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
-  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP" "SOURCES;LIBRARIES" ${ARGN})
-  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder]): "
+  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES
+     OR "FREERTOS" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
       "got '${ARGN}'")
   endif()
   set(description "${CMAKE_CURRENT_BINARY_DIR}/${NAME}_program.cpp")
@@ -84,6 +108,10 @@ function(markervp_add_program NAME)
   if(DEFINED PROGRAM_VENDOR_BSP)
     target_link_libraries(${NAME} PRIVATE markervp::compat)
     _markervp_use_vendor_drivers(${NAME} "${PROGRAM_VENDOR_BSP}")
+  endif()
+  if(DEFINED PROGRAM_FREERTOS)
+    target_link_libraries(${NAME} PRIVATE markervp::compat)
+    _markervp_use_freertos(${NAME} "${PROGRAM_FREERTOS}" ${PROGRAM_SOURCES})
   endif()
   # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.
   target_compile_options(${NAME} PRIVATE -ffp-contract=off

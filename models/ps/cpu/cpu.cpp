@@ -138,7 +138,10 @@ void Cpu::run() {
   running_ = this;
   try {
     if (number_ == 0) program_->reset();
-    if (const auto first = cores_->all.back()->stack().first) program_->end_heap_at(first);
+    if (const auto first = cores_->all.back()->stack().first) {
+      const DmaAllocator* const buffers = cores_->all.front()->dma_memory_;
+      program_->end_heap_at(buffers ? std::min<std::uintptr_t>(first, buffers->first()) : first);
+    }
     activity_.start(program_->description());
     if (number_ != 0) {
       activity_.idle(now_ps());

@@ -132,6 +132,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// The program's stack in the DDR ends at this address, the second core's below it. For programs
   /// that lie there; others run on the thread's.
   void end_stack_at(std::uintptr_t end) { stack_end_ = end; }
+  std::uintptr_t stack_end() const { return stack_end_; }
   /// First byte and one past the last of the stack in the DDR; {0, 0}: it is elsewhere.
   std::pair<std::uintptr_t, std::uintptr_t> stack() const;
   /// Names the device at an address in messages, or returns "".

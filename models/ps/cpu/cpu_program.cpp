@@ -96,12 +96,11 @@ std::pair<std::uintptr_t, std::uintptr_t> Cpu::stack() const {
 void Cpu::check_memory() const {
   const std::uint64_t wanted = cores_->all.size() * settings_.stack_size;
   if (program_->end() == 0 || stack_end_ == 0 || program_->end() + wanted <= stack_end_) return;
-  throw vp::InputError("program '" + std::string(program_->name()) + "' ends at " +
-                       vp::hex(program_->end() - 1) + ", and its stack would begin before that: " +
-                       "it ends at " + vp::hex(stack_end_ - 1) + ", below the DMA buffers, with " +
-                       std::to_string(wanted / 1024) + " KiB (" + settings_.stack_size.name() +
-                       "): make the program's variables or the stack smaller, or let the DMA "
-                       "buffers begin later");
+  throw vp::InputError(
+      "program '" + std::string(program_->name()) + "' ends at " + vp::hex(program_->end() - 1) +
+      ", and its stack would begin before that: " + "it ends at " + vp::hex(stack_end_ - 1) +
+      ", with " + std::to_string(wanted / 1024) + " KiB (" + settings_.stack_size.name() +
+      "): make the program's variables or the stack smaller");
 }
 
 // The program is over: what it did ahead of time passes, but no handler runs any more.

@@ -232,6 +232,12 @@ void Ddr::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
   if (payload.is_response_ok()) account(payload.get_command(), payload.get_data_length());
 }
 
+StackMemory::StackMemory(sc_core::sc_module_name name, std::uint64_t bytes)
+    : MemoryTarget(name),
+      memory_(std::string(this->name()) + " (stacks of programs)", ddr_end - bytes, bytes) {
+  show(memory_.second_view(), ddr_end - bytes, bytes);
+}
+
 Ocm::Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock)
     : MemoryTarget(name),
       read_cycles("read_cycles", 24, vp::Unit::cycles, {0, 10'000}, vp::Source::assumed,

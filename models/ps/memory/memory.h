@@ -180,6 +180,23 @@ class Ddr : public vp::MemoryTarget {
   DmaAllocator dma_memory_;
 };
 
+/// Memory for the stacks of programs, at the end of the addresses of DDR: no address that a program
+/// names lies there on a board with less.
+class StackMemory : public vp::MemoryTarget {
+ public:
+  /// `bytes` of it, a multiple of 4096.
+  StackMemory(sc_core::sc_module_name name, std::uint64_t bytes);
+  const char* kind() const override { return "ps::StackMemory"; }
+
+  static constexpr std::uint64_t ddr_end = 0x4000'0000;  // UG585 table 4-1
+  using MemoryTarget::end;
+
+ private:
+  void answered(const tlm::tlm_generic_payload&, sc_core::sc_time&) override {}
+
+  FixedMapping memory_;
+};
+
 /// The on-chip memory, 256 KiB at the top of the address space, as boot code leaves it (UG585
 /// chapter 29). Map it with relative addresses.
 ///

@@ -64,8 +64,8 @@ CacheContract::CacheContract(Zynq& zynq)
 // Code cannot lose its access rights, and the simulator works on the program's stack, too.
 void CacheContract::leave_alone() {
   const std::uint64_t stacks = zynq_.ps.cpus().size() * zynq_.ps.cpu.settings().stack_size;
-  const std::uint64_t top = zynq_.ps.ddr.dma_memory().first();
-  if (stacks < top - first_) guard_.exclude(top - stacks, top);
+  const std::uint64_t top = zynq_.ps.cpu.stack_end();
+  if (top <= end_ && stacks < top - first_) guard_.exclude(top - stacks, top);
   for (const ps::Resident* program : ps::Resident::in(first_, end_)) {
     for (const ps::Resident::Part& part : program->parts()) {
       if (!part.variables) guard_.exclude(part.first, part.end);
