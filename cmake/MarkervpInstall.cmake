@@ -99,6 +99,7 @@ install(TARGETS hybrid improved ps-only blink two-cores exercise LIBRARY DESTINA
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
 install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
 install(DIRECTORY sw/linux/ DESTINATION "${data_folder}/linux")
+install(DIRECTORY sw/freertos/ DESTINATION "${data_folder}/freertos")
 # The IP in SystemVerilog, a folder each.
 file(GLOB rtl_files CONFIGURE_DEPENDS models/pl/*/rtl/*.sv)
 foreach(file IN LISTS rtl_files)
@@ -140,9 +141,12 @@ install(FILES
   cmake/MarkervpProgram.cmake
   cmake/MarkervpRtl.cmake
   cmake/MarkervpProgram.cpp.in
+  cmake/MarkervpCharge.cpp.in
+  cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c
   cmake/MarkervpVendorDefaults.h
   cmake/MarkervpVendorRows.h
   DESTINATION "${package_folder}")
+install(DIRECTORY sw/hal/freertos DESTINATION "${package_folder}")

@@ -1,4 +1,6 @@
 set(markervp_program_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpProgram.cpp.in")
+set(markervp_charge_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpCharge.cpp.in")
+set(markervp_program_heap "${CMAKE_CURRENT_LIST_DIR}/MarkervpHeap.cpp")
 set(markervp_vendor_folder "${CMAKE_CURRENT_LIST_DIR}")
 
 # The folders of the vendor's drivers that VENDOR_BSP looks for: those whose devices are modelled are built, of the others a
@@ -84,23 +86,71 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
   message(STATUS "${NAME}: the vendor's drivers of ${drivers}")
 endfunction()
 
-# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER])
+# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
+# The kernel of FreeRTOS from a copy that the user has, with the port of this package. FOLDER has tasks.c, or its subfolder Source does.
+# FreeRTOSConfig.h is the program's.
+function(_markervp_use_freertos NAME FOLDER)
+  get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  find_path(kernel tasks.c PATHS "${folder}" "${folder}/Source" NO_DEFAULT_PATH NO_CACHE)
+  find_path(port port.c PATHS "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/freertos" "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../sw/hal/freertos"
+    NO_DEFAULT_PATH NO_CACHE)
+  if(NOT kernel OR NOT EXISTS "${kernel}/include/FreeRTOS.h")
+    message(FATAL_ERROR "markervp_add_program(${NAME} … FREERTOS '${FOLDER}'): no kernel of FreeRTOS is there. "
+      "Name a checkout of FreeRTOS-Kernel, which has tasks.c and include/FreeRTOS.h")
+  endif()
+  set(sources "${port}/port.c")
+  foreach(part tasks list queue timers event_groups stream_buffer)
+    list(APPEND sources "${kernel}/${part}.c")
+  endforeach()
+  if(NOT "${ARGN}" MATCHES "heap_[1-5]\\.c")
+    list(APPEND sources "${kernel}/portable/MemMang/heap_4.c")
+  endif()
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
+  target_sources(${NAME} PRIVATE ${sources})
+  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}")
+endfunction()
+
+# Sets VARIABLE to true if one of the sources defines hal_program_info, and so says what it does and counts its work.
+function(_markervp_is_annotated VARIABLE)
+  set(${VARIABLE} FALSE PARENT_SCOPE)
+  foreach(source IN LISTS ARGN)
+    cmake_path(ABSOLUTE_PATH source)
+    if(NOT EXISTS "${source}")
+      continue()
+    endif()
+    file(STRINGS "${source}" lines REGEX "hal_program_info")
+    if(lines)
+      set(${VARIABLE} TRUE PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
 # A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it. The sources
 # define hal_program_info, or main(). Drivers of VENDOR_BSP stand on markervp::compat, which need not be named.
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
-  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP" "SOURCES;LIBRARIES" ${ARGN})
-  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder]): "
+  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES
+     OR "FREERTOS" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
       "got '${ARGN}'")
   endif()
   set(description "${CMAKE_CURRENT_BINARY_DIR}/${NAME}_program.cpp")
+  _markervp_is_annotated(annotated ${PROGRAM_SOURCES})
+  set(MARKERVP_CHARGE "")
+  if(NOT annotated)
+    file(READ "${markervp_charge_template}" MARKERVP_CHARGE)
+  endif()
   configure_file("${markervp_program_template}" "${description}" @ONLY)
-  add_library(${NAME} MODULE ${PROGRAM_SOURCES} "${description}")
+  add_library(${NAME} MODULE ${PROGRAM_SOURCES} "${description}" "${markervp_program_heap}")
   target_link_libraries(${NAME} PRIVATE markervp::hal ${PROGRAM_LIBRARIES})
   if(DEFINED PROGRAM_VENDOR_BSP)
     target_link_libraries(${NAME} PRIVATE markervp::compat)
     _markervp_use_vendor_drivers(${NAME} "${PROGRAM_VENDOR_BSP}")
+  endif()
+  if(DEFINED PROGRAM_FREERTOS)
+    target_link_libraries(${NAME} PRIVATE markervp::compat)
+    _markervp_use_freertos(${NAME} "${PROGRAM_FREERTOS}" ${PROGRAM_SOURCES})
   endif()
   # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.
   target_compile_options(${NAME} PRIVATE -ffp-contract=off
@@ -108,6 +158,14 @@ function(markervp_add_program NAME)
   # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
   target_compile_options(${NAME} PRIVATE
     "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
+  # Its code takes time by what it is made of (ps.cpu.code_scale): the same at every optimisation of the build.
+  if(NOT annotated)
+    target_compile_options(${NAME} PRIVATE "$<$<COMPILE_LANGUAGE:C,CXX>:-O0>"
+      # Its data have 32-bit addresses here, too: casts of pointers to u32 are right.
+      "$<$<COMPILE_LANGUAGE:C>:-Wno-pointer-to-int-cast;-Wno-int-to-pointer-cast>" "$<$<COMPILE_LANGUAGE:CXX>:-fpermissive>")
+  endif()
+  # It lies where the chip has it, so that any variable is a DMA buffer; its heap follows. Its malloc() and new are its own.
+  target_link_options(${NAME} PRIVATE "LINKER:-Ttext-segment=0x00100000" "LINKER:-Bsymbolic-functions")
   # Built for gcov, it offers the function that writes the counters: they are static data, which the platform else restores.
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}")
   set(options "$<TARGET_PROPERTY:${NAME},COMPILE_OPTIONS>;${flags}")

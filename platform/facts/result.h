@@ -237,6 +237,8 @@ struct CameraReport {
 struct ProgramEnd {
   int exit_code = 0;     ///< what it returned; 0: all went well
   std::uint64_t ps = 0;  ///< when, in simulated time
+  /// It did not end by itself, but was in an endless loop when its time was up (ps.cpu.timeout).
+  bool reached_limit = false;
 };
 
 /// The design point that ran.

@@ -178,6 +178,7 @@ Json to_json(const facts::ProgramEnd& end) {
   Json json;
   json["exit_code"] = end.exit_code;
   json["time_us"] = rounded(static_cast<double>(end.ps) / facts::ps_per_us, us_places);
+  if (end.reached_limit) json["reached_limit"] = true;
   return json;
 }
 

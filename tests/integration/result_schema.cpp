@@ -126,8 +126,10 @@ class Checker {
   void program_end(const Json& json) {
     if (!json.contains("program_end") && json.contains("incomplete")) return;
     if (!keys(json, "result", {{"program_end", Kind::object}})) return;
-    keys(json["program_end"], "program_end",
-         {{"exit_code", Kind::number}, {"time_us", Kind::number}});
+    const Json& end = json["program_end"];
+    if (!keys(end, "program_end", {{"exit_code", Kind::number}, {"time_us", Kind::number}})) return;
+    if (end.contains("reached_limit"))
+      expect(end["reached_limit"] == true, "program_end.reached_limit is not true");
   }
 
   void frame(const Json& json, const std::string& where) {

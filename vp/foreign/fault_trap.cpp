@@ -9,6 +9,7 @@
 #include <vp/fault_trap.h>
 #include <vp/file.h>
 #include <vp/foreign_object.h>
+#include <vp/own_stack.h>
 #include <vp/text.h>
 #include <atomic>
 #include <cstdlib>
@@ -176,15 +177,25 @@ __attribute__((noinline)) void FaultTrap::call_below(void (*code)(void* context)
   room[gap - 1] = room[0];
 }
 
+void FaultTrap::use_stack(std::uintptr_t first, std::size_t size) {
+  own_stack_ = first;
+  stack_size_ = size;
+}
+
+void FaultTrap::call_on_stack(void (*code)(void* context), void* context) {
+  if (own_stack_ == 0) return call_below(code, context);
+  run_on_stack(reinterpret_cast<void*>(own_stack_), stack_size_, code, context);
+}
+
 const Fault* FaultTrap::call(void (*code)(void* context), void* context) {
   char here = 0;
-  stack_top_ = reinterpret_cast<std::uintptr_t>(&here);
+  stack_top_ = own_stack_ != 0 ? own_stack_ + stack_size_ : reinterpret_cast<std::uintptr_t>(&here);
   landed_ = false;
   fault_ = Fault();
   arm();
   if (sigsetjmp(landing_, 1) == 0) {
     try {
-      call_below(code, context);
+      call_on_stack(code, context);
     } catch (...) {
       disarm();
       throw;

@@ -63,9 +63,17 @@ Cpu::Settings::Settings()
                         vp::Source::assumed, "a cache operation before its first line"),
       cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
                         vp::Source::assumed, "a line of 32 bytes in both cache levels"),
+      cache_all_cycles("cache_all_cycles", 100'000, vp::Unit::cycles, cycles_range,
+                       vp::Source::assumed,
+                       "an operation on both cache levels as a whole: 17408 lines, by set and way"),
+      uncached_scale("uncached_scale", 10, vp::Unit::none, {1, 1'000}, vp::Source::assumed,
+                     "how much longer code takes while the data caches are off"),
       block_cycles("block_cycles", 0, vp::Unit::cycles, {0, 1'000}, vp::Source::decision,
                    "what each basic block of the program's own code takes, beside the work that it "
-                   "counts; 0: nothing") {}
+                   "counts; 0: by its instructions, or nothing where the program counts its work"),
+      code_scale("code_scale", 1, vp::Unit::none, {0, 1'000}, vp::Source::decision,
+                 "how long the code of a program takes that does not count its work, as a multiple "
+                 "of what the profile says; 0: no time") {}
 
 Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock) : Cpu(name, clock, nullptr) {}
 
@@ -107,10 +115,12 @@ void Cpu::load(Program& program, const CostTable& costs) {
   program_ = &program;
   if (!program.path().empty()) code_.emplace(&description);
   cost_profile_ = costs.profile();
+  profile_scale_ = costs.code_scale();
   if (number_ != 0) return;
   for (Cpu* core : cores_->all) {
     if (core != this) core->load(program, costs);
   }
+  check_memory();
 }
 
 void Cpu::end_of_elaboration() {
@@ -128,6 +138,10 @@ void Cpu::run() {
   running_ = this;
   try {
     if (number_ == 0) program_->reset();
+    if (const auto first = cores_->all.back()->stack().first) {
+      const DmaAllocator* const buffers = cores_->all.front()->dma_memory_;
+      program_->end_heap_at(buffers ? std::min<std::uintptr_t>(first, buffers->first()) : first);
+    }
     activity_.start(program_->description());
     if (number_ != 0) {
       activity_.idle(now_ps());
@@ -165,6 +179,7 @@ void Cpu::end(State state) {
   end_ps_ = now_ps();
   running_ = nullptr;
   ProgramWatch::end();
+  ProgramWatch::charge = nullptr;
   LineGuard::program_is_over();
   cores_->all.front()->console.flush();
   for (Cpu* core : cores_->all) {
@@ -189,11 +204,15 @@ void Cpu::on_failure(FailureListener listener) {
 }
 
 // The thread never comes back: nothing of the program is unwound.
+void Cpu::rest() {
+  while (true) sc_core::wait(never_);
+}
+
 void Cpu::stop(std::exception_ptr error) {
   error_ = std::move(error);
   exit_code_ = 0;
   end(State::failed);
-  while (true) sc_core::wait(never_);
+  rest();
 }
 
 void Cpu::fail(const std::string& problem) {
@@ -247,7 +266,7 @@ Cpu::Counted Cpu::counted() const {
     sum.cycles += work.cycles * work.count;
     sum.stall_fs += work.stall_fs * work.count;
   }
-  sum.cycles += LocalTime::Wide{timed_blocks_ * settings_.block_cycles} << LocalTime::fraction_bits;
+  sum.cycles += code_cycles_;
   return sum;
 }
 

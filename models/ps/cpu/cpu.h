@@ -16,6 +16,7 @@
 #include <hal/hal.h>
 #include <ps/cpu/console.h>
 #include <ps/cpu/cpu_time.h>
+#include <ps/cpu/pointer_access.h>
 #include <ps/cpu/poll.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
@@ -106,7 +107,10 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     vp::Parameter<std::uint32_t> barrier_cycles;
     vp::Parameter<std::uint32_t> cache_call_cycles;
     vp::Parameter<std::uint32_t> cache_line_cycles;
+    vp::Parameter<std::uint32_t> cache_all_cycles;
+    vp::Parameter<double> uncached_scale;
     vp::Parameter<std::uint32_t> block_cycles;
+    vp::Parameter<double> code_scale;
   };
   /// Of all cores.
   const Settings& settings() const { return settings_; }
@@ -125,6 +129,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void load(Program& program, const CostTable& costs);
   void connect(TestBench& bench) { bench_ = &bench; }
   void connect(DmaAllocator& dma_memory) { dma_memory_ = &dma_memory; }
+  /// The program's stack in the DDR ends at this address, the second core's below it. For programs
+  /// that lie there; others run on the thread's.
+  void end_stack_at(std::uintptr_t end) { stack_end_ = end; }
+  std::uintptr_t stack_end() const { return stack_end_; }
+  /// First byte and one past the last of the stack in the DDR; {0, 0}: it is elsewhere.
+  std::pair<std::uintptr_t, std::uintptr_t> stack() const;
   /// Names the device at an address in messages, or returns "".
   void name_devices(std::function<std::string(std::uint32_t)> device) {
     device_ = std::move(device);
@@ -142,7 +152,24 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void describe_requests(std::function<Request()> describe) {
     describe_request_ = std::move(describe);
   }
-  enum class CacheCall { flush, invalidate };
+  /// Says what keeps the program waiting, as the end of a message ("; interrupt 61 …"), or "".
+  struct Wait {
+    bool irq_masked;
+    std::optional<std::uint32_t> polled;  ///< address of the register that it looks at
+  };
+  void explain_waits(std::function<std::string(const Wait&)> explain) {
+    explain_wait_ = std::move(explain);
+  }
+  enum class CacheCall {
+    flush,
+    invalidate,
+    flush_all,
+    invalidate_all,
+    disable,
+    enable,
+    uncache,  ///< accesses to this memory are not cached from now on
+    cache,
+  };
   /// Called after each cache operation of the program, on either core. May be null.
   using CacheListener = std::function<void(CacheCall, std::uintptr_t address, std::size_t bytes)>;
   void on_cache_call(CacheListener listener) { cache_listener_ = std::move(listener); }
@@ -200,6 +227,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   int exit_code() const { return exit_code_; }
   /// When the program ended, in ps; 0 before.
   std::uint64_t end_ps() const { return end_ps_; }
+  /// The program has finished because it looped to its time limit, in a function that cannot
+  /// return: its end by design, as on the chip.
+  bool reached_limit() const { return reached_limit_; }
   /// Throws what ended the program: vp::ProtocolError, or what a model or the test bench threw.
   /// Nothing if it finished or was interrupted. A program that neither ended nor can go on is
   /// vp::ProtocolError too: call it after the simulation.
@@ -237,9 +267,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
                                      std::uint32_t cycles, std::uint32_t limit);
   void barrier();
   void maintain_cache(CacheCall call, const void* data, std::size_t size);
+  void maintain_all(hal_cache_whole operation);
+  void set_cached(const void* data, std::size_t size, bool cached);
   hal_dma_buffer allocate_dma(std::size_t size, std::size_t alignment);
   void connect_interrupt(hal_interrupt_handler handler, void* context);
   bool enable_interrupt(bool enable);
+  void after_interrupt(void (*hook)(void)) { after_interrupt_ = hook; }
   void wait_for_interrupt();
   void write_console(const char* text, std::size_t length);
   void warn(const char* text);
@@ -264,9 +297,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void access_shared(bool write, const volatile void* data, std::size_t size);
 
   // What a program does without the HAL: cpu_program.cpp
-  /// It ran `loop_blocks` basic blocks without HAL call or annotation, `before` times already: lets
-  /// time pass, and interrupts come.
-  void notice_loop(unsigned before);
+  /// It ran `loop_blocks` basic blocks without HAL call or annotation, or what it may at once where
+  /// its code takes time, `before` times already: lets time pass, and interrupts come. `is_empty`:
+  /// a loop without a statement.
+  void notice_loop(unsigned before, bool is_empty);
+  /// Makes the access of an instruction that reads or writes a device's register by a pointer.
+  void access_by_pointer(PointerAccess& access);
 
  private:
   struct Work {
@@ -288,6 +324,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void end_of_elaboration() override;
   std::string name_of_function() const;
   std::string name_of_handler() const;
+  void check_memory() const;
   int call_program();
   void go_on();
   void take_turn();
@@ -316,6 +353,10 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void spend_cycles(std::uint64_t cycles);
   void spend_blocks();
   void spend_timed_blocks();
+  void start_charging();
+  bool code_takes_time() const {
+    return settings_.block_cycles != 0 || ProgramWatch::charge != nullptr;
+  }
   std::uint64_t take_work();
   void work_for(std::uint64_t ps);
   [[gnu::noinline]] std::uint64_t pass_busy(std::uint64_t start_ps, std::uint64_t end_ps);
@@ -347,6 +388,12 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     while (interrupt_due()) run_handler();
   }
   void run_handler();
+  void leave_interrupt();
+  void tell_cache(CacheCall call, const void* data, std::size_t size) const;
+  static bool on_fault(std::uintptr_t address, void* context);
+  static void make_access(PointerAccess& access);
+  std::uint32_t access_part(bool read, std::uint32_t address, unsigned bytes, std::uint32_t value);
+  std::string reason_of_wait(bool polls) const;
   void sleep();
   void sleep_until(std::uint64_t ps);
   void doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition);
@@ -382,6 +429,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
     deadline_ps_ = std::min(ps, call_at_ps_);
   }
   void meet_deadline(const char* what, const std::string& hint = {});
+  MachineCode::Reach reach() const;
+  [[noreturn]] void end_at_limit(const std::string& hint, bool sleeps);
+  [[noreturn]] void rest();
   std::string last_look() const;
   [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
@@ -400,6 +450,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::function<std::string(std::uint32_t, std::uint32_t)> describe_register_;
   std::function<Request()> describe_request_;
   std::function<std::string()> locate_program_;
+  std::function<std::string(const Wait&)> explain_wait_;
   std::string cost_profile_;
   CacheListener cache_listener_;
   MomentListener moment_listener_;
@@ -410,12 +461,17 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   State state_ = State::waiting;
   int exit_code_ = 0;
   std::uint64_t end_ps_ = 0;
+  bool reached_limit_ = false;
   std::exception_ptr error_;
   sc_core::sc_event ended_;
   sc_core::sc_event never_;
 
   std::vector<Work> work_;
-  std::uint64_t timed_blocks_ = 0;  ///< basic blocks that took block_cycles each
+  /// What basic blocks took, each block_cycles or by what it is made of, in 2^-20 cycles.
+  LocalTime::Wide code_cycles_ = 0;
+  std::uint64_t unit_cycles_ = 0;  ///< of a block, or unit of the charge, in 2^-20 cycles
+  double profile_scale_ = 1;       ///< of code, by the cost table
+  std::uintptr_t stack_end_ = 0;
   std::size_t open_functions_ = 0;  ///< entered by the program, ahead of time
   std::size_t open_before_handler_ = 0;
   Activity activity_;
@@ -437,6 +493,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
 
   hal_interrupt_handler handler_ = nullptr;
   void* handler_context_ = nullptr;
+  void (*after_interrupt_)(void) = nullptr;
+  bool caches_off_ = false;      ///< of the first core: for both
+  bool warned_of_long_ = false;  ///< an access of 8 bytes by a pointer to a register
   bool masked_ = true;
   bool in_handler_now_ = false;
 
@@ -461,7 +520,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   struct Look {
     std::uint32_t address = 0, value = 0;
     enum class By { none, read, poll } by = By::none;
-    std::uint64_t again = 0;    ///< reads of it, one after the other, since the first
+    std::uint64_t again = 0;    ///< reads of it, one after the other, since the first, or to come
     std::uint32_t changed = 0;  ///< bits that differed between two of them
 
     void note_read(std::uint32_t of, std::uint32_t saw) {
@@ -474,7 +533,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
       value = saw;
     }
   } last_look_;
-  bool loop_jumps_ = false;  ///< time passes because of a loop without a call of the HAL
+  bool loops_ = false;  ///< time passes because of a loop without a call of the HAL
 
   vp::FaultTrap trap_;
   HostWatch watch_;
@@ -500,7 +559,7 @@ template <class Transfer>
 
 // What the program did since its last call, where its basic blocks take time.
 inline void Cpu::spend_blocks() {
-  if (settings_.block_cycles != 0) spend_timed_blocks();
+  if (code_takes_time()) spend_timed_blocks();
 }
 
 // Resumes the program's code after a call in which the other core's may have run.

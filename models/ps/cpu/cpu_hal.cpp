@@ -1,6 +1,7 @@
 // The native back end of the HAL: each function goes to the processor whose program runs. What
 // they do, but for those that only make time pass (cpu_time.cpp).
 #include <hal/hal.h>
+#include <hal/native_program.h>
 
 #include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
@@ -32,8 +33,39 @@ void Cpu::maintain_cache(CacheCall call, const void* data, std::size_t size) {
   cache_lines.add(lines);
   spend_cycles(settings_.cache_call_cycles + settings_.cache_line_cycles * lines);
   barrier();
+  tell_cache(call, data, size);
+}
+
+void Cpu::tell_cache(CacheCall call, const void* data, std::size_t size) const {
   const CacheListener& listener = cores_->all.front()->cache_listener_;
   if (listener) listener(call, reinterpret_cast<std::uintptr_t>(data), size);
+}
+
+void Cpu::maintain_all(hal_cache_whole operation) {
+  spend_cycles(settings_.cache_call_cycles);
+  if (operation != HAL_CACHE_ENABLE) spend_cycles(settings_.cache_all_cycles);
+  barrier();
+  bool& off = cores_->all.front()->caches_off_;
+  switch (operation) {
+    case HAL_CACHE_FLUSH:
+      return tell_cache(CacheCall::flush_all, nullptr, 0);
+    case HAL_CACHE_INVALIDATE:
+      return tell_cache(CacheCall::invalidate_all, nullptr, 0);
+    case HAL_CACHE_DISABLE:
+      if (!off) tell_cache(CacheCall::disable, nullptr, 0);
+      off = true;
+      return;
+    case HAL_CACHE_ENABLE:
+      if (off) tell_cache(CacheCall::enable, nullptr, 0);
+      off = false;
+      return;
+  }
+  misuse("hal_cache_all(" + std::to_string(operation) + "): no such operation");
+}
+
+void Cpu::set_cached(const void* data, std::size_t size, bool cached) {
+  maintain_all(HAL_CACHE_FLUSH);
+  tell_cache(cached ? CacheCall::cache : CacheCall::uncache, data, size);
 }
 
 hal_dma_buffer Cpu::allocate_dma(std::size_t size, std::size_t alignment) {
@@ -133,6 +165,18 @@ auto on_cpu(const char* name, Call call) {
   return cpu.guarded([&] { return call(cpu); });
 }
 
+/// The program has run for a while without a call of the HAL.
+void look_at_loop(bool is_empty) {
+  using Watch = ps::ProgramWatch;
+  if (Watch::stop != Watch::Stop::none) {
+    if (vp::FaultTrap::can_leave()) vp::FaultTrap::leave_at_stop();
+    return;
+  }
+  const unsigned before = Watch::suspicions();
+  on_cpu("a loop", [&](ps::Cpu& cpu) { cpu.notice_loop(before, is_empty); });
+  Watch::suspect_again(before);
+}
+
 }  // namespace
 
 extern "C" {
@@ -166,6 +210,14 @@ void hal_cache_invalidate(void* data, size_t size) {
          [&](ps::Cpu& cpu) { cpu.maintain_cache(ps::Cpu::CacheCall::invalidate, data, size); });
 }
 
+void hal_cache_all(hal_cache_whole operation) {
+  on_cpu("hal_cache_all", [&](ps::Cpu& cpu) { cpu.maintain_all(operation); });
+}
+
+void hal_memory_cached(const void* data, size_t size, bool cached) {
+  on_cpu("hal_memory_cached", [&](ps::Cpu& cpu) { cpu.set_cached(data, size, cached); });
+}
+
 hal_dma_buffer hal_dma_allocate(size_t size, size_t alignment) {
   return on_cpu("hal_dma_allocate",
                 [&](ps::Cpu& cpu) { return cpu.allocate_dma(size, alignment); });
@@ -177,6 +229,10 @@ void hal_interrupt_connect(hal_interrupt_handler handler, void* context) {
 
 bool hal_interrupt_enable(bool enable) {
   return on_cpu("hal_interrupt_enable", [&](ps::Cpu& cpu) { return cpu.enable_interrupt(enable); });
+}
+
+void hal_after_interrupt(void (*hook)(void)) {
+  on_cpu("hal_after_interrupt", [&](ps::Cpu& cpu) { cpu.after_interrupt(hook); });
 }
 
 void hal_wait_for_interrupt(void) {
@@ -272,16 +328,25 @@ void hal_function_leave(void) {
 void __sanitizer_cov_trace_pc(void) {
   using Watch = ps::ProgramWatch;
   if (--Watch::blocks_left != 0 || !Watch::runs) return;
-  if (Watch::stop != Watch::Stop::none) {
-    if (vp::FaultTrap::can_leave()) vp::FaultTrap::leave_at_stop();
-    return;
-  }
-  if (Watch::block_counts &&
+  const bool counts = Watch::block_counts || Watch::charge;
+  if (Watch::stop == Watch::Stop::none && counts &&
       Watch::count_block(reinterpret_cast<std::uintptr_t>(__builtin_return_address(0))))
     return;
-  const unsigned before = Watch::suspicions();
-  on_cpu("a loop", [before](ps::Cpu& cpu) { cpu.notice_loop(before); });
-  Watch::suspect_again(before);
+  look_at_loop(false);
+}
+
+// Programs whose code takes time call it when they have used up what they may at once.
+void markervp_charge_spent(void) {
+  if (ps::ProgramWatch::runs) look_at_loop(false);
 }
 
 }  // extern "C"
+
+void ps::Cpu::make_access(PointerAccess& access) {
+  on_cpu("a pointer to a register", [&](ps::Cpu& cpu) { cpu.access_by_pointer(access); });
+  access.resume();
+}
+
+void ps::look_at_empty_loop() {
+  look_at_loop(true);
+}

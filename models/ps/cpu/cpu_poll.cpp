@@ -119,7 +119,7 @@ hal_poll_result Cpu::poll_until_changed(std::uint32_t address, std::uint32_t pre
                                         std::uint32_t cycles, std::uint32_t limit) {
   hal_poll_result result{previous, 0, false};
   while (result.polls < limit && !result.changed) {
-    last_look_ = {address, previous, Look::By::poll};
+    last_look_ = {address, previous, Look::By::poll, limit - result.polls};
     catch_up();
     Skipped skipped = skip_reads(address, previous, cycles, limit - result.polls);
     result.polls += static_cast<std::uint32_t>(skipped.reads);

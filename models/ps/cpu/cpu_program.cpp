@@ -1,8 +1,13 @@
 // The program's own code: how it is called, what it does without the HAL, and how it fails.
 #include <ps/cpu/cpu.h>
+#include <sys/mman.h>
+#include <vp/error.h>
 #include <vp/report.h>
+#include <vp/text.h>
 #include <vp/unit.h>
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 namespace ps {
 
@@ -24,6 +29,7 @@ constexpr std::uint64_t blocks_at_once = 64;
 
 volatile unsigned ProgramWatch::suspicions_ = 0;
 ProgramWatch::BlockCounts* ProgramWatch::block_counts = nullptr;
+CodeCharge* ProgramWatch::charge = nullptr;
 std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::uint64_t{0};
 
 int Cpu::call_program() {
@@ -36,8 +42,10 @@ int Cpu::call_program() {
   // The first core's looks after both.
   const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
                         this};
+  start_charging();
   ProgramWatch::start(settings_.block_cycles == 0 ? settings_.loop_blocks.get() : blocks_at_once);
   watch_.arm(limit);
+  vp::FaultTrap::on_access = &Cpu::on_fault;
   const vp::Fault* fault = trap_.call(
       [](void* context) {
         Call& call = *static_cast<Call*>(context);
@@ -57,6 +65,42 @@ int Cpu::call_program() {
   if (in_handler_now_)
     break_off("the interrupt handler never returned: do not leave it by longjmp()");
   return call.result;
+}
+
+// A second core runs the code of the first one's program.
+void Cpu::start_charging() {
+  constexpr double one_cycle = static_cast<double>(LocalTime::one_cycle);
+  CodeCharge* const charge = program_->charge();
+  const double scale = settings_.code_scale * profile_scale_;
+  const bool by_code = charge && settings_.block_cycles == 0 && scale > 0;
+  unit_cycles_ = by_code ? static_cast<std::uint64_t>(
+                               std::llround(scale * one_cycle / MachineCode::units_per_cycle))
+                         : settings_.block_cycles * LocalTime::one_cycle;
+  ProgramWatch::charge = by_code ? charge : nullptr;
+  if (charge) charge->start(by_code && !ProgramWatch::block_counts);
+  if (const auto [first, end] = stack(); first != 0) {
+    constexpr std::size_t page = 4096;
+    mprotect(reinterpret_cast<void*>(first), page, PROT_NONE);
+    trap_.use_stack(first, end - first);
+  }
+}
+
+std::pair<std::uintptr_t, std::uintptr_t> Cpu::stack() const {
+  const std::uintptr_t end = cores_->all.front()->stack_end_;
+  if (end == 0 || !program_ || program_->end() == 0) return {0, 0};
+  const std::uintptr_t top = end - number_ * settings_.stack_size;
+  return {top - settings_.stack_size, top};
+}
+
+// Program, heap and stacks lie one behind the other in the DDR.
+void Cpu::check_memory() const {
+  const std::uint64_t wanted = cores_->all.size() * settings_.stack_size;
+  if (program_->end() == 0 || stack_end_ == 0 || program_->end() + wanted <= stack_end_) return;
+  throw vp::InputError(
+      "program '" + std::string(program_->name()) + "' ends at " + vp::hex(program_->end() - 1) +
+      ", and its stack would begin before that: " + "it ends at " + vp::hex(stack_end_ - 1) +
+      ", with " + std::to_string(wanted / 1024) + " KiB (" + settings_.stack_size.name() +
+      "): make the program's variables or the stack smaller");
 }
 
 // The program is over: what it did ahead of time passes, but no handler runs any more.
@@ -106,6 +150,61 @@ void Cpu::report(const vp::Fault& fault) {
                         fault.frames + std::min(fault.frame_count, Fault::most_frames));
   }
   break_off(text);
+}
+
+// In the signal handler of a segmentation fault.
+bool Cpu::on_fault(std::uintptr_t address, void* context) {
+  constexpr std::uintptr_t first_register = 0x4000'0000;  // UG585 table 4-1
+  if (LineGuard::on_fault(address, context)) return true;
+  if (!ProgramWatch::runs || !running_ || address < first_register || address > ~std::uint32_t{0} ||
+      running_->device_at(static_cast<std::uint32_t>(address)).empty()) {
+    return false;
+  }
+  return PointerAccess::divert(context, address, &Cpu::make_access);
+}
+
+// Part of a word is read with it, and written with the rest of it as it is.
+std::uint32_t Cpu::access_part(bool read, std::uint32_t address, unsigned bytes,
+                               std::uint32_t value) {
+  constexpr unsigned word_bytes = 4, bits = 8;
+  if (bytes == word_bytes) return access(read, address, value);
+  const unsigned shift = address % word_bytes * bits;
+  const std::uint32_t word_address = address & ~(word_bytes - 1);
+  const std::uint32_t mask = ((1u << bytes * bits) - 1) << shift;
+  const std::uint32_t word = access(true, word_address, 0);
+  if (read) return (word & mask) >> shift;
+  return access(false, word_address, (word & ~mask) | (value << shift & mask));
+}
+
+// `unsigned long` has 32 bits on the chip: such an access is one of a word.
+void Cpu::access_by_pointer(PointerAccess& pointer) {
+  constexpr unsigned word_bytes = 4, long_bytes = 8;
+  const auto address = static_cast<std::uint32_t>(pointer.address);
+  const std::string where = vp::hex(address) + device_at(address);
+  PointerAccess::Move move{};
+  if (const char* const why = pointer.decode(move)) {
+    misuse("the program accesses " + where + " with " + why +
+           ": read and write registers word by word, through pointers to volatile uint32_t");
+  }
+  const bool is_long = move.bytes == long_bytes && !pointer.is_vector();
+  if (is_long && !warned_of_long_) {
+    warned_of_long_ = true;
+    vp::warn(*this, "/markervp/cpu/long_register",
+             "the program accesses " + where +
+                 " with 8 bytes, as a pointer to unsigned long does here; on the chip that has 4, "
+                 "and so has this access; use u32 or uint32_t, for p[1] lies 8 bytes on here");
+  }
+  const unsigned bytes = is_long ? word_bytes : move.bytes;
+  if (address % std::min(bytes, word_bytes) != 0) {
+    misuse("data abort: unaligned access of " + std::to_string(bytes) + " bytes at " + where);
+  }
+  for (unsigned at = 0; at < bytes; at += word_bytes) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, move.data + at, word_bytes);
+    word = access_part(!move.store, address + at, std::min(bytes, word_bytes), word);
+    if (!move.store) std::memcpy(move.data + at, &word, word_bytes);
+  }
+  pointer.complete(move);
 }
 
 void Cpu::call_handler() {
@@ -159,15 +258,46 @@ __attribute__((no_sanitize("address", "undefined"))) void Cpu::look_at(const voi
 
 // An interrupt ends the jump: the program may have waited for what its handler does. Where blocks
 // take time, no jump is needed.
-void Cpu::notice_loop(unsigned before) {
+void Cpu::notice_loop(unsigned before, bool is_empty) {
+  constexpr unsigned long_loop = 100;  // looks: it computes no more, but waits
   const std::uint64_t taken = interrupts;
+  loops_ = before >= long_loop || is_empty;
   catch_up();
-  if (interrupts == taken && settings_.block_cycles == 0) {
-    loop_jumps_ = true;
+  if (interrupts == taken && (is_empty || !code_takes_time())) {
+    loops_ = true;
     pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
-    loop_jumps_ = false;
     catch_up();
   }
+  loops_ = false;
+}
+
+// Of the innermost calls first: one that cannot return decides.
+MachineCode::Reach Cpu::reach() const {
+  using Reach = MachineCode::Reach;
+  const MachineCode* const code = program_->code();
+  if (!code) return Reach::returns;
+  for (const std::uintptr_t call : return_addresses()) {
+    if (!code->contains(call)) continue;
+    const Reach found = code->reach(HostWatch::is_empty_loop(call) ? call : call + 1);
+    if (found != Reach::returns) return found;
+  }
+  return Reach::returns;
+}
+
+// What it waits for inside of its endless loop may never come: that is told.
+void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
+  constexpr std::uint64_t many_looks = 1'000;
+  const bool waits = loops_ ? reach() != MachineCode::Reach::straight
+                            : last_look_.again >= many_looks && last_look_.changed == 0;
+  if (sleeps || waits) {
+    vp::warn(*this, "/markervp/cpu/time_limit",
+             "the program reached its time limit, " + vp::format_time(settings_.timeout) + " (" +
+                 settings_.timeout.name() + "), in an endless loop" +
+                 (sleeps ? "; it waits for an interrupt, and none came" : "") + hint);
+  }
+  reached_limit_ = true;
+  end(State::finished);
+  rest();
 }
 
 std::optional<std::string> Cpu::place() const {

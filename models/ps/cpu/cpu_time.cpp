@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
+#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
 #include <vp/report.h>
@@ -115,6 +117,7 @@ const WorkCost& CostTable::at(const std::string& work, const std::string& progra
 
 namespace {
 
+constexpr const char* no_end = "no end";
 constexpr std::size_t longest_timeline = 4096;
 /// How far a core runs ahead of its work beside the other one, which sees its memory: what the
 /// program does may depend on it, so it is no quantum.
@@ -176,9 +179,11 @@ inline void Cpu::end_access() {
 
 // What basic blocks took since they were last looked at.
 void Cpu::spend_timed_blocks() {
-  const std::uint64_t blocks = ProgramWatch::take_blocks();
-  timed_blocks_ += blocks;
-  spend_cycles(blocks * settings_.block_cycles);
+  LocalTime::Wide cycles = LocalTime::Wide{ProgramWatch::take_blocks()} * unit_cycles_;
+  if (cores_->all.front()->caches_off_)
+    cycles *= static_cast<std::uint64_t>(settings_.uncached_scale);
+  code_cycles_ += cycles;
+  local_time_.add_cycles(cycles);
 }
 
 // What was done since the simulation was looked at; false where more than that is to be played.
@@ -270,7 +275,7 @@ std::uint64_t Cpu::pass_busy(std::uint64_t start_ps, std::uint64_t end_ps) {
   const std::uint64_t end = std::min(end_ps, std::max(deadline_ps_, start_ps));
   scheduler_.pass_from(start_ps, end);
   activity_.busy(end - start_ps);
-  if (end >= deadline_ps_) meet_deadline("no end", last_look());
+  if (end >= deadline_ps_) meet_deadline(no_end, last_look());
   return end < end_ps ? pass_busy(end, end_ps) : end;
 }
 
@@ -345,7 +350,7 @@ std::uint64_t Cpu::pass(std::uint64_t ps) {
   const std::uint64_t now = now_ps();
   activity_.busy(now - start);
   if (now < deadline_ps_) return now - start;
-  meet_deadline("no end", last_look());
+  meet_deadline(no_end, last_look());
   const std::uint64_t left = ps - (now - start);
   return now - start + (left == 0 || interrupt_due() ? 0 : pass(left));
 }
@@ -359,6 +364,8 @@ void Cpu::meet_deadline(const char* what, const std::string& hint) {
     called_at_();
     return;
   }
+  if (number_ == 0 && reach() != MachineCode::Reach::returns)
+    end_at_limit(hint, std::string_view(what) != no_end);
   fail(std::string(what) + " within " + vp::format_time(settings_.timeout) +
        " of simulated time since the last image (" + settings_.timeout.name() + ")" + hint +
        doing_elsewhere());
@@ -366,19 +373,29 @@ void Cpu::meet_deadline(const char* what, const std::string& hint) {
 
 // What a program that does not end was likely waiting for.
 std::string Cpu::last_look() const {
-  if (loop_jumps_) {
-    return "; it loops without a call of the HAL, as one does that waits for a variable";
+  if (loops_) {
+    return "; it loops without a call of the HAL, as one does that waits for a variable" +
+           reason_of_wait(false);
   }
   if (last_look_.by == Look::By::none) return {};
   std::string text =
       describe_register_ ? describe_register_(last_look_.address, last_look_.value) : std::string();
   if (text.empty()) text = vp::hex(last_look_.address) + ": " + vp::hex(last_look_.value);
-  if (last_look_.by == Look::By::poll) return "; it polls for a change of any bit of " + text;
+  if (last_look_.by == Look::By::poll) {
+    return "; it polls for a change of any bit of " + text + reason_of_wait(true);
+  }
   text = "; the last register that it read was " + text;
   if (last_look_.again == 0) return text;
   return text + ", " + std::to_string(last_look_.again + 1) + " times in a row, of which " +
          (last_look_.changed == 0 ? "no bit" : "only the bits " + vp::hex(last_look_.changed)) +
-         " changed";
+         " changed" + reason_of_wait(true);
+}
+
+std::string Cpu::reason_of_wait(bool polls) const {
+  if (!explain_wait_) return {};
+  const bool masked = masked_ && !in_handler_now_;
+  return explain_wait_(
+      {masked, polls ? std::optional<std::uint32_t>(last_look_.address) : std::nullopt});
 }
 
 bool Cpu::irq_is_low(const void* cpu) {
@@ -419,6 +436,20 @@ void Cpu::run_handler() {
   event_ = true;
   monitor_ = {};
   check_acknowledged();
+  if (after_interrupt_) leave_interrupt();
+}
+
+// The program may continue another of its contexts: what this one did ahead waits until it is
+// continued itself.
+void Cpu::leave_interrupt() {
+  Timeline ahead;
+  std::swap(ahead, timeline_);
+  {
+    const ProgramWatch::ProgramCode code;
+    after_interrupt_();
+  }
+  spend_blocks();
+  std::swap(ahead, timeline_);
 }
 
 void Cpu::wait_for_interrupt() {
@@ -452,7 +483,8 @@ void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) 
 void Cpu::sleep() {
   while (!interrupt_pending()) {
     doze(std::max(deadline_ps_, now_ps()), irq_is_low);
-    if (!interrupt_pending()) meet_deadline("it waits for an interrupt, and none came");
+    if (!interrupt_pending())
+      meet_deadline("it waits for an interrupt, and none came", reason_of_wait(false));
   }
 }
 
@@ -462,7 +494,7 @@ void Cpu::sleep_until(std::uint64_t ps) {
   while (now_ps() < ps) {
     set_deadline(ps + settings_.timeout);
     doze(std::min(ps, std::max(deadline_ps_, now_ps())), interruptible() ? irq_is_low : nullptr);
-    if (now_ps() >= deadline_ps_) meet_deadline("no end");
+    if (now_ps() >= deadline_ps_) meet_deadline(no_end);
     take_interrupts();
   }
 }

@@ -31,9 +31,14 @@ class CostTable {
   /// none.
   const WorkCost& at(const std::string& work, const std::string& program) const;
   const std::map<std::string, WorkCost>& entries() const { return entries_; }
+  /// How long code that counts no work takes, as a multiple of what it does compiled with -O0.
+  double code_scale() const { return code_scale_; }
+  /// `scale` 0.01 to 100.
+  void scale_code(double scale) { code_scale_ = scale; }
 
  private:
   std::string profile_;
+  double code_scale_ = 1;
   std::map<std::string, WorkCost> entries_;
 };
 

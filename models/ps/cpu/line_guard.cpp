@@ -130,6 +130,11 @@ void LineGuard::guard(std::uintptr_t address, std::size_t bytes) {
   });
 }
 
+void LineGuard::exclude(std::uintptr_t first, std::uintptr_t end) {
+  for_each_page(first, end - first,
+                [&](std::size_t number, unsigned, unsigned) { pages_[number].left_alone = true; });
+}
+
 void LineGuard::close() {
   pending_ = false;
   for (Range& range : ranges_) {

@@ -40,6 +40,8 @@ class LineGuard {
   /// again.
   void guard(std::uintptr_t address, std::size_t bytes);
   void release(std::uintptr_t address, std::size_t bytes);
+  /// Never guards pages in [first, end): code, or a stack on which the simulator works, too.
+  void exclude(std::uintptr_t first, std::uintptr_t end);
   /// Guards nothing any more, now and later.
   void stop();
 

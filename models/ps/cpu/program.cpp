@@ -1,9 +1,7 @@
-#include <dlfcn.h>
 #include <elf.h>
-#include <link.h>
-#include <unistd.h>
 
 #include <ps/cpu/program.h>
+#include <ps/cpu/program_image.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/error.h>
 #include <vp/fault_trap.h>
@@ -33,98 +31,6 @@
 namespace ps {
 
 namespace {
-
-/// A copy of the writable static memory of a loaded shared object (.data, .bss, without what the
-/// loader made read-only), taken on construction: right after loading, when the constructors of
-/// static objects have run.
-///
-/// Heap memory that static objects own is not part of it.
-class StaticImage {
- public:
-  /// `handle` from dlopen(). Throws std::runtime_error if the object cannot be found among the
-  /// loaded ones.
-  explicit StaticImage(void* handle);
-
-  /// Puts everything back as it was.
-  void restore() const;
-
- private:
-  struct Range {
-    unsigned char* address;
-    std::vector<unsigned char> bytes;
-  };
-  std::vector<Range> ranges_;
-};
-
-using Span = std::pair<std::uintptr_t, std::uintptr_t>;  ///< first byte, one past the last
-
-struct Search {
-  const link_map* object;
-  std::vector<Span> writable;
-  Span read_only{0, 0};
-  bool found = false;
-};
-
-int visit(dl_phdr_info* info, std::size_t, void* data) {
-  auto& search = *static_cast<Search*>(data);
-  bool is_it = false;
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& header = info->dlpi_phdr[i];
-    if (header.p_type != PT_DYNAMIC) continue;
-    is_it =
-        info->dlpi_addr + header.p_vaddr == reinterpret_cast<std::uintptr_t>(search.object->l_ld);
-  }
-  if (!is_it) return 0;
-  search.found = true;
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& header = info->dlpi_phdr[i];
-    const std::uintptr_t first = info->dlpi_addr + header.p_vaddr;
-    const Span span{first, first + header.p_memsz};
-    if (header.p_type == PT_LOAD && (header.p_flags & PF_W) != 0) search.writable.push_back(span);
-    if (header.p_type == PT_GNU_RELRO) search.read_only = span;
-  }
-  return 1;
-}
-
-// The sanitizers put poisoned gaps between variables: plain copies would be reported, and so would
-// memcpy().
-__attribute__((no_sanitize("address", "undefined"))) void copy(unsigned char* to,
-                                                               const unsigned char* from,
-                                                               std::size_t size) {
-#if defined(__x86_64__)
-  asm volatile("rep movsb" : "+D"(to), "+S"(from), "+c"(size) : : "memory");
-#else
-  volatile unsigned char* target = to;
-  const volatile unsigned char* source = from;
-  for (std::size_t i = 0; i < size; ++i) target[i] = source[i];
-#endif
-}
-
-StaticImage::StaticImage(void* handle) {
-  Search search{};
-  if (dlinfo(handle, RTLD_DI_LINKMAP, &search.object) != 0) throw std::runtime_error(dlerror());
-  dl_iterate_phdr(visit, &search);
-  if (!search.found) throw std::runtime_error("its segments were not found");
-
-  // The loader protects whole pages: the page in which the read-only part ends stays writable from
-  // there on.
-  const std::uintptr_t page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const Span locked{search.read_only.first & ~(page - 1), search.read_only.second & ~(page - 1)};
-  const auto keep = [this](std::uintptr_t first, std::uintptr_t end) {
-    if (first >= end) return;
-    Range range{reinterpret_cast<unsigned char*>(first), std::vector<unsigned char>(end - first)};
-    copy(range.bytes.data(), range.address, range.bytes.size());
-    ranges_.push_back(std::move(range));
-  };
-  for (const Span& span : search.writable) {
-    keep(span.first, std::min(span.second, std::max(span.first, locked.first)));
-    keep(std::max(span.first, std::min(span.second, locked.second)), span.second);
-  }
-}
-
-void StaticImage::restore() const {
-  for (const Range& range : ranges_) copy(range.address, range.bytes.data(), range.bytes.size());
-}
 
 /// More than any program has (decision): a larger count is a mistake.
 constexpr std::uint32_t most_entries = 4096;
@@ -312,54 +218,69 @@ class SharedObject {
   static std::shared_ptr<SharedObject> open(const std::string& path) {
     static std::map<std::string, std::weak_ptr<SharedObject>> loaded;
     if (auto object = loaded[path].lock()) return object;
+    make_room(ProgramImage::wanted_by(path));
     auto object = std::make_shared<SharedObject>(path);
     loaded[path] = object;
     if (kept) kept->push_back(object);
     return object;
   }
 
-  /// Keeps from here on what is opened. It is never destroyed, nor then what is in it.
+  /// Keeps from here on what is opened, until another program needs its addresses. It is never
+  /// destroyed, nor then what is in it.
   static void keep() {
     if (!kept) kept = new std::vector<std::shared_ptr<SharedObject>>;
   }
 
   explicit SharedObject(const std::string& path)
-      : path_(path),
-        handle_(vp::load_object(vp::program_object, path)),
-        image_(handle_),
-        may_start_core_(needs_symbol(path, "hal_cpu_start")) {}
+      : wanted_(ProgramImage::wanted_by(path)),
+        image_(path),
+        may_start_core_(needs_symbol(path, "hal_cpu_start")) {
+    const auto* const area =
+        static_cast<const markervp_charge_area*>(image_.symbol("markervp_charge"));
+    if (area && image_.code()) charge_.emplace(*area, *image_.code());
+  }
   // Destructors of static objects then find what their constructors left, however often the program
   // ran. Not so where gcov counts: its counters would be new, too, and written as another run.
   ~SharedObject() {
+    if (charge_) charge_->stop();
     if (!write_coverage()) image_.restore();
-    vp::unload_object(vp::program_object, path_, handle_);
   }
   SharedObject(const SharedObject&) = delete;
   SharedObject& operator=(const SharedObject&) = delete;
 
   const hal_program* description() const {
-    return static_cast<const hal_program*>(dlsym(handle_, symbol));
+    return static_cast<const hal_program*>(image_.symbol(symbol));
   }
-  void restore() const { image_.restore(); }
+  const ProgramImage& image() const { return image_; }
+  CodeCharge* charge() { return charge_ ? &*charge_ : nullptr; }
   bool may_start_core() const { return may_start_core_; }
   void (*boot() const)(void) {
-    return reinterpret_cast<void (*)(void)>(dlsym(handle_, "markervp_boot"));
+    return reinterpret_cast<void (*)(void)>(image_.symbol("markervp_boot"));
   }
 
  private:
+  /// Unloads what is kept at these addresses and not in use.
+  static void make_room(const ProgramImage::Span& wanted) {
+    if (!kept || wanted.second == 0) return;
+    const auto in_the_way = [&](const std::shared_ptr<SharedObject>& object) {
+      return object.use_count() == 1 && object->wanted_.second != 0;
+    };
+    kept->erase(std::remove_if(kept->begin(), kept->end(), in_the_way), kept->end());
+  }
+
   /// Writes the counters of gcov, where it was built with them.
   bool write_coverage() const {
     using Dump = void (*)();
-    const auto dump = reinterpret_cast<Dump>(dlsym(handle_, "__gcov_dump"));
+    const auto dump = reinterpret_cast<Dump>(image_.symbol("__gcov_dump"));
     if (dump) dump();
     return dump != nullptr;
   }
 
   static std::vector<std::shared_ptr<SharedObject>>* kept;
 
-  std::string path_;
-  void* handle_;
-  StaticImage image_;
+  ProgramImage::Span wanted_;
+  ProgramImage image_;
+  std::optional<CodeCharge> charge_;
   bool may_start_core_;
 };
 
@@ -370,7 +291,11 @@ class LoadedProgram : public Program {
   LoadedProgram(std::shared_ptr<SharedObject> object, const hal_program& description,
                 std::string path)
       : Program(description, std::move(path)), object_(std::move(object)) {}
-  void reset() override { object_->restore(); }
+  void reset() override { object_->image().restore(); }
+  void end_heap_at(std::uintptr_t end) override { object_->image().end_heap_at(end); }
+  std::uint64_t end() const override { return object_->image().end(); }
+  CodeCharge* charge() override { return object_->charge(); }
+  const MachineCode* code() const override { return object_->image().code(); }
   bool may_start_core() const override { return object_->may_start_core(); }
   void (*boot() const)(void) override { return object_->boot(); }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <hal/hal.h>
+#include <ps/cpu/code_charge.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +35,15 @@ class Program {
   const char* name() const { return description_->name; }
   /// Absolute path of the plug-in; empty if linked.
   const std::string& path() const { return path_; }
+
+  /// One past the last byte of it that lies in the DDR, its heap included; 0: none does.
+  virtual std::uint64_t end() const { return 0; }
+  /// Its heap may grow up to this address. After each reset().
+  virtual void end_heap_at(std::uintptr_t) {}
+  /// Charges it for the code that it runs; null: it counts its work, or is linked.
+  virtual CodeCharge* charge() { return nullptr; }
+  /// Its code; null: it is part of this executable.
+  virtual const MachineCode* code() const { return nullptr; }
 
   /// True if it may start the second core, because it refers to hal_cpu_start(). Unknown, and
   /// therefore false, for a linked program.

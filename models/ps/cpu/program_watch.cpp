@@ -10,11 +10,10 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <elf.h>
+#include <link.h>
 #include <ucontext.h>
 #include <unistd.h>
 #include <unwind.h>
-
-extern "C" void __sanitizer_cov_trace_pc(void);
 
 namespace ps {
 
@@ -23,12 +22,7 @@ namespace {
 #if defined(__x86_64__)
 /// Where an empty loop continues. A leaf function may be in one with any stack pointer.
 __attribute__((noinline, force_align_arg_pointer)) void loop_with_call() {
-  while (true) __sanitizer_cov_trace_pc();
-}
-
-bool is_jump_to_itself(std::uintptr_t instruction) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(instruction);
-  return bytes[0] == 0xEB && bytes[1] == 0xFE;
+  while (true) look_at_empty_loop();
 }
 
 // As if the jump were a call: a stack walk finds the loop. What lies below the stack pointer
@@ -36,7 +30,7 @@ bool is_jump_to_itself(std::uintptr_t instruction) {
 void leave_empty_loop(void* context) {
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   const auto instruction = static_cast<std::uintptr_t>(registers[REG_RIP]);
-  if (!is_jump_to_itself(instruction)) return;
+  if (!HostWatch::is_empty_loop(instruction)) return;
   registers[REG_RSP] -= static_cast<greg_t>(sizeof(std::uintptr_t));
   *reinterpret_cast<std::uintptr_t*>(registers[REG_RSP]) = instruction + 1;
   registers[REG_RIP] = reinterpret_cast<greg_t>(&loop_with_call);
@@ -49,12 +43,31 @@ void leave_empty_loop(void*) {}
 
 // The program must not be ended from outside in the middle of this.
 bool ProgramWatch::count_block(std::uintptr_t address) {
+  constexpr std::uint32_t elsewhere =
+      MachineCode::units_per_cycle;  // instrumented, but not its own
   runs = false;
-  ++(*block_counts)[address];
+  if (block_counts) ++(*block_counts)[address];
+  const std::uint32_t cost = charge ? charge->cost_at(address) : 0;
   runs = true;
+  if (charge) {
+    const std::int64_t left = charge->left() - (cost != 0 ? cost : elsewhere);
+    charge->left() = left;
+    blocks_left = blocks_limit;
+    return left > 0;
+  }
   if (++counted_ >= counted_limit_) return false;
   blocks_left = blocks_limit;
   return true;
+}
+
+bool HostWatch::is_empty_loop(std::uintptr_t instruction) {
+#if defined(__x86_64__)
+  const auto* bytes = reinterpret_cast<const unsigned char*>(instruction);
+  return bytes[0] == 0xEB && bytes[1] == 0xFE;
+#else
+  static_cast<void>(instruction);
+  return false;
+#endif
 }
 
 void HostWatch::arm(const HostLimit& limit) {
@@ -153,9 +166,11 @@ std::uintptr_t base_of(const void* address) {
 
 CodeLocator::CodeLocator(const void* inside) {
   Dl_info info{};
-  if (dladdr(inside, &info) == 0) return;
+  link_map* object = nullptr;
+  if (dladdr1(inside, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) == 0) return;
   file_ = info.dli_fname;
   base_ = reinterpret_cast<std::uintptr_t>(info.dli_fbase);
+  bias_ = object->l_addr;
 }
 
 bool CodeLocator::contains(std::uintptr_t address) const {
@@ -173,7 +188,7 @@ std::string CodeLocator::look_up(std::uintptr_t address) const {
     std::ifstream stream(file_, std::ios::binary);
     content_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }
-  const std::uintptr_t place = address - base_;
+  const std::uintptr_t place = this->place(address);
   const std::string symbol = symbol_in(content_, place);
   return hex_short(place) + (symbol.empty() ? "" : " " + symbol);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <ps/cpu/code_charge.h>
 #include <ps/cpu/line_guard.h>
 #include <vp/fault_trap.h>
 #include <vp/host_ticks.h>
@@ -23,10 +24,15 @@ struct ProgramWatch : vp::ForeignCode {
   /// __sanitizer_cov_trace_pc(). Null: not counted. Set before the program starts.
   using BlockCounts = std::unordered_map<std::uintptr_t, std::uint64_t>;
   static BlockCounts* block_counts;
+  /// Of the program that runs, while its code takes time; null: it takes none, or block_cycles.
+  static CodeCharge* charge;
+  /// Units of the charge that the program may use up between two looks at it.
+  static constexpr std::int64_t charge_at_once = 1'024 * MachineCode::units_per_cycle;
 
   static void enter_hal() { runs = false; }
   static void leave_hal() {
     blocks_left = blocks_limit;
+    if (charge) charge->left() = stop == Stop::none ? charge_at_once : 0;
     counted_ = 0;
     suspicions_ = 0;
     LineGuard::program_runs();
@@ -35,19 +41,29 @@ struct ProgramWatch : vp::ForeignCode {
   /// The program's code is about to run; `blocks` without HAL call are a suspicion.
   static void start(std::uint64_t blocks) {
     counted_limit_ = blocks;
-    ForeignCode::start(block_counts ? 1 : blocks);
+    ForeignCode::start(block_counts || charge ? 1 : blocks);
     leave_hal();
   }
   /// No program runs any more.
   static void end() { runs = false; }
+  /// As ForeignCode's, for a program that is charged, too.
+  static void ask_to_stop(Stop why) {
+    ForeignCode::ask_to_stop(why);
+    if (charge && runs) charge->left() = 0;
+  }
 
-  /// Basic blocks since the last call, or HAL call.
+  /// Basic blocks since the last call, or HAL call; units of the charge where there is one.
   static std::uint64_t take_blocks() {
+    if (charge) {
+      const std::int64_t units = charge_at_once - charge->left();
+      charge->left() = charge_at_once;
+      return static_cast<std::uint64_t>(units);
+    }
     const std::uint64_t blocks = blocks_left < blocks_limit ? blocks_limit - blocks_left : 0;
     blocks_left = blocks_limit;
     return block_counts ? std::exchange(counted_, 0) : blocks;
   }
-  /// Counts a block of the program. False: a loop without HAL call is suspected.
+  /// Counts a block of the program, or charges for it. False: the processor is to look.
   static bool count_block(std::uintptr_t address);
 
   /// Suspicions since the last HAL call.
@@ -77,6 +93,9 @@ struct ProgramWatch : vp::ForeignCode {
   static volatile unsigned suspicions_;
   static std::uint64_t counted_, counted_limit_;  ///< blocks, while they are counted
 };
+
+/// The program is in a loop without a statement: lets time pass.
+void look_at_empty_loop();
 
 /// How much host time a program's code may take without progress.
 struct HostLimit {
@@ -108,6 +127,9 @@ class HostWatch : private vp::HostTicks::Listener {
   void arm(const HostLimit& limit);
   void disarm();
 
+  /// The instruction there jumps to itself.
+  static bool is_empty_loop(std::uintptr_t instruction);
+
  private:
   void on_host_tick(std::uint64_t spent_ns, void* context) override;
   void count(std::uint64_t spent_ns);
@@ -126,7 +148,7 @@ class CodeLocator {
 
   bool contains(std::uintptr_t address) const;
   /// The offset in the file of `address`, which it must contain.
-  std::uintptr_t place(std::uintptr_t address) const { return address - base_; }
+  std::uintptr_t place(std::uintptr_t address) const { return address - bias_; }
   /// "0x1a2b make(Mistake)+0x1c": the place in the file, as addr2line takes it, and the function
   /// around it. Only the place if the file was stripped. Looked up in the file once: a trace asks
   /// at each interrupt.
@@ -157,7 +179,8 @@ class CodeLocator {
 
   std::string file_;
   mutable std::vector<char> content_;  ///< of the file, read on first use
-  std::uintptr_t base_ = 0;
+  std::uintptr_t base_ = 0;            ///< of its first page; 0: nothing is known
+  std::uintptr_t bias_ = 0;            ///< what the loader adds to the addresses of the file
   mutable std::map<std::uintptr_t, std::string> texts_;
   mutable backtrace_state* debug_ = nullptr;  ///< debug information of the process; never freed
 };

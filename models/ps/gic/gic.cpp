@@ -228,8 +228,12 @@ void Gic::set_level(std::uint32_t id, bool level) {
 Gic::Request Gic::request() const {
   const std::uint32_t id = logic_.signalled().word & gic::icciar::ACKINTID;
   if (id >= gic::id_count) return {id, 0};
+  return {id, risen_ps(id)};
+}
+
+std::uint64_t Gic::risen_ps(std::uint32_t id) const {
   const Gic& wired = other_ && number_ != 0 && id >= gic::first_spi ? *other_ : *this;
-  return {id, wired.risen_ps_[id]};
+  return wired.risen_ps_[id];
 }
 
 // True if an input has risen.

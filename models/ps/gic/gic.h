@@ -163,6 +163,8 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
     std::uint64_t since_ps = 0;
   };
   Request request() const;
+  /// When the line of interrupt `id` rose last.
+  std::uint64_t risen_ps(std::uint32_t id) const;
 
  private:
   Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, unsigned number);

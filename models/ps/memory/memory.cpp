@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <ps/memory/memory.h>
+#include <ps/memory/residents.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
@@ -19,25 +20,6 @@ namespace ps {
 using namespace vp::literals;
 
 namespace {
-
-/// The first mapping of this process that lies in [first, end): "/usr/bin/x at 0x400000 to
-/// 0x452000".
-std::string occupant(std::uint64_t first, std::uint64_t end) {
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    std::istringstream fields(line);
-    std::uint64_t from = 0, to = 0;
-    char dash = 0;
-    fields >> std::hex >> from >> dash >> to;
-    if (!fields || to <= first || from >= end) continue;
-    std::string permissions, offset, device, inode, name;
-    fields >> permissions >> offset >> device >> inode;
-    std::getline(fields >> std::ws, name);
-    if (name.empty()) name = "memory without a name (another platform in this process?)";
-    return name + " at " + vp::hex(from) + " to " + vp::hex(to);
-  }
-  return {};
-}
 
 std::uint64_t round_up(std::uint64_t value, std::uint64_t power_of_two) {
   return (value + power_of_two - 1) & ~(power_of_two - 1);
@@ -70,41 +52,117 @@ int file_of(std::uint64_t size) {
 
 }  // namespace
 
-FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
-    : size_(size), descriptor_(file_of(size)) {
-  void* wanted = reinterpret_cast<void*>(first);
-  void* got =
-      mmap(wanted, size, PROT_READ | PROT_WRITE,
-           MAP_SHARED | MAP_NORESERVE | MAP_FIXED_NOREPLACE | (descriptor_ < 0 ? MAP_ANONYMOUS : 0),
-           descriptor_, 0);
-  if (got == wanted) {
-    // From a length of 0 mremap() makes a second mapping of the same pages: mremap(2).
-    void* second = mremap(got, 0, size, MREMAP_MAYMOVE);
-    data_ = static_cast<unsigned char*>(got);
-    second_view_ = static_cast<unsigned char*>(second);
-    if (second != MAP_FAILED) return;
-    const std::string reason = std::strerror(errno);
-    munmap(got, size);
-    close(descriptor_);
-    throw vp::InputError(what + ": the host has no room for a second view of " +
-                         std::to_string(size) + " bytes (" + reason + "): choose a smaller size");
+std::string occupant(std::uint64_t first, std::uint64_t end) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream fields(line);
+    std::uint64_t from = 0, to = 0;
+    char dash = 0;
+    fields >> std::hex >> from >> dash >> to;
+    if (!fields || to <= first || from >= end) continue;
+    std::string permissions, offset, device, inode, name;
+    fields >> permissions >> offset >> device >> inode;
+    std::getline(fields >> std::ws, name);
+    if (name.empty()) name = "memory without a name (another platform in this process?)";
+    return name + " at " + vp::hex(from) + " to " + vp::hex(to);
   }
-  const std::string reason = got == MAP_FAILED ? std::strerror(errno) : "address not granted";
-  if (got != MAP_FAILED) munmap(got, size);
-  close(descriptor_);
-  const std::string range = vp::hex(first) + " to " + vp::hex(first + size);
-  const std::string who = occupant(first, first + size);
-  throw vp::InputError(
-      what + " needs the host addresses " + range + ", " +
-      (who.empty() ? "which the host refuses (" + reason + "): choose a smaller size"
-                   : "but they are occupied by " + who +
-                         ": build programs position-independent (-pie), or choose a smaller size"));
+  return {};
+}
+
+FixedMapping::FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
+    : data_(reinterpret_cast<unsigned char*>(first)), size_(size), descriptor_(file_of(size)) {
+  const int flags = MAP_SHARED | MAP_NORESERVE | (descriptor_ < 0 ? MAP_ANONYMOUS : 0);
+  void* const second = mmap(nullptr, size, PROT_READ | PROT_WRITE, flags, descriptor_, 0);
+  if (second == MAP_FAILED) {
+    const std::string reason = std::strerror(errno);
+    close(descriptor_);
+    throw vp::InputError(what + ": the host has no room for " + std::to_string(size) + " bytes (" +
+                         reason + "): choose a smaller size");
+  }
+  second_view_ = static_cast<unsigned char*>(second);
+  try {
+    for (const Piece& piece : pieces_in(what)) {
+      map(what, piece);
+      pieces_.push_back(piece);
+    }
+  } catch (...) {
+    for (const Piece& piece : pieces_) unmap(piece);
+    munmap(second_view_, size_);
+    close(descriptor_);
+    throw;
+  }
 }
 
 FixedMapping::~FixedMapping() {
-  munmap(data_, size_);
+  for (const Piece& piece : pieces_) unmap(piece);
   munmap(second_view_, size_);
   close(descriptor_);
+}
+
+// All but the code of programs.
+std::vector<FixedMapping::Piece> FixedMapping::pieces_in(const std::string& what) const {
+  const auto first = reinterpret_cast<std::uintptr_t>(data_);
+  const std::uint64_t end = first + size_;
+  std::vector<Piece> pieces;
+  std::uint64_t at = first;
+  for (const Resident* resident : Resident::in(first, end)) {
+    if (resident->first() < first || resident->end() > end) {
+      throw vp::InputError("program '" + resident->program() + "' takes the addresses " +
+                           vp::hex(resident->first()) + " to " + vp::hex(resident->end() - 1) +
+                           ", and the memory of " + what + " ends at " + vp::hex(end - 1) +
+                           ": make its variables smaller, or the memory larger");
+    }
+    for (const Resident::Part& part : resident->parts()) {
+      if (part.first > at) pieces.push_back({at, part.first, false});
+      if (part.variables) pieces.push_back({part.first, part.end, true});
+      at = part.end;
+    }
+  }
+  if (at < end) pieces.push_back({at, end, false});
+  return pieces;
+}
+
+// From a length of 0 mremap() makes another mapping of the same pages: mremap(2).
+void FixedMapping::map(const std::string& what, const Piece& piece) {
+  void* const wanted = reinterpret_cast<void*>(piece.first);
+  const std::uint64_t bytes = piece.end - piece.first;
+  if (piece.of_program) {
+    copy_variables(behind(piece.first), wanted, bytes);
+  } else {
+    void* const got =
+        mmap(wanted, bytes, PROT_NONE,
+             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+    const std::string reason = got == MAP_FAILED ? std::strerror(errno) : "address not granted";
+    if (got != wanted) {
+      if (got != MAP_FAILED) munmap(got, bytes);
+      const std::string range = vp::hex(piece.first) + " to " + vp::hex(piece.end);
+      const std::string who = occupant(piece.first, piece.end);
+      throw vp::InputError(
+          what + " needs the host addresses " + range + ", " +
+          (who.empty() ? "which the host refuses (" + reason + "): choose a smaller size"
+                       : "but they are occupied by " + who +
+                             ": build programs position-independent (-pie), or choose a smaller "
+                             "size"));
+    }
+  }
+  if (mremap(behind(piece.first), 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, wanted) == wanted)
+    return;
+  const std::string reason = std::strerror(errno);
+  if (!piece.of_program) munmap(wanted, bytes);
+  throw vp::InputError(what + ": the host has no room for a second view of " +
+                       std::to_string(size_) + " bytes (" + reason + "): choose a smaller size");
+}
+
+// A program that was unloaded meanwhile has taken its pages along.
+void FixedMapping::unmap(const Piece& piece) {
+  void* const at = reinterpret_cast<void*>(piece.first);
+  const std::uint64_t bytes = piece.end - piece.first;
+  if (!piece.of_program || Resident::in(piece.first, piece.end).empty()) {
+    munmap(at, bytes);
+    return;
+  }
+  mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
+  copy_variables(at, behind(piece.first), bytes);
 }
 
 void FixedMapping::clear() {
@@ -172,6 +230,12 @@ void Ddr::clear() {
 
 void Ddr::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
   if (payload.is_response_ok()) account(payload.get_command(), payload.get_data_length());
+}
+
+StackMemory::StackMemory(sc_core::sc_module_name name, std::uint64_t bytes)
+    : MemoryTarget(name),
+      memory_(std::string(this->name()) + " (stacks of programs)", ddr_end - bytes, bytes) {
+  show(memory_.second_view(), ddr_end - bytes, bytes);
 }
 
 Ocm::Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock)

@@ -22,13 +22,20 @@ class Clock;
 
 namespace ps {
 
+/// The first mapping of this process that lies in [first, end): "/usr/bin/x at 0x400000 to
+/// 0x452000"; empty if none does.
+std::string occupant(std::uint64_t first, std::uint64_t end);
+
 /// Zeroed host memory at chosen host addresses, for as long as the object lives, and a second view
 /// of it elsewhere. Pages take memory when first touched. Where the host allows a file without a
 /// name of that size, it is one, which other processes may map, too.
+///
+/// Programs that are loaded there (ps::Resident) stay: their variables become part of the memory,
+/// with what is in them, and get pages of their own again at the end. Their code is not part of it.
 class FixedMapping {
  public:
   /// `first` and `size` are multiples of 4096. Throws vp::InputError that names `what` needs the
-  /// memory, and what occupies the range.
+  /// memory, and what occupies the range, or the program that is larger than it.
   FixedMapping(const std::string& what, std::uint64_t first, std::uint64_t size);
   ~FixedMapping();
   FixedMapping(const FixedMapping&) = delete;
@@ -45,10 +52,23 @@ class FixedMapping {
   void clear();
 
  private:
+  /// Pages of data() that are mapped.
+  struct Piece {
+    std::uint64_t first, end;
+    bool of_program;  ///< variables of a program
+  };
+  std::vector<Piece> pieces_in(const std::string& what) const;
+  void map(const std::string& what, const Piece& piece);
+  void unmap(const Piece& piece);
+  unsigned char* behind(std::uint64_t address) const {
+    return second_view_ + (address - reinterpret_cast<std::uintptr_t>(data_));
+  }
+
   unsigned char* data_;
-  unsigned char* second_view_;
+  unsigned char* second_view_ = nullptr;
   std::uint64_t size_;
   int descriptor_;
+  std::vector<Piece> pieces_;
 };
 
 /// `count` zeroed values, of which those take memory that were touched, page by page.
@@ -158,6 +178,23 @@ class Ddr : public vp::MemoryTarget {
 
   FixedMapping memory_;
   DmaAllocator dma_memory_;
+};
+
+/// Memory for the stacks of programs, at the end of the addresses of DDR: no address that a program
+/// names lies there on a board with less.
+class StackMemory : public vp::MemoryTarget {
+ public:
+  /// `bytes` of it, a multiple of 4096.
+  StackMemory(sc_core::sc_module_name name, std::uint64_t bytes);
+  const char* kind() const override { return "ps::StackMemory"; }
+
+  static constexpr std::uint64_t ddr_end = 0x4000'0000;  // UG585 table 4-1
+  using MemoryTarget::end;
+
+ private:
+  void answered(const tlm::tlm_generic_payload&, sc_core::sc_time&) override {}
+
+  FixedMapping memory_;
 };
 
 /// The on-chip memory, 256 KiB at the top of the address space, as boot code leaves it (UG585

@@ -172,6 +172,7 @@ using Json = ProfileFile::Json;
 constexpr double most_cycles = 1e7, most_stall_ns = 1e6;
 // Two compilers and two programmers differ by less.
 constexpr double least_scale = 0.1, most_scale = 10;
+constexpr double least_code_scale = 0.01, most_code_scale = 100;
 
 const char* name_of(Optimisation optimisation) {
   return optimisation == Optimisation::o0 ? "O0" : "O2";
@@ -252,10 +253,10 @@ void check_optimisation(const ProfileFile& file, std::optional<Optimisation> opt
 
 CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation> optimisation) {
   const Json& root = file.root();
-  file.only(
-      root,
-      {"version", "profile", "optimisation", "origin", "date", "kernels", "other_units", "memory"},
-      "the profile");
+  file.only(root,
+            {"version", "profile", "optimisation", "origin", "date", "kernels", "other_units",
+             "memory", "code_scale"},
+            "the profile");
   check_optimisation(file, optimisation);
   CostProfile profile{ps::CostTable(file.text(root, "profile", "the profile")),
                       file.text(root, "origin", "the profile"),
@@ -274,6 +275,9 @@ CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation>
     read_units(file, units, kernel.units, where, profile.costs);
   }
   read_other_units(file, profile.costs);
+  if (root.find("code_scale") != root.end())
+    profile.costs.scale_code(
+        file.number(root, "code_scale", "the profile", least_code_scale, most_code_scale));
   return profile;
 }
 
@@ -338,6 +342,7 @@ CostProfile read_scaled(const ProfileFile& file, Optimisation optimisation) {
                       file.text(root, "date", "the profile"),
                       {}};
   for (const auto& [unit, cost] : base.costs.entries()) profile.costs.set(unit, cost);
+  profile.costs.scale_code(base.costs.code_scale());
   const Json& fitted = file.member(root, "fitted", "the profile");
   if (!fitted.is_array()) file.refuse("'fitted' is not a list");
   if (fitted.size() > max_fitted) {

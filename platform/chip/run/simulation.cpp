@@ -152,7 +152,7 @@ facts::RunFacts Simulation::facts() const {
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;
   if (cpu.state() == ps::Cpu::State::finished) {
-    facts.end = {cpu.exit_code(), cpu.end_ps()};
+    facts.end = {cpu.exit_code(), cpu.end_ps(), cpu.reached_limit()};
     facts.unpublished = bench_->unpublished();
   }
   facts.camera = bench_->camera_report();

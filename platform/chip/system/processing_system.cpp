@@ -156,6 +156,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   connect_resets();
   slcr.level_shifters.guard(*interconnect.find(gp0_base)->link);
   cpu.connect(ddr.dma_memory());
+  place_stacks();
   cpu.set_poll_elision(poll_elision);
   cpu.name_devices([this](std::uint32_t address) { return device_at(address); });
   if (cores == 1) return;
@@ -164,6 +165,21 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
 }
 
 ProcessingSystem::~ProcessingSystem() = default;
+
+// Behind the DDR, out of the way of what programs address, or else below the DMA buffers.
+void ProcessingSystem::place_stacks() {
+  constexpr std::uint64_t page = 4096;
+  const std::uint64_t bytes = (cores * cpu.settings().stack_size + page - 1) / page * page;
+  if (bytes > ps::StackMemory::ddr_end - ddr.end()) {
+    cpu.end_stack_at(ddr.dma_memory().first());
+    return;
+  }
+  const vp::HierarchyScope scope(*this);
+  stacks_ = std::make_unique<ps::StackMemory>("stacks", bytes);
+  s_axi_hp0.map("stacks", ps::StackMemory::ddr_end - bytes, bytes, vp::Router::Addresses::absolute)
+      .bind(stacks_->socket);
+  cpu.end_stack_at(ps::StackMemory::ddr_end);
+}
 
 std::vector<ps::Cpu*> ProcessingSystem::cpus() {
   std::vector<ps::Cpu*> all{&cpu};

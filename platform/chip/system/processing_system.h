@@ -176,10 +176,12 @@ class ProcessingSystem : public sc_core::sc_module {
   void connect_interrupts();
   void connect_resets();
   void drive_fclks();
+  void place_stacks();
   std::string device_at(std::uint32_t address) const;
 
   std::vector<Interrupt> interrupts_;
   std::unique_ptr<SecondCore> second_core_;
+  std::unique_ptr<ps::StackMemory> stacks_;
   vp::ClockScheduler& scheduler_;
   std::unique_ptr<ClockSource> fclk_clk2_, fclk_clk3_;
   std::unique_ptr<ps::GpPort> m_axi_gp1_;

@@ -4,6 +4,7 @@
 
 #include <chip/system/hardware_map.h>
 #include <chip/system/ps_blocks.h>
+#include <chip/system/wait_reason.h>
 #include <gic_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
@@ -66,6 +67,8 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
       const ps::Gic::Request request = gic.request();
       return ps::Cpu::Request{request_text(gic, request), request.since_ps};
     });
+    core->explain_waits(
+        [this, &gic](const ps::Cpu::Wait& wait) { return reason_of_wait(*this, gic, wait); });
   }
 }
 

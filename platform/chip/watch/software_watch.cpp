@@ -1,10 +1,13 @@
 #include <chip/watch/software_watch.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include <ps/memory/residents.h>
 #include <vp/ip.h>
 #include <vp/report.h>
 #include <vp/text.h>
@@ -51,22 +54,75 @@ CacheContract::CacheContract(Zynq& zynq)
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watches_.emplace_back(*this, port->link);
   }
-  zynq.ps.cpu.on_cache_call(
-      [this](ps::Cpu::CacheCall call, std::uintptr_t address, std::size_t bytes) {
-        if (call == ps::Cpu::CacheCall::flush) {
-          flushed(address, bytes);
-        } else {
-          invalidate(address, bytes);
-        }
-      });
+  zynq.ps.cpu.on_cache_call([this](ps::Cpu::CacheCall call, std::uintptr_t address,
+                                   std::size_t bytes) { take(call, address, bytes); });
   zynq.on_poke([this](std::uint32_t address) { placed(address, sizeof address); });
+  leave_alone();
   check_transfers();
+}
+
+// Code cannot lose its access rights, and the simulator works on the program's stack, too.
+void CacheContract::leave_alone() {
+  const std::uint64_t stacks = zynq_.ps.cpus().size() * zynq_.ps.cpu.settings().stack_size;
+  const std::uint64_t top = zynq_.ps.cpu.stack_end();
+  if (top <= end_ && stacks < top - first_) guard_.exclude(top - stacks, top);
+  for (const ps::Resident* program : ps::Resident::in(first_, end_)) {
+    for (const ps::Resident::Part& part : program->parts()) {
+      if (!part.variables) guard_.exclude(part.first, part.end);
+    }
+  }
 }
 
 CacheContract::~CacheContract() {
   zynq_.ps.cpu.on_cache_call(nullptr);
   zynq_.on_poke(nullptr);
   for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq_.pl())) dma->check_buffers(nullptr);
+}
+
+void CacheContract::take(ps::Cpu::CacheCall call, std::uint64_t address, std::uint64_t bytes) {
+  using Call = ps::Cpu::CacheCall;
+  switch (call) {
+    case Call::flush:
+      return flushed(address, bytes);
+    case Call::invalidate:
+      return invalidate(address, bytes);
+    case Call::flush_all:
+      return flush_all();
+    case Call::invalidate_all:
+      return for_each_used([this](auto from, auto size) { invalidate(from, size); });
+    case Call::disable:
+    case Call::enable:
+      off_ = call == Call::disable;
+      return flush_all();
+    case Call::uncache:
+    case Call::cache:
+      return mark(address, bytes, call == Call::uncache ? uncached : 0,
+                  call == Call::uncache ? 0 : uncached);
+  }
+}
+
+// All of the memory that was ever touched: its file has data there.
+template <class Action>
+void CacheContract::for_each_used(Action action) {
+  const int file = zynq_.ps.ddr.descriptor();
+  const auto size = static_cast<off_t>(end_ - first_);
+  for (off_t at = 0; at < size;) {
+    const off_t from = file < 0 ? at : lseek(file, at, SEEK_DATA);
+    if (from < 0 || from >= size) return;
+    const off_t hole = file < 0 ? size : lseek(file, from, SEEK_HOLE);
+    at = std::min(hole < 0 ? size : hole, size);
+    action(first_ + static_cast<std::uint64_t>(from), static_cast<std::uint64_t>(at - from));
+  }
+}
+
+// Nothing is in the caches: devices see what the program does, and it sees what they wrote.
+void CacheContract::flush_all() {
+  all_current_ = true;
+  for_each_used([this](auto from, auto size) {
+    flushed(from, size);
+    mark(from, size, invalidated, dropped);
+    guard_.release(from, size);
+  });
 }
 
 // What is not of hal_dma_allocate() may end where the program likes.
@@ -133,7 +189,7 @@ void CacheContract::device_wrote(std::uint64_t address, std::uint64_t bytes) {
   if (!watches(address, bytes)) return;
   mark(address, bytes, current, dropped);
   copy(address, bytes);
-  guard_.guard(address, bytes);
+  if (!off_ && (marks_at(address) & uncached) == 0) guard_.guard(address, bytes);
 }
 
 // From what the program sees to what lies behind the caches.
@@ -178,11 +234,12 @@ std::optional<std::uint64_t> CacheContract::first_unflushed(std::uint64_t addres
   const std::uint64_t end = std::min(address + bytes, end_);
   const unsigned char* const from = &marks_at(address);
   const unsigned char* const last = &marks_at(end - 1);
-  const auto* const never =
-      std::find_if(from, last + 1, [](unsigned char marks) { return (marks & current) == 0; });
+  const auto* const never = std::find_if(from, last + 1, [this](unsigned char marks) {
+    return !all_current_ && (marks & (current | uncached)) == 0;
+  });
   const std::uint64_t flushed_end =
       never > last ? end : std::max(address, (address / line + (never - from)) * line);
-  const auto dirty = first_dirty(address, flushed_end - address, given);
+  const auto dirty = first_dirty(address, flushed_end - address, given | uncached);
   if (dirty || never > last) return dirty;
   return flushed_end;
 }
@@ -200,7 +257,8 @@ bool CacheContract::is_flushed_piece(std::uint64_t address, std::uint64_t bytes)
 }
 
 void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
-  if (warned_of_read_ || !watches(address, bytes) || is_flushed_piece(address, bytes)) return;
+  if (warned_of_read_ || off_ || !watches(address, bytes) || is_flushed_piece(address, bytes))
+    return;
   const std::optional<std::uint64_t> stale = first_unflushed(address, bytes);
   if (!stale) return;
   warned_of_read_ = true;
@@ -215,10 +273,11 @@ void CacheContract::device_reads(std::uint64_t address, std::uint64_t bytes) {
 
 // Data that share a line with the buffer are written back with it.
 void CacheContract::device_will_write(std::uint64_t address, std::uint64_t bytes) {
-  if (warned_of_write_ || !watches(address, bytes)) return;
+  if (warned_of_write_ || off_ || !watches(address, bytes)) return;
   const std::uint64_t from = address / line * line;
   const std::uint64_t end = (address + bytes + line - 1) / line * line;
-  const std::optional<std::uint64_t> dirty = first_dirty(from, end - from, given | dropped);
+  const std::optional<std::uint64_t> dirty =
+      first_dirty(from, end - from, given | dropped | uncached);
   if (!dirty) return;
   warned_of_write_ = true;
   vp::warn(zynq_.ps.cpu, "/markervp/cpu/written_over",
@@ -241,11 +300,13 @@ void CacheContract::program_reads(std::uint64_t address) {
     return;
   }
   const bool early = (marks & invalidated) != 0;
-  vp::warn(zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
-           "the program reads " + vp::hex(address) + ", which a DMA wrote " +
-               (early ? "after the program invalidated it" : "and the program never invalidated") +
-               ": it works here, and fails on the chip; " + invalidate_call_ +
-               " between the transfer and the first read");
+  vp::warn(
+      zynq_.ps.cpu, "/markervp/cpu/not_invalidated",
+      "the program reads " + vp::hex(address) + ", which a DMA wrote " +
+          (early ? "after the program invalidated it" : "and the program never invalidated") +
+          ": it works here, and can fail on the chip, where the caches may hold what was there "
+          "before; " +
+          invalidate_call_ + " between the transfer and the first read");
 }
 
 }  // namespace platform

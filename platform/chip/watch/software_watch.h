@@ -50,6 +50,7 @@ class CacheContract {
     invalidated = 2,  ///< by the program, once
     given = 4,        ///< placed by the test bench, and not flushed by the program since
     dropped = 8,      ///< what the program wrote there was invalidated, unflushed
+    uncached = 16,    ///< the program's accesses go past the caches
   };
   class Watch : public vp::MmObserver {
    public:
@@ -66,7 +67,12 @@ class CacheContract {
     vp::MmLink& link_;
   };
 
+  void leave_alone();
   void check_transfers();
+  void take(ps::Cpu::CacheCall call, std::uint64_t address, std::uint64_t bytes);
+  template <class Action>
+  void for_each_used(Action action);
+  void flush_all();
   void flushed(std::uint64_t address, std::uint64_t bytes);
   void invalidate(std::uint64_t address, std::uint64_t bytes);
   void device_reads(std::uint64_t address, std::uint64_t bytes);
@@ -89,6 +95,8 @@ class CacheContract {
   ps::SparseArray<unsigned char> memory_;  ///< behind the caches
   const unsigned char* const written_;     ///< the same bytes as the program has them
   ps::LineGuard guard_;
+  bool off_ = false;          ///< the data caches are
+  bool all_current_ = false;  ///< all of the caches was flushed once: no line was never
   std::string flush_call_ = "call hal_cache_flush()";
   std::string invalidate_call_ = "call hal_cache_invalidate()";
   bool warned_of_read_ = false;

@@ -1,6 +1,10 @@
 // Interrupts reach the handler at exact times, wherever the program is.
+#include <ucontext.h>
+
 #include <ps/interconnect/interconnect.h>
+#include <array>
 #include <boost/test/unit_test.hpp>
+#include <utility>
 
 #include "bench.h"
 
@@ -378,6 +382,56 @@ BOOST_AUTO_TEST_CASE(a_masked_interrupt_does_not_end_the_wait_for_the_camera) {
   });
   BOOST_TEST(camera.asked_ps == 1'000'000u);
   BOOST_TEST(seen == Times{1'000'000}, boost::test_tools::per_element());
+}
+
+namespace {
+
+/// Two contexts of a program: the main one, and one that an interrupt continues.
+ucontext_t main_context, other_context;
+bool in_other = false;
+
+// As a kernel switches tasks.
+void to_other() {
+  if (std::exchange(in_other, !in_other)) return;
+  swapcontext(&main_context, &other_context);
+}
+
+void run_other() {
+  hal_write32(device_address, 2);
+  hal_work(step, 500);
+  hal_write32(device_address, 3);
+  swapcontext(&other_context, &main_context);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_hook_behind_the_handler_may_continue_another_context) {
+  Bench b;
+  b.device.written = [&](std::uint32_t value) {
+    if (value == 1) b.n_irq = true;
+  };
+  b.set_n_irq_at(1'000'000, false);
+  b.run([] {
+    static std::array<char, 256 * 1024> stack;
+    in_other = false;
+    getcontext(&other_context);
+    other_context.uc_stack.ss_sp = stack.data();
+    other_context.uc_stack.ss_size = stack.size();
+    makecontext(&other_context, &run_other, 0);
+    hal_interrupt_connect([](void*) { hal_write32(device_address, 1); }, nullptr);
+    hal_after_interrupt(&to_other);
+    hal_interrupt_enable(true);
+    hal_work(step, 3000);
+    hal_write32(device_address, 4);
+    return 0;
+  });
+  std::vector<std::uint32_t> values;
+  for (const Device::Access& access : b.device.log) values.push_back(access.value);
+  BOOST_TEST(values == (std::vector<std::uint32_t>{1, 2, 3, 4}), boost::test_tools::per_element());
+  // Entry of the handler 100 cycles, exit 60; then the other one, whose 500 cycles the main one
+  // waits.
+  const std::vector<std::uint64_t> times{1'100'000, 1'160'000, 1'660'000, 3'660'000};
+  BOOST_TEST(b.device.times() == times, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

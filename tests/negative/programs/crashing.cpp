@@ -21,8 +21,9 @@ const char* const functions[] = {"crash"};
 volatile int sink;
 volatile bool flag;
 
+// Not volatile: one instruction that reads and writes.
 __attribute__((noinline)) void dereference_device() {
-  sink = *reinterpret_cast<volatile int*>(std::uintptr_t{control});
+  *reinterpret_cast<int*>(std::uintptr_t{control}) += 5;
 }
 
 __attribute__((noinline)) void write_null() {

@@ -100,6 +100,9 @@ class FaultTrap {
   FaultTrap(const FaultTrap&) = delete;
   FaultTrap& operator=(const FaultTrap&) = delete;
 
+  /// From now on code runs on the stack [first, first + size), whose lowest page is closed, instead
+  /// of the rest of the thread's.
+  void use_stack(std::uintptr_t first, std::size_t size);
   /// Calls `code(context)`. Null if it returned, otherwise what stopped it. Lets exceptions pass.
   const Fault* call(void (*code)(void* context), void* context);
   /// Called once, before the faulting code is left: in a signal handler if the fault was a signal.
@@ -139,6 +142,7 @@ class FaultTrap {
   static constexpr std::size_t signal_count = sizeof signals / sizeof signals[0];
 
   static void call_below(void (*code)(void* context), void* context);
+  void call_on_stack(void (*code)(void* context), void* context);
   void arm();
   void disarm();
   static void on_signal(int signal, siginfo_t* info, void* context);
@@ -150,7 +154,8 @@ class FaultTrap {
   [[noreturn]] void land();
   bool is_stack_overflow(std::uintptr_t address) const;
 
-  const std::size_t stack_size_;
+  std::size_t stack_size_;
+  std::uintptr_t own_stack_ = 0;  ///< its first byte; 0: the thread's
   const Of of_;
   FaultTrap* outer_ = nullptr;  ///< of objects, around this one
   std::function<void(const Fault&)> listener_;

@@ -1,7 +1,8 @@
 #ifndef XIL_CACHE_H
 #define XIL_CACHE_H
 
-/* The HAL keeps the caches on. What would touch all of a cache is not offered: name the buffer. */
+/* On the chip the HAL keeps the caches on, and what would touch all of a cache is not offered
+ * there: name the buffer. */
 
 #include <hal/hal.h>
 #include <xil_types.h>
@@ -30,7 +31,6 @@ static inline void Xil_DCacheStoreLine(INTPTR adr) {
   hal_cache_flush((const void*)(adr & ~(INTPTR)31), 32);
 }
 
-static inline void Xil_DCacheEnable(void) {}
 static inline void Xil_ICacheEnable(void) {}
 static inline void Xil_ICacheDisable(void) {}
 static inline void Xil_ICacheInvalidate(void) {}
@@ -42,6 +42,21 @@ static inline void Xil_ICacheInvalidateRange(INTPTR adr, u32 len) {
 }
 
 #define MARKERVP_NOT_OFFERED(text) __attribute__((error(text)))
+#ifndef HAL_BARE_METAL
+static inline void Xil_DCacheEnable(void) {
+  hal_cache_all(HAL_CACHE_ENABLE);
+}
+static inline void Xil_DCacheDisable(void) {
+  hal_cache_all(HAL_CACHE_DISABLE);
+}
+static inline void Xil_DCacheFlush(void) {
+  hal_cache_all(HAL_CACHE_FLUSH);
+}
+static inline void Xil_DCacheInvalidate(void) {
+  hal_cache_all(HAL_CACHE_INVALIDATE);
+}
+#else
+static inline void Xil_DCacheEnable(void) {}
 void Xil_DCacheDisable(void) MARKERVP_NOT_OFFERED(
     "the HAL keeps the caches on: use Xil_DCacheFlushRange and "
     "Xil_DCacheInvalidateRange on your DMA buffers");
@@ -49,6 +64,7 @@ void Xil_DCacheFlush(void)
     MARKERVP_NOT_OFFERED("name the buffer: Xil_DCacheFlushRange(address, bytes)");
 void Xil_DCacheInvalidate(void)
     MARKERVP_NOT_OFFERED("name the buffer: Xil_DCacheInvalidateRange(address, bytes)");
+#endif
 
 #ifdef __cplusplus
 }

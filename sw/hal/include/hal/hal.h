@@ -64,6 +64,23 @@ void hal_cache_flush(const void* data, size_t size);
  * barrier. */
 void hal_cache_invalidate(void* data, size_t size);
 
+#ifndef HAL_BARE_METAL
+/** What can be done to all of the data caches at once, on the platform. */
+typedef enum hal_cache_whole {
+  HAL_CACHE_FLUSH,      /**< writes all dirty lines back, and drops all lines */
+  HAL_CACHE_INVALIDATE, /**< drops all lines but the stack's, dirty ones too: data are lost */
+  HAL_CACHE_DISABLE,    /**< flushes; from then on nothing is cached, and code is slower */
+  HAL_CACHE_ENABLE      /**< begins anew with empty caches */
+} hal_cache_whole;
+
+/** Of the core's own level and the shared one. Includes a barrier. */
+void hal_cache_all(hal_cache_whole operation);
+
+/** Whether accesses of the program to [data, data + size) are cached: attributes of the MMU.
+ * Flushes all caches. */
+void hal_memory_cached(const void* data, size_t size, bool cached);
+#endif
+
 /** Memory that a DMA engine can reach. */
 typedef struct hal_dma_buffer {
   void* data;           /**< for software; NULL when no memory was left */
@@ -87,6 +104,13 @@ void hal_interrupt_connect(hal_interrupt_handler handler, void* context);
 
 /** Unmasks (true) or masks (false) IRQ in the CPU. Masked after reset. Returns what it was. */
 bool hal_interrupt_enable(bool enable);
+
+#ifndef HAL_BARE_METAL
+/** Calls `hook` after each handler of this core, when IRQ is unmasked again and before the program
+ * resumes where it was interrupted. It may continue another context (swapcontext()) and return
+ * later, when that one is continued. Platform only; NULL removes it. */
+void hal_after_interrupt(void (*hook)(void));
+#endif
 
 /** Sleeps until an interrupt is pending at the CPU; its handler has run on return if IRQ is
  * unmasked. */

@@ -1,0 +1,224 @@
+// Programs that are a main() and count no work: what their code takes, where their data lie, and
+// how they end.
+#include <ps/cpu/program_watch.h>
+#include <ps/memory/memory.h>
+#include <vp/error.h>
+#include <vp/report.h>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "bench.h"
+
+using namespace bench;
+
+namespace {
+
+/// What plain.c does.
+enum class Case : std::uint32_t {
+  writes_for_ever,
+  loops_for_ever,
+  waits,
+  waits_for_ever,
+  sleeps_for_ever,
+  shows_data,
+  uses_heap,
+  overflows,
+  computes,
+  uses_pointers,
+};
+
+/// A core with DDR that ran a program.
+struct Run : Bench {
+  Run(const std::string& name, const Settings& settings = {}, Case what = Case::writes_for_ever)
+      : Bench(settings), program(ps::Program::load(MARKERVP_TEST_PROGRAMS "/" + name + ".so")) {
+    ddr.emplace("ddr");
+    bus.map("ddr", ps::Ddr::base, ddr->size, vp::Router::Addresses::absolute).bind(ddr->socket);
+    cpu.connect(ddr->dma_memory());
+    cpu.end_stack_at(ddr->dma_memory().first());
+    cpu.name_devices([](std::uint32_t address) {
+      return address / 0x1000 == device_address / 0x1000 ? "device" : "";
+    });
+    first = what;
+    device.value = [this](std::uint64_t) {
+      return std::exchange(asked, true) ? 0x89AB'CDEFu : static_cast<std::uint32_t>(first);
+    };
+  }
+  void start() {
+    cpu.load(*program, costs());
+    sc_core::sc_start();
+  }
+  std::vector<std::uint32_t> written() const {
+    std::vector<std::uint32_t> words;
+    for (const Device::Access& access : device.log) {
+      if (access.write) words.push_back(access.value);
+    }
+    return words;
+  }
+
+  vp::ReportRouter reports;
+  std::unique_ptr<ps::Program> program;
+  std::optional<ps::Ddr> ddr;
+  Case first;
+  bool asked = false;
+};
+
+/// Of the four computations of kernels.c, in cycles of 1 ns.
+std::vector<double> kernel_cycles(const Settings& settings = {}) {
+  Run run("kernels", settings);
+  run.start();
+  run.cpu.check();
+  const std::vector<std::uint64_t> times = run.device.times();
+  std::vector<double> cycles;
+  for (std::size_t i = 0; i + 1 < times.size(); i += 2)
+    cycles.push_back(static_cast<double>(times[i + 1] - times[i]) / 1'000);
+  return cycles;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(plain_program)
+
+// Measured as scripts/calibrate does: kernels.c compiled for a Cortex-A9 with -O0, cycles by
+// llvm-mca, stalls by the cache model (L2 hit 25 cycles, DDR 100).
+BOOST_AUTO_TEST_CASE(code_takes_what_was_calibrated_within_30_percent) {
+  const double calibrated[] = {107'857, 169'382, 71'289, 122'883};
+  const std::vector<double> cycles = kernel_cycles();
+  BOOST_TEST_REQUIRE(cycles.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double error = cycles[i] / calibrated[i] - 1;
+    BOOST_TEST_MESSAGE("kernel " << i << ": " << cycles[i] << " cycles, " << 100 * error << " %");
+    BOOST_TEST(std::abs(error) < 0.3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_same_time_in_each_run_and_when_blocks_are_counted) {
+  const std::vector<double> once = kernel_cycles();
+  BOOST_TEST(kernel_cycles() == once, boost::test_tools::per_element());
+  ps::ProgramWatch::BlockCounts counts;
+  ps::ProgramWatch::block_counts = &counts;
+  const std::vector<double> counted = kernel_cycles();
+  ps::ProgramWatch::block_counts = nullptr;
+  BOOST_TEST(counted == once, boost::test_tools::per_element());
+  BOOST_TEST(counts.size() > 20);
+}
+
+BOOST_AUTO_TEST_CASE(the_scale_multiplies_it_and_0_is_no_time) {
+  const std::vector<double> once = kernel_cycles();
+  const std::vector<double> doubled = kernel_cycles({"cpu.code_scale=2"});
+  for (std::size_t i = 0; i < 4; ++i) BOOST_TEST(std::abs(doubled[i] - 2 * once[i]) <= 1);
+  const std::vector<double> none = kernel_cycles({"cpu.code_scale=0"});
+  BOOST_TEST(std::accumulate(none.begin(), none.end(), 0.0) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(interrupts_come_at_their_time_while_it_computes) {
+  Run run("plain", {}, Case::computes);
+  run.device.written = [&](std::uint32_t) { run.n_irq = true; };
+  for (std::uint64_t ms = 1; ms <= 8; ++ms) run.set_n_irq_at(ms * 1'000'000'000 / 2, false);
+  run.start();
+  run.cpu.check();
+  const std::vector<std::uint64_t> times = run.device.times();
+  BOOST_TEST(run.cpu.exit_code() >= 4);  // 300 000 passes of some 7 cycles
+  BOOST_TEST(run.cpu.exit_code() <= 8);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const std::uint64_t due = i * 500'000'000 + 100'000;  // entry of the handler
+    BOOST_TEST(times[i] >= due);
+    BOOST_TEST(times[i] <= due + 100'000);  // the handler's own code
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure) {
+  for (const Case what : {Case::writes_for_ever, Case::loops_for_ever}) {
+    Run run("plain", {"cpu.timeout=200 us"}, what);
+    run.start();
+    run.cpu.check();
+    BOOST_TEST((run.cpu.state() == ps::Cpu::State::finished));
+    BOOST_TEST(run.cpu.reached_limit());
+    BOOST_TEST(run.cpu.end_ps() == 200'000'000u);
+    BOOST_TEST(run.reports.warnings().empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_waits_in_an_endless_loop_is_told) {
+  const std::pair<Case, const char*> cases[] = {
+      {Case::waits_for_ever, "it loops without a call of the HAL"},
+      {Case::sleeps_for_ever, "it waits for an interrupt, and none came"}};
+  for (const auto& [what, reason] : cases) {
+    Run run("plain", {"cpu.timeout=300 us"}, what);
+    run.start();
+    run.cpu.check();
+    BOOST_TEST(run.cpu.reached_limit());
+    BOOST_TEST_REQUIRE(run.reports.warnings().size() == 1);
+    const std::string& text = run.reports.warnings().front().message;
+    BOOST_TEST(contains(text, reason), text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_that_could_end_is_a_failure) {
+  Run run("plain", {"cpu.timeout=300 us"}, Case::waits);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "no end within 300 us"), error);
+  BOOST_TEST(contains(error, "it loops without a call of the HAL"), error);
+  BOOST_TEST(contains(error, "plain.c:"), error);
+}
+
+BOOST_AUTO_TEST_CASE(data_heap_and_stack_lie_in_the_ddr_at_the_same_addresses) {
+  std::vector<std::uint32_t> before;
+  for (int i = 0; i < 2; ++i) {
+    Run run("plain", {}, Case::shows_data);
+    run.start();
+    run.cpu.check();
+    const std::vector<std::uint32_t> words = run.written();
+    BOOST_TEST_REQUIRE(words.size() == 8);
+    const std::uint32_t contents[] = {0x1234'5678, 1, 2, 3};
+    for (std::size_t k = 0; k < 4; ++k) {
+      BOOST_TEST(words[2 * k + 1] == 0);  // the upper half
+      std::uint32_t seen = 0;
+      std::memcpy(&seen, run.ddr->behind(words[2 * k], sizeof seen), sizeof seen);
+      if (k < 2) BOOST_TEST(seen == contents[k]);
+    }
+    if (i != 0) BOOST_TEST(words == before, boost::test_tools::per_element());
+    before = words;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_heap_gives_and_takes) {
+  Run run("plain", {}, Case::uses_heap);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_stack_overflow_names_the_function) {
+  Run run("plain", {"cpu.stack_size=1 MiB"}, Case::overflows);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "stack overflow: its 1024 KiB are used up"), error);
+  BOOST_TEST(contains(error, "deep"), error);
+}
+
+BOOST_AUTO_TEST_CASE(a_stack_without_room_is_refused) {
+  Run run("plain", {"cpu.stack_size=255 MiB"});
+  BOOST_CHECK_EXCEPTION(run.start(), vp::InputError, [](const auto& error) {
+    return contains(error.what(), "cpu.stack_size") && contains(error.what(), "ends at");
+  });
+}
+
+BOOST_AUTO_TEST_CASE(registers_are_reached_through_pointers) {
+  Run run("plain", {}, Case::uses_pointers);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 0);
+  const std::vector<std::uint32_t> expected{0xCAFE'0001, 0x89AB'CD55, 0x3F80'0000, 0x89AB'CDFF, 7};
+  BOOST_TEST(run.written() == expected, boost::test_tools::per_element());
+  BOOST_TEST_REQUIRE(run.reports.warnings().size() == 1);
+  BOOST_TEST(contains(run.reports.warnings().front().message, "unsigned long"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
