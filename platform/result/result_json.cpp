@@ -57,6 +57,7 @@ constexpr int degree_places = 6;
 constexpr int us_places = 6;
 constexpr int fps_places = 6;
 constexpr int second_places = 3;
+constexpr int exponent_places = 4;
 constexpr int percent_places = 3;
 
 }  // namespace
@@ -189,6 +190,11 @@ Json to_json(const facts::FrameReport& frame) {
   for (const facts::FoundMarker& found : frame.markers)
     json["markers"].push_back(marker_json(frame, found));
   if (frame.board) json["board"] = board_json(*frame.board);
+  if (frame.response) {
+    json["response"]["origin"] = frame.response->origin;
+    if (frame.response->exponent > 0)
+      json["response"]["exponent"] = rounded(frame.response->exponent, exponent_places);
+  }
   json["time_us"] = Json::object();
   for (const facts::StageTime& time : frame.times) {
     json["time_us"][time.name] =

@@ -102,7 +102,13 @@ void FrameBench::place(const input::SharedFrame& frame) {
   frame_.fy = camera.fy;
   frame_.cx = camera.cx;
   frame_.cy = camera.cy;
+  static_assert(sizeof camera.distortion == sizeof frame_.distortion);
   std::copy(camera.distortion.begin(), camera.distortion.end(), frame_.distortion);
+  frame_.lens_model = static_cast<std::uint32_t>(camera.lens_model);
+  frame_.light = camera.response.light ? camera.response.light->data() : nullptr;
+  frame_.response = frame_.light != nullptr      ? HAL_RESPONSE_TABLE
+                    : camera.response.is_linear ? HAL_RESPONSE_LINEAR
+                                                : HAL_RESPONSE_UNKNOWN;
 }
 
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,

@@ -15,7 +15,7 @@ struct DesignDescriptor {
 };
 
 /// Changes with every change to what designs see, if the version stays.
-inline constexpr std::uint32_t design_abi = 4;
+inline constexpr std::uint32_t design_abi = 5;
 
 }  // namespace platform
 

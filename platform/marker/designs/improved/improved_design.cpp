@@ -130,6 +130,10 @@ void ImprovedDesign::fill_in(facts::FrameReport& frame, std::uint64_t now_ps) co
   }
   for (std::uint32_t i = 0; i < result_.found.count; ++i)
     frame.markers.push_back(found_marker(result_.found.markers[i]));
+  const marker::ResponseUse& response = result_.found.response;
+  if (response.is_said) {
+    frame.response = {marker::response_name(response.origin), response.exponent};
+  }
   const marker::BoardPoses& board = result_.found.board;
   if (board.valid) {
     frame.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance,
