@@ -135,6 +135,8 @@ void measure_detector(Random& random, std::uint32_t width, std::uint32_t height,
 /// And what follows, on random boards.
 void measure_board_pose(Random& random);
 void measure_pose_filter(Random& random);
+/// And what it does for cameras with a response curve or another lens.
+void measure_optics(Random& random, std::uint32_t width, std::uint32_t height);
 
 /// Measures what the software does for the hardware: feature words and interrupts.
 void measure_hardware(Random& random);

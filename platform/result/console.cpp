@@ -174,8 +174,9 @@ std::string end_text(const facts::RunFacts& facts) {
   const std::string none = facts.work.unit.empty() ? "" : "no " + facts.work.many() + ": ";
   if (!facts.end) return none + "the program was stopped";
   if (facts.end->reached_limit) {
-    return fmt::format("{}the program reached its time limit, {}, in an endless loop (ps.cpu.timeout)",
-                       none, vp::format_time(facts.end->ps));
+    return fmt::format(
+        "{}the program reached its time limit, {}, in an endless loop (ps.cpu.timeout)", none,
+        vp::format_time(facts.end->ps));
   }
   return fmt::format("{}the program ended at {} with exit code {}", none,
                      vp::format_time(facts.end->ps), facts.end->exit_code);

@@ -36,14 +36,20 @@ struct Box {
   std::uint32_t left, top, right, bottom;
 };
 
+struct Optics;
+
 /// The camera's picture, and how it was taken.
 struct CameraFrame {
+  static constexpr bool may_squeeze = false;
+
   GreyImage image;
   Lens lens;
   bool in_dma_memory =
       false;  ///< a DMA engine wrote it: what is read is taken out of the caches first
   /// No pixel outside of it is read.
   Box part = {0, 0, image.width, image.height};
+  /// What `lens` does not say (optics.h); nullptr: it says all, and grey levels are light.
+  const Optics* optics = nullptr;
 };
 
 }  // namespace marker

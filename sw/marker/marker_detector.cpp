@@ -1,4 +1,5 @@
 #include <marker/marker_detector.h>
+#include <marker/outline.h>
 #include <marker/work.h>
 
 #include <blob_stream.h>
@@ -12,6 +13,10 @@ namespace {
 /// may be 3 px off, an edge is looked for 4.5 px along a strip, and the paper's grey level is read
 /// behind it. More changes nothing in the corners.
 constexpr std::uint32_t fetch_margin = 10;
+
+/// Of a marker whose outline is no quadrilateral so many cells of the border may be white: what hides
+/// a corner may be bright. Then its word must be exact (measured: nothing false in 335 pictures).
+constexpr std::uint32_t hidden_cells = 3;
 
 /// The eight directions of Extremes, and of blob_stream's words.
 constexpr std::array<std::array<std::int32_t, 2>, 8> directions = {
@@ -117,19 +122,9 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
       ++counts.small;
       continue;
     }
-    Quad guess{};
-    if (!largest_quad(extremes_of(words), guess)) {
-      ++counts.refused[static_cast<std::uint32_t>(Refusal::shape)];
-      continue;
-    }
-    if (is_cut(guess, frame.image)) {
-      ++counts.refused[static_cast<std::uint32_t>(Refusal::hidden)];
-      continue;
-    }
     near.part = around(box, frame.image);
-    if (frame.in_dma_memory) fetch(frame.image, near.part);
     DetectedMarker marker{};
-    const Refusal refusal = read_marker(near, guess, book_, options_.detection, marker);
+    const Refusal refusal = read_blob(near, extremes_of(words), marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
     } else if (found.count == max_detections) {
@@ -141,6 +136,43 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
       detection.motion = {};
     }
   }
+}
+
+void MarkerDetector::measure_again(const CameraFrame& frame, Detections& found) const {
+  const FunctionScope scope(Function::marker_detection);
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    marker::measure_again(frame, book_.dictionary(), options_.detection, found.markers[i].marker);
+  }
+}
+
+Refusal MarkerDetector::read_blob(const CameraFrame& near, const Extremes& extremes,
+                                  DetectedMarker& marker) const {
+  const bool has_outline = near.optics != nullptr && near.optics->reads_outlines;
+  Quad guess{};
+  Refusal refusal = Refusal::none;
+  if (!largest_quad(extremes, guess)) {
+    refusal = Refusal::shape;
+  } else if (is_cut(guess, near.image)) {
+    refusal = Refusal::hidden;
+  }
+  if (refusal != Refusal::none && !has_outline) return refusal;
+  if (near.in_dma_memory) fetch(near.image, near.part);
+  if (refusal == Refusal::none) {
+    refusal = read_marker(near, guess, book_, options_.detection, marker);
+  }
+  const bool is_hopeless =
+      refusal == Refusal::none || refusal == Refusal::plain || refusal == Refusal::contrast;
+  if (is_hopeless || !has_outline) return refusal;
+  DetectionOptions options = options_.detection;
+  options.white_border = std::max(options.white_border, hidden_cells);
+  options.exact = true;
+  const OutlineQuads outline = quads_of_outline(near, extremes[0]);
+  for (std::uint32_t i = 0; i < outline.count; ++i) {
+    if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {
+      return Refusal::none;
+    }
+  }
+  return refusal;
 }
 
 void MarkerDetector::find_poses(const Camera& camera, Detections& found) {

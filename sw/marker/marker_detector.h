@@ -5,6 +5,7 @@
 #include <marker/code_book.h>
 #include <marker/images.h>
 #include <marker/marker_reader.h>
+#include <marker/optics.h>
 
 #include <array>
 #include <cstdint>
@@ -63,8 +64,16 @@ struct Detection {
   PoseMotion motion;
 };
 
+/// How the grey levels of a frame were taken for light.
+struct ResponseUse {
+  bool is_said;  ///< false: levels are known to be light
+  ResponseOrigin origin;
+  double exponent;  ///< of what was found; 0: none was
+};
+
 /// All that was found in a frame.
 struct Detections {
+  ResponseUse response;
   BlobCounts blobs;
   BoardPoses board;             ///< not valid: no board was asked for, or none is seen
   std::uint32_t board_markers;  ///< used for its pose
@@ -75,6 +84,7 @@ struct Detections {
 
 /// Makes `found` that of a new frame. Markers beyond the count keep what they held.
 inline void clear(Detections& found) {
+  found.response = {};
   found.blobs = {};
   found.board.valid = false;
   found.board_markers = found.count = 0;
@@ -93,11 +103,18 @@ class MarkerDetector {
   /// Finds the markers; `found` has no poses yet. The words may hold anything.
   void find_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
 
+  /// Measures those markers once more, as the frame's optics are now: poses are to be found anew.
+  void measure_again(const CameraFrame& frame, Detections& found) const;
+
   /// The pose of each marker, or of the board. If an ID is seen more than once, it is unknown which
   /// one is the board's: none of them counts.
   void find_poses(const Camera& camera, Detections& found);
 
  private:
+  /// `near`: of which no more is looked at than what is around the blob.
+  Refusal read_blob(const CameraFrame& near, const Extremes& extremes,
+                    DetectedMarker& marker) const;
+
   CodeBook book_;
   DetectorOptions options_;
   std::array<SeenMarker, max_detections> seen_;

@@ -1,4 +1,6 @@
 #include <marker/marker_reader.h>
+#include <marker/optics.h>
+#include <marker/optics_fit.h>
 #include <marker/rectification.h>
 #include <marker/work.h>
 
@@ -24,7 +26,8 @@ struct Cell {
 };
 
 /// Through a lens, from where a pinhole camera would see it.
-Cell seen_through(const Lens& lens, const Cell& ideal) {
+template <class AnyLens>
+Cell seen_through(const AnyLens& lens, const Cell& ideal) {
   Cell seen = ideal;
   seen.middle = distort(lens, ideal.middle);
   seen.right = distort(lens, ideal.middle + ideal.right) - seen.middle;
@@ -93,7 +96,9 @@ CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint3
   look.cells = cells;
   const std::uint32_t side = cells + 2;
   const Homography h = make_homography({corners[0], corners[1], corners[3], corners[2]}, side);
-  const bool is_pinhole = frame.lens.is_pinhole();
+  // The frame's own lens, or one that it does not say.
+  const GeneralLens* const lens = frame.optics == nullptr ? nullptr : &frame.optics->lens;
+  const bool is_pinhole = lens == nullptr ? frame.lens.is_pinhole() : lens->is_pinhole();
   std::uint32_t* sum = look.sums.data();
   for (std::uint32_t row = 0; row < side; ++row) {
     const double v = row + 0.5, x = h.h2 * v + h.u1, y = h.h5 * v + h.v1, depth = h.h8 * v + 1;
@@ -103,12 +108,16 @@ CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint3
       const Cell cell{middle,
                       {(h.h1 - middle.x * h.h7) * step, (h.h4 - middle.y * h.h7) * step},
                       {(h.h2 - middle.x * h.h8) * step, (h.h5 - middle.y * h.h8) * step}};
-      *sum++ = sum_of(is_pinhole ? cell : seen_through(frame.lens, cell), frame);
+      *sum++ = sum_of(is_pinhole        ? cell
+                      : lens == nullptr ? seen_through(frame.lens, cell)
+                                        : seen_through(*lens, cell),
+                      frame);
     }
   }
   work(Work::codes_read, 1);
   work(Work::code_cells, std::uint64_t{side} * side);
-  if (!is_pinhole) work(Work::lens_steps, std::uint64_t{3} * side * side);
+  const Work steps = lens == nullptr ? Work::lens_steps : Work::general_lens_steps;
+  if (!is_pinhole) work(steps, std::uint64_t{3} * side * side);
   return look;
 }
 
@@ -136,32 +145,103 @@ CellReading read_cells(const CellLook& look, double dark, double bright) {
   return reading;
 }
 
-Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
-                    const DetectionOptions& options, DetectedMarker& marker) {
+namespace {
+
+QuadFitOptions fit_options(const DetectionOptions& options, std::uint32_t cells) {
+  QuadFitOptions fit = options.fit;
+  fit.cells = cells + 2;
+  return fit;
+}
+
+/// True if the frame's own lens is not the whole truth.
+bool has_other_lens(const CameraFrame& frame) {
+  return frame.optics != nullptr && frame.optics->lens.model != LensModel::brown_conrady;
+}
+
+/// From corners that were found to a marker's word. `look`: of the corners in `guessed`.
+Refusal read_word(const CameraFrame& frame, const QuadFit& fit, const Quad& guessed,
+                  const CodeBook& book, const DetectionOptions& options, CellLook& look,
+                  CodeBook::Match& match) {
   const std::uint32_t cells = book.dictionary().cells;
-  QuadFitOptions fit_options = options.fit;
-  fit_options.cells = cells + 2;
-  QuadFit fit = guess_quad(frame.lens, guess, fit_options);
-  if (fit.refusal != Refusal::none) return fit.refusal;
-  const Quad guessed = fit.ideal;
-  CellLook look = look_at_cells(frame, guessed, cells);
-  if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
-  if (is_plain(look, fit_options.minimum_contrast)) return Refusal::plain;
-  find_quad(frame, fit_options, fit);
-  if (fit.refusal != Refusal::none) return fit.refusal;
   if (!are_same_cells(fit.ideal, guessed, cells + 2)) look = look_at_cells(frame, fit.ideal, cells);
   const CellReading reading = read_cells(look, fit.dark, fit.bright);
   if (reading.white_border > options.white_border) return Refusal::border;
-  const CodeBook::Match match = book.look_up(reading.word);
-  if (!match.found) return Refusal::unknown;
-  // Only what is a marker is worth all of its edges.
-  refine_quad(frame, fit_options, fit);
+  match = book.look_up(reading.word);
+  const bool is_word = match.found && (match.corrected == 0 || !options.exact);
+  return is_word ? Refusal::none : Refusal::unknown;
+}
+
+/// All edges of a marker of that ID, with the optics of the frame. `fit`: found, and `rotation`
+/// quarters before its own top left.
+Refusal measure(const CameraFrame& frame, const Dictionary& dictionary,
+                const DetectionOptions& options, QuadFit& fit, unsigned rotation,
+                DetectedMarker& marker) {
+  const QuadFitOptions all = fit_options(options, dictionary.cells);
+  LightLevels levels{};
+  if (frame.optics == nullptr) {
+    refine_quad(frame, all, fit);
+  } else {
+    levels = refine_through_optics(frame, all, fit);
+  }
   if (fit.refusal != Refusal::none) return fit.refusal;
+  marker.fit = counted_from(fit, rotation);
+  marker.inner = {};
+  if (frame.optics != nullptr && frame.optics->seeks_response) {
+    marker.inner = measure_inner_edges(frame, marker.fit, levels, dictionary.words[marker.id],
+                                       dictionary.cells);
+  }
+  return Refusal::none;
+}
+
+}  // namespace
+
+Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
+                    const DetectionOptions& options, DetectedMarker& marker) {
+  const std::uint32_t cells = book.dictionary().cells;
+  const QuadFitOptions all = fit_options(options, cells);
+  const bool other_lens = has_other_lens(frame);
+  const QuadFit guessed = other_lens ? guess_through_optics(frame, guess, all)
+                                     : guess_quad(frame.lens, guess, all);
+  if (guessed.refusal != Refusal::none) return guessed.refusal;
+  CellLook look = look_at_cells(frame, guessed.ideal, cells);
+  if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
+  if (is_plain(look, all.minimum_contrast)) return Refusal::plain;
+  QuadFit fit = guessed;
+  if (other_lens) {
+    find_through_optics(frame, all, FirstReach::wide, fit);
+  } else {
+    find_quad(frame, all, fit);
+  }
+  CodeBook::Match match{};
+  Refusal refusal = fit.refusal;
+  if (refusal == Refusal::none) {
+    refusal = read_word(frame, fit, guessed.ideal, book, options, look, match);
+  }
+  if (refusal != Refusal::none && frame.optics != nullptr && frame.optics->tries_again) {
+    fit = guessed;
+    find_through_optics(frame, all, FirstReach::narrow, fit);
+    if (fit.refusal != Refusal::none) return refusal;
+    look = look_at_cells(frame, fit.ideal, cells);
+    if (read_word(frame, fit, fit.ideal, book, options, look, match) != Refusal::none) {
+      return refusal;
+    }
+    refusal = Refusal::none;
+  }
+  if (refusal != Refusal::none) return refusal;
   marker.id = match.id;
   marker.corrected = match.corrected;
-  // Turned by r quarters, the marker's own top left is the r-th corner clockwise from the first.
-  marker.fit = counted_from(fit, match.rotation);
-  return Refusal::none;
+  marker.part = frame.part;
+  // Only what is a marker is worth all of its edges. Turned by r quarters, its own top left is the
+  // r-th corner clockwise from the first.
+  return measure(frame, book.dictionary(), options, fit, match.rotation, marker);
+}
+
+bool measure_again(const CameraFrame& frame, const Dictionary& dictionary,
+                   const DetectionOptions& options, DetectedMarker& marker) {
+  CameraFrame near = frame;
+  near.part = marker.part;
+  QuadFit fit = marker.fit;
+  return measure(near, dictionary, options, fit, 0, marker) == Refusal::none;
 }
 
 Refusal detect_marker(const CameraFrame& frame, const Extremes& blob, const CodeBook& book,

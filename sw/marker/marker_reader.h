@@ -3,6 +3,7 @@
 #include <marker/camera.h>
 #include <marker/code_book.h>
 #include <marker/images.h>
+#include <marker/inner_edges.h>
 #include <marker/quad_fit.h>
 
 #include <array>
@@ -36,17 +37,25 @@ CellReading read_cells(const CellLook& look, double dark, double bright);
 struct DetectionOptions {
   QuadFitOptions fit;              ///< but for `cells`, which the dictionary says
   std::uint32_t white_border = 0;  ///< so many cells of the border may be white
+  bool exact = false;              ///< no wrong cell of the code is corrected
 };
 
 struct DetectedMarker {
   std::uint16_t id;
   std::uint8_t corrected;  ///< cells that were wrong
   QuadFit fit;             ///< clockwise from the marker's own top left corner
+  Box part;                ///< of the picture, in which it was looked for
+  InnerShift inner;        ///< without edges unless Optics::seeks_response
 };
 
 /// From the guess of a blob's corners, as largest_quad gives it, to a marker.
 Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
                     const DetectionOptions& options, DetectedMarker& marker);
+
+/// Measures a marker that read_marker() found once more, as the frame's optics are now. False: it
+/// stays as it was.
+bool measure_again(const CameraFrame& frame, const Dictionary& dictionary,
+                   const DetectionOptions& options, DetectedMarker& marker);
 
 /// From a blob to a marker. What has no code, or is no quadrilateral with straight edges, dark
 /// inside and bright outside, is refused before its word is looked up.

@@ -50,6 +50,11 @@ struct FitPass {
   bool is_last;             ///< the transition is no longer needed
 };
 
+/// An edge is measured so many standard deviations of its transition to both sides, but not less
+/// than the half pixel that every edge takes. Wider costs accuracy (each pixel adds its noise),
+/// narrower makes the blur show.
+inline constexpr double reach_in_deviations = 2.5;
+
 /// A side with fewer crossings is not measured.
 inline constexpr std::uint32_t least_crossings = 6;
 /// Room for the crossings of a side.

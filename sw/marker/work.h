@@ -76,7 +76,23 @@
   X(tracks_begun, "a pose that the filter sees for the first time, or anew")                  \
   X(poses_predicted, "a pose led on to the time of a frame")                                  \
   X(poses_weighed, "a pose of a frame held against it: the covariance's Cholesky factor")     \
-  X(poses_corrected, "a pose corrected by that of the frame")
+  X(poses_corrected, "a pose corrected by that of the frame")                                 \
+  X(lit_fits, "a quadrilateral measured in light: set up and concluded")                      \
+  X(lit_passes, "its sides set up, its corners met")                                          \
+  X(lit_side_fits, "a side measured in light, without its crossings")                         \
+  X(lit_crossings, "the edge in a strip of light found and taken into the line")              \
+  X(lit_strips, "a strip of light laid across a side")                                        \
+  X(lit_level_reads, "such a strip asked for the light beside its edge")                      \
+  X(lit_level_pixels, "a pixel beyond a transition read for it")                              \
+  X(lit_transitions, "a crossing in light whose blur is measured")                            \
+  X(general_lens_steps, "a point led once through a lens of any model, with its derivatives") \
+  X(inner_edges, "an edge between two cells of a marker laid out")                            \
+  X(inner_strips, "a strip across one of them")                                               \
+  X(curves_made, "a response curve's table filled")                                           \
+  X(outline_samples, "a pixel looked at for what is dark around a blob")                      \
+  X(outline_points, "a pixel of a blob's outline followed")                                   \
+  X(outline_distances, "one held against a chord")                                            \
+  X(outline_quads, "four pieces of an outline that meet: a quadrilateral?")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.

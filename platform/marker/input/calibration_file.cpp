@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include <marker/input/calibration_dialect.h>
 #include <marker/input/calibration_file.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -359,20 +360,10 @@ bool begins(const std::string& text, std::string_view with) {
 
 /// What the file is, if its first bytes or its words say that it is not one of ours; else empty.
 std::string other_format(const std::string& text) {
-  using namespace std::string_literals;
   if (begins(text, "MATLAB ")) return "a MAT-file of MATLAB";
   if (begins(text, "\x93NUMPY") || begins(text, "PK\x03\x04"))
     return "an array of NumPy (or a ZIP)";
-  if (text.find("# oST version") != std::string::npos || begins(text, "[image]"))
-    return "an oST file (ost.txt) of ROS's calibrator, which writes ost.yaml, too";
   if (begins(text, "# Camera list with one line")) return "a camera list of COLMAP";
-  for (const char* variable : {"fc", "kc", "cc"}) {
-    for (const char* assigned : {" = [", "=["}) {
-      const std::size_t at = text.find("\n"s + variable + assigned);
-      if (at != std::string::npos || begins(text, variable + std::string(assigned)))
-        return "a script of MATLAB (Caltech's toolbox)";
-    }
-  }
   return "";
 }
 
@@ -395,9 +386,11 @@ std::vector<CalibrationEntry> read_calibration_file(const std::string& path) {
     throw vp::InputError(what + " is " + other + ": give " + accepted_calibrations);
   if (text.find('\0') != std::string::npos)
     throw vp::InputError(what + ": no calibration in YAML, XML or JSON");
+  if (std::optional<std::vector<CalibrationEntry>> script = read_script(text, what))
+    return std::move(*script);
   Collection collection(what);
   collection.add_children(text[0] == '<' ? XmlReader(what).read(text) : read_yaml(text, what), "");
-  return collection.take();
+  return in_known_words(collection.take(), what);
 }
 
 }  // namespace platform::input

@@ -16,9 +16,8 @@ struct CalibrationEntry {
 
 /// How a message ends that refuses a camera file of another format.
 constexpr const char* accepted_calibrations =
-    "OpenCV's FileStorage (YAML, XML or JSON) or a camera_info YAML of ROS, with camera_matrix or "
-    "K "
-    "and distortion_coefficients or D";
+    "OpenCV's FileStorage (YAML, XML or JSON), a camera_info YAML or ost.txt of ROS, a camchain of "
+    "Kalibr or MATLAB's parameters, with camera_matrix or K and distortion_coefficients or D";
 
 /// Every entry of an OpenCV FileStorage (YAML, XML, JSON) or of plain YAML as ROS writes it, in the
 /// order of the file; a name may come twice. Throws vp::InputError if the file is missing, empty,

@@ -6,6 +6,7 @@
 
 #include <marker/input/calibration_file.h>
 #include <marker/input/camera_file.h>
+#include <marker/input/camera_response.h>
 #include <vp/error.h>
 #include <vp/text.h>
 
@@ -71,8 +72,6 @@ struct Sign {
 };
 constexpr Sign signs[] = {{"distortioncoeffs", "a camchain of Kalibr"},
                           {"tcamimu", "a camchain of Kalibr"},
-                          {"camera.fx", "a settings file of ORB-SLAM"},
-                          {"camera1.fx", "a settings file of ORB-SLAM"},
                           {"projectionparameters", "a camera file of VINS (camodocal)"},
                           {"mirrorparameters", "a camera file of VINS (camodocal)"},
                           {"radialdistortion", "MATLAB's cameraParameters"},
@@ -85,16 +84,25 @@ constexpr Sign signs[] = {{"distortioncoeffs", "a camchain of Kalibr"},
                           {"value0", "a calibration of Basalt"}};
 
 /// A lens model by the names that it has in files, and how many coefficients it may have.
-struct LensModel {
+struct NamedLens {
   Names names;  ///< plain
   std::set<std::size_t> coefficients;
+  bool is_fisheye = false;
 };
 const std::set<std::size_t> any_count{0, 4, 5, 8, 12, 14};
-const LensModel lens_models[] = {
+const NamedLens lens_models[] = {
     {{"plumbbob", "radtan", "radialtangential", "brown", "brownconrady"}, {0, 4, 5}},
     {{"pinhole", "perspective", "opencv", "0", "false", "no"}, any_count},
     {{"rational", "rationalpolynomial"}, {8, 12, 14}},
+    {{"equidistant", "equi", "fisheye", "kannalabrandt", "kannalabrandt4", "kb4", "kannalabrandt8",
+      "kb8"},
+     {0, 4},
+     true},
     {{"none", "undistorted", "nodistortion"}, {0}}};
+/// A file that says yes to one of these is of a fisheye lens.
+const Names fisheye_names{"fisheyemodel", "fisheye", "isfisheye"};
+const Names yes{"1", "true", "yes"};
+const Names response_names{"response", "cameraresponse", "responsecurve"};
 
 bool is_name(const std::string& text, const Names& names) {
   return names.count(text) > 0;
@@ -146,6 +154,7 @@ class Reader {
     read_matrix();
     read_size();
     read_distortion();
+    read_response();
     read_skew();
     read_region();
     read_rectification();
@@ -269,7 +278,7 @@ class Reader {
     result_.has_size = true;
   }
 
-  /// The numbers of coefficients that the models named in the file allow.
+  /// The numbers of coefficients that the models named in the file allow. Notes a fisheye lens.
   std::set<std::size_t> allowed_counts() {
     std::set<std::size_t> counts = any_count;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -277,14 +286,18 @@ class Reader {
       if (!is_name(plain_name(entry.name), model_names)) continue;
       used_[i] = true;
       if (entry.text.empty() && !entry.is_list) continue;
-      const LensModel* known = nullptr;
-      for (const LensModel& model : lens_models)
-        if (is_name(plain_name(entry.text), model.names)) known = &model;
+      const bool is_yes =
+          is_name(plain_name(entry.name), fisheye_names) && is_name(plain_name(entry.text), yes);
+      const std::string name = is_yes ? "fisheye" : plain_name(entry.text);
+      const NamedLens* known = nullptr;
+      for (const NamedLens& model : lens_models)
+        if (is_name(name, model.names)) known = &model;
       if (known == nullptr) {
         refuse("says '" + vp::excerpt(entry.name) + ": " + vp::excerpt(entry.text) +
-               "': a lens model that is not supported. plumb_bob (radtan, Brown-Conrady: k1, k2, "
-               "p1, p2 and k3) is; calibrate for it");
+               "': a lens model that is not supported. plumb_bob (radtan, Brown-Conrady), "
+               "rational_polynomial and equidistant (fisheye) are; calibrate for one of them");
       }
+      if (known->is_fisheye) result_.lens_model = marker::LensModel::equidistant;
       std::set<std::size_t> common;
       std::set_intersection(counts.begin(), counts.end(), known->coefficients.begin(),
                             known->coefficients.end(), std::inserter(common, common.end()));
@@ -312,15 +325,24 @@ class Reader {
     if (counts.count(k.size()) == 0) {
       refuse("has " + std::to_string(k.size()) +
              " coefficients of lens distortion, which its lens model has not: plumb_bob has 4 or 5 "
-             "(k1, k2, p1, p2, k3), and OpenCV writes 4, 5, 8, 12 or 14");
+             "(k1, k2, p1, p2, k3), rational_polynomial 8 or 12, equidistant 4");
     }
     const std::size_t known = result_.camera.distortion.size();
     if (k.size() > known && !is_zero({k.begin() + static_cast<std::ptrdiff_t>(known), k.end()})) {
       refuse(
-          "has lens distortion beyond k1, k2, p1, p2, k3 (a rational, thin-prism or tilted "
-          "model), which is not supported: calibrate with the five alone");
+          "has lens distortion of a tilted sensor (tau_x, tau_y), which is not supported: calibrate "
+          "without CALIB_TILTED_MODEL");
     }
+    constexpr std::size_t brown_conrady = 5;
+    if (k.size() > brown_conrady && !is_zero({k.begin() + brown_conrady, k.end()}))
+      result_.lens_model = marker::LensModel::rational;
     result_.distortion = k;
+  }
+
+  void read_response() {
+    const CalibrationEntry* entry = find(response_names);
+    if (entry == nullptr) return;
+    result_.response = response_of(*entry, "camera file '" + path_ + "'");
   }
 
   void read_skew() {
@@ -413,12 +435,15 @@ Camera camera_for(const CalibratedCamera& calibrated, ImageSize size) {
   camera.height = size.height;
   const std::size_t known = std::min(calibrated.distortion.size(), camera.distortion.size());
   std::copy_n(calibrated.distortion.begin(), known, camera.distortion.begin());
+  camera.lens_model = calibrated.lens_model;
+  camera.response = calibrated.response;
   return camera;
 }
 
 bool has_distortion(const CalibratedCamera& calibrated) {
   const std::vector<double>& all = calibrated.distortion;
-  return std::any_of(all.begin(), all.end(), [](double value) { return value != 0; });
+  return calibrated.lens_model == marker::LensModel::equidistant ||
+         std::any_of(all.begin(), all.end(), [](double value) { return value != 0; });
 }
 
 bool is_off_centre(const Camera& camera) {
@@ -427,11 +452,28 @@ bool is_off_centre(const Camera& camera) {
          std::abs(camera.cy - camera.height / 2.0) > usual * camera.height;
 }
 
+namespace {
+
+/// How far from the axis, at focal length 1, the picture shows a ray: of a fisheye lens by its angle,
+/// else by its tangent. None beyond what the model has.
+std::optional<double> seen_radius(const Camera& camera, double ray) {
+  const std::array<double, 12>& k = camera.distortion;
+  const double r2 = ray * ray;
+  if (camera.lens_model == marker::LensModel::equidistant) {
+    if (ray > marker::widest_angle) return std::nullopt;
+    return ray * (1 + r2 * (k[0] + r2 * (k[1] + r2 * (k[2] + r2 * k[3]))));
+  }
+  const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+  if (!(below > 0)) return std::nullopt;
+  return ray * (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / below;
+}
+
+}  // namespace
+
 std::optional<double> lens_reach_px(const CalibratedCamera& calibrated, ImageSize usual) {
   const Camera& known = calibrated.camera;
   const Camera camera =
       camera_for(calibrated, calibrated.has_size ? ImageSize{known.width, known.height} : usual);
-  const auto [k1, k2, p1, p2, k3] = camera.distortion;
   double corner = 0;
   for (const double x : {0, camera.width}) {
     for (const double y : {0, camera.height}) {
@@ -442,10 +484,9 @@ std::optional<double> lens_reach_px(const CalibratedCamera& calibrated, ImageSiz
   double seen = 0;
   for (int step = 1; seen < corner; ++step) {
     constexpr double step_size = 1e-3;
-    const double r = step * step_size, r2 = r * r;
-    const double next = r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3)));
-    if (!(next > seen)) return seen * std::min(camera.fx, camera.fy);
-    seen = next;
+    const std::optional<double> next = seen_radius(camera, step * step_size);
+    if (!next || !(*next > seen)) return seen * std::min(camera.fx, camera.fy);
+    seen = *next;
   }
   return std::nullopt;
 }

@@ -90,13 +90,14 @@ Camera fit_camera(const Camera& camera, ImageSize target, Fit fit) {
   const auto [part, place] = placement(size, target, fit);
   const double sx = static_cast<double>(place.width) / part.width;
   const double sy = static_cast<double>(place.height) / part.height;
-  return {target.width,
-          target.height,
-          camera.fx * sx,
-          camera.fy * sy,
-          place.x + (camera.cx - part.x) * sx,
-          place.y + (camera.cy - part.y) * sy,
-          camera.distortion};
+  Camera fitted = camera;
+  fitted.width = target.width;
+  fitted.height = target.height;
+  fitted.fx = camera.fx * sx;
+  fitted.fy = camera.fy * sy;
+  fitted.cx = place.x + (camera.cx - part.x) * sx;
+  fitted.cy = place.y + (camera.cy - part.y) * sy;
+  return fitted;
 }
 
 std::string fit_text(ImageSize size, ImageSize target, Fit fit) {

@@ -176,10 +176,12 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 namespace {
 
-/// The camera that draws scenes: it has no lens.
+/// The camera that draws scenes: it has no lens, and its levels are light.
 Camera scene_camera(const InputOptions& options) {
   Camera camera = camera_of(options, options.size);
   camera.distortion = {};
+  camera.lens_model = marker::LensModel::brown_conrady;
+  camera.response = {true, nullptr};
   return camera;
 }
 
@@ -296,8 +298,11 @@ class ListedFrames : public FrameSource {
            "has lens distortion, which this design does not correct: poses are off towards the "
            "edges");
     } else if (const auto reach = lens_reach_px(*options_.camera, options_.size)) {
-      warn(file + "has lens distortion that folds back: no marker is found beyond " +
-           std::to_string(static_cast<int>(*reach)) +
+      const bool is_fisheye =
+          options_.camera->lens_model == marker::LensModel::equidistant;
+      warn(file + (is_fisheye ? "sees farther than 75 degrees off its axis, or folds back"
+                              : "has lens distortion that folds back") +
+           ": no marker is found beyond " + std::to_string(static_cast<int>(*reach)) +
            " px from the middle; calibrate with points up to the corners");
     }
   }

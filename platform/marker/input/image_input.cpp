@@ -44,7 +44,13 @@ void describe_camera(const facts::UnitInput& input, hal_frame& frame) {
   frame.fy = camera.fy;
   frame.cx = camera.cx;
   frame.cy = camera.cy;
+  static_assert(sizeof camera.distortion == sizeof frame.distortion);
   std::copy(camera.distortion.begin(), camera.distortion.end(), frame.distortion);
+  frame.lens_model = static_cast<std::uint32_t>(camera.lens_model);
+  frame.light = camera.response.light ? camera.response.light->data() : nullptr;
+  frame.response = frame.light != nullptr      ? HAL_RESPONSE_TABLE
+                   : camera.response.is_linear ? HAL_RESPONSE_LINEAR
+                                               : HAL_RESPONSE_UNKNOWN;
 }
 
 InputOptions image_options(const study::InputRequest& request) {

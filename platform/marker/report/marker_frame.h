@@ -44,6 +44,13 @@ struct FoundMarker {
   std::optional<double> residual_px = {};
 };
 
+/// How the grey levels of a frame were taken for light.
+struct ResponseUse {
+  std::string origin;   ///< "given", "found" or "unknown"
+  double exponent = 0;  ///< light is this power of the level; 0: levels were taken for light, or a
+                        ///< table says
+};
+
 /// The pose of several markers with known places to each other.
 struct FoundBoard {
   std::uint32_t markers = 0;  ///< of which the pose was made
@@ -70,6 +77,7 @@ class MarkerFrame : public facts::UnitExtra {
   std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
   std::vector<FoundMarker> markers;
   std::optional<FoundBoard> board;         ///< where the program looks for one, and sees it
+  std::optional<ResponseUse> response;     ///< none: levels are known to be light
   std::optional<GroundTruth> truth;        ///< of the scene's marker, where known
   std::vector<GroundTruth> further_truth;  ///< of the other markers in the scene
   Camera camera;                           ///< that took the image

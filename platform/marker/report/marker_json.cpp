@@ -16,6 +16,7 @@ constexpr int rotation_places = 9;
 constexpr int metre_places = 9;
 constexpr int mm_places = 6;
 constexpr int degree_places = 6;
+constexpr int exponent_places = 4;
 
 }  // namespace
 
@@ -135,6 +136,11 @@ void MarkerFrame::add_members(Place place, Json& json) const {
       json["markers"] = Json::array();
       for (const FoundMarker& found : markers) json["markers"].push_back(marker_json(*this, found));
       if (board) json["board"] = board_json(*board);
+      if (response) {
+        json["response"]["origin"] = response->origin;
+        if (response->exponent > 0)
+          json["response"]["exponent"] = result::rounded(response->exponent, exponent_places);
+      }
       return;
   }
 }

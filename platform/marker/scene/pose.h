@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include <Eigen/Core>
+#include <marker/optics.h>
 
 namespace platform {
 
@@ -15,6 +17,12 @@ struct PixelPoint {
 /// No image and no camera is larger.
 constexpr int largest_side_px = 16384;
 
+/// What light the grey levels of a camera stand for.
+struct Response {
+  bool is_linear = false;                           ///< twice the level is twice the light
+  std::shared_ptr<const marker::LightTable> light;  ///< none, and not linear: it is not known
+};
+
 /// Ideal pinhole camera, looking along +Z with x right and y down. The defaults are the thesis'
 /// camera (table 5.1).
 struct Camera {
@@ -24,8 +32,11 @@ struct Camera {
   double fy = 381.36;  ///< focal length, px
   double cx = 320.0;   ///< principal point, px
   double cy = 240.0;   ///< principal point, px
-  /// How the lens bends its pictures: OpenCV's k1, k2, p1, p2, k3. Scenes are drawn without it.
-  std::array<double, 5> distortion{};
+  /// How the lens bends its pictures: coefficients in the order of their model, then zeros. Scenes
+  /// are drawn without it.
+  std::array<double, 12> distortion{};
+  marker::LensModel lens_model = marker::LensModel::brown_conrady;
+  Response response = {};
 
   /// The thesis' camera with `width` x `height` pixels over the same horizontal field of view: the
   /// focal length grows with the width, pixels stay square, the principal point is the centre.

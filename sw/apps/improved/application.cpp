@@ -48,6 +48,7 @@ int Application::run() {
 bool Application::initialise() {
   options_ = read_options();
   detector_.open(*options_.dictionary, options_.detector);
+  optics_.open(options_.optics);
   if (options_.second_core) both_cores_.start(*options_.dictionary, options_.detector);
   if (options_.pose_filter) open_filter();
   next_slot_ = 0;
@@ -144,12 +145,11 @@ void Application::process(Slot& slot) {
 
 void Application::find_markers(const Slot& slot) {
   const hal_frame& frame = slot.frame;
-  const marker::Camera camera{frame.fx, frame.fy, frame.cx, frame.cy};
-  const double(&lens)[5] = frame.distortion;
-  const marker::CameraFrame picture{
+  marker::CameraFrame picture{
       {static_cast<const std::uint8_t*>(slot.buffers.picture.data), frame.width, frame.height},
-      {camera, lens[0], lens[1], lens[2], lens[3], lens[4]},
+      lens_of(frame),
       true};
+  picture.optics = optics_.begin(frame);
   result_.camera_frame = slot.trailer[blob_stream::frame_number];
   result_.lost_in_logic = slot.trailer[blob_stream::lost];
   result_.threshold = slot.trailer[blob_stream::threshold];
@@ -160,10 +160,15 @@ void Application::find_markers(const Slot& slot) {
   } else {
     detector_.find_markers(picture, slot.blobs, result_.found);
   }
-  times.detection.end = times.pose.start = capture_.now();
-  if (!options_.second_core || options_.detector.board.kind != marker::Board::Kind::none) {
-    detector_.find_poses(camera, result_.found);
+  // Both cores found the poses of single markers.
+  bool needs_poses =
+      !options_.second_core || options_.detector.board.kind != marker::Board::Kind::none;
+  while (optics_.learn(result_.found)) {
+    detector_.measure_again(picture, result_.found);
+    needs_poses = true;
   }
+  times.detection.end = times.pose.start = capture_.now();
+  if (needs_poses) detector_.find_poses(picture.lens.camera, result_.found);
   if (options_.pose_filter) {
     pose_filter_.follow(result_.found, static_cast<double>(slot.started) * seconds_per_count_);
   }

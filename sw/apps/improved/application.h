@@ -2,6 +2,7 @@
 
 #include <apps/improved/both_cores.h>
 #include <apps/improved/capture.h>
+#include <apps/improved/frame_optics.h>
 #include <apps/improved/options.h>
 #include <hal/hal.h>
 #include <marker/detection_result.h>
@@ -53,6 +54,7 @@ class Application {
   marker::PoseFilter pose_filter_;
   double seconds_per_count_;  ///< of the global timer; with the filter only
   BothCores both_cores_;
+  FrameOptics optics_;
   marker::DetectionResult result_;
 };
 

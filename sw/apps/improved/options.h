@@ -1,5 +1,6 @@
 #pragma once
 
+#include <apps/improved/frame_optics.h>
 #include <hal/hal.h>
 #include <marker/camera.h>
 #include <marker/code_book.h>
@@ -28,6 +29,16 @@
   X(minimum_side, "px", 9, 4, 1000,                                                           \
     "blobs whose box is smaller are not looked at: six cells of the least size (decision)")   \
   X(white_border, "", 0, 0, 32, "so many cells of a marker's border may be white (decision)") \
+  X(minimum_contrast, "", 20, 5, 255,                                                         \
+    "grey levels between the sides of an edge; 8 finds markers in dim light (decision)")      \
+  X(tries, "one|nearer|outlines", 0, 0, 2,                                                    \
+    "nearer: what is refused is looked at once more, nearer to its edge (neighbours that "    \
+    "nearly touch); outlines: and then its outline is followed (touched and hidden corners)") \
+  X(response, "camera|linear|srgb|rec709|exponent|found", 0, 0, 5,                            \
+    "what light grey levels stand for. camera: as its file says, else linear in scenes and "  \
+    "found from the markers in pictures")                                                     \
+  X(response_exponent, "", 2.2, 0.5, 5,                                                       \
+    "light is this power of the grey level (sw.response=exponent)")                           \
   X(overlap, "", 1, 0, 1,                                                                     \
     "1: the logic takes the next frame while the software works on the last; 0: one by one")  \
   X(second_core, "", 0, 0, 1,                                                                 \
@@ -47,6 +58,7 @@ namespace improved {
 struct Options {
   const marker::Dictionary* dictionary;
   marker::DetectorOptions detector;
+  OpticsOptions optics;
   bool overlap;
   bool second_core;
   bool pose_filter;

@@ -143,6 +143,10 @@ void ImprovedDesign::fill_in(facts::UnitReport& frame, std::uint64_t now_ps) con
   }
   for (std::uint32_t i = 0; i < result_.found.count; ++i)
     found.markers.push_back(found_marker(result_.found.markers[i]));
+  const marker::ResponseUse& response = result_.found.response;
+  if (response.is_said) {
+    found.response = {marker::response_name(response.origin), response.exponent};
+  }
   const marker::BoardPoses& board = result_.found.board;
   if (board.valid) {
     found.board = {result_.found.board_markers, pose_of(board.best), board.best.covariance,

@@ -186,8 +186,19 @@ typedef struct hal_frame {
   uint32_t bus_address;  /**< of `pixels` */
   double fx, fy;         /**< focal lengths of the camera in pixels */
   double cx, cy;         /**< principal point in pixels; the centre of pixel (0, 0) is (0.5, 0.5) */
-  double distortion[5];  /**< of the lens: OpenCV's k1, k2, p1, p2, k3; 0 each: it bends nothing */
+  uint32_t lens_model;   /**< HAL_LENS_…: what `distortion` means */
+  double distortion[12]; /**< in the model's order, then 0; 0 each of Brown–Conrady: a pinhole */
+  uint32_t response;     /**< HAL_RESPONSE_…: what light the grey levels stand for */
+  const uint16_t* light; /**< of 256 grey levels, 65535 the most; NULL unless HAL_RESPONSE_TABLE */
 } hal_frame;
+
+#define HAL_LENS_BROWN_CONRADY 0u /**< k1, k2, p1, p2, k3 */
+#define HAL_LENS_RATIONAL 1u      /**< the same, k4, k5, k6, and of a thin prism s1, s2, s3, s4 */
+#define HAL_LENS_EQUIDISTANT 2u   /**< a fisheye lens: k1, k2, k3, k4 of the angle */
+
+#define HAL_RESPONSE_UNKNOWN 0u
+#define HAL_RESPONSE_LINEAR 1u /**< twice the level is twice the light */
+#define HAL_RESPONSE_TABLE 2u
 
 /** The next image, when the camera has it; NULL: the run is over. Valid until the next call. */
 const hal_frame* hal_frame_next(void);
@@ -272,7 +283,7 @@ typedef struct hal_program {
   uint32_t option_count;
 } hal_program;
 
-#define HAL_ABI 1u
+#define HAL_ABI 2u
 
 #if defined(__GNUC__) && !defined(HAL_BARE_METAL)
 #define HAL_EXPORT __attribute__((visibility("default")))

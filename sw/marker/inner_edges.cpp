@@ -1,0 +1,201 @@
+#include <marker/code_book.h>
+#include <marker/inner_edges.h>
+#include <marker/optics_frame.h>
+#include <marker/rectification.h>
+#include <marker/work.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace marker {
+namespace {
+
+/// Half of what is looked at of a cell's edge, share of a cell: its corners belong to others, too.
+constexpr double half_edge = 0.25;
+/// Cells must be this wide for a transition's reach, or their neighbours blur into it (measured);
+/// below the second number nothing is left of the edge.
+constexpr double clear_share = 1.1 / 0.3, least_share = 2.2;
+/// Strips reach this much farther than a transition.
+constexpr double margin = 1.1;
+/// Fewer edges are not worth a number.
+constexpr std::uint32_t least_edges = 6;
+constexpr std::uint32_t most_edges = 2 * (max_code_cells + 1) * max_code_cells;
+
+/// An edge between two cells, as the marker's plane has it: half cells from the middle.
+struct Edge {
+  Point from, to;       ///< corners of the part that is looked at, cells from the top left corner
+  bool is_upright;      ///< dark and bright lie beside each other
+  bool dark_first;      ///< the dark cell is on the left, or above
+  double from_middle;   ///< of the marker, in half sides; + if the dark cell is nearer to it
+};
+
+/// What one edge shows.
+struct Offset {
+  double weight;  ///< by how much of the shift it is off
+  double px;      ///< towards bright from where the outline has it
+};
+
+class InnerEdges {
+ public:
+  InnerEdges(const CameraFrame& frame, const QuadFit& fit, const LightLevels& levels,
+             std::uint64_t word, std::uint32_t cells)
+      : frame_(frame),
+        fit_(fit),
+        levels_(levels),
+        word_(word),
+        cells_(cells),
+        plane_(make_homography({fit.ideal[0], fit.ideal[1], fit.ideal[3], fit.ideal[2]},
+                               cells + 2)) {}
+
+  InnerShift measure() {
+    look_at_all(clear_share);
+    const bool is_vague = edges_ < least_edges;
+    if (is_vague) {
+      edges_ = 0;
+      look_at_all(least_share);
+    }
+    work(Work::inner_edges, edges_);
+    work(Work::inner_strips, strips_);
+    if (frame_.in_dma_memory) work(Work::crossings_dma, strips_);
+    InnerShift found = solve();
+    found.is_vague = is_vague;
+    return found;
+  }
+
+ private:
+  void look_at_all(double share) {
+    share_ = share;
+    for (std::uint32_t a = 0; a <= cells_; ++a) {
+      for (std::uint32_t b = 1; b <= cells_; ++b) {
+        look_at(b, a, false);
+        look_at(a, b, true);
+      }
+    }
+  }
+
+  bool is_black(std::uint32_t row, std::uint32_t column) const {
+    if (row == 0 || column == 0 || row > cells_ || column > cells_) return true;
+    return word_ >> (cells_ * cells_ - 1 - ((row - 1) * cells_ + column - 1)) & 1u;
+  }
+
+  /// The edge below a cell, or on its right.
+  void look_at(std::uint32_t row, std::uint32_t column, bool below) {
+    const bool dark_first = is_black(row, column);
+    if (is_black(row + (below ? 1 : 0), column + (below ? 0 : 1)) == dark_first) return;
+    const double across = (below ? row : column) + 1.0, along = (below ? column : row) + 0.5;
+    const double half = (cells_ + 2) / 2.0;
+    const double q = (across - half) / half;
+    const Point from = below ? Point{along - half_edge, across} : Point{across, along - half_edge};
+    const Point to = below ? Point{along + half_edge, across} : Point{across, along + half_edge};
+    // With the dark first, bright is to the right, or below: away from the middle if q > 0.
+    measure_edge({from, to, !below, dark_first, dark_first ? q : -q});
+  }
+
+  bool see(Point place, Point& seen) const {
+    Point ideal{};
+    if (!transform(plane_, place, ideal)) return false;
+    seen = distort(frame_.optics->lens, ideal);
+    return true;
+  }
+
+  void measure_edge(const Edge& edge) {
+    Point from{}, to{}, beyond{};
+    const Point step = edge.is_upright ? Point{1, 0} : Point{0, 1};
+    if (!see(edge.from, from) || !see(edge.to, to) || !see(edge.from + step, beyond)) return;
+    const Point span = to - from, cell = beyond - from;
+    const double length = std::sqrt(dot(span, span));
+    if (!(length > 0)) return;
+    const Point across{span.y / length, -span.x / length};  // towards the next cell, or from it
+    const double way = dot(cell, across), reach = fit_.reach;
+    if (!(std::abs(way) > share_ * reach)) return;
+    const bool by_rows = std::abs(span.y) >= std::abs(span.x);
+    const double steepness = std::abs(by_rows ? across.x : across.y);
+    const double per_step = by_rows ? cell.x : cell.y;
+    // In the order of the picture's pixels.
+    const bool dark_first = (per_step > 0) == edge.dark_first;
+    double sum = 0;
+    std::uint32_t count = 0;
+    const double begin = by_rows ? std::min(from.y, to.y) : std::min(from.x, to.x);
+    const double end = by_rows ? std::max(from.y, to.y) : std::max(from.x, to.x);
+    for (double line = std::ceil(begin - 0.5); line + 0.5 <= end; line += 1) {
+      const double share = (line + 0.5 - (by_rows ? from.y : from.x)) / (by_rows ? span.y : span.x);
+      const Point at = from + share * span;
+      double off = 0;
+      if (!measure_strip(by_rows, line, by_rows ? at.x : at.y, margin * reach / steepness,
+                         dark_first, off)) {
+        return;
+      }
+      sum += off * steepness;
+      ++count;
+    }
+    if (count == 0 || edges_ == most_edges) return;
+    offsets_[edges_++] = {1 - edge.from_middle, sum / count};
+  }
+
+  /// How far the edge in one strip is from `middle` towards bright, px along it.
+  bool measure_strip(bool by_rows, double line, double middle, double half, bool dark_first,
+                     double& off) {
+    const Box& part = frame_.part;
+    const double first = std::floor(middle - half), last = std::floor(middle + half) + 1;
+    const double least = by_rows ? part.left : part.top, most = by_rows ? part.right : part.bottom;
+    const double least_line = by_rows ? part.top : part.left;
+    const double end_line = by_rows ? part.bottom : part.right;
+    if (!(first >= least && last <= most && line >= least_line && line < end_line)) return false;
+    const auto begin = static_cast<std::uint32_t>(first), end = static_cast<std::uint32_t>(last);
+    const auto which = static_cast<std::uint32_t>(line);
+    const std::uint32_t width = frame_.image.width;
+    const std::uint8_t* pixel =
+        frame_.image.pixels + (by_rows ? which * width + begin : begin * width + which);
+    std::uint32_t sum = 0;
+    for (std::uint32_t i = begin; i < end; ++i, pixel += by_rows ? 1 : width) {
+      sum += frame_.optics->light[*pixel];
+    }
+    ++strips_;
+    const double size = end - begin;
+    const double dark = (levels_.bright * size - sum) / (levels_.bright - levels_.dark);
+    off = dark_first ? begin + dark - middle : middle - (end - dark);
+    return std::abs(off) < half;
+  }
+
+  /// Least squares: an edge is off by shift · weight towards the dark.
+  InnerShift solve() const {
+    InnerShift found{};
+    double product = 0, square = 0;
+    for (std::uint32_t i = 0; i < edges_; ++i) {
+      product += offsets_[i].weight * offsets_[i].px;
+      square += offsets_[i].weight * offsets_[i].weight;
+    }
+    if (edges_ < least_edges || !(square > 0)) return found;
+    found.edges = edges_;
+    found.shift = -product / square;
+    double left = 0;
+    for (std::uint32_t i = 0; i < edges_; ++i) {
+      const double rest = offsets_[i].px + found.shift * offsets_[i].weight;
+      left += rest * rest;
+    }
+    found.variance = left / (edges_ - 1) / square;
+    found.deviation = fit_.reach / reach_in_deviations;
+    return found;
+  }
+
+  const CameraFrame& frame_;
+  const QuadFit& fit_;
+  const LightLevels& levels_;
+  const std::uint64_t word_;
+  const std::uint32_t cells_;
+  const Homography plane_;
+  std::array<Offset, most_edges> offsets_;
+  std::uint32_t edges_ = 0, strips_ = 0;
+  double share_ = clear_share;
+};
+
+}  // namespace
+
+InnerShift measure_inner_edges(const CameraFrame& frame, const QuadFit& fit,
+                               const LightLevels& levels, std::uint64_t word, std::uint32_t cells) {
+  const FunctionScope scope(Function::cell_reading);
+  return InnerEdges(frame, fit, levels, word, cells).measure();
+}
+
+}  // namespace marker

@@ -1,0 +1,157 @@
+#include <marker/optics_fit.h>
+#include <marker/optics_frame.h>
+#include <marker/quad_measure.h>
+#include <marker/response.h>
+#include <marker/work.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace marker {
+namespace {
+
+/// The narrow one, px across the edge: half of the shade between two markers that are 2 px apart is
+/// beyond it, and a blob's extremes are nearer than that to its corners (measured).
+constexpr double narrow_reach = 1.2;
+/// Passes in light before the last: the edge's width is another one there, and the side moves.
+constexpr unsigned passes_in_light = 2;
+/// A pass that moves no corner farther is enough, px.
+constexpr double still = 0.05;
+/// What is left of a side's own error beside that of its strips, in deviations of their transition:
+/// 0.002 px in sharp pictures, 0.006 px in blurred ones (measured).
+constexpr double side_error = 0.007;
+
+LitFrame lit(const CameraFrame& frame, const std::uint16_t* light) {
+  return {{{frame.image.pixels, light}, frame.image.width, frame.image.height},
+          frame.optics->lens,
+          frame.part};
+}
+
+void tell([[maybe_unused]] const FitEffort& effort, [[maybe_unused]] bool in_dma_memory) {
+  work(Work::lit_fits, 1);
+  work(Work::lit_passes, effort.passes);
+  work(Work::lit_side_fits, effort.sides);
+  work(Work::lit_crossings, effort.crossings);
+  work(Work::lit_strips, effort.strips);
+  work(Work::lit_level_reads, effort.level_reads);
+  work(Work::lit_level_pixels, effort.level_pixels);
+  work(Work::lit_transitions, effort.transitions);
+  if (effort.lens_steps != 0) work(Work::general_lens_steps, effort.lens_steps);
+  if (in_dma_memory) work(Work::crossings_dma, effort.crossings);
+}
+
+/// How a corner moves if the side before it moves out by `first` px, and the one behind by `second`.
+Point moved(const Side& before, const Side& behind, double first, double second) {
+  const Point n = before.outward, m = behind.outward;
+  const double determinant = n.x * m.y - n.y * m.x;
+  return {(first * m.y - second * n.y) / determinant, (second * n.x - first * m.x) / determinant};
+}
+
+void add_product(std::array<double, 64>& covariance, const std::array<double, 8>& move) {
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned j = 0; j < 8; ++j) covariance[8 * i + j] += move[i] * move[j];
+  }
+}
+
+/// Adds what the strips of a side cannot see: a shift that all sides have in common, and one of each.
+void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
+  std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
+  const double deviation = fit.reach / reach_in_deviations;
+  std::array<double, 4> scale{};
+  double pixel = 0;
+  for (unsigned i = 0; i < 4; ++i) scale[i] = lay_in_picture(lens, sides[i], pixel);
+  std::array<double, 8> all{};
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned before = (i + 3) % 4, next = (i + 1) % 4;
+    const double shift = common_shift * deviation, own = side_error * deviation;
+    const Point both = moved(sides[before], sides[i], shift * scale[before], shift * scale[i]);
+    all[2 * i] = both.x;
+    all[2 * i + 1] = both.y;
+    std::array<double, 8> one{};
+    const Point from = moved(sides[before], sides[i], 0, own * scale[i]);
+    const Point to = moved(sides[i], sides[next], own * scale[i], 0);
+    one[2 * i] = from.x;
+    one[2 * i + 1] = from.y;
+    one[2 * next] = to.x;
+    one[2 * next + 1] = to.y;
+    add_product(fit.covariance, one);
+  }
+  add_product(fit.covariance, all);
+}
+
+}  // namespace
+
+QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
+                             const QuadFitOptions& options) {
+  const GeneralLens& lens = frame.optics->lens;
+  QuadFit fit{};
+  fit.image = corners;
+  fit.refusal = Refusal::shape;
+  std::uint32_t steps = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (!undistort(lens, corners[i], fit.ideal[i], steps)) return fit;
+  }
+  if (steps != 0) work(Work::general_lens_steps, steps);
+  if (!is_convex_clockwise(fit.ideal)) return fit;
+  double pixel = 0;
+  for (Side& side : sides_of(fit.ideal, fit.image)) {
+    const double cell = cell_at(side, options);
+    if (!(cell >= least_cell * lay_in_picture(lens, side, pixel))) return fit;
+  }
+  fit.refusal = Refusal::none;
+  return fit;
+}
+
+void find_through_optics(const CameraFrame& frame, const QuadFitOptions& options, FirstReach reach,
+                         QuadFit& fit) {
+  const FunctionScope scope(Function::quad_fit);
+  if (fit.refusal != Refusal::none) return;
+  const LitFrame grey = lit(frame, linear_light());
+  FitEffort effort;
+  const Quad guess = fit.image;
+  fit.reach = reach == FirstReach::narrow ? narrow_reach : first_reach;
+  for (unsigned pass = 0; pass < most_passes; ++pass) {
+    const Quad before = fit.image;
+    fit.refusal = improve(grey, options, false, effort, fit);
+    if (fit.refusal == Refusal::none && !(farthest_move(fit.image, guess) <= most_move)) {
+      fit.refusal = Refusal::shape;
+    }
+    if (fit.refusal != Refusal::none || farthest_move(fit.image, before) <= settled) break;
+  }
+  fit.dark /= grey_level_light;
+  fit.bright /= grey_level_light;
+  tell(effort, frame.in_dma_memory);
+}
+
+LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options, QuadFit& fit) {
+  const FunctionScope scope(Function::quad_fit);
+  if (fit.refusal != Refusal::none) return {};
+  const LitFrame light = lit(frame, frame.optics->light);
+  // Its contrast was enough in grey levels; a curve may leave little of it.
+  QuadFitOptions in_light = options;
+  in_light.minimum_contrast = 1 / grey_level_light;
+  FitEffort effort;
+  const Quad found = fit.image;
+  const double dark = fit.dark, bright = fit.bright;
+  for (unsigned pass = 0; pass < passes_in_light && fit.refusal == Refusal::none; ++pass) {
+    const Quad before = fit.image;
+    fit.refusal = improve(light, in_light, false, effort, fit);
+    if (farthest_move(fit.image, before) <= still) break;
+  }
+  if (fit.refusal == Refusal::none) fit.refusal = improve(light, in_light, true, effort, fit);
+  if (fit.refusal == Refusal::none && !(farthest_move(fit.image, found) <= most_move)) {
+    fit.refusal = Refusal::shape;
+  }
+  if (fit.refusal == Refusal::none && fit.raggedness > options.maximum_raggedness) {
+    fit.refusal = Refusal::ragged;
+  }
+  tell(effort, frame.in_dma_memory);
+  const LightLevels levels{fit.dark, fit.bright};
+  fit.dark = dark;
+  fit.bright = bright;
+  if (fit.refusal == Refusal::none) widen(frame.optics->lens, frame.optics->common_shift, fit);
+  return levels;
+}
+
+}  // namespace marker

@@ -1,0 +1,155 @@
+#include <marker/angles.h>
+#include <marker/response.h>
+#include <marker/work.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace marker {
+namespace {
+
+/// An edge seen through a curve of exponent e is shifted by this much of its transition's deviation
+/// for each unit of log(e): 0.31 at 1.8, 0.39 at 2.2 (measured).
+constexpr double shift_of_logarithm = 0.51;
+/// Exponents that cameras have, with room.
+constexpr double least_logarithm = -0.5, most_logarithm = 1.4;
+/// One marker's exponent scatters by this much around the camera's, whatever its edges say: 0.02 of
+/// a transition (measured).
+constexpr double marker_variance = 0.04 * 0.04;
+/// A frame's weight is at most this share of all: a camera whose curve changes is followed within
+/// some 30 frames (decision).
+constexpr double most_weight = 30 / marker_variance;
+/// Looks at a frame: a first one with what is known, and others while the curve still moves.
+constexpr std::uint32_t most_looks = 4;
+/// So much of a change of the logarithm is worth another look: less than 0.01 of a transition.
+constexpr double worth_a_look = 0.015;
+/// Of a marker whose cells are blurred into each other the exponent is off by so much (measured). It
+/// counts where no other has been seen, and only if it says clearly that there is a curve.
+constexpr double vague_variance = 0.25 * 0.25, clear_logarithm = 0.3;
+/// A marker that is farther off than this, in transitions, is not one of this curve: a reflection,
+/// or a shadow.
+constexpr double most_shift = 0.8;
+/// The scatter of single markers, in transitions: what is expected before it is seen (measured), as
+/// if so many had shown it, and over how many it is kept.
+constexpr double first_scatter = 0.015 * 0.015, first_scatter_markers = 4, remembered_markers = 60;
+
+}  // namespace
+
+const std::uint16_t* linear_light() {
+  static const LightTable table = [] {
+    LightTable linear{};
+    for (std::uint32_t i = 0; i < linear.size(); ++i) linear[i] = static_cast<std::uint16_t>(257 * i);
+    return linear;
+  }();
+  return table.data();
+}
+
+namespace {
+
+/// Light of a level from 0 to 1: `slope` of it up to `knee`, behind it a power.
+template <class Power>
+void fill(double knee, double slope, Power power_of, LightTable& table) {
+  for (std::uint32_t i = 0; i < table.size(); ++i) {
+    const double level = i / 255.0;
+    const double light = level <= knee ? level * slope : power_of(level);
+    table[i] = static_cast<std::uint16_t>(light * white_light + 0.5);
+  }
+  table[255] = white_light;
+  work(Work::curves_made, 1);
+}
+
+}  // namespace
+
+void fill_light(double exponent, LightTable& table) {
+  fill(0, 0, [&](double level) { return power(level, exponent); }, table);
+}
+
+void fill_srgb_light(LightTable& table) {
+  fill(0.04045, 1 / 12.92, [](double level) { return power((level + 0.055) / 1.055, 2.4); }, table);
+}
+
+void fill_rec709_light(LightTable& table) {
+  fill(0.081, 1 / 4.5, [](double level) { return power((level + 0.099) / 1.099, 1 / 0.45); }, table);
+}
+
+void ResponseFinder::open() {
+  logarithm_ = weight_ = 0;
+  scatter_ = first_scatter;
+  scatter_markers_ = first_scatter_markers;
+  common_shift_ = unknown_shift;
+  make_table(0);
+  begin_frame();
+}
+
+void ResponseFinder::make_table(double logarithm) {
+  table_logarithm_ = logarithm;
+  exponent_ = exponential(logarithm);
+  fill_light(exponent_, table_);
+}
+
+void ResponseFinder::begin_frame() {
+  before_ = logarithm_;
+  before_weight_ = std::min(weight_, most_weight);
+  looks_ = 0;
+  begin_look();
+}
+
+void ResponseFinder::begin_look() {
+  sum_ = sum_weight_ = square_ = noise_ = vague_ = vague_weight_ = 0;
+  markers_ = 0;
+}
+
+void ResponseFinder::add(const InnerShift& seen) {
+  if (seen.edges == 0 || !(seen.deviation > 0)) return;
+  const double shift = seen.shift / seen.deviation;
+  const double variance = seen.variance / (seen.deviation * seen.deviation);
+  if (!(std::abs(shift) < most_shift)) return;
+  constexpr double slope = shift_of_logarithm;
+  const double of_edges = variance / (slope * slope);
+  if (seen.is_vague) {
+    const double weight = 1 / (of_edges + vague_variance);
+    vague_ += weight * (table_logarithm_ + shift / slope);
+    vague_weight_ += weight;
+    return;
+  }
+  const double weight = 1 / (of_edges + marker_variance);
+  sum_ += weight * (table_logarithm_ + shift / slope);
+  sum_weight_ += weight;
+  square_ += shift * shift;
+  noise_ += variance;
+  ++markers_;
+}
+
+bool ResponseFinder::end_look() {
+  ++looks_;
+  if (markers_ == 0 && before_weight_ == 0 && vague_weight_ > 0 &&
+      vague_ > clear_logarithm * vague_weight_) {
+    sum_ = vague_;
+    sum_weight_ = vague_weight_;
+  }
+  if (!(sum_weight_ > 0)) return false;
+  weight_ = before_weight_ + sum_weight_;
+  logarithm_ = std::clamp((before_weight_ * before_ + sum_) / weight_, least_logarithm,
+                          most_logarithm);
+  const bool is_off = std::abs(logarithm_ - table_logarithm_) > worth_a_look;
+  if (is_off) {
+    make_table(logarithm_);
+  } else if (markers_ > 0) {
+    note_scatter();
+  }
+  common_shift_ = std::sqrt(shift_left * shift_left + scatter_ +
+                            shift_of_logarithm * shift_of_logarithm / weight_);
+  begin_look();
+  return is_off && looks_ < most_looks;
+}
+
+/// A curve shifts all markers alike; what else there is, as sharpening or the blocks of JPEG, does
+/// not.
+void ResponseFinder::note_scatter() {
+  const double excess = std::max(square_ - noise_, 0.0);
+  const double all = scatter_markers_ + markers_;
+  scatter_ = (scatter_ * scatter_markers_ + excess) / all;
+  scatter_markers_ = std::min(all, remembered_markers);
+}
+
+}  // namespace marker
