@@ -36,7 +36,7 @@ struct Fixture {
   Fixture() { kit::write_file(folder / "run.vcd", trace()); }
 
   ToggleCount count(const std::string& below, const std::string& clock = "top.clk") const {
-    return count_toggles({folder / "run.vcd", below, clock});
+    return count_toggles({folder / "run.vcd", below, clock, 0});
   }
   std::string problem(const std::string& below, const std::string& clock = "top.clk") const {
     try {
@@ -79,6 +79,17 @@ BOOST_AUTO_TEST_CASE(each_change_of_a_bit_counts_and_each_net_once) {
   BOOST_TEST(count("top").bits == 74u);
 }
 
+// The trace lasts 80 ns.
+BOOST_AUTO_TEST_CASE(a_trace_without_a_clock_is_counted_by_its_time) {
+  const ToggleCount by_time = count_toggles({folder / "run.vcd", "top.busy", "", 50});
+  BOOST_TEST(by_time.clocks == 4u);
+  BOOST_TEST(by_time.bits == 1u + 4u + 66u);  // no clock is left out
+  BOOST_CHECK_THROW(count_toggles({folder / "run.vcd", "top.busy", "", 1}), vp::InputError);
+  BOOST_TEST(
+      estimate("trace: {file: run.vcd, below: top.idle, clock: 50 MHz}").ledger.total().nominal >
+      0);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_counted_is_refused) {
   BOOST_TEST(problem("top.bsy").find("did you mean 'top.busy'") != std::string::npos);
   BOOST_TEST(problem("top.bus").find("no signal below 'top.bus'") != std::string::npos);
@@ -118,6 +129,7 @@ BOOST_AUTO_TEST_CASE(a_description_names_file_scope_and_clock) {
   told("trace: run.vcd", "'trace' is");
   told("trace: {file: run.vcd, below: top}", "'clock' of 'trace' is missing");
   told("trace: {file: none.vcd, below: top, clock: top.clk}", "none.vcd");
+  told("trace: {file: run.vcd, below: top, clock: 50}", "has no unit");
   told("trace: {file: run.vcd, below: tp, clock: top.clk}", "did you mean 'top'");
   told("activity: rest, trace: {file: run.vcd, below: top, clock: top.clk}", "remove one");
   told("toggle_rate: 10 %, trace: {file: run.vcd, below: top, clock: top.clk}", "remove one");
