@@ -244,6 +244,11 @@ class FiguresReader {
     } catch (const vp::InputError& error) {
       fail(node, error.what());
     }
+    if (static_cast<double>(clock.toggles->bits) < clock.ff / 2) {
+      fail(node, "the trace shows " + std::to_string(clock.toggles->bits) + " bits below '" +
+                     source.below + "', too few for " + vp::Decimal(clock.ff).text() +
+                     " flip-flops: record the signals inside, of the RTL");
+    }
     clock.toggle_rate = clock.toggles->rate();
     clock.logic = "pl.logic_simulated";
     if (!clock_node["dsp_activity"]) clock.multiplier = "pl.dsp_busy";
