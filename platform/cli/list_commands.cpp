@@ -333,19 +333,18 @@ void print_toggles(std::ostream& out, const power::ClockDomain& clock) {
 
 /// What the estimate had to assume, because the design does not say it.
 void print_assumptions(std::ostream& out, const power::DesignFigures& design) {
-  const auto undeclared = [](const power::ClockDomain& clock) {
-    return (clock.lut > 0 && clock.logic == "pl.logic") ||
-           (clock.bram36 > 0 && clock.memory == "pl.bram") ||
-           (clock.dsp > 0 && clock.multiplier == "pl.dsp");
-  };
-  std::string clocks;
+  std::vector<std::string> clocks;
   for (const power::ClockDomain& clock : design.clocks) {
-    if (undeclared(clock)) clocks += (clocks.empty() ? "" : ", ") + clock.name;
+    std::vector<std::string> parts;
+    if (clock.lut > 0 && clock.logic == "pl.logic") parts.emplace_back("logic");
+    if (clock.bram36 > 0 && clock.memory == "pl.bram") parts.emplace_back("memories");
+    if (clock.dsp > 0 && clock.multiplier == "pl.dsp") parts.emplace_back("multipliers");
+    if (!parts.empty()) clocks.push_back(vp::join(parts, ", ") + " of " + clock.name);
   }
   if (!clocks.empty()) {
-    out << "\nNot declared: what the logic, memories and multipliers do on " << clocks
-        << ".\nIts watts are those of a usual design. 'activity', 'bram_activity' and "
-           "'dsp_activity' of a clock narrow the band.\n";
+    out << "\nNot declared, so billed as usual designs are: " << vp::join(clocks, "; ")
+        << ".\n'activity' or 'trace', 'bram_activity' and 'dsp_activity' of a clock narrow the "
+           "band.\n";
   }
   const double has = design.device.cores.value;
   if (design.ps && !design.ps->known_w && !design.ps->cores && has < 2) {
@@ -364,8 +363,10 @@ int print_power_estimate(const PowerTableOptions& options, std::ostream& out) {
   for (const auto& [kind, watts] : estimate.ledger.by_group()) print_watts(out, kind, watts);
   out << "\nby module, and by which coefficient\n";
   for (const vp::EnergyEntry& entry : estimate.ledger.entries()) {
-    out << fmt::format("  {:<26}{:>8.3f}   {:.3f} to {:<8.3f}{}\n", entry.module,
-                       entry.joules.nominal, entry.joules.low, entry.joules.high, entry.source);
+    const bool is_static = entry.kind == vp::PowerKind::leakage;  // one module, several rails
+    out << fmt::format("  {:<26}{:>8.3f}   {:.3f} to {:<8.3f}{}\n",
+                       is_static ? "static, " + entry.rail : entry.module, entry.joules.nominal,
+                       entry.joules.low, entry.joules.high, entry.source);
   }
   out << "\nby rail\n";
   for (const auto& [rail, watts] : estimate.ledger.by_rail()) print_watts(out, rail, watts);

@@ -236,10 +236,18 @@ class FiguresReader {
     };
     const std::filesystem::path file = text("file");
     const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
+    ToggleSource source{(folder / file).string(), text("below"), text("clock")};
+    if (!source.clock.empty() && source.clock[0] >= '0' && source.clock[0] <= '9')  // 50 MHz
+      source.clock_mhz = quantity(node, "clock", vp::Unit::frequency, std::nullopt, 0, most_mhz);
     try {
-      clock.toggles = count_toggles({(folder / file).string(), text("below"), text("clock")});
+      clock.toggles = count_toggles(source);
     } catch (const vp::InputError& error) {
       fail(node, error.what());
+    }
+    if (static_cast<double>(clock.toggles->bits) < clock.ff / 2) {
+      fail(node, "the trace shows " + std::to_string(clock.toggles->bits) + " bits below '" +
+                     source.below + "', too few for " + vp::Decimal(clock.ff).text() +
+                     " flip-flops: record the signals inside, of the RTL");
     }
     clock.toggle_rate = clock.toggles->rate();
     clock.logic = "pl.logic_simulated";

@@ -85,8 +85,9 @@ struct DesignFigures {
 /// takes the vendor's defaults for what is not written, and `ps: none` leaves it out. `mmcm` and
 /// `pll` are a number, or a list of the frequencies of their oscillators. `power` in `io` or `ps`
 /// takes the place of all else there. A `trace`, which is sought beside the file, gives the toggle
-/// rate of its clock's logic. Throws vp::InputError with file, line and the nearest that
-/// works for anything unknown, missing, negative or beyond the device.
+/// rate of its clock's logic; its `clock` is a signal of it, or a frequency. Throws vp::InputError
+/// with file, line and the nearest that works for anything unknown, missing, negative or beyond the
+/// device.
 DesignFigures read_design_figures(const std::string& file);
 
 }  // namespace platform::power

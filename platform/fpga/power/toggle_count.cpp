@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace platform::power {
@@ -14,6 +15,8 @@ namespace {
 
 using vp::WaveValue;
 using vp::WaveVariable;
+
+constexpr double clocks_per_ps_and_mhz = 1e-6;
 
 [[noreturn]] void fail(const ToggleSource& source, const std::string& problem) {
   throw vp::InputError("trace '" + source.trace + "': " + problem);
@@ -52,16 +55,20 @@ const WaveVariable& clock_of(const vp::WaveReader& reader, const ToggleSource& s
 
 class Counter final : public vp::WaveHandler {
  public:
-  explicit Counter(std::uint32_t clock) : clock_(clock) {}
+  /// `clock`: net, or none.
+  explicit Counter(std::optional<std::uint32_t> clock) : clock_(clock) {}
 
   void watch(const WaveVariable& variable) {
     nets_.emplace(variable.net, Watched{{variable.path, variable.width, 0}, {}});
   }
 
-  bool at(std::uint64_t) override { return true; }
+  bool at(std::uint64_t ps) override {
+    if (!first_ps_) first_ps_ = ps;
+    return true;
+  }
 
   void change(std::uint32_t net, const WaveValue& value) override {
-    if (net == clock_) {
+    if (clock_ && net == *clock_) {
       clocks_ += clock_is_low_ && value.known && value.bits == 1;
       clock_is_low_ = value.known && value.bits == 0;
     }
@@ -77,6 +84,8 @@ class Counter final : public vp::WaveHandler {
     }
     watched.digits = std::move(digits);
   }
+
+  std::uint64_t first_ps() const { return first_ps_.value_or(0); }
 
   ToggleCount take() {
     ToggleCount count;
@@ -101,7 +110,8 @@ class Counter final : public vp::WaveHandler {
   static bool is_low(char digit) { return digit == '0' || digit == 'l'; }
   static bool is_high(char digit) { return digit == '1' || digit == 'h'; }
 
-  std::uint32_t clock_;
+  std::optional<std::uint32_t> clock_;
+  std::optional<std::uint64_t> first_ps_;
   bool clock_is_low_ = false;
   std::uint64_t clocks_ = 0;
   std::map<std::uint32_t, Watched> nets_;
@@ -111,15 +121,16 @@ class Counter final : public vp::WaveHandler {
 
 ToggleCount count_toggles(const ToggleSource& source) {
   vp::WaveReader reader(source.trace);
-  const WaveVariable& clock = clock_of(reader, source);
-  Counter counter(clock.net);
-  reader.select(clock.net);
+  std::optional<std::uint32_t> clock;
+  if (source.clock_mhz <= 0) clock = clock_of(reader, source).net;
+  Counter counter(clock);
+  if (clock) reader.select(*clock);
   bool any = false;
   for (const WaveVariable& variable : reader.variables()) {
     const bool is_below =
         variable.path.compare(0, source.below.size() + 1, source.below + ".") == 0;
-    if (!is_below || variable.net == clock.net || variable.width == 0 || variable.is_event ||
-        variable.kind != WaveVariable::Kind::bits)
+    if (!is_below || (clock && variable.net == *clock) || variable.width == 0 ||
+        variable.is_event || variable.kind != WaveVariable::Kind::bits)
       continue;
     counter.watch(variable);
     reader.select(variable.net);
@@ -131,6 +142,11 @@ ToggleCount count_toggles(const ToggleSource& source) {
   }
   reader.read(counter);
   ToggleCount count = counter.take();
+  if (!clock) {
+    const auto ps = static_cast<double>(reader.now_ps() - counter.first_ps());
+    count.clocks = static_cast<std::uint64_t>(ps * source.clock_mhz * clocks_per_ps_and_mhz);
+    if (count.clocks == 0) fail(source, "it is shorter than one clock");
+  }
   if (count.clocks == 0) fail(source, "the clock '" + source.clock + "' never rises");
   return count;
 }

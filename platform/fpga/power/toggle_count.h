@@ -10,9 +10,10 @@ namespace platform::power {
 
 /// Where to count.
 struct ToggleSource {
-  std::string trace;  ///< VCD or FST of any simulator, by content
-  std::string below;  ///< scope, whose signals and inner scopes count: "top.cipher"
-  std::string clock;  ///< signal by whose rising edges toggles are divided: "top.clk"
+  std::string trace;     ///< VCD or FST of any simulator, by content
+  std::string below;     ///< scope, whose signals and inner scopes count: "top.cipher"
+  std::string clock;     ///< signal by whose rising edges toggles are divided: "top.clk"
+  double clock_mhz = 0;  ///< instead, where the trace has none: its time is counted in such clocks
 };
 
 struct ToggleCount {
