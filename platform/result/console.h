@@ -44,8 +44,9 @@ std::vector<std::string> resource_warnings(const facts::ResourceReport& resource
 /// A junction above what the device is specified for.
 std::vector<std::string> power_warnings(const facts::PowerReport& power);
 
-/// "power", "timing" and "fits" for the console, a line each.
+/// "power", "timing" and "fits" for the console, a line each. Energy is that of a `unit`.
 std::string design_text(const std::optional<facts::PowerReport>& power,
-                        const facts::ResourceReport& resources, const facts::TimingReport& timing);
+                        const facts::ResourceReport& resources, const facts::TimingReport& timing,
+                        const std::string& unit = "frame");
 
 }  // namespace platform::result

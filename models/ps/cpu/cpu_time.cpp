@@ -360,7 +360,7 @@ void Cpu::meet_deadline(const char* what, const std::string& hint) {
     return;
   }
   fail(std::string(what) + " within " + vp::format_time(settings_.timeout) +
-       " of simulated time since the last image (" + settings_.timeout.name() + ")" + hint +
+       " of simulated time since the last input (" + settings_.timeout.name() + ")" + hint +
        doing_elsewhere());
 }
 

@@ -56,7 +56,7 @@ class ClockSource : public sc_core::sc_module {
   std::uint64_t start_hz_;
 };
 
-/// The processing system of a Zynq-7000 as far as the marker detector uses it (UG585): the
+/// The processing system of a Zynq-7000 as far as programs here use it (UG585): the
 /// Cortex-A9 cores with their private devices, DDR and on-chip memory, UARTs, the GP0 and HP0
 /// ports, and the clocks of the PL, which follow the SLCR.
 class ProcessingSystem : public sc_core::sc_module {
