@@ -177,6 +177,11 @@ std::string end_text(const facts::RunFacts& facts) {
                      vp::format_time(facts.end->ps), facts.end->exit_code);
 }
 
+/// design_text() with the energy of a `unit`.
+std::string cost_text(const std::optional<facts::PowerReport>& power,
+                      const facts::ResourceReport& resources, const facts::TimingReport& timing,
+                      const std::string& unit);
+
 }  // namespace
 
 std::string frame_text(const facts::UnitReport& frame, std::optional<std::uint64_t> total) {
@@ -214,7 +219,7 @@ std::string summary_text(const facts::Summary& summary, const facts::RunFacts& f
   for (const std::string& added : own) text += added + "\n";
   text += verdict_text(verdict_of(facts, summary));
   if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {
-    text += design_text(facts.power, *facts.resources, *facts.timing, facts.work.unit);
+    text += cost_text(facts.power, *facts.resources, *facts.timing, facts.work.unit);
   }
   if (facts.clocks) text += clock_text(*facts.clocks);
   if (summary.settled() > 0) {
@@ -304,6 +309,12 @@ std::string resource_line(const facts::ResourceReport& resources) {
   return text + fmt::format("   ({})\n", resources.device);
 }
 
+std::string cost_text(const std::optional<facts::PowerReport>& power,
+                      const facts::ResourceReport& resources, const facts::TimingReport& timing,
+                      const std::string& unit) {
+  return power_line(power, resources, unit) + timing_line(timing) + resource_line(resources);
+}
+
 }  // namespace
 
 std::vector<std::string> timing_warnings(const facts::TimingReport& timing) {
@@ -391,9 +402,8 @@ std::string clock_text(const facts::ClockReport& report) {
 }
 
 std::string design_text(const std::optional<facts::PowerReport>& power,
-                        const facts::ResourceReport& resources, const facts::TimingReport& timing,
-                        const std::string& unit) {
-  return power_line(power, resources, unit) + timing_line(timing) + resource_line(resources);
+                        const facts::ResourceReport& resources, const facts::TimingReport& timing) {
+  return cost_text(power, resources, timing, "frame");
 }
 
 }  // namespace platform::result

@@ -44,9 +44,8 @@ std::vector<std::string> resource_warnings(const facts::ResourceReport& resource
 /// A junction above what the device is specified for.
 std::vector<std::string> power_warnings(const facts::PowerReport& power);
 
-/// "power", "timing" and "fits" for the console, a line each. Energy is that of a `unit`.
+/// "power", "timing" and "fits" for the console, a line each.
 std::string design_text(const std::optional<facts::PowerReport>& power,
-                        const facts::ResourceReport& resources, const facts::TimingReport& timing,
-                        const std::string& unit = "frame");
+                        const facts::ResourceReport& resources, const facts::TimingReport& timing);
 
 }  // namespace platform::result
