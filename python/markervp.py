@@ -274,7 +274,7 @@ def _text(value):
 
 
 def run(inputs=(), set=None, output="out", options=()):
-    """Runs the platform on scenes, images, folders or videos. `options` go to `markervp run` as they are."""
+    """Runs the platform on inputs, as `markervp run` names them. `options` go to `markervp run` as they are."""
     return _run(["run", *inputs, *options], output, set)
 
 

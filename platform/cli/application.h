@@ -30,7 +30,7 @@ struct Command {
 
 /// An option of `run`: exit code 1 if a tally of the design's does not hold for a unit.
 struct Requirement {
-  const char* option;  ///< "--require-marker"
+  const char* option;  ///< "--require-echo"
   const char* tally;   ///< facts::Tally::name
   const char* meaning;
 };

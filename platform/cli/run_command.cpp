@@ -69,7 +69,8 @@ RunOptions options_of(const study::PointRecord& record, const RunOptions& option
   result.inputs = record.run.at("inputs").get<std::vector<std::string>>();
   const auto program = record.run.at("program").get<std::string>();
   if (!program.empty()) result.program = program;
-  for (const auto& [setting, value] : input_settings_of(record).items())
+  const study::Json settings = input_settings_of(record);
+  for (const auto& [setting, value] : settings.items())
     result.input_settings.emplace(setting, value.get<std::string>());
   if (!identity.at("frames").is_null() && !result.frames)
     result.frames = identity.at("frames").get<std::uint64_t>();

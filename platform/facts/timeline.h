@@ -27,7 +27,7 @@ struct Timeline {
     double value = 0;  ///< from then on
   };
   struct Counter {
-    std::string name;  ///< "Corner buffer"
+    std::string name;  ///< "Word buffer"
     std::string unit;  ///< "words"
     double limit = 0;  ///< what it can be at most; 0: none
     std::vector<Point> points;
@@ -66,7 +66,7 @@ std::string trace_event_json(const Timeline& timeline);
 /// The same for the page: {"names": […], "tracks": [{"group", "name", "spans": [[start us, length
 /// us, name, critical]…]}], "counters": [{"name", "unit", "limit", "points": [[us, value]…]}],
 /// "frames": [{"index", "start", "end"}], "handshakes": [{"name", "signals": [{"name", "bits",
-/// "points": [[us, value]…]}], "meanings": {"word": "corner 5,3"}}]}, with 3 decimal places (1 ns).
+/// "points": [[us, value]…]}], "meanings": {"word": "sample 5"}}]}, with 3 decimal places (1 ns).
 std::string page_json(const Timeline& timeline);
 
 }  // namespace platform::facts

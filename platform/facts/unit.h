@@ -70,9 +70,9 @@ struct InputNeed {
 
 /// Something that holds for a unit or not, and that a run counts.
 struct Tally {
-  std::string name;       ///< "detected"
-  std::string with;       ///< of the units for which it holds: "with a marker"
-  std::string without;    ///< of one for which it does not: "no marker"
+  std::string name;       ///< "echoes"
+  std::string with;       ///< of the units for which it holds: "with an echo"
+  std::string without;    ///< of one for which it does not: "no echo"
   bool is_figure = true;  ///< `summary` of result.json has it; else it is told where it holds
 };
 
@@ -82,7 +82,7 @@ struct Work {
   std::string unit = {};
   std::string job = {};         ///< what it must do, a phrase: "every packet comes back unchanged"
   std::string plural = {};      ///< empty: `unit` and an s
-  std::string given = "input";  ///< what comes for one at a fixed rate: "image"
+  std::string given = "input";  ///< what comes for one at a fixed rate: "sample"
   std::vector<Tally> tallies = {};
   /// Of inputs that were given more than once (UnitReport::settling_showings).
   std::string settled = "were given before, so that what the logic learned from each is its own";
@@ -92,7 +92,7 @@ struct Work {
   std::string many() const { return plural.empty() ? unit + "s" : plural; }
 };
 
-/// A number that a design finds of a unit. The name is a key of `figures`.
+/// A number that a design finds of a unit. The name is a key of `figures`, once in a unit.
 struct UnitFigure {
   std::string name;  ///< "snr"
   std::string unit;  ///< "dB"; "1" for a count or a ratio
@@ -108,7 +108,7 @@ class UnitExtra {
 
   virtual ~UnitExtra() = default;
 
-  /// What came of it, on one line: "marker 0, upright".
+  /// What came of it, on one line: "an echo at 3 ms".
   virtual std::string heading() const = 0;
   /// Further lines for the console: label and text.
   virtual std::vector<std::pair<std::string, std::string>> lines() const { return {}; }

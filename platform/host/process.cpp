@@ -93,7 +93,7 @@ int exit_code_of(const std::function<int()>& work, std::ostream& err) {
   } catch (const std::bad_alloc&) {
     return fail(
         err,
-        "not enough memory on this machine: choose smaller images, depths or files, or give "
+        "not enough memory on this machine: choose smaller inputs, depths or files, or give "
         "it more",
         wrong_input);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -17,7 +17,7 @@ namespace platform::host {
 /// Exit codes of the program (README).
 enum ExitCode {
   done = 0,
-  run_failed = 1,  ///< the program said so, or a required marker was not found
+  run_failed = 1,  ///< the program said so, or a required job was not done
   wrong_input = 2,
   protocol_broken = 3,
   points_failed = 4,  ///< some points of a sweep did not run

@@ -182,6 +182,11 @@ std::string end_text(const facts::RunFacts& facts) {
                      vp::format_time(facts.end->ps), facts.end->exit_code);
 }
 
+/// design_text() with the energy of a `unit`.
+std::string cost_text(const std::optional<facts::PowerReport>& power,
+                      const facts::ResourceReport& resources, const facts::TimingReport& timing,
+                      const std::string& unit);
+
 }  // namespace
 
 std::string frame_text(const facts::UnitReport& frame, std::optional<std::uint64_t> total) {
@@ -219,7 +224,7 @@ std::string summary_text(const facts::Summary& summary, const facts::RunFacts& f
   for (const std::string& added : own) text += added + "\n";
   text += verdict_text(verdict_of(facts, summary));
   if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {
-    text += design_text(facts.power, *facts.resources, *facts.timing);
+    text += cost_text(facts.power, *facts.resources, *facts.timing, facts.work.unit);
   }
   if (facts.clocks) text += clock_text(*facts.clocks);
   if (summary.settled() > 0) {
@@ -248,14 +253,20 @@ std::string mhz(double value) {
   return text + " MHz";
 }
 
+/// With one place, or three digits if that were 0.
+std::string short_figure(double value) {
+  return value < 0.05 ? fmt::format("{:.3g}", value) : vp::format_fixed(value, 1);
+}
+
 std::string power_line(const std::optional<facts::PowerReport>& known,
-                       const facts::ResourceReport& resources) {
+                       const facts::ResourceReport& resources, const std::string& unit) {
   if (!known)
     return "power    unknown, as the figures of " + vp::join(resources.unknown, ", ") + " are\n";
   const facts::PowerReport& power = *known;
   std::string text =
       fmt::format("power    {:.2f} W ({:.2f} to {:.2f})", power.total_w, power.low_w, power.high_w);
-  if (power.per_frame) text += fmt::format("   {:.1f} mJ per frame", power.energy_per_frame_mj);
+  if (power.per_frame)
+    text += fmt::format("   {} mJ per {}", short_figure(power.energy_per_frame_mj), unit);
   return text + fmt::format("   junction {:.0f} C   ({})\n", power.junction_c, power.mode);
 }
 
@@ -301,6 +312,12 @@ std::string resource_line(const facts::ResourceReport& resources) {
                         resources.total.*p.amount, resources.available.*p.amount);
   }
   return text + fmt::format("   ({})\n", resources.device);
+}
+
+std::string cost_text(const std::optional<facts::PowerReport>& power,
+                      const facts::ResourceReport& resources, const facts::TimingReport& timing,
+                      const std::string& unit) {
+  return power_line(power, resources, unit) + timing_line(timing) + resource_line(resources);
 }
 
 }  // namespace
@@ -391,7 +408,7 @@ std::string clock_text(const facts::ClockReport& report) {
 
 std::string design_text(const std::optional<facts::PowerReport>& power,
                         const facts::ResourceReport& resources, const facts::TimingReport& timing) {
-  return power_line(power, resources) + timing_line(timing) + resource_line(resources);
+  return cost_text(power, resources, timing, "frame");
 }
 
 }  // namespace platform::result

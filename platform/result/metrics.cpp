@@ -398,6 +398,11 @@ std::vector<MetricKind>& known_kinds() {
   return kinds;
 }
 
+std::vector<std::string>& known_shown() {
+  static std::vector<std::string> shown;
+  return shown;
+}
+
 }  // namespace
 
 const std::vector<MetricKind>& metric_kinds() {
@@ -406,10 +411,16 @@ const std::vector<MetricKind>& metric_kinds() {
 
 UnitMetrics::UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
                          void (*find_rates)(const Json&, const Found&),
-                         std::initializer_list<MetricKind> kinds)
+                         std::initializer_list<MetricKind> kinds,
+                         std::initializer_list<const char*> shown)
     : take(take_member), rates(find_rates) {
   unit_metrics().push_back(*this);
   known_kinds().insert(known_kinds().end(), kinds);
+  known_shown().insert(known_shown().end(), shown.begin(), shown.end());
+}
+
+const std::vector<std::string>& shown_metrics() {
+  return known_shown();
 }
 
 const MetricKind* kind_of_metric(const std::string& name) {

@@ -27,14 +27,15 @@ struct MetricKind {
 /// All that a result may have. Those of frames stand here without their end: ".mean", ".max".
 const std::vector<MetricKind>& metric_kinds();
 
-/// How an application reads what it adds to a unit's entry in result.json, and what its metrics
-/// mean. One object of the application, before main(), registers itself.
+/// How an application reads what it adds to a unit's entry in result.json, what its metrics mean,
+/// and those that a page shows where a study does not say. One object of the application, before
+/// main(), registers itself.
 struct UnitMetrics {
   using Found = std::function<void(const std::string& name, double value)>;
 
   UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
               void (*find_rates)(const Json&, const Found&),
-              std::initializer_list<MetricKind> kinds);
+              std::initializer_list<MetricKind> kinds, std::initializer_list<const char*> shown);
 
   /// Finds the figures in a member: `name` becomes frames.<name>.mean and .max. False: it is none
   /// of the application's, and is read as all others are.
@@ -42,6 +43,9 @@ struct UnitMetrics {
   /// Finds what a unit counts for, 1 or 0: `name` becomes summary.<name>, the mean over all units.
   void (*rates)(const Json& unit, const Found& found);
 };
+
+/// Metrics of the application that a page shows where a study does not say.
+const std::vector<std::string>& shown_metrics();
 
 /// Null if no result has a metric of this name.
 const MetricKind* kind_of_metric(const std::string& name);
@@ -97,8 +101,8 @@ class Metrics {
 /// "summary.fps.mean", "timing.met". Members of a list are named by their `name`, others by their
 /// position; those of one name are added up: "power.modules.ps.cores.w" is the power of that
 /// module, whatever rails and reasons it has. Of the frames, mean and largest value over all of
-/// them: "frames.counts.corners.mean", "frames.time_us.receive.max" (of those with a result),
-/// "frames.error.corner_px.mean" (of the markers whose truth is known). Of the timing also
+/// them: "frames.counts.words.mean", "frames.time_us.receive.max" (of those with a result),
+/// "frames.figures.peak.mean" (what the design finds). Of the timing also
 /// "timing.failed" and "timing.unknown": how many modules are clocked above a known limit, and
 /// above one of which only a lower bound is known. Of the verdict "verdict.feasible" and
 /// "verdict.<part>.holds": 1 for yes, 0 for no, 0.5 for unknown.

@@ -43,7 +43,7 @@ struct Pareto {
   std::vector<RankedPoint> points;  ///< failed ones left out, in the order of the sweep
   std::optional<std::size_t> knee;  ///< position in `points`
   bool has_bands = false;           ///< of a figure
-  /// For each metric that some points lack: how many. A point that found no marker has no error.
+  /// For each metric that some points lack: how many. A point without results has no rate.
   std::map<std::string, std::uint64_t> lacking;
 };
 

@@ -57,20 +57,17 @@ constexpr std::size_t most_reasons = 8;
 constexpr std::size_t most_page_points = 20'000;
 
 /// Figures that the page has of every sweep.
-constexpr const char* usual_figures[] = {"summary.fps.mean",
-                                         "summary.latency_us.mean",
-                                         "power.total_w.nominal",
-                                         "summary.energy_per_frame_mj",
-                                         "power.junction_c",
-                                         "summary.detected",
-                                         "summary.frames",
-                                         "resources.total.lut",
-                                         "resources.total.ff",
-                                         "resources.total.bram36",
-                                         "resources.total.dsp",
-                                         "frames.error.corner_px.mean",
-                                         "frames.error.translation_mm.mean",
-                                         "frames.error.rotation_deg.mean"};
+/// What a page shows where the study does not say.
+std::vector<std::string> usual_figures() {
+  std::vector<std::string> figures{"summary.fps.mean",       "summary.latency_us.mean",
+                                   "power.total_w.nominal",  "summary.energy_per_frame_mj",
+                                   "power.junction_c",       "summary.frames",
+                                   "resources.total.lut",    "resources.total.ff",
+                                   "resources.total.bram36", "resources.total.dsp"};
+  const std::vector<std::string>& own = result::shown_metrics();
+  figures.insert(figures.end(), own.begin(), own.end());
+  return figures;
+}
 
 /// The swept parameters that differ.
 std::vector<std::string> decisive(const Results& results) {
@@ -303,7 +300,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
   const Manifest& manifest = results.manifest;
   const std::vector<Objective> objectives = objectives_of(results);
   Columns asked = asked_of(results);
-  for (const char* name : usual_figures) asked.add(name);
+  for (const std::string& name : usual_figures()) asked.add(name);
   const std::vector<Column> columns = asked.take();
   Json json{{"name", manifest.name},
             {"title", manifest.title},
@@ -338,7 +335,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
 
 std::vector<vp::Expression> page_figures() {
   std::vector<vp::Expression> figures;
-  for (const char* name : usual_figures) figures.emplace_back(name, name);
+  for (const std::string& name : usual_figures()) figures.emplace_back(name, name);
   return figures;
 }
 

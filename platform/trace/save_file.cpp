@@ -153,7 +153,7 @@ bool is_count(const std::string& path) {
   });
 }
 
-/// "pl.corner_detection" of "pl.corner_detection.corner_out"; "" for what is in no IP.
+/// "pl.filter" of "pl.filter.sum_out"; "" for what is in no IP.
 std::string ip_of(const std::string& path) {
   const auto first = path.find('.');
   const auto second = first == std::string::npos ? first : path.find('.', first + 1);

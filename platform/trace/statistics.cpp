@@ -184,7 +184,7 @@ struct Stages {
   bool receives = false;  ///< features came from the PL
   Time extraction, extraction_end;
   Time evaluation, evaluation_end;
-  Time pose, end;
+  Time last, end;
 };
 
 double between(const Time& from, const Time& to) {
@@ -201,9 +201,8 @@ class StageStatistic final : public Statistic {
     name_ = replay.follow("ps.cpu.function_name");
     table_.name = "stages";
     table_.title = "Stages of each frame";
-    table_.columns = {"frame",      "upload_us",     "feature_extraction_us",
-                      "receive_us", "evaluation_us", "identification_us",
-                      "pose_us",    "latency_us"};
+    table_.columns = {"frame",         "upload_us",         "feature_extraction_us", "receive_us",
+                      "evaluation_us", "identification_us", functions_.last_column,  "latency_us"};
   }
   bool found() const override {
     return frame_ && results_ && name_ && !functions_.evaluation.empty();
@@ -263,18 +262,18 @@ void StageStatistic::enter(const std::string& name, std::uint64_t ps) {
   const auto& search = functions_.search;
   const bool searches = std::find(search.begin(), search.end(), name) != search.end();
   if (now_.evaluation && (out || searches)) note(now_.evaluation_end);
-  if (name == functions_.pose) note(now_.pose);
+  if (name == functions_.last) note(now_.last);
 }
 
 void StageStatistic::finish_frame(std::uint64_t ps) {
   now_.end = ps;
-  const Time& search_end = now_.pose ? now_.pose : now_.end;
+  const Time& search_end = now_.last ? now_.last : now_.end;
   const double columns[] = {between(now_.upload, now_.upload_end),
                             between(now_.extraction, now_.extraction_end),
                             between(now_.extraction_end, now_.evaluation),
                             between(now_.evaluation, now_.evaluation_end),
                             between(now_.evaluation_end, search_end),
-                            between(now_.pose, now_.end),
+                            between(now_.last, now_.end),
                             between(now_.extraction, now_.end)};
   table_.rows.emplace_back();
   table_.rows.back().emplace_back(now_.number);

@@ -26,7 +26,7 @@ struct Table {
 
 /// Columns lined up, a title above each table; empty tables and details are left out.
 std::string tables_as_text(const std::vector<Table>& tables);
-/// {"links": [{"link": "pl.image_stream", "beats": 76800}]}
+/// {"links": [{"link": "pl.samples", "beats": 76800}]}
 std::string tables_as_json(const std::vector<Table>& tables);
 /// Blocks separated by an empty line: the table's name, the columns, the rows.
 std::string tables_as_csv(const std::vector<Table>& tables);

@@ -62,7 +62,8 @@ struct Vocabulary {
   struct Functions {
     std::string upload, capture, receive, evaluation;
     std::vector<std::string> search;  ///< what follows the evaluation
-    std::string pose;
+    std::string last;                 ///< what ends a frame
+    std::string last_column;          ///< its column in the table
   };
   Functions functions;
 

@@ -59,7 +59,9 @@ FirDesign::FirDesign(sc_core::sc_module_name name, platform::PlPorts& ports, boo
       axi_dma_0_("axi_dma_0", ports.fclk_clk(0), one_channel(true)),
       axi_dma_1_("axi_dma_1", ports.fclk_clk(0), one_channel(false)),
       filter_("filter", ports.fclk_clk(0)),
-      concat_("concat", 2) {
+      concat_("concat", 2),
+      mistake_("mistake", "none", {"none", "no_job", "no_unit", "figure_twice", "unknown_tally"},
+               vp::Source::decision, "what the design does wrong, for a test") {
   ports.m_axi_gp0(registers_);
   ports.s_axi_hp0(memory_);
   ports.irq_f2p(concat_.dout);
@@ -80,7 +82,8 @@ FirDesign::FirDesign(sc_core::sc_module_name name, platform::PlPorts& ports, boo
 Work FirDesign::work() const {
   Work work;
   work.unit = "block";
-  work.job = "every word of a block is filtered as the program expects";
+  if (mistake_.get() != "no_job")
+    work.job = "every word of a block is filtered as the program expects";
   work.tallies = {{"loud", "above 1000", "none above 1000"}};
   return work;
 }
@@ -104,6 +107,9 @@ bool FirDesign::report(const platform::Publication& publication, UnitReport& blo
   block.counts.set("words", result.words);
   block.counts.lose("lost_words", fir::block_words - result.words);
   block.figures = {{"peak", "V", static_cast<double>(result.peak)}};
+  if (mistake_.get() == "figure_twice") block.figures.push_back(block.figures.front());
+  if (mistake_.get() == "no_unit") block.figures.front().unit.clear();
+  if (mistake_.get() == "unknown_tally") block.tallies.emplace_back("silent");
   if (result.peak > 1000) block.tallies.emplace_back("loud");
   if (result.wrong > 0) block.failures.emplace_back("with wrong words");
   return true;

@@ -16,7 +16,7 @@ std::vector<std::string> native_console(
   configuration.check_unused();
   std::vector<std::string> lines;
   simulation.zynq().ps.cpu.console.connect([&](const std::string& line) { lines.push_back(line); });
-  simulation.run([] { return platform::input::SharedFrame(); },
+  simulation.run([] { return platform::facts::SharedInput(); },
                  [](platform::facts::UnitReport&&) { return true; });
   return lines;
 }

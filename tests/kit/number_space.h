@@ -24,7 +24,6 @@ inline study::Platform numbers() {
       built.parameters.push_back(
           {path, set == build.settings.end() ? usual : set->second, usual, "", {}, ""});
     }
-    built.size = {640, 480};
     return built;
   };
   platform.program_file = [](const std::string&, const std::string&) { return ""; };

@@ -44,7 +44,7 @@ Cpu::Settings::Settings()
       quantum("quantum", 100_us, vp::Unit::time, {0, 1000_s}, vp::Source::decision,
               "how far the program may run ahead of the simulation; no result depends on it"),
       timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
-              "the run ends if the program neither ends nor asks for an image for so long"),
+              "the run ends if the program neither ends nor asks for an input for so long"),
       host_timeout("host_timeout", 10_s, vp::Unit::time, {100_ms, 1'000'000_s},
                    vp::Source::decision,
                    "the run ends if the program takes so much of the host's processor time, or "

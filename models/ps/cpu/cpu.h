@@ -32,16 +32,16 @@
 
 namespace ps {
 
-/// The environment of a program in a run: gives it images and options, takes its results. The
+/// The environment of a program in a run: gives it inputs and options, takes its results. The
 /// platform implements it. Times are simulation times of the call in ps; the calls take none.
 class TestBench {
  public:
   virtual ~TestBench() = default;
 
-  /// When the next image comes, or when it is known that no more come. The program asks for it now
+  /// When the next input comes, or when it is known that no more come. The program asks for it now
   /// and sleeps until then.
   virtual std::uint64_t next_frame_ps(std::uint64_t now_ps) { return now_ps; }
-  /// The next image, or null when the run is over. Valid until the next call.
+  /// The next input, or null when the run is over. Valid until the next call.
   virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
   /// Takes the result of a frame; `data` is valid during the call only. False: no result, the
   /// program gave up the frame.
@@ -88,7 +88,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
       "function"};  ///< annotated function that runs, its number + 1; 0 none
   vp::Signal<bool> in_handler{"in_handler"};     ///< from interrupt entry to exit
   vp::Signal<bool> asleep{"asleep"};             ///< waits for an interrupt or an event
-  vp::Signal<std::uint32_t> frame{"frame"};      ///< images that the program took
+  vp::Signal<std::uint32_t> frame{"frame"};      ///< inputs that the program took
   vp::Signal<std::uint32_t> results{"results"};  ///< results that it delivered
   // For traces: names of the annotated function, and of the handler while it runs.
   vp::TextSignal function_name{"function_name", [this] { return name_of_function(); }, {&function}};

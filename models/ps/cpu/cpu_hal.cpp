@@ -106,7 +106,7 @@ void Cpu::warn(const char* text) {
 }
 
 const hal_frame* Cpu::next_frame() {
-  if (number_ != 0) misuse("hal_frame_next(): images go to the first core");
+  if (number_ != 0) misuse("hal_frame_next(): inputs go to the first core");
   catch_up();
   if (bench_) sleep_until(bench_->next_frame_ps(now_ps()));
   const hal_frame* next = bench_ ? bench_->next_frame(now_ps()) : nullptr;

@@ -110,7 +110,7 @@ void Cpu::break_off(const std::string& problem) {
   misuse(problem);
 }
 
-// Simulated time and images. In a signal handler: what is read may be half a step ahead.
+// Simulated time and inputs. In a signal handler: what is read may be half a step ahead.
 std::uint64_t Cpu::progress(const void* cpu) {
   const Cpu& self = *static_cast<const Cpu*>(cpu);
   return self.now_ps() + self.frame;

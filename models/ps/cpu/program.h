@@ -10,7 +10,7 @@
 
 namespace ps {
 
-/// The names of an option's values, which its unit lists ("none|grid|charuco"); none: its values
+/// The names of an option's values, which its unit lists ("none|low|high"); none: its values
 /// are numbers.
 std::vector<std::string> option_names(const hal_option_info& option);
 

@@ -20,7 +20,7 @@ namespace platform {
 struct Part {
   std::string module;  ///< hierarchical name
   std::string name;    ///< the last part of that
-  std::string group;   ///< "feature_extraction", "data_bridge", "image_memory"
+  std::string group;   ///< "filter", "data_bridge", "memory"
   const vp::Clock* clock;
   std::string clock_name;  ///< "ps.fclk_clk0"
   vp::IpEstimate estimate;

@@ -17,7 +17,7 @@
 
 namespace platform {
 
-PowerOptions::PowerOptions(bool uses_pl, PowerMode usual)
+PowerOptions::PowerOptions(bool uses_pl, PowerMode usual, Design& design)
     : mode("mode", usual,
            {{"vivado-default", PowerMode::vivado_default}, {"activity", PowerMode::activity}},
            vp::Source::decision,
@@ -34,6 +34,7 @@ PowerOptions::PowerOptions(bool uses_pl, PowerMode usual)
                 "whether the PL holds the design; a system without it leaves the PL unconfigured") {
   mode.follows("camera.rate");
   pl_design.follows("design");
+  design.add_power_options();
 }
 
 PowerOptions::Ddr::Ddr(sc_core::sc_module_name name)
@@ -48,12 +49,6 @@ PowerOptions::Ddr::Ddr(sc_core::sc_module_name name)
   throw vp::InputError(std::string(width.name()) + " is " + std::to_string(width) +
                        ": give 16 or 32");
 }
-
-PowerOptions::Blob::Blob(sc_core::sc_module_name name)
-    : sc_module(name),
-      figure_includes_static(
-          "figure_includes_static", false, vp::Source::decision,
-          "whether the thesis' 0.4 W of blob detection (4.6.1) include 0.105 W of static power") {}
 
 namespace {
 
@@ -175,7 +170,7 @@ constexpr double hp_port_bytes = 8;    // a beat
 constexpr double hp_port_usage = 0.5;  // at which its coefficient was read
 
 /// What the memory masters of the PL write, which goes past the DDR's own counters where it is
-/// direct access. Their reads only upload images here, which is no frame's work.
+/// direct access. Their reads only upload inputs here, which is no unit's work.
 class Written {
  public:
   explicit Written(const Zynq& zynq) {
@@ -323,7 +318,7 @@ class Builder {
   /// The coefficient of an IP that has one of its own; else that of logic in general.
   std::string logic_coefficient(const Part& ip) const {
     const std::string own = "ip." + ip.estimate.kind;
-    if (options_.blob.figure_includes_static && has(own + "_net")) return own + "_net";
+    if (zynq_.design().has_net_figures() && has(own + "_net")) return own + "_net";
     return has(own) ? own : "pl.logic";
   }
 

@@ -24,8 +24,8 @@ enum class PowerMode {
 
 /// The parameters of the module that they are a member of.
 struct PowerOptions {
-  /// The defaults of pl_design and mode.
-  PowerOptions(bool uses_pl, PowerMode usual);
+  /// The defaults of pl_design and mode; `design` adds its own.
+  PowerOptions(bool uses_pl, PowerMode usual, Design& design);
 
   vp::Parameter<PowerMode> mode;
   vp::Parameter<std::string> table;
@@ -39,11 +39,6 @@ struct PowerOptions {
     vp::Parameter<std::uint64_t> frequency;
     vp::Parameter<double> voltage;
   } ddr{"ddr"};
-
-  struct Blob : sc_core::sc_module {
-    explicit Blob(sc_core::sc_module_name name);
-    vp::Parameter<bool> figure_includes_static;
-  } blob{"blob"};
 
   vp::ThermalPath thermal_path() const { return {ambient, theta_ja}; }
 };

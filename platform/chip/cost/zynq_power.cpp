@@ -44,7 +44,7 @@ constexpr double mj_per_j = 1e3;
 
 ZynqPower::ZynqPower(sc_core::sc_module_name name, Zynq& zynq, bool uses_pl, PowerMode usual)
     : sc_module(name),
-      options(uses_pl, usual),
+      options(uses_pl, usual, zynq.design()),
       zynq_(zynq),
       table_(power::PowerTable::load(options.table)),
       parts_(parts_of(zynq.pl())),

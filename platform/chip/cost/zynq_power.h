@@ -61,7 +61,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
   void record_timeline(bool record = true) { records_ = record && is_known_; }
   const PowerTimeline& timeline() const { return timeline_; }
 
-  /// The program takes an image: events from here on are its frame's.
+  /// The program takes an input: events from here on are its unit's.
   void frame_begins() { meter_.mark(); }
   /// The program published a result, now: fills in `energy`, unless it gave the frame up.
   void frame_ends(facts::UnitReport& frame);

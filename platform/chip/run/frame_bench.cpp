@@ -18,7 +18,8 @@ FrameBench::FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOpt
       camera_(camera),
       options_(options),
       reports_(reports),
-      takes_input_(zynq.design().input().bytes > 0) {
+      takes_input_(zynq.design().input().bytes > 0),
+      work_(zynq.design().work()) {
   if (!takes_input_) return;
   const std::size_t bytes = zynq_.design().input().bytes;
   const auto address = zynq_.ps.ddr.dma_memory().allocate(bytes, 4096);
@@ -101,6 +102,32 @@ void FrameBench::place(const facts::SharedInput& input) {
   zynq_.design().describe(*input, frame_);
 }
 
+namespace {
+
+/// Throws vp::ProtocolError for a figure or a tally that the design did not declare as it must.
+void check_declared(const facts::UnitReport& unit, const facts::Work& work) {
+  const auto refuse = [](const std::string& what) {
+    throw vp::ProtocolError("the design reports " + what);
+  };
+  for (auto figure = unit.figures.begin(); figure != unit.figures.end(); ++figure) {
+    if (figure->name.empty()) refuse("a figure without a name");
+    if (figure->unit.empty())
+      refuse("figure '" + figure->name + "' without a unit: write \"1\" for a count or a ratio");
+    const bool is_twice = std::any_of(unit.figures.begin(), figure, [&](const auto& before) {
+      return before.name == figure->name;
+    });
+    if (is_twice) refuse("figure '" + figure->name + "' twice");
+  }
+  for (const std::string& name : unit.tallies) {
+    const bool is_known =
+        std::any_of(work.tallies.begin(), work.tallies.end(),
+                    [&](const facts::Tally& tally) { return tally.name == name; });
+    if (!is_known) refuse("tally '" + name + "', which its work() does not name");
+  }
+}
+
+}  // namespace
+
 bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
                          std::uint64_t now_ps) {
   zynq_.settle();
@@ -116,6 +143,7 @@ bool FrameBench::publish(std::uint32_t kind, const void* data, std::size_t size,
   report.given = shown.input;
   if (takes_input_) report.input = shown.input->name;
   zynq_.design().check(report);
+  check_declared(report, work_);
   take_new_warnings(report.warnings);
   const bool delivered = report.delivered();
   if (shown.counts) ++published_;

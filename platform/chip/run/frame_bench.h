@@ -93,6 +93,7 @@ class FrameBench : public ps::TestBench {
   FrameDone done_;
   hal_frame frame_{};
   const bool takes_input_;
+  const facts::Work work_;
   std::uint32_t inputs_ = 0;  ///< that there were, lost ones too
   std::deque<Shown> shown_;
   facts::SharedInput input_;             ///< given now

@@ -79,7 +79,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
       check_clock(cpu_hz, range, program);
       usual = static_cast<double>(cpu_hz);
     }
-    // At a rate it would sleep until the next image before it works on the last.
+    // At a rate it would sleep until the next input before it works on the last.
     const bool is_overlap = info.name == std::string_view("overlap");
     if ((is_upload || is_overlap) && camera.has_rate()) usual = 0;
     const auto& parameter = parameters_.emplace_back(info.name, usual, dimension, range,
@@ -89,7 +89,7 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
     if (is_upload && camera.has_rate() && parameter >= 0.5) {
       throw vp::InputError(std::string(parameter.name()) + " is " + parameter.text() + ", and " +
                            camera.rate.name() + " is " + camera.rate.text() +
-                           ": such a camera uploads its images itself; leave one of them out");
+                           ": inputs at a rate upload themselves; leave one of them out");
     }
     values_.push_back(parameter.get() / base);
     if (is_upload) uploads_ = parameter >= 0.5;

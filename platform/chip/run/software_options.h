@@ -35,7 +35,7 @@ class SoftwareOptions : public sc_core::sc_module {
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
-  /// The program brings its images to the PL itself.
+  /// The program brings its inputs to the PL itself.
   bool uploads() const { return uploads_; }
 
  private:

@@ -165,6 +165,10 @@ class Design {
   /// High while a unit passes the logic, which works then, where it does not count its work. Null:
   /// it always works.
   virtual vp::Signal<bool>* busy() { return nullptr; }
+  /// Makes parameters of its own below `power`, of which it is in the constructor.
+  virtual void add_power_options() {}
+  /// Whether coefficients without static power (NAME_net of the table) hold for its parts.
+  virtual bool has_net_figures() const { return false; }
   /// The groups of its parts, in the order of reports. Groups that are missing follow.
   virtual std::vector<std::string> groups() const { return {}; }
   /// A clock of the PL, as power reports name its root: `pl.clocks.<role>`.

@@ -40,7 +40,7 @@ class CacheContract {
     invalidate_call_ = std::move(invalidate);
   }
   /// The test bench placed something there, flushed: what the program then makes of it is not
-  /// looked at, which would cost a tenth of the speed with images.
+  /// looked at, which would cost a tenth of the speed with inputs.
   void placed(std::uint64_t address, std::uint64_t bytes) { mark(address, bytes, current | given); }
 
  private:

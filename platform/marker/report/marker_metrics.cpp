@@ -58,7 +58,9 @@ bool register_marker_metrics() {
        {"frames.error.translation_mm", "mm", "distance of the marker's place from the truth"},
        {"frames.error.rotation_deg", "°", "angle of the marker's rotation from the truth"},
        {"frames.reprojection_px", "px", "distance of the corners from those of the pose"},
-       {"frames.iterations", "", "iterations of the pose"}});
+       {"frames.iterations", "", "iterations of the pose"}},
+      {"summary.detected", "frames.error.corner_px.mean", "frames.error.translation_mm.mean",
+       "frames.error.rotation_deg.mean"});
   return true;
 }
 

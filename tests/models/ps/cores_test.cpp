@@ -654,7 +654,7 @@ BOOST_AUTO_TEST_CASE(what_the_second_core_does_wrong_ends_the_run) {
     const char* text;
   };
   const Mistake mistakes[] = {
-      {[] { hal_frame_next(); }, "hal_frame_next(): images go to the first core"},
+      {[] { hal_frame_next(); }, "hal_frame_next(): inputs go to the first core"},
       {[] { hal_publish(0, nullptr, 0); }, "hal_publish(): results come from the first core"},
       {[] { throw std::runtime_error("no luck"); }, "the program threw an exception: no luck"},
       {[] { *reinterpret_cast<volatile int*>(16) = 1; }, "segmentation fault: write to 0x00000010"},

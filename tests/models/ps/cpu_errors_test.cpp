@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(of_a_register_that_is_read_for_ever_the_bits_that_changed_a
 BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) {
   const Settings settings{"cpu.timeout=1 us"};
   const std::string head =
-      "no end within 1 us of simulated time since the last image (cpu.timeout)";
+      "no end within 1 us of simulated time since the last input (cpu.timeout)";
   struct Loop {
     std::function<void()> body;
     std::string hint;

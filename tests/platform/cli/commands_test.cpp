@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(power_prints_the_coefficients_and_checks_others) {
 BOOST_AUTO_TEST_CASE(config_prints_the_effective_tree_that_reads_back) {
   BOOST_TEST(run({"config", "--set", "ps.cpu.timeout=42 s"}) == 0);
   BOOST_TEST(contains(out, "timeout: 42 s "), out);
-  BOOST_TEST(contains(out, "the run ends if the program neither ends nor asks for an image"));
+  BOOST_TEST(contains(out, "the run ends if the program neither ends nor asks for an input"));
   kit::write_file(folder / "p.yaml", out);
   const std::string printed = out;
   BOOST_TEST(run({"config", "--config", "p.yaml"}) == 0);

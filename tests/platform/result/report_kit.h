@@ -54,7 +54,7 @@ inline platform::facts::UnitReport given_up_frame(const std::string& scene,
                                                   std::uint32_t index = 0) {
   platform::facts::UnitReport frame = found_frame(scene, index);
   frame.gave_up = "binary image timed out";
-  marker_frame(frame).markers.clear();
+  platform::marker_frame(frame).markers.clear();
   return judged(frame);
 }
 

@@ -167,6 +167,33 @@ BOOST_AUTO_TEST_CASE(an_image_of_which_nobody_knows_needs_no_marker) {
   BOOST_TEST((point.verdict().feasible() == Holds::yes));
 }
 
+BOOST_AUTO_TEST_CASE(a_job_by_the_designs_own_rule) {
+  Point point;
+  point.facts.work = {"batch", "no batch has an echo", "batches"};
+  point.frames = {UnitReport(), UnitReport(), UnitReport()};
+  BOOST_TEST((point.part("job").holds == Holds::yes), "nothing must be detected");
+  Summary summary;
+  for (UnitReport& unit : point.frames) {
+    unit.failures = {"with an echo"};
+    summary.add(unit);
+  }
+  const Verdict::Part part = job_of(point.facts, summary);
+  BOOST_TEST((part.holds == Holds::no));
+  BOOST_TEST(part.why == "3 of 3 batches with an echo");
+  BOOST_TEST(*part.margin_percent == -100);
+  BOOST_TEST(job_of(point.facts, {}).why == "no batches");
+}
+
+BOOST_AUTO_TEST_CASE(a_design_that_delivers_nothing_ends_well_or_not) {
+  Point point;
+  point.frames.clear();
+  point.facts.work = {"", "the program ends well"};
+  BOOST_TEST((point.verdict().feasible() == Holds::yes));
+  BOOST_TEST(!point.part("job").margin_percent.has_value());
+  point.facts.end = ProgramEnd{3, 1};
+  point.fails("ran", Holds::no, "the program ended with exit code 3");
+}
+
 BOOST_AUTO_TEST_CASE(a_design_that_is_too_big) {
   Point point;
   point.facts.resources->total.bram36 = 80;

@@ -1,3 +1,6 @@
+#include <marker/input/image_input.h>
+#include <marker/report/marker_metrics.h>
+#include <study/inputs.h>
 #include <study/spec.h>
 
 #include "sweep_kit.h"
@@ -9,6 +12,10 @@ using sweep_test::complaint;
 using sweep_test::contains;
 
 namespace {
+
+// The keys of an application.
+const platform::study::InputKindRegistration images(platform::input::image_input);
+const bool has_metrics = platform::register_marker_metrics();
 
 std::string problem(const std::string& text) {
   return complaint([&] { parse_spec(text, "s.yaml"); });

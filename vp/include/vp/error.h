@@ -7,7 +7,7 @@
 
 namespace vp {
 
-/// The user asked for something that cannot be: a wrong key, unit, file or image. The message is
+/// The user asked for something that cannot be: a wrong key, unit, file or input. The message is
 /// one line that says what, where and what to do; the command line prints it and exits with code 2.
 class InputError : public std::runtime_error {
  public:

@@ -104,7 +104,7 @@ class FrameGate final : public WaveWriter {
 /// that names a module takes everything below it. If the first pattern is a `-`, everything else is
 /// taken. No pattern at all: everything.
 ///
-///     zynq.pl.**, -zynq.pl.blob_detection, +zynq.pl.blob_detection.out_*
+///     zynq.pl.**, -zynq.pl.axi_dma_0, +zynq.pl.axi_dma_0.mm2s_*
 class TraceFilter {
  public:
   TraceFilter() = default;

@@ -86,7 +86,7 @@ class ParameterBase : public sc_core::sc_object {
 /// constructed.
 ///
 ///   vp::Parameter<std::uint32_t> threshold{
-///       "threshold", 30, vp::Unit::none, {0, 255}, vp::Source::decision, "contrast of a corner"};
+///       "threshold", 30, vp::Unit::none, {0, 255}, vp::Source::decision, "least difference"};
 ///   vp::Parameter<std::uint64_t> clock{
 ///       "clock", 50_MHz, vp::Unit::frequency, vp::Source::published, "pixel clock"};
 ///   vp::Parameter<bool> enabled{"enabled", true, vp::Source::decision, "…"};

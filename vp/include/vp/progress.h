@@ -7,7 +7,7 @@
 
 namespace vp {
 
-/// The bar as text: "scenes  [#####.....]  50 %  5/10  12 s left". `seconds` is the time since the
+/// The bar as text: "points  [#####.....]  50 %  5/10  12 s left". `seconds` is the time since the
 /// start; the time left follows from it, and is left out as long as nothing is done.
 std::string progress_line(const std::string& label, std::uint64_t done, std::uint64_t total,
                           double seconds);

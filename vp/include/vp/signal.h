@@ -209,7 +209,7 @@ class InBase {
 
  protected:
   ~InBase() = default;
-  /// What the follower of a foreign signal is called: "corner_detection_pixel".
+  /// What the follower of a foreign signal is called: "filter_sample".
   std::string follower_name() const;
 
  private:

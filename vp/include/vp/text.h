@@ -10,7 +10,7 @@ namespace vp {
 
 /// The candidate that `word` is most likely a misspelling of; empty if none is near. Compared by
 /// Damerau-Levenshtein distance, at most max(2, length / 3); also with the last part of a dotted
-/// candidate, so that "treshold" finds "pl.corner_detection.threshold". Of equally near ones the
+/// candidate, so that "treshold" finds "pl.trigger.threshold". Of equally near ones the
 /// first wins.
 std::string nearest_match(std::string_view word, const std::vector<std::string>& candidates);
 

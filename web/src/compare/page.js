@@ -36,13 +36,13 @@ function deltaTable(rows, names) {
 
 function stageChart(runs, names) {
   const rows = runs.map((run, i) => ({ name: names[i], stages: stagesOf(run) }));
-  return rows.some((row) => row.stages.length > 0) ? stageBars(rows) : null;
+  return rows.some((row) => row.stages.length > 0) ? stageBars(rows, runs[0].unit) : null;
 }
 
 function latencies(runs, names) {
   if (Math.max(...runs.map((run) => run.delivered.length)) < 2 || !runs.every((run) => run.latency)) return null;
   return chart({
-    name: "latency", title: "Latency of each frame, ms", height: 240, canvas: true, summary: runs.map((run, i) => `${names[i]}: mean ${time(run.latency.mean)}`).join(", "),
+    name: "latency", title: `Latency of each ${runs[0].unit}, ms`, height: 240, canvas: true, summary: runs.map((run, i) => `${names[i]}: mean ${time(run.latency.mean)}`).join(", "),
     option: () => ({
       legend: { top: 0, left: 0, icon: "circle", itemWidth: 8, itemHeight: 8, textStyle: { color: palette().soft } }, grid: { left: 8, right: 24, top: 34, bottom: 4, containLabel: true }, xAxis: axis({ type: "value", min: 1 }), yAxis: axis({ type: "value", scale: true }),
       tooltip: { show: true, trigger: "axis", valueFormatter: (v) => significant(v, 4) },
@@ -67,7 +67,7 @@ function overlaid(runs, names) {
     if (all.frames.length === 0 || timeline.frames[0].end - zero > all.frames[0].end) all.frames = [{ index: timeline.frames[0].index, start: 0, end: timeline.frames[0].end - zero }];
   });
   all.tracks.sort((p, q) => p.order - q.order);
-  return gantt({ extras: { timeline: all } });
+  return gantt({ unit: runs[0].unit, extras: { timeline: all } });
 }
 
 export function comparePage(first, firstExtras, second, secondExtras, folders) {

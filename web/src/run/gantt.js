@@ -1,7 +1,7 @@
 // Everything that happened, on one time axis: engines, then counters below.
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
-import { counted, fixed, significant, time, words } from "../kit/format.js";
+import { counted, fixed, heading, significant, time, words } from "../kit/format.js";
 import { isDark, palette } from "../kit/theme.js";
 
 const groupColours = { PL: "blue", DMA: "orange", Interrupts: "vermilion", PS: "green", Frame: "grey" };
@@ -52,6 +52,7 @@ function thinned(spans, from, to) {
 
 export function gantt(run) {
   const timeline = run.extras.timeline;
+  const { unit } = run;
   if (!timeline?.tracks?.length) return null;
   const tracks = timeline.tracks.filter((track) => track.spans.length > 0);
   const counters = (timeline.counters ?? []).filter((counter) => counter.points.length > 1);
@@ -87,7 +88,7 @@ export function gantt(run) {
       grid: [{ left, right: 24, outerBoundsMode: "none", top: 6, height: row * tracks.length },
         ...counters.map((_, i) => ({ left, right: 24, outerBoundsMode: "none", top: axisTop + 40 + i * (below + 34), height: below }))],
       xAxis: [x(0, true), ...counters.map((_, i) => x(i + 1, false))],
-      yAxis: [axis({ type: "category", inverse: true, data: tracks.map((track) => track.name), splitLine: { show: false }, axisLine: { show: false }, axisLabel: { color: colour.ink, hideOverlap: false, interval: 0 } }),
+      yAxis: [axis({ type: "category", inverse: true, data: tracks.map((track) => (track.name === "Frame" ? heading(unit) : track.name)), splitLine: { show: false }, axisLine: { show: false }, axisLabel: { color: colour.ink, hideOverlap: false, interval: 0 } }),
         ...counters.map((counter, i) => axis({ type: "value", gridIndex: i + 1, min: counter.from ?? 0, splitNumber: 2, scale: counter.from === null, name: `${counter.name}, ${counter.unit}`, nameLocation: "end", nameGap: 14, nameTextStyle: { color: colour.soft, align: "left", padding: [0, 0, 0, -left + 40] } }))],
       tooltip: { show: true, trigger: "item", formatter: (p) => (p.seriesType === "custom" ? tip(p) : `${p.seriesName}: ${significant(p.value[1], 4)}\nat ${time(p.value[0])}`) },
       series: [{ type: "custom", data: bars(), renderItem: spanItem(tracks, marked, nameOf), encode: { x: [1], y: 0 }, clip: true },
@@ -114,7 +115,7 @@ export function gantt(run) {
   const button = (text, label, act) => h("button", { type: "button", "aria-label": label, onclick: act }, text);
   const figure = chart({
     name: "timeline", title: "Timeline", height, canvas: true, option,
-    note: `The first ${frames.length === 1 ? "frame" : `${frames.length} frames`}. Outlined bars are the critical path: shortening them shortens the frame. Drag to move; Ctrl and the wheel zoom.`,
+    note: `The first ${frames.length === 1 ? unit : `${frames.length} ${unit}s`}. Outlined bars are the critical path: shortening them shortens the ${unit}. Drag to move; Ctrl and the wheel zoom.`,
     summary: `${counted(tracks.length, "track")}: ${tracks.map((track) => `${track.name}, ${counted(track.spans.length, "interval")}`).join("; ")}.`,
     table: () => ({ caption: "Intervals of the timeline", rows: tracks.flatMap((track) => track.spans.map((span) => ({ track, span }))), columns: [
       { title: "Track", value: (r) => r.track.name }, { title: "What", value: (r) => nameOf(r.span[2]), show: words },
@@ -148,7 +149,7 @@ export function gantt(run) {
     surface.on("globalout", () => { held = null; });
   }
   const controls = h("div", { class: "tools", role: "group", "aria-label": "Part of the timeline" },
-    frames.map((frame) => button(`Frame ${frame.index + 1}`, `Frame ${frame.index + 1} in the timeline`, () => look(around(frame)))),
+    frames.map((frame) => button(`${heading(unit)} ${frame.index + 1}`, `${heading(unit)} ${frame.index + 1} in the timeline`, () => look(around(frame)))),
     button("All", "All, show everything", () => look(whole)), button("−", "Zoom out", () => zoom(2)), button("+", "Zoom in", () => zoom(0.5)),
     button("‹", "Earlier", () => pan(-0.4)), button("›", "Later", () => pan(0.4)));
   figure.querySelector("figcaption").after(controls);

@@ -1,4 +1,4 @@
-// Where the time of a frame goes: stages, and everything that happened on one time axis.
+// Where the time of a unit goes: stages, and everything that happened on one time axis.
 import { application } from "../application.js";
 import { h } from "../kit/dom.js";
 import { gantt } from "./gantt.js";
@@ -8,7 +8,7 @@ function stageChart(run) {
   if (run.delivered.length === 0) return null;
   const { rows, note } = application.stages(run);
   const own = stagesOf(run);
-  return own.length + rows.length > 0 ? stageBars([{ name: "This run", stages: own }, ...rows], note) : null;
+  return own.length + rows.length > 0 ? stageBars([{ name: "This run", stages: own }, ...rows], run.unit, note) : null;
 }
 
 export function timing(run) {

@@ -27,7 +27,7 @@ function tiles(run) {
   const list = [];
   if (summary.fps) {
     list.push(tile({
-      label: `${heading(unit)} rate`, number: fixed(summary.fps.mean, 1), unit: `${unit}s/s`,
+      label: `${heading(unit)} rate`, number: fixed(summary.fps.mean, summary.fps.mean < 1e4 ? 1 : 0), unit: `${unit}s/s`,
       band: camera
         ? `busy ${fixed(camera.utilisation_percent, 1)} % of ${significant(1e3 / camera.rate_fps, 3)} ms, slack at least ${significant(camera.slack_us.min / 1e3, 3)} ms`
         : run.delivered.length > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one result",

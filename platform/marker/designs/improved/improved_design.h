@@ -9,6 +9,7 @@
 
 #include <chip/system/design.h>
 #include <marker/designs/improved/improved_logic.h>
+#include <marker/designs/marker/blob_figure.h>
 #include <marker/detection_result.h>
 #include <trace/vocabulary.h>
 #include <vp/clock_scheduler.h>
@@ -35,6 +36,8 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   bool report(const Publication& publication, facts::UnitReport& frame) override;
   void check(facts::UnitReport& frame) override;
 
+  void add_power_options() override { blob_figure_.add(); }
+  bool has_net_figures() const override { return blob_figure_.is_net(); }
   vp::Signal<bool>* busy() override { return &camera.frame_ena; }
   std::vector<std::string> groups() const override { return {"feature_extraction", "data_bridge"}; }
   std::vector<ClockRole> clock_roles() override;
@@ -68,6 +71,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void note_dropped();
 
   PlPorts& ports_;
+  BlobFigure blob_figure_;
   std::array<Sent, 4> sent_;  ///< the last ones, by their number
   Dropped counted_{};         ///< what the counters of the logic showed last
   Dropped dropped_{};         ///< since the last frame was reported

@@ -356,6 +356,16 @@ std::unique_ptr<Design> make_marker_design(const char* name, PlPorts& ports) {
   return std::make_unique<MarkerDesign>(name, ports);
 }
 
+void BlobFigure::add() {
+  options_.emplace("blob");
+}
+
+BlobFigure::Options::Options(sc_core::sc_module_name name)
+    : sc_module(name),
+      figure_includes_static(
+          "figure_includes_static", false, vp::Source::decision,
+          "whether the thesis' 0.4 W of blob detection (4.6.1) include 0.105 W of static power") {}
+
 facts::Work MarkerDesign::work() const {
   return marker_work();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <chip/system/design.h>
+#include <marker/designs/marker/blob_figure.h>
 #include <pl/feature_extraction/feature_extraction.h>
 #include <ps/cpu/cpu.h>
 #include <trace/vocabulary.h>
@@ -101,6 +102,8 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   void check(facts::UnitReport& frame) override;
   void finish() override { handshake_.finish_frame(); }
 
+  void add_power_options() override { blob_figure_.add(); }
+  bool has_net_figures() const override { return blob_figure_.is_net(); }
   vp::Signal<bool>* busy() override { return &sensor_input.frame_ena; }
   std::vector<std::string> groups() const override;
   std::vector<ClockRole> clock_roles() override;
@@ -111,6 +114,7 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
 
   PlPorts& ports_;
   HandshakeWatch handshake_;
+  BlobFigure blob_figure_;
   bool is_unoptimised_ = false;  ///< the program: -O2 would be faster
   std::uint8_t threshold_ = 0;   ///< in use when the frame began
 };

@@ -90,7 +90,8 @@ trace::Vocabulary make() {
                  "receive",
                  "feature_evaluation",
                  {"rectification", "identification"},
-                 "pose_estimation"};
+                 "pose_estimation",
+                 "pose_us"};
   v.groups = groups();
   v.translated = {{"pl.concat.dout", "interrupt_lines.flt"},
                   {"pl.corner_detection.new_direction", "direction.flt"},
