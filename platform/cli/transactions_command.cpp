@@ -12,6 +12,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -157,6 +158,12 @@ std::vector<std::string> csv_cells(const Transaction& one,
 /// The first reading, whose file is closed when it is over.
 trace::Survey surveyed(const TraceCommandOptions& options,
                        const trace::TransactionsOptions& asked) {
+  std::error_code ignored;
+  if (std::filesystem::exists(options.file, ignored) &&
+      !std::filesystem::is_regular_file(options.file, ignored)) {
+    throw vp::InputError("trace '" + options.file +
+                         "' is read twice, so it may not be a pipe: write it into a file first");
+  }
   trace::TraceFile file = opened(options);
   return trace::survey_transactions(file, asked);
 }

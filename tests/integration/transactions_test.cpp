@@ -84,6 +84,14 @@ BOOST_AUTO_TEST_CASE(only_those_that_are_asked_for) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_pipe_cannot_be_read_twice) {
+  const kit::Outcome piped = kit::run_process(
+      "/bin/sh", {"-c", "cat t.vcd | " MARKERVP_EXECUTABLE " trace transactions /dev/stdin"},
+      path());
+  BOOST_TEST(piped.exit_code == 2);
+  BOOST_TEST(piped.err.find("write it into a file first") != std::string::npos, piped.err);
+}
+
 BOOST_AUTO_TEST_CASE(lanes_in_files) {
   BOOST_TEST(ask({"--perfetto", "lanes.json", "--lanes", "lanes.fst"}).exit_code == 0);
   BOOST_TEST(nlohmann::json::parse(kit::read_file(*this / "lanes.json"))["traceEvents"].size() >
