@@ -10,6 +10,7 @@
 #include <trace/questions.h>
 #include <trace/statistics.h>
 #include <trace/tools.h>
+#include <trace/wavedrom.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/frame_gate.h>
@@ -308,6 +309,21 @@ int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err
   return done;
 }
 
+/// A timing diagram in place of a plot.
+int diagram(const TraceCommandOptions& options, TraceFile& file, const trace::PlotOptions& plot,
+            std::ostream& out, std::ostream& err) {
+  trace::WaveDromOptions asked;
+  asked.signals = plot.signals;
+  asked.every = *every(options);
+  asked.from_ps = plot.from_ps;
+  asked.to_ps = plot.to_ps;
+  const std::string name = options.output.value_or("diagram.json");
+  vp::write_file(name, trace::wavedrom_json(file, asked));
+  out << "wrote " << name << "\n";
+  warn_of(file, err);
+  return done;
+}
+
 int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   TraceFile file = opened(options);
   trace::PlotOptions asked;
@@ -325,6 +341,7 @@ int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
     asked.to_ps = first_look.reader().now_ps() + 1;
   }
   if (asked.to_ps <= asked.from_ps) throw vp::InputError("the trace ends before --window begins");
+  if (options.every) return diagram(options, file, asked, out, err);
   if (options.marker)
     asked.marker_ps = parse_trace_window(*options.marker + ":", "--marker").from_ps;
   const std::string picture = trace::plot_as_svg(file, asked);

@@ -12,6 +12,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -154,6 +155,19 @@ std::vector<std::string> csv_cells(const Transaction& one,
   return cells;
 }
 
+/// The first reading, whose file is closed when it is over.
+trace::Survey surveyed(const TraceCommandOptions& options,
+                       const trace::TransactionsOptions& asked) {
+  std::error_code ignored;
+  if (std::filesystem::exists(options.file, ignored) &&
+      !std::filesystem::is_regular_file(options.file, ignored)) {
+    throw vp::InputError("trace '" + options.file +
+                         "' is read twice, so it may not be a pipe: write it into a file first");
+  }
+  trace::TraceFile file = opened(options);
+  return trace::survey_transactions(file, asked);
+}
+
 /// Reads once more: how many lanes a file of signals has is known only behind a first reading.
 void write_lanes(const TraceCommandOptions& options, const trace::Survey& survey,
                  const trace::TransactionsOptions& asked, const trace::Lanes& lanes) {
@@ -172,8 +186,8 @@ int list_transactions(const TraceCommandOptions& options, std::ostream& out, std
   const trace::TransactionsOptions asked = asked_of(options);
   const Wanted wanted(options);
   constexpr std::uint64_t usual_most = 50;
-  trace::TraceFile first = opened(options), file = opened(options);
-  const trace::Survey survey = trace::survey_transactions(first, asked);
+  const trace::Survey survey = surveyed(options, asked);
+  trace::TraceFile file = opened(options);
   trace::TransactionSummary summary(survey);
   trace::Lanes lanes(survey);
   std::optional<trace::PerfettoLanes> perfetto;

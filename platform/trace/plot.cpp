@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <trace/replay.h>
 #include <vp/frame_gate.h>
@@ -20,9 +21,11 @@ constexpr int row_height = 30, wave_height = 18, top = 34, character = 7;
 struct Piece {
   double x;
   std::string text;
+  std::string digits;  ///< as the trace has them
   bool known;
   double number;
-  bool busy = false;  ///< several changes within a pixel
+  bool busy = false;                     ///< several changes within a pixel
+  double least = number, most = number;  ///< within it
 };
 
 struct Row {
@@ -105,11 +108,16 @@ class Plotter final : public Replay::Listener {
   void add(Row& row, std::uint64_t ps) {
     const auto number = replay_.now(row.slot);
     Piece piece{place(ps), readable(replay_.text(row.slot), row.kind, row.width),
-                replay_.known(row.slot), static_cast<double>(number.number)};
+                replay_.text(row.slot), replay_.known(row.slot),
+                static_cast<double>(number.number)};
     if (ps <= options_.from_ps) row.pieces.clear();  // stood before the window
     if (!row.pieces.empty() && piece.x - row.pieces.back().x < 1) {
-      piece.x = row.pieces.back().x;
+      const Piece& last = row.pieces.back();
+      piece.x = last.x;
       piece.busy = true;
+      // A pulse within a pixel is a spike.
+      piece.least = std::min(piece.number, last.least);
+      piece.most = std::max(piece.number, last.most);
       row.pieces.back() = piece;
     } else {
       row.pieces.push_back(piece);
@@ -122,14 +130,24 @@ class Plotter final : public Replay::Listener {
     if (span / step > 25) step *= 5;
     if (span / step > 12) step *= 2;
     std::string text;
+    double labelled = 0;  // up to there
     const auto whole_step = std::max<std::uint64_t>(static_cast<std::uint64_t>(step), 1);
     const std::uint64_t first = (options_.from_ps + whole_step - 1) / whole_step * whole_step;
     for (std::uint64_t ps = first; ps <= options_.to_ps; ps += whole_step) {
       const double x = place(ps);
-      text += "<path d=\"M" + px(x) + " 22V" + px(height - 4) +
-              "\" stroke=\"#dddddd\"/><text x=\"" + px(x) +
-              "\" y=\"16\" text-anchor=\"middle\" fill=\"#555555\">" + vp::format_time(ps) +
-              "</text>\n";
+      const std::string time = vp::format_time(ps);
+      const double width = static_cast<double>(time.size()) * character;
+      // The last label stays within the picture, and beside the one before it.
+      const bool at_the_end = x + width / 2 > options_.width;
+      const double from = at_the_end ? options_.width - 2.0 - width : x - width / 2;
+      text += "<path d=\"M" + px(x) + " 22V" + px(height - 4) + "\" stroke=\"#dddddd\"/>";
+      if (from > labelled) {
+        text += "<text x=\"" + px(at_the_end ? options_.width - 2.0 : x) +
+                "\" y=\"16\" text-anchor=\"" + (at_the_end ? "end" : "middle") +
+                "\" fill=\"#555555\">" + time + "</text>";
+        labelled = from + width + 2;
+      }
+      text += "\n";
     }
     return text;
   }
@@ -149,27 +167,61 @@ class Plotter final : public Replay::Listener {
       const double to = i + 1 < row.pieces.size() ? row.pieces[i + 1].x : end;
       if (row.kind == Kind::real || (row.kind == Kind::bits && row.width == 1)) {
         const double range = row.kind == Kind::real ? std::max(most - least, 1e-12) : 1;
-        const double level = y + wave_height * (1 - (piece.number - least) / range);
-        text += piece.known ? line(piece, before, level, to) : unknown(piece.x, to, y);
+        const auto height_of = [&](double number) {
+          return y + wave_height * (1 - (number - least) / range);
+        };
+        const double level = height_of(piece.number);
+        text +=
+            piece.known ? line(piece, before, level, to) : unknown(piece.digits, piece.x, to, y);
+        if (piece.busy && piece.least < piece.most)
+          text += spike(piece.x, height_of(piece.least), height_of(piece.most));
         before = level;
       } else {
         text += box(row, piece, to, y);
       }
     }
+    if (row.kind == Kind::real && !row.pieces.empty()) text += scale(least, most, y);
     return text;
+  }
+  /// What the top and the bottom of a curve are.
+  std::string scale(double least, double most, double y) const {
+    const auto label = [&](double value, double below) {
+      char number[32];
+      std::snprintf(number, sizeof number, "%.6g", value);
+      return "<text x=\"" + px(left_ + 2) + "\" y=\"" + px(below) +
+             "\" font-size=\"8\" fill=\"#555555\">" + number + "</text>\n";
+    };
+    return label(most, y + 6) + label(least, y + wave_height - 1.0);
   }
   static std::string line(const Piece& piece, double before, double level, double to) {
     const std::string width = piece.busy ? "2.5" : "1.4";
     return "<path d=\"M" + px(piece.x) + " " + px(before) + "V" + px(level) + "H" + px(to) +
            "\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"" + width + "\"/>\n";
   }
-  static std::string unknown(double from, double to, double y) {
+  static std::string spike(double x, double from, double to) {
+    return "<path d=\"M" + px(x) + " " + px(from) + "V" + px(to) +
+           "\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.4\"/>\n";
+  }
+  /// An undriven line lies in the middle, one that was never set is grey; all else is x.
+  static std::string unknown(const std::string& value, double from, double to, double y) {
+    const bool all_z = !value.empty() && value.find_first_not_of('z') == std::string::npos;
+    const bool all_u = !value.empty() && value.find_first_not_of('u') == std::string::npos;
+    if (all_z) {
+      return "<path d=\"M" + px(from) + " " + px(y + wave_height / 2.0) + "H" +
+             px(std::max(to, from + 1)) +
+             "\" fill=\"none\" stroke=\"#b07d00\" stroke-width=\"1.4\"/>\n";
+    }
+    if (all_u) {
+      return "<rect x=\"" + px(from) + "\" y=\"" + px(y) + "\" width=\"" +
+             px(std::max(to - from, 1.0)) + "\" height=\"" + std::to_string(wave_height) +
+             "\" fill=\"#e4e4e4\" stroke=\"#777777\"/>\n";
+    }
     return "<rect x=\"" + px(from) + "\" y=\"" + px(y) + "\" width=\"" +
            px(std::max(to - from, 1.0)) + "\" height=\"" + std::to_string(wave_height) +
            "\" fill=\"#f3d4c4\" stroke=\"#d55e00\"/>\n";
   }
   static std::string box(const Row& row, const Piece& piece, double to, double y) {
-    if (!piece.known) return unknown(piece.x, to, y);
+    if (!piece.known) return unknown(piece.digits, piece.x, to, y);
     const double width = to - piece.x;
     const bool quiet = row.kind == Kind::text && piece.text.empty();
     std::string text = "<rect x=\"" + px(piece.x) + "\" y=\"" +

@@ -1,5 +1,7 @@
 #include "vcd_reader.h"
 
+#include "gzip_source.h"
+
 #include <fcntl.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -128,7 +130,13 @@ VcdReader::VcdReader(const std::filesystem::path& file, const WaveOptions& optio
     : file_(file),
       options_(options),
       notes_(notes),
-      window_(std::make_unique<FileSource>(file)),
+      window_(unpacked(std::make_unique<FileSource>(file), file,
+                       [this](const std::string& text) {
+                         if (options_.strict)
+                           throw InputError("trace '" + file_.string() + "' " + text +
+                                            " (--strict refuses that)");
+                         notes_.add(text, 0);
+                       })),
       at_(window_.cursor) {
   read_header();
 }

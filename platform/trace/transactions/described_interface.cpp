@@ -20,12 +20,13 @@ struct Setting {
 };
 
 /// What may be said besides roles.
-const std::array<Setting, 6> settings = {{{"baud", {BusKind::uart}},
+const std::array<Setting, 7> settings = {{{"baud", {BusKind::uart}},
                                           {"bits", {BusKind::uart, BusKind::spi}},
                                           {"parity", {BusKind::uart}},
                                           {"mode", {BusKind::spi}},
                                           {"order", {BusKind::spi}},
-                                          {"select", {BusKind::spi}}}};
+                                          {"select", {BusKind::spi}},
+                                          {"active", {BusKind::irq}}}};
 
 bool has_setting(BusKind kind, const std::string& name) {
   return std::any_of(settings.begin(), settings.end(), [&](const Setting& one) {

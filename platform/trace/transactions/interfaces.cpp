@@ -34,20 +34,51 @@ const std::vector<std::string> apb_roles = {"psel",   "penable", "pready",  "pwr
 const std::vector<std::string> wishbone_roles = {
     "cyc", "stb", "we", "ack", "err", "rty", "adr", "sel", "stall", "writedata", "readdata"};
 
+/// How the last word of a role may end: most signals of a design are none.
+bool may_be_role(std::string_view word) {
+  static constexpr std::array<std::string_view, 62> ends = {
+      "valid", "ready", "id",     "addr",      "len",        "size", "burst",   "lock", "cache",
+      "prot",  "qos",   "region", "user",      "data",       "strb", "last",    "resp", "keep",
+      "dest",  "sel",   "nable",  "write",     "err",        "cyc",  "stb",     "we",   "ack",
+      "rty",   "adr",   "stall",  "dat",       "wr",         "rd",   "w",       "r",    "mosi",
+      "miso",  "copi",  "cipo",   "clk",       "sck",        "cs",   "csn",     "csb",  "ss",
+      "ssn",   "n",     "scl",    "sda",       "tx",         "rx",   "txd",     "rxd",  "sout",
+      "sin",   "f2p",   "irq",    "interrupt", "interrupts", "intr", "introut", "irqs"};
+  const std::size_t letters = word.find_last_not_of("0123456789") + 1;
+  const std::string_view named = word.substr(0, letters);
+  return std::any_of(ends.begin(), ends.end(), [&](std::string_view end) {
+    return ends_with(word, end) || ends_with(named, end);
+  });
+}
+
+/// The signals by which buses are found.
+bool is_anchor(std::string_view word) {
+  static constexpr std::array<std::string_view, 18> ends = {
+      "valid", "enable", "cyc", "scl", "mosi", "copi",      "tx",         "rx",   "txd",
+      "rxd",   "sout",   "sin", "f2p", "irq",  "interrupt", "interrupts", "intr", "introut"};
+  const std::size_t letters = word.find_last_not_of("0123456789") + 1;
+  const std::string_view named = word.substr(0, letters);
+  return word == "n" || word == "irqs" ||
+         std::any_of(ends.begin(), ends.end(), [&](std::string_view end) {
+           return ends_with(word, end) || ends_with(named, end);
+         });
+}
+
 class InterfaceFinder {
  public:
   explicit InterfaceFinder(const TraceFile& file) : file_(file) {}
 
   FoundInterfaces run() {
-    names_.reserve(file_.paths().size());
     for (std::uint32_t i = 0; i < file_.paths().size(); ++i) {
-      names_.emplace_back(file_.paths()[i]);
-      if (file_.variable(i).kind == vp::WaveVariable::Kind::bits && file_.variable(i).width != 0)
-        by_key_[names_.back().key].push_back(i);
+      if (file_.variable(i).kind != vp::WaveVariable::Kind::bits || file_.variable(i).width == 0)
+        continue;
+      const SignalName name(file_.paths()[i]);
+      const std::string last = name.words.empty() ? "" : name.words.back();
+      if (!may_be_role(last)) continue;
+      by_key_[name.key].push_back(i);
+      if (is_anchor(last)) anchors_.push_back(i);
     }
-    for (std::uint32_t i = 0; i < names_.size(); ++i) {
-      if (file_.variable(i).kind == vp::WaveVariable::Kind::bits) look_at(i);
-    }
+    for (const std::uint32_t i : anchors_) look_at(i);
     std::stable_sort(found_.interfaces.begin(), found_.interfaces.end(),
                      [](const auto& a, const auto& b) { return a.name < b.name; });
     return std::move(found_);
@@ -55,8 +86,7 @@ class InterfaceFinder {
 
  private:
   void look_at(std::uint32_t i) {
-    const SignalName& name = names_[i];
-    if (name.words.empty()) return;
+    const SignalName name(file_.paths()[i]);
     for (const char* anchor : {"awvalid", "arvalid"}) {
       if (name.ends_in(anchor)) add_axi(i, anchor);
     }
@@ -67,8 +97,8 @@ class InterfaceFinder {
     for (const char* anchor : {"mosi", "copi"}) {
       if (name.ends_in(anchor)) add_spi(i, anchor);
     }
-    add_uart(i);
-    add_interrupt(i);
+    add_uart(i, name);
+    add_interrupt(i, name);
   }
 
   /// The variable with this role on the bus of `stem`; of several the one whose path begins like
@@ -93,7 +123,7 @@ class InterfaceFinder {
   /// A bus with the roles that its signals have; null if it is there already.
   BusInterface* add(BusKind kind, std::uint32_t anchor, const std::string& anchor_role,
                     const std::vector<std::string>& roles) {
-    const std::string stem = names_[anchor].stem(anchor_role);
+    const std::string stem = name_of(anchor).stem(anchor_role);
     BusInterface one;
     one.kind = kind;
     one.name = name_without(file_.paths()[anchor], anchor_role);
@@ -141,8 +171,9 @@ class InterfaceFinder {
   void add_wishbone(std::uint32_t i);
   void add_i2c(std::uint32_t i);
   void add_spi(std::uint32_t i, const std::string& anchor);
-  void add_uart(std::uint32_t i);
-  void add_interrupt(std::uint32_t i);
+  void add_uart(std::uint32_t i, const SignalName& name);
+  void add_interrupt(std::uint32_t i, const SignalName& name);
+  SignalName name_of(std::uint32_t variable) const { return SignalName(file_.paths()[variable]); }
   /// Without settings and roles but for one line.
   void add_line(BusKind kind, std::uint32_t i) {
     if (file_.variable(i).width == 0) return;
@@ -155,7 +186,7 @@ class InterfaceFinder {
   }
 
   const TraceFile& file_;
-  std::vector<SignalName> names_;
+  std::vector<std::uint32_t> anchors_;
   std::unordered_map<std::string, std::vector<std::uint32_t>> by_key_;
   std::set<std::pair<int, std::string>> seen_;
   FoundInterfaces found_;
@@ -206,7 +237,7 @@ void InterfaceFinder::add_axi(std::uint32_t i, const std::string& anchor) {
 }
 
 void InterfaceFinder::add_wishbone(std::uint32_t i) {
-  const std::string stem = names_[i].stem("cyc");
+  const std::string stem = name_of(i).stem("cyc");
   if (!role(stem, "stb", i)) return;  // another cycle
   BusInterface* one = add(BusKind::wishbone, i, "cyc", wishbone_roles);
   if (!one || !needs({"cyc", "stb", "ack"})) return;
@@ -220,37 +251,37 @@ void InterfaceFinder::add_wishbone(std::uint32_t i) {
   take("writedata", {"datw", "datwr", "datmosi", "wdata", "wdat", "dw"});
   take("readdata", {"datr", "datrd", "datmiso", "rdata", "rdat", "dr", "idata", "idat"});
   // `dat_o` is written by the side whose `cyc` goes out, and read by the other one.
-  const bool manager = names_[i].direction == Direction::out;
+  const bool manager = name_of(i).direction == Direction::out;
   for (const char* spelling : {"dat", "data"}) {
     const auto both = by_key_.find(key_with(stem, spelling));
     if (both == by_key_.end()) continue;
     for (const std::uint32_t variable : both->second) {
-      const Direction direction = names_[variable].direction;
+      const Direction direction = name_of(variable).direction;
       if (direction == Direction::none) continue;
       one->roles.emplace((direction == Direction::out) == manager ? "writedata" : "readdata",
                          variable);
     }
   }
-  if (names_[i].direction == Direction::out) one->side = BusInterface::Side::manager;
-  if (names_[i].direction == Direction::in) one->side = BusInterface::Side::subordinate;
+  if (name_of(i).direction == Direction::out) one->side = BusInterface::Side::manager;
+  if (name_of(i).direction == Direction::in) one->side = BusInterface::Side::subordinate;
 }
 
 void InterfaceFinder::add_i2c(std::uint32_t i) {
-  const std::string stem = names_[i].stem("scl");
+  const std::string stem = name_of(i).stem("scl");
   const auto lines = by_key_.find(key_with(stem, "sda"));
   if (lines == by_key_.end() || file_.variable(i).width != 1) return;
   // Of `scl_i` and `scl_o` the first is what the wire shows.
   const auto wire = [&](const std::vector<std::uint32_t>& names) {
     return *std::max_element(names.begin(), names.end(), [&](std::uint32_t a, std::uint32_t b) {
       const auto rank = [&](std::uint32_t one) {
-        return names_[one].direction == Direction::none ? 2
-               : names_[one].direction == Direction::in ? 1
-                                                        : 0;
+        return name_of(one).direction == Direction::none ? 2
+               : name_of(one).direction == Direction::in ? 1
+                                                         : 0;
       };
       return rank(a) < rank(b);
     });
   };
-  const auto& clocks = by_key_.at(names_[i].key);
+  const auto& clocks = by_key_.at(name_of(i).key);
   if (BusInterface* one = add(BusKind::i2c, i, "scl", {})) {
     one->roles["scl"] = wire(clocks);
     one->roles["sda"] = wire(lines->second);
@@ -259,7 +290,7 @@ void InterfaceFinder::add_i2c(std::uint32_t i) {
 }
 
 void InterfaceFinder::add_spi(std::uint32_t i, const std::string& anchor) {
-  const std::string stem = names_[i].stem(anchor);
+  const std::string stem = name_of(i).stem(anchor);
   const auto first = [&](std::initializer_list<const char*> spellings) {
     std::optional<std::uint32_t> found;
     for (const char* spelling : spellings) {
@@ -282,30 +313,35 @@ void InterfaceFinder::add_spi(std::uint32_t i, const std::string& anchor) {
   }
 }
 
-void InterfaceFinder::add_uart(std::uint32_t i) {
-  const std::string& last = names_[i].words.back();
+void InterfaceFinder::add_uart(std::uint32_t i, const SignalName& name) {
+  const std::string& last = name.words.back();
   if (file_.variable(i).width != 1) return;
   const bool sure = last == "txd" || last == "rxd";
   const bool maybe = last == "tx" || last == "rx" || last == "sout" || last == "sin" ||
                      last == "uarttx" || last == "uartrx";
-  const auto& words = names_[i].words;
+  const auto& words = name.words;
   const bool uart = std::any_of(words.begin(), words.end(), [](const std::string& word) {
     return word.find("uart") != std::string::npos || word == "serial";
   });
   if (sure || (maybe && uart)) add_line(BusKind::uart, i);
 }
 
-void InterfaceFinder::add_interrupt(std::uint32_t i) {
+void InterfaceFinder::add_interrupt(std::uint32_t i, const SignalName& name) {
   static constexpr std::array<std::string_view, 6> words = {"irq",  "irqs",    "interrupt",
                                                             "intr", "introut", "interrupts"};
-  const std::string& last = names_[i].words.back();
+  const std::string& last = name.words.back();
   const auto is_word = [&](std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   const std::string stem = last.substr(0, last.find_last_not_of("0123456789") + 1);
-  const auto& all = names_[i].words;
+  const auto& all = name.words;
   const bool f2p = last == "f2p" && all.size() > 1 && all[all.size() - 2] == "irq";
-  if (is_word(stem) || f2p) add_line(BusKind::irq, i);
+  const bool low = last == "n" && all.size() > 1 && is_word(all[all.size() - 2]);
+  if (!is_word(stem) && !f2p && !low) return;
+  add_line(BusKind::irq, i);
+  // `n_irq` and `irq_n` are active low.
+  const bool begins_low = all.size() > 1 && all[all.size() - 2] == "n";
+  if (low || begins_low) found_.interfaces.back().settings["active"] = "low";
 }
 
 }  // namespace

@@ -170,6 +170,9 @@ BOOST_AUTO_TEST_CASE(interrupts_from_rise_to_fall) {
   for (const Transaction& one : found.all)
     text += (one.id ? std::to_string(*one.id) : "-") + ":" + brief(one) + " ";
   BOOST_TEST(text == "-:interrupt 10-30 0:interrupt 10-30 1:interrupt 20- ");
+  const auto low = transactions_of("t.n_irq 1", "#0 1!\n#10 0!\n#30 1!\n#50 1!\n");
+  BOOST_TEST_REQUIRE(low.all.size() == 1u);
+  BOOST_TEST(brief(low.all[0]) == "interrupt 10-30");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
