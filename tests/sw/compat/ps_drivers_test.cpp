@@ -127,6 +127,7 @@ BOOST_FIXTURE_TEST_SUITE(xil_waits, Fixture)
 
 BOOST_AUTO_TEST_CASE(the_bits_are_the_event) {
   constexpr std::uint32_t address = 0xE000'002C;
+  state().on_read[XPAR_GLOBAL_TMR_BASEADDR] = [counter = 0u]() mutable { return counter += 1000; };
   state().registers[address] = 2;
   BOOST_CHECK_EQUAL(Xil_WaitForEvent(address, 2, 0, 3), static_cast<u32>(XST_FAILURE));
   BOOST_CHECK_EQUAL(Xil_WaitForEvent(address, 1, 0, 3), static_cast<u32>(XST_SUCCESS));
