@@ -13,7 +13,10 @@ set(markervp_vendor_headers axivdma bram canps clk_wiz dmaps emacps sdps usbps v
 function(_markervp_find_vendor_driver NAME FOLDER DRIVER SOURCE)
   set(place "${DRIVER}/src" "${DRIVER}_v*/src")
   set(found "")
-  string(REGEX REPLACE "^x?" "x" header "${DRIVER}.h")  # xadcps has its x already
+  set(header "x${DRIVER}.h")
+  if(DRIVER STREQUAL "xadcps")  # has its x already
+    set(header "xadcps.h")
+  endif()
   foreach(start "${FOLDER}" "${FOLDER}/libsrc" "${FOLDER}/*/libsrc" "${FOLDER}/XilinxProcessorIPLib/drivers")
     list(TRANSFORM place PREPEND "${start}/" OUTPUT_VARIABLE patterns)
     foreach(pattern IN LISTS patterns)

@@ -105,6 +105,7 @@ const std::map<Name, Exception>& exceptions() {
       {{"ttc1", "INT_STS_2"}, {all, "a read clears it"}},
       {{"ttc1", "CNT_CTRL_3"}, {0x0000'0011, "RST clears itself; DIS lets it count"}},
       {{"ttc1", "INT_STS_3"}, {all, "a read clears it"}},
+      {{"qspi", "CONFIG"}, {0x0001'0000, "starts a transfer, and clears itself"}},
       {{"swdt", "MODE"}, {all, "needs a key"}},
       {{"swdt", "CONTROL"}, {all, "needs a key"}},
       {{"xadc", "INT_STS"}, {all, "follows the FIFOs"}},
@@ -308,6 +309,8 @@ BOOST_AUTO_TEST_CASE(values_at_the_start) {
                                                                        : r.at_start;
         // The boot code has started the global timer.
         if (key == Name("global_timer", "COUNTER_LOW")) continue;
+        // The read of the empty DATA before it is an event.
+        if (key.second == "ISR" && key.first.rfind("i2c", 0) == 0) continue;
         if (key.second == "SR" && key.first.rfind("uart", 0) == 0) {
           BOOST_TEST(value == 0xAu, "both FIFOs are empty");
           continue;

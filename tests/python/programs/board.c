@@ -41,7 +41,7 @@ static u32 temperature(void) {
 }
 
 int main(void) {
-  u8 bytes[4];
+  u8 bytes[4] = {0};
   if (!transfer(0x10, bytes, 0, 1)) {
     xil_printf("no EEPROM\r\n");
     return XST_FAILURE;

@@ -33,17 +33,22 @@ constexpr std::uint32_t INT_POLARITY_0 = 0x220;
 constexpr std::uint32_t INT_ANY_0 = 0x224;
 constexpr std::uint32_t mask_data_stride = 8, data_stride = 4, bank_stride = 0x40;
 
+/// The upper half of bank 1 has six pins.
+inline constexpr vp::RegisterField short_mask_data_fields[] = {
+    {"DATA", 0x0000003F, vp::Access::read_write, "output register of 6 pins"},
+    {"MASK", 0x003F0000, vp::Access::write_only, "1: the write leaves that pin as it is"},
+};
 inline constexpr vp::RegisterField mask_data_fields[] = {
     {"DATA", 0x0000FFFF, vp::Access::read_write, "output register of 16 pins"},
     {"MASK", 0xFFFF0000, vp::Access::write_only, "1: the write leaves that pin as it is"},
 };
 
-#define PS_GPIO_DATA_ROWS(bank, most, upper)                                           \
+#define PS_GPIO_DATA_ROWS(bank, most, upper, upper_fields)                             \
   {"MASK_DATA_" #bank "_LSW",                                                          \
    MASK_DATA_0_LSW + (bank)*mask_data_stride,                                          \
    0,                                                                                  \
    vp::Access::read_write,                                                             \
-   0x0000FFFF,                                                                         \
+   0xFFFFFFFF,                                                                         \
    "Bank " #bank ": output register 15:0, with a mask",                                \
    mask_data_fields},                                                                  \
       {"MASK_DATA_" #bank "_MSW",                                                      \
@@ -52,7 +57,7 @@ inline constexpr vp::RegisterField mask_data_fields[] = {
        vp::Access::read_write,                                                         \
        upper,                                                                          \
        "Bank " #bank ": output register 31:16, with a mask",                           \
-       mask_data_fields},                                                              \
+       upper_fields},                                                                  \
       {"DATA_" #bank,                                                                  \
        DATA_0 + (bank)*data_stride,                                                    \
        0,                                                                              \
@@ -119,10 +124,10 @@ inline constexpr vp::RegisterField mask_data_fields[] = {
   }
 
 inline constexpr vp::RegisterInfo registers[] = {
-    PS_GPIO_DATA_ROWS(0, 0xFFFFFFFF, 0x0000FFFF),
-    PS_GPIO_DATA_ROWS(1, 0x003FFFFF, 0x0000003F),
-    PS_GPIO_DATA_ROWS(2, 0xFFFFFFFF, 0x0000FFFF),
-    PS_GPIO_DATA_ROWS(3, 0xFFFFFFFF, 0x0000FFFF),
+    PS_GPIO_DATA_ROWS(0, 0xFFFFFFFF, 0xFFFFFFFF, mask_data_fields),
+    PS_GPIO_DATA_ROWS(1, 0x003FFFFF, 0x003F003F, short_mask_data_fields),
+    PS_GPIO_DATA_ROWS(2, 0xFFFFFFFF, 0xFFFFFFFF, mask_data_fields),
+    PS_GPIO_DATA_ROWS(3, 0xFFFFFFFF, 0xFFFFFFFF, mask_data_fields),
     PS_GPIO_BANK_ROWS(0, 0xFFFFFFFF),
     PS_GPIO_BANK_ROWS(1, 0x003FFFFF),
     PS_GPIO_BANK_ROWS(2, 0xFFFFFFFF),

@@ -86,20 +86,41 @@ inline constexpr vp::RegisterField sr_fields[] = {
     {"BA", sr::BA, vp::Access::read_only, "the bus is in use"},
 };
 
+#define PS_I2C_EVENT_FIELDS(access, what)                                            \
+  {"COMP", event::COMP, access, what ": the transfer is complete"},                  \
+      {"DATA", event::DATA, access, what ": more data"},                             \
+      {"NACK", event::NACK, access, what ": no acknowledge"},                        \
+      {"TO", event::TO, access, what ": time-out"},                                  \
+      {"SLV_RDY", event::SLV_RDY, access, what ": the monitored slave answers"},     \
+      {"RX_OVF", event::RX_OVF, access, what ": a received byte met a full FIFO"},   \
+      {"TX_OVF", event::TX_OVF, access, what ": a byte was written to a full FIFO"}, \
+      {"RX_UNF", event::RX_UNF, access, what ": an empty FIFO was read"}, {          \
+    "ARB_LOST", event::ARB_LOST, access, what ": arbitration lost"                   \
+  }
+
+inline constexpr vp::RegisterField isr_fields[] = {
+    PS_I2C_EVENT_FIELDS(vp::Access::write_1_to_clear, "event")};
+inline constexpr vp::RegisterField ier_fields[] = {
+    PS_I2C_EVENT_FIELDS(vp::Access::write_only, "enables")};
+inline constexpr vp::RegisterField idr_fields[] = {
+    PS_I2C_EVENT_FIELDS(vp::Access::write_only, "masks")};
+
+#undef PS_I2C_EVENT_FIELDS
+
 inline constexpr vp::RegisterInfo registers[] = {
     {"CR", CR, 0, vp::Access::read_write, 0xFF7F, "Control: divider, mode, hold", cr_fields},
     {"SR", SR, 0, vp::Access::read_only, 0, "Status of bus and FIFO", sr_fields},
     {"ADDR", ADDR, 0, vp::Access::read_write, 0x3FF,
      "Address; a master's write starts the transfer"},
     {"DATA", DATA, 0, vp::Access::read_write, 0xFF, "FIFO of 16 bytes"},
-    {"ISR", ISR, 0, vp::Access::write_1_to_clear, event::all, "Events"},
+    {"ISR", ISR, 0, vp::Access::write_1_to_clear, event::all, "Events", isr_fields},
     {"TRANS_SIZE", TRANS_SIZE, 0, vp::Access::read_write, 0xFF,
      "Bytes to receive, or still to be sent from the FIFO"},
     {"SLV_PAUSE", SLV_PAUSE, 0, vp::Access::read_write, 0xF, "Pause of the slave monitor"},
     {"TIME_OUT", TIME_OUT, 0x1F, vp::Access::read_write, 0xFF, "Longest time of SCL low"},
     {"IMR", IMR, event::all, vp::Access::read_only, 0, "1 where the interrupt is masked"},
-    {"IER", IER, 0, vp::Access::write_only, event::all, "1 enables an interrupt"},
-    {"IDR", IDR, 0, vp::Access::write_only, event::all, "1 masks an interrupt"},
+    {"IER", IER, 0, vp::Access::write_only, event::all, "1 enables an interrupt", ier_fields},
+    {"IDR", IDR, 0, vp::Access::write_only, event::all, "1 masks an interrupt", idr_fields},
 };
 
 }  // namespace ps_i2c

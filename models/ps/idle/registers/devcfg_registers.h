@@ -40,7 +40,7 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"CTRL", CTRL, 0x0C006000, vp::Access::read_write, 0x7FFFFFFF, "Control"},
     {"LOCK", LOCK, 0, vp::Access::write_1_to_set, 0x1F, "1 locks a part until power-on"},
     {"CFG", CFG, 0x00000508, vp::Access::read_write, 0x00000FFF, "Levels of FIFOs, edges"},
-    {"INT_STS", INT_STS, 0, vp::Access::write_1_to_clear, 0xFF7FFFFF, "Events"},
+    {"INT_STS", INT_STS, 0, vp::Access::write_1_to_clear, 0xFFFFFFFF, "Events"},
     {"INT_MASK", INT_MASK, 0xFFFFFFFF, vp::Access::read_write, 0xFFFFFFFF, "1 masks an interrupt"},
     {"STATUS", STATUS, 0x40000820, vp::Access::read_only, 0, "State of DMA and configuration"},
     {"DMA_SRC_ADDR", DMA_SRC_ADDR, 0, vp::Access::read_write, 0xFFFFFFFF, "Source"},
@@ -52,7 +52,7 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"MULTIBOOT_ADDR", MULTIBOOT_ADDR, 0, vp::Access::read_write, 0x1FFF,
      "Where to boot from next"},
     {"UNLOCK", UNLOCK, 0, vp::Access::write_only, 0xFFFFFFFF, "Key 0x757BDF0D of the boot ROM"},
-    {"MCTRL", MCTRL, 0x30800100, vp::Access::read_write, 0x00000110,
+    {"MCTRL", MCTRL, 0x30800100, vp::Access::read_write, 0x000001F0,
      "Silicon revision, loop-back of the port"},
 };
 

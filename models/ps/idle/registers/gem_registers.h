@@ -18,13 +18,13 @@ constexpr std::uint32_t INTR_DIS = 0x2C;
 constexpr std::uint32_t INTR_MASK = 0x30;
 constexpr std::uint32_t PHY_MAINT = 0x34;
 
-constexpr std::uint32_t intr_all = 0x07FFFEFF;
+constexpr std::uint32_t intr_all = 0x07FFFFFF;
 
 inline constexpr vp::RegisterInfo registers[] = {
     {"NET_CTRL", NET_CTRL, 0, vp::Access::read_write, 0x0007FFFE, "Control"},
     {"NET_CFG", 0x04, 0x00080000, vp::Access::read_write, 0xFFFFFFFF, "Configuration"},
     {"NET_STATUS", 0x08, 0x00000004, vp::Access::read_only, 0, "PHY management is idle"},
-    {"DMA_CFG", 0x10, 0x00020784, vp::Access::read_write, 0x01FF0FFF, "DMA"},
+    {"DMA_CFG", 0x10, 0x00020784, vp::Access::read_write, 0x01FFFFFF, "DMA"},
     {"TX_STATUS", 0x14, 0, vp::Access::write_1_to_clear, 0x1FF, "State of sending"},
     {"RX_QBAR", 0x18, 0, vp::Access::read_write, 0xFFFFFFFC, "Descriptors for receiving"},
     {"TX_QBAR", 0x1C, 0, vp::Access::read_write, 0xFFFFFFFC, "Descriptors for sending"},
@@ -32,7 +32,7 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"INTR_STATUS", INTR_STATUS, 0, vp::Access::write_1_to_clear, intr_all, "Events"},
     {"INTR_EN", INTR_EN, 0, vp::Access::write_only, intr_all, "1 enables an interrupt"},
     {"INTR_DIS", INTR_DIS, 0, vp::Access::write_only, intr_all, "1 disables an interrupt"},
-    {"INTR_MASK", INTR_MASK, intr_all, vp::Access::read_only, 0, "1 where it is disabled"},
+    {"INTR_MASK", INTR_MASK, 0x07FFFEFF, vp::Access::read_only, 0, "1 where it is disabled"},
     {"PHY_MAINT", PHY_MAINT, 0, vp::Access::read_write, 0xFFFFFFFF,
      "PHY management: no PHY answers, a read gives 0xFFFF"},
     {"RX_PAUSE", 0x38, 0, vp::Access::read_only, 0, "Received pause"},

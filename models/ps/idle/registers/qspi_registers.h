@@ -41,7 +41,7 @@ constexpr std::uint32_t TX_FIFO_full = 1u << 3;
 constexpr std::uint32_t RX_FIFO_not_empty = 1u << 4;
 constexpr std::uint32_t RX_FIFO_full = 1u << 5;
 constexpr std::uint32_t TX_FIFO_underflow = 1u << 6;
-constexpr std::uint32_t all = 0x7D;
+constexpr std::uint32_t all = 0x7F;
 constexpr std::uint32_t cleared_by_writing = RX_OVERFLOW | TX_FIFO_underflow;
 }  // namespace event
 
@@ -58,7 +58,7 @@ inline constexpr vp::RegisterField intr_status_fields[] = {
 };
 
 inline constexpr vp::RegisterInfo registers[] = {
-    {"CONFIG", CONFIG, 0x80020000, vp::Access::read_write, 0x840ADFFF, "Configuration"},
+    {"CONFIG", CONFIG, 0x80020000, vp::Access::read_write, 0xFFFFFFFF, "Configuration"},
     {"INTR_STATUS", INTR_STATUS, 0x00000004, vp::Access::write_1_to_clear,
      event::cleared_by_writing, "Events and state of the FIFOs", intr_status_fields},
     {"INTR_EN", INTR_EN, 0, vp::Access::write_only, event::all, "1 enables an interrupt"},
@@ -76,7 +76,7 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"TXD1", TXD1, 0, vp::Access::write_only, 0xFFFFFFFF, "One byte to send"},
     {"TXD2", TXD2, 0, vp::Access::write_only, 0xFFFFFFFF, "Two bytes to send"},
     {"TXD3", TXD3, 0, vp::Access::write_only, 0xFFFFFFFF, "Three bytes to send"},
-    {"LQSPI_CFG", 0xA0, 0x03A002EB, vp::Access::read_write, 0xF7FF07FF, "Memory-mapped mode"},
+    {"LQSPI_CFG", 0xA0, 0x03A002EB, vp::Access::read_write, 0xFFFFFFFF, "Memory-mapped mode"},
     {"LQSPI_STS", 0xA4, 0, vp::Access::read_write, 0x1FF, "Its errors"},
     {"MOD_ID", 0xFC, 0x01090101, vp::Access::read_only, 0, "Number of the module"},
 };

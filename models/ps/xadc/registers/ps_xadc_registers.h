@@ -53,16 +53,30 @@ constexpr unsigned CMD_shift = 26, ADDR_shift = 16;
 constexpr std::uint32_t read = 1, write = 2;
 }  // namespace command
 
+inline constexpr vp::RegisterField cfg_fields[] = {
+    {"IGAP", 0x1F, vp::Access::read_write, "pause between commands: stored"},
+    {"TCKRATE", 0x300, vp::Access::read_write, "clock of the serial port: stored"},
+    {"REDGE", 1u << 12, vp::Access::read_write, "edge of answers: stored"},
+    {"WEDGE", 1u << 13, vp::Access::read_write, "edge of commands: stored"},
+    {"DFIFOTH", cfg::DFIFOTH, vp::Access::read_write, "level of the answers' FIFO"},
+    {"CFIFOTH", cfg::CFIFOTH, vp::Access::read_write, "level of the commands' FIFO"},
+    {"ENABLE", cfg::ENABLE, vp::Access::read_write, "1: the processing system has the XADC"},
+};
+inline constexpr vp::RegisterField mctl_fields[] = {
+    {"FLUSH", 1u << 0, vp::Access::read_write, "stored"},
+    {"RESET", mctl_RESET, vp::Access::read_write, "1 holds the XADC in reset"},
+};
+
 inline constexpr vp::RegisterInfo registers[] = {
-    {"CFG", CFG, 0x00001114, vp::Access::read_write, 0x80FF33FF, "Enable, levels, timing"},
+    {"CFG", CFG, 0x00001114, vp::Access::read_write, 0x80FF331F, "Enable, levels, timing",
+     cfg_fields},
     {"INT_STS", INT_STS, 0x00000200, vp::Access::write_1_to_clear, event::all,
      "Events: alarms, levels of the FIFOs"},
     {"INT_MASK", INT_MASK, 0xFFFFFFFF, vp::Access::read_write, 0xFFFFFFFF, "1 masks an interrupt"},
     {"MSTS", MSTS, 0x00000500, vp::Access::read_only, 0, "Alarms and state of the FIFOs"},
     {"CMDFIFO", CMDFIFO, 0, vp::Access::write_only, 0xFFFFFFFF, "Commands"},
     {"RDFIFO", RDFIFO, 0, vp::Access::read_only, 0, "Answers"},
-    {"MCTL", MCTL, 0x00000010, vp::Access::read_write, 0x00000011,
-     "1 in bit 4 holds the XADC in reset"},
+    {"MCTL", MCTL, 0x00000010, vp::Access::read_write, 0x00000011, "Reset and flush", mctl_fields},
     {"UNLOCK", UNLOCK, 0, vp::Access::write_only, 0xFFFFFFFF,
      "No register: the vendor's driver writes the key of devcfg here"},
 };

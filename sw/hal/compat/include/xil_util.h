@@ -14,7 +14,8 @@ extern "C" {
 /** Looks at the register once a microsecond until its bits of `EventMask` are `Event`. XST_FAILURE
  * after `Timeout` looks. */
 u32 Xil_WaitForEvent(UINTPTR RegAddr, u32 EventMask, u32 Event, u32 Timeout);
-/** The same for any of `WaitEvents`; tells in `Events` which of `EventsMask` are set. XST_TIMEOUT. */
+/** The same for any of `WaitEvents`; tells in `Events` which of `EventsMask` are set. XST_TIMEOUT.
+ */
 u32 Xil_WaitForEvents(UINTPTR EventsRegAddr, u32 EventsMask, u32 WaitEvents, u32 Timeout,
                       u32* Events);
 /** Waits until each of `NumOfEvents` words, whose addresses follow, is not 0. */

@@ -1,7 +1,8 @@
 #ifndef XINTC_DRV_CONFIG_H
 #define XINTC_DRV_CONFIG_H
 
-/* What the build of releases from 2024.2 on writes beside the driver of the AXI interrupt controller. */
+/* What the build of releases from 2024.2 on writes beside the driver of the AXI interrupt
+ * controller. */
 
 #include <xparameters.h>
 

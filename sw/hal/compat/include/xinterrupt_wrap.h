@@ -26,6 +26,11 @@ enum XIntrType { XSPI, XPPI, XSGI };
 #define XINTC_TYPE_IS_INTC 1U
 #define XINTR_IS_EDGE_TRIGGERED 3U
 #define XINTR_IS_LEVEL_TRIGGERED 1U
+/* Senses of an IntrId. */
+#define XIL_TRIG_LOW_TO_HIGH_EDGE 1U
+#define XIL_TRIG_HIGH_TO_LOW_EDGE 2U
+#define XIL_TRIG_ACTIVE_HIGH_LEVEL 4U
+#define XIL_TRIG_ACTIVE_LOW_LEVEL 8U
 #define XGet_IntcType(IntParent) ((IntParent)&1U)
 #define XGet_BaseAddr(IntParent) ((IntParent) & ~(UINTPTR)1U)
 #define XGet_IntrId(IntId) ((IntId)&0xFFFU)

@@ -1,7 +1,8 @@
 #ifndef XPARAMETERS_PS_H
 #define XPARAMETERS_PS_H
 
-/* Devices of the Zynq-7000's processing system (UG585 tables 4-6, 4-7, 7-3 and 7-4): constants of the chip. */
+/* Devices of the Zynq-7000's processing system (UG585 tables 4-6, 4-7, 7-3 and 7-4): constants of
+ * the chip. */
 
 /* Addresses: I/O peripherals */
 #define XPS_UART0_BASEADDR 0xE0000000U

@@ -1,0 +1,141 @@
+// XGpioPs, XTtcPs and the waits of xil_util.h.
+#include <boost/test/unit_test.hpp>
+
+#include <ps_gpio_registers.h>
+#include <ttc_registers.h>
+#include <xgpiops.h>
+#include <xil_util.h>
+#include <xttcps.h>
+
+#include "fake_hal.h"
+
+namespace {
+
+using fake_hal::state;
+using fake_hal::writes_to;
+using Words = std::vector<std::uint32_t>;
+
+struct Fixture {
+  Fixture() { fake_hal::reset(); }
+};
+
+struct GpioFixture : Fixture {
+  GpioFixture() {
+    BOOST_REQUIRE_EQUAL(XGpioPs_CfgInitialize(&gpio, XGpioPs_LookupConfig(0), ps_gpio::base),
+                        XST_SUCCESS);
+  }
+  std::uint32_t& at(std::uint32_t offset) { return state().registers[ps_gpio::base + offset]; }
+  XGpioPs gpio;
+};
+
+unsigned banks_called, last_status;
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(xgpiops, GpioFixture)
+
+BOOST_AUTO_TEST_CASE(one_device_with_masked_interrupts) {
+  BOOST_CHECK(writes_to(ps_gpio::base + ps_gpio::INT_DIS_0 + 0xC0) == Words{~0u});
+  BOOST_CHECK(XGpioPs_LookupConfig(ps_gpio::base) == XGpioPs_LookupConfig(0));
+  BOOST_CHECK(XGpioPs_LookupConfig(1) == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(pins_of_all_banks) {
+  u8 bank = 0, bit = 0;
+  XGpioPs_GetBankPin(117, &bank, &bit);
+  BOOST_CHECK_EQUAL(bank, 3);
+  BOOST_CHECK_EQUAL(bit, 31);
+  XGpioPs_SetDirectionPin(&gpio, 54, 1);
+  XGpioPs_SetOutputEnablePin(&gpio, 54, 1);
+  BOOST_CHECK_EQUAL(at(ps_gpio::DIRM_0 + 0x80), 1u);
+  BOOST_CHECK_EQUAL(XGpioPs_GetOutputEnablePin(&gpio, 54), 1u);
+  XGpioPs_WritePin(&gpio, 50, 1);  // bit 18 of bank 1
+  BOOST_CHECK(writes_to(ps_gpio::base + ps_gpio::MASK_DATA_0_MSW + 8) == Words{0xFFFB'0004});
+  at(ps_gpio::DATA_0_RO + 4) = 1u << 18;
+  BOOST_CHECK_EQUAL(XGpioPs_ReadPin(&gpio, 50), 1u);
+  BOOST_CHECK_EQUAL(XGpioPs_ReadPin(&gpio, 51), 0u);
+}
+
+BOOST_AUTO_TEST_CASE(kinds_of_interrupts) {
+  for (u8 kind = 0; kind <= XGPIOPS_IRQ_TYPE_LEVEL_LOW; ++kind) {
+    XGpioPs_SetIntrTypePin(&gpio, 14, kind);
+    BOOST_CHECK_EQUAL(XGpioPs_GetIntrTypePin(&gpio, 14), kind);
+  }
+  BOOST_CHECK_EQUAL(XGpioPs_SelfTest(&gpio), XST_SUCCESS);
+}
+
+BOOST_AUTO_TEST_CASE(the_handler_gets_enabled_events_only) {
+  banks_called = 0;
+  XGpioPs_SetCallbackHandler(&gpio, nullptr, [](void*, u32 bank, u32 status) {
+    banks_called |= 1u << bank;
+    last_status = status;
+  });
+  at(ps_gpio::INT_MASK_0) = at(ps_gpio::INT_MASK_0 + 0x40) = ~0u;
+  at(ps_gpio::INT_MASK_0 + 0xC0) = ~0u;
+  at(ps_gpio::INT_MASK_0 + 0x80) = ~6u;
+  at(ps_gpio::INT_STAT_0) = 1;
+  at(ps_gpio::INT_STAT_0 + 0x80) = 5;
+  XGpioPs_IntrHandler(&gpio);
+  BOOST_CHECK_EQUAL(banks_called, 4u);
+  BOOST_CHECK_EQUAL(last_status, 4u);
+  BOOST_CHECK(writes_to(ps_gpio::base + ps_gpio::INT_STAT_0 + 0x80) == Words{4});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(xttcps, Fixture)
+
+BOOST_AUTO_TEST_CASE(counters_have_numbers_and_addresses) {
+  BOOST_CHECK_EQUAL(XTtcPs_LookupConfig(4)->BaseAddress, 0xF800'2004u);
+  BOOST_CHECK_EQUAL(XTtcPs_LookupConfig(0xF800'1008)->DeviceId, 2);
+  BOOST_CHECK(XTtcPs_LookupConfig(6) == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(a_running_counter_is_left_alone) {
+  XTtcPs timer;
+  BOOST_CHECK_EQUAL(XTtcPs_CfgInitialize(&timer, XTtcPs_LookupConfig(0), ttc::ttc0_base),
+                    XST_DEVICE_IS_STARTED);
+  BOOST_CHECK(writes_to(ttc::ttc0_base + ttc::CLK_CTRL_1).empty());
+}
+
+BOOST_AUTO_TEST_CASE(options_interval_and_prescaler) {
+  state().registers[ttc::ttc0_base + ttc::CNT_CTRL_1] = 0x21;
+  XTtcPs timer;
+  BOOST_REQUIRE_EQUAL(XTtcPs_CfgInitialize(&timer, XTtcPs_LookupConfig(0), ttc::ttc0_base),
+                      XST_SUCCESS);
+  constexpr u32 options = XTTCPS_OPTION_INTERVAL_MODE | XTTCPS_OPTION_WAVE_DISABLE;
+  XTtcPs_SetOptions(&timer, options);
+  BOOST_CHECK_EQUAL(XTtcPs_GetOptions(&timer), options);
+  XInterval interval = 0;
+  u8 prescaler = 0;
+  timer.Config.InputClockHz = 111'111'111;
+  XTtcPs_CalcIntervalFromFreq(&timer, 100, &interval, &prescaler);  // 1 111 111 clocks
+  BOOST_CHECK_EQUAL(interval, 34'722);
+  BOOST_CHECK_EQUAL(prescaler, 4);
+  XTtcPs_SetPrescaler(&timer, prescaler);
+  BOOST_CHECK_EQUAL(XTtcPs_GetPrescaler(&timer), 4);
+  XTtcPs_CalcIntervalFromFreq(&timer, 100'000'000, &interval, &prescaler);
+  BOOST_CHECK_EQUAL(prescaler, 0xFF);
+  XTtcPs_CalcIntervalFromFreq(&timer, 10'000, &interval, &prescaler);
+  BOOST_CHECK_EQUAL(interval, 11'111);
+  BOOST_CHECK_EQUAL(prescaler, XTTCPS_CLK_CNTRL_PS_DISABLE);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(xil_waits, Fixture)
+
+BOOST_AUTO_TEST_CASE(the_bits_are_the_event) {
+  constexpr std::uint32_t address = 0xE000'002C;
+  state().on_read[XPAR_GLOBAL_TMR_BASEADDR] = [counter = 0u]() mutable { return counter += 1000; };
+  state().registers[address] = 2;
+  BOOST_CHECK_EQUAL(Xil_WaitForEvent(address, 2, 0, 3), static_cast<u32>(XST_FAILURE));
+  BOOST_CHECK_EQUAL(Xil_WaitForEvent(address, 1, 0, 3), static_cast<u32>(XST_SUCCESS));
+  u32 events = 9;
+  BOOST_CHECK_EQUAL(Xil_WaitForEvents(address, 6, 3, 3, &events), static_cast<u32>(XST_SUCCESS));
+  BOOST_CHECK_EQUAL(events, 2u);
+  BOOST_CHECK_EQUAL(Xil_WaitForEvents(address, 4, 4, 3, &events), static_cast<u32>(XST_TIMEOUT));
+  BOOST_CHECK_EQUAL(events, 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
