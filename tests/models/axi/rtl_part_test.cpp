@@ -165,6 +165,41 @@ BOOST_FIXTURE_TEST_CASE(rtl_at_rest_sleeps_and_wakes, kit::Simulation) {
   });
 }
 
+// Where the edges of both clocks coincide, each register samples the other as it was before.
+BOOST_FIXTURE_TEST_CASE(clocks_that_coincide_rise_together, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock fast("fast", scheduler, 100'000'000), slow("slow", scheduler, 50'000'000);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  axi::RtlPart part("part", MARKERVP_TWO_CLOCKS_RTL, {{"a_clk", &fast}, {"b_clk", &slow}});
+  auto& a = part.output<std::uint8_t>("a");
+  auto& b = part.output<std::uint8_t>("b");
+  std::string values;
+  script.simulate([&] {
+    for (unsigned edge = 1; edge <= 6; ++edge) {
+      script.wait_until(edge * 10'000 + 1'000);
+      values += std::to_string(a.get()) + std::to_string(b.get()) + " ";
+    }
+  });
+  BOOST_TEST(values == "10 12 32 34 54 56 ");
+}
+
+BOOST_FIXTURE_TEST_CASE(a_loop_that_does_not_settle_ends_the_run, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  for (const char* open : {"s_axi_control", "m_axi_gmem", "in", "out"}) part.leave_open(open);
+  part.input("mode", part.output<std::uint8_t>("leds"));  // which are mode + 1
+  std::string message;
+  try {
+    sc_core::sc_start(sc_core::sc_time(100, sc_core::SC_NS));
+  } catch (const sc_core::sc_report& report) {
+    message = report.what();
+  }
+  BOOST_TEST(message.find("combinational loop") != message.npos, message);
+}
+
 BOOST_FIXTURE_TEST_CASE(an_access_in_reset_ends_the_run, Bench) {
   reset_n = false;
   bool ended = false;
