@@ -21,10 +21,9 @@ std::string text_of(const Address& a) {
 
 /// Lanes of the bus that a beat may write.
 Strobes lanes_of(const Address& a, unsigned beat, unsigned data_bytes) {
-  const std::uint64_t address = a.beat_address(beat);
-  const std::uint64_t end = address - address % a.beat_bytes() + a.beat_bytes();
   Strobes lanes;
-  for (std::uint64_t at = address; at < end; ++at) lanes.set(at % data_bytes);
+  for (unsigned i = 0; i < a.bytes_in(beat); ++i)
+    lanes.set((a.beat_address(beat) + i) % data_bytes);
   return lanes;
 }
 
@@ -76,6 +75,14 @@ void LinkChecker::edge(const Wires& wires, bool in_reset) {
     reads_.push_back({wires.ar.beat});
   }
   if (wires.w.passes()) check_write_beat(wires.w);
+  forget_answered(wires);
+}
+
+/// What was answered on the edge of its request, against the rules, waits no more.
+void LinkChecker::forget_answered(const Wires& wires) {
+  if (std::exchange(early_response_, false) && wires.aw.passes()) writes_.pop_back();
+  if (std::exchange(early_data_, false) && wires.ar.passes() && reads_.back().address.beats == 1)
+    reads_.pop_back();
 }
 
 // During reset and on the first edge behind it no VALID is high. What was under way is forgotten.
@@ -219,6 +226,7 @@ void LinkChecker::check_response(const Wires& wires, bool is_new) {
       broken(Rule::b_id, "BID is " + std::to_string(wires.b.id));
     else if (is_new)
       broken(Rule::b_resp_aw, "BVALID without a write");
+    early_response_ = wires.b.passes();
     return;
   }
   if (is_new && !oldest->complete)
@@ -235,6 +243,7 @@ void LinkChecker::check_read_data(const Wires& wires, bool is_new) {
     if (is_new)
       broken(Rule::r_id, "RID is " + std::to_string(wires.r.id) + ", and " +
                              std::to_string(reads_.size()) + " reads wait");
+    early_data_ = wires.r.passes();
     return;
   }
   const Address& a = oldest->address;

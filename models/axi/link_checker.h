@@ -45,6 +45,7 @@ class LinkChecker {
   void check_request(const Address& request, bool read);
   void check_write_beat(const WriteChannel& beat);
   void match_data();
+  void forget_answered(const Wires& wires);
   void broken(vp::Rule rule, const std::string& what) { reports_.violate(rule, &clock_, what); }
 
   const vp::Clock& clock_;
@@ -53,9 +54,10 @@ class LinkChecker {
   vp::RuleReports reports_;
   Wires held_;  ///< channels on which VALID waited on the last edge
   bool was_reset_ = false;
-  std::deque<Open> writes_, reads_;  ///< oldest first
-  std::deque<unsigned> early_;       ///< beats of write bursts that came before their address
-  unsigned early_beats_ = 0;         ///< of the one that is not complete
+  bool early_response_ = false, early_data_ = false;  ///< passed before their request
+  std::deque<Open> writes_, reads_;                   ///< oldest first
+  std::deque<unsigned> early_;  ///< beats of write bursts that came before their address
+  unsigned early_beats_ = 0;    ///< of the one that is not complete
 };
 
 }  // namespace axi

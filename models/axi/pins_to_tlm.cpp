@@ -50,27 +50,10 @@ PinsToTlm::PinsToTlm(sc_core::sc_module_name name, const vp::Clock& clock, const
       shape_(shape),
       wires_(wires) {}
 
-unsigned PinsToTlm::offset_of(const Burst& burst, unsigned beat) const {
-  const Address& a = burst.address;
-  if (a.burst == BurstType::fixed) return beat * (a.beat_bytes() - a.skew());
-  return beat == 0 ? 0 : beat * a.beat_bytes() - a.skew();
-}
-
-unsigned PinsToTlm::bytes_of(const Burst& burst, unsigned beat) const {
-  const Address& a = burst.address;
-  return beat == 0 || a.burst == BurstType::fixed ? a.beat_bytes() - a.skew() : a.beat_bytes();
-}
-
-void PinsToTlm::count_stalls() {
-  const auto waits = [](const Handshake& channel) { return channel.valid && !channel.ready; };
-  stalls.add((waits(wires_.aw) ? 1u : 0u) + (waits(wires_.w) ? 1u : 0u) +
-             (waits(wires_.ar) ? 1u : 0u));
-}
-
 void PinsToTlm::sample() {
   if (idle() && wires_.quiet()) return;
   const std::uint64_t cycle = clock_.cycle();
-  count_stalls();
+  stalls.add(wires_.stalls());
   if (wires_.b.passes()) writes_.pop_front();
   if (wires_.r.passes()) {
     ++beats;
@@ -116,7 +99,8 @@ void PinsToTlm::take_write_beats(std::uint64_t cycle) {
 }
 
 void PinsToTlm::take(Burst& burst, const WriteBeat& beat) const {
-  const unsigned offset = offset_of(burst, burst.beat), bytes = bytes_of(burst, burst.beat);
+  const unsigned offset = burst.address.offset(burst.beat);
+  const unsigned bytes = burst.address.bytes_in(burst.beat);
   const auto lane =
       static_cast<unsigned>(burst.address.beat_address(burst.beat) % shape_.data_bytes);
   std::memcpy(&burst.data[offset], &beat.data[lane], bytes);
@@ -179,8 +163,8 @@ void PinsToTlm::drive_read(std::uint64_t next) {
   std::fill_n(wires_.r.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
   const auto lane =
       static_cast<unsigned>(burst.address.beat_address(burst.beat) % shape_.data_bytes);
-  std::memcpy(&wires_.r.data[lane], &burst.data[offset_of(burst, burst.beat)],
-              bytes_of(burst, burst.beat));
+  std::memcpy(&wires_.r.data[lane], &burst.data[burst.address.offset(burst.beat)],
+              burst.address.bytes_in(burst.beat));
 }
 
 }  // namespace axi

@@ -91,15 +91,12 @@ class PinsToTlm final : public sc_core::sc_module {
     Response response_of(unsigned beat) const;
   };
 
-  unsigned offset_of(const Burst& burst, unsigned beat) const;
-  unsigned bytes_of(const Burst& burst, unsigned beat) const;
   void sample_requests(std::uint64_t cycle);
   void take_write_beats(std::uint64_t cycle);
   void take(Burst& burst, const WriteBeat& beat) const;
   void call_targets();
   void call(std::deque<Burst>& bursts, xilinx::MemoryPort& port, tlm::tlm_command command);
   void drive_read(std::uint64_t cycle);
-  void count_stalls();
 
   const vp::Clock& clock_;
   const Shape shape_;

@@ -231,6 +231,10 @@ void RtlPart::input(const std::string& name, vp::SignalBase& signal) {
 void RtlPart::tie(const std::string& name, std::uint64_t value) {
   const Interface& interface = claim(name, {Kind::reset, Kind::wire}, true);
   const Pin pin = pin_of(interface);
+  if (interface.kind == Kind::reset && (value != 0) != interface.active_low)
+    refuse(interface, "reset '" + name +
+                          "' would hold the RTL for ever: leave it open, and it stays "
+                          "inactive");
   if (pin.bits() < 64 && value >> pin.bits() != 0)
     refuse(interface, "input '" + name + "' has " + std::to_string(pin.bits()) + " bits, and " +
                           vp::hex(value) + " does not fit");

@@ -164,13 +164,9 @@ void TlmToPins::add_fixed(std::vector<Burst>& bursts, Request& request) const {
 
 TlmToPins::Span TlmToPins::span(const Burst& burst, unsigned beat) const {
   const Address& a = burst.address;
-  const unsigned begin = beat == 0                     ? 0
-                         : a.burst == BurstType::fixed ? beat * a.beat_bytes()
-                                                       : beat * a.beat_bytes() - a.skew();
-  const unsigned room =
-      a.beat_bytes() - static_cast<unsigned>(a.beat_address(beat) & (a.beat_bytes() - 1));
+  const unsigned begin = a.offset(beat);
   return {static_cast<unsigned>(a.beat_address(beat) % shape_.data_bytes), burst.offset + begin,
-          std::min(room, burst.bytes - begin)};
+          std::min(a.bytes_in(beat), burst.bytes - begin)};
 }
 
 void TlmToPins::answer(const Burst& burst, Response response) {
@@ -182,15 +178,9 @@ void TlmToPins::answer(const Burst& burst, Response response) {
   clock_.scheduler().check_condition();
 }
 
-void TlmToPins::count_stalls() {
-  const auto waits = [](const Handshake& channel) { return channel.valid && !channel.ready; };
-  stalls.add((waits(wires_.aw) ? 1u : 0u) + (waits(wires_.w) ? 1u : 0u) +
-             (waits(wires_.ar) ? 1u : 0u));
-}
-
 void TlmToPins::sample() {
   if (idle()) return;
-  count_stalls();
+  stalls.add(wires_.stalls());
   sample_writes();
   sample_reads();
 }

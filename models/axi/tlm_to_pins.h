@@ -83,7 +83,6 @@ class TlmToPins final : public sc_core::sc_module {
   void add_fixed(std::vector<Burst>& bursts, Request& request) const;
   Span span(const Burst& burst, unsigned beat) const;
   void answer(const Burst& burst, Response response);
-  void count_stalls();
   void sample_writes();
   void sample_reads();
   void drive_data();

@@ -51,6 +51,15 @@ struct Address {
     return burst == BurstType::fixed ? beats * (beat_bytes() - skew())
                                      : beats * beat_bytes() - skew();
   }
+  /// Bytes of the burst before beat `i`.
+  unsigned offset(unsigned i) const {
+    if (i == 0) return 0;
+    return burst == BurstType::fixed ? i * (beat_bytes() - skew()) : i * beat_bytes() - skew();
+  }
+  /// Bytes that beat `i` moves.
+  unsigned bytes_in(unsigned i) const {
+    return i == 0 || burst == BurstType::fixed ? beat_bytes() - skew() : beat_bytes();
+  }
   /// First address of the block that a WRAP burst stays in.
   std::uint64_t wrap_base() const {
     return address / (beats * beat_bytes()) * beats * beat_bytes();
@@ -102,6 +111,13 @@ struct Wires {
   ResponseChannel b;
   ReadChannel r;
 
+  /// Requests and write data that wait for READY.
+  unsigned stalls() const {
+    unsigned count = 0;
+    for (const Handshake& channel : {Handshake(aw), Handshake(w), Handshake(ar)})
+      count += channel.valid && !channel.ready ? 1 : 0;
+    return count;
+  }
   bool quiet() const { return !(aw.valid || ar.valid || w.valid || b.valid || r.valid); }
 };
 

@@ -328,6 +328,22 @@ BOOST_AUTO_TEST_CASE(what_verilator_refuses_is_told_when_it_is_configured) {
           {"there is no file", "missing_too.sv"});
 }
 
+// RTL that replaces no IP: registers, memory and interrupt in a design with a PS program.
+BOOST_AUTO_TEST_CASE(rtl_as_a_part_of_a_design) {
+  installed.build(project("rtl_part"), "rtl_part");
+  const std::string design = installed.beside("rtl_part/rtl_part.so");
+  const kit::Outcome outcome = installed.markervp(
+      {"run", "demo", "--design", design, "--output", "with_part", "--no-pictures"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.out + outcome.err);
+  BOOST_TEST(contains(outcome.out, "bytes copied: 4096\n"), outcome.out);
+  const kit::Outcome map = installed.markervp({"map", "--design", design});
+  BOOST_TEST(contains(map.out, "0x43C00000..0x43C0FFFF"), map.out);
+  BOOST_TEST(contains(map.out, "RTL everything"), map.out);
+  BOOST_TEST(contains(map.out, "63  pl.copier.interrupt"), map.out);
+  const Json result = Json::parse(kit::read_file(installed.beside("with_part/result.json")));
+  BOOST_TEST(result["resources"]["unknown"] == Json{"pl.copier"});
+}
+
 BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {
   const std::string folder = installed.beside("vhdl_source");
   std::filesystem::create_directory(folder);

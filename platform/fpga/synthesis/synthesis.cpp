@@ -97,11 +97,16 @@ std::vector<fs::path> include_folders(const Design& design) {
   return folders;
 }
 
+/// A folder to include from, in the scratch folder: `-I` takes no name with a space in it.
+std::string include_link(std::size_t number) {
+  return "include_" + std::to_string(number);
+}
+
 /// What `read_verilog` gets; `sources` in place of the design's own.
 std::string reading_of(const Design& design, const std::vector<fs::path>& sources) {
   std::string command = "read_verilog -sv -defer";
-  for (const fs::path& folder : include_folders(design))
-    command += " -I " + quoted(fs::absolute(folder));
+  for (std::size_t i = 0; i < include_folders(design).size(); ++i)
+    command += " -I " + include_link(i);
   for (const std::string& definition : design.defines) command += " -D " + definition;
   for (const fs::path& source : sources) command += " " + quoted(fs::absolute(source));
   return command;
@@ -404,12 +409,18 @@ std::vector<fs::path> without_format_widths(const Design& design, const fs::path
   return copies;
 }
 
-/// With the design's own sources in messages, in place of their copies.
-void name_originals(std::string& text, const Design& design, const std::vector<fs::path>& copies) {
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    for (std::size_t at; (at = text.find(copies[i].string())) != text.npos;)
-      text.replace(at, copies[i].string().size(), design.sources[i].string());
-  }
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// With the design's own files in messages, in place of copies and links.
+void name_originals(std::string& text, const Design& design, const std::vector<fs::path>& sources) {
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    replace_all(text, sources[i].string(), design.sources[i].string());
+  const std::vector<fs::path> folders = include_folders(design);
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    replace_all(text, include_link(i) + "/", folders[i].string() + "/");
 }
 
 host::CommandEnd run_yosys(const Design& design, const std::vector<fs::path>& sources,
@@ -429,15 +440,18 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   for (const std::string& definition : design.defines) check_definition(definition);
   const host::ScratchFolder scratch("synth");
   host::require_descriptors(yosys_descriptors, "yosys");
+  const std::vector<fs::path> folders = include_folders(design);
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    fs::create_directory_symlink(fs::absolute(folders[i]), scratch / include_link(i));
   std::vector<fs::path> sources = design.sources;
   host::CommandEnd end = run_yosys(design, sources, Mapper::abc9, scratch.path());
   if (stumbled_over_a_format(end)) {
     sources = without_format_widths(design, scratch.path());
     end = run_yosys(design, sources, Mapper::abc9, scratch.path());
-    name_originals(end.out, design, sources);
   }
   const bool fell_back = crashed(end);
   if (fell_back) end = run_yosys(design, sources, Mapper::abc, scratch.path());
+  name_originals(end.out, design, sources);
   refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);

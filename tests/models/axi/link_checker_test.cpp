@@ -230,7 +230,6 @@ BOOST_FIXTURE_TEST_CASE(strobes_outside_of_a_narrow_beat, Bench) {
 }
 BOOST_FIXTURE_TEST_CASE(a_response_in_the_clock_of_the_address, Bench) {
   aw(request(0x100)), w(true), b(), edge();
-  b(), edge();
   BOOST_TEST(broken() == "AXI4_ERRS_BRESP_AW");
 }
 BOOST_FIXTURE_TEST_CASE(a_response_behind_the_first_of_two_beats, Bench) {
@@ -249,7 +248,6 @@ BOOST_FIXTURE_TEST_CASE(a_response_of_another_id, Bench) {
 }
 BOOST_FIXTURE_TEST_CASE(data_in_the_clock_of_the_request, Bench) {
   ar(request(0x100)), r(true), edge();
-  r(true), edge();
   BOOST_TEST(broken() == "AXI4_ERRS_RID");
 }
 BOOST_FIXTURE_TEST_CASE(rlast_that_never_comes, Bench) {

@@ -149,6 +149,17 @@ BOOST_FIXTURE_TEST_CASE(wires_follow_within_the_instant, Bench) {
   });
 }
 
+BOOST_FIXTURE_TEST_CASE(pins_are_in_the_trace, Bench) {
+  software.simulate([&] { put(0x18, 5); });
+  const auto width = [](const char* pin) {
+    const auto* signal = dynamic_cast<vp::SignalBase*>(sc_core::sc_find_object(pin));
+    return signal ? signal->width() : 0;
+  };
+  BOOST_TEST(width("part.s_axi_control_AWVALID") == 1u);
+  BOOST_TEST(width("part.m_axi_gmem_ARADDR") == 64u);
+  BOOST_TEST(width("part.interrupt") == 1u);
+}
+
 BOOST_FIXTURE_TEST_CASE(rtl_at_rest_sleeps_and_wakes, kit::Simulation) {
   vp::ClockScheduler scheduler("scheduler");
   vp::Clock clock("clock", scheduler, 100'000'000);
@@ -163,6 +174,42 @@ BOOST_FIXTURE_TEST_CASE(rtl_at_rest_sleeps_and_wakes, kit::Simulation) {
     software.write(0x18, 7);
     BOOST_TEST(software.read(0x18) == 7u);
   });
+}
+
+// Where the edges of both clocks coincide, each register samples the other as it was before.
+BOOST_FIXTURE_TEST_CASE(clocks_that_coincide_rise_together, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock fast("fast", scheduler, 100'000'000), slow("slow", scheduler, 50'000'000);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  axi::RtlPart part("part", MARKERVP_TWO_CLOCKS_RTL, {{"a_clk", &fast}, {"b_clk", &slow}});
+  auto& a = part.output<std::uint8_t>("a");
+  auto& b = part.output<std::uint8_t>("b");
+  std::string values;
+  script.simulate([&] {
+    for (unsigned edge = 1; edge <= 6; ++edge) {
+      script.wait_until(edge * 10'000 + 1'000);
+      values += std::to_string(a.get()) + std::to_string(b.get()) + " ";
+    }
+  });
+  // Both are 16 at the start: so many clocks it was reset for.
+  BOOST_TEST(values == "1716 1718 1918 1920 2120 2122 ");
+}
+
+BOOST_FIXTURE_TEST_CASE(a_loop_that_does_not_settle_ends_the_run, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  for (const char* open : {"s_axi_control", "m_axi_gmem", "in", "out"}) part.leave_open(open);
+  part.input("mode", part.output<std::uint8_t>("leds"));  // which are mode + 1
+  std::string message;
+  try {
+    sc_core::sc_start(sc_core::sc_time(100, sc_core::SC_NS));
+  } catch (const sc_core::sc_report& report) {
+    message = report.what();
+  }
+  BOOST_TEST(message.find("combinational loop") != message.npos, message);
 }
 
 BOOST_FIXTURE_TEST_CASE(an_access_in_reset_ends_the_run, Bench) {
@@ -186,6 +233,10 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_go_together_is_refused, Bench) {
   refused([&] { part.input("mode", mode); }, {"mode", "connected twice"});
   refused([&] { part.tie("leds", 1); }, {"leds", "output"});
   refused([&] { axi::RtlPart other("other", everything, {}); }, {"needs a clock"});
+  axi::RtlPart held("held", everything, {{"ap_clk", &clock}});
+  refused([&] { held.tie("ap_rst_n", 0); }, {"ap_rst_n", "leave it open"});
+  for (const char* open : {"s_axi_control", "m_axi_gmem", "in", "out", "mode"})
+    held.leave_open(open);
   refused([&] { axi::RtlPart other("other", everything, {{"clk", &clock}}); }, {"clk", "ap_clk"});
 }
 

@@ -117,8 +117,18 @@ const std::map<std::string, Doctor>& doctors() {
          story.set(20, "pl.image_stream.tvalid", 0);
          story.set(30, "pl.image_stream.tvalid", 1);
        }},
+      {"image_last_stable",
+       [](Story& story) {
+         story.set(20, "pl.image_stream.tlast", 1);
+         story.set(30, "pl.image_stream.tlast", 0);
+       }},
       {"image_bursts", rises(340, "pl.image_stream.tlast", 1)},
       {"binary_data_stable", rises(20, "pl.binary_stream.tdata", 9)},
+      {"binary_valid_stays",
+       [](Story& story) {
+         story.set(20, "pl.binary_stream.tvalid", 0);
+         story.set(30, "pl.binary_stream.tvalid", 1);
+       }},
       {"binary_last_stable",
        [](Story& story) {
          story.set(20, "pl.binary_stream.tlast", 1);

@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(a_memory_with_byte_enables_is_mapped_by_abc) {
   output logic [31:0] q);
   logic [31:0] words[1024];
   always_ff @(posedge clk) begin
-    for (int i = 0; i < 4; ++i) if (we[i]) words[a][8*i+:8] <= d[8*i+:8];
+    for (int i = 0; i < 4; i = i + 1) if (we[i]) words[a][8*i+:8] <= d[8*i+:8];
     q <= words[b];
   end
 endmodule
