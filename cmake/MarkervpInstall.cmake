@@ -48,6 +48,7 @@ markervp_export(board COMPONENT models ROOT models)
 markervp_export(xilinx COMPONENT models ROOT models)
 markervp_export(pl_cores COMPONENT models ROOT models)
 markervp_export(pl COMPONENT models ROOT models)
+markervp_export(axi COMPONENT models ROOT models)
 markervp_export(ps COMPONENT models ROOT models)
 markervp_export(host COMPONENT models)
 markervp_export(device COMPONENT models ROOT platform)
@@ -80,7 +81,7 @@ foreach(folder IN LISTS register_folders)
 endforeach()
 markervp_install_headers(vp/registers/include/ registers)
 markervp_install_headers(vp/include/ vp)
-foreach(group board pl ps xilinx)
+foreach(group axi board pl ps xilinx)
   markervp_install_headers(models/${group} models SKIP registers)
 endforeach()
 markervp_install_headers(sw/hal/include/ hal)
@@ -140,5 +141,6 @@ install(FILES
   cmake/MarkervpRtl.cmake
   cmake/MarkervpProgram.cpp.in
   cmake/MarkervpRtl.cpp.in
+  cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c
   DESTINATION "${package_folder}")

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <vp/stream_checker.h>
+
 namespace vp {
 
 namespace {
@@ -13,6 +15,31 @@ namespace {
 
 }  // namespace
 
+AxiStream::AxiStream(sc_core::sc_module_name name) : sc_module(name) {}
+
+AxiStream::~AxiStream() = default;
+
+void AxiStream::check_beat(std::uint8_t keep, bool last) {
+  if (checker_) checker_->pass(keep, last);
+}
+
+void AxiStream::excuse() {
+  if (checker_) checker_->excuse();
+}
+
+void AxiStream::end_of_simulation() {
+  if (checker_) checker_->finish();
+}
+
+void AxiStream::start_of_simulation() {
+  if (!master_ || !slave_) return;
+  std::vector<StreamChecker::Reset> resets;
+  for (const AxiStreamMaster::Reset& reset : master_->resets_) {
+    if (SignalBase* signal = reset.signal()) resets.push_back({signal, reset.active_low});
+  }
+  checker_ = std::make_unique<StreamChecker>(*this, slave_->clock(), resets);
+}
+
 AxiStreamMaster::AxiStreamMaster(const char* name, Clocked& owner)
     : tdata(&owner),
       tkeep(&owner),
@@ -21,8 +48,8 @@ AxiStreamMaster::AxiStreamMaster(const char* name, Clocked& owner)
       tready((std::string(name) + "_tready").c_str(), &owner) {}
 
 void AxiStreamMaster::bind(AxiStream& link) {
-  if (link.has_master_) second_end(link, "master");
-  link.has_master_ = true;
+  if (link.master_) second_end(link, "master");
+  link.master_ = this;
   link_ = &link;
   tdata(link.tdata);
   tkeep(link.tkeep);

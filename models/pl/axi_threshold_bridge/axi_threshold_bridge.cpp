@@ -7,6 +7,7 @@
 #include <pl/axi_threshold_bridge/lazy_bridge.h>
 #include <pl/common/estimate.h>
 #include <pl/common/rtl_model.h>
+#include <vp/report.h>
 
 namespace pl {
 
@@ -66,6 +67,11 @@ void AxiThresholdBridgeTlm::end_of_elaboration() {
 
 void AxiThresholdBridgeTlm::edge() {
   if (!bridge_) return pass_words();
+  if (!ena && !rst) {
+    vp::error(*this, "/markervp/axi_threshold_bridge/ena",
+              "ena is low while the system runs, which only the clocked model follows: set "
+              "pl.fidelity.axi_threshold_bridge=clocked");
+  }
   sleep();
   if (rst == in_reset_) return;
   const std::uint64_t cycle = clock().cycle();
@@ -168,6 +174,7 @@ AxiThresholdBridge::AxiThresholdBridge(sc_core::sc_module_name name, const Site&
       fifo_(fifo_depth) {
   wake_on(ena);
   wake_on(rst);
+  m.reset_by(rst);
   wake_on(thresh_in);
   wake_on(m.tready);
 }
@@ -177,16 +184,13 @@ void AxiThresholdBridge::pass_words() {
     reset();
     return;
   }
-  if (!ena) {
-    sleep();
-    return;
-  }
+  // Without `ena` no word is taken or offered; one that is offered already passes as any other.
   const std::uint32_t waiting = fifo_.count();
-  const bool arrived = thresh_in != thresh_seen;
+  const bool arrived = ena && thresh_in != thresh_seen;
   if (m.free()) {
     const bool passes = m.tvalid.written();
     if (passes && in_packet_ == 0) packet_peak_ = std::exchange(peak_, 0);
-    if (waiting != 0) {
+    if (ena && waiting != 0) {
       const bool last = ++in_packet_ == burst_words_;
       if (last) in_packet_ = 0;
       m.offer(fifo_.pop(), last);
@@ -206,8 +210,8 @@ void AxiThresholdBridge::pass_words() {
   peak_ = std::max(peak_, fifo_.count());
   fifo_count = static_cast<std::uint16_t>(fifo_.count());
   const bool stuck = m.tvalid.written() && !m.tready.read();
-  const bool empty = !m.tvalid.written() && fifo_.count() == 0;
-  if (!arrived && (stuck || empty)) sleep();
+  const bool idle = !m.tvalid.written() && (!ena || fifo_.count() == 0);
+  if (!arrived && (stuck || idle)) sleep();
 }
 
 void AxiThresholdBridge::reset() {

@@ -26,6 +26,7 @@ BlobStream::BlobStream(sc_core::sc_module_name name, const Site& site)
                vp::In<std::uint32_t>{"extreme_6", this},
                vp::In<std::uint32_t>{"extreme_7", this}}} {
   wake_on(rst);
+  m.reset_by(rst);
   wake_on(frame_ena);
   wake_on(idle);
   wake_on(blob_out);

@@ -5,12 +5,13 @@
 // What a shared object with Verilated RTL (cmake: markervp_add_rtl) says of itself: plain C, so
 // that it may be built with any compiler and Verilator.
 
-#define RTL_INTERFACE 4
+#define RTL_INTERFACE 5
 #define RTL_SYMBOL "markervp_rtl"
 
 struct RtlPort {
   const char* name;
-  uint32_t bits;      // 1 to 64; kept in the smallest of 8, 16, 32 or 64 bits that holds them
+  uint32_t bits;      // kept in the smallest of 8, 16, 32 or 64 bits that holds them; more than
+                      // 64: in words of 32 bits, the lowest first
   int output;         // as the module sees it
   const char* place;  // file:line
 };
@@ -18,6 +19,15 @@ struct RtlPort {
 struct RtlParameter {
   const char* name;
   uint64_t value;
+};
+
+// What is said of a port. `what`: "info" and "parameter" are the values of X_INTERFACE_INFO and
+// X_INTERFACE_PARAMETER in the source; "interface" is an entry of INTERFACES, of which `port` may
+// be the prefix of several; "unseen" is a clock that lower() lowers.
+struct RtlNote {
+  const char* what;
+  const char* port;
+  const char* text;
 };
 
 // How the RTL ended itself.
@@ -28,13 +38,15 @@ struct RtlEnd {
 
 struct RtlDescriptor {
   uint32_t interface;  // RTL_INTERFACE; the rest holds only if it is the same
-  const char* ip;      // the IP that it replaces
+  const char* ip;      // the IP that it replaces; "": a part of a design
   const char* top;     // its module
   const char* place;   // file:line
   uint32_t port_count;
   const RtlPort* ports;
   uint32_t parameter_count;
   const RtlParameter* parameters;
+  uint32_t note_count;
+  const RtlNote* notes;
 
   // Registers without reset start at 0 (seed 0), at 1 (seed 1), or at random. Inputs start at 0.
   void* (*create)(const char* name, uint64_t seed);

@@ -1,43 +1,14 @@
 #include <pl/common/rtl_pins.h>
 
-#include <dlfcn.h>
-
 #include <algorithm>
 
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
-#include <vp/foreign_object.h>
 #include <vp/report.h>
-#include <vp/unit.h>
 
 namespace pl {
 
 namespace {
-
-constexpr const char* rebuild = "build it with markervp_add_rtl() of this markervp";
-
-const RtlDescriptor& open(const std::string& file) {
-  const std::string whose = "RTL '" + file + "' ";
-  void* library = vp::load_object(vp::rtl_object, file);
-  void* symbol = ::dlsym(library, RTL_SYMBOL);
-  if (!symbol) throw vp::InputError(whose + "is not RTL: it has no '" RTL_SYMBOL "'; " + rebuild);
-  vp::keep_object(vp::rtl_object, file, library);
-  const RtlDescriptor* rtl = nullptr;
-  std::uint32_t interface = 0;
-  const std::string stopped = vp::stopped_by([&] {
-    rtl = reinterpret_cast<const RtlDescriptor* (*)()>(symbol)();
-    interface = rtl->interface;
-  });
-  if (!stopped.empty()) throw vp::ProtocolError(whose + "is damaged: " + stopped + "; " + rebuild);
-  if (interface != RTL_INTERFACE) {
-    throw vp::InputError(whose + "has interface " + std::to_string(interface) + ", this is " +
-                         std::to_string(RTL_INTERFACE) + ": " + rebuild);
-  }
-  return *rtl;
-}
-
-/// Of the peripherals by Processor System Reset (PG164).
-constexpr unsigned reset_clocks = 16;
 
 std::string direction(bool output) {
   return output ? "output" : "input";
@@ -68,18 +39,21 @@ void add_stream(IpPorts& ports, vp::AxiStreamMaster& m) {
 
 RtlPins::RtlPins(const std::string& file, std::uint64_t seed, const std::string& ip,
                  const std::string& instance, IpPorts ports)
-    : file_(file),
-      seed_(seed),
-      ip_(ip),
-      instance_(instance),
+    : ip_(ip),
       ports_(std::move(ports)),
-      rtl_(open(file)),
-      model_(rtl_.create(instance.c_str(), seed), rtl_.destroy),
+      object_(file, seed, instance, *ports_.clocks.front().clock),
       risen_ps_(ports_.clocks.size(), vp::Clock::never),
-      connected_(rtl_.port_count),
-      rest_(rtl_.state_bytes, ports_.clocks.size()) {
-  if (rtl_.ip != ip)
-    refuse(rtl_.place, std::string("it was built as ") + rtl_.ip + "; set pl.fidelity." + rtl_.ip);
+      connected_(object_.descriptor().port_count),
+      rest_(object_.descriptor().state_bytes, ports_.clocks.size()) {
+  const RtlDescriptor& rtl = object_.descriptor();
+  if (*rtl.ip == '\0') {
+    refuse(rtl.place,
+           "it was built without IP, as a part of a design: build it with "
+           "markervp_add_rtl(… IP " +
+               ip + " …)");
+  }
+  if (rtl.ip != ip)
+    refuse(rtl.place, std::string("it was built as ") + rtl.ip + "; set pl.fidelity." + rtl.ip);
   leave_out_what_it_lacks();
   for (const IpPorts::ClockPin& clock : ports_.clocks)
     levels_.push_back(static_cast<std::uint8_t*>(pin(clock.name, 1, false)));
@@ -96,23 +70,14 @@ RtlPins::RtlPins(const std::string& file, std::uint64_t seed, const std::string&
     if (find(idle.name)) pin(idle.name, idle.bits, idle.output);
   }
   for (const IpPorts::Parameter& parameter : ports_.parameters) check(parameter);
-  for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
+  for (std::uint32_t i = 0; i < rtl.port_count; ++i) {
     if (!connected_[i]) {
-      refuse(rtl_.ports[i].place, std::string("the IP has no port '") + rtl_.ports[i].name +
-                                      "': remove it from module '" + rtl_.top + "'");
+      refuse(rtl.ports[i].place, std::string("the IP has no port '") + rtl.ports[i].name +
+                                     "': remove it from module '" + rtl.top + "'");
     }
   }
   reset();
-  for (InputPin& pin : inputs_) pin.value = load(pin.place, pin.bits);
-}
-
-vp::IpEstimate::Foreign RtlPins::foreign() const {
-  vp::IpEstimate::Foreign foreign;
-  foreign.file = file_;
-  foreign.sources.assign(rtl_.sources, rtl_.sources + rtl_.source_count);
-  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i)
-    foreign.parameters[rtl_.parameters[i].name] = rtl_.parameters[i].value;
-  return foreign;
+  for (InputPin& pin : inputs_) pin.value = load_pin(pin.place, pin.bits);
 }
 
 // As a system reset does before time 0, after which models begin: all other inputs are 0.
@@ -120,15 +85,15 @@ void RtlPins::reset() {
   const auto set_resets = [this](std::uint64_t level) {
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       const std::string& name = ports_.inputs[i].name;
-      if (name == "rst" || name == "por") store(inputs_[i].place, inputs_[i].bits, level);
+      if (name == "rst" || name == "por") store_pin(inputs_[i].place, inputs_[i].bits, level);
     }
   };
   // What has no reset yet is unknown.
-  if (rtl_.check) rtl_.check(model_.get(), 0);
+  object_.check(false);
   set_resets(1);
-  for (unsigned edge = 0; edge < reset_clocks; ++edge) cycle_clocks();
+  for (unsigned edge = 0; edge < rtl_reset_clocks; ++edge) cycle_clocks();
   set_resets(0);
-  if (rtl_.check) rtl_.check(model_.get(), 1);
+  object_.check(true);
 }
 
 void RtlPins::cycle_clocks() {
@@ -145,11 +110,11 @@ void RtlPins::find_signals() {
     if (ports_.inputs[i].port) inputs_[i].signal = ports_.inputs[i].place();
   }
   bound_ = true;
-  const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
+  const sc_core::sc_object* module = sc_core::sc_find_object(object_.instance().c_str());
   if (module && !ports_.watched) {
     vp::info(*module, "/markervp/rtl/seed",
              "registers without reset start at " + start() +
-                 (rtl_.check ? "" : "; built with NO_ASSERTIONS"),
+                 (object_.descriptor().check ? "" : "; built with NO_ASSERTIONS"),
              sc_core::SC_LOW);
   }
 }
@@ -183,12 +148,13 @@ void RtlPins::leave_out_what_it_lacks() {
 
 void RtlPins::check(const IpPorts::Parameter& parameter) const {
   const std::string value = std::to_string(parameter.value);
-  for (std::uint32_t i = 0; i < rtl_.parameter_count; ++i) {
-    const RtlParameter& built = rtl_.parameters[i];
+  const RtlDescriptor& rtl = object_.descriptor();
+  for (std::uint32_t i = 0; i < rtl.parameter_count; ++i) {
+    const RtlParameter& built = rtl.parameters[i];
     if (built.name != parameter.name || built.value == parameter.value) continue;
-    refuse(rtl_.place, parameter.name + " is " + std::to_string(built.value) + ", and " +
-                           parameter.key + " " + value + ": build it with PARAMETERS " +
-                           parameter.name + "=" + value);
+    refuse(rtl.place, parameter.name + " is " + std::to_string(built.value) + ", and " +
+                          parameter.key + " " + value + ": build it with PARAMETERS " +
+                          parameter.name + "=" + value);
   }
 }
 
@@ -199,46 +165,26 @@ void RtlPins::ask_memory() {
   }
 }
 
-const RtlPort* RtlPins::find(const std::string& name) const {
-  for (std::uint32_t i = 0; i < rtl_.port_count; ++i) {
-    if (rtl_.ports[i].name == name) return &rtl_.ports[i];
-  }
-  return nullptr;
-}
-
 void* RtlPins::pin(const std::string& name, unsigned bits, bool output) {
+  const RtlDescriptor& rtl = object_.descriptor();
   const RtlPort* port = find(name);
   const std::string wanted = declaration(name, bits, output);
   if (!port) {
-    refuse(rtl_.place, std::string("module '") + rtl_.top + "' lacks the port '" + name +
-                           "': declare " + wanted);
+    refuse(rtl.place, std::string("module '") + rtl.top + "' lacks the port '" + name +
+                          "': declare " + wanted);
   }
   if (port->bits != bits || (port->output != 0) != output) {
     refuse(port->place, "port '" + name + "' is an " + direction(port->output != 0) + " of " +
                             std::to_string(port->bits) + " bits: declare " + wanted);
   }
-  const auto index = static_cast<std::uint32_t>(port - rtl_.ports);
+  const auto index = static_cast<std::uint32_t>(port - rtl.ports);
   connected_[index] = true;
-  return rtl_.pin(model_.get(), index);
-}
-
-std::string RtlPins::start() const {
-  return seed_ < 2 ? std::to_string(seed_) : "random values (seed " + std::to_string(seed_) + ")";
-}
-
-void RtlPins::ended(const RtlEnd& end) const {
-  const vp::Clock& clk = *ports_.clocks.front().clock;
-  const std::string place = *end.place ? std::string(" (") + end.place + ")" : "";
-  const std::string text = "RTL '" + file_ + "' ended itself behind edge " +
-                           std::to_string(clk.cycle()) + " of " + clk.name() + ", at " +
-                           vp::format_time(now_ps()) + ": " + end.why + place;
-  const sc_core::sc_object* module = sc_core::sc_find_object(instance_.c_str());
-  if (module && sc_core::sc_is_running()) vp::error(*module, rtl_ended, text);
-  throw vp::ProtocolError(instance_ + ": " + text);
+  return object_.pin(index);
 }
 
 void RtlPins::refuse(const std::string& place, const std::string& why) const {
-  throw vp::InputError("RTL '" + file_ + "' does not fit " + ip_ + ": " + place + ": " + why);
+  throw vp::InputError("RTL '" + object_.file() + "' does not fit " + ip_ + ": " + place + ": " +
+                       why);
 }
 
 }  // namespace pl

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,7 +9,8 @@
 #include <vector>
 
 #include <pl/common/lanes.h>
-#include <pl/common/rtl_interface.h>
+#include <pl/common/rtl_object.h>
+#include <pl/common/rtl_rest.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
@@ -174,49 +174,6 @@ class IpPorts {
 /// Adds the pins of a stream's master.
 void add_stream(IpPorts& ports, vp::AxiStreamMaster& m);
 
-/// Finds out when RTL has come to rest: an edge of each clock with the same inputs has left its
-/// whole state as it was, so all further ones will. It takes a copy of the state, less often the
-/// larger it is and the longer the RTL works on by itself.
-class RtlRest {
- public:
-  RtlRest(std::size_t state_bytes, std::size_t clocks)
-      : state_(state_bytes), all_clocks_((1u << clocks) - 1), look_at_(first_look()) {}
-
-  void inputs_changed() {
-    same_ = 0;
-    look_at_ = first_look();
-  }
-  /// Behind each edge: whether reached() is to be asked.
-  bool due() { return ++same_ >= look_at_; }
-  /// Whether no further edge would change anything. `risen`: the clocks of this one, a bit for
-  /// each.
-  bool reached(const void* state, unsigned risen) {
-    if (same_ == look_at_) {
-      std::memcpy(state_.data(), state, state_.size());
-      clocks_seen_ = 0;
-      return false;
-    }
-    if (std::memcmp(state_.data(), state, state_.size()) != 0) {
-      look_at_ = 2 * same_;
-      return false;
-    }
-    clocks_seen_ |= risen;
-    return clocks_seen_ == all_clocks_;
-  }
-
- private:
-  /// A copy takes less than the clocks before it.
-  std::uint64_t first_look() const { return 2 + state_.size() / 256; }
-
-  std::vector<unsigned char> state_;
-  unsigned all_clocks_, clocks_seen_ = 0;  ///< whose edges have changed nothing since the copy
-  std::uint64_t same_ = 0;                 ///< edges since an input changed
-  std::uint64_t look_at_;
-};
-
-/// Id of the report with which RTL that ends itself ends the simulation.
-inline constexpr const char* rtl_ended = "/markervp/rtl/ended";
-
 /// The pins of a Verilated module, connected with the ports of the IP that it replaces.
 class RtlPins {
  public:
@@ -242,7 +199,7 @@ class RtlPins {
     }
     evaluate();
     for (std::size_t i = 0; i < memory_inputs_.size(); ++i)
-      store(memory_inputs_[i], ports_.memory_inputs[i].bits, ports_.memory_inputs[i].read());
+      store_pin(memory_inputs_[i], ports_.memory_inputs[i].bits, ports_.memory_inputs[i].read());
     lower();
     return true;
   }
@@ -252,22 +209,20 @@ class RtlPins {
     evaluate();
   }
   /// Its last word, behind the last edge.
-  void finish() {
-    if (const RtlEnd* end = rtl_.finish(model_.get())) ended(*end);
-  }
+  void finish() { object_.finish(); }
   /// Behind an edge: further ones would change nothing until an input changes.
   bool at_rest() {
-    if (rtl_.state_bytes == 0 || !rest_.due()) return false;
+    if (object_.descriptor().state_bytes == 0 || !rest_.due()) return false;
     if (ports_.others_stand_still && !ports_.others_stand_still()) {
       rest_.inputs_changed();
       return false;
     }
-    return rest_.reached(rtl_.state(model_.get()), risen_);
+    return rest_.reached(object_.state(), risen_);
   }
   /// The ports of a clock follow the outputs of the RTL: those that changed are written.
   void drive(std::size_t clock = 0) {
     for (OutputPin& pin : outputs_) {
-      const std::uint64_t now = load(pin.place, pin.bits);
+      const std::uint64_t now = load_pin(pin.place, pin.bits);
       if ((pin.value == now && pin.driven) || pin.clock != clock) continue;
       pin.value = now;
       pin.driven = true;
@@ -278,61 +233,37 @@ class RtlPins {
   /// Those that the RTL has, with its widths.
   const IpPorts& ports() const { return ports_; }
   /// What the RTL gives at output `i`.
-  std::uint64_t value(std::size_t i) const { return load(outputs_[i].place, outputs_[i].bits); }
+  std::uint64_t value(std::size_t i) const { return load_pin(outputs_[i].place, outputs_[i].bits); }
   /// At output `i` to a memory.
   std::uint64_t memory_value(std::size_t i) const {
-    return load(memory_outputs_[i], ports_.memory_outputs[i].bits);
+    return load_pin(memory_outputs_[i], ports_.memory_outputs[i].bits);
   }
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return object_.file(); }
   /// Of registers without reset: "0", "1", "random values (seed 1000)".
-  std::string start() const;
+  std::string start() const { return object_.start(); }
   /// Nothing for RTL that counts none.
-  void write_coverage(const std::string& file) const {
-    if (rtl_.write_coverage) rtl_.write_coverage(model_.get(), file.c_str());
-  }
+  void write_coverage(const std::string& file) const { object_.write_coverage(file); }
   /// What it is built from.
-  vp::IpEstimate::Foreign foreign() const;
+  vp::IpEstimate::Foreign foreign() const { return object_.foreign(); }
 
  private:
-  /// As rtl_interface.h says.
-  static void store(void* place, unsigned bits, std::uint64_t value) {
-    if (bits <= 8) {
-      *static_cast<std::uint8_t*>(place) = static_cast<std::uint8_t>(value);
-    } else if (bits <= 16) {
-      *static_cast<std::uint16_t*>(place) = static_cast<std::uint16_t>(value);
-    } else if (bits <= 32) {
-      *static_cast<std::uint32_t*>(place) = static_cast<std::uint32_t>(value);
-    } else {
-      *static_cast<std::uint64_t*>(place) = value;
-    }
-  }
-  static std::uint64_t load(const void* place, unsigned bits) {
-    if (bits <= 8) return *static_cast<const std::uint8_t*>(place);
-    if (bits <= 16) return *static_cast<const std::uint16_t*>(place);
-    if (bits <= 32) return *static_cast<const std::uint32_t*>(place);
-    return *static_cast<const std::uint64_t*>(place);
-  }
   void take_inputs() {
     if (!bound_) find_signals();
     for (InputPin& pin : inputs_) {
-      const std::uint64_t now = pin.signal ? load(pin.signal, pin.bits) : (*pin.read)();
+      const std::uint64_t now = pin.signal ? load_pin(pin.signal, pin.bits) : (*pin.read)();
       if (pin.value == now) continue;
       pin.value = now;
-      store(pin.place, pin.bits, now);
+      store_pin(pin.place, pin.bits, now);
       rest_.inputs_changed();
     }
   }
   // What a memory shows behind the edge may change outputs while the clock is high.
   void lower() {
-    if (rtl_.lower && memory_inputs_.empty()) return rtl_.lower(model_.get());
+    if (object_.lowers() && memory_inputs_.empty()) return object_.lower();
     for (std::uint8_t* level : levels_) *level = 0;
     evaluate();
   }
-  void evaluate() {
-    if (const RtlEnd* end = rtl_.eval(model_.get())) ended(*end);
-  }
-  /// Throws sc_core::sc_report while the simulation runs, otherwise vp::ProtocolError.
-  [[noreturn]] void ended(const RtlEnd& end) const;
+  void evaluate() { object_.evaluate(); }
   void find_signals();
   void ask_memory();
   std::uint64_t now_ps() const;
@@ -341,18 +272,15 @@ class RtlPins {
   void raise(std::size_t clock);
   void reset();
   void cycle_clocks();
-  const RtlPort* find(const std::string& name) const;
+  const RtlPort* find(const std::string& name) const { return object_.find(name); }
   void* pin(const std::string& name, unsigned bits, bool output);
   void leave_out_what_it_lacks();
   void check(const IpPorts::Parameter& parameter) const;
   [[noreturn]] void refuse(const std::string& place, const std::string& why) const;
 
-  const std::string file_;
-  const std::uint64_t seed_;
-  const std::string ip_, instance_;
+  const std::string ip_;
   IpPorts ports_;
-  const RtlDescriptor& rtl_;
-  const std::unique_ptr<void, void (*)(void*)> model_;
+  const RtlObject object_;
   std::vector<std::uint8_t*> levels_;    ///< of the clocks
   std::vector<std::uint64_t> risen_ps_;  ///< when each rose last, where there are several
   unsigned risen_ = 1;                   ///< on the last edge, a bit for each clock

@@ -299,6 +299,7 @@ PixelStream::PixelStream(sc_core::sc_module_name name, const Site& site)
       geometry_(site.geometry) {
   wake_on(rst);
   wake_on(ena);
+  m.reset_by(rst);
   wake_on(m.tready);
 }
 

@@ -120,6 +120,7 @@ CrossingExitClocked::CrossingExitClocked(sc_core::sc_module_name name, vp::Clock
     : CrossingExit(name, clk), fifo_(fifo) {
   wake_on(write_count);
   wake_on(flush);
+  m.reset_by(flush);
 }
 
 // A word is offered from the memory, and read when it has passed.
@@ -134,6 +135,7 @@ void CrossingExitClocked::edge() {
   const std::uint32_t next = read_count.written();
   const bool empty = next == write_count_.seen();
   if (flush_.seen() || empty) {
+    if (flush_.seen()) m.excuse();
     m.withdraw();
   } else {
     m.offer(fifo_.at(next).data, fifo_.at(next).last);

@@ -11,6 +11,14 @@ bool allows(const tlm::tlm_dmi& dmi, tlm::tlm_command command) {
   return command == tlm::TLM_READ_COMMAND ? dmi.is_read_allowed() : dmi.is_write_allowed();
 }
 
+void move_enabled(bool read, unsigned char* memory, unsigned char* data,
+                  const unsigned char* enables, unsigned bytes) {
+  for (unsigned i = 0; i < bytes; ++i) {
+    if (enables[i] != TLM_BYTE_ENABLED) continue;
+    (read ? data[i] : memory[i]) = read ? memory[i] : data[i];
+  }
+}
+
 }  // namespace
 
 MemoryPort::MemoryPort(sc_core::sc_module_name name, vp::ClockScheduler& scheduler)
@@ -28,7 +36,8 @@ MemoryPort::MemoryPort(sc_core::sc_module_name name, vp::ClockScheduler& schedul
 }
 
 void MemoryPort::read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed) {
-  access(tlm::TLM_READ_COMMAND, address, data, bytes, fixed);
+  transfer(tlm::TLM_READ_COMMAND, address, data, bytes, fixed ? std::min(bytes, word_bytes) : bytes,
+           nullptr);
 }
 
 bool MemoryPort::read_directly(std::uint64_t address, void* data, unsigned bytes) {
@@ -40,18 +49,19 @@ bool MemoryPort::read_directly(std::uint64_t address, void* data, unsigned bytes
 }
 
 void MemoryPort::write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed) {
-  access(tlm::TLM_WRITE_COMMAND, address, data, bytes, fixed);
+  transfer(tlm::TLM_WRITE_COMMAND, address, data, bytes,
+           fixed ? std::min(bytes, word_bytes) : bytes, nullptr);
 }
 
-void MemoryPort::access(tlm::tlm_command command, std::uint64_t address, unsigned char* data,
-                        unsigned bytes, bool fixed) {
+void MemoryPort::transfer(tlm::tlm_command command, std::uint64_t address, unsigned char* data,
+                          unsigned bytes, unsigned width, unsigned char* enables) {
   payload_.set_command(command);
   payload_.set_address(address);
   payload_.set_data_ptr(data);
   payload_.set_data_length(bytes);
-  payload_.set_streaming_width(fixed ? std::min(bytes, word_bytes) : bytes);
-  payload_.set_byte_enable_ptr(nullptr);
-  payload_.set_byte_enable_length(0);
+  payload_.set_streaming_width(width);
+  payload_.set_byte_enable_ptr(enables);
+  payload_.set_byte_enable_length(enables ? bytes : 0);
   payload_.set_dmi_allowed(false);
   payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   if (access_directly()) return;
@@ -68,7 +78,9 @@ bool MemoryPort::access_directly() {
   for (unsigned at = 0; at < bytes; at += step) {
     unsigned char* data = payload_.get_data_ptr() + at;
     const unsigned count = std::min(step, bytes - at);
-    if (payload_.is_read()) {
+    if (const unsigned char* enables = payload_.get_byte_enable_ptr()) {
+      move_enabled(payload_.is_read(), memory, data, enables + at, count);
+    } else if (payload_.is_read()) {
       std::memcpy(data, memory, count);
     } else {
       std::memcpy(memory, data, count);

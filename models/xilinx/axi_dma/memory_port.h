@@ -42,6 +42,10 @@ class MemoryPort : public sc_core::sc_module {
   /// done().
   void read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
   void write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
+  /// One burst of any kind. Bytes from `width` on go to the first addresses again. `enables`: a
+  /// byte for each of `data`, or null; it stays valid, too.
+  void transfer(tlm::tlm_command command, std::uint64_t address, unsigned char* data,
+                unsigned bytes, unsigned width, unsigned char* enables);
 
   /// One burst, read at once if the memory gives direct access to all of it. False: not read.
   bool read_directly(std::uint64_t address, void* data, unsigned bytes);
@@ -52,8 +56,6 @@ class MemoryPort : public sc_core::sc_module {
   tlm::tlm_response_status response() const { return payload_.get_response_status(); }
 
  private:
-  void access(tlm::tlm_command command, std::uint64_t address, unsigned char* data, unsigned bytes,
-              bool fixed);
   bool access_directly();
   unsigned char* direct_pointer(tlm::tlm_command command, std::uint64_t address, unsigned bytes);
   const tlm::tlm_dmi* window(tlm::tlm_command command, std::uint64_t address, unsigned bytes) const;

@@ -249,6 +249,7 @@ void Mm2sChannel::settle(std::uint64_t cycle) {
 
 void Mm2sChannel::abandon() {
   settle(core_.channel_clock().cycle());
+  m_axis.excuse();
   withdraw();
   to_request_ = to_send_ = buffered_ = 0;
   segments_.clear();

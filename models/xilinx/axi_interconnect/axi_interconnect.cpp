@@ -19,14 +19,24 @@ AxiInterconnect::AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& 
     : Router(name, &aclk), Ip(&aclk) {}
 
 void AxiInterconnect::connect(AxiDma& dma) {
-  dma.share_memory_path(memory_path_);
   const auto add = [this](MemoryPort& port) {
-    port.link.socket.bind(socket);
+    share(port);
     ++memory_masters_;
   };
   if (dma.include_mm2s) add(dma.mm2s().m_axi);
   if (dma.include_s2mm) add(dma.s2mm().m_axi);
   if (dma.include_sg) add(dma.scatter_gather().m_axi);
+}
+
+void AxiInterconnect::connect(MemoryPort& read, MemoryPort& write) {
+  share(read);
+  share(write);
+  ++memory_masters_;
+}
+
+void AxiInterconnect::share(MemoryPort& port) {
+  port.share(memory_path_);
+  port.link.socket.bind(socket);
 }
 
 // With the protocol converter of the registers, or the width converter of the memory port.

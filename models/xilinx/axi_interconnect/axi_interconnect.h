@@ -33,11 +33,15 @@ class AxiInterconnect : public vp::Router, public vp::Ip {
   /// engines. The estimate is that of 32-bit masters at a port of 64 bit (HP0) then; otherwise that
   /// of one AXI3 master (GP0) before AXI4-Lite slaves.
   void connect(AxiDma& dma);
+  /// The same for one master, which has a port for each direction.
+  void connect(MemoryPort& read, MemoryPort& write);
 
  private:
   vp::IpEstimate own_estimate() const override;
 
   std::vector<std::unique_ptr<vp::Parameter<std::uint64_t>>> base_addresses_;
+
+  void share(MemoryPort& port);
 
   std::uint32_t memory_masters_ = 0;
   MemoryPath memory_path_;

@@ -78,7 +78,11 @@ std::string elaboration_of(const Design& design) {
   return command;
 }
 
-std::string script_of(const Design& design) {
+/// What maps logic into LUT. ABC9 knows delays, and crashes on memories with byte enables or with
+/// two ports that write (yosys#3384, open since 0.17); ABC does not.
+enum class Mapper { abc9, abc };
+
+std::string script_of(const Design& design, Mapper mapper) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
   // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
   // for there each pass goes through all of its 800 cells.
@@ -89,7 +93,8 @@ std::string script_of(const Design& design) {
   for (const fs::path& source : design.sources) script += " " + quoted(fs::absolute(source));
   script += "\n" + elaboration_of(design) + "\nproc";
   script += std::string("\ntee -q -o ") + check_log + " check";
-  script += "\nsynth_xilinx -family xc7 -flatten -abc9 -run prepare: -top " + design.top;
+  script += std::string("\nsynth_xilinx -family xc7 -flatten") +
+            (mapper == Mapper::abc9 ? " -abc9" : "") + " -run prepare: -top " + design.top;
   if (!design.dsp) script += " -nodsp";
   return script + "\nwrite_json " + netlist_file + "\n";
 }
@@ -322,25 +327,43 @@ namespace {
 /// That Yosys and its ABC have open at once, besides the standard ones.
 constexpr int yosys_descriptors = 9;
 
+/// Yosys stopped without a word about an error.
+bool crashed(const host::CommandEnd& end) {
+  return end.exit_code != 0 && end.exit_code != host::no_such_command &&
+         end.out.find("ERROR: ") == std::string::npos;
+}
+
+host::CommandEnd run_yosys(const Design& design, Mapper mapper, const fs::path& folder) {
+  constexpr const char* script = "synthesise.ys";
+  vp::write_file((folder / script).string(), script_of(design, mapper));
+  vp::write_file((folder / instance_file).string(), instance_of(design));
+  // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
+  return host::run_command({"env", "--chdir=" + folder.string(), "yosys", "-q", "-s", script}, ".");
+}
+
 }  // namespace
 
 Figures synthesise(const Design& design, const PathTiming& timing) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
   const host::ScratchFolder scratch("synth");
-  constexpr const char* script = "synthesise.ys";
-  vp::write_file((scratch / script).string(), script_of(design));
-  vp::write_file((scratch / instance_file).string(), instance_of(design));
   host::require_descriptors(yosys_descriptors, "yosys");
-  // Yosys gives names to a shell unquoted: in its own folder they have no spaces.
-  const host::CommandEnd end = host::run_command(
-      {"env", "--chdir=" + scratch.path().string(), "yosys", "-q", "-s", script}, ".");
+  host::CommandEnd end = run_yosys(design, Mapper::abc9, scratch.path());
+  const bool fell_back = crashed(end);
+  if (fell_back) end = run_yosys(design, Mapper::abc, scratch.path());
   refuse_loops(design, log_of(scratch / check_log));
   if (end.exit_code == host::no_such_command) yosys_version();
   if (end.exit_code != 0) refuse_as_yosys_does(design, end.out);
   try {
-    return {design.ip, design.parameters, hashes_of(design),
-            read_netlist(scratch / netlist_file, design.top, timing), design.own};
+    Figures figures{design.ip, design.parameters, hashes_of(design),
+                    read_netlist(scratch / netlist_file, design.top, timing), design.own};
+    if (fell_back) {
+      figures.netlist.not_covered.push_back(
+          "ABC9 fails on a memory of this RTL (yosys#3384), so ABC mapped the logic, without "
+          "delays: "
+          "what the other would make shorter");
+    }
+    return figures;
   } catch (const vp::InputError& error) {
     refuse(design, error.what());
   }

@@ -50,14 +50,19 @@ class BurstSender {
   virtual void settle(std::uint64_t cycle) = 0;
 };
 
+class AxiStreamMaster;
+class StreamChecker;
+
 /// One 32-bit AXI4-Stream connection, a named object with the five wires of thesis figure 4.18 and
 /// TKEEP.
 ///
 /// The master's module drives all wires but tready, the slave's module drives that. A beat passes
-/// on each clock edge that samples tvalid and tready high. Both ends belong to the same clock.
+/// on each clock edge that samples tvalid and tready high. Both ends belong to the same clock. A
+/// checker watches the rules of the handshake (vp/protocol_rules.h).
 class AxiStream : public sc_core::sc_module {
  public:
-  explicit AxiStream(sc_core::sc_module_name name) : sc_module(name) {}
+  explicit AxiStream(sc_core::sc_module_name name);
+  ~AxiStream() override;
   const char* kind() const override { return "vp::AxiStream"; }
 
   Signal<std::uint32_t> tdata{"tdata"};
@@ -75,7 +80,13 @@ class AxiStream : public sc_core::sc_module {
   friend class AxiStreamMaster;
   friend class AxiStreamSlave;
 
-  bool has_master_ = false;
+  void start_of_simulation() override;
+  void end_of_simulation() override;
+  void check_beat(std::uint8_t keep, bool last);
+  void excuse();
+
+  std::unique_ptr<StreamChecker> checker_;
+  AxiStreamMaster* master_ = nullptr;
   Clocked* slave_ = nullptr;
   bool slave_takes_source_ = false;
   BeatSource* source_ = nullptr;
@@ -94,6 +105,16 @@ class AxiStreamMaster {
   void operator()(AxiStream& link) { bind(link); }
   bool bound() const { return link_ != nullptr; }
   AxiStream& link() const { return *link_; }
+
+  /// The master may drop a beat that waits while `reset` is high: no violation of the link.
+  void reset_by(const InBase& reset) {
+    resets_.push_back({[&reset] { return reset.signal(); }, false});
+  }
+  void reset_by(SignalBase& reset, bool active_low) {
+    resets_.push_back({[&reset] { return &reset; }, active_low});
+  }
+  /// It is reset on this edge, in a way that no wire shows.
+  void excuse() { link_->excuse(); }
 
   /// In edge(): the beat that was offered passes on this edge.
   bool accepted() const { return tvalid.get() && tready.read(); }
@@ -143,7 +164,14 @@ class AxiStreamMaster {
   In<bool> tready;
 
  private:
+  friend class AxiStream;
+
   AxiStream* link_ = nullptr;
+  struct Reset {
+    std::function<SignalBase*()> signal;  ///< known when all is bound
+    bool active_low;
+  };
+  std::vector<Reset> resets_;
 };
 
 /// The port bundle of a module that receives: `vp::AxiStreamSlave s_axis{"s_axis", *this};`
@@ -167,6 +195,7 @@ class AxiStreamSlave {
     if (valid && ready) {
       ++link_->beats;
       link_->packets.add(tlast.read());
+      if (tkeep.read() != 0xF) link_->check_beat(tkeep.read(), tlast.read());
       waiting_ = false;
       return true;
     }

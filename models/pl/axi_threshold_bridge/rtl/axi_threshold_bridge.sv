@@ -31,8 +31,8 @@ module axi_threshold_bridge #(
   wire arrives = ena && thresh_in != thresh_seen;
   wire fits = fifo_count < COUNT_BITS'(FIFO_DEPTH);
   wire store = arrives && fits;
-  wire free = ena && (!m_tvalid || m_tready);
-  wire offer = free && fifo_count != '0;
+  wire free = !m_tvalid || m_tready;
+  wire offer = ena && free && fifo_count != '0;
 
   assign m_tkeep = 4'hF;
 

@@ -115,6 +115,24 @@ BOOST_AUTO_TEST_CASE(figures_say_what_they_are_of) {
 }
 
 // Of a type or of none: -5 is less than 0 in both.
+BOOST_AUTO_TEST_CASE(a_memory_with_byte_enables_is_mapped_by_abc) {
+  const Figures figures = synthesise(design(R"(module own (
+  input logic clk, input logic [3:0] we, input logic [9:0] a, b, input logic [31:0] d,
+  output logic [31:0] q);
+  logic [31:0] words[1024];
+  always_ff @(posedge clk) begin
+    for (int i = 0; i < 4; ++i) if (we[i]) words[a][8*i+:8] <= d[8*i+:8];
+    q <= words[b];
+  end
+endmodule
+)",
+                                            "own"),
+                                     timing);
+  BOOST_TEST(figures.netlist.cells.ramb36 == 1u);
+  BOOST_REQUIRE(!figures.netlist.not_covered.empty());
+  check_says(figures.netlist.not_covered.back(), {"ABC9", "yosys#3384"});
+}
+
 BOOST_AUTO_TEST_CASE(a_parameter_may_be_negative) {
   for (const std::string type : {"", "int "}) {
     const std::string text =

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include <axi/wires.h>
+#include <vp/clock.h>
+#include <vp/rule_reports.h>
+
+namespace axi {
+
+/// Watches the rules of one AXI4 or AXI4-Lite link at its pins, whoever drives which side
+/// (vp/protocol_rules.h). It is shown the wires before each edge; on clocks without VALID that
+/// costs a look at five of them.
+class LinkChecker {
+ public:
+  LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape)
+      : clock_(clock), shape_(shape), reports_(link) {}
+
+  /// `in_reset`: the edge samples an active reset.
+  void edge(const Wires& wires, bool in_reset);
+  /// At the end of the simulation.
+  void finish();
+  const vp::RuleReports& reports() const { return reports_; }
+
+ private:
+  /// A request that waits for its response.
+  struct Open {
+    Address address;
+    unsigned beats = 0;  ///< of data that passed
+    bool complete = false;
+  };
+
+  void check_reset(const Wires& wires, bool in_reset);
+  void check_stable(const Wires& wires);
+  template <class Channel, class Changes>
+  void check_stable(Channel& held, const Channel& now, vp::Rule fell, Changes changes);
+  void check_response(const Wires& wires);
+  void check_read_data(const Wires& wires);
+  void check_request(const Address& request, bool read);
+  void check_write_beat(const WriteChannel& beat);
+  void match_data();
+  void broken(vp::Rule rule, const std::string& what) { reports_.violate(rule, &clock_, what); }
+
+  const vp::Clock& clock_;
+  const Shape shape_;
+  vp::RuleReports reports_;
+  Wires held_;  ///< channels on which VALID waited on the last edge
+  bool was_reset_ = false;
+  std::deque<Open> writes_, reads_;  ///< oldest first
+  std::deque<unsigned> early_;       ///< beats of write bursts that came before their address
+  unsigned early_beats_ = 0;         ///< of the one that is not complete
+};
+
+}  // namespace axi

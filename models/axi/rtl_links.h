@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <axi/interfaces.h>
+#include <axi/link_checker.h>
+#include <axi/mm_pins.h>
+#include <axi/pins_to_tlm.h>
+#include <axi/tlm_to_pins.h>
+#include <vp/axi_stream.h>
+#include <vp/clock.h>
+#include <vp/signal.h>
+
+namespace axi {
+
+/// One interface of RTL and what it is connected to.
+class RtlLink {
+ public:
+  /// `clock`: the number of its clock.
+  RtlLink(const Interface& interface, std::size_t clock) : name(interface.name), clock(clock) {}
+  virtual ~RtlLink() = default;
+  const std::string name;
+  const std::size_t clock;
+
+  /// Before an edge of its clock. `in_reset`: that samples an active reset of the RTL.
+  virtual void sample(bool in_reset) = 0;
+  /// Behind it. True if an input of the RTL has changed.
+  virtual bool drive() = 0;
+  /// The next edge may count, whatever the RTL does.
+  virtual bool busy() const = 0;
+  /// Signals follow the outputs of the RTL, once they have settled.
+  virtual void show_outputs() {}
+  /// At the end of the simulation.
+  virtual void finish() {}
+  /// When all is bound: `follow` makes an input of the RTL follow a signal.
+  using Follow = std::function<void(vp::SignalBase&, const Pin&)>;
+  virtual void connect(const Follow&) {}
+};
+
+/// RTL answers transactions.
+class SlaveLink final : public RtlLink {
+ public:
+  SlaveLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
+            const vp::Clock& clk, TlmToPins::Begin begin);
+  TlmToPins& adapter() { return adapter_; }
+  void sample(bool in_reset) override;
+  bool drive() override;
+  bool busy() const override { return !adapter_.idle() || driving_; }
+  void finish() override { checker_.finish(); }
+
+ private:
+  const MmPins pins_;
+  Wires wires_;
+  TlmToPins adapter_;
+  LinkChecker checker_;
+  bool driving_ = false;
+};
+
+/// RTL sends transactions.
+class MasterLink final : public RtlLink {
+ public:
+  MasterLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
+             const vp::Clock& clk);
+  PinsToTlm& adapter() { return adapter_; }
+  void sample(bool in_reset) override;
+  bool drive() override;
+  bool busy() const override { return !adapter_.idle() || !wires_.quiet(); }
+  void finish() override { checker_.finish(); }
+
+ private:
+  const MmPins pins_;
+  Wires wires_;
+  PinsToTlm adapter_;
+  LinkChecker checker_;
+};
+
+/// The pins of a stream of RTL, whichever way it goes.
+struct StreamPins {
+  /// Throws vp::InputError unless they are 8, 16, 24 or 32 bits wide.
+  StreamPins(const Interface& interface, const pl::RtlObject& rtl);
+  /// Throws vp::InputError unless they are as wide as the link.
+  void check_width(const vp::AxiStream& link) const;
+  Pin data, valid, ready, last, keep, strobe;
+};
+
+/// RTL receives a stream.
+class StreamInLink final : public RtlLink {
+ public:
+  StreamInLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
+               vp::Clocked& side);
+  vp::AxiStreamSlave& port() { return port_; }
+  void sample(bool) override { port_.sample(); }
+  bool drive() override { return false; }
+  bool busy() const override { return port_.tvalid.read() && port_.tready.get(); }
+  void show_outputs() override;
+  void connect(const Follow& follow) override;
+
+ private:
+  const StreamPins pins_;
+  vp::AxiStreamSlave port_;
+};
+
+/// RTL sends a stream.
+class StreamOutLink final : public RtlLink {
+ public:
+  /// `packet_beats` counts where the RTL has no TLAST; 0: no packets.
+  StreamOutLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
+                vp::Clocked& side, unsigned packet_beats);
+  vp::AxiStreamMaster& port() { return port_; }
+  void sample(bool in_reset) override;
+  bool drive() override { return false; }
+  bool busy() const override { return false; }
+  void show_outputs() override;
+  void connect(const Follow& follow) override;
+
+ private:
+  bool last() const { return pins_.last ? pins_.last.get() != 0 : beat_ + 1 == packet_beats_; }
+
+  const StreamPins pins_;
+  const unsigned packet_beats_;
+  std::uint64_t whole_word_ = 0;  ///< TKEEP where the RTL has none
+  unsigned beat_ = 0;             ///< of a packet, where the RTL has no TLAST
+  vp::AxiStreamMaster port_;
+};
+
+}  // namespace axi
