@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <vp/error.h>
+#include <vp/stream_checker.h>
 
 namespace axi {
 
@@ -64,13 +65,22 @@ StreamPins::StreamPins(const Interface& interface, const pl::RtlObject& rtl) {
   last = pin("tlast");
   keep = pin("tkeep");
   strobe = pin("tstrb");
-  constexpr unsigned link_bits = 32;
-  if (data.bits() == link_bits) return;
+  constexpr unsigned widest = 32, bits_per_byte = 8;
+  if (data.bits() % bits_per_byte == 0 && data.bits() <= widest) return;
   const RtlPort& port = rtl.descriptor().ports[interface.ports.at("tdata")];
   throw vp::InputError(std::string(port.place) + ": port '" + port.name + "' of RTL '" +
                        rtl.file() + "' has " + std::to_string(port.bits) +
-                       " bits, and streams of the platform " + std::to_string(link_bits) +
-                       ": put a width converter into the RTL");
+                       " bits, and streams of the platform 8, 16, 24 or 32: put a width converter "
+                       "into the RTL");
+}
+
+void StreamPins::check_width(const vp::AxiStream& link) const {
+  constexpr unsigned bits_per_byte = 8;
+  if (data.bits() == bits_per_byte * vp::beat_bytes(link)) return;
+  throw vp::InputError(std::string(link.name()) + " is " +
+                       std::to_string(bits_per_byte * vp::beat_bytes(link)) +
+                       " bits wide, and the RTL at it " + std::to_string(data.bits()) +
+                       ": put a width converter between");
 }
 
 StreamInLink::StreamInLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
@@ -78,6 +88,7 @@ StreamInLink::StreamInLink(const Interface& interface, std::size_t clock, const 
     : RtlLink(interface, clock), pins_(interface, rtl), port_(name.c_str(), side) {}
 
 void StreamInLink::connect(const Follow& follow) {
+  pins_.check_width(port_.link());
   follow(*port_.tdata.signal(), pins_.data);
   follow(*port_.tvalid.signal(), pins_.valid);
   follow(*port_.tlast.signal(), pins_.last);
@@ -100,6 +111,8 @@ StreamOutLink::StreamOutLink(const Interface& interface, std::size_t clock,
       port_(name.c_str(), side) {}
 
 void StreamOutLink::connect(const Follow& follow) {
+  pins_.check_width(port_.link());
+  whole_word_ = (1u << vp::beat_bytes(port_.link())) - 1;
   follow(*port_.tready.signal(), pins_.ready);
   vp::AxiStream& link = port_.link();
   link.tdata.defer_writes();
@@ -118,9 +131,8 @@ void StreamOutLink::show_outputs() {
     if (port_.tvalid.written()) port_.withdraw();
     return;
   }
-  constexpr std::uint64_t whole_word = 0xF;
   port_.offer(static_cast<std::uint32_t>(pins_.data.get()), last(),
-              static_cast<std::uint8_t>(pins_.keep.get(whole_word)));
+              static_cast<std::uint8_t>(pins_.keep.get(whole_word_)));
 }
 
 }  // namespace axi

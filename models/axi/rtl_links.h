@@ -79,8 +79,10 @@ class MasterLink final : public RtlLink {
 
 /// The pins of a stream of RTL, whichever way it goes.
 struct StreamPins {
-  /// Throws vp::InputError unless they fit a link of 32 bits.
+  /// Throws vp::InputError unless they are 8, 16, 24 or 32 bits wide.
   StreamPins(const Interface& interface, const pl::RtlObject& rtl);
+  /// Throws vp::InputError unless they are as wide as the link.
+  void check_width(const vp::AxiStream& link) const;
   Pin data, valid, ready, last, keep, strobe;
 };
 
@@ -119,7 +121,8 @@ class StreamOutLink final : public RtlLink {
 
   const StreamPins pins_;
   const unsigned packet_beats_;
-  unsigned beat_ = 0;  ///< of a packet, where the RTL has no TLAST
+  std::uint64_t whole_word_ = 0;  ///< TKEEP where the RTL has none
+  unsigned beat_ = 0;             ///< of a packet, where the RTL has no TLAST
   vp::AxiStreamMaster port_;
 };
 

@@ -188,6 +188,13 @@ PinsToTlm& RtlPart::master(const std::string& name) {
       .adapter();
 }
 
+unsigned RtlPart::stream_bytes(const std::string& name) const {
+  constexpr unsigned bits_per_byte = 8;
+  const Interface& interface = find(name, {Kind::axi_stream});
+  if (!interface.has("tdata")) return 0;
+  return rtl_->descriptor().ports[interface.ports.at("tdata")].bits / bits_per_byte;
+}
+
 vp::AxiStreamSlave& RtlPart::stream_in(const std::string& name) {
   if (StreamInLink* link = made<StreamInLink>(name)) return link->port();
   const Interface& interface = claim(name, {Kind::axi_stream}, true);

@@ -58,7 +58,9 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   TlmToPins& slave(const std::string& name);
   /// A memory-mapped master: connect its ports `read` and `write` to memory.
   PinsToTlm& master(const std::string& name);
-  /// A stream that the RTL receives. Links are 32 bits wide.
+  /// Bytes of a beat of a stream; 0: it has no TDATA.
+  unsigned stream_bytes(const std::string& name) const;
+  /// A stream that the RTL receives. The link must be as wide.
   vp::AxiStreamSlave& stream_in(const std::string& name);
   /// A stream that the RTL sends. Without TLAST `packet_beats` says how many beats a packet has, 0
   /// for streams without packets; RTL with TLAST ignores it.

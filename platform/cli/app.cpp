@@ -348,6 +348,8 @@ void add_map(CLI::App& app, MapOptions& target) {
   command->add_flag("--markdown", target.markdown, "everything, as a page of the documentation");
   command->add_flag("--xparameters", target.xparameters,
                     "xparameters.h, as bare-metal code includes it");
+  command->add_option("--diagram", target.diagram, "draw a design in YAML: .svg, .png or .dot")
+      ->type_name("FILE");
   add_design_option(*command, target.configuration);
   add_configuration_options(*command, target.configuration);
 }

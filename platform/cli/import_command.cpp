@@ -80,16 +80,29 @@ class DesignMerge {
   std::string imported_;
 };
 
+/// A design without its RTL, which is not built yet: stubs are in its place.
+std::string without_rtl(const std::string& design) {
+  std::string text;
+  for (const std::string& line : vp::split(design, '\n'))
+    if (line.rfind("    rtl: ", 0) != 0) text += line + "\n";
+  return text;
+}
+
 /// The platform of the design, built to see that it can be, and for its xparameters.h.
-std::string xparameters_of(const fs::path& design, std::string& problem) {
+std::string xparameters_of(const fs::path& folder, std::string& problem) {
+  const std::string design = (folder / "design.yaml").string();
+  const vp::PartFile scratch((folder / ".import/map.yaml").string());
+  vp::write_file(scratch.path(), without_rtl(vp::read_text(design, "design")));
   try {
     vp::Configuration configuration;
-    configuration.set("design", design.string(), "markervp import");
+    configuration.set("design", scratch.path(), "markervp import");
     SimulationOptions asked;
     asked.is_only_shown = true;
     return xparameters_header(build(configuration, asked)->zynq());
   } catch (const vp::InputError& error) {
     problem = error.what();
+    const std::size_t at = problem.find(scratch.path());
+    if (at != std::string::npos) problem.replace(at, scratch.path().size(), design);
     return {};
   }
 }
@@ -125,7 +138,7 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
   if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
     write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources));
   std::string problem;
-  const std::string xparameters = xparameters_of(folder / "design.yaml", problem);
+  const std::string xparameters = xparameters_of(folder, problem);
   if (!xparameters.empty()) write("xparameters.h", xparameters);
   write("pl.dtsi", block_design::device_tree(handoff));
   write("IMPORT.md", block_design::import_report(handoff, design, problem));

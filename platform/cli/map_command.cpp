@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chip/block_design/diagram.h>
 #include <chip/linux_app/linux_devices.h>
 #include <chip/run/simulation.h>
 #include <chip/system/hardware_map.h>
@@ -293,7 +294,21 @@ void print_overview(const HardwareMap& map, bool registers, std::ostream& out) {
 
 }  // namespace
 
+namespace {
+
+int draw_map(const MapOptions& options, std::ostream& out) {
+  const std::string file = options.configuration.design.value_or("");
+  if (!block_design::is_design_yaml(file))
+    throw vp::InputError("--diagram draws a design in YAML: name it with --design FILE.yaml");
+  block_design::write_diagram(block_design::read_design_file(file), options.diagram);
+  out << "wrote " << options.diagram << "\n";
+  return done;
+}
+
+}  // namespace
+
 int print_map(const MapOptions& options, std::ostream& out) {
+  if (!options.diagram.empty()) return draw_map(options, out);
   vp::Configuration configuration;
   load_configuration(options.configuration, configuration);
   SimulationOptions asked;

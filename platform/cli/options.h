@@ -138,6 +138,7 @@ struct MapOptions {
   bool registers = false;    ///< of all devices
   bool markdown = false;     ///< the page of the documentation
   bool xparameters = false;  ///< the header of a board support package
+  std::string diagram;       ///< file for a picture of a design in YAML; empty: none
   ConfigurationOptions configuration;
 };
 

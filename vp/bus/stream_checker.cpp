@@ -18,6 +18,13 @@ std::uint64_t bits_of_kept(std::uint64_t keep) {
 
 }  // namespace
 
+unsigned beat_bytes(const AxiStream& link) {
+  constexpr unsigned usual = 4;
+  const auto* bytes = dynamic_cast<const sc_core::sc_attribute<unsigned>*>(
+      link.get_attribute(beat_bytes_attribute));
+  return bytes ? bytes->value : usual;
+}
+
 void StreamChecker::Level::set(std::uint64_t value, std::uint64_t ps) {
   if (changed_ps != ps) before = now;
   changed_ps = ps;
@@ -25,7 +32,11 @@ void StreamChecker::Level::set(std::uint64_t value, std::uint64_t ps) {
 }
 
 StreamChecker::StreamChecker(AxiStream& link, const Clock& clock, const std::vector<Reset>& resets)
-    : clock_(clock), resets_(resets), reset_levels_(resets.size()), reports_(link) {
+    : clock_(clock),
+      whole_(static_cast<std::uint8_t>((1u << beat_bytes(link)) - 1)),
+      resets_(resets),
+      reset_levels_(resets.size()),
+      reports_(link) {
   SignalBase* const signals[wires] = {&link.tvalid, &link.tready, &link.tdata, &link.tlast,
                                       &link.tkeep};
   for (std::uint32_t i = 0; i < wires; ++i) {

@@ -177,12 +177,19 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
 }
 
 // A master without a segment is answered with an error wherever it goes.
-void BlockDesign::close_open_masters() {
+void BlockDesign::close_open_ports() {
   for (auto& [name, part] : placed_) {
     if (name == ps_) continue;
     for (auto& [bus, port] : part.masters) {
-      if (first_of_.count(name + "." + bus) != 0) continue;
-      port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
+      if (first_of_.count(name + "." + bus) == 0)
+        port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
+    }
+    for (auto& [bus, port] : part.slaves) {
+      const bool is_seen = std::any_of(
+          design_.addresses.begin(), design_.addresses.end(), [&](const AddressSegment& segment) {
+            return segment.slave.part == name && segment.slave.port == bus;
+          });
+      if (!is_seen && part.open_slave) part.open_slave(bus);
     }
   }
 }

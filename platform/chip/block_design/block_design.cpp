@@ -2,6 +2,7 @@
 
 #include <vp/error.h>
 #include <vp/ip.h>
+#include <vp/stream_checker.h>
 #include <vp/text.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
@@ -40,7 +41,7 @@ BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const Des
   join_streams();
   join_addresses();
   close_open_streams();
-  close_open_masters();
+  close_open_ports();
 }
 
 BlockDesign::~BlockDesign() = default;
@@ -164,11 +165,15 @@ void BlockDesign::join_pins(const PlacedPart& part) {
     for (const auto& [name, join] : here.inputs) names.push_back(name);
     refuse({part.name, pin, source.place}, "is no input of " + part.vlnv, names);
   }
+  for (const auto& [pin, join] : here.inputs) {
+    if (here.open_input && part.pins.count(pin) == 0) here.open_input(pin);
+  }
 }
 
 bool BlockDesign::is_bus(const std::string& name) const {
   const PlacedPart* part = design_.part(name);
-  const IpRule* rule = part && part->as != "stub" ? rule_for(part->vlnv) : nullptr;
+  const bool by_rule = part && part->as != "stub" && part->rtl.empty();
+  const IpRule* rule = by_rule ? rule_for(part->vlnv) : nullptr;
   return rule && rule->kind == Kind::bus;
 }
 
@@ -183,6 +188,12 @@ void BlockDesign::join_streams() {
       if (is_stream) join_stream(master, {part.name, bus, master.place});
     }
   }
+}
+
+vp::AxiStream& BlockDesign::make_stream(const End& master, unsigned bytes) {
+  vp::AxiStream& link = streams_.emplace_back((master.part + "_" + master.port).c_str());
+  link.add_attribute(beat_bytes_.emplace_back(vp::beat_bytes_attribute, bytes));
+  return link;
 }
 
 void BlockDesign::join_stream(const End& master, const End& slave) {
@@ -205,7 +216,13 @@ void BlockDesign::join_stream(const End& master, const End& slave) {
                       "converter between them");
   }
   vp::Clock& clock = from.clock ? *from.clock : to.clock ? *to.clock : ports_.fclk_clk(0);
-  vp::AxiStream& link = streams_.emplace_back((master.part + "_" + master.port).c_str());
+  if (from.bytes != 0 && to.bytes != 0 && from.bytes != to.bytes) {
+    refuse(slave, "takes beats of " + std::to_string(to.bytes) + " bytes, and " + master.text() +
+                      " sends " + std::to_string(from.bytes) + ": put a width converter between");
+  }
+  constexpr unsigned usual_bytes = 4;
+  const unsigned bytes = from.bytes != 0 ? from.bytes : to.bytes != 0 ? to.bytes : usual_bytes;
+  vp::AxiStream& link = make_stream(master, bytes);
   from.bind(link, clock);
   to.bind(link, clock);
   streams_joined_[master.text()] = streams_joined_[slave.text()] = true;
@@ -216,7 +233,7 @@ void BlockDesign::close_open_streams() {
   for (auto& [name, part] : placed_) {
     for (auto& [bus, port] : part.stream_masters) {
       if (streams_joined_.count(name + "." + bus) != 0) continue;
-      vp::AxiStream& link = streams_.emplace_back((name + "_" + bus).c_str());
+      vp::AxiStream& link = make_stream({name, bus, ""}, port.bytes);
       port.bind(link, *port.clock);
       auto& end = blocked_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock);
       end.ready_on = [](std::uint64_t) { return false; };
@@ -224,7 +241,7 @@ void BlockDesign::close_open_streams() {
     }
     for (auto& [bus, port] : part.stream_slaves) {
       if (streams_joined_.count(name + "." + bus) != 0) continue;
-      vp::AxiStream& link = streams_.emplace_back((name + "_" + bus).c_str());
+      vp::AxiStream& link = make_stream({name, bus, ""}, port.bytes);
       silent_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock).m_axis(link);
       port.bind(link, *port.clock);
     }

@@ -56,6 +56,7 @@ class BlockDesign : public sc_core::sc_module, public Design {
   void join_pins(const PlacedPart& part);
   void join_streams();
   void join_stream(const End& master, const End& slave);
+  vp::AxiStream& make_stream(const End& master, unsigned bytes);
   void close_open_streams();
   void join_addresses();
   void join_segment(const AddressSegment& segment);
@@ -67,7 +68,7 @@ class BlockDesign : public sc_core::sc_module, public Design {
   std::string number_of(const AddressSegment& segment) const;
   std::uint64_t base_of(const AddressSegment& segment, SlavePort& slave);
   SlavePort slave_of(const AddressSegment& segment);
-  void close_open_masters();
+  void close_open_ports();
   bool is_bus(const std::string& part) const;
   [[noreturn]] void refuse(const End& end, const std::string& problem,
                            const std::vector<std::string>& names = {}) const;
@@ -80,6 +81,7 @@ class BlockDesign : public sc_core::sc_module, public Design {
   std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
   std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
+  std::deque<sc_core::sc_attribute<unsigned>> beat_bytes_;                  ///< of the streams
   std::deque<vp::AxiStream> streams_;
   std::deque<vp::StreamSource> silent_;
   std::deque<vp::StreamSink> blocked_;

@@ -103,6 +103,7 @@ class DesignReader : vp::YamlReader {
                  [&](const auto& n) {
                    part.as = choice(n, "as", {"model", "stub"});
                  }},
+                {"rtl", [&](const auto& n) { part.rtl = scalar(n, "rtl"); }},
                 {"parameters", [&](const auto& n) { read_parameters(n, part); }},
                 {"pins", [&](const auto& n) { part.pins = ends(n, "pins"); }},
                 {"buses", [&](const auto& n) { part.buses = ends(n, "buses"); }}},
@@ -133,7 +134,7 @@ class DesignReader : vp::YamlReader {
   /// Of an IP on the shelf each parameter must be known, and its value modelled.
   void check_parameters(const YAML::Node& map, const PlacedPart& part) const {
     const IpRule* rule = rule_for(part.vlnv);
-    if (!rule || part.as == "stub" || !map.IsMap()) return;
+    if (!rule || part.as == "stub" || !part.rtl.empty() || !map.IsMap()) return;
     for (const auto& entry : map) {
       const std::string key = entry.first.Scalar(), value = entry.second.Scalar();
       const ParameterRule* known = find_parameter(*rule, key);

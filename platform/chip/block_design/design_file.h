@@ -23,6 +23,7 @@ struct PlacedPart {
   std::string name;
   std::string vlnv;
   std::string as;     ///< "stub": not its model; "": what the shelf says
+  std::string rtl;    ///< Verilated RTL in its place, relative to the design's file; "": none
   std::string place;  ///< file and line
   std::map<std::string, std::string> parameters;
   std::map<std::string, End> pins;   ///< input: what drives it

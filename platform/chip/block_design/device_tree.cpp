@@ -19,6 +19,8 @@ constexpr std::uint32_t first_shared_interrupt = 32;  ///< of the controller's n
 constexpr unsigned level_high = 4;                    ///< an interrupt's flag in a device tree
 constexpr unsigned first_fclk = 15;                   ///< FCLK_CLK0 among the clocks of clkc
 
+const std::string indent = "\t\t\t";  ///< of a device's properties
+
 /// The IP as a device tree calls its class, and an older name that Linux knows as well.
 struct Names {
   const char* node;
@@ -69,8 +71,8 @@ std::string interrupts_of(const Module& module, const std::vector<Netlist::Inter
     pins += (pins.empty() ? "\"" : ", \"") + interrupt.source.pin.port->name + "\"";
   }
   if (cells.empty()) return {};
-  return "\t\t\tinterrupt-parent = <&intc>;\n\t\t\tinterrupts = <" + cells +
-         ">;\n\t\t\tinterrupt-names = " + pins + ";\n";
+  return indent + "interrupt-parent = <&intc>;\n" + indent + "interrupts = <" + cells + ">;\n" +
+         indent + "interrupt-names = " + pins + ";\n";
 }
 
 std::string clocks_of(const Module& module, const Netlist& nets) {

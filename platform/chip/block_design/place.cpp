@@ -161,7 +161,7 @@ void add_mm2s(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed
     bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.m_axis(link); };
     at.adapters.push_back(std::move(narrow));
   }
-  placed.stream_masters["M_AXIS_MM2S"] = {bind, &clock};
+  placed.stream_masters["M_AXIS_MM2S"] = {bind, &clock, bytes};
 }
 
 void add_s2mm(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed& placed) {
@@ -179,7 +179,7 @@ void add_s2mm(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed
     bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.s_axis(link); };
     at.adapters.push_back(std::move(narrow));
   }
-  placed.stream_slaves["S_AXIS_S2MM"] = {bind, &clock};
+  placed.stream_slaves["S_AXIS_S2MM"] = {bind, &clock, bytes};
 }
 
 Placed place_dma(const Placement& at) {
@@ -299,7 +299,7 @@ Placed place_stream_buffer(const Placement& at, const std::string& ip) {
   placed.stream_slaves["S_AXIS"] = {[line](vp::AxiStream& link, vp::Clock&) { line->s_axis(link); },
                                     &clock};
   placed.stream_masters["M_AXIS"] = {
-      [line](vp::AxiStream& link, vp::Clock&) { line->m_axis(link); }, &clock};
+      [line](vp::AxiStream& link, vp::Clock&) { line->m_axis(link); }, &clock, build.out_bytes};
   placed.object = std::move(buffer);
   return placed;
 }
@@ -389,7 +389,9 @@ Placed place_stub(const Placement& at) {
 
 Placed place_part(const Placement& at) {
   const IpRule* rule = rule_for(at.part.vlnv);
-  if (!rule || at.part.as == "stub") return place_stub(at);
+  if (at.part.as == "stub") return place_stub(at);
+  if (!at.part.rtl.empty()) return place_rtl(at);
+  if (!rule) return place_stub(at);
   if (rule->kind == Kind::left_out) return {};
   if (rule->kind == Kind::bus) return place_bus(at);
   if (rule->kind == Kind::wiring) return place_wiring(at);

@@ -42,6 +42,7 @@ struct SlavePort {
 struct StreamPort {
   std::function<void(vp::AxiStream& link, vp::Clock& clock)> bind;
   vp::Clock* clock = nullptr;  ///< null: that of the other end
+  unsigned bytes = 0;          ///< of a beat; 0: as the other end
 };
 
 /// A part in its place: its pins and buses by the vendor's names.
@@ -54,6 +55,9 @@ struct Placed {
   std::map<std::string, MasterPort> masters = {};
   std::map<std::string, SlavePort> slaves = {};
   std::map<std::string, StreamPort> stream_masters = {}, stream_slaves = {};
+  /// Called for each input, and for each slave, that the design leaves open; may be null.
+  std::function<void(const std::string& pin)> open_input = nullptr;
+  std::function<void(const std::string& interface)> open_slave = nullptr;
   /// Makes an output, or a slave, that the rest of the design asks for by name: of a stub. Null:
   /// only those above exist.
   std::function<vp::SignalBase*(const std::string& pin)> any_output = nullptr;
@@ -83,7 +87,10 @@ struct Placement {
   [[noreturn]] void refuse(const std::string& problem) const;
 };
 
-/// Makes the part: a model, wiring, or a stub in its place.
+/// Makes the part: a model, wiring, the user's RTL, or a stub in its place.
 Placed place_part(const Placement& placement);
+
+/// The user's RTL, Verilated.
+Placed place_rtl(const Placement& placement);
 
 }  // namespace platform::block_design

@@ -129,9 +129,9 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
   std::vector<std::string> result;
   for (const auto& [name, value] : module.parameters) {
     const auto number = vp::Decimal::parse(value);
-    const auto whole = number ? number->whole() : std::nullopt;
-    if (declared.count(name) != 0 && whole && *whole >= 0 && *whole <= UINT32_MAX)
-      result.push_back(name + "=" + std::to_string(static_cast<std::uint64_t>(*whole)));
+    const vp::Decimal::Whole whole = number ? number->whole().value_or(-1) : -1;
+    if (declared.count(name) != 0 && whole >= 0 && whole <= UINT32_MAX)
+      result.push_back(name + "=" + std::to_string(static_cast<std::uint64_t>(whole)));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <systemc>
 #include <vector>
 
+#include <axi/rtl_part.h>
 #include <gic_registers.h>
 #include <uart_registers.h>
 #include <vp/ip.h>
@@ -58,11 +59,19 @@ Device without_registers(const HardwareMap::Device& place) {
                 static_cast<std::uint32_t>(place.base + place.size - 1),
                 {},
                 {}};
-  const auto* stub =
-      dynamic_cast<const xilinx::RegisterStub*>(sc_core::sc_find_object(place.path.c_str()));
-  if (!stub || stub->ip().rfind("xilinx.com:ip:", 0) == 0) return device;
-  const auto slaves = vp::all_below<xilinx::RegisterStub::Slave>(*stub);
-  if (slaves.size() == 1) device.name += "_" + capitals(slaves.front()->basename());
+  const sc_core::sc_object* object = sc_core::sc_find_object(place.path.c_str());
+  std::vector<std::string> interfaces;
+  if (const auto* rtl = dynamic_cast<const axi::RtlPart*>(object)) {
+    for (const axi::Interface& one : rtl->interfaces())
+      if (one.slave && (one.kind == axi::Kind::axi4 || one.kind == axi::Kind::axi_lite))
+        interfaces.push_back(one.name);
+  }
+  const auto* stub = dynamic_cast<const xilinx::RegisterStub*>(object);
+  if (stub && stub->ip().rfind("xilinx.com:ip:", 0) != 0) {
+    for (const auto* slave : vp::all_below<xilinx::RegisterStub::Slave>(*stub))
+      interfaces.emplace_back(slave->basename());
+  }
+  if (interfaces.size() == 1) device.name += "_" + capitals(interfaces.front());
   return device;
 }
 

@@ -11,6 +11,7 @@
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
 #include <vp/report.h>
+#include <vp/stream_checker.h>
 
 namespace {
 
@@ -97,6 +98,18 @@ BOOST_FIXTURE_TEST_CASE(tkeep_that_changes, Bench) {
 }
 BOOST_FIXTURE_TEST_CASE(a_short_word_inside_of_a_packet, Bench) {
   on(2, [this] { master.m.offer(1, false, 3); });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_GAP");
+}
+BOOST_FIXTURE_TEST_CASE(words_of_a_narrower_link_are_whole, Bench) {
+  sc_core::sc_attribute<unsigned> bytes(vp::beat_bytes_attribute, 2);
+  link.add_attribute(bytes);
+  on(2, [this] { master.m.offer(1, false, 3); });
+  BOOST_TEST(broken() == "");
+}
+BOOST_FIXTURE_TEST_CASE(a_short_word_of_a_narrower_link, Bench) {
+  sc_core::sc_attribute<unsigned> bytes(vp::beat_bytes_attribute, 2);
+  link.add_attribute(bytes);
+  on(2, [this] { master.m.offer(1, false, 1); });
   BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_GAP");
 }
 BOOST_FIXTURE_TEST_CASE(a_short_word_at_the_end_of_a_packet_is_silent, Bench) {

@@ -10,6 +10,11 @@ namespace vp {
 
 class AxiStream;
 
+/// The attribute (sc_core::sc_attribute<unsigned>) of a link whose beats have fewer than 4 bytes.
+inline constexpr const char* beat_bytes_attribute = "beat_bytes";
+/// Bytes of a beat, 1 to 4.
+unsigned beat_bytes(const AxiStream& link);
+
 /// Watches the handshake of one stream: what VALID offers stays until READY, but for a reset of the
 /// master. It listens to the wires, so a link at rest costs nothing.
 class StreamChecker final : public SignalListener {
@@ -25,15 +30,13 @@ class StreamChecker final : public SignalListener {
 
   /// A beat passes: whether its bytes are what receivers expect.
   void pass(std::uint8_t keep, bool last) {
-    if (keep != whole && !last) broken(Rule::stream_keep_gap, "a word with TKEEP ", keep);
+    if (keep != whole_ && !last) broken(Rule::stream_keep_gap, "a word with TKEEP ", keep);
   }
   /// The master drops what it offers now, because it is reset.
   void excuse();
   void finish() const { reports_.finish(); }
 
  private:
-  static constexpr std::uint8_t whole = 0xF;
-
   /// A wire, and what it was before the present instant.
   struct Level {
     std::uint64_t now = 0, before = 0, changed_ps = 0;
@@ -48,6 +51,7 @@ class StreamChecker final : public SignalListener {
   void broken(Rule rule, const char* what, std::uint64_t value);
 
   const Clock& clock_;
+  const std::uint8_t whole_;  ///< TKEEP of a beat with all of its bytes
   const std::vector<Reset> resets_;
   Level levels_[wires];
   std::vector<Level> reset_levels_;

@@ -1,5 +1,6 @@
 // A hand-off as a design: what becomes of each part, and what is said of it.
 #include <chip/block_design/design_file.h>
+#include <chip/block_design/diagram.h>
 #include <chip/block_design/import_design.h>
 #include <boost/test/unit_test.hpp>
 
@@ -86,11 +87,28 @@ BOOST_AUTO_TEST_CASE(devices_for_linux) {
                  "\t\t\tcompatible = \"xlnx,axi-dma-7.1\", \"xlnx,axi-dma-1.00.a\";\n"
                  "\t\t\treg = <0x40400000 0x10000>;\n"
                  "\t\t\tinterrupt-parent = <&intc>;\n"
-                 "\t\t\tinterrupts = <0 29 4 0 30 4>;\n"
+                 "\t\t\t"
+                 "interrupts = <0 29 4 0 30 4>;\n"
                  "\t\t\tinterrupt-names = \"s2mm_introut\", \"mm2s_introut\";\n"
                  "\t\t\tclocks = <&clkc 15>"));
   BOOST_TEST(has(tree, "xlnx,sg-length-width = <0x14>;"));
   BOOST_TEST(has(tree, "own_0: own@43c00000"));
+}
+
+BOOST_AUTO_TEST_CASE(a_picture_of_the_design) {
+  const std::string graph =
+      diagram(parse_design(imported(kit::small_handoff()).text, "design.yaml"));
+  BOOST_TEST(
+      has(graph, "\"axi_gpio_0\" [label=\"axi_gpio_0\\naxi_gpio 2.0\\n0x41200000, 64 KiB\""));
+  BOOST_TEST(has(graph, "\"periph\" -> \"axi_gpio_0\" [penwidth=2]"));
+  BOOST_TEST(has(graph, "\"axi_dma_0\" -> \"axi_dma_0\" [penwidth=3, color=\"#2a6fbb\"]"));
+  BOOST_TEST(has(graph, "\"lines\" -> \"ps\" [color=\"#c0392b\""));
+  BOOST_TEST(has(graph,
+                 "\"own_0\" [label=\"own_0\\n"
+                 "own 1.0\\n0x43C00000, 64 KiB\", "
+                 "fillcolor=\"#cfe8ff\", style=\"filled,dashed\"]"));
+  BOOST_TEST(input_error([&] { write_diagram({}, "x.pdf"); }).find("must end in .svg") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(words_that_yaml_would_take_for_something_else) {

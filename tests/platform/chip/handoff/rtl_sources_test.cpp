@@ -1,0 +1,120 @@
+// RTL of a design's own IP, found in the user's folders.
+#include <chip/block_design/design_file.h>
+#include <chip/block_design/import_design.h>
+#include <chip/handoff/rtl_sources.h>
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "input_error.h"
+#include "small_handoff.h"
+#include "temporary_files.h"
+
+using namespace platform;
+using handoff::RtlFinder;
+using handoff::RtlSources;
+
+namespace {
+
+/// Folders of RTL: `ip` has a packaged IP, `plain` a module and what it instantiates.
+struct Folders : kit::TemporaryFolder {
+  Folders() {
+    write("plain/own.v",
+          "// module other\nmodule own #(parameter WIDTH = 4, DEPTH = 2) (input clk);\n"
+          "  helper h(clk);\nendmodule\n");
+    write("plain/helper.sv", "module helper(input clk);\nendmodule\n");
+    write("plain/unused.v", "module unused;\nendmodule\n");
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(std::filesystem::path(*this / name).parent_path());
+    kit::write_file(*this / name, text);
+  }
+  void write_component(const std::string& revision, const std::string& file) const {
+    const auto tag = [](const std::string& name, const std::string& inside) {
+      return "<spirit:" + name + ">" + inside + "</spirit:" + name + ">";
+    };
+    const std::string view =
+        tag("view", tag("name", "xilinx_verilogsynthesis") + tag("modelName", "own_v1_0") +
+                        tag("fileSetRef", tag("localName", "set")));
+    write("ip/component.xml",
+          "<spirit:component>" + tag("vendor", "me") + tag("library", "user") + tag("name", "own") +
+              tag("version", "1.0") + tag("model", tag("views", view)) +
+              tag("fileSets", tag("fileSet", tag("name", "set") + tag("file", tag("name", file)))) +
+              "<xilinx:coreRevision>" + revision + "</xilinx:coreRevision></spirit:component>");
+  }
+  std::string folder(const std::string& name) const { return *this / name; }
+};
+
+handoff::Module own(const std::string& revision = "") {
+  handoff::Module module;
+  module.instance = "own_0";
+  module.vlnv = "me:user:own:1.0";
+  module.type = "own";
+  module.revision = revision;
+  module.parameters = {{"WIDTH", "0x8"}, {"Component_Name", "x"}, {"OTHER", "3"}};
+  return module;
+}
+
+std::vector<std::string> names(const RtlSources& sources) {
+  std::vector<std::string> list;
+  for (const std::string& file : sources.files)
+    list.push_back(std::filesystem::path(file).filename().string());
+  return list;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(rtl_sources)
+
+BOOST_FIXTURE_TEST_CASE(a_module_by_its_name_with_what_it_instantiates, Folders) {
+  const RtlSources sources = RtlFinder({folder("plain")}).find(own());
+  const Names expected{"own.v", "helper.sv"};
+  BOOST_TEST(sources.top == "own");
+  BOOST_TEST(names(sources) == expected);
+  const Names parameters{"WIDTH=8"};  // of those that the module declares
+  BOOST_TEST(sources.parameters == parameters);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_packaged_ip_by_its_list_of_files, Folders) {
+  write_component("7", "../plain/helper.sv");
+  const RtlSources sources = RtlFinder({folder("ip"), folder("plain")}).find(own("7"));
+  const Names expected{"helper.sv"};
+  BOOST_TEST(sources.top == "own_v1_0");
+  BOOST_TEST(names(sources) == expected);
+}
+
+BOOST_FIXTURE_TEST_CASE(what_does_not_fit_is_said, Folders) {
+  write_component("7", "../plain/helper.sv");
+  const RtlSources other = RtlFinder({folder("ip")}).find(own("8"));
+  BOOST_TEST(other.files.empty());
+  BOOST_TEST(other.why.find("is revision 7 of it, the design has 8") != std::string::npos);
+  write_component("7", "gone.v");
+  BOOST_TEST(RtlFinder({folder("ip")}).find(own("7")).why.find("gone.v', which is missing") !=
+             std::string::npos);
+  std::filesystem::remove_all(folder("plain"));
+  std::filesystem::remove_all(folder("ip"));
+  std::filesystem::create_directory(folder("ip"));
+  BOOST_TEST(RtlFinder({folder("ip")}).find(own()).why ==
+             "no module 'own' and no component.xml of me:user:own:1.0 in the folders of RTL");
+  BOOST_TEST(input_error([&] { RtlFinder({folder("none")}); }).find("no folder '") == 0u);
+}
+
+BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
+  const auto handoff = handoff::read_hwh(kit::small_handoff().text(), "small.hwh");
+  const auto design = block_design::import_design(handoff, RtlFinder({folder("plain")}));
+  BOOST_TEST(design.text.find("    rtl: build/own_0.so\n") != std::string::npos);
+  BOOST_TEST(block_design::parse_design(design.text, "d.yaml").part("own_0")->rtl ==
+             "build/own_0.so");
+  const std::string cmake = block_design::import_cmake("small", design, {});
+  BOOST_TEST(cmake.find("COMPONENTS programs rtl)") != std::string::npos);
+  BOOST_TEST(cmake.find("markervp_add_rtl(own_0 TOP own SOURCES\n  \"") != std::string::npos);
+  BOOST_TEST(cmake.find("PARAMETERS WIDTH=8)") != std::string::npos);
+  BOOST_TEST(block_design::import_report(handoff, design, "").find("| me:user:own:1.0 | RTL |") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
