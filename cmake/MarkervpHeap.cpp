@@ -30,8 +30,8 @@ Head* first_free = nullptr;
 void release(void* block);
 
 unsigned char* heap_first() {
-  return reinterpret_cast<unsigned char*>((reinterpret_cast<std::uintptr_t>(&_end) + page - 1) &
-                                          ~(page - 1));
+  const auto data_end = (reinterpret_cast<std::uintptr_t>(&_end) + page - 1) & ~(page - 1);
+  return reinterpret_cast<unsigned char*>(data_end + MARKERVP_HEAP_GAP);
 }
 
 }  // namespace

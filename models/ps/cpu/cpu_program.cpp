@@ -81,7 +81,8 @@ void Cpu::start_charging() {
   if (const auto [first, end] = stack(); first != 0) {
     constexpr std::size_t page = 4096;
     mprotect(reinterpret_cast<void*>(first), page, PROT_NONE);
-    trap_.use_stack(first, end - first);
+    // A program that writes beyond its frames does not leave the memory at once.
+    trap_.use_stack(first, end - first - vp::FaultTrap::gap);
   }
 }
 
@@ -271,10 +272,11 @@ void Cpu::notice_loop(unsigned before, bool is_empty) {
   loops_ = false;
 }
 
-// Of the innermost calls first: one that cannot return decides.
+// Of the innermost calls first: one that cannot return decides. A program that describes itself is
+// there for images, or ends.
 MachineCode::Reach Cpu::reach() const {
   using Reach = MachineCode::Reach;
-  const MachineCode* const code = program_->code();
+  const MachineCode* const code = program_->charge() ? program_->code() : nullptr;
   if (!code) return Reach::returns;
   for (const std::uintptr_t call : return_addresses()) {
     if (!code->contains(call)) continue;

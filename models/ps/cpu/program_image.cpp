@@ -89,11 +89,12 @@ void* ProgramImage::symbol(const char* name) const {
 // For the constructors of static objects.
 void ProgramImage::reserve_heap(const Span& wanted) {
   if (wanted.second == 0) return;
-  void* const at = reinterpret_cast<void*>(wanted.second);
+  const std::uintptr_t first = wanted.second + MARKERVP_HEAP_GAP;
+  void* const at = reinterpret_cast<void*>(first);
   void* const got = mmap(at, MARKERVP_HEAP_AT_LOAD, PROT_READ | PROT_WRITE,
                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
   if (got == at) {
-    heap_ = {wanted.second, wanted.second + MARKERVP_HEAP_AT_LOAD};
+    heap_ = {first, first + MARKERVP_HEAP_AT_LOAD};
   } else if (got != MAP_FAILED) {
     munmap(got, MARKERVP_HEAP_AT_LOAD);
   }
@@ -129,15 +130,16 @@ void ProgramImage::take_segments() {
 
 // What the constructors took of the heap belongs to the variables.
 void ProgramImage::settle(const Span& wanted) {
+  if (wanted.second != 0 && (bias_ != 0 || heap_.first == 0)) {
+    const std::uintptr_t end = wanted.second + MARKERVP_HEAP_GAP + MARKERVP_HEAP_AT_LOAD;
+    const std::string who = heap_.first == 0 ? occupant(wanted.first, end) : "";
+    throw vp::InputError("program '" + path_ + "' needs the host addresses " +
+                         vp::hex(wanted.first) + " to " + vp::hex(end) + ", which " +
+                         (who.empty() ? "the host refuses" : "are occupied by " + who) +
+                         ": run one program at a time, or make its variables smaller");
+  }
   for (const Span& part : writable_) keep(part.first, part.second);
   if (wanted.second == 0) return;
-  if (bias_ != 0 || heap_.first == 0) {
-    throw vp::InputError(
-        "program '" + path_ + "' needs the host addresses " + vp::hex(wanted.first) + " to " +
-        vp::hex(wanted.second + MARKERVP_HEAP_AT_LOAD) + ", but they are occupied by " +
-        occupant(wanted.first, wanted.second + MARKERVP_HEAP_AT_LOAD) +
-        ": run one program at a time, or make its variables smaller");
-  }
   const auto* const area = static_cast<const markervp_heap_area*>(symbol("markervp_heap"));
   const auto top = area && area->top ? reinterpret_cast<std::uintptr_t>(area->top) : heap_.first;
   if (up(top) < heap_.second) munmap(reinterpret_cast<void*>(up(top)), heap_.second - up(top));

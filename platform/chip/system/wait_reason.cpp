@@ -179,9 +179,22 @@ std::string state_of_channel(const Look& look, const std::string& device,
   return {};
 }
 
-std::string state_of_dma(Zynq& zynq, const Device& device, std::uint32_t polled) {
+/// A channel that the program polls, or, if it polls none, one that is to raise an interrupt.
+bool is_of_interest(Zynq& zynq, const Device& device, bool sends,
+                    std::optional<std::uint32_t> polled) {
   const Look look(zynq, device);
-  const bool sends = polled - device.base < axi_dma::S2MM_DMACR;
+  const std::string control = sends ? "MM2S_DMACR" : "S2MM_DMACR";
+  if (!look.has(control)) return false;
+  if (!polled) {
+    const bool idle = (look[sends ? "MM2S_DMASR" : "S2MM_DMASR"] & axi_dma::dmasr::Idle) != 0;
+    return (look[control] & axi_dma::dmacr::IOC_IrqEn) != 0 && !idle;
+  }
+  const bool here = device.base <= *polled && *polled - device.base < device.size;
+  return here && sends == (*polled - device.base < axi_dma::S2MM_DMACR);
+}
+
+std::string state_of_dma(Zynq& zynq, const Device& device, bool sends) {
+  const Look look(zynq, device);
   bool waits = false;
   const char* stream = "";
   for (xilinx::AxiDma* dma : vp::all_below<xilinx::AxiDma>(zynq.pl())) {
@@ -206,13 +219,9 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Cpu::Wait& 
     if (!reason.empty() && std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
       reasons.push_back(reason);
   };
-  if (wait.polled) {
-    for (const Device& device : map.devices) {
-      const bool here = device.base <= *wait.polled && *wait.polled - device.base < device.size;
-      if (here && Look(zynq, device).has("MM2S_DMACR"))
-        add(state_of_dma(zynq, device, *wait.polled));
-      if (here && Look(zynq, device).has("S2MM_DMACR"))
-        add(state_of_dma(zynq, device, *wait.polled));
+  for (const Device& device : map.devices) {
+    for (const bool sends : {true, false}) {
+      if (is_of_interest(zynq, device, sends, wait.polled)) add(state_of_dma(zynq, device, sends));
     }
   }
   const ps::InterruptLogic& logic = gic.logic();

@@ -15,7 +15,7 @@
 /* Native code, and the HAL below it, takes more stack than the words that a program asks for. */
 enum { context_bytes = 256 * 1024, private_timer_id = 29 };
 
-/* A task that does not run. Its address is what the kernel keeps as the top of the task's stack. */
+/* A task that does not run. The kernel's stack of the task holds nothing but its address. */
 typedef struct context {
   ucontext_t place;
   TaskFunction_t function;
@@ -33,8 +33,13 @@ static UBaseType_t nesting;
 static volatile BaseType_t yields, started;
 static int controller_is_ready;
 
+/* A block of the kernel begins with the top of the task's stack. */
+static context* context_of(void* block) {
+  return **(context***)block;
+}
+
 static context* current(void) {
-  return *(context**)pxCurrentTCB;
+  return context_of(pxCurrentTCB);
 }
 
 static void begin_task(void) {
@@ -48,7 +53,6 @@ static void begin_task(void) {
 
 StackType_t* pxPortInitialiseStack(StackType_t* top, TaskFunction_t function, void* parameters) {
   context* const made = malloc(sizeof *made);
-  (void)top;
   if (made == NULL) abort();
   made->stack = malloc(context_bytes);
   if (made->stack == NULL) abort();
@@ -60,11 +64,12 @@ StackType_t* pxPortInitialiseStack(StackType_t* top, TaskFunction_t function, vo
   made->place.uc_stack.ss_size = context_bytes;
   made->place.uc_link = NULL;
   makecontext(&made->place, begin_task, 0);
-  return (StackType_t*)made;
+  *top = (StackType_t)made;
+  return top;
 }
 
 void vPortCleanUpTask(void* block) {
-  context* const gone = *(context**)block;
+  context* const gone = context_of(block);
   free(gone->stack);
   free(gone);
 }
