@@ -106,7 +106,7 @@ void FrameBench::place(const input::SharedFrame& frame) {
   std::copy(camera.distortion.begin(), camera.distortion.end(), frame_.distortion);
   frame_.lens_model = static_cast<std::uint32_t>(camera.lens_model);
   frame_.light = camera.response.light ? camera.response.light->data() : nullptr;
-  frame_.response = frame_.light != nullptr      ? HAL_RESPONSE_TABLE
+  frame_.response = frame_.light != nullptr     ? HAL_RESPONSE_TABLE
                     : camera.response.is_linear ? HAL_RESPONSE_LINEAR
                                                 : HAL_RESPONSE_UNKNOWN;
 }
