@@ -54,17 +54,18 @@ KERNELS = {
     "board_pose": ["marker_weighings", "markers_weighted", "pose_steps", "board_poses"],
     "pose_filter": ["poses_weighed", "poses_corrected", "poses_predicted", "tracks_begun"],
     "lit_fit": ["lit_crossings", "lit_level_pixels", "lit_level_reads", "lit_strips",
-                "general_lens_steps", "lit_side_fits", "lit_transitions", "lit_passes", "lit_fits"],
-    "inner_edges": ["inner_strips", "inner_edges"],
+                "lens_bends", "lens_angles", "lens_radii", "lens_tangents", "lit_side_fits",
+                "lit_transitions", "lit_passes", "lit_fits"],
+    "inner_edges": ["inner_pixels", "inner_strips", "inner_edges", "inner_cells"],
     "response": ["curves_made"],
-    "outline": ["outline_points", "outline_distances", "outline_samples", "outline_quads"],
+    "outline": ["outline_looks", "outline_points", "outline_distances", "outline_samples",
+                "outline_fitted", "outline_meets", "outline_covers", "outlines"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }
 
 # Units of other kernels that a kernel does, too: their costs are taken off before it is fitted.
-BORROWED = {"code_reading": ["homographies"], "board_pose": ["homographies"],
-            "inner_edges": ["homographies"]}
+BORROWED = {"code_reading": ["homographies"], "board_pose": ["homographies"]}
 # Units that say what memory costs that a DMA engine wrote, with the kernel and its first unit.
 COLD = {"grid_samples_dma": "identification", "crossings_dma": "quad_fit",
         "code_cells_dma": "code_reading"}

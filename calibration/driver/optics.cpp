@@ -4,10 +4,10 @@
 #include <marker/camera.h>
 #include <marker/code_book.h>
 #include <marker/inner_edges.h>
+#include <marker/light_curves.h>
 #include <marker/optics.h>
 #include <marker/optics_fit.h>
 #include <marker/outline.h>
-#include <marker/response.h>
 
 #include <vector>
 
@@ -25,7 +25,8 @@ marker::Optics random_optics(Random& random, const marker::LightTable& light) {
 }
 
 /// A square of the scene as a quadrilateral that was found.
-marker::QuadFit found(const marker::CameraFrame& frame, const marker::Quad& square, Random& random) {
+marker::QuadFit found(const marker::CameraFrame& frame, const marker::Quad& square,
+                      Random& random) {
   marker::Quad corners{square[0], square[1], square[3], square[2]};
   for (marker::Point& p : corners) {
     p.x += 0.4 * (random.unit() - 0.5);
@@ -55,7 +56,11 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
   static marker::LightTable light;
   const double exponent = 1 + 2 * random.unit();
   measure(
-      "response", [&] { marker::fill_light(exponent, light); },
+      "response",
+      [&] {
+        marker::fill_light(exponent, light);
+        marker::work(marker::Work::curves_made, 1);
+      },
       [&] {
         Checksum sum;
         sum.add(light);
@@ -91,8 +96,12 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
         for (const Candidate& c : candidates) add(sum, c.fit);
         return sum;
       });
-  // What was refused has levels, too, so that every picture has edges.
+  // What was refused has levels, too, so that every picture has edges. The lens has costs of its
+  // own.
+  marker::Optics pinhole = optics;
+  pinhole.lens = {optics.lens.camera};
   for (Candidate& c : candidates) {
+    c.frame.optics = &pinhole;
     c.fit.reach = 0.8;
     c.levels = {4000, 50000};
   }

@@ -1,7 +1,6 @@
 #include <marker/code_book.h>
 #include <marker/inner_edges.h>
 #include <marker/optics_frame.h>
-#include <marker/rectification.h>
 #include <marker/work.h>
 
 #include <algorithm>
@@ -24,10 +23,34 @@ constexpr std::uint32_t most_edges = 2 * (max_code_cells + 1) * max_code_cells;
 
 /// An edge between two cells, as the marker's plane has it: half cells from the middle.
 struct Edge {
-  Point from, to;       ///< corners of the part that is looked at, cells from the top left corner
-  bool is_upright;      ///< dark and bright lie beside each other
-  bool dark_first;      ///< the dark cell is on the left, or above
-  double from_middle;   ///< of the marker, in half sides; + if the dark cell is nearer to it
+  Point from, to;      ///< corners of the part that is looked at, cells from the top left corner
+  bool is_upright;     ///< dark and bright lie beside each other
+  bool dark_first;     ///< the dark cell is on the left, or above
+  double from_middle;  ///< of the marker, in half sides; + if the dark cell is nearer to it
+};
+
+/// From a marker's plane, its sides of length 1, to where its four corners are seen (Heckbert
+/// 1989).
+class Plane {
+ public:
+  explicit Plane(const Quad& corners) : origin_(corners[0]) {
+    const Point right = corners[1] - corners[2], down = corners[3] - corners[2];
+    const Point rest = corners[0] - corners[1] + corners[2] - corners[3];
+    const double area = right.x * down.y - down.x * right.y;
+    g_ = (rest.x * down.y - down.x * rest.y) / area;
+    h_ = (right.x * rest.y - rest.x * right.y) / area;
+    across_ = corners[1] - corners[0] + g_ * corners[1];
+    along_ = corners[3] - corners[0] + h_ * corners[3];
+  }
+
+  Point at(Point place) const {
+    const double depth = g_ * place.x + h_ * place.y + 1;
+    return 1 / depth * (place.x * across_ + place.y * along_ + origin_);
+  }
+
+ private:
+  Point origin_, across_, along_;
+  double g_, h_;
 };
 
 /// What one edge shows.
@@ -40,13 +63,7 @@ class InnerEdges {
  public:
   InnerEdges(const CameraFrame& frame, const QuadFit& fit, const LightLevels& levels,
              std::uint64_t word, std::uint32_t cells)
-      : frame_(frame),
-        fit_(fit),
-        levels_(levels),
-        word_(word),
-        cells_(cells),
-        plane_(make_homography({fit.ideal[0], fit.ideal[1], fit.ideal[3], fit.ideal[2]},
-                               cells + 2)) {}
+      : frame_(frame), fit_(fit), levels_(levels), word_(word), cells_(cells), plane_(fit.ideal) {}
 
   InnerShift measure() {
     look_at_all(clear_share);
@@ -55,7 +72,9 @@ class InnerEdges {
       edges_ = 0;
       look_at_all(least_share);
     }
-    work(Work::inner_edges, edges_);
+    work(Work::inner_cells, cells_seen_);
+    work(Work::inner_edges, edges_seen_);
+    work(Work::inner_pixels, pixels_);
     work(Work::inner_strips, strips_);
     if (frame_.in_dma_memory) work(Work::crossings_dma, strips_);
     InnerShift found = solve();
@@ -81,6 +100,7 @@ class InnerEdges {
 
   /// The edge below a cell, or on its right.
   void look_at(std::uint32_t row, std::uint32_t column, bool below) {
+    MARKERVP_COUNT(cells_seen_);
     const bool dark_first = is_black(row, column);
     if (is_black(row + (below ? 1 : 0), column + (below ? 0 : 1)) == dark_first) return;
     const double across = (below ? row : column) + 1.0, along = (below ? column : row) + 0.5;
@@ -92,17 +112,15 @@ class InnerEdges {
     measure_edge({from, to, !below, dark_first, dark_first ? q : -q});
   }
 
-  bool see(Point place, Point& seen) const {
-    Point ideal{};
-    if (!transform(plane_, place, ideal)) return false;
-    seen = distort(frame_.optics->lens, ideal);
-    return true;
+  /// Where the picture shows a place, cells from the top left corner.
+  Point see(Point place) const {
+    return distort(frame_.optics->lens, plane_.at(1.0 / (cells_ + 2) * place));
   }
 
   void measure_edge(const Edge& edge) {
-    Point from{}, to{}, beyond{};
+    MARKERVP_COUNT(edges_seen_);
     const Point step = edge.is_upright ? Point{1, 0} : Point{0, 1};
-    if (!see(edge.from, from) || !see(edge.to, to) || !see(edge.from + step, beyond)) return;
+    const Point from = see(edge.from), to = see(edge.to), beyond = see(edge.from + step);
     const Point span = to - from, cell = beyond - from;
     const double length = std::sqrt(dot(span, span));
     if (!(length > 0)) return;
@@ -151,7 +169,8 @@ class InnerEdges {
     for (std::uint32_t i = begin; i < end; ++i, pixel += by_rows ? 1 : width) {
       sum += frame_.optics->light[*pixel];
     }
-    ++strips_;
+    MARKERVP_COUNT(strips_);
+    MARKERVP_ADD(pixels_, end - begin);
     const double size = end - begin;
     const double dark = (levels_.bright * size - sum) / (levels_.bright - levels_.dark);
     off = dark_first ? begin + dark - middle : middle - (end - dark);
@@ -184,9 +203,10 @@ class InnerEdges {
   const LightLevels& levels_;
   const std::uint64_t word_;
   const std::uint32_t cells_;
-  const Homography plane_;
+  const Plane plane_;
   std::array<Offset, most_edges> offsets_;
-  std::uint32_t edges_ = 0, strips_ = 0;
+  std::uint32_t edges_ = 0;
+  std::uint32_t cells_seen_ = 0, edges_seen_ = 0, strips_ = 0, pixels_ = 0;  ///< work
   double share_ = clear_share;
 };
 

@@ -19,8 +19,9 @@ struct Bent {
   bool valid;             ///< false: beyond the model's pole
 };
 
-/// Brown–Conrady's radial polynomial over another one, tangential terms, thin prism.
-Bent bend(const std::array<double, 12>& k, Point p) {
+/// Brown–Conrady's radial polynomial over another one, tangential terms, thin prism. Not inlined: so
+/// one unit of work says what it costs.
+[[gnu::noinline]] Bent bend(const std::array<double, 12>& k, Point p) {
   const double x2 = p.x * p.x, y2 = p.y * p.y, xy = p.x * p.y, r2 = x2 + y2;
   const double p1 = k[2], p2 = k[3];
   const double above = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
@@ -109,20 +110,27 @@ Point distort(const GeneralLens& lens, Point ideal) {
   if (lens.is_pinhole()) return ideal;
   const Camera& c = lens.camera;
   const Point p{(ideal.x - c.cx) / c.fx, (ideal.y - c.cy) / c.fy};
-  const Point bent = lens.model == LensModel::equidistant ? bend_equidistant(lens.coefficients, p)
-                                                          : bend(lens.coefficients, p).at;
+  const bool is_fisheye = lens.model == LensModel::equidistant;
+  work(is_fisheye ? Work::lens_angles : Work::lens_bends, 1);
+  const Point bent =
+      is_fisheye ? bend_equidistant(lens.coefficients, p) : bend(lens.coefficients, p).at;
   return {bent.x * c.fx + c.cx, bent.y * c.fy + c.cy};
 }
 
-bool undistort(const GeneralLens& lens, Point image, Point& ideal, std::uint32_t& steps) {
+bool undistort(const GeneralLens& lens, Point image, Point& ideal,
+               [[maybe_unused]] std::uint32_t& steps) {
   ideal = image;
   if (lens.is_pinhole()) return true;
   const Camera& c = lens.camera;
   const Point wanted{(image.x - c.cx) / c.fx, (image.y - c.cy) / c.fy};
   Point p{};
-  const bool found = lens.model == LensModel::equidistant
-                         ? straighten_equidistant(lens.coefficients, wanted, p, steps)
-                         : straighten(lens.coefficients, wanted, p, steps);
+  const bool is_fisheye = lens.model == LensModel::equidistant;
+  [[maybe_unused]] std::uint32_t asked = 0;
+  const bool found = is_fisheye ? straighten_equidistant(lens.coefficients, wanted, p, asked)
+                                : straighten(lens.coefficients, wanted, p, asked);
+  work(is_fisheye ? Work::lens_radii : Work::lens_bends, asked);
+  if (is_fisheye) work(Work::lens_tangents, 1);
+  MARKERVP_ADD(steps, asked);
   if (found) ideal = {p.x * c.fx + c.cx, p.y * c.fy + c.cy};
   return found;
 }

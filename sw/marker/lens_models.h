@@ -38,8 +38,8 @@ Point distort(const GeneralLens& lens, Point ideal);
 bool undistort(const GeneralLens& lens, Point image, Point& ideal, std::uint32_t& steps);
 
 /// How the way of ideal points along `direction`, of length 1, grows in the picture: its gradient
-/// around the image of `ideal`, ideal px for one px. Where a fisheye lens squeezes the picture, it is
-/// longer than 1.
+/// around the image of `ideal`, ideal px for one px. Where a fisheye lens squeezes the picture, it
+/// is longer than 1.
 Point gradient(const GeneralLens& lens, Point ideal, Point direction);
 
 }  // namespace marker

@@ -14,9 +14,12 @@ namespace {
 /// behind it. More changes nothing in the corners.
 constexpr std::uint32_t fetch_margin = 10;
 
-/// Of a marker whose outline is no quadrilateral so many cells of the border may be white: what hides
-/// a corner may be bright. Then its word must be exact (measured: nothing false in 335 pictures).
+/// Of a marker whose outline is no quadrilateral so many cells of the border may be white: what
+/// hides a corner may be bright. Then its word must be exact (measured: nothing false in 335
+/// pictures).
 constexpr std::uint32_t hidden_cells = 3;
+/// And the ends of its sides are what hides it, px (measured).
+constexpr double hidden_raggedness = 0.8;
 
 /// The eight directions of Extremes, and of blob_stream's words.
 constexpr std::array<std::array<std::int32_t, 2>, 8> directions = {
@@ -160,12 +163,11 @@ Refusal MarkerDetector::read_blob(const CameraFrame& near, const Extremes& extre
   if (refusal == Refusal::none) {
     refusal = read_marker(near, guess, book_, options_.detection, marker);
   }
-  const bool is_hopeless =
-      refusal == Refusal::none || refusal == Refusal::plain || refusal == Refusal::contrast;
-  if (is_hopeless || !has_outline) return refusal;
+  if (refusal == Refusal::none || refusal == Refusal::plain || !has_outline) return refusal;
   DetectionOptions options = options_.detection;
   options.white_border = std::max(options.white_border, hidden_cells);
   options.exact = true;
+  options.fit.maximum_raggedness = std::max(options.fit.maximum_raggedness, hidden_raggedness);
   const OutlineQuads outline = quads_of_outline(near, extremes[0]);
   for (std::uint32_t i = 0; i < outline.count; ++i) {
     if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {

@@ -116,8 +116,7 @@ CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint3
   }
   work(Work::codes_read, 1);
   work(Work::code_cells, std::uint64_t{side} * side);
-  const Work steps = lens == nullptr ? Work::lens_steps : Work::general_lens_steps;
-  if (!is_pinhole) work(steps, std::uint64_t{3} * side * side);
+  if (!is_pinhole && lens == nullptr) work(Work::lens_steps, std::uint64_t{3} * side * side);
   return look;
 }
 
@@ -200,8 +199,8 @@ Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook&
   const std::uint32_t cells = book.dictionary().cells;
   const QuadFitOptions all = fit_options(options, cells);
   const bool other_lens = has_other_lens(frame);
-  const QuadFit guessed = other_lens ? guess_through_optics(frame, guess, all)
-                                     : guess_quad(frame.lens, guess, all);
+  const QuadFit guessed =
+      other_lens ? guess_through_optics(frame, guess, all) : guess_quad(frame.lens, guess, all);
   if (guessed.refusal != Refusal::none) return guessed.refusal;
   CellLook look = look_at_cells(frame, guessed.ideal, cells);
   if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));

@@ -1,7 +1,7 @@
+#include <marker/light_curves.h>
 #include <marker/optics_fit.h>
 #include <marker/optics_frame.h>
 #include <marker/quad_measure.h>
-#include <marker/response.h>
 #include <marker/work.h>
 
 #include <algorithm>
@@ -37,11 +37,11 @@ void tell([[maybe_unused]] const FitEffort& effort, [[maybe_unused]] bool in_dma
   work(Work::lit_level_reads, effort.level_reads);
   work(Work::lit_level_pixels, effort.level_pixels);
   work(Work::lit_transitions, effort.transitions);
-  if (effort.lens_steps != 0) work(Work::general_lens_steps, effort.lens_steps);
   if (in_dma_memory) work(Work::crossings_dma, effort.crossings);
 }
 
-/// How a corner moves if the side before it moves out by `first` px, and the one behind by `second`.
+/// How a corner moves if the side before it moves out by `first` px, and the one behind by
+/// `second`.
 Point moved(const Side& before, const Side& behind, double first, double second) {
   const Point n = before.outward, m = behind.outward;
   const double determinant = n.x * m.y - n.y * m.x;
@@ -54,7 +54,8 @@ void add_product(std::array<double, 64>& covariance, const std::array<double, 8>
   }
 }
 
-/// Adds what the strips of a side cannot see: a shift that all sides have in common, and one of each.
+/// Adds what the strips of a side cannot see: a shift that all sides have in common, and one of
+/// each.
 void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
   std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
   const double deviation = fit.reach / reach_in_deviations;
@@ -92,7 +93,6 @@ QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
   for (unsigned i = 0; i < 4; ++i) {
     if (!undistort(lens, corners[i], fit.ideal[i], steps)) return fit;
   }
-  if (steps != 0) work(Work::general_lens_steps, steps);
   if (!is_convex_clockwise(fit.ideal)) return fit;
   double pixel = 0;
   for (Side& side : sides_of(fit.ideal, fit.image)) {
@@ -124,7 +124,8 @@ void find_through_optics(const CameraFrame& frame, const QuadFitOptions& options
   tell(effort, frame.in_dma_memory);
 }
 
-LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options, QuadFit& fit) {
+LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options,
+                                  QuadFit& fit) {
   const FunctionScope scope(Function::quad_fit);
   if (fit.refusal != Refusal::none) return {};
   const LitFrame light = lit(frame, frame.optics->light);

@@ -29,6 +29,7 @@ struct LightLevels {
 
 /// The covariance has what all sides share: `Optics::common_shift`. `dark` and `bright` of the fit
 /// stay what was found before.
-LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options, QuadFit& fit);
+LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options,
+                                  QuadFit& fit);
 
 }  // namespace marker

@@ -55,10 +55,14 @@ class Outline {
       cut();
       choose(found);
     }
+    work(Work::outlines, 1);
     work(Work::outline_samples, samples_);
+    work(Work::outline_looks, looks_);
     work(Work::outline_points, count_);
     work(Work::outline_distances, distances_);
-    work(Work::outline_quads, tested_);
+    work(Work::outline_fitted, fitted_);
+    work(Work::outline_meets, meets_);
+    work(Work::outline_covers, covers_);
     return found;
   }
 
@@ -66,11 +70,11 @@ class Outline {
   std::uint8_t pixel(std::int32_t x, std::int32_t y) const {
     return image_.pixels[static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x)];
   }
-  bool is_dark(std::int32_t x, std::int32_t y) const {
-    const bool inside = x >= static_cast<std::int32_t>(part_.left) &&
-                        y >= static_cast<std::int32_t>(part_.top) &&
-                        x < static_cast<std::int32_t>(part_.right) &&
-                        y < static_cast<std::int32_t>(part_.bottom);
+  bool is_dark(std::int32_t x, std::int32_t y) {
+    MARKERVP_COUNT(looks_);
+    const bool inside =
+        x >= static_cast<std::int32_t>(part_.left) && y >= static_cast<std::int32_t>(part_.top) &&
+        x < static_cast<std::int32_t>(part_.right) && y < static_cast<std::int32_t>(part_.bottom);
     return inside && pixel(x, y) <= threshold_;
   }
 
@@ -149,7 +153,7 @@ class Outline {
         which = i;
       }
     }
-    distances_ += end - begin;
+    MARKERVP_ADD(distances_, end - begin);
     return which;
   }
 
@@ -188,15 +192,14 @@ class Outline {
         if (piece_[i].size < piece_[shortest].size) shortest = i;
       }
       if (piece_[shortest].size >= size) return;
-      std::copy(piece_.begin() + shortest + 1, piece_.begin() + pieces_,
-                piece_.begin() + shortest);
+      std::copy(piece_.begin() + shortest + 1, piece_.begin() + pieces_, piece_.begin() + shortest);
       --pieces_;
     }
     piece_[pieces_++] = line_of(begin, size);
   }
 
   /// The line through the inner points, by the main axis of their scatter.
-  Piece line_of(std::uint32_t begin, std::uint32_t size) const {
+  Piece line_of(std::uint32_t begin, std::uint32_t size) {
     const auto skipped = static_cast<std::uint32_t>(size * (1 - inner_share) / 2);
     const std::uint32_t first = begin + skipped, last = begin + size - skipped;
     double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
@@ -208,6 +211,7 @@ class Outline {
       xy += off.x * off.y;
       yy += off.y * off.y;
     }
+    MARKERVP_ADD(fitted_, last - first + 1);
     const double n = last - first + 1;
     xx -= x * x / n;
     xy -= x * y / n;
@@ -225,7 +229,8 @@ class Outline {
   }
 
   /// Where the lines of two pieces meet, if the second turns clockwise from the first.
-  bool meet(const Piece& a, const Piece& b, Point& corner) const {
+  bool meet(const Piece& a, const Piece& b, Point& corner) {
+    MARKERVP_COUNT(meets_);
     const double turn = a.along.x * b.along.y - a.along.y * b.along.x;
     if (!(turn > least_turn)) return false;
     const Point between = b.middle - a.middle;
@@ -239,7 +244,8 @@ class Outline {
     const double begin = dot(from - piece.middle, piece.along);
     const double end = dot(to - piece.middle, piece.along), side = end - begin;
     if (!(side >= least_side)) return -1;
-    if (begin - piece.from > most_overhang * side || piece.to - end > most_overhang * side) return -1;
+    if (begin - piece.from > most_overhang * side || piece.to - end > most_overhang * side)
+      return -1;
     const double covered = std::min(end, piece.to) - std::max(begin, piece.from);
     return covered >= least_cover * side ? std::min(covered / side, 1.0) : -1;
   }
@@ -259,7 +265,7 @@ class Outline {
     for (unsigned i = 0; i < 4; ++i) {
       if (!meet(piece_[which[(i + 3) % 4]], piece_[which[i]], quad[i])) return;
     }
-    ++tested_;
+    MARKERVP_COUNT(covers_);
     for (unsigned i = 0; i < 4; ++i) {
       const double covered = cover(piece_[which[i]], quad[i], quad[(i + 1) % 4]);
       if (covered < 0) return;
@@ -283,7 +289,8 @@ class Outline {
   std::uint32_t count_ = 0;
   std::array<Piece, most_pieces> piece_;
   std::uint32_t pieces_ = 0;
-  std::uint32_t samples_ = 0, distances_ = 0, tested_ = 0;
+  std::uint32_t samples_ = 0;
+  std::uint32_t looks_ = 0, distances_ = 0, fitted_ = 0, meets_ = 0, covers_ = 0;  ///< work
 };
 
 }  // namespace

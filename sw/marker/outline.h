@@ -17,10 +17,10 @@ struct OutlineQuads {
   std::array<Quad, most> quads;
 };
 
-/// For blobs that are no quadrilateral themselves: a marker that something dark touches, or of which
-/// a corner is hidden. Follows the outline of what is dark around `start`, a pixel of the blob, and
-/// looks for four straight pieces of it that make a quadrilateral. A pixel is dark if it is nearer
-/// to the dark of `frame.part` than to its bright.
+/// For blobs that are no quadrilateral themselves: a marker that something dark touches, or of
+/// which a corner is hidden. Follows the outline of what is dark around `start`, a pixel of the
+/// blob, and looks for four straight pieces of it that make a quadrilateral. A pixel is dark if it
+/// is nearer to the dark of `frame.part` than to its bright.
 OutlineQuads quads_of_outline(const CameraFrame& frame, Pixel start);
 
 }  // namespace marker

@@ -88,8 +88,8 @@ double cell_at(const Side& side, const QuadFitOptions& options) {
   return side.height / options.cells;
 }
 
-/// One pass: the sides around `fit.ideal`, and the corners anew. `Frame` says what a pixel is read as
-/// and what the lens is; LitFrame's may squeeze the picture.
+/// One pass: the sides around `fit.ideal`, and the corners anew. `Frame` says what a pixel is read
+/// as and what the lens is; LitFrame's may squeeze the picture.
 template <class Frame>
 Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last, FitEffort& effort,
                 QuadFit& fit) {

@@ -16,15 +16,15 @@ constexpr double least_logarithm = -0.5, most_logarithm = 1.4;
 /// One marker's exponent scatters by this much around the camera's, whatever its edges say: 0.02 of
 /// a transition (measured).
 constexpr double marker_variance = 0.04 * 0.04;
-/// A frame's weight is at most this share of all: a camera whose curve changes is followed within
-/// some 30 frames (decision).
-constexpr double most_weight = 30 / marker_variance;
+/// What is known weighs no more than so many markers: a camera whose curve changes is followed
+/// within 30 frames of ten (decision).
+constexpr double most_weight = 300 / marker_variance;
 /// Looks at a frame: a first one with what is known, and others while the curve still moves.
 constexpr std::uint32_t most_looks = 4;
 /// So much of a change of the logarithm is worth another look: less than 0.01 of a transition.
 constexpr double worth_a_look = 0.015;
-/// Of a marker whose cells are blurred into each other the exponent is off by so much (measured). It
-/// counts where no other has been seen, and only if it says clearly that there is a curve.
+/// Of a marker whose cells are blurred into each other the exponent is off by so much (measured).
+/// It counts where no other has been seen, and only if it says clearly that there is a curve.
 constexpr double vague_variance = 0.25 * 0.25, clear_logarithm = 0.3;
 /// A marker that is farther off than this, in transitions, is not one of this curve: a reflection,
 /// or a shadow.
@@ -34,43 +34,6 @@ constexpr double most_shift = 0.8;
 constexpr double first_scatter = 0.015 * 0.015, first_scatter_markers = 4, remembered_markers = 60;
 
 }  // namespace
-
-const std::uint16_t* linear_light() {
-  static const LightTable table = [] {
-    LightTable linear{};
-    for (std::uint32_t i = 0; i < linear.size(); ++i) linear[i] = static_cast<std::uint16_t>(257 * i);
-    return linear;
-  }();
-  return table.data();
-}
-
-namespace {
-
-/// Light of a level from 0 to 1: `slope` of it up to `knee`, behind it a power.
-template <class Power>
-void fill(double knee, double slope, Power power_of, LightTable& table) {
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    const double level = i / 255.0;
-    const double light = level <= knee ? level * slope : power_of(level);
-    table[i] = static_cast<std::uint16_t>(light * white_light + 0.5);
-  }
-  table[255] = white_light;
-  work(Work::curves_made, 1);
-}
-
-}  // namespace
-
-void fill_light(double exponent, LightTable& table) {
-  fill(0, 0, [&](double level) { return power(level, exponent); }, table);
-}
-
-void fill_srgb_light(LightTable& table) {
-  fill(0.04045, 1 / 12.92, [](double level) { return power((level + 0.055) / 1.055, 2.4); }, table);
-}
-
-void fill_rec709_light(LightTable& table) {
-  fill(0.081, 1 / 4.5, [](double level) { return power((level + 0.099) / 1.099, 1 / 0.45); }, table);
-}
 
 void ResponseFinder::open() {
   logarithm_ = weight_ = 0;
@@ -84,7 +47,12 @@ void ResponseFinder::open() {
 void ResponseFinder::make_table(double logarithm) {
   table_logarithm_ = logarithm;
   exponent_ = exponential(logarithm);
-  fill_light(exponent_, table_);
+  if (logarithm == 0) {
+    std::copy_n(linear_light(), table_.size(), table_.begin());
+  } else {
+    fill_light(exponent_, table_);
+    work(Work::curves_made, 1);
+  }
 }
 
 void ResponseFinder::begin_frame() {
@@ -129,8 +97,8 @@ bool ResponseFinder::end_look() {
   }
   if (!(sum_weight_ > 0)) return false;
   weight_ = before_weight_ + sum_weight_;
-  logarithm_ = std::clamp((before_weight_ * before_ + sum_) / weight_, least_logarithm,
-                          most_logarithm);
+  logarithm_ =
+      std::clamp((before_weight_ * before_ + sum_) / weight_, least_logarithm, most_logarithm);
   const bool is_off = std::abs(logarithm_ - table_logarithm_) > worth_a_look;
   if (is_off) {
     make_table(logarithm_);

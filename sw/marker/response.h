@@ -1,32 +1,19 @@
 #pragma once
 
 #include <marker/inner_edges.h>
+#include <marker/light_curves.h>
 #include <marker/optics.h>
 
 #include <cstdint>
 
 namespace marker {
 
-/// The light of a grey level where levels are light: 255 of them make white_light.
-inline constexpr double grey_level_light = white_light / 255.0;
-
-/// Levels that are light.
-const std::uint16_t* linear_light();
-
-/// Light as the power `exponent` of the grey level, 0.5 to 5.
-void fill_light(double exponent, LightTable& table);
-
-/// Light by a standard's curve, the inverse of its transfer function: IEC 61966-2-1 (sRGB), and
-/// Recommendation ITU-R BT.709.
-void fill_srgb_light(LightTable& table);
-void fill_rec709_light(LightTable& table);
-
-/// What a table leaves of the common shift, deviations of an edge's transition (measured): where the
-/// curve is known, and where nothing is.
+/// What a table leaves of the common shift, deviations of an edge's transition (measured): where
+/// the curve is known, and where nothing is.
 inline constexpr double shift_left = 0.01, unknown_shift = 0.40;
 
-/// Finds the exponent of a camera's response curve from the edges inside markers, over the frames of
-/// a run.
+/// Finds the exponent of a camera's response curve from the edges inside markers, over the frames
+/// of a run.
 class ResponseFinder {
  public:
   /// Begins anew: nothing is known. For static memory.
@@ -59,8 +46,8 @@ class ResponseFinder {
   double scatter_markers_;     ///< how many made it
   double common_shift_;
   // The look under way.
-  double sum_, sum_weight_;      ///< logarithms, weighted
-  double square_, noise_;        ///< of single markers' shifts, and what their edges explain
+  double sum_, sum_weight_;  ///< logarithms, weighted
+  double square_, noise_;    ///< of single markers' shifts, and what their edges explain
   std::uint32_t markers_;
   double vague_, vague_weight_;  ///< logarithms of blurred markers, weighted
   // The frame under way.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 /// How a side is measured, for each kind of pixel and lens: part of side_fit.cpp and of
@@ -57,8 +58,8 @@ struct Strips {
 /// A strip and where its edge is.
 template <class Pixels>
 struct Crossing {
-  Pixels pixels;               ///< of the first pixel that holds the transition
-  std::uint32_t begin, size;   ///< px along the strip
+  Pixels pixels;              ///< of the first pixel that holds the transition
+  std::uint32_t begin, size;  ///< px along the strip
   std::uint32_t line;
   double edge;            ///< px from `begin`
   double along, outward;  ///< px from the side's middle, and from the side
@@ -105,6 +106,7 @@ class Path {
     const double half = reach / side.steepness;
     const Point inside = on_strip(side, 0, side.dark_first ? -half : half);
     const Point span = side.to_seen - side.from_seen;
+    if constexpr (squeezes) reach = half * std::abs(along_strip(side, seen_outward(side)));
     const double from = line_of(side, side.from_seen), to = line_of(side, side.to_seen);
     const double ahead = distance_from(sides[(which + 3) % 4], span, inside, reach);
     const double behind = distance_from(sides[(which + 1) % 4], -1 * span, inside, reach);
@@ -141,6 +143,21 @@ class Path {
   }
 
  private:
+  /// Ways in the picture are then not those of ideal points.
+  static constexpr bool squeezes = !std::is_same_v<AnyLens, Lens>;
+
+  /// As distance_from() a side that looks `outward` in the picture.
+  static double share_before(Point outward, Point span, Point inside, double reach) {
+    const double away = -dot(span, outward);
+    return away > 0 ? (reach + std::max(dot(inside, outward), 0.0)) / away : 1;
+  }
+
+  /// As Side::outward, in the picture.
+  static Point seen_outward(const Side& side) {
+    const Point span = side.to_seen - side.from_seen;
+    return 1 / std::sqrt(dot(span, span)) * Point{span.y, -span.x};
+  }
+
   double at_piece(double line) const {
     const double place = (line - start_) / lines_;
     std::uint32_t piece = place > 0 ? static_cast<std::uint32_t>(place) : 0;
@@ -150,6 +167,7 @@ class Path {
 
   /// The share of a side next to a neighbour that is too near to it; `span` leads away from there.
   static double distance_from(const Side& neighbour, Point span, Point inside, double reach) {
+    if constexpr (squeezes) return share_before(seen_outward(neighbour), span, inside, reach);
     const double away = -dot(span, neighbour.outward);
     if (!(away > 0)) return 1;
     const double nearer = dot(inside, neighbour.outward);
@@ -179,8 +197,7 @@ class Path {
 /// from `least` on.
 template <class Pixels, class Square>
 void read_level(Pixels pixel, std::ptrdiff_t step, std::uint32_t count, std::uint32_t least,
-                std::uint32_t range, Level<Square>& level,
-                [[maybe_unused]] FitEffort& effort) {
+                std::uint32_t range, Level<Square>& level, [[maybe_unused]] FitEffort& effort) {
   if (count == 0) return;
   std::uint32_t sum = 0, last = 0;
   Square squares = 0;
@@ -342,7 +359,11 @@ class SideFit {
 
   /// True if the edge was seen on enough of the side, its ends at the corners left out.
   bool is_covered(std::uint32_t count, const FitPass& pass, const QuadFitOptions& options) const {
-    const double lines = side_.length * side_.steepness - 4 * pass.reach;
+    double lines = side_.length * side_.steepness - 4 * pass.reach;
+    if constexpr (Kind::Frame::may_squeeze) {
+      lines = std::abs(line_of(side_, side_.to_seen) - line_of(side_, side_.from_seen)) -
+              4 * pass.reach / side_.steepness;
+    }
     return count >= least_crossings && count * step_ >= options.minimum_coverage * lines;
   }
 

@@ -85,14 +85,23 @@
   X(lit_level_reads, "such a strip asked for the light beside its edge")                      \
   X(lit_level_pixels, "a pixel beyond a transition read for it")                              \
   X(lit_transitions, "a crossing in light whose blur is measured")                            \
-  X(general_lens_steps, "a point led once through a lens of any model, with its derivatives") \
-  X(inner_edges, "an edge between two cells of a marker laid out")                            \
+  X(lens_bends, "a point led once through a polynomial lens of any model")                    \
+  X(lens_angles, "the angle of a ray, for a fisheye lens")                                    \
+  X(lens_radii, "how far from the axis it is seen, with the slope")                           \
+  X(lens_tangents, "the tangent of an angle")                                                 \
+  X(inner_cells, "two neighbouring cells of a marker: an edge between them?")                 \
+  X(inner_edges, "such an edge laid out in the picture")                                      \
   X(inner_strips, "a strip across one of them")                                               \
+  X(inner_pixels, "a pixel of such a strip")                                                  \
   X(curves_made, "a response curve's table filled")                                           \
+  X(outlines, "a blob's outline looked for, set up and concluded")                            \
   X(outline_samples, "a pixel looked at for what is dark around a blob")                      \
-  X(outline_points, "a pixel of a blob's outline followed")                                   \
+  X(outline_looks, "a neighbour of an outline's pixel: dark?")                                \
+  X(outline_points, "a pixel of the outline followed")                                        \
   X(outline_distances, "one held against a chord")                                            \
-  X(outline_quads, "four pieces of an outline that meet: a quadrilateral?")
+  X(outline_fitted, "one taken into a line")                                                  \
+  X(outline_meets, "two lines: do they meet?")                                                \
+  X(outline_covers, "four pieces that meet: do they cover their sides?")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.

@@ -14,6 +14,7 @@ class Checker {
     for (const Json& frame : json.value("frames", Json::array())) {
       numbers(frame, "energy_mj",
               {"total", "ps", "feature_extraction", "data_bridge", "image_memory", "static"});
+      if (frame.contains("response")) response(frame["response"]);
     }
     if (json.contains("summary")) {
       numbers(json["summary"], "power_w", {"total", "ps", "pl", "static"});
@@ -66,6 +67,12 @@ class Checker {
       if (json.contains(key) && json[key] == name) return;
     }
     problems_.push_back(key + " is missing or unknown");
+  }
+
+  /// Of frames whose levels are not known to be light.
+  void response(const Json& json) {
+    one_of(json, "origin", {"given", "found", "unknown"});
+    if (json.value("origin", "") == "found") number(json, "exponent");
   }
 
   void power(const Json& json) {

@@ -1,4 +1,6 @@
 // Any image: files of many formats, folders, videos, other sizes, with and without a marker.
+#include <cmath>
+
 #include <boost/test/unit_test.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -270,6 +272,31 @@ BOOST_AUTO_TEST_CASE(at_a_rate_an_image_waits_until_it_has_settled) {
   check_marker(frames[1], 0);
   const Json camera = place.result()["camera"];
   BOOST_TEST(camera["dropped"] == 0);
+}
+
+/// A picture's levels are a camera's: what light they stand for is found, unless it is given.
+BOOST_AUTO_TEST_CASE(a_response_curve_is_found_or_given) {
+  Workplace place;
+  cv::Mat picture = scene_picture("z1.0@yaw=30deg");
+  for (auto pixel = picture.begin<std::uint8_t>(); pixel != picture.end<std::uint8_t>(); ++pixel)
+    *pixel = static_cast<std::uint8_t>(std::lround(255 * std::pow(*pixel / 255.0, 1 / 2.2)));
+  write_picture(place / "curved.png", picture);
+  const auto depth_mm = [&](const Arguments& settings, const char* origin) {
+    Arguments arguments{"curved.png", "--design", "improved"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    const Json frame = frames_of(place, arguments)[0];
+    BOOST_TEST_REQUIRE(frame["markers"].size() == 1u);
+    const std::string said =
+        frame.contains("response") ? std::string(frame["response"]["origin"]) : "";
+    BOOST_TEST(said == origin);
+    return 1000 * double(frame["markers"][0]["pose"]["translation_m"][2]);
+  };
+  const Json scene = frames_of(place, {"z1.0@yaw=30deg", "--design", "improved"})[0];
+  BOOST_TEST(!scene.contains("response"), "a scene's levels are light");
+  const double true_mm = 1000 * double(scene["markers"][0]["truth"]["pose"]["translation_m"][2]);
+  BOOST_TEST(std::abs(depth_mm({"--set", "sw.response=linear"}, "") - true_mm) > 1);
+  BOOST_TEST(std::abs(depth_mm({}, "found") - true_mm) < 0.5);
+  BOOST_TEST(std::abs(depth_mm({"--set", "sw.response=exponent"}, "given") - true_mm) < 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(scenes_do_not_settle_unless_behind_an_image) {

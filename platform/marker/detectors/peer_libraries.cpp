@@ -78,7 +78,13 @@ class OpenCvPeer : public Peer {
     points.reserve(corners_px.size());
     for (const PixelPoint& corner : corners_px) points.emplace_back(corner.x, corner.y);
     const cv::Matx33d intrinsic(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-    const std::vector<double> lens(camera.distortion.begin(), camera.distortion.end());
+    std::vector<double> lens(camera.distortion.begin(), camera.distortion.end());
+    if (camera.lens_model == marker::LensModel::equidistant) {
+      // solvePnP() knows no fisheye lens: it gets what a pinhole camera would see.
+      lens.resize(4);
+      cv::fisheye::undistortPoints(points, points, intrinsic, lens, cv::noArray(), intrinsic);
+      lens.clear();
+    }
     cv::Vec3d turn, shift;
     if (!cv::solvePnP(corners, points, intrinsic, lens, turn, shift, false, cv::SOLVEPNP_IPPE))
       return std::nullopt;

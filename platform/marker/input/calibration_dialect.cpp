@@ -147,7 +147,8 @@ Entries from_camchain(Words words) {
   if (!lens || lens->text.empty()) words.refuse("has no '" + camera + ".distortion_model'");
   words.add(word_of("distortion_model", lens->text));
   if (words.has(of_camera("distortioncoeffs")))
-    words.add(list_of("distortion_coefficients", words.numbers(of_camera("distortioncoeffs"), 0, 8)));
+    words.add(
+        list_of("distortion_coefficients", words.numbers(of_camera("distortioncoeffs"), 0, 8)));
   if (words.has(of_camera("resolution")))
     words.add(list_of("resolution", words.numbers(of_camera("resolution"), 2, 2)));
   for (const char* name : {"rostopic", "tcamimu", "tcncnm1", "camoverlaps", "timeshiftcamimu"})
@@ -175,9 +176,8 @@ Entries from_matlab(Words words) {
   Numbers tangential{0, 0};
   if (words.has("tangentialdistortion")) tangential = words.numbers("tangentialdistortion", 2, 2);
   words.add(word_of("distortion_model", "plumb_bob"));
-  words.add(list_of("distortion_coefficients",
-                    {radial[0], radial[1], tangential[0], tangential[1],
-                     radial.size() > 2 ? radial[2] : 0}));
+  words.add(list_of("distortion_coefficients", {radial[0], radial[1], tangential[0], tangential[1],
+                                                radial.size() > 2 ? radial[2] : 0}));
   if (words.has("imagesize")) {
     const Numbers size = words.numbers("imagesize", 2, 2);  // rows first
     words.add(list_of("image_size", {size[1], size[0]}));

@@ -330,7 +330,8 @@ class Reader {
     const std::size_t known = result_.camera.distortion.size();
     if (k.size() > known && !is_zero({k.begin() + static_cast<std::ptrdiff_t>(known), k.end()})) {
       refuse(
-          "has lens distortion of a tilted sensor (tau_x, tau_y), which is not supported: calibrate "
+          "has lens distortion of a tilted sensor (tau_x, tau_y), which is not supported: "
+          "calibrate "
           "without CALIB_TILTED_MODEL");
     }
     constexpr std::size_t brown_conrady = 5;
@@ -454,8 +455,8 @@ bool is_off_centre(const Camera& camera) {
 
 namespace {
 
-/// How far from the axis, at focal length 1, the picture shows a ray: of a fisheye lens by its angle,
-/// else by its tangent. None beyond what the model has.
+/// How far from the axis, at focal length 1, the picture shows a ray: of a fisheye lens by its
+/// angle, else by its tangent. None beyond what the model has.
 std::optional<double> seen_radius(const Camera& camera, double ray) {
   const std::array<double, 12>& k = camera.distortion;
   const double r2 = ray * ray;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include <marker/response.h>
+#include <marker/light_curves.h>
 #include <vp/error.h>
 #include <vp/text.h>
 

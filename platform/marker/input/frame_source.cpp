@@ -298,10 +298,10 @@ class ListedFrames : public FrameSource {
            "has lens distortion, which this design does not correct: poses are off towards the "
            "edges");
     } else if (const auto reach = lens_reach_px(*options_.camera, options_.size)) {
-      const bool is_fisheye =
-          options_.camera->lens_model == marker::LensModel::equidistant;
-      warn(file + (is_fisheye ? "sees farther than 75 degrees off its axis, or folds back"
-                              : "has lens distortion that folds back") +
+      const bool is_fisheye = options_.camera->lens_model == marker::LensModel::equidistant;
+      warn(file +
+           (is_fisheye ? "sees farther than 75 degrees off its axis, or folds back"
+                       : "has lens distortion that folds back") +
            ": no marker is found beyond " + std::to_string(static_cast<int>(*reach)) +
            " px from the middle; calibrate with points up to the corners");
     }

@@ -1,4 +1,5 @@
 #include <apps/improved/frame_optics.h>
+#include <marker/work.h>
 
 #include <algorithm>
 #include <tuple>
@@ -31,7 +32,11 @@ void FrameOptics::open(const OpticsOptions& options) {
   if (options.response == ResponseChoice::srgb) marker::fill_srgb_light(given_);
   if (options.response == ResponseChoice::rec709) marker::fill_rec709_light(given_);
   if (options.response == ResponseChoice::exponent) marker::fill_light(options.exponent, given_);
-  finder_.open();
+  has_sought_ = false;
+  const bool is_table = options.response == ResponseChoice::srgb ||
+                        options.response == ResponseChoice::rec709 ||
+                        options.response == ResponseChoice::exponent;
+  if (is_table) marker::work(marker::Work::curves_made, 1);
 }
 
 /// HAL_RESPONSE_…
@@ -66,11 +71,13 @@ const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
     optics_.common_shift = marker::shift_left;
   }
   if (seeks_) {
+    if (!has_sought_) finder_.open();
+    has_sought_ = true;
     finder_.begin_frame();
     follow_finder();
   }
-  const bool is_plain = frame.lens_model == HAL_LENS_BROWN_CONRADY && options_.tries == Tries::one &&
-                        response == HAL_RESPONSE_LINEAR;
+  const bool is_plain = frame.lens_model == HAL_LENS_BROWN_CONRADY &&
+                        options_.tries == Tries::one && response == HAL_RESPONSE_LINEAR;
   return is_plain ? nullptr : &optics_;
 }
 

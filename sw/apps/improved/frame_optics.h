@@ -18,7 +18,7 @@ enum class Tries : std::uint32_t { one, nearer, outlines };
 
 struct OpticsOptions {
   ResponseChoice response;
-  double exponent;   ///< of ResponseChoice::exponent
+  double exponent;  ///< of ResponseChoice::exponent
   Tries tries;
 };
 
@@ -43,7 +43,8 @@ class FrameOptics {
 
   OpticsOptions options_;
   marker::LightTable given_;  ///< by the options
-  bool seeks_;  ///< in this frame
+  bool seeks_;                ///< in this frame
+  bool has_sought_;           ///< the finder is open
   marker::ResponseUse use_;
   marker::Optics optics_;
   marker::ResponseFinder finder_;

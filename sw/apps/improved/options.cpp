@@ -53,8 +53,7 @@ Options read_options() {
   options.detector.detection.fit.minimum_contrast = value(Option::minimum_contrast);
   options.detector.board = read_board();
   options.optics = {static_cast<ResponseChoice>(whole(Option::response)),
-                    value(Option::response_exponent),
-                    static_cast<Tries>(whole(Option::tries))};
+                    value(Option::response_exponent), static_cast<Tries>(whole(Option::tries))};
   options.overlap = is_on(Option::overlap);
   options.second_core = is_on(Option::second_core);
   options.pose_filter = is_on(Option::pose_filter);

@@ -55,7 +55,10 @@ void FakeCamera::add_image(std::uint32_t width, std::uint32_t height) {
                       381.36,
                       width / 2.0,
                       height / 2.0,
-                      {}});
+                      HAL_LENS_BROWN_CONRADY,
+                      {},
+                      HAL_RESPONSE_LINEAR,
+                      nullptr});
 }
 
 void FakeCamera::Engine::take(const std::uint8_t* data, std::size_t size, std::size_t missing) {

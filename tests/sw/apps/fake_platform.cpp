@@ -63,7 +63,10 @@ void FakePlatform::add_frame(std::uint32_t width, std::uint32_t height) {
                       381.36,
                       width / 2.0,
                       height / 2.0,
-                      {}});
+                      HAL_LENS_BROWN_CONRADY,
+                      {},
+                      HAL_RESPONSE_LINEAR,
+                      nullptr});
 }
 
 void FakePlatform::connect(Engine& engine) {

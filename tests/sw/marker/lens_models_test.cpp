@@ -1,12 +1,19 @@
 #include <marker/angles.h>
 #include <marker/lens_models.h>
+#include <marker/light_curves.h>
+#include <marker/marker_detector.h>
+#include <marker/optics.h>
+#include <marker/scene/pose.h>
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include <boost/test/unit_test.hpp>
 #include <opencv2/calib3d.hpp>
+
+#include "pictures.h"
 
 using marker::GeneralLens;
 using marker::LensModel;
@@ -42,8 +49,8 @@ Point by_opencv(const GeneralLens& lens, Point ideal) {
   const cv::Point3d ray((ideal.x - camera.cx) / camera.fx, (ideal.y - camera.cy) / camera.fy, 1);
   std::vector<cv::Point2d> seen;
   if (lens.model == LensModel::equidistant) {
-    cv::fisheye::projectPoints(std::vector<cv::Point3d>{ray}, seen, cv::Vec3d(), cv::Vec3d(), matrix,
-                               cv::Vec4d(k[0], k[1], k[2], k[3]));
+    cv::fisheye::projectPoints(std::vector<cv::Point3d>{ray}, seen, cv::Vec3d(), cv::Vec3d(),
+                               matrix, cv::Vec4d(k[0], k[1], k[2], k[3]));
   } else {
     cv::projectPoints(std::vector<cv::Point3d>{ray}, cv::Vec3d(), cv::Vec3d(), matrix,
                       std::vector<double>(k.begin(), k.end()), seen);
@@ -53,6 +60,88 @@ Point by_opencv(const GeneralLens& lens, Point ideal) {
 
 double distance(Point a, Point b) {
   return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+const marker::Dictionary& dictionary = *marker::find_dictionary("4x4_250");
+constexpr double side = 0.3;  // m
+
+/// The marker with the ID 7, 0.8 m away, as a lens shows it that far off its axis.
+struct OffAxis {
+  GeneralLens lens;
+  platform::Pose pose;
+  platform::GreyImage image{640, 480, std::vector<std::uint8_t>(640 * 480, 220)};
+
+  OffAxis(const GeneralLens& through, double degrees) : lens(through) {
+    const Eigen::Vector3d to_it = platform::rotation_y(degrees) * Eigen::Vector3d(0, 0, 0.8);
+    pose.rotation =
+        platform::rotation_y(degrees) * platform::rotation_z(13) * platform::rotation_x(8);
+    pose.translation = to_it - pose.rotation * Eigen::Vector3d(side / 2, side / 2, 0);
+    double left = 640, right = 0;
+    for (const Point corner : corners()) {
+      left = std::min(left, corner.x - 10);
+      right = std::max(right, corner.x + 10);
+    }
+    for (int y = 150; y < 330; ++y) {
+      for (int x = std::max(0, static_cast<int>(left)); x < std::min(640.0, right); ++x)
+        image.pixels[static_cast<std::size_t>(y * 640 + x)] = pixel(x, y);
+    }
+  }
+
+  marker::Quad corners() const {
+    marker::Quad seen{};
+    for (unsigned i = 0; i < 4; ++i) {
+      const Eigen::Vector3d place(i == 1 || i == 2 ? side : 0, i >= 2 ? side : 0, 0);
+      const Eigen::Vector3d p = platform::transform(pose, place);
+      const marker::Camera& c = lens.camera;
+      seen[i] = marker::distort(lens, {c.fx * p.x() / p.z() + c.cx, c.fy * p.y() / p.z() + c.cy});
+    }
+    return seen;
+  }
+
+ private:
+  std::uint8_t pixel(int x, int y) const {
+    constexpr int samples = 6;
+    int dark = 0;
+    for (int i = 0; i < samples * samples; ++i) {
+      Point ideal{};
+      std::uint32_t steps = 0;
+      // Whole rows. NOLINTNEXTLINE(bugprone-integer-division)
+      const Point at{x + (i % samples + 0.5) / samples, y + (i / samples + 0.5) / samples};
+      if (marker::undistort(lens, at, ideal, steps) && is_dark(ideal)) ++dark;
+    }
+    return static_cast<std::uint8_t>(220 - 190 * dark / (samples * samples));
+  }
+
+  bool is_dark(Point ideal) const {
+    const Eigen::Vector3d ray((ideal.x - lens.camera.cx) / lens.camera.fx,
+                              (ideal.y - lens.camera.cy) / lens.camera.fy, 1);
+    const Eigen::Vector3d normal = pose.rotation.col(2);
+    const Eigen::Vector3d hit = normal.dot(pose.translation) / normal.dot(ray) * ray;
+    const Eigen::Vector3d place = pose.rotation.transpose() * (hit - pose.translation);
+    const double u = place.x() / side * 6, v = place.y() / side * 6;
+    if (!(u >= 0 && v >= 0 && u < 6 && v < 6)) return false;
+    const int row = static_cast<int>(v) - 1, column = static_cast<int>(u) - 1;
+    if (row < 0 || column < 0 || row > 3 || column > 3) return true;
+    return (dictionary.words[7] >> (15 - row * 4 - column) & 1) != 0;
+  }
+};
+
+std::unique_ptr<marker::Detections> detect(const OffAxis& shown, const GeneralLens& lens) {
+  auto detector = std::make_unique<marker::MarkerDetector>();
+  auto found = std::make_unique<marker::Detections>();
+  marker::DetectorOptions options;
+  options.board.marker_side = side;
+  detector->open(dictionary, options);
+  marker::Optics optics{};
+  optics.lens = lens;
+  optics.light = marker::linear_light();
+  marker::CameraFrame frame{pictures::view(shown.image), {lens.camera}};
+  frame.optics = &optics;
+  const std::vector<std::uint32_t> words = pictures::words_of(pictures::find_blobs(frame.image));
+  detector->find_markers(frame, {words.data(), static_cast<std::uint32_t>(words.size() / 8)},
+                         *found);
+  detector->find_poses(lens.camera, *found);
+  return found;
 }
 
 }  // namespace
@@ -139,6 +228,38 @@ BOOST_AUTO_TEST_CASE(a_gradient_is_that_of_the_way_across) {
       BOOST_TEST(std::abs((way(0.1, 0) - way(-0.1, 0)) / 0.2 - gradient.x) < 1e-3);
       BOOST_TEST(std::abs((way(0, 0.1) - way(0, -0.1)) / 0.2 - gradient.y) < 1e-3);
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(markers_are_found_far_off_the_axis_of_a_fisheye_lens) {
+  const GeneralLens fisheye{
+      {250, 250, 320, 240}, LensModel::equidistant, {-0.02, 0.005, -0.002, 0.0003}};
+  for (const double degrees : {0.0, 40.0, 55.0}) {
+    const OffAxis shown(fisheye, degrees);
+    const auto found = detect(shown, fisheye);
+    BOOST_TEST_REQUIRE(found->count == 1u, degrees << " degrees");
+    const marker::Detection& one = found->markers[0];
+    BOOST_TEST(one.marker.id == 7);
+    const marker::Quad corners = shown.corners();
+    for (unsigned i = 0; i < 4; ++i)
+      BOOST_TEST(distance(one.marker.fit.image[i], corners[i]) < 0.03);
+    for (int i = 0; i < 3; ++i)
+      BOOST_TEST(std::abs(one.pose.best.translation[static_cast<unsigned>(i)] -
+                          shown.pose.translation[i]) < 1e-3);
+  }
+}
+
+/// Four numbers of a fisheye lens in another model's place: no pose that looks like one.
+BOOST_AUTO_TEST_CASE(another_lens_is_not_as_good) {
+  const GeneralLens fisheye{{250, 250, 320, 240}, LensModel::equidistant, {-0.02, 0.005}};
+  GeneralLens other = fisheye;
+  other.model = LensModel::brown_conrady;
+  const OffAxis shown(fisheye, 40);
+  BOOST_TEST(detect(shown, fisheye)->count == 1u);
+  const auto found = detect(shown, other);
+  for (std::uint32_t i = 0; i < found->count; ++i) {
+    const auto& translation = found->markers[i].pose.best.translation;
+    BOOST_TEST(std::abs(translation[2] - shown.pose.translation[2]) > 0.05);
   }
 }
 

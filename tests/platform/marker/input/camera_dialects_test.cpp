@@ -60,7 +60,8 @@ const std::string matlab =
     "601.25]\nPrincipalPoint: [320.5, 240.5]\n";
 
 const std::string orb_slam =
-    "%YAML:1.0\n---\nCamera.type: \"KannalaBrandt8\"\nCamera.fx: 600.5\nCamera.fy: 601.25\nCamera.cx: "
+    "%YAML:1.0\n---\nCamera.type: \"KannalaBrandt8\"\nCamera.fx: 600.5\nCamera.fy: "
+    "601.25\nCamera.cx: "
     "319.5\nCamera.cy: 239.5\nCamera.k1: 0.1\nCamera.k2: -0.2\nCamera.k3: 0.01\nCamera.k4: 0.02\n"
     "Camera.width: 640\nCamera.height: 480\nCamera.fps: 20\n";
 
@@ -83,8 +84,9 @@ BOOST_AUTO_TEST_CASE(lens_models_by_name) {
   check_camera(read(k + size + "fisheye_model: 1\nD: [-0.05, 0.02, -0.03, 0.01]\n"),
                LensModel::equidistant, {-0.05, 0.02, -0.03, 0.01});
   const std::vector<double> rational{0.1, 0, 0, 0, 0, 0.2, 0.01, 0.02};
-  check_camera(read(k + size + "distortion_model: rational_polynomial\nD: [0.1, 0, 0, 0, 0, 0.2, "
-                               "0.01, 0.02]\n"),
+  check_camera(read(k + size +
+                    "distortion_model: rational_polynomial\nD: [0.1, 0, 0, 0, 0, 0.2, "
+                    "0.01, 0.02]\n"),
                LensModel::rational, rational);
   check_camera(read(k + size + "D: [0.1, 0, 0, 0, 0, 0.2, 0.01, 0.02]\n"), LensModel::rational,
                rational);
@@ -103,13 +105,16 @@ BOOST_AUTO_TEST_CASE(files_of_other_programs) {
   check_camera(read(caltech), LensModel::brown_conrady, five);
   check_camera(read(matlab), LensModel::brown_conrady, {0.1, -0.2, 0.01, 0.02, 0});
   check_camera(read(orb_slam), LensModel::equidistant, four);
-  check_camera(read(with(orb_slam, "KannalaBrandt8", "PinHole")), LensModel::brown_conrady,
-               {0.1, -0.2, 0, 0, 0.01});
+  const std::string pinhole =
+      with(with(orb_slam, "KannalaBrandt8", "PinHole"), "Camera.k3: 0.01\nCamera.k4: 0.02\n",
+           "Camera.p1: 0.01\nCamera.p2: 0.02\n");
+  check_camera(read(pinhole), LensModel::brown_conrady, {0.1, -0.2, 0.01, 0.02, 0});
 }
 
 BOOST_AUTO_TEST_CASE(what_they_say_that_is_not_supported) {
   const std::map<std::string, std::string> cases{
-      {with(kalibr, "radtan", "fov"), "'distortion_model: fov': a lens model that is not supported"},
+      {with(kalibr, "radtan", "fov"),
+       "'distortion_model: fov': a lens model that is not supported"},
       {with(kalibr, "radtan", "none"), "has 4 coefficients"},
       {with(kalibr, "pinhole", "omni"), "says 'cam0.camera_model: omni'"},
       {with(kalibr, "pinhole", "ds"), "says 'cam0.camera_model: ds'"},
@@ -126,6 +131,8 @@ BOOST_AUTO_TEST_CASE(what_they_say_that_is_not_supported) {
       {with(matlab, "[0, 601.25, 0]", "[3, 601.25, 0]"), "skewed"},
       {with(matlab, "RadialDistortion: [0.1, -0.2]", "RadialDistortion: [0.1]"),
        "that is not 2 to 3 numbers"},
+      {with(orb_slam, "KannalaBrandt8", "PinHole"),
+       "'Camera.k4', which looks like lens distortion"},
       {with(orb_slam, "KannalaBrandt8", "Rectified"), "says 'Camera.type: Rectified'"},
       {with(orb_slam, "Camera.cy: 239.5\n", ""), "has no 'camera.cy'"},
   };

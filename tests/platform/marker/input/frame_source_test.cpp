@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(the_camera_file_counts_for_pictures_and_scenes) {
   const TemporaryFolder folder;
   cv::imwrite(folder / "p.png", pattern(64, 32));
   InputOptions options = small_frames();
-  options.camera = CalibratedCamera{"c.yaml", {64, 32, 50, 51, 33, 17}, true, {0.1}};
+  options.camera = CalibratedCamera{
+      "c.yaml", {64, 32, 50, 51, 33, 17}, true, marker::LensModel::brown_conrady, {0.1}};
   const auto source = open_inputs({folder / "p.png", "z1.0"}, options);
   BOOST_TEST(source->next()->camera.fy == 51.0);
   const InputFrame scene = *source->next();

@@ -1,0 +1,207 @@
+#include <marker/marker_detector.h>
+#include <marker/optics.h>
+#include <marker/outline.h>
+#include <marker/response.h>
+#include <marker/scene/renderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <boost/test/unit_test.hpp>
+
+#include "pictures.h"
+
+using marker::Pixel;
+using marker::Point;
+
+namespace {
+
+/// A marker, and its picture.
+struct Shown {
+  platform::Scene scene =
+      platform::make_scene("z1.0@distance=1.2m,yaw=20deg,roll=25deg,noise=0,id=7");
+  platform::GreyImage image = platform::render(scene);
+  std::array<platform::PixelPoint, 4> corners = platform::project_marker(scene.camera, scene.pose);
+
+  /// Draws where `covers` says so.
+  void draw(std::uint8_t level, const std::function<bool(double, double)>& covers) {
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        if (covers(x + 0.5, y + 0.5))
+          image.pixels[static_cast<std::size_t>(y * image.width + x)] = level;
+      }
+    }
+  }
+  void draw_disc(std::uint8_t level, double radius) {
+    draw(level, [&](double x, double y) {
+      return std::hypot(x - corners[0].x, y - corners[0].y) < radius;
+    });
+  }
+};
+
+/// What the detector finds if it tries again, or follows outlines, too.
+std::unique_ptr<marker::Detections> detect(const Shown& shown, bool tries_again,
+                                           bool reads_outlines) {
+  auto detector = std::make_unique<marker::MarkerDetector>();
+  auto found = std::make_unique<marker::Detections>();
+  detector->open(*marker::find_dictionary("4x4_250"), {});
+  marker::Optics optics{};
+  optics.lens.camera = pictures::lens_of(shown.scene.camera).camera;
+  optics.light = marker::linear_light();
+  optics.tries_again = tries_again;
+  optics.reads_outlines = reads_outlines;
+  marker::CameraFrame frame{pictures::view(shown.image), {optics.lens.camera}};
+  frame.optics = &optics;
+  const std::vector<std::uint32_t> words = pictures::words_of(pictures::find_blobs(frame.image));
+  detector->find_markers(frame, {words.data(), static_cast<std::uint32_t>(words.size() / 8)},
+                         *found);
+  return found;
+}
+
+/// True if the marker of the scene was found, and nothing else.
+bool is_found(const Shown& shown, const marker::Detections& found, double most_px) {
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    const marker::DetectedMarker& m = found.markers[i].marker;
+    BOOST_TEST(m.id == 7);
+    for (unsigned k = 0; k < 4; ++k) {
+      const Point seen = m.fit.image[k];
+      BOOST_TEST(std::hypot(seen.x - shown.corners[k].x, seen.y - shown.corners[k].y) < most_px);
+    }
+  }
+  return found.count == 1;
+}
+
+marker::CameraFrame frame_of(const platform::GreyImage& image) {
+  return {pictures::view(image), {{400, 400, image.width / 2.0, image.height / 2.0}}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(outline)
+
+BOOST_AUTO_TEST_CASE(a_marker_that_something_touches_is_found) {
+  Shown shown;
+  // A dark bar from the middle of the first side, away from the marker.
+  const Point a{shown.corners[0].x, shown.corners[0].y}, b{shown.corners[1].x, shown.corners[1].y};
+  const Point side = b - a, middle = 0.5 * (a + b);
+  const double length = std::sqrt(marker::dot(side, side));
+  const Point along = (1 / length) * side, out{along.y, -along.x};
+  shown.draw(20, [&](double x, double y) {
+    const Point off = Point{x, y} - middle;
+    const double way = marker::dot(off, out);
+    return way > -1 && way < 0.5 * length && std::abs(marker::dot(off, along)) < 3;
+  });
+  BOOST_TEST(detect(shown, false, false)->count == 0u);
+  BOOST_TEST(detect(shown, true, false)->count == 0u);
+  BOOST_TEST(is_found(shown, *detect(shown, true, true), 0.2));
+}
+
+BOOST_AUTO_TEST_CASE(a_marker_with_a_hidden_corner_is_found) {
+  for (const std::uint8_t level : {20, 229}) {
+    Shown shown;
+    shown.draw_disc(level, 9);
+    BOOST_TEST(is_found(shown, *detect(shown, true, true), 2), "level " << int{level});
+  }
+  Shown shown;
+  shown.draw_disc(20, 45);
+  BOOST_TEST(detect(shown, true, true)->count == 0u, "half of two sides is hidden");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_found_at_once_stays_as_it_is) {
+  const Shown shown;
+  const auto once = detect(shown, false, false), all = detect(shown, true, true);
+  BOOST_TEST_REQUIRE(is_found(shown, *once, 0.05));
+  BOOST_TEST_REQUIRE(is_found(shown, *all, 0.05));
+  for (unsigned k = 0; k < 4; ++k)
+    BOOST_TEST(once->markers[0].marker.fit.image[k].x == all->markers[0].marker.fit.image[k].x);
+}
+
+/// Two markers of 60 px, a few px of paper apart.
+Shown two_markers(int gap) {
+  Shown shown;
+  platform::GreyImage& image = shown.image;
+  std::fill(image.pixels.begin(), image.pixels.end(), 220);
+  const marker::Dictionary& dictionary = *marker::find_dictionary("4x4_250");
+  constexpr int cell = 10, cells = 6;
+  for (int which = 0; which < 2; ++which) {
+    const std::uint64_t word = dictionary.words[7];
+    const int left = 100 + which * (cells * cell + gap);
+    for (int y = 0; y < cells * cell; ++y) {
+      for (int x = 0; x < cells * cell; ++x) {
+        const int row = y / cell - 1, column = x / cell - 1;
+        const bool border = row < 0 || column < 0 || row > 3 || column > 3;
+        if (border || (word >> (15 - row * 4 - column) & 1) != 0)
+          image.pixels[static_cast<std::size_t>((100 + y) * image.width + left + x)] = 30;
+      }
+    }
+  }
+  return shown;
+}
+
+BOOST_AUTO_TEST_CASE(neighbours_two_pixels_away_are_found_at_the_second_try) {
+  BOOST_TEST(detect(two_markers(10), false, false)->count == 2u);
+  const Shown near = two_markers(2);
+  BOOST_TEST(detect(near, false, false)->count == 0u);
+  const auto found = detect(near, true, false);
+  BOOST_TEST_REQUIRE(found->count == 2u);
+  for (unsigned i = 0; i < 2; ++i) {
+    const marker::DetectedMarker& m = found->markers[i].marker;
+    BOOST_TEST(m.id == 7);
+    BOOST_TEST(std::abs(m.fit.image[0].x - (100 + 62 * i)) < 0.1);
+  }
+  BOOST_TEST(detect(two_markers(0), true, false)->count == 0u, "one blob");
+}
+
+BOOST_AUTO_TEST_CASE(a_square_is_in_its_own_outline) {
+  platform::GreyImage image{64, 48, std::vector<std::uint8_t>(64 * 48, 220)};
+  for (int y = 10; y < 30; ++y) {
+    for (int x = 20; x < 44; ++x) image.pixels[static_cast<std::size_t>(y * 64 + x)] = 30;
+  }
+  const marker::OutlineQuads quads = marker::quads_of_outline(frame_of(image), {20, 10});
+  BOOST_TEST_REQUIRE(quads.count == 1u);
+  const marker::Quad corners = {{{20, 10}, {44, 10}, {44, 30}, {20, 30}}};
+  for (const Point& corner : corners) {
+    const bool is_there = std::any_of(quads.quads[0].begin(), quads.quads[0].end(), [&](Point p) {
+      return std::hypot(p.x - corner.x, p.y - corner.y) < 1;
+    });
+    BOOST_TEST(is_there);
+  }
+}
+
+/// Nothing, one pixel, a line, all of it, noise: no quadrilateral, and an end.
+BOOST_AUTO_TEST_CASE(hostile_pictures_end) {
+  const auto quads = [](const platform::GreyImage& image, Pixel start) {
+    return marker::quads_of_outline(frame_of(image), start).count;
+  };
+  platform::GreyImage image{64, 48, std::vector<std::uint8_t>(64 * 48, 220)};
+  BOOST_TEST(quads(image, {5, 5}) == 0u);
+  std::fill(image.pixels.begin(), image.pixels.end(), 10);
+  BOOST_TEST(quads(image, {0, 0}) == 0u);
+  std::fill(image.pixels.begin(), image.pixels.end(), 220);
+  image.pixels[20 * 64 + 30] = 0;
+  BOOST_TEST(quads(image, {30, 20}) == 0u);
+  for (int x = 10; x < 50; ++x) image.pixels[static_cast<std::size_t>(20 * 64 + x)] = 0;
+  BOOST_TEST(quads(image, {10, 20}) == 0u);
+  BOOST_TEST(quads(image, {63, 47}) == 0u);
+  std::mt19937 noise(1);
+  for (int i = 0; i < 50; ++i) {
+    for (std::uint8_t& pixel : image.pixels) pixel = static_cast<std::uint8_t>(noise());
+    const auto x = static_cast<std::int32_t>(noise() % 64),
+               y = static_cast<std::int32_t>(noise() % 48);
+    BOOST_TEST(quads(image, {x, y}) <= marker::OutlineQuads::most);
+  }
+  // A comb whose outline has no room.
+  platform::GreyImage comb{640, 480, std::vector<std::uint8_t>(640 * 480, 220)};
+  for (int y = 10; y < 470; ++y) {
+    for (int x = 10; x < 630; ++x)
+      comb.pixels[static_cast<std::size_t>(y * 640 + x)] = y < 20 || x % 4 < 2 ? 20 : 220;
+  }
+  BOOST_TEST(quads(comb, {10, 10}) == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
