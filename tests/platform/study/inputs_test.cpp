@@ -44,9 +44,11 @@ BOOST_AUTO_TEST_CASE(units_that_bring_nothing) {
   BOOST_TEST(!unit->settles_after(nullptr));
   BOOST_TEST(names_of(*units).size() == 2u);
   BOOST_TEST(study::contents_of({}).empty());
-  BOOST_TEST(contains(complaint([] { study::open_inputs({{"demo"}}); }),
+  BOOST_TEST(contains(complaint([] {
+                        study::open_inputs({{"demo"}, {}});
+                      }),
                       "takes no input: leave out 'demo'"));
-  BOOST_TEST(contains(complaint([] { study::contents_of({{"demo"}}); }), "takes no input"));
+  BOOST_TEST(contains(complaint([] { study::contents_of({{"demo"}, {}}); }), "takes no input"));
 }
 
 BOOST_AUTO_TEST_CASE(files_in_blocks) {
