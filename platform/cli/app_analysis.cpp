@@ -197,7 +197,9 @@ CLI::App* add(CLI::App& trace, TraceCommandOptions& target, const std::string& n
 }
 
 void add_file(CLI::App& command, TraceCommandOptions& target) {
-  command.add_option("TRACE", target.file, "a .vcd or .fst")->type_name("FILE")->required();
+  command.add_option("TRACE", target.file, "a .vcd, .vcd.gz or .fst")
+      ->type_name("FILE")
+      ->required();
   command.add_option("--map", target.map, "other names: lines 'ours = theirs'")->type_name("FILE");
   command
       .add_option("--timescale", target.timescale,

@@ -98,13 +98,13 @@ void TransactionSummary::add(const Transaction& one) {
 }
 
 std::vector<Table> TransactionSummary::tables() const {
-  Table summary{"summary",
-                "Summary (latencies in ns, from the request to the last response)",
-                {"interface", "operation", "transactions", "open", "failed", "with_errors", "beats",
-                 "bytes", "mb_per_s", "most_outstanding", "latency_least_ns", "latency_median_ns",
-                 "latency_mean_ns", "latency_p99_ns", "latency_most_ns"},
-                {},
-                false};
+  Table summary{
+      "summary",
+      "Summary (latencies in ns, from the request to the last response)",
+      {"interface", "operation", "transactions", "open", "failed", "with_errors", "beats", "bytes",
+       "mb_per_s", "outstanding", "least_ns", "median_ns", "mean_ns", "p99_ns", "most_ns"},
+      {},
+      false};
   Table latency{"latency",
                 "Latencies",
                 {"interface", "operation", "unit", "from", "to", "transactions", "share"},
