@@ -27,6 +27,14 @@ def test_board_without_the_eeprom(start):
         board.finish()
 
 
+def test_block_without_a_model_is_named(board):
+    board.attach("ps.i2c0", "eeprom", address=0x50)
+    board.pin(50, level=1)
+    board.pin(51, level=1)
+    with pytest.raises(markervp.Error, match=r"data abort: read of 0xE0008000 \(CAN 0: not modelled\), at"):
+        board.finish()
+
+
 def test_what_there_is_not(board):
     for call, says in [
         (lambda: board.attach("ps.i2c9", "eeprom", address=1), "no I2C controller 'ps.i2c9': choose ps.i2c0, ps.i2c1"),

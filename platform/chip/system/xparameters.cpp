@@ -74,12 +74,13 @@ void define_sdt(Section& out, const Device& device, unsigned number) {
     for (const auto& [option, value] : device.sdt_options)
       out.hex(Section::sdt, name + "_" + option, value);
     for (std::size_t n = 0; n < device.interrupts.size(); ++n) {
-      if (n > 0 && name != device.name) break;
       const std::uint32_t id = device.interrupts[n].second;
-      out.hex(Section::sdt, name + "_INTERRUPTS" + (n == 0 ? "" : "_" + std::to_string(n)),
+      const std::string end = n == 0 ? "" : "_" + std::to_string(n);
+      const bool is_asked_for = n == 0 || name == device.name;
+      out.hex(is_asked_for ? Section::sdt : Section::library, name + "_INTERRUPTS" + end,
               sdt_interrupt(id));
-      out.number(Section::sdt, "FABRIC_" + name + "_INTR" + (n == 0 ? "" : "_" + std::to_string(n)),
-                 id - gic::first_spi);
+      if (!is_asked_for) continue;
+      out.number(Section::sdt, "FABRIC_" + name + "_INTR" + end, id - gic::first_spi);
     }
     if (!device.interrupts.empty())
       out.address(Section::sdt, name + "_INTERRUPT_PARENT", gic::distributor_base);
@@ -140,6 +141,7 @@ std::string Section::text() const {
   add_if("#ifndef SDT", lines_of(classic));
   add_if("#ifdef SDT", lines_of(sdt, false));
   add_if("#if defined SDT || defined MARKERVP_BOTH_FLOWS", lines_of(sdt, true));
+  add_if("#ifdef MARKERVP_BOTH_FLOWS", lines_of(library));
   return text;
 }
 

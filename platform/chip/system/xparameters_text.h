@@ -12,7 +12,8 @@ namespace xparameters {
 /// single flow behind its condition.
 class Section {
  public:
-  enum Flow : unsigned { classic = 1, sdt = 2, both = 3 };
+  /// `library`: what only the sources of the compatibility layer ask for.
+  enum Flow : unsigned { classic = 1, sdt = 2, both = 3, library = 4 };
 
   /// `title`: a comment before it. Names begin with XPAR_, which is added.
   explicit Section(std::string title) : title_(std::move(title)) {}

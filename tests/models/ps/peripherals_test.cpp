@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(ttc_interval_interrupts_each_period) {
       while (look(at + INT_STS_1 + one) == 0) let_pass(clock_ps);
     }
     BOOST_TEST(look(at + INT_STS_1 + one) == 0u, "a read clears");
-    BOOST_TEST(look(at + CNT_VAL_1) == 0u, "its neighbour stands still");
+    BOOST_TEST(look(at + CNT_VAL_1) == 0u, "its neighbour does not count");
     return 0;
   });
   std::vector<std::uint64_t> rises;

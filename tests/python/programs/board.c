@@ -60,5 +60,6 @@ int main(void) {
   Xil_Out32(GPIO(0x40), 1u << 10);
   usleep(10);
   xil_printf("button, loop-back %d\r\n", Xil_In32(GPIO(0x60)) >> 14 & 1);
+  if ((Xil_In32(GPIO(0x64)) >> 19 & 1) != 0) Xil_In32(0xE0008000); /* MIO 51: CAN 0, which has no model */
   return XST_SUCCESS;
 }

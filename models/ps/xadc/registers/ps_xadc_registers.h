@@ -64,7 +64,7 @@ inline constexpr vp::RegisterField cfg_fields[] = {
 };
 inline constexpr vp::RegisterField mctl_fields[] = {
     {"FLUSH", 1u << 0, vp::Access::read_write, "stored"},
-    {"RESET", mctl_RESET, vp::Access::read_write, "1 holds the XADC in reset"},
+    {"RESET", 1u << 4, vp::Access::read_write, "1 holds the XADC in reset"},
 };
 
 inline constexpr vp::RegisterInfo registers[] = {
