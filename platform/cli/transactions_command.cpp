@@ -52,13 +52,15 @@ class Wanted {
   std::optional<trace::TransactionCondition> condition_;
 };
 
-/// A field for people.
+/// A field for people: long data end in "...".
 std::string shown(const TransactionField& field, const Transaction& one,
                   const trace::SurveyedInterface& surveyed) {
   const auto value = field.value(one, surveyed);
-  return value && field.type == TransactionField::Type::time
-             ? vp::format_time(value->number)
-             : trace::field_text(field, one, surveyed);
+  if (value && field.type == TransactionField::Type::time) return vp::format_time(value->number);
+  constexpr std::size_t most = 40;
+  std::string text = trace::field_text(field, one, surveyed);
+  const bool is_long = std::string(field.name) == "data" && text.size() > most;
+  return is_long ? text.substr(0, most - 3) + "..." : text;
 }
 
 /// What a terminal has room for, lined up.
