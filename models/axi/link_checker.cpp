@@ -149,31 +149,27 @@ void LinkChecker::check_stable(const Wires& wires) {
 }
 
 void LinkChecker::check_request(const Address& a, bool read) {
-  const std::string what = text_of(a);
-  const auto report = [&](Rule of_aw, const std::string& text) {
-    broken(read ? vp::on_ar(of_aw) : of_aw, text);
-  };
+  const auto report = [&](Rule of_aw) { broken(read ? vp::on_ar(of_aw) : of_aw, text_of(a)); };
   const std::uint64_t bytes = std::uint64_t{a.beats} * a.beat_bytes();
-  if (a.beat_bytes() > shape_.data_bytes) report(Rule::aw_size, what);
-  if ((a.cache & 0xC) != 0 && (a.cache & 2) == 0)
-    report(Rule::aw_cache, what + " with AxCACHE " + std::to_string(a.cache));
+  if (a.beat_bytes() > shape_.data_bytes) report(Rule::aw_size);
+  if ((a.cache & 0xC) != 0 && (a.cache & 2) == 0) report(Rule::aw_cache);
   if (a.lock && (a.beats > 16 || bytes > 128 || !power_of_two(static_cast<unsigned>(bytes)) ||
                  a.address % bytes != 0))
-    report(Rule::aw_len_lock, "exclusive " + what);
+    report(Rule::aw_len_lock);
   switch (a.burst) {
     case BurstType::incr:
       if (a.address / boundary != (a.address - a.skew() + bytes - 1) / boundary)
-        report(Rule::aw_addr_boundary, what);
+        report(Rule::aw_addr_boundary);
       break;
     case BurstType::wrap:
-      if (a.skew() != 0) report(Rule::aw_addr_wrap_align, what);
-      if (a.beats < 2 || a.beats > 16 || !power_of_two(a.beats)) report(Rule::aw_len_wrap, what);
+      if (a.skew() != 0) report(Rule::aw_addr_wrap_align);
+      if (a.beats < 2 || a.beats > 16 || !power_of_two(a.beats)) report(Rule::aw_len_wrap);
       break;
     case BurstType::fixed:
-      if (a.beats > 16) report(Rule::aw_len_fixed, what);
+      if (a.beats > 16) report(Rule::aw_len_fixed);
       break;
     case BurstType::reserved:
-      report(Rule::aw_burst, what);
+      report(Rule::aw_burst);
       break;
   }
 }
@@ -206,9 +202,8 @@ void LinkChecker::check_write_beat(const WriteChannel& beat) {
   }
   const Address& a = open->address;
   if (open->beats < a.beats && a.beat_bytes() <= shape_.data_bytes) {
-    Strobes lanes = lanes_of(a, open->beats, shape_.data_bytes);
-    for (unsigned lane = shape_.data_bytes; lane < most_data_bytes; ++lane) lanes.set(lane);
-    if ((beat.strobes & ~lanes).any() && !shape_.lite)
+    const Strobes others = bus_lanes_ & ~lanes_of(a, open->beats, shape_.data_bytes);
+    if (!shape_.lite && (beat.strobes & others).any())
       broken(Rule::w_strb, "beat " + std::to_string(open->beats) + " of " + text_of(a));
   }
   ++open->beats;

@@ -4,8 +4,11 @@
 
 #include <simulation.h>
 
+#include <deque>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <axi/link_checker.h>
@@ -95,6 +98,7 @@ struct Bench : kit::Simulation {
   std::ostringstream text;
   vp::ReportRouter reports;
   axi::Wires wires;
+  unsigned left = 1;  ///< of two IDs, the one that is answered last
   axi::LinkChecker checker;
 };
 
@@ -269,6 +273,169 @@ BOOST_FIXTURE_TEST_CASE(exokay_of_axi4_lite, Lite) {
 BOOST_FIXTURE_TEST_CASE(a_read_that_is_open_at_the_end, Bench) {
   ar(request(0x100)), edge();
   BOOST_TEST(broken() == "AXI4_ERR_ALL_DONE_EOS");
+}
+
+namespace {
+
+/// What breaks a rule and no other, on a link of its own.
+struct Breach {
+  const char* rule;
+  std::function<void(Bench&)> act;
+};
+
+/// A request that waits, and changes before it passes.
+Breach changed(const char* rule, bool read, std::function<void(axi::Address&)> change) {
+  return {rule, [read, change = std::move(change)](Bench& b) {
+            axi::Address a = Bench::request(0x100, 2);
+            const auto put = [&](bool ready) { read ? b.ar(a, ready) : b.aw(a, ready); };
+            put(false), b.edge();
+            change(a);
+            put(true), b.edge();
+            for (unsigned i = 0; i < a.beats; ++i) {
+              const bool last = i + 1 == a.beats;
+              read ? b.r(last, Response::okay, a.id) : b.w(last, 0, 1u << (i << a.size & 3));
+              b.edge();
+            }
+            if (!read) b.b(Response::okay, a.id), b.edge();
+          }};
+}
+
+/// A request that is illegal by itself.
+Breach illegal(const char* rule, bool read, const axi::Address& request) {
+  return {rule, [read, request](Bench& b) {
+            if (read) return b.read(request);
+            b.aw(request), b.edge();
+            for (unsigned i = 0; i < request.beats; ++i) {
+              b.w(i + 1 == request.beats, 0, 0), b.edge();
+            }
+            b.b(), b.edge();
+          }};
+}
+
+std::vector<Breach> breaches() {
+  std::vector<Breach> all;
+  const auto names = [](const std::string& name, bool read) {
+    static std::deque<std::string> kept;
+    return kept.emplace_back("AXI4_ERRM_" + std::string(read ? "AR" : "AW") + name).c_str();
+  };
+  for (const bool read : {false, true}) {
+    const auto change = [&](const char* name, std::function<void(axi::Address&)> what) {
+      all.push_back(changed(names(name, read), read, std::move(what)));
+    };
+    change("ADDR_STABLE", [](axi::Address& a) { a.address += 8; });
+    change("ID_STABLE", [](axi::Address& a) { a.id = 1; });
+    change("LEN_STABLE", [](axi::Address& a) { a.beats = 3; });
+    change("SIZE_STABLE", [](axi::Address& a) { a.size = 1; });
+    change("BURST_STABLE", [](axi::Address& a) { a.burst = BurstType::fixed; });
+    change("LOCK_STABLE", [](axi::Address& a) { a.lock = true; });
+    change("CACHE_STABLE", [](axi::Address& a) { a.cache = 3; });
+    change("PROT_STABLE", [](axi::Address& a) { a.prot = 1; });
+    change("QOS_STABLE", [](axi::Address& a) { a.qos = 1; });
+    change("REGION_STABLE", [](axi::Address& a) { a.region = 1; });
+    const auto wrong = [&](const char* name, const axi::Address& a) {
+      all.push_back(illegal(names(name, read), read, a));
+    };
+    wrong("ADDR_BOUNDARY", Bench::request(0xFF8, 4));
+    wrong("ADDR_WRAP_ALIGN", Bench::request(0x102, 4, BurstType::wrap));
+    wrong("LEN_WRAP", Bench::request(0x100, 3, BurstType::wrap));
+    wrong("LEN_FIXED", Bench::request(0x100, 17, BurstType::fixed));
+    wrong("BURST", Bench::request(0x100, 1, BurstType::reserved));
+    wrong("SIZE", Bench::request(0x100, 1, BurstType::incr, 3));
+    axi::Address special = Bench::request(0x100);
+    special.cache = 8;
+    wrong("CACHE", special);
+    special = Bench::request(0x100, 17);
+    special.lock = true;
+    wrong("LEN_LOCK", special);
+    all.push_back({names("VALID_STABLE", read), [read](Bench& b) {
+                     const axi::Address a = Bench::request(0x100);
+                     read ? b.ar(a, false) : b.aw(a, false);
+                     b.edge(), b.edge();
+                   }});
+    all.push_back({names("VALID_RESET", read), [read](Bench& b) {
+                     const axi::Address a = Bench::request(0x100);
+                     b.edge(true);
+                     read ? b.ar(a, false) : b.aw(a, false);
+                     b.edge(true), b.edge();
+                   }});
+  }
+  return all;
+}
+
+/// The same for the other channels: what is offered first and does not pass, and what passes then.
+std::vector<Breach> breaches_of_answers() {
+  const auto after_write = [](std::function<void(Bench&)> first, std::function<void(Bench&)> then) {
+    return [=](Bench& b) {
+      for (unsigned id : {0u, 1u}) {
+        axi::Address a = Bench::request(0x100);
+        a.id = id;
+        b.aw(a), b.w(true), b.edge();
+      }
+      first(b), b.edge();
+      then(b), b.edge();
+      b.b(Response::okay, b.left), b.edge();
+    };
+  };
+  const auto after_read = [](std::function<void(Bench&)> first, std::function<void(Bench&)> then) {
+    return [=](Bench& b) {
+      for (unsigned id : {0u, 1u}) {
+        axi::Address a = Bench::request(0x100);
+        a.id = id;
+        b.ar(a), b.edge();
+      }
+      first(b), b.edge();
+      then(b), b.edge();
+      b.r(true, Response::okay, b.left), b.edge();
+    };
+  };
+  const auto waits_b = [](Bench& b) { b.b(Response::okay, 0, false); };
+  const auto waits_r = [](Bench& b) { b.r(true, Response::okay, 0, false); };
+  return {
+      {"AXI4_ERRS_BID_STABLE",
+       after_write(waits_b, [](Bench& b) { b.b(Response::okay, 1), b.left = 0; })},
+      {"AXI4_ERRS_BRESP_STABLE", after_write(waits_b, [](Bench& b) { b.b(Response::slverr); })},
+      {"AXI4_ERRS_RID_STABLE",
+       after_read(waits_r, [](Bench& b) { b.r(true, Response::okay, 1), b.left = 0; })},
+      {"AXI4_ERRS_RRESP_STABLE",
+       after_read(waits_r, [](Bench& b) { b.r(true, Response::slverr); })},
+      {"AXI4_ERRS_RDATA_STABLE",
+       after_read(waits_r, [](Bench& b) { b.r(true), b.wires.r.data[3] = 1; })},
+      {"AXI4_ERRS_RLAST_STABLE", after_read([](Bench& b) { b.r(false, Response::okay, 0, false); },
+                                            [](Bench& b) { b.r(true); })},
+      {"AXI4_ERRS_RVALID_STABLE",
+       [](Bench& b) {
+         b.ar(Bench::request(0x100)), b.edge();
+         b.r(true, Response::okay, 0, false), b.edge();
+         b.edge();
+         b.r(true), b.edge();
+       }},
+      {"AXI4_ERRS_RVALID_RESET",
+       [](Bench& b) { b.edge(true), b.r(true, Response::okay, 0, false), b.edge(true), b.edge(); }},
+      {"AXI4_ERRM_WVALID_RESET", [](Bench& b) { b.edge(true), b.w(true), b.edge(true), b.edge(); }},
+      {"AXI4_ERRM_WVALID_STABLE", [](Bench& b) { b.w(true, 0, 0xF, false), b.edge(), b.edge(); }},
+      {"AXI4_ERRM_WSTRB_STABLE",
+       [](Bench& b) {
+         b.aw(Bench::request(0x100)), b.w(true, 0, 0x1, false), b.edge();
+         b.w(true, 0, 0x3), b.edge();
+         b.b(), b.edge();
+       }},
+      {"AXI4_ERRM_WLAST_STABLE", [](Bench& b) {
+         b.aw(Bench::request(0x100)), b.w(false, 0, 0xF, false), b.edge();
+         b.w(true), b.edge();
+         b.b(), b.edge();
+       }}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(each_rule_is_broken_alone) {
+  std::vector<Breach> all = breaches();
+  for (Breach& breach : breaches_of_answers()) all.push_back(std::move(breach));
+  for (const Breach& breach : all) {
+    Bench bench;
+    breach.act(bench);
+    BOOST_TEST(bench.broken() == breach.rule);
+  }
 }
 
 BOOST_FIXTURE_TEST_CASE(a_rule_is_warned_of_once_with_its_count, Bench) {
