@@ -76,10 +76,11 @@ class BlockDesign : public sc_core::sc_module, public Design {
   PlPorts& ports_;
   const DesignFile& design_;
   std::string ps_;  ///< the name of the processing system among the parts
+  std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, Placed> placed_;
+  std::vector<std::string> order_;  ///< in which parts were placed: clocks before what they clock
   std::vector<std::string> being_placed_;
   std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
-  std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
   std::deque<sc_core::sc_attribute<unsigned>> beat_bytes_;                  ///< of the streams
   std::deque<vp::AxiStream> streams_;
