@@ -27,7 +27,7 @@ class ExternalInput : public sc_core::sc_module {
   const char* kind() const override { return "ExternalInput"; }
 
   std::unique_ptr<vp::Parameter<std::uint64_t>> level;      ///< null: it is a clock
-  std::unique_ptr<vp::Parameter<std::uint64_t>> frequency;  ///< null: it is none
+  std::unique_ptr<vp::Parameter<std::uint64_t>> frequency;  ///< null: the pin is no clock
   vp::Signal<std::uint64_t> pin;
   std::unique_ptr<vp::Clock> clk;
 };

@@ -44,7 +44,7 @@ struct ExternalPin {
   std::string place;
   unsigned width = 1;
   std::uint64_t level = 0;  ///< of an input
-  std::uint64_t hz = 0;     ///< of an input that is a clock; 0: it is none
+  std::uint64_t hz = 0;     ///< of an input that is a clock; 0: a level
 };
 
 /// A block design as its YAML file describes it.
@@ -58,7 +58,7 @@ struct DesignFile {
   std::vector<AddressSegment> addresses;
   std::vector<ExternalPin> external;
 
-  /// The part of that name; null if there is none.
+  /// The part of that name, or null.
   const PlacedPart* part(const std::string& wanted) const;
   const ExternalPin* pin(const std::string& wanted) const;
 
