@@ -20,7 +20,7 @@ struct AxisBufferBuild {
   std::uint32_t latency = 1;    ///< clocks from a beat in to that beat on offer, at least 1
 };
 
-/// What stands in an AXI4-Stream between two others of one clock: a FIFO (axis_data_fifo), a
+/// A part of an AXI4-Stream between two others of one clock: a FIFO (axis_data_fifo), a
 /// register slice, or a width converter (PG085). Of different widths it joins and splits the bytes
 /// that TKEEP marks, up to TLAST; of equal widths beats pass as they are. A beat a clock.
 class AxisBuffer : public vp::Clocked, public vp::Ip {

@@ -37,7 +37,7 @@ unsigned RegisterStub::Slave::transport_dbg(tlm::tlm_generic_payload& payload) {
 }
 
 RegisterStub::RegisterStub(sc_core::sc_module_name name, vp::Clock& clock, std::string ip)
-    : sc_module(name), Ip(&clock), ip_(std::move(ip)) {}
+    : sc_module(name), Ip(&clock), scheduler_(clock.scheduler()), ip_(std::move(ip)) {}
 
 bool RegisterStub::used() const {
   const bool streamed = std::any_of(sinks_.begin(), sinks_.end(),
@@ -55,6 +55,11 @@ vp::Signal<std::uint64_t>& RegisterStub::output(const std::string& pin) {
     if (known.basename() == pin) return known;
   const vp::HierarchyScope scope(*this);
   return outputs_.emplace_back(pin.c_str(), 64u);
+}
+
+vp::Clock& RegisterStub::add_clock(const std::string& pin, std::uint64_t hertz) {
+  const vp::HierarchyScope scope(*this);
+  return clocks_.emplace_back(pin.c_str(), scheduler_, hertz).clk;
 }
 
 void RegisterStub::take_stream(vp::AxiStream& link, vp::Clock& clock) {

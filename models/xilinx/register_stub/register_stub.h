@@ -52,15 +52,26 @@ class RegisterStub : public sc_core::sc_module, public vp::Ip {
   Slave& add_slave(const std::string& interface);
   /// An output, which stays 0: the same one for every call with its name.
   vp::Signal<std::uint64_t>& output(const std::string& pin);
+  /// A clock that it would make. Call it once for each.
+  vp::Clock& add_clock(const std::string& pin, std::uint64_t hertz);
   /// A stream that ends in it, or begins there; `clock` is that of the other end.
   void take_stream(vp::AxiStream& link, vp::Clock& clock);
   void offer_stream(vp::AxiStream& link, vp::Clock& clock);
 
  private:
+  /// Gives a clock its name.
+  struct Oscillator : sc_core::sc_module {
+    Oscillator(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, std::uint64_t hertz)
+        : sc_module(name), clk("clk", scheduler, hertz) {}
+    vp::Clock clk;
+  };
+
   vp::IpEstimate own_estimate() const override;
   void note(const Slave& slave, std::uint64_t address, bool read);
 
+  vp::ClockScheduler& scheduler_;
   std::string ip_;
+  std::deque<Oscillator> clocks_;
   std::deque<Slave> slaves_;
   std::deque<vp::Signal<std::uint64_t>> outputs_;
   std::deque<vp::StreamSink> sinks_;

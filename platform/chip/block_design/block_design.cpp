@@ -44,7 +44,13 @@ BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const Des
   close_open_ports();
 }
 
-BlockDesign::~BlockDesign() = default;
+// What is clocked goes before its clock.
+BlockDesign::~BlockDesign() {
+  blocked_.clear();
+  silent_.clear();
+  adapters_.clear();
+  for (auto name = order_.rbegin(); name != order_.rend(); ++name) placed_.at(*name).object.reset();
+}
 
 void BlockDesign::refuse(const End& end, const std::string& problem,
                          const std::vector<std::string>& names) const {
@@ -77,6 +83,7 @@ Placed& BlockDesign::placed(const std::string& name) {
                             adapters_};
   Placed made = name == ps_ ? place_processing_system(part) : place_part(placement);
   being_placed_.pop_back();
+  order_.push_back(name);
   return placed_.emplace(name, std::move(made)).first->second;
 }
 

@@ -27,7 +27,7 @@ class ExternalInput : public sc_core::sc_module {
   const char* kind() const override { return "ExternalInput"; }
 
   std::unique_ptr<vp::Parameter<std::uint64_t>> level;      ///< null: it is a clock
-  std::unique_ptr<vp::Parameter<std::uint64_t>> frequency;  ///< null: it is none
+  std::unique_ptr<vp::Parameter<std::uint64_t>> frequency;  ///< null: the pin is no clock
   vp::Signal<std::uint64_t> pin;
   std::unique_ptr<vp::Clock> clk;
 };
@@ -76,10 +76,11 @@ class BlockDesign : public sc_core::sc_module, public Design {
   PlPorts& ports_;
   const DesignFile& design_;
   std::string ps_;  ///< the name of the processing system among the parts
+  std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, Placed> placed_;
+  std::vector<std::string> order_;  ///< in which parts were placed: clocks before what they clock
   std::vector<std::string> being_placed_;
   std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
-  std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
   std::deque<sc_core::sc_attribute<unsigned>> beat_bytes_;                  ///< of the streams
   std::deque<vp::AxiStream> streams_;

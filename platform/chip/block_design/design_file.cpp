@@ -105,6 +105,7 @@ class DesignReader : vp::YamlReader {
                  }},
                 {"rtl", [&](const auto& n) { part.rtl = scalar(n, "rtl"); }},
                 {"parameters", [&](const auto& n) { read_parameters(n, part); }},
+                {"clocks", [&](const auto& n) { read_clocks(n, part); }},
                 {"pins", [&](const auto& n) { part.pins = ends(n, "pins"); }},
                 {"buses", [&](const auto& n) { part.buses = ends(n, "buses"); }}},
                "a part");
@@ -128,6 +129,12 @@ class DesignReader : vp::YamlReader {
   void read_parameters(const YAML::Node& map, PlacedPart& part) const {
     entries(map, "parameters", [&](const std::string& key, const auto&, const auto& value) {
       part.parameters[key] = scalar(value, key);
+    });
+  }
+
+  void read_clocks(const YAML::Node& map, PlacedPart& part) const {
+    entries(map, "clocks", [&](const std::string& key, const auto&, const auto& value) {
+      part.clocks[key] = quantity(value, key, vp::Unit::frequency);
     });
   }
 

@@ -26,8 +26,9 @@ struct PlacedPart {
   std::string rtl;    ///< Verilated RTL in its place, relative to the design's file; "": none
   std::string place;  ///< file and line
   std::map<std::string, std::string> parameters;
-  std::map<std::string, End> pins;   ///< input: what drives it
-  std::map<std::string, End> buses;  ///< slave: its master
+  std::map<std::string, std::uint64_t> clocks;  ///< of a stub: frequency of an output, Hz
+  std::map<std::string, End> pins;              ///< input: what drives it
+  std::map<std::string, End> buses;             ///< slave: its master
 };
 
 /// Where a master sees a slave.
@@ -43,7 +44,7 @@ struct ExternalPin {
   std::string place;
   unsigned width = 1;
   std::uint64_t level = 0;  ///< of an input
-  std::uint64_t hz = 0;     ///< of an input that is a clock; 0: it is none
+  std::uint64_t hz = 0;     ///< of an input that is a clock; 0: a level
 };
 
 /// A block design as its YAML file describes it.
@@ -57,7 +58,7 @@ struct DesignFile {
   std::vector<AddressSegment> addresses;
   std::vector<ExternalPin> external;
 
-  /// The part of that name; null if there is none.
+  /// The part of that name, or null.
   const PlacedPart* part(const std::string& wanted) const;
   const ExternalPin* pin(const std::string& wanted) const;
 

@@ -196,6 +196,7 @@ class Writer {
     if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
     write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
+    if (part.kind == Kind::stub) write_clocks(module);
     write_pins(module);
     write_buses(module);
     result_.parts.push_back(std::move(part));
@@ -239,6 +240,16 @@ class Writer {
     if (list.empty()) return;
     line("    parameters:");
     for (const auto& [name, value] : list) line("      " + yaml(name) + ": " + yaml(value));
+  }
+
+  /// Clocks that a stub would make, and something uses.
+  void write_clocks(const Module& module) {
+    std::string lines;
+    for (const Port& port : module.ports) {
+      if (port.direction == 'O' && port.kind == "clk" && port.hz && !port.signal.empty())
+        lines += "      " + yaml(port.name) + ": " + hertz(*port.hz) + "\n";
+    }
+    if (!lines.empty()) result_.text += "    clocks:\n" + lines;
   }
 
   /// Inputs that are driven, but those of buses.

@@ -50,7 +50,8 @@ vp::Clock& Placement::clock(const std::vector<std::string>& pins) const {
     found = clock;
     of = pin;
   }
-  if (!found) refuse("none of its clock pins is driven: " + vp::one_of(pins));
+  if (!found)
+    refuse("none of its clock pins is driven by a clock of a known frequency: " + vp::one_of(pins));
   return *found;
 }
 
@@ -365,6 +366,7 @@ Placed place_stub(const Placement& at) {
   auto stub = std::make_unique<xilinx::RegisterStub>(at.part.name.c_str(), own, at.part.vlnv);
   Placed placed;
   xilinx::RegisterStub* stand_in = stub.get();
+  for (const auto& [pin, hertz] : at.part.clocks) placed.clocks[pin] = &stub->add_clock(pin, hertz);
   placed.any_output = [stand_in](const std::string& pin) -> vp::SignalBase* {
     return &stand_in->output(pin);
   };

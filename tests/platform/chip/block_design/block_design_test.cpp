@@ -10,6 +10,7 @@
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/fabric_clock/fabric_clock.h>
+#include <xilinx/proc_sys_reset/proc_sys_reset.h>
 #include <boost/test/unit_test.hpp>
 
 #include <memory>
@@ -115,6 +116,23 @@ BOOST_AUTO_TEST_CASE(each_of_them_can_be_set) {
   sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
   BOOST_TEST(chip.zynq->peek(0x4130'0000).value_or(0) == 9u);
   BOOST_TEST(!chip.zynq->peek(0x4120'0000).has_value());
+}
+
+BOOST_AUTO_TEST_CASE(a_stub_makes_the_clocks_that_it_is_said_to_make) {
+  const std::string text = replaced(replaced(small_design(), "      slowest_sync_clk: ps.FCLK_CLK0",
+                                             "      slowest_sync_clk: own_0.clk_out"),
+                                    "    ip: me:user:own:1.0\n",
+                                    "    ip: me:user:own:1.0\n    clocks: {clk_out: 12.288 MHz}\n");
+  {
+    Built chip(text);
+    BOOST_TEST(chip.part<xilinx::ProcSysReset>("rst_0").clock().frequency_hz() == 12'288'000u);
+  }
+  const std::string error = input_error(
+      [&] { const Built other(replaced(text, "    clocks: {clk_out: 12.288 MHz}\n", "")); });
+  BOOST_TEST(
+      error.find("rst_0: none of its clock pins is driven by a clock of a known frequency") !=
+          std::string::npos,
+      error);
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {

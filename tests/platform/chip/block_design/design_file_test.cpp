@@ -70,9 +70,10 @@ BOOST_AUTO_TEST_CASE(a_slave_in_two_places) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_have_line_and_nearest_name) {
-  BOOST_TEST(error_with("ip: xilinx.com:ip:axi_gpio", "pi: xilinx.com:ip:axi_gpio") ==
-             "d.yaml:9: unknown key 'pi' of a part: did you mean 'ip'? there are as, buses, ip, "
-             "parameters, pins, rtl");
+  BOOST_TEST(
+      error_with("ip: xilinx.com:ip:axi_gpio", "pi: xilinx.com:ip:axi_gpio") ==
+      "d.yaml:9: unknown key 'pi' of a part: did you mean 'ip'? there are as, buses, clocks, ip, "
+      "parameters, pins, rtl");
   BOOST_TEST(error_with("C_GPIO_WIDTH", "C_GPIO_WIDHT") ==
              "d.yaml:11: axi_gpio has no parameter 'C_GPIO_WIDHT' that matters: did you mean "
              "'C_GPIO_WIDTH'?");

@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(archives_that_are_no_archives) {
   const std::string whole = vp::read_text(path, "zip", 1 << 26);
   for (std::size_t size = 4; size < whole.size(); size += whole.size() / 5) {
     vp::write_file(path, whole.substr(0, size));
-    BOOST_TEST(error().find("is a damaged archive") != std::string::npos);
+    BOOST_TEST(error().find("damaged") != std::string::npos, error());
   }
   std::string flipped = whole;
   flipped[whole.size() / 3] = static_cast<char>(flipped[whole.size() / 3] ^ 0x55);
