@@ -1,4 +1,5 @@
 // The program's own code: how it is called, what it does without the HAL, and how it fails.
+#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <sys/mman.h>
 #include <vp/error.h>

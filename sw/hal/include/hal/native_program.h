@@ -41,8 +41,8 @@ void markervp_charge_spent(void);
 }
 #endif
 
-/** Between static data and heap: the host's kernel asks for so much room behind a large file that it
- * maps at given addresses, for huge pages. */
+/** Between static data and heap: the host's kernel asks for so much room behind a large file that
+ * it maps at given addresses, for huge pages. */
 #define MARKERVP_HEAP_GAP 0x00210000u
 
 #endif
