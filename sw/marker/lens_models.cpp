@@ -19,8 +19,8 @@ struct Bent {
   bool valid;             ///< false: beyond the model's pole
 };
 
-/// Brown–Conrady's radial polynomial over another one, tangential terms, thin prism. Not inlined: so
-/// one unit of work says what it costs.
+/// Brown–Conrady's radial polynomial over another one, tangential terms, thin prism. Not inlined:
+/// so one unit of work says what it costs.
 [[gnu::noinline]] Bent bend(const std::array<double, 12>& k, Point p) {
   const double x2 = p.x * p.x, y2 = p.y * p.y, xy = p.x * p.y, r2 = x2 + y2;
   const double p1 = k[2], p2 = k[3];

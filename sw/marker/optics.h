@@ -35,7 +35,7 @@ using LightTable = std::array<std::uint16_t, 256>;
 /// What a picture needs beyond a pinhole or Brown–Conrady's lens and levels that are light.
 struct Optics {
   GeneralLens lens;
-  const std::uint16_t* light = nullptr;  ///< of each grey level; nullptr: the levels are light
+  const std::uint16_t* light = nullptr;  ///< a LightTable; linear_light() where levels are light
   /// Edges between dark and bright may all be shifted towards one of them by this deviation, in
   /// deviations of their transition.
   double common_shift = 0;

@@ -19,6 +19,8 @@ constexpr double marker_variance = 0.04 * 0.04;
 /// What is known weighs no more than so many markers: a camera whose curve changes is followed
 /// within 30 frames of ten (decision).
 constexpr double most_weight = 300 / marker_variance;
+/// A logarithm known to 0.01 shifts no edge by more than 0.005 of its transition.
+constexpr double settled_weight = 1 / (0.01 * 0.01);
 /// Looks at a frame: a first one with what is known, and others while the curve still moves.
 constexpr std::uint32_t most_looks = 4;
 /// So much of a change of the logarithm is worth another look: less than 0.01 of a transition.
@@ -53,6 +55,10 @@ void ResponseFinder::make_table(double logarithm) {
     fill_light(exponent_, table_);
     work(Work::curves_made, 1);
   }
+}
+
+bool ResponseFinder::is_settled() const {
+  return weight_ > settled_weight;
 }
 
 void ResponseFinder::begin_frame() {

@@ -28,6 +28,9 @@ class ResponseFinder {
   /// 1 while nothing is known.
   double exponent() const { return exponent_; }
 
+  /// True if so much was seen that single frames change little.
+  bool is_settled() const;
+
   /// Begins a frame.
   void begin_frame();
   /// A marker of the frame, looked at with light().

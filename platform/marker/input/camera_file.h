@@ -21,8 +21,8 @@ struct CalibratedCamera {
   std::vector<std::string> oddities = {};
 };
 
-/// Reads a camera calibration: an OpenCV FileStorage (YAML, XML or JSON), a ROS camera_info YAML, or
-/// a file that calibration_dialect.h knows. Lens models by name: plumb_bob (Brown-Conrady),
+/// Reads a camera calibration: an OpenCV FileStorage (YAML, XML or JSON), a ROS camera_info YAML,
+/// or a file that calibration_dialect.h knows. Lens models by name: plumb_bob (Brown-Conrady),
 /// rational_polynomial, with or without a thin prism, and equidistant (OpenCV's fisheye).
 /// Known names, in any upper and lower case, with or without underscores: `camera_matrix` or `K`
 /// (3x3), `distortion_coefficients`, `dist_coeffs` or `D`, `image_width` and `image_height` or

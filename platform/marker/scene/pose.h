@@ -3,8 +3,8 @@
 #include <array>
 #include <memory>
 
-#include <Eigen/Core>
 #include <marker/optics.h>
+#include <Eigen/Core>
 
 namespace platform {
 

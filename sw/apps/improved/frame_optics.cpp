@@ -7,6 +7,9 @@
 namespace improved {
 namespace {
 
+/// Once the curve is settled, one frame of so many is asked for it: the edges inside markers take
+/// time (decision).
+constexpr std::uint32_t settled_frames = 8;
 constexpr std::uint32_t coefficients = sizeof hal_frame::distortion / sizeof(double);
 static_assert(coefficients == std::tuple_size_v<decltype(marker::GeneralLens::coefficients)>);
 static_assert(HAL_LENS_BROWN_CONRADY ==
@@ -33,6 +36,7 @@ void FrameOptics::open(const OpticsOptions& options) {
   if (options.response == ResponseChoice::rec709) marker::fill_rec709_light(given_);
   if (options.response == ResponseChoice::exponent) marker::fill_light(options.exponent, given_);
   has_sought_ = false;
+  frames_ = 0;
   const bool is_table = options.response == ResponseChoice::srgb ||
                         options.response == ResponseChoice::rec709 ||
                         options.response == ResponseChoice::exponent;
@@ -55,7 +59,7 @@ std::uint32_t FrameOptics::response_of(const hal_frame& frame) const {
 
 const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
   const std::uint32_t response = response_of(frame);
-  seeks_ = response == HAL_RESPONSE_UNKNOWN;
+  learns_ = false;
   use_ = {response != HAL_RESPONSE_LINEAR, marker::ResponseOrigin::given, 0};
   if (options_.response == ResponseChoice::exponent) use_.exponent = options_.exponent;
   optics_ = {};
@@ -64,16 +68,17 @@ const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
   std::copy_n(frame.distortion, coefficients, optics_.lens.coefficients.begin());
   optics_.tries_again = options_.tries != Tries::one;
   optics_.reads_outlines = options_.tries == Tries::outlines;
-  optics_.seeks_response = seeks_;
   optics_.light = marker::linear_light();
   if (response == HAL_RESPONSE_TABLE) {
     optics_.light = options_.response == ResponseChoice::camera ? frame.light : given_.data();
     optics_.common_shift = marker::shift_left;
   }
-  if (seeks_) {
+  if (response == HAL_RESPONSE_UNKNOWN) {
     if (!has_sought_) finder_.open();
     has_sought_ = true;
-    finder_.begin_frame();
+    learns_ = !finder_.is_settled() || frames_ % settled_frames == 0;
+    ++frames_;
+    if (learns_) finder_.begin_frame();
     follow_finder();
   }
   const bool is_plain = frame.lens_model == HAL_LENS_BROWN_CONRADY &&
@@ -83,7 +88,7 @@ const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
 
 bool FrameOptics::learn(marker::Detections& found) {
   found.response = use_;
-  if (!seeks_) return false;
+  if (!learns_) return false;
   for (std::uint32_t i = 0; i < found.count; ++i) finder_.add(found.markers[i].marker.inner);
   const bool look_again = finder_.end_look();
   if (look_again) {
@@ -94,6 +99,7 @@ bool FrameOptics::learn(marker::Detections& found) {
 }
 
 void FrameOptics::follow_finder() {
+  optics_.seeks_response = learns_;
   optics_.light = finder_.light();
   optics_.common_shift = finder_.common_shift();
   const bool is_found = finder_.origin() == marker::ResponseOrigin::found;

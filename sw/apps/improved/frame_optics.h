@@ -43,8 +43,9 @@ class FrameOptics {
 
   OpticsOptions options_;
   marker::LightTable given_;  ///< by the options
-  bool seeks_;                ///< in this frame
+  bool learns_;               ///< in this frame
   bool has_sought_;           ///< the finder is open
+  std::uint32_t frames_;      ///< for which it was
   marker::ResponseUse use_;
   marker::Optics optics_;
   marker::ResponseFinder finder_;

@@ -204,12 +204,14 @@ BOOST_AUTO_TEST_CASE(the_curve_is_the_mean_over_markers_and_frames) {
   BOOST_TEST(!finder->end_look(), "the curve holds");
   const double first = finder->common_shift();
   BOOST_TEST(first < 0.05);
+  BOOST_TEST(!finder->is_settled(), "one marker");
   for (int frame = 0; frame < 20; ++frame) {
     finder->begin_frame();
     for (int i = 0; i < 5; ++i) finder->add(straight);
     BOOST_TEST(!finder->end_look());
   }
   BOOST_TEST(finder->common_shift() < first);
+  BOOST_TEST(finder->is_settled());
   // Markers that differ: no curve does that.
   for (int frame = 0; frame < 5; ++frame) {
     finder->begin_frame();
