@@ -13,6 +13,7 @@
 
 extern "C" {
 void __libc_free(void* block);
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
 void* __libc_realloc(void* block, std::size_t bytes);
 extern char _end __attribute__((visibility("hidden")));  // of the program's static data
 }
@@ -44,6 +45,11 @@ void prepare() {
   if (markervp_heap.first != nullptr) return;
   markervp_heap.first = markervp_heap.top = heap_first();
   if (markervp_heap.end == nullptr) markervp_heap.end = markervp_heap.first + MARKERVP_HEAP_AT_LOAD;
+}
+
+/// The DDR is gone, and the heap in it. What still runs writes the counters of gcov.
+bool is_closed() {
+  return markervp_heap.end < markervp_heap.first;
 }
 
 Head* head_of(void* block) {
@@ -101,6 +107,7 @@ Head* take(std::size_t bytes) {
 
 void* allocate(std::size_t size, std::size_t alignment) {
   prepare();
+  if (is_closed()) return __libc_memalign(alignment, size);
   if (size > ~std::uint32_t{0} || alignment > ~std::uint32_t{0}) return nullptr;
   const std::size_t bytes = (size + grain - 1) / grain * grain + (size == 0 ? 2 : 1) * grain;
   if (alignment <= grain) {
@@ -127,7 +134,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
 void release(void* block) {
   if (block == nullptr) return;
   if (!is_own(block)) return __libc_free(block);  // of the C library
-  put(head_of(block));
+  if (!is_closed()) put(head_of(block));
 }
 
 void* allocate_or_throw(std::size_t size, std::size_t alignment) {

@@ -8,7 +8,7 @@ namespace platform::study {
 
 namespace {
 
-constexpr std::size_t most_bands = 8;  ///< of one figure: each doubles the corners to look at
+constexpr std::size_t most_bands = 8;  ///< of one figure: each doubles what is looked at
 constexpr const char* middle = ".nominal";
 
 using Figures = std::vector<std::vector<double>>;
@@ -56,11 +56,11 @@ std::optional<Span> span_in(const ResultRow& row, const vp::Expression& figure) 
   }
   if (banded.size() > most_bands) return std::nullopt;
   Span span{*nominal, *nominal};
-  for (std::size_t corner = 0; !banded.empty() && corner < 1u << banded.size(); ++corner) {
+  for (std::size_t ends = 0; !banded.empty() && ends < 1u << banded.size(); ++ends) {
     const vp::ExpressionValue value = figure.value([&](const std::string& name) {
       const auto place = std::find(banded.begin(), banded.end(), name);
       if (place == banded.end()) return value_in(row, name);
-      const bool is_high = corner >> (place - banded.begin()) & 1u;
+      const bool is_high = ends >> (place - banded.begin()) & 1u;
       return value_in(row, band_of(name)[is_high ? 1 : 0]);
     });
     if (!value.known) return std::nullopt;

@@ -163,8 +163,9 @@ BOOST_AUTO_TEST_CASE(the_range_of_the_ddr_is_occupied) {
   const kit::Outcome outcome = installed.run(
       "/usr/bin/env",
       {"LD_PRELOAD=" + file("occupant"), installed / "bin/markervp", "run", "--output", "never"});
-  check_refused(outcome, {"ps.ddr (DDR) needs the host addresses 0x00100000 to 0x20000000",
-                          "occupied by " + file("occupant") + " at 0x10000000 to 0x10001000"});
+  check_refused(outcome,
+                {"ps.ddr (DDR) needs the host addresses 0x001", " to 0x20000000, but they are ",
+                 "occupied by " + file("occupant") + " at 0x10000000 to 0x10001000"});
   BOOST_TEST(!std::filesystem::exists(installed.beside("never")));
 }
 

@@ -93,6 +93,10 @@ void hal_cache_invalidate(void* data, std::size_t size) {
   state().invalidated.emplace_back(data, size);
 }
 
+void hal_cache_all(hal_cache_whole operation) {
+  state().whole_cache_operations.push_back(operation);
+}
+
 hal_dma_buffer hal_dma_allocate(std::size_t size, std::size_t alignment) {
   if (state().out_of_memory) return {nullptr, 0, size};
   const auto mask = static_cast<std::uint32_t>(alignment - 1);

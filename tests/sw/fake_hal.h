@@ -48,6 +48,7 @@ struct State {
   std::map<std::uint32_t, std::vector<std::uint8_t>> buffers;  ///< by bus address
   bool out_of_memory = false;
   std::vector<std::pair<const void*, std::size_t>> flushed, invalidated;
+  std::vector<hal_cache_whole> whole_cache_operations;
 
   // Test bench.
   std::vector<hal_frame> frames;

@@ -89,7 +89,7 @@ void Cpu::start_charging() {
 
 std::pair<std::uintptr_t, std::uintptr_t> Cpu::stack() const {
   const std::uintptr_t end = cores_->all.front()->stack_end_;
-  if (end == 0 || !program_ || program_->end() == 0) return {0, 0};
+  if (end == 0 || !program_ || program_->end() == 0 || program_->is_sanitized()) return {0, 0};
   const std::uintptr_t top = end - number_ * settings_.stack_size;
   return {top - settings_.stack_size, top};
 }
@@ -273,8 +273,8 @@ void Cpu::notice_loop(unsigned before, bool is_empty) {
   loops_ = false;
 }
 
-// Of the innermost calls first: one that cannot return decides. A program that describes itself is
-// there for images, or ends.
+// Of the innermost calls first: one that cannot return decides. A program that describes itself
+// works on inputs, or ends.
 MachineCode::Reach Cpu::reach() const {
   using Reach = MachineCode::Reach;
   const MachineCode* const code = program_->charge() ? program_->code() : nullptr;

@@ -234,7 +234,8 @@ class SharedObject {
   explicit SharedObject(const std::string& path)
       : wanted_(ProgramImage::wanted_by(path)),
         image_(path),
-        may_start_core_(needs_symbol(path, "hal_cpu_start")) {
+        may_start_core_(needs_symbol(path, "hal_cpu_start")),
+        is_sanitized_(needs_symbol(path, "__asan_init")) {
     const auto* const area =
         static_cast<const markervp_charge_area*>(image_.symbol("markervp_charge"));
     if (area && image_.code()) charge_.emplace(*area, *image_.code());
@@ -254,6 +255,7 @@ class SharedObject {
   const ProgramImage& image() const { return image_; }
   CodeCharge* charge() { return charge_ ? &*charge_ : nullptr; }
   bool may_start_core() const { return may_start_core_; }
+  bool is_sanitized() const { return is_sanitized_; }
   void (*boot() const)(void) {
     return reinterpret_cast<void (*)(void)>(image_.symbol("markervp_boot"));
   }
@@ -272,7 +274,10 @@ class SharedObject {
   bool write_coverage() const {
     using Dump = void (*)();
     const auto dump = reinterpret_cast<Dump>(image_.symbol("__gcov_dump"));
-    if (dump) dump();
+    if (dump) {
+      image_.close_heap();
+      dump();
+    }
     return dump != nullptr;
   }
 
@@ -282,6 +287,7 @@ class SharedObject {
   ProgramImage image_;
   std::optional<CodeCharge> charge_;
   bool may_start_core_;
+  bool is_sanitized_;
 };
 
 std::vector<std::shared_ptr<SharedObject>>* SharedObject::kept = nullptr;
@@ -297,6 +303,7 @@ class LoadedProgram : public Program {
   CodeCharge* charge() override { return object_->charge(); }
   const MachineCode* code() const override { return object_->image().code(); }
   bool may_start_core() const override { return object_->may_start_core(); }
+  bool is_sanitized() const override { return object_->is_sanitized(); }
   void (*boot() const)(void) override { return object_->boot(); }
 
  private:

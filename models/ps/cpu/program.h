@@ -49,6 +49,10 @@ class Program {
   /// therefore false, for a linked program.
   virtual bool may_start_core() const { return false; }
 
+  /// True if it was built with the address sanitizer, which knows the host's stacks only: it runs
+  /// on those.
+  virtual bool is_sanitized() const { return false; }
+
   /// The substitute for the board's boot code, which runs before the entry function:
   /// `markervp_boot` of its libraries. May be null.
   virtual void (*boot() const)(void) { return nullptr; }

@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -47,10 +48,16 @@ int visit(dl_phdr_info* info, std::size_t, void* data) {
 }  // namespace
 
 ProgramImage::Span ProgramImage::wanted_by(const std::string& path) {
+  // What is none of ours the loader refuses; a pipe would wait for its writer.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {0, 0};
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header{};
   Span span{~std::uintptr_t{0}, 0};
-  if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return {0, 0};
+  const bool is_elf = file.read(reinterpret_cast<char*>(&header), sizeof header) &&
+                      std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
+                      header.e_ident[EI_CLASS] == ELFCLASS64;
+  if (!is_elf) return {0, 0};
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));
@@ -71,7 +78,8 @@ ProgramImage::ProgramImage(const std::string& path) : path_(path) {
     settle(wanted);
   } catch (...) {
     if (handle_) vp::unload_object(vp::program_object, path_, handle_);
-    if (heap_.first != 0) munmap(reinterpret_cast<void*>(heap_.first), heap_.second - heap_.first);
+    if (heap_.second != heap_.first)
+      munmap(reinterpret_cast<void*>(heap_.first), heap_.second - heap_.first);
     throw;
   }
 }
@@ -79,7 +87,8 @@ ProgramImage::ProgramImage(const std::string& path) : path_(path) {
 ProgramImage::~ProgramImage() {
   vp::unload_object(vp::program_object, path_, handle_);
   resident_.reset();
-  if (heap_.first != 0) munmap(reinterpret_cast<void*>(heap_.first), heap_.second - heap_.first);
+  if (heap_.second != heap_.first)
+    munmap(reinterpret_cast<void*>(heap_.first), heap_.second - heap_.first);
 }
 
 void* ProgramImage::symbol(const char* name) const {
@@ -180,6 +189,11 @@ void ProgramImage::restore() const {
 void ProgramImage::end_heap_at(std::uintptr_t end) const {
   auto* const area = static_cast<markervp_heap_area*>(symbol("markervp_heap"));
   if (area && resident_) area->end = reinterpret_cast<unsigned char*>(end);
+}
+
+void ProgramImage::close_heap() const {
+  auto* const area = static_cast<markervp_heap_area*>(symbol("markervp_heap"));
+  if (area) area->end = reinterpret_cast<unsigned char*>(1);  // before its first byte
 }
 
 }  // namespace ps

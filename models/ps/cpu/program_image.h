@@ -42,6 +42,8 @@ class ProgramImage {
   void restore() const;
   /// The heap may grow up to `end`.
   void end_heap_at(std::uintptr_t end) const;
+  /// The DDR goes: from here on its malloc() is the C library's.
+  void close_heap() const;
 
  private:
   struct Saved {

@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(endless_work_polling_sleeping_and_reading_hit_the_timeout) 
   BOOST_TEST(
       error ==
       "it waits for an interrupt, and none came within 1 us of simulated time since the last "
-      "image (cpu.timeout), at 1 us in function 'outer' of program 'bench'");
+      "input (cpu.timeout), at 1 us in function 'outer' of program 'bench'");
   BOOST_TEST(b.cpu.activity().idle_ps() == 1'000'000u);
 }
 

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(no_program) {
 BOOST_AUTO_TEST_CASE(wrong_abi) {
   const std::string path = programs + "wrong_abi.so";
   BOOST_TEST(error_of(path) == "program '" + path +
-                                   "' was built for version 42 of the HAL, this is version 1: "
+                                   "' was built for version 43 of the HAL, this is version 2: "
                                    "rebuild it");
 }
 

@@ -94,6 +94,8 @@ const RtlDescriptor descriptor = {
     ports,
     0,
     nullptr,
+    0,
+    nullptr,
     [](const char*, uint64_t) -> void* {
       reach("create");
       return new Status();

@@ -81,6 +81,8 @@ BOOST_AUTO_TEST_CASE(cache_ranges) {
   const auto address = reinterpret_cast<INTPTR>(buffer);
   Xil_DCacheEnable();
   Xil_ICacheEnable();
+  BOOST_REQUIRE_EQUAL(state().whole_cache_operations.size(), 1);
+  BOOST_CHECK(state().whole_cache_operations[0] == HAL_CACHE_ENABLE);
   BOOST_CHECK(state().flushed.empty());
   Xil_DCacheFlushRange(address, 64);
   Xil_DCacheInvalidateRange(address + 32, 32);

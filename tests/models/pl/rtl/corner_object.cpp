@@ -94,6 +94,8 @@ const RtlDescriptor descriptor = {
     ports,
     0,
     nullptr,
+    0,
+    nullptr,
     [](const char*, std::uint64_t) -> void* { return new CornerObject; },
     [](void* model) { delete &of(model); },
     [](void* model) -> const RtlEnd* {
