@@ -73,7 +73,7 @@ struct Tally {
   std::string name;       ///< "echoes"
   std::string with;       ///< of the units for which it holds: "with an echo"
   std::string without;    ///< of one for which it does not: "no echo"
-  bool is_figure = true;  ///< `summary` of result.json has it; else it is told where it holds
+  bool is_figure = true;  ///< `summary` of result.json has it; else units list it
 };
 
 /// What a design does.

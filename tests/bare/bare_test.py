@@ -21,7 +21,7 @@ OWN_NAME = re.compile(r"markervp(_bare)?", re.IGNORECASE)
 
 
 def words_in(text):
-    """Lines with a word of the application; the name of the program is none."""
+    """Lines with a word of the application; the name of the program does not count."""
     return [line for line in text.splitlines() if WORDS.search(OWN_NAME.sub("", line))]
 
 

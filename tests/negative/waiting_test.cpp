@@ -9,7 +9,7 @@ using namespace negative;
 namespace {
 
 struct Waiting : CommandLine {
-  /// Runs the program with that mistake, and returns what it is told.
+  /// Runs the program with that mistake, and returns its message.
   std::string told(int mistake) const {
     const kit::Outcome outcome =
         start({"run", "--no-pictures", "--no-report", "--program", MARKERVP_WAITING, "--set",

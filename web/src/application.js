@@ -10,7 +10,7 @@ export const application = {
   realTime: undefined,
   /** What the frame rate leaves out. */
   excluded: "upload of inputs excluded",
-  /** What stands beside figures of the verdict: {fps, latency, power}. */
+  /** What belongs beside figures of the verdict: {fps, latency, power}. */
   beside: () => ({}),
   /** Further tiles of the verdict, as tile() takes them. */
   tiles: () => [],

@@ -287,7 +287,7 @@ MachineCode::Reach Cpu::reach() const {
   return Reach::returns;
 }
 
-// What it waits for inside of its endless loop may never come: that is told.
+// What it waits for inside of its endless loop may never come: a warning says so.
 void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
   constexpr std::uint64_t many_looks = 1'000;
   const bool waits = loops_ ? reach() != MachineCode::Reach::straight

@@ -48,7 +48,7 @@ int visit(dl_phdr_info* info, std::size_t, void* data) {
 }  // namespace
 
 ProgramImage::Span ProgramImage::wanted_by(const std::string& path) {
-  // What is none of ours the loader refuses; a pipe would wait for its writer.
+  // The loader refuses what is no program; a pipe would wait for its writer.
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return {0, 0};
   std::ifstream file(path, std::ios::binary);

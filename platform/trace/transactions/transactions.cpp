@@ -286,7 +286,7 @@ Survey survey_transactions(TraceFile& file, const TransactionsOptions& options) 
   all.erase(std::remove_if(all.begin(), all.end(), unwanted), all.end());
   Survey result = survey(file, std::move(found), options.clocks);
   if (result.interfaces.empty()) refuse(file, result);
-  // Two buses of one name, as a stream and an interrupt in one scope, are told apart.
+  // Two buses of one name, as a stream and an interrupt in one scope, get names of their own.
   std::map<std::string, unsigned> count;
   for (SurveyedInterface& one : result.interfaces) {
     const unsigned n = ++count[one.bus.name];

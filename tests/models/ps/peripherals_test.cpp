@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(i2c_eeprom_is_written_and_read) {
   BOOST_TEST(eeprom.peek(0x10) == 0xC3, "a page wraps");
 }
 
-// It is told by NACK, not by COMP, and the bus is free again.
+// NACK says so, not COMP, and the bus is free again.
 BOOST_AUTO_TEST_CASE(i2c_without_a_device) {
   Alone<ps::I2c> b("i2c0", i2c_at);
   b.run([] {

@@ -66,7 +66,7 @@ std::uint32_t dma(std::uint32_t offset) {
   return drivers::addresses::dma_binary() + offset;
 }
 
-/// Sends words to the logic, which takes none before it is told to.
+/// Sends words to the logic, which takes none before its start bit is set.
 void send() {
   const std::uint32_t to_logic = drivers::addresses::dma_image();
   const hal_dma_buffer buffer = hal_dma_allocate(64, 32);
