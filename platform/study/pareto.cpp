@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include <result/console.h>
 #include <result/metrics.h>
 #include <result/table.h>
 #include <study/doubt.h>
