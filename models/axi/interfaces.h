@@ -30,7 +30,7 @@ struct Interface {
 
 /// Finds the interfaces among the ports of RTL, in the order of their first ports.
 ///
-/// A port is <interface>_<signal>, whatever the interface is called (UG1118); the direction of
+/// A port is `interface_signal`, whatever the interface is called (UG1118); the direction of
 /// VALID says which side it is. X_INTERFACE_INFO and X_INTERFACE_PARAMETER of the source win over
 /// names, what the user says (INTERFACES) over both: "<port or prefix>: <kind> [high|low] [rising]
 /// [clock <port>]". Clocks and resets are found as the vendor's packager does it; an interface

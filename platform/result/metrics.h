@@ -37,10 +37,10 @@ struct UnitMetrics {
               void (*find_rates)(const Json&, const Found&),
               std::initializer_list<MetricKind> kinds, std::initializer_list<const char*> shown);
 
-  /// Finds the figures in a member: `name` becomes frames.<name>.mean and .max. False: it is none
+  /// Finds the figures in a member: `name` becomes frames.`name`.mean and .max. False: it is none
   /// of the application's, and is read as all others are.
   bool (*take)(const std::string& name, const Json& value, const Found& found);
-  /// Finds what a unit counts for, 1 or 0: `name` becomes summary.<name>, the mean over all units.
+  /// Finds what a unit counts for, 1 or 0: `name` becomes summary.`name`, the mean over all units.
   void (*rates)(const Json& unit, const Found& found);
 };
 
