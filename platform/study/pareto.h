@@ -15,7 +15,7 @@ namespace platform::study {
 /// "max summary.fps.mean", "min power.total_w.nominal / summary.fps.mean".
 class Objective {
  public:
-  /// Throws vp::InputError; `where` says where it stands.
+  /// Throws vp::InputError; `where` names its place.
   Objective(const std::string& text, const std::string& where);
 
   bool maximise() const { return maximise_; }

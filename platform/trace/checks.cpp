@@ -308,7 +308,7 @@ void Judge::increases(std::uint64_t ps) {
   const bool comes = comes_true(second_, second_stood_);
   if (!second_stood_) return;
   const auto value = first_.value(replay_);
-  // While the condition stands, only another value is another one.
+  // While the condition holds, only another value is another one.
   if (!value.known || (!comes && last_ && value.number == last_->number)) return;
   ++result.occasions;
   if (last_ && value.number <= last_->number) fail(ps, shown(value) + " after " + shown(*last_));

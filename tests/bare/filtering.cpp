@@ -1,5 +1,5 @@
 // Sends blocks through the filter and compares what comes back with what it computes itself. A
-// block is an input, or where there is none a ramp: three of them.
+// block is an input, or without one a ramp: three of them.
 #include <axi_dma_registers.h>
 #include <drivers/axi_dma.h>
 #include <drivers/timers.h>

@@ -290,7 +290,7 @@ class RtlPins {
     void* place;
     unsigned bits;
     const std::function<std::uint64_t()>* read;
-    const void* signal = nullptr;  ///< where its value stands; null for a pin that is no port
+    const void* signal = nullptr;  ///< where its value is kept; null for a pin that is no port
     std::uint64_t value = 0;
   };
   struct OutputPin {

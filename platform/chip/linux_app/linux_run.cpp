@@ -99,7 +99,7 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
   zynq.ps.cpu.locate_program([this] { return place(); });
 }
 
-// Nothing here has a destructor that matters: a failure ends the program where it stands.
+// Nothing here has a destructor that matters: a failure ends the program at once.
 int LinuxRun::serve_to_end() {
   boot();
   while (true) {

@@ -57,7 +57,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void note_frame();
   void note_blob();
-  /// Where the camera's frame of this number stands, or stood.
+  /// Where the camera's frame of this number is, or was, kept.
   Sent& slot(std::uint32_t number) { return sent_[number % sent_.size()]; }
   void fill_in(facts::UnitReport& frame, std::uint64_t now_ps) const;
   void add_times(facts::UnitReport& frame, std::uint64_t now_ps);

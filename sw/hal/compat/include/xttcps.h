@@ -41,7 +41,7 @@ typedef struct {
 typedef u16 XInterval;
 typedef u16 XMatchRegValue;
 
-/** By number or, as releases with SDT ask, by the counter's base address. NULL if there is none. */
+/** By number or, as releases with SDT ask, by the counter's base address. Else NULL. */
 XTtcPs_Config* XTtcPs_LookupConfig(UINTPTR DeviceId);
 /** XST_DEVICE_IS_STARTED, and nothing is done, if the counter runs. */
 s32 XTtcPs_CfgInitialize(XTtcPs* InstancePtr, XTtcPs_Config* ConfigPtr, u32 EffectiveAddr);
