@@ -399,6 +399,9 @@ class Planner {
       const ParameterTable table(platform_.elaborate(build, spec_.origin));
       family.configuration = table.values();
       family.defaults = table.defaults();
+      // What the design sets holds where the point says nothing.
+      for (auto& [path, value] : family.defaults)
+        if (build.settings.count(path) == 0) value = family.configuration.at(path);
       input = table.input();
     } catch (const vp::InputError& error) {
       family.problem = error.what();

@@ -247,6 +247,18 @@ BOOST_FIXTURE_TEST_CASE(every_metric_has_a_meaning, Sweeps) {
     BOOST_TEST(kinds.count(kind.pattern) == 1u, kind.pattern);
 }
 
+// 533.333333 MHz is the platform's default, 400 MHz what the design sets.
+BOOST_FIXTURE_TEST_CASE(what_a_design_sets_is_swept_to_the_platforms_default, Sweeps) {
+  write("s.yaml",
+        "inputs: [z1.0]\nset: {design: eco}\n"
+        "parameters: {power.ddr.frequency: [400 MHz, 533.333333 MHz]}\n");
+  const kit::Outcome outcome = run({"sweep", "s.yaml", "--no-report"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  const std::string csv = kit::read_file(*this / "out/s/sweep.csv");
+  BOOST_TEST(contains(csv, ",400 MHz,"), csv);
+  BOOST_TEST(contains(csv, ",533.333333 MHz,"), csv);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_rate_and_constraints_on_metrics_judge_the_results, Sweeps) {
   write("s.yaml",
         std::string(clocks) + "target_rate: 80 fps\nconstraints: [summary.detected == 1]\n");
