@@ -1,4 +1,5 @@
-/* Takes the place of the vendor's driver in the test of VENDOR_BSP: the same names, other content. */
+/* Takes the place of the vendor's driver in the test of VENDOR_BSP: the same names, other content.
+ */
 #ifndef XGPIO_H
 #define XGPIO_H
 
