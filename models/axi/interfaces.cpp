@@ -310,7 +310,7 @@ void Finder::find_clock(Interface& interface) const {
   if (!said.empty()) {
     if (std::find(names.begin(), names.end(), said) == names.end())
       refuse(rtl_.place, "INTERFACES says that '" + interface.name + "' belongs to clock '" + said +
-                             "', and there is none of that name");
+                             "', which the RTL does not have");
     interface.clock = said;
     return;
   }

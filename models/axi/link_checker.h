@@ -10,7 +10,7 @@
 
 namespace axi {
 
-/// Watches the rules of one AXI4 or AXI4-Lite link at its pins, whoever drives which side
+/// Watches the rules of one AXI4 or AXI4-Lite link at its pins, with a model or RTL on either side
 /// (vp/protocol_rules.h). It is shown the wires before each edge; on clocks without VALID that
 /// costs a look at five of them.
 class LinkChecker {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 /// AXI4 and AXI4-Lite at the pins (IHI0022): what is on the wires of one interface before a clock
-/// edge, whoever drives them.
+/// edge, be they a model's or the RTL's.
 namespace axi {
 
 inline constexpr unsigned most_data_bytes = 128;  ///< AXI4: 1024 bits

@@ -21,8 +21,8 @@ ProtocolChecks::ProtocolChecks(sc_core::sc_module_name name) : sc_module(name) {
 }
 
 void RuleReports::violate(Rule rule, const Clock* clock, const std::string& what) {
-  const auto* checks = dynamic_cast<const ProtocolChecks*>(sc_core::sc_find_object("checks"));
-  if (checks && !checks->watches(rule)) return;
+  if (!checks_) checks_ = dynamic_cast<const ProtocolChecks*>(sc_core::sc_find_object("checks"));
+  if (*checks_ && !(*checks_)->watches(rule)) return;
   if (++counts_[static_cast<std::size_t>(rule)] != 1) return;
   const RuleInfo& info = info_of(rule);
   std::string text = std::string(info.name) + ": " + what + "; " + info.statement;

@@ -35,7 +35,7 @@ class RtlObject {
   const std::string& instance() const { return instance_; }
   /// Where the value of a port is kept.
   void* pin(std::uint32_t port) const { return rtl_.pin(model_.get(), port); }
-  /// The port of a name; null if there is none.
+  /// The port of a name; null: the RTL has no such port.
   const RtlPort* find(const std::string& name) const;
 
   /// Logic and registers follow the pins.

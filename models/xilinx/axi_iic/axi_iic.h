@@ -40,7 +40,7 @@ class AxiIic : public vp::Clocked, public vp::Ip, public board::I2cHost {
   board::I2cBus& i2c_bus() override { return bus; }
 
  private:
-  /// What the bus does. `waiting`: SCL is held low until software goes on.
+  /// What the bus does. `waiting`: SCL is held low until software acts.
   enum class State { idle, address, sending, receiving, stopping, waiting };
 
   void edge() override;

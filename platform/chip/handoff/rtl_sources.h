@@ -14,7 +14,7 @@ struct RtlSources {
   std::vector<std::string> files;  ///< absolute; empty: none were found
   std::vector<std::string> parameters =
       {};                ///< that the top declares and the design sets: "WIDTH=8"
-  std::string why = {};  ///< why there are none, or what does not fit
+  std::string why = {};  ///< why no file was found, or what does not fit
 };
 
 /// Finds RTL of the owner's IP: by the component.xml of a packaged IP, which lists its files, else

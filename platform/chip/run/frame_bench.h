@@ -26,7 +26,7 @@ namespace platform {
 ///
 /// With inputs at a fixed rate the program sleeps until the next one; those that came while it was
 /// busy are lost, whole. A unit is handed over when its period is over: when the program takes the
-/// next input, or there is none.
+/// next input, or the inputs are used up.
 ///
 /// Logic may learn from one unit for the next. So an input that has nothing to do with the one
 /// before it (UnitInput::settles_after) is given first as often as the design needs

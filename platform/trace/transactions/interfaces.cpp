@@ -34,7 +34,7 @@ const std::vector<std::string> apb_roles = {"psel",   "penable", "pready",  "pwr
 const std::vector<std::string> wishbone_roles = {
     "cyc", "stb", "we", "ack", "err", "rty", "adr", "sel", "stall", "writedata", "readdata"};
 
-/// How the last word of a role may end: most signals of a design are none.
+/// How the last word of a role may end: most signals of a design have no role.
 bool may_be_role(std::string_view word) {
   static constexpr std::array<std::string_view, 62> ends = {
       "valid", "ready", "id",     "addr",      "len",        "size", "burst",   "lock", "cache",

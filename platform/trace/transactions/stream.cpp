@@ -75,7 +75,7 @@ class Stream final : public Decoder {
     return signals;
   }
   Key key() const { return {number(id_).value_or(0), number(dest_).value_or(0)}; }
-  /// The packet that the offered beat belongs to; begun by it if there is none.
+  /// The packet that the offered beat belongs to; without an open one the beat begins it.
   Open* packet_of(const SampleEdge& /*edge*/) {
     const auto found = open_.find(key());
     if (found != open_.end()) return &found->second;

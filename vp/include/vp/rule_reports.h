@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -41,6 +42,7 @@ class RuleReports {
  private:
   const sc_core::sc_object& link_;
   std::array<std::uint64_t, rule_count> counts_{};
+  std::optional<const ProtocolChecks*> checks_;  ///< looked up once; null: the platform has none
 };
 
 }  // namespace vp
