@@ -34,15 +34,15 @@ void StreamChecker::Level::set(std::uint64_t value, std::uint64_t ps) {
 StreamChecker::StreamChecker(AxiStream& link, const Clock& clock, const std::vector<Reset>& resets)
     : clock_(clock),
       whole_(static_cast<std::uint8_t>((1u << beat_bytes(link)) - 1)),
+      signals_{&link.tvalid, &link.tready, &link.tdata, &link.tlast, &link.tkeep},
       resets_(resets),
       reset_levels_(resets.size()),
       reports_(link) {
-  SignalBase* const signals[wires] = {&link.tvalid, &link.tready, &link.tdata, &link.tlast,
-                                      &link.tkeep};
-  for (std::uint32_t i = 0; i < wires; ++i) {
-    levels_[i].now = levels_[i].before = signals[i]->bits();
-    signals[i]->attach(*this, i);
+  for (const Wire wire : {valid, ready}) {
+    levels_[wire].now = levels_[wire].before = signals_[wire]->bits();
+    signals_[wire]->attach(*this, wire);
   }
+  if (may_wait()) listen();
   for (std::uint32_t i = 0; i < resets_.size(); ++i) {
     reset_levels_[i].now = reset_levels_[i].before = resets_[i].signal->bits();
     resets_[i].signal->attach(*this, wires + i);
@@ -69,6 +69,30 @@ void StreamChecker::on_change(SignalBase& signal, std::uint32_t id) {
   if (id >= wires) return reset_levels_[id - wires].set(signal.bits(), ps);
   levels_[id].set(signal.bits(), ps);
   if (id != ready) check(static_cast<Wire>(id), ps);
+  if (id == valid || id == ready) follow(ps);
+}
+
+// In the instant in which the wait ends the other wires may still break a rule: they are left on
+// the next change. Never from within the notification of one of them, which would lose listeners.
+void StreamChecker::follow(std::uint64_t ps) {
+  if (may_wait()) {
+    if (!listens_) listen();
+    ended_ps_.reset();
+  } else if (listens_ && !ended_ps_) {
+    ended_ps_ = ps;
+  } else if (listens_ && *ended_ps_ != ps) {
+    for (const Wire wire : {data, last, keep}) signals_[wire]->detach(*this);
+    listens_ = false;
+  }
+}
+
+void StreamChecker::listen() {
+  listens_ = true;
+  for (const Wire wire : {data, last, keep}) {
+    levels_[wire] = {};
+    levels_[wire].now = signals_[wire]->bits();
+    signals_[wire]->attach(*this, wire);
+  }
 }
 
 void StreamChecker::check(Wire wire, std::uint64_t ps) {

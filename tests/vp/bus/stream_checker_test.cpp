@@ -82,6 +82,18 @@ BOOST_FIXTURE_TEST_CASE(tdata_that_changes, Bench) {
   on(3, [this] { master.m.offer(2, false); });
   BOOST_TEST(broken() == "AXI4STREAM_ERRM_TDATA_STABLE");
 }
+// It listens to TDATA only while a beat waits: again in the second wait, and on the edge that ends
+// it.
+BOOST_FIXTURE_TEST_CASE(tdata_that_changes_in_a_later_wait, Bench) {
+  on(6, [this] { master.m.withdraw(); });  // the first one passes on this edge
+  on(7, [this] { master.m.offer(3, false); });
+  on(8, [this] { master.m.offer(4, false); });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TDATA_STABLE");
+}
+BOOST_FIXTURE_TEST_CASE(tdata_that_changes_on_the_edge_that_raises_tready, Bench) {
+  on(5, [this] { master.m.offer(2, false); });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TDATA_STABLE");
+}
 BOOST_FIXTURE_TEST_CASE(data_of_bytes_that_are_not_kept_may_change, Bench) {
   on(2, [this] { master.m.offer(0x1'00, true, 1); });
   on(3, [this] { master.m.offer(0x2'00, true, 1); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <vp/rule_reports.h>
@@ -16,7 +17,8 @@ inline constexpr const char* beat_bytes_attribute = "beat_bytes";
 unsigned beat_bytes(const AxiStream& link);
 
 /// Watches the handshake of one stream: what VALID offers stays until READY, but for a reset of the
-/// master. It listens to the wires, so a link at rest costs nothing.
+/// master. It listens to TVALID and TREADY, and to the other wires while a beat may wait: a link at
+/// rest costs nothing, one that flows little.
 class StreamChecker final : public SignalListener {
  public:
   /// What the master is reset by, beside the wires of the link.
@@ -46,15 +48,21 @@ class StreamChecker final : public SignalListener {
   enum Wire : std::uint32_t { valid, ready, data, last, keep, wires };
 
   void on_change(SignalBase& signal, std::uint32_t id) override;
+  bool may_wait() const { return levels_[valid].now != 0 && levels_[ready].now == 0; }
+  void follow(std::uint64_t ps);
+  void listen();
   bool excused(std::uint64_t ps) const;
   void check(Wire wire, std::uint64_t ps);
   void broken(Rule rule, const char* what, std::uint64_t value);
 
   const Clock& clock_;
   const std::uint8_t whole_;  ///< TKEEP of a beat with all of its bytes
+  SignalBase* const signals_[wires];
   const std::vector<Reset> resets_;
   Level levels_[wires];
   std::vector<Level> reset_levels_;
+  bool listens_ = false;                   ///< to data, last and keep
+  std::optional<std::uint64_t> ended_ps_;  ///< when the wait ended, while it still listens
   std::uint64_t excused_ps_ = ~std::uint64_t{0};
   RuleReports reports_;
 };
