@@ -20,7 +20,7 @@ void add_configuration_options(CLI::App& command, ConfigurationOptions& target);
 /// Adds those of architecture exploration: sweep, pareto, sensitivity, compare.
 void add_exploration(CLI::App& app, CommandLine& target);
 
-/// Adds those that make a run again to ask it something: history, debug.
+/// Adds those that make a run again to ask it something: history, debug, faults.
 void add_again(CLI::App& app, CommandLine& target);
 
 /// One line on what was wrong with `arguments` (without the program's name), with the nearest match

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t most_accesses = 1'000'000;
 constexpr std::uint64_t most_events = 1'000'000'000'000;
+constexpr std::uint64_t most_faults = 10'000'000;
 
 constexpr const char* history_examples =
     R"(  markervp run demo --program mine.so
@@ -75,11 +76,34 @@ void add_debug(CLI::App& app, DebugOptions& target) {
   command->footer(debug_examples);
 }
 
+constexpr const char* faults_examples =
+    R"(  markervp faults campaign.yaml --count 10000
+A campaign says what runs and what may go wrong: 'design: thesis', 'inputs: [z1.0, z2.0]',
+'classes: [bus, memory]' (docs/faults.md). Each fault is drawn from the seed, and can be had again.)";
+
+void add_faults(CLI::App& app, FaultsOptions& target) {
+  CLI::App* command = app.add_subcommand(
+      "faults", "what the system does when things go wrong: many faults, counted");
+  command->add_option("FILE", target.file, "the campaign")->type_name("")->required();
+  command->add_option("-o,--output", target.output, "folder of the results (default: out/faults)")
+      ->type_name("DIR");
+  command->add_option("--count", target.count, "so many faults, whatever the file says")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, most_faults).description(""));
+  command->add_option("--seed", target.seed, "draws others than the file's seed")->type_name("N");
+  command->add_option("--jobs", target.jobs, "processes at a time (default: one a core)")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 256U).description(""));
+  command->add_flag("--quiet", target.quiet, "no bar");
+  command->footer(faults_examples);
+}
+
 }  // namespace
 
 void add_again(CLI::App& app, CommandLine& target) {
   add_history(app, target.history);
   add_debug(app, target.debug);
+  add_faults(app, target.faults);
 }
 
 }  // namespace platform::cli

@@ -59,6 +59,9 @@ int tell_history(const HistoryOptions& options, std::ostream& out);
 /// the PS program. Returns only if the moment does not come, or gdb cannot be started.
 int debug_run(const DebugOptions& options, std::ostream& out, std::ostream& err);
 
+/// Lets faults happen in many copies of a run, and counts what comes of them.
+int run_faults(const FaultsOptions& options, std::ostream& out, std::ostream& err);
+
 /// Lists what may stand in the programmable logic, or runs each to see what it reaches and takes.
 int list_designs(const DesignsOptions& options, std::ostream& out);
 

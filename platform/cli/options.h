@@ -47,6 +47,16 @@ struct DebugOptions {
   std::vector<std::string> commands;  ///< for gdb, which then ends; none: it asks
 };
 
+/// `markervp faults`.
+struct FaultsOptions {
+  std::string file;  ///< of the campaign
+  std::string output = "out/faults";
+  std::optional<std::uint64_t> count;  ///< of faults; none: as the file says
+  std::optional<std::uint64_t> seed;
+  std::optional<unsigned> jobs;  ///< none: one for each core
+  bool quiet = false;
+};
+
 /// `markervp run`.
 struct RunOptions : PlatformOptions {
   std::vector<std::string> inputs;
@@ -270,6 +280,7 @@ struct CommandLine {
   RunOptions run;
   HistoryOptions history;
   DebugOptions debug;
+  FaultsOptions faults;
   RtlOptions rtl;
   DesignsOptions designs;
   ConfigOptions config;

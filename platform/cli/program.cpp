@@ -72,6 +72,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "run") return run(line.run, arguments, out, err);
   if (command == "history") return tell_history(line.history, out);
   if (command == "debug") return debug_run(line.debug, out, err);
+  if (command == "faults") return run_faults(line.faults, out, err);
   if (command == "designs") return list_designs(line.designs, out);
   if (command == "config") return print_configuration(line.config, out);
   if (command == "map") return print_map(line.map, out);

@@ -241,6 +241,13 @@ struct ProgramEnd {
   bool reached_limit = false;
 };
 
+/// A fault that the configuration asked for (`inject`), and what came of it.
+struct Injected {
+  std::string fault;           ///< as it was written
+  std::uint64_t times = 0;     ///< how often it happened; 0: never in this run
+  std::uint64_t first_ps = 0;  ///< when it did first
+};
+
 /// The design point that ran.
 struct RunFacts {
   std::string fidelity;                                  ///< "tlm" or "clocked"
@@ -260,6 +267,7 @@ struct RunFacts {
   std::optional<ClockReport> clocks = std::nullopt;
   /// Parts of the design in whose place a stub answered the program: what came of it rests on them.
   std::vector<std::string> stubs = {};
+  std::vector<Injected> injected = {};
   std::vector<std::string> warnings = {};  ///< that belong to no frame
   std::vector<std::string> notes = {};     ///< what was assumed of the inputs, or done to them
 };

@@ -114,6 +114,20 @@ std::string camera_text(const facts::CameraReport& camera, const facts::Work& wo
       (camera.period_ps() - camera.most_busy_ps) / ps_per_ms);
 }
 
+/// A line for each fault that was asked for.
+std::string injected_text(const std::vector<facts::Injected>& faults) {
+  std::string text;
+  for (const facts::Injected& injected : faults) {
+    text += "fault    " + injected.fault + ": ";
+    text += injected.times == 0   ? std::string("never happened in this run")
+            : injected.times == 1 ? "at " + vp::format_time(injected.first_ps)
+                                  : counted(injected.times, "time") + ", first at " +
+                                        vp::format_time(injected.first_ps);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string fps_text(const facts::Summary& summary, const facts::RunFacts& facts) {
   const facts::Work& work = facts.work;
   if (summary.delivered() == 0)
@@ -205,7 +219,7 @@ std::string summary_text(const facts::Summary& summary, const facts::RunFacts& f
                          const std::vector<std::string>& own) {
   const std::string point = fmt::format("   ({}, design {}, {}, profile {})\n", facts.system,
                                         facts.design, facts.fidelity, facts.profile);
-  if (summary.frames() == 0) return end_text(facts) + point;
+  if (summary.frames() == 0) return end_text(facts) + point + injected_text(facts.injected);
   std::string text = facts.work.counted(summary.frames());
   for (const facts::Tally& tally : facts.work.tallies) {
     const std::uint64_t units = summary.tally(tally.name);
@@ -233,6 +247,7 @@ std::string summary_text(const facts::Summary& summary, const facts::RunFacts& f
                     facts.work.counted(summary.settled()), facts.work.settled);
   }
   for (const std::string& note : facts.notes) text += "note     " + note + "\n";
+  text += injected_text(facts.injected);
   if (summary.warned() > 0) {
     text += fmt::format("warnings in {}, listed in result.json\n",
                         facts.work.counted(summary.warned()));

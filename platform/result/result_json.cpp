@@ -30,9 +30,26 @@ void add_run(Json& json, const facts::RunFacts& facts) {
   json["job"] = facts.work.job;
 }
 
+namespace {
+
+Json injected_json(const std::vector<facts::Injected>& faults) {
+  constexpr double ps_per_us = 1e6;
+  Json list = Json::array();
+  for (const facts::Injected& injected : faults) {
+    Json json = {{"fault", injected.fault}, {"times", injected.times}};
+    if (injected.times > 0)
+      json["first_us"] = rounded(static_cast<double>(injected.first_ps) / ps_per_us, 6);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+}  // namespace
+
 void add_end(Json& json, const facts::RunFacts& facts, const std::vector<std::string>& warnings) {
   if (!warnings.empty()) json["warnings"] = warnings;
   if (!facts.notes.empty()) json["notes"] = facts.notes;
+  if (!facts.injected.empty()) json["injected"] = injected_json(facts.injected);
   if (facts.incomplete) json["incomplete"] = *facts.incomplete;
   if (facts.end) json["program_end"] = to_json(*facts.end);
 }

@@ -57,6 +57,7 @@ class Checker {
     one_of(json["system"], "system", {"hybrid", "ps-only"});
     provenance(json["provenance"]);
     program_end(json);
+    injected(json);
     for (const auto& [path, value] : json["configuration"].items()) {
       expect(value.is_string() && !value.empty(), "configuration." + path + " is no text");
     }
@@ -130,6 +131,16 @@ class Checker {
     if (!keys(end, "program_end", {{"exit_code", Kind::number}, {"time_us", Kind::number}})) return;
     if (end.contains("reached_limit"))
       expect(end["reached_limit"] == true, "program_end.reached_limit is not true");
+  }
+
+  /// Only where faults were asked for.
+  void injected(const Json& json) {
+    if (!json.contains("injected")) return;
+    for (const Json& fault : json["injected"]) {
+      if (!keys(fault, "injected", {{"fault", Kind::text}, {"times", Kind::count}})) return;
+      expect(fault.contains("first_us") == (fault["times"] > 0),
+             "injected.first_us belongs to what happened");
+    }
   }
 
   void frame(const Json& json, const std::string& where) {

@@ -3,6 +3,8 @@
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace vp {
 
@@ -17,7 +19,14 @@ void SignalBase::detach(SignalListener& listener) {
   listeners_.erase(std::remove_if(listeners_.begin(), listeners_.end(),
                                   [&](const Listener& l) { return l.listener == &listener; }),
                    listeners_.end());
-  observed_ = deferred_ || shown_to_systemc_ || !listeners_.empty();
+  observed_ = deferred_ || shown_to_systemc_ || force_ || !listeners_.empty();
+}
+
+void SignalBase::force(SignalForce* force) {
+  if (force && force_) throw std::logic_error(std::string(name()) + ": it is forced already");
+  if (force) forced_anew();
+  force_ = force;
+  if (force_) observed_ = true;
 }
 
 void SignalBase::changed() {

@@ -46,6 +46,17 @@ bool is_key(const std::string& text) {
   return std::none_of(parts.begin(), parts.end(), bad);
 }
 
+/// "[{what: flip, bit: 3}]": a list is the value of a parameter that takes one.
+std::string in_one_line(const YAML::Node& list) {
+  YAML::Emitter text;
+  text.SetSeqFormat(YAML::Flow);
+  text.SetMapFormat(YAML::Flow);
+  text << list;
+  std::string line = text.c_str();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
 /// Reads the leaves of nested maps or dotted keys.
 class ConfigurationReader {
  public:
@@ -76,12 +87,16 @@ class ConfigurationReader {
 
   void read_value(const YAML::Node& key, const YAML::Node& value, const std::string& path) {
     if (value.IsMap()) return read_map(value, path);
-    if (value.IsSequence())
+    const bool is_list =
+        value.IsSequence() && std::all_of(value.begin(), value.end(),
+                                          [](const YAML::Node& item) { return item.IsMap(); });
+    if (value.IsSequence() && !is_list)
       fail(value.Mark(), "'" + path + "' is a list: write one value for each key");
-    if (!value.IsScalar()) fail(key.Mark(), "'" + path + "' has no value");
+    if (!value.IsScalar() && !is_list) fail(key.Mark(), "'" + path + "' has no value");
     const int line = key.Mark().line + 1;
     const auto [existing, is_new] =
-        settings_.emplace(path, Setting{value.Scalar(), origin_ + ":" + std::to_string(line)});
+        settings_.emplace(path, Setting{is_list ? in_one_line(value) : value.Scalar(),
+                                        origin_ + ":" + std::to_string(line), is_list});
     if (!is_new)
       fail(key.Mark(), "'" + path + "' is set twice, first at " + existing->second.origin);
   }

@@ -14,9 +14,15 @@ ParameterBase::ParameterBase(const char* name, Unit unit, Source source, std::st
     misdeclared("a sibling is already called '" + std::string(name) + "'");
 }
 
-const Setting* ParameterBase::setting() {
+const Setting* ParameterBase::any_setting() const {
   const Configuration* configuration = Configuration::current();
-  return configuration == nullptr ? nullptr : configuration->find(this->name());
+  return configuration == nullptr ? nullptr : configuration->find(name());
+}
+
+const Setting* ParameterBase::setting() const {
+  const Setting* given = any_setting();
+  if (given && given->is_list) refuse(*given, "is a list: write one value");
+  return given;
 }
 
 void ParameterBase::publish(std::string value, std::string default_value, std::string allowed) {
@@ -121,6 +127,15 @@ Parameter<std::string>::Parameter(const char* name, std::string default_value,
   }
   if (const Setting* given = setting()) value_ = choices[choice(*given, choices)];
   publish(value_, std::move(default_value), one_of(choices));
+}
+
+ListParameter::ListParameter(const char* name, Source source, std::string documentation)
+    : ParameterBase(name, Unit::none, source, std::move(documentation)) {
+  if (const Setting* given = any_setting()) {
+    value_ = given->text;
+    origin_ = given->origin;
+  }
+  publish(value_, "", "");
 }
 
 }  // namespace vp

@@ -10,10 +10,12 @@
 #include <vp/text.h>
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace ps {
 
@@ -167,6 +169,66 @@ void FixedMapping::unmap(const Piece& piece) {
 
 void FixedMapping::clear() {
   madvise(second_view_, size_, MADV_REMOVE);
+}
+
+namespace {
+
+/// Pages [first, end) with other access rights than reading and writing.
+struct Restricted {
+  std::uint64_t first, end;
+  int protection;
+};
+
+std::vector<Restricted> restricted_in(std::uint64_t first, std::uint64_t end) {
+  std::vector<Restricted> list;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::uint64_t from = 0, to = 0;
+    char rights[5] = {};
+    if (std::sscanf(line.c_str(), "%lx-%lx %4s", &from, &to, rights) != 3) continue;
+    if (to <= first || from >= end || (rights[0] == 'r' && rights[1] == 'w')) continue;
+    list.push_back({std::max(from, first), std::min(to, end),
+                    (rights[0] == 'r' ? PROT_READ : 0) | (rights[1] == 'w' ? PROT_WRITE : 0)});
+  }
+  return list;
+}
+
+/// Throws vp::HostError for memory that a call did not give.
+void require(bool given) {
+  if (!given)
+    throw vp::HostError(std::string("no memory for a copy of a run (") + std::strerror(errno) +
+                        "): run fewer at a time (--jobs)");
+}
+
+}  // namespace
+
+// Only pages that were ever touched are copied. Code of programs is theirs, and a fork copies it.
+void FixedMapping::leave_to_parent() {
+  const int file = file_of(size_);
+  require(file >= 0 && descriptor_ >= 0);
+  const auto size = static_cast<off_t>(size_);
+  for (off_t at = 0; at < size;) {
+    const off_t from = lseek(descriptor_, at, SEEK_DATA);
+    if (from < 0) break;
+    at = std::min(std::max(lseek(descriptor_, from, SEEK_HOLE), from), size);
+    for (off_t done = from; done < at;) {
+      const ssize_t wrote = pwrite(file, second_view_ + done, at - done, done);
+      require(wrote > 0);
+      done += wrote;
+    }
+  }
+  constexpr int flags = MAP_SHARED | MAP_NORESERVE | MAP_FIXED;
+  require(mmap(second_view_, size_, PROT_READ | PROT_WRITE, flags, file, 0) != MAP_FAILED);
+  const auto base = reinterpret_cast<std::uintptr_t>(data_);
+  for (const Piece& piece : pieces_) {
+    const std::vector<Restricted> restricted = restricted_in(piece.first, piece.end);
+    require(mmap(reinterpret_cast<void*>(piece.first), piece.end - piece.first,
+                 PROT_READ | PROT_WRITE, flags, file,
+                 static_cast<off_t>(piece.first - base)) != MAP_FAILED);
+    for (const Restricted& pages : restricted)
+      mprotect(reinterpret_cast<void*>(pages.first), pages.end - pages.first, pages.protection);
+  }
+  close(std::exchange(descriptor_, file));
 }
 
 std::optional<std::uint32_t> DmaAllocator::allocate(std::size_t size, std::size_t alignment) {

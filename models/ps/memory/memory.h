@@ -50,6 +50,9 @@ class FixedMapping {
   int descriptor() const { return descriptor_; }
   /// Gives all pages back: the memory reads 0 again.
   void clear();
+  /// In a process that was forked: a copy of its own in place of the memory that both have.
+  /// Addresses and access rights stay. Throws vp::HostError if the host has no room.
+  void leave_to_parent();
 
  private:
   /// Pages of data() that are mapped.
@@ -172,6 +175,8 @@ class Ddr : public vp::MemoryTarget {
   DmaAllocator& dma_memory() { return dma_memory_; }
   /// All of it is 0 and free again.
   void clear();
+  /// FixedMapping::leave_to_parent().
+  void leave_to_parent() { memory_.leave_to_parent(); }
 
  private:
   void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
@@ -190,6 +195,8 @@ class StackMemory : public vp::MemoryTarget {
 
   static constexpr std::uint64_t ddr_end = 0x4000'0000;  // UG585 table 4-1
   using MemoryTarget::end;
+  /// FixedMapping::leave_to_parent().
+  void leave_to_parent() { memory_.leave_to_parent(); }
 
  private:
   void answered(const tlm::tlm_generic_payload&, sc_core::sc_time&) override {}

@@ -85,8 +85,39 @@ std::uint64_t FrameBench::came_ps(std::uint64_t number) const {
   return *first_ps_ + camera_.offset_ps(number);
 }
 
+namespace {
+
+/// An input of which the bytes are wrong.
+class SpoiledInput : public facts::UnitInput {
+ public:
+  SpoiledInput(const facts::UnitInput& input, std::vector<std::uint8_t>&& bytes)
+      : UnitInput(input.name),
+        bytes_(std::move(bytes)),
+        width_(input.width()),
+        height_(input.height()) {}
+  const std::vector<std::uint8_t>& bytes() const override { return bytes_; }
+  std::uint32_t width() const override { return width_; }
+  std::uint32_t height() const override { return height_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+  std::uint32_t width_;
+  std::uint32_t height_;
+};
+
+}  // namespace
+
+// What is wrong with an input is wrong in memory; reports know the right one.
+facts::SharedInput FrameBench::spoiled(const facts::SharedInput& input) const {
+  if (!spoil_ || !takes_input_) return input;
+  std::vector<std::uint8_t> bytes = input->bytes();
+  spoil_(taken_, bytes);
+  return std::make_shared<SpoiledInput>(*input, std::move(bytes));
+}
+
 // Of a program that does not upload its inputs: in the logic.
-void FrameBench::place(const facts::SharedInput& input) {
+void FrameBench::place(const facts::SharedInput& right) {
+  const facts::SharedInput input = spoiled(right);
   if (!options_.uploads()) zynq_.design().place(input);
   if (takes_input_) {
     const std::vector<std::uint8_t>& bytes = input->bytes();
@@ -97,9 +128,9 @@ void FrameBench::place(const facts::SharedInput& input) {
   }
   const bool counts = showings_left_ == 0;
   frame_.index = inputs_ - 1 + settling_showings_;
-  if (takes_input_) shown_.push_back({input, frame_.index, inputs_ - 1, counts});
+  if (takes_input_) shown_.push_back({right, frame_.index, inputs_ - 1, counts});
   if (!counts) ++settling_showings_;
-  zynq_.design().describe(*input, frame_);
+  zynq_.design().describe(*right, frame_);
 }
 
 namespace {

@@ -37,6 +37,8 @@ class FrameBench : public ps::TestBench {
   using NextFrame = std::function<facts::SharedInput()>;
   using FrameDone = std::function<bool(facts::UnitReport&&)>;
   using FrameBegins = std::function<void()>;
+  /// Changes the bytes of unit `unit`, from 1.
+  using Spoil = std::function<void(std::uint64_t unit, std::vector<std::uint8_t>& bytes)>;
 
   /// What is passed must outlive the bench. Memory for an input is taken from the DDR's DMA memory.
   FrameBench(Zynq& zynq, const CameraTiming& camera, const SoftwareOptions& options,
@@ -45,6 +47,8 @@ class FrameBench : public ps::TestBench {
   /// Where frames come from and reports go to, for one run; `begins` is called whenever the program
   /// wants an input.
   void start(FrameBegins begins, NextFrame next, FrameDone done);
+  /// What is wrong with inputs on their way into memory. Before the run.
+  void spoil_inputs(Spoil spoil) { spoil_ = std::move(spoil); }
   /// The run is over, however it ended. Returns the warnings that stand in no frame's report.
   std::vector<std::string> finish();
 
@@ -77,7 +81,8 @@ class FrameBench : public ps::TestBench {
   facts::SharedInput next_input();
   bool take_input();
   std::uint64_t came_ps(std::uint64_t number) const;
-  void place(const facts::SharedInput& input);
+  facts::SharedInput spoiled(const facts::SharedInput& input) const;
+  void place(const facts::SharedInput& right);
   Shown published(std::uint32_t number);
   void keep_settling(const facts::UnitReport& report);
   void hand_over(std::optional<std::uint64_t> until_ps);
@@ -89,6 +94,7 @@ class FrameBench : public ps::TestBench {
   const SoftwareOptions& options_;
   const vp::ReportRouter& reports_;
   FrameBegins begins_;
+  Spoil spoil_;
   NextFrame next_;
   FrameDone done_;
   hal_frame frame_{};

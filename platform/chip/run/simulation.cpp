@@ -131,6 +131,12 @@ void Simulation::build() {
   if (costs_)
     zynq_->ps.cpu.load(*program_, linux_run_ ? linux_run_->costs(costs_->costs) : costs_->costs);
   zynq_->ps.cpu.connect(*bench_);
+  injector_ = std::make_unique<Injector>(*zynq_, design_->words());
+  inject_ = std::make_unique<vp::ListParameter>(
+      "inject", vp::Source::decision,
+      "faults of the run: [{what: slverr, where: axi_dma_0, access: 3}]; docs/faults.md");
+  for (const Fault& fault : parse_faults(inject_->get(), inject_->origin()))
+    inject(fault, inject_->origin());
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);
   for (const TerminalOptions& terminal : options_.terminals) {
@@ -139,6 +145,14 @@ void Simulation::build() {
     if (options_.console) *options_.console << terminals_.back()->introduction() << std::endl;
   }
   connect_consoles();
+}
+
+void Simulation::inject(const Fault& fault, const std::string& origin) {
+  injector_->add(fault, origin);
+  if (!fault.is_of_input()) return;
+  bench_->spoil_inputs([this](std::uint64_t unit, std::vector<std::uint8_t>& bytes) {
+    injector_->spoil(unit, bytes);
+  });
 }
 
 facts::RunFacts Simulation::facts() const {
@@ -151,6 +165,7 @@ facts::RunFacts Simulation::facts() const {
   facts.profile = costs_->costs.profile();
   const ps::Cpu& cpu = zynq_->ps.cpu;
   facts.warnings = late_warnings_;
+  facts.injected = injector_->report();
   if (cpu.state() == ps::Cpu::State::finished) {
     facts.end = {cpu.exit_code(), cpu.end_ps(), cpu.reached_limit()};
     facts.unpublished = bench_->unpublished();

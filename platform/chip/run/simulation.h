@@ -9,6 +9,7 @@
 
 #include <chip/cost/parts.h>
 #include <chip/cost/zynq_power.h>
+#include <chip/fault/injector.h>
 #include <chip/linux_app/linux_run.h>
 #include <chip/run/camera_timing.h>
 #include <chip/run/cost_profile.h>
@@ -90,6 +91,10 @@ class Simulation {
   /// There is a trace of the run: one was asked for, and its window or trigger kept something.
   bool wrote_trace() const { return wrote_trace_; }
 
+  /// One more fault, before the run or from an action of injector(). As Injector::add().
+  void inject(const Fault& fault, const std::string& origin);
+  Injector& injector() { return *injector_; }
+
   Zynq& zynq() { return *zynq_; }
   /// Energy of the run so far. Ask for its timeline before the run.
   ZynqPower& power() { return *power_; }
@@ -127,6 +132,8 @@ class Simulation {
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;
+  std::unique_ptr<vp::ListParameter> inject_;
+  std::unique_ptr<Injector> injector_;
   std::unique_ptr<RemoteControl> control_;
   std::vector<std::unique_ptr<Terminal>> terminals_;
   bool wrote_trace_ = false;

@@ -167,6 +167,11 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
 ProcessingSystem::~ProcessingSystem() = default;
 
 // Behind the DDR, out of the way of what programs address, or else below the DMA buffers.
+void ProcessingSystem::leave_memory_to_parent() {
+  ddr.leave_to_parent();
+  if (stacks_) stacks_->leave_to_parent();
+}
+
 void ProcessingSystem::place_stacks() {
   constexpr std::uint64_t page = 4096;
   const std::uint64_t bytes = (cores * cpu.settings().stack_size + page - 1) / page * page;

@@ -158,6 +158,9 @@ class ProcessingSystem : public sc_core::sc_module {
   /// Those of the PS's own devices, by number. The PL's come through IRQ_F2P.
   const std::vector<Interrupt>& interrupts() const { return interrupts_; }
 
+  /// In a process that was forked while it ran: FixedMapping::leave_to_parent() of all memory.
+  void leave_memory_to_parent();
+
   /// Starts the clocks, once it is known which ones the design asks for: all FCLK share a PLL.
   void start_clocks();
   /// Of the device, with the crystal.

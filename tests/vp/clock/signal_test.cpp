@@ -44,6 +44,39 @@ struct Listener : vp::SignalListener {
   std::uint32_t last_id = 0;
 };
 
+struct Inverter : vp::SignalForce {
+  std::uint64_t seen(std::uint64_t driven) override { return inverts ? ~driven & 0x1F : driven; }
+  bool inverts = true;
+};
+
+BOOST_FIXTURE_TEST_CASE(a_force_decides_what_a_signal_shows, Fixture) {
+  vp::Signal<std::uint8_t> wire{"wire", 5, 3};
+  Listener listener;
+  wire.attach(listener);
+  Inverter inverter;
+  wire.force(&inverter);
+  BOOST_TEST(wire.is_forced());
+  BOOST_TEST(wire.get() == 3u, "until it is asked, or written to");
+  wire.drive_again();
+  wire = 1;
+  wire = 1;
+  inverter.inverts = false;
+  wire.drive_again();
+  wire.force(nullptr);
+  wire = 2;
+  BOOST_TEST((listener.values == std::vector<std::uint64_t>{28, 30, 1, 2}));
+  wire.detach(listener);
+}
+
+BOOST_FIXTURE_TEST_CASE(what_drives_nothing_cannot_be_forced, Fixture) {
+  BOOST_TEST(!vp::Signal<double>("real").can_be_forced());
+  BOOST_TEST(vp::Signal<bool>("bit").can_be_forced());
+  vp::Signal<bool> wire{"wire"};
+  Inverter first, second;
+  wire.force(&first);
+  BOOST_CHECK_THROW(wire.force(&second), std::logic_error);
+}
+
 BOOST_FIXTURE_TEST_CASE(listeners_hear_changes_only, Fixture) {
   vp::Signal<std::uint8_t> wire{"wire", 5, 3};
   Listener listener;

@@ -57,6 +57,11 @@ BOOST_AUTO_TEST_CASE(lists_are_refused) {
              "f.yaml:2:10: 'pl.clock' is a list: write one value for each key");
 }
 
+BOOST_AUTO_TEST_CASE(a_list_of_maps_is_one_text) {
+  BOOST_TEST(value("faults:\n  - {what: flip, bit: 3}\n  - what: lost", "faults") ==
+             "[{what: flip, bit: 3}, {what: lost}]");
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_is_no_map_is_refused) {
   BOOST_TEST(refusal("- a\n- b") == "f.yaml:1:1: expected 'key: value' lines");
   BOOST_TEST(refusal("just text") == "f.yaml:1:1: expected 'key: value' lines");

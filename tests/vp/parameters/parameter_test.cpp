@@ -59,6 +59,16 @@ struct Fixture : kit::Simulation {
 
 BOOST_FIXTURE_TEST_SUITE(parameter, Fixture)
 
+BOOST_AUTO_TEST_CASE(a_list_is_for_parameters_that_take_one) {
+  configuration.load_text("pl:\n  detector:\n    label: [{a: 1}]\nfaults: [{b: 2}]", "f.yaml");
+  const Configuration::Scope scope(configuration);
+  const vp::ListParameter faults("faults", Source::decision, "what goes wrong");
+  BOOST_TEST(faults.get() == "[{b: 2}]");
+  BOOST_TEST(faults.origin() == "f.yaml:4");
+  BOOST_TEST(input_error([] { Board board("pl"); }) ==
+             "pl.detector.label: '[{a: 1}]' (f.yaml:3) is a list: write one value");
+}
+
 BOOST_AUTO_TEST_CASE(without_a_configuration_defaults_hold) {
   Board board("pl");
   BOOST_TEST(board.detector.threshold == 30u);

@@ -22,6 +22,7 @@ const char* to_string(Source source);
 struct Setting {
   std::string text;
   std::string origin;
+  bool is_list = false;  ///< a list of maps, in one line
 };
 
 /// What the configuration remembers of a parameter after the platform is gone.

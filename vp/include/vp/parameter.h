@@ -47,7 +47,9 @@ class ParameterBase : public sc_core::sc_object {
   ParameterBase(const char* name, Unit unit, Source source, std::string documentation);
 
   /// What the user set for this parameter in the current configuration; null if nothing.
-  const Setting* setting();
+  const Setting* any_setting() const;
+  /// The same. Throws InputError for a list.
+  const Setting* setting() const;
   /// Registers the parameter, once its value is known.
   void publish(std::string value, std::string default_value, std::string allowed);
   /// The value of `setting` as a whole number. Throws InputError if it is not one, or outside
@@ -171,6 +173,21 @@ class Parameter<std::string> : public ParameterBase {
 
  private:
   std::string value_;
+};
+
+/// A list of maps, which its owner reads: "[{what: flip, bit: 3}]". Empty as default.
+class ListParameter : public ParameterBase {
+ public:
+  ListParameter(const char* name, Source source, std::string documentation);
+
+  /// As YAML in one line.
+  const std::string& get() const { return value_; }
+  /// Where it was set.
+  const std::string& origin() const { return origin_; }
+
+ private:
+  std::string value_;
+  std::string origin_;
 };
 
 /// One of an enum's values, written by name.

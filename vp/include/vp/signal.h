@@ -22,6 +22,14 @@ class SignalListener {
   virtual void on_change(SignalBase& signal, std::uint32_t id) = 0;
 };
 
+/// Shows another value than the writer's: a fault. It holds for each write from then on.
+class SignalForce {
+ public:
+  virtual ~SignalForce() = default;
+  /// What the signal shows, as its writer says `driven`; bits as of SignalBase::bits().
+  virtual std::uint64_t seen(std::uint64_t driven) = 0;
+};
+
 /// The part of a signal that does not depend on its type: name, width, listeners.
 class SignalBase : public sc_core::sc_object {
  public:
@@ -33,6 +41,15 @@ class SignalBase : public sc_core::sc_object {
   virtual std::uint64_t bits() const = 0;
   /// True if bits() is the pattern of a double.
   virtual bool is_real() const { return false; }
+
+  /// Whether force() can: not what is only shown in traces, and no real numbers.
+  virtual bool can_be_forced() const { return false; }
+  /// Lets `force` decide what the signal shows; null: its writer again. Costs nothing where it is
+  /// never called.
+  void force(SignalForce* force);
+  bool is_forced() const { return force_ != nullptr; }
+  /// Asks the force again, of the last value written: it has changed its mind. From a process.
+  virtual void drive_again() {}
 
   void attach(SignalListener& listener, std::uint32_t id = 0);
   void detach(SignalListener& listener);
@@ -55,6 +72,8 @@ class SignalBase : public sc_core::sc_object {
   explicit SignalBase(const char* name);
   void changed();
   void defer();
+  /// A force takes over from the writer.
+  virtual void forced_anew() {}
   /// Makes a deferred value visible.
   virtual void commit() = 0;
   /// SystemC reads the signal from now on, and is shown each value as an sc_signal would.
@@ -71,6 +90,7 @@ class SignalBase : public sc_core::sc_object {
                            ///< for the instant's end
   bool queued_ = false;
   mutable bool shown_to_systemc_ = false;
+  SignalForce* force_ = nullptr;
   ClockScheduler* scheduler_ = nullptr;
   mutable std::uint64_t change_stamp_ = ~std::uint64_t{0};  ///< the delta in which SystemC sees it
 
@@ -141,6 +161,7 @@ class Signal : public SignalReader<T> {
       value_ = value;
       return;
     }
+    if (this->force_) value = forced(value);
     if (this->deferred_) {
       if (!this->queued_ && value == value_) return;
       next_ = value;
@@ -174,6 +195,10 @@ class Signal : public SignalReader<T> {
     }
   }
   bool is_real() const override { return std::is_floating_point_v<T>; }
+  bool can_be_forced() const override { return !std::is_floating_point_v<T>; }
+  void drive_again() override {
+    if (this->force_) write(driven_);
+  }
 
   /// What SystemC sees.
   const T& read() const override { return this->shown_to_systemc_ ? shown_ : value_; }
@@ -193,9 +218,20 @@ class Signal : public SignalReader<T> {
   }
 
  private:
+  T forced(T value) {
+    driven_ = value;
+    if constexpr (std::is_floating_point_v<T>) {
+      return value;
+    } else {
+      return static_cast<T>(this->force_->seen(static_cast<std::uint64_t>(value)));
+    }
+  }
+  void forced_anew() override { driven_ = written(); }
+
   T value_;
   T next_;
   mutable T shown_{};  ///< to SystemC, if it reads the signal
+  T driven_{};         ///< what the writer says, while the signal is forced
   unsigned width_;
 };
 

@@ -1,0 +1,302 @@
+#include <cli/faults/campaign.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <chip/fault/fault_space.h>
+#include <chip/run/simulation.h>
+#include <cli/commands.h>
+#include <cli/options.h>
+#include <host/process.h>
+#include <study/inputs.h>
+#include <vp/error.h>
+#include <vp/random.h>
+
+namespace platform::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A copy that takes longer than that on the host has failed.
+constexpr int longest_copy_ms = 60'000;
+
+/// The platform of a campaign in this process, with all its inputs in memory.
+class Subject {
+ public:
+  explicit Subject(const CampaignFile& file) {
+    RunOptions options;
+    options.program = file.program;
+    options.fidelity = file.fidelity;
+    options.configuration.design = file.design;
+    for (const auto& [path, value] : file.settings)
+      options.configuration.assignments.push_back(path + "=" + value);
+    load_configuration(options.configuration, configuration_);
+    choose_platform(options, configuration_);
+    SimulationOptions asked;
+    asked.program = file.program;
+    asked.timeline_frames = 0;
+    simulation_ = build(configuration_, asked);
+    const auto source =
+        study::open_inputs({file.inputs, {}, simulation_->input(), file.repeat, {}});
+    while (facts::SharedInput input = source->next()) inputs_.push_back(std::move(input));
+  }
+
+  Simulation& simulation() { return *simulation_; }
+  std::uint64_t units() const { return inputs_.size(); }
+
+  Witness run() {
+    Witness witness;
+    std::size_t given = 0;
+    try {
+      simulation_->run(
+          [&] { return given < inputs_.size() ? inputs_[given++] : facts::SharedInput(); },
+          [&](facts::UnitReport&& unit) {
+            witness.add(unit);
+            return true;
+          });
+    } catch (const std::exception& error) {
+      witness.error = error.what();
+    }
+    const facts::RunFacts facts = simulation_->facts();
+    if (facts.end) {
+      witness.ended = !facts.end->reached_limit;
+      witness.exit_code = facts.end->exit_code;
+    }
+    for (const std::string& warning : facts.warnings) witness.add_warning(warning);
+    witness.end_ps = simulation_->zynq().scheduler.now_ps();
+    return witness;
+  }
+
+ private:
+  vp::Configuration configuration_;
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<facts::SharedInput> inputs_;
+};
+
+/// Calls `work` in a process of its own, and returns what it makes. Throws vp::InputError with what
+/// that process says of its failure.
+Json in_child(const std::function<Json()>& work) {
+  host::Child child([&work](std::ostream& out, std::ostream&) {
+    out << work().dump();
+    return host::done;
+  });
+  const host::ChildEnd end = child.wait();
+  if (end.exit_code != host::done)
+    throw vp::InputError("the run without faults failed: " +
+                         (end.err.empty() ? "a signal ended it" : end.err));
+  return Json::parse(end.out);
+}
+
+/// The run without faults, and the faults that are drawn from it.
+Campaign prepare(const CampaignFile& file) {
+  const Json json = in_child([&file] {
+    Subject subject(file);
+    const Witness right = subject.run();
+    if (!right.error.empty()) throw vp::InputError(right.error);
+    const FaultSpace space(subject.simulation().injector(), file.classes, file.below,
+                           subject.units());
+    vp::RandomBits random(file.seed);
+    Json shots = Json::array();
+    for (std::uint64_t i = 0; i < file.count; ++i) {
+      const FaultSpace::Drawn drawn = space.draw(random, 0, right.end_ps);
+      shots.push_back({drawn.fault.text, drawn.of_class, drawn.module, drawn.fault.at_ps});
+    }
+    return Json{{"right", right.json()}, {"shots", shots}};
+  });
+  Campaign campaign{Witness::of(json.at("right")), {}};
+  for (const Json& shot : json.at("shots"))
+    campaign.shots.push_back({shot[0], shot[1], shot[2], shot[3], Outcome::broken, 0, {}});
+  return campaign;
+}
+
+/// All that a process writes until it ends; nothing if it takes too long, and is ended.
+std::optional<std::string> read_all(int descriptor, pid_t process) {
+  std::string text;
+  std::array<char, 65536> buffer{};
+  for (;;) {
+    pollfd wait{descriptor, POLLIN, 0};
+    const int ready = ::poll(&wait, 1, longest_copy_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) {
+      ::kill(process, SIGKILL);
+      return std::nullopt;
+    }
+    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+}
+
+void write_all(int descriptor, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t wrote = ::write(descriptor, text.data() + done, text.size() - done);
+    if (wrote <= 0) return;
+    done += static_cast<std::size_t>(wrote);
+  }
+}
+
+/// Runs the platform once more, and has it fork at the moment of each of its faults.
+class Carrier {
+ public:
+  Carrier(const CampaignFile& file, const Campaign& campaign, std::ostream& out)
+      : campaign_(campaign), out_(out), subject_(file) {}
+
+  /// `mine`: places in campaign.shots.
+  void run(const std::vector<std::size_t>& mine) {
+    Injector& injector = subject_.simulation().injector();
+    for (const std::size_t i : mine)
+      injector.plan(campaign_.shots[i].at_ps, [this, i] { fork_for(i); });
+    const Witness seen = subject_.run();
+    if (copy_) finish_copy(seen);
+  }
+
+ private:
+  void fork_for(std::size_t i) {
+    if (copy_) return;
+    std::array<int, 2> pipe{-1, -1};
+    if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "no pipe for a fault");
+    out_.flush();
+    const pid_t process = ::fork();
+    if (process < 0)
+      throw std::system_error(errno, std::generic_category(), "no process for a fault");
+    if (process == 0) {
+      ::close(pipe[0]);
+      become_copy(i, pipe[1]);
+      return;
+    }
+    ::close(pipe[1]);
+    const std::optional<std::string> text = read_all(pipe[0], process);
+    ::close(pipe[0]);
+    int status = 0;
+    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (text && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+      out_ << *text << std::endl;
+    } else {
+      const std::string why = !text ? "takes too long on the host"
+                              : WIFSIGNALED(status)
+                                  ? "ended by signal " + std::to_string(WTERMSIG(status))
+                                  : "failed";
+      out_ << Json{i, to_string(Outcome::broken), 0, why}.dump() << std::endl;
+    }
+  }
+
+  void become_copy(std::size_t i, int writing) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    copy_ = i;
+    writing_ = writing;
+    Simulation& simulation = subject_.simulation();
+    simulation.zynq().ps.leave_memory_to_parent();
+    try {
+      simulation.inject(parse_faults("[" + campaign_.shots[i].fault + "]", "campaign").front(),
+                        "campaign");
+    } catch (const vp::InputError& error) {
+      answer(Outcome::broken, 0, error.what());
+    }
+    // A system that is late by its whole time is not coming.
+    simulation.injector().plan(2 * campaign_.right.end_ps, [] { Simulation::interrupt(); });
+  }
+
+  [[noreturn]] void finish_copy(const Witness& seen) {
+    const std::vector<facts::Injected> injected = subject_.simulation().injector().report();
+    answer(classify(campaign_.right, seen), injected.back().times, sign(campaign_.right, seen));
+  }
+
+  [[noreturn]] void answer(Outcome outcome, std::uint64_t times, const std::string& why) const {
+    write_all(writing_, Json{*copy_, to_string(outcome), times, why}.dump());
+    ::_exit(0);
+  }
+
+  const Campaign& campaign_;
+  std::ostream& out_;
+  Subject subject_;
+  std::optional<std::size_t> copy_;
+  int writing_ = -1;
+};
+
+Outcome outcome_named(const std::string& name) {
+  return *std::find_if(outcomes().begin(), outcomes().end(),
+                       [&name](Outcome outcome) { return to_string(outcome) == name; });
+}
+
+/// What a carrier wrote: a line a shot.
+void take(const std::string& lines, Campaign& campaign, std::vector<bool>& done) {
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    const Json line = Json::parse(lines.begin() + static_cast<std::ptrdiff_t>(at),
+                                  lines.begin() + static_cast<std::ptrdiff_t>(end));
+    at = end + 1;
+    const std::size_t i = line.at(0).get<std::size_t>();
+    Shot& shot = campaign.shots.at(i);
+    shot.outcome = outcome_named(line.at(1));
+    line.at(2).get_to(shot.times);
+    line.at(3).get_to(shot.sign);
+    done.at(i) = true;
+  }
+}
+
+}  // namespace
+
+Campaign run_campaign(const CampaignFile& file, unsigned jobs,
+                      const std::function<void(std::uint64_t)>& progress) {
+  Campaign campaign = prepare(file);
+  std::vector<bool> done(campaign.shots.size());
+  // A carrier takes some at a time, so that its process does not become large, and all are busy.
+  constexpr std::size_t most_at_once = 500;
+  const std::size_t count = campaign.shots.size();
+  const std::size_t at_once =
+      std::min(most_at_once, std::max<std::size_t>(1, (count + jobs - 1) / jobs));
+  std::size_t next = 0;
+  std::uint64_t finished = 0;
+  std::vector<std::unique_ptr<host::Child>> running;
+  const auto start = [&] {
+    std::vector<std::size_t> mine;
+    for (; next < count && mine.size() < at_once; ++next) mine.push_back(next);
+    running.push_back(
+        std::make_unique<host::Child>([&file, &campaign, mine](std::ostream& out, std::ostream&) {
+          Carrier(file, campaign, out).run(mine);
+          return host::done;
+        }));
+  };
+  while (next < count || !running.empty()) {
+    if (host::InterruptGuard::noted()) break;
+    while (next < count && running.size() < jobs) start();
+    const auto over = std::find_if(running.begin(), running.end(),
+                                   [](const auto& child) { return child->ended(); });
+    if (over == running.end()) {
+      ::usleep(10'000);
+      continue;
+    }
+    const host::ChildEnd end = (*over)->wait();
+    running.erase(over);
+    take(end.out, campaign, done);
+    if (end.exit_code != host::done)
+      throw vp::InputError("a process of the campaign failed: " +
+                           (end.err.empty() ? "a signal ended it" : end.err));
+    finished = static_cast<std::uint64_t>(std::count(done.begin(), done.end(), true));
+    progress(finished);
+  }
+  std::vector<Shot> shots;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (done[i]) shots.push_back(std::move(campaign.shots[i]));
+  }
+  campaign.shots = std::move(shots);
+  return campaign;
+}
+
+}  // namespace platform::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace platform::cli {
+
+/// A campaign as its file says it:
+///
+///   design: thesis
+///   inputs: [z1.0, z2.0]
+///   count: 10000
+///   seed: 1
+///   classes: [bus, register]     # none: all
+///   below: [pl.axi_dma_0]        # none: everywhere
+///   set: {ps.cores: 1}
+struct CampaignFile {
+  std::optional<std::string> design;
+  std::optional<std::string> program;
+  std::optional<std::string> fidelity;
+  std::vector<std::string> inputs;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< by path, in order
+  std::uint64_t count = 1000;                                 ///< faults, 1 to 10 million
+  std::uint64_t seed = 1;
+  std::uint64_t repeat = 1;  ///< times that the inputs are run
+  std::vector<std::string> classes;
+  std::vector<std::string> below;
+};
+
+/// Reads one. Throws vp::InputError "FILE:line: …".
+CampaignFile read_campaign(const std::string& path);
+
+}  // namespace platform::cli

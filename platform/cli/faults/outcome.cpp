@@ -1,0 +1,131 @@
+#include <cli/faults/outcome.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <result/result_json.h>
+
+namespace platform::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "pl.axi_dma_0: text (id at 12 us)" without the time.
+std::string without_time(const std::string& warning) {
+  const std::size_t at = warning.rfind(" at ");
+  return at == std::string::npos ? warning : warning.substr(0, at);
+}
+
+/// Whether unit `i` is as it was without a fault.
+bool is_right(const Witness& right, const Witness& seen, std::size_t i) {
+  return i < seen.units.size() && seen.units[i] == right.units[i];
+}
+
+/// The first one; null: there is none.
+const std::string* new_warning(const Witness& right, const Witness& seen) {
+  const auto& known = right.warnings;
+  const auto found =
+      std::find_if(seen.warnings.begin(), seen.warnings.end(), [&](const std::string& warning) {
+        return std::find(known.begin(), known.end(), warning) == known.end();
+      });
+  return found == seen.warnings.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void Witness::add(const facts::UnitReport& unit) {
+  Json json = result::to_json(unit);
+  for (const char* key : {"time_us", "latency_us", "fps", "energy_mj", "warnings", "camera"})
+    json.erase(key);
+  // What a unit delivers, where it delivers something else than counts.
+  if (unit.extra || !unit.figures.empty()) json.erase("counts");
+  units.push_back(std::move(json));
+  told.push_back(!unit.delivered() || unit.counts.lost() > 0);
+  for (const std::string& warning : unit.warnings) add_warning(warning);
+}
+
+void Witness::add_warning(const std::string& warning) {
+  warnings.push_back(without_time(warning));
+}
+
+Json Witness::json() const {
+  return {{"units", units},         {"told", told},   {"warnings", warnings}, {"ended", ended},
+          {"exit_code", exit_code}, {"error", error}, {"end_ps", end_ps}};
+}
+
+Witness Witness::of(const Json& json) {
+  Witness witness;
+  witness.units = json.at("units");
+  json.at("told").get_to(witness.told);
+  json.at("warnings").get_to(witness.warnings);
+  json.at("ended").get_to(witness.ended);
+  json.at("exit_code").get_to(witness.exit_code);
+  json.at("error").get_to(witness.error);
+  json.at("end_ps").get_to(witness.end_ps);
+  return witness;
+}
+
+const std::vector<Outcome>& outcomes() {
+  static const std::vector<Outcome> list = {Outcome::masked,   Outcome::recovered,
+                                            Outcome::reported, Outcome::unnoticed,
+                                            Outcome::hang,     Outcome::broken};
+  return list;
+}
+
+const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::masked:
+      return "masked";
+    case Outcome::recovered:
+      return "recovered";
+    case Outcome::reported:
+      return "reported";
+    case Outcome::unnoticed:
+      return "unnoticed";
+    case Outcome::hang:
+      return "hang";
+    case Outcome::broken:
+      return "broken";
+  }
+  return "";
+}
+
+Outcome classify(const Witness& right, const Witness& seen) {
+  std::size_t wrong = 0;
+  std::size_t silent = 0;
+  const std::size_t count = right.units.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_right(right, seen, i)) continue;
+    ++wrong;
+    if (i >= seen.told.size() || !seen.told[i]) ++silent;
+  }
+  const bool noticed = new_warning(right, seen) != nullptr ||
+                       (seen.ended && seen.exit_code != right.exit_code) || seen.told != right.told;
+  if (seen.units.size() < count && (!seen.ended || seen.exit_code == right.exit_code))
+    return Outcome::hang;
+  if (right.ended && !seen.ended) return Outcome::hang;
+  if (wrong == 0 && seen.units.size() == count)
+    return noticed ? Outcome::recovered : Outcome::masked;
+  if (!noticed || (silent > 0 && !new_warning(right, seen) && seen.exit_code == right.exit_code))
+    return Outcome::unnoticed;
+  return count > 0 && is_right(right, seen, count - 1) ? Outcome::recovered : Outcome::reported;
+}
+
+std::string sign(const Witness& right, const Witness& seen) {
+  if (const std::string* warning = new_warning(right, seen)) return *warning;
+  return seen.error;
+}
+
+Interval wilson(std::uint64_t hits, std::uint64_t count) {
+  if (count == 0) return {0, 1};
+  constexpr double z = 1.959963984540054;  // 95 %
+  const auto n = static_cast<double>(count);
+  const double p = static_cast<double>(hits) / n;
+  const double middle = p + z * z / (2 * n);
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 1 + z * z / n;
+  return {std::max(0.0, (middle - half) / scale), std::min(1.0, (middle + half) / scale)};
+}
+
+}  // namespace platform::cli

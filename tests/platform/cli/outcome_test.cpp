@@ -1,0 +1,78 @@
+// What a fault came to, of what is seen of a run.
+#include <boost/test/unit_test.hpp>
+
+#include <cli/faults/outcome.h>
+
+using platform::cli::classify;
+using platform::cli::Outcome;
+using platform::cli::Witness;
+
+namespace {
+
+/// Units 1 and 2, in words.
+Witness witness(const std::string& first, const std::string& second) {
+  Witness witness;
+  witness.units = {first, second};
+  witness.told = {first == "given up", second == "given up"};
+  witness.ended = true;
+  return witness;
+}
+
+const Witness right = witness("a", "b");
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(outcome)
+
+BOOST_AUTO_TEST_CASE(a_right_run_is_masked_unless_something_was_noticed) {
+  Witness seen = right;
+  BOOST_TEST((classify(right, seen) == Outcome::masked));
+  seen.add_warning("pl.axi_dma_0: odd (/markervp/odd at 12 us)");
+  BOOST_TEST((classify(right, seen) == Outcome::recovered));
+  BOOST_TEST(sign(right, seen) == "pl.axi_dma_0: odd (/markervp/odd");
+}
+
+BOOST_AUTO_TEST_CASE(a_warning_of_the_right_run_is_no_sign) {
+  Witness before = right;
+  before.add_warning("ps: late (/markervp/late at 12 us)");
+  Witness seen = witness("a", "c");
+  seen.add_warning("ps: late (/markervp/late at 13 us)");
+  BOOST_TEST((classify(before, seen) == Outcome::unnoticed));
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_unit_without_a_sign_is_unnoticed) {
+  BOOST_TEST((classify(right, witness("a", "c")) == Outcome::unnoticed));
+  BOOST_TEST((classify(right, witness("c", "b")) == Outcome::unnoticed));
+  // One is given up, another silently wrong.
+  BOOST_TEST((classify(right, witness("given up", "c")) == Outcome::unnoticed));
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_unit_that_says_so_is_recovered_if_the_last_is_right) {
+  BOOST_TEST((classify(right, witness("given up", "b")) == Outcome::recovered));
+  BOOST_TEST((classify(right, witness("a", "given up")) == Outcome::reported));
+  Witness seen = witness("a", "c");
+  seen.exit_code = 1;
+  BOOST_TEST((classify(right, seen) == Outcome::reported));
+}
+
+BOOST_AUTO_TEST_CASE(units_that_do_not_come_are_a_hang) {
+  Witness seen = right;
+  seen.units.erase(1);
+  seen.told.pop_back();
+  BOOST_TEST((classify(right, seen) == Outcome::hang));
+  seen = right;
+  seen.ended = false;
+  BOOST_TEST((classify(right, seen) == Outcome::hang));
+}
+
+// Wilson 1927; the values are those of R's prop.test(correct = FALSE).
+BOOST_AUTO_TEST_CASE(intervals_of_shares) {
+  const auto interval = platform::cli::wilson(10, 100);
+  BOOST_TEST(interval.low == 0.05522914, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(interval.high == 0.1743657, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(platform::cli::wilson(0, 10).low == 0.0);
+  BOOST_TEST(platform::cli::wilson(0, 10).high == 0.2775328, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(platform::cli::wilson(0, 0).high == 1.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
