@@ -92,6 +92,25 @@ BOOST_AUTO_TEST_CASE(both_fidelities_make_the_same_of_a_fault) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(beats_of_a_stream_go_wrong) {
+  BOOST_TEST(run({"z1.0", "z2.0", "--no-pictures", "--no-report"}).exit_code == 0);
+  const std::string right = frames();
+  const auto what = [this](const std::string& kind, const std::string& stream,
+                           const std::string& beat) {
+    return inject("{what: " + kind + ", where: " + stream + ", beat: " + beat + "}");
+  };
+  what("dropped", "pl.image_stream", "100000000");
+  BOOST_TEST((frames() == right), "beats that pass one by one pass at the same times");
+  BOOST_TEST(
+      contains(what("repeated", "pl.image_stream", "1000").out, "out_of_range at 4.86636 ms"));
+  what("tlast", "pl.binary_stream", "3");
+  BOOST_TEST(result()["frames"][0]["markers"].empty());
+  what("dropped", "pl.image_stream", "1000");
+  BOOST_TEST(injected()["first_us"] == 130.11);
+  what("corrupt, bit: 31", "pl.image_stream", "1000");
+  BOOST_TEST(injected()["first_us"] == 130.1, "a beat is offered before it passes");
+}
+
 BOOST_AUTO_TEST_CASE(inputs_are_spoiled_and_reports_know_the_right_one) {
   inject("{what: input, value: 0, unit: 2}");
   BOOST_TEST(result()["frames"][0]["markers"].size() == 1u);

@@ -31,6 +31,15 @@ void AxiStream::end_of_simulation() {
   if (checker_) checker_->finish();
 }
 
+void AxiStream::pass_singly(StreamFault* fault) {
+  const bool elaborates = sc_core::sc_get_status() < sc_core::SC_END_OF_ELABORATION;
+  if (!elaborates && rests())
+    throw std::logic_error(std::string(name()) + ": its beats do not pass one by one");
+  slave_takes_source_ = false;
+  sink_ = nullptr;
+  fault_ = fault;
+}
+
 void AxiStream::start_of_simulation() {
   if (!master_ || !slave_) return;
   std::vector<StreamChecker::Reset> resets;

@@ -202,6 +202,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   const CodeLocator* code() const { return code_ ? &*code_ : nullptr; }
   /// Where the program is, as messages end: ", at 320 ns in function 'f' of program 'p', pc …".
   std::string where() const;
+  /// Reads the lines of the program's source now: copies of this process need not.
+  void read_lines() const;
   /// "pc …" as CodeLocator::path() has it, while the program or a HAL call of it is under way;
   /// otherwise empty.
   std::string program_counter() const;

@@ -309,6 +309,10 @@ std::optional<std::string> Cpu::place() const {
   return program_counter();
 }
 
+void Cpu::read_lines() const {
+  if (code_) code_->path({reinterpret_cast<std::uintptr_t>(program_->description().entry) + 1});
+}
+
 std::string Cpu::program_counter() const {
   if (locate_program_) return locate_program_();
   if (!code_ || !running_) return {};

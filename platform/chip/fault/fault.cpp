@@ -27,10 +27,17 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::set<std::string> of_access = {"at", "access", "count", "of", "address"};
+  static const std::set<std::string> of_beat = {"at", "beat", "count"};
   static const std::vector<Kind> list = {
       {"slverr", What::slverr, {"where"}, of_access},
       {"decerr", What::decerr, {"where"}, of_access},
-      {"corrupt", What::corrupt, {"where", "bit"}, of_access},
+      {"corrupt",
+       What::corrupt,
+       {"where", "bit"},
+       {"at", "access", "beat", "count", "of", "address"}},
+      {"dropped", What::dropped, {"where"}, of_beat},
+      {"repeated", What::repeated, {"where"}, of_beat},
+      {"tlast", What::tlast, {"where"}, of_beat},
       {"flip", What::flip, {"at", "bit"}, {"where", "address"}},
       {"stuck", What::stuck, {"where", "value", "at"}, {"for"}},
       {"lost", What::lost, {"where"}, {"at", "edge", "count"}},
@@ -115,7 +122,7 @@ class FaultReader : private vp::YamlReader {
     add("at", [this](const YAML::Node& node) { fault_.at_ps = time(node, "at"); });
     add("for", [this](const YAML::Node& node) { fault_.for_ps = time(node, "for"); });
     add("by", [this](const YAML::Node& node) { fault_.by_ps = time(node, "by"); });
-    for (const char* name : {"access", "edge", "unit"}) {
+    for (const char* name : {"access", "beat", "edge", "unit"}) {
       add(name, [this, name](const YAML::Node& node) { fault_.nth = number(node, name, 1, most); });
     }
     add("count", [this](const YAML::Node& node) {

@@ -17,7 +17,10 @@ struct Fault {
   enum class What {
     slverr,    ///< a target answers an access with an error, after it did what was asked
     decerr,    ///< an access does not reach its target, and is answered with an error
-    corrupt,   ///< a bit of what an access moves is wrong
+    corrupt,   ///< a bit of what an access, or a beat of a stream, moves is wrong
+    dropped,   ///< a beat of a stream is not seen by the slave
+    repeated,  ///< a beat of a stream is seen twice by the slave
+    tlast,     ///< TLAST of a beat is the opposite
     flip,      ///< a stored bit changes: memory, register
     stuck,     ///< a signal keeps a value, whatever its writer says
     lost,      ///< a rising edge of a signal is not seen: the signal stays low until it falls
@@ -34,7 +37,7 @@ struct Fault {
   std::uint64_t at_ps = 0;          ///< it begins; accesses and edges count from then on
   std::uint64_t for_ps = for_ever;  ///< how long it lasts
   std::uint64_t by_ps = 0;          ///< `late`: how much
-  std::uint64_t nth = 1;            ///< access, edge or unit that meets it, from 1
+  std::uint64_t nth = 1;            ///< access, beat, edge or unit that meets it, from 1
   std::uint64_t count = 1;          ///< how many of these do; for_ever: all from then on
   enum class Of { accesses, reads, writes } of = Of::accesses;  ///< what `nth` counts
   bool has_address = false;

@@ -1,6 +1,7 @@
 #include <chip/fault/fault_space.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <vp/axi_stream.h>
@@ -36,8 +37,8 @@ std::string flip_text(const std::string& place, std::uint64_t bit) {
 }  // namespace
 
 const std::vector<std::string>& FaultSpace::classes() {
-  static const std::vector<std::string> names = {"bus",      "register", "memory", "buffer",
-                                                 "internal", "signal",   "clock",  "input"};
+  static const std::vector<std::string> names = {
+      "bus", "register", "memory", "buffer", "internal", "signal", "stream", "clock", "input"};
   return names;
 }
 
@@ -45,6 +46,7 @@ FaultSpace::FaultSpace(Injector& injector, const std::vector<std::string>& chose
                        const std::vector<std::string>& below, std::uint64_t units)
     : below_(below) {
   for (const std::string& name : chosen.empty() ? classes() : chosen) {
+    if (chosen.empty() && name == on_request) continue;
     Class found = find(name, injector, units);
     if (found.faults > 0) {
       classes_.push_back(std::move(found));
@@ -80,6 +82,7 @@ FaultSpace::Class FaultSpace::find(const std::string& name, Injector& injector,
   if (name == "buffer") find_buffers(found, zynq);
   if (name == "internal") find_internals(found, injector);
   if (name == "signal") find_signals(found, injector);
+  if (name == "stream") find_streams(found, zynq);
   if (name == "clock") find_clocks(found, zynq);
   if (name == "input") find_inputs(found, zynq, units);
   return found;
@@ -147,6 +150,18 @@ void FaultSpace::find_signals(Class& found, Injector& injector) const {
       if (n == 3) return "what: late, " + where + ", by: 10 us";
       return "what: spurious, " + where + ", for: 1 us";
     });
+  }
+}
+
+void FaultSpace::find_streams(Class& found, Zynq& zynq) const {
+  for (const vp::AxiStream* stream : vp::all_below<vp::AxiStream>(zynq.pl())) {
+    if (stream->beats.get() == 0) continue;
+    add(found, stream->name(), 3 + word_bits,
+        [where = std::string("where: ") + stream->name()](std::uint64_t n) {
+          constexpr const char* kinds[] = {"what: dropped, ", "what: repeated, ", "what: tlast, "};
+          if (n < std::size(kinds)) return kinds[n] + where;
+          return "what: corrupt, " + where + ", bit: " + std::to_string(n - std::size(kinds));
+        });
   }
 }
 

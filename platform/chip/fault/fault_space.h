@@ -20,11 +20,14 @@ namespace platform {
 ///   | buffer   | a bit of a DMA buffer in the DDR                                             |
 ///   | internal | a bit of a register inside of the logic, where the fidelity has them         |
 ///   | signal   | a wire of one bit: stuck for 100 us, a rising edge lost or late, a pulse     |
+///   | stream   | a beat is dropped, comes twice, has a wrong bit or the other TLAST           |
 ///   | clock    | a clock of the logic stops for 10 us                                         |
 ///   | input    | a dead or hot byte from then on, an input of zeros or ones, a torn one       |
 class FaultSpace {
  public:
   static const std::vector<std::string>& classes();
+  /// Streams pass single beats then, which takes longer: only if the user asks for it.
+  static constexpr const char* on_request = "stream";
 
   /// After a run of the same platform without faults, whose counters say which links were used.
   /// `chosen`: classes, none for all; `below`: paths, none for all. `units`: inputs of the run.
@@ -63,6 +66,7 @@ class FaultSpace {
   void find_memories(Class& found, Zynq& zynq) const;
   void find_buffers(Class& found, Zynq& zynq) const;
   void find_internals(Class& found, Injector& injector) const;
+  void find_streams(Class& found, Zynq& zynq) const;
   void find_signals(Class& found, Injector& injector) const;
   void find_clocks(Class& found, Zynq& zynq) const;
   void find_inputs(Class& found, Zynq& zynq, std::uint64_t units) const;

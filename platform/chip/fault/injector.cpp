@@ -24,8 +24,16 @@ void Injector::place(Injection& injection) {
   switch (injection.fault.what) {
     case What::slverr:
     case What::decerr:
-    case What::corrupt:
       places_.push_back(place_bus_fault(*this, injection));
+      return;
+    case What::corrupt:
+      places_.push_back(is_stream(injection.fault.where) ? place_stream_fault(*this, injection)
+                                                         : place_bus_fault(*this, injection));
+      return;
+    case What::dropped:
+    case What::repeated:
+    case What::tlast:
+      places_.push_back(place_stream_fault(*this, injection));
       return;
     case What::stuck:
     case What::lost:

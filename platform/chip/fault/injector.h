@@ -79,11 +79,17 @@ class Injector {
   std::vector<std::uint8_t> before_;  ///< the unit before, as it was made
 };
 
+/// Whether a path is that of a stream.
+bool is_stream(const std::string& path);
+/// Before the run: each stream passes its beats one by one, so that faults can be added later.
+void let_streams_fail();
+
 /// Throws vp::InputError for a signal or register that Injector::unplayed() has a key for.
 void check_played(const Injector& injector, const std::string& path);
 
 // One for each group of kinds; they throw vp::InputError as the constructor does.
 std::unique_ptr<FaultyPlace> place_bus_fault(Injector& injector, Injection& injection);
+std::unique_ptr<FaultyPlace> place_stream_fault(Injector& injector, Injection& injection);
 std::unique_ptr<FaultyPlace> place_signal_fault(Injector& injector, Injection& injection);
 void plan_flip(Injector& injector, Injection& injection);
 void plan_clock_fault(Injector& injector, Injection& injection);

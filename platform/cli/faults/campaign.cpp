@@ -49,6 +49,9 @@ class Subject {
     asked.program = file.program;
     asked.timeline_frames = 0;
     simulation_ = build(configuration_, asked);
+    const auto& classes = file.classes;
+    if (std::find(classes.begin(), classes.end(), FaultSpace::on_request) != classes.end())
+      let_streams_fail();
     const auto source =
         study::open_inputs({file.inputs, {}, simulation_->input(), file.repeat, {}});
     while (facts::SharedInput input = source->next()) inputs_.push_back(std::move(input));
@@ -157,6 +160,7 @@ class Carrier {
 
   /// `mine`: places in campaign.shots.
   void run(const std::vector<std::size_t>& mine) {
+    subject_.simulation().zynq().ps.cpu.read_lines();
     Injector& injector = subject_.simulation().injector();
     for (const std::size_t i : mine)
       injector.plan(campaign_.shots[i].at_ps, [this, i] { fork_for(i); });

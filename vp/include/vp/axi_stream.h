@@ -50,6 +50,18 @@ class BurstSender {
   virtual void settle(std::uint64_t cycle) = 0;
 };
 
+/// Lets beats go wrong on their way.
+class StreamFault {
+ public:
+  virtual ~StreamFault() = default;
+  /// The master offers a beat: what its wires show.
+  virtual void offered(std::uint32_t& data, bool& last) = 0;
+  /// A beat passes on this edge, and the slave does not see it.
+  virtual bool drops() = 0;
+  /// A beat passes on this edge, and the master does not see that.
+  virtual bool repeats() = 0;
+};
+
 class AxiStreamMaster;
 class StreamChecker;
 
@@ -73,6 +85,10 @@ class AxiStream : public sc_core::sc_module {
 
   /// Beats pass without an event for each: of the wires, only tready moves.
   bool rests() const { return source_ || sink_; }
+  /// No beat passes without one, and `fault` decides about each; null: they only pass one by one.
+  /// During elaboration, or later if they do already.
+  void pass_singly(StreamFault* fault);
+  bool has_fault() const { return fault_ != nullptr; }
 
   // Counted by the slave on its clock edges.
   Counter beats{"beats", "beats passed"};
@@ -96,6 +112,7 @@ class AxiStream : public sc_core::sc_module {
   bool source_changed_ = false;  ///< since the slave asked
   BurstSink* sink_ = nullptr;
   BurstSender* sender_ = nullptr;
+  StreamFault* fault_ = nullptr;
 };
 
 /// The port bundle of a module that sends: `vp::AxiStreamMaster m_axis{"m_axis", *this};`
@@ -120,11 +137,12 @@ class AxiStreamMaster {
   void excuse() { link_->excuse(); }
 
   /// In edge(): the beat that was offered passes on this edge.
-  bool accepted() const { return tvalid.get() && tready.read(); }
+  bool accepted() const { return tvalid.get() && taken(); }
   /// In edge(): a new beat may be offered, since none is waiting.
-  bool free() const { return !tvalid.get() || tready.read(); }
+  bool free() const { return !tvalid.get() || taken(); }
   /// Offers a beat from this edge on.
   void offer(std::uint32_t data, bool last, std::uint8_t keep = 0xF) {
+    if (link_->fault_) link_->fault_->offered(data, last);
     tdata = data;
     tkeep = keep;
     tlast = last;
@@ -169,6 +187,8 @@ class AxiStreamMaster {
  private:
   friend class AxiStream;
 
+  bool taken() const { return tready.read() && !(link_->fault_ && link_->fault_->repeats()); }
+
   AxiStream* link_ = nullptr;
   struct Reset {
     std::function<SignalBase*()> signal;  ///< known when all is bound
@@ -195,6 +215,7 @@ class AxiStreamSlave {
   bool sample() {
     const bool valid = tvalid.read();
     const bool ready = tready.get();
+    if (valid && ready && link_->fault_ && link_->fault_->drops()) return waiting_ = false;
     if (valid && ready) {
       ++link_->beats;
       link_->packets.add(tlast.read());
