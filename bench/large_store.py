@@ -4,7 +4,7 @@
     large_store.py MARKERVP FILLER [POINTS [FOLDER]]
 
 A sweep of that many points is begun and stopped. FILLER (bench_store_filler) gives the other points results made from one that was
-computed, in the program's own files, 28 kB of disk each; a folder that is named stays, and is taken as it is next time. Then
+computed, in a shard as the program writes it, a kilobyte of disk each; a folder that is named stays, and is taken as it is next time. Then
 each command is measured, and the table of docs/exploration.md printed. Fails beyond a kilobyte and 0.1 ms a point.
 """
 import os
@@ -39,9 +39,9 @@ def measured(*command):
 
 
 def begin(markervp, study, folder, points):
-    process = subprocess.Popen([markervp, "sweep", study, "--output", folder, "--limit", str(points)],
+    process = subprocess.Popen([markervp, "sweep", study, "--output", folder, "--limit", str(points), "--keep-results"],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while process.poll() is None and not any(folder.glob("runs/*.log")):
+    while process.poll() is None and not any(folder.glob("points/*.json")):
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     process.wait()

@@ -2,9 +2,13 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <study/kept_result.h>
 #include <study/manifest.h>
-#include <study/run_log.h>
+#include <study/shard.h>
+#include <study/shards.h>
 
 /// libsystemc refers to it.
 extern "C" int sc_main(int, char**) {
@@ -29,28 +33,36 @@ Json moved(const Json& json, double by, int& left) {
   return result;
 }
 
+/// A whole result that the folder keeps.
+Json kept_result(const Store& store) {
+  std::vector<std::string> foreign;
+  for (const std::string& key : store.kept_keys(foreign)) {
+    KeptResult kept = read_kept(store.kept_path(key));
+    if (!kept.outcome.failed) return std::move(kept.result);
+  }
+  throw std::runtime_error("no point was computed that ran, with --keep-results");
+}
+
 void fill(const std::string& folder) {
   const Store store(folder);
   const Manifest manifest = store.read_manifest();
-  Json result;
-  for (const PlannedPoint& point : manifest.points) {
-    if (!store.has(point.key)) continue;
-    const PointRecord record = store.read(point.key);
-    if (!record.failed()) result = record.outcome.at("result");
-    break;
-  }
-  if (result.is_null()) throw std::runtime_error("no point was computed that ran");
-  const Outcome real = outcome_of(done_record(manifest, manifest.points.front(), result));
-  RunLog log(store, "bench");
+  const Json result = kept_result(store);
+  const Shards there(store);
+  Shard shard(store, manifest, "bench");
   constexpr int figures = 100;
   for (std::size_t i = 0; i < manifest.points.size(); ++i) {
-    const PlannedPoint& point = manifest.points[i];
-    if (store.has(point.key)) continue;
+    const Point& point = manifest.points[i];
+    if (there.has(point.key)) continue;
     const double by = 1 + static_cast<double>(i * 7919 % 1'000'003) / 1e6;
     int left = figures;
-    const PointRecord record = done_record(manifest, point, moved(result, by, left));
-    store.write(record);
-    log.add(point.key, 0.005, 0.004, 1, outcome_of(record));
+    const Json other = moved(result, by, left);
+    Outcome outcome;
+    outcome.metrics = platform::result::metrics_of(other);
+    outcome.complaints = complaints_of(other);
+    outcome.wall_s = 0.005;
+    outcome.cpu_s = 0.004;
+    outcome.attempt = 1;
+    shard.add(point, outcome);
   }
   store.flush();
 }
@@ -58,7 +70,7 @@ void fill(const std::string& folder) {
 }  // namespace
 
 /// Gives every point of a sweep's folder that has none a result made from one that was computed, in
-/// the files that the sweep itself writes, logs included.
+/// a shard as the sweep itself writes it.
 int main(int argc, char** argv) {
   try {
     if (argc != 2) throw std::runtime_error("name the folder of a sweep");

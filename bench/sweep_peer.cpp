@@ -28,12 +28,12 @@ double cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Runs all points of the sweep, one after another in this process. `run` takes its point.
+/// Runs all points of the sweep, one after another in this process.
 template <class Run>
 double seconds_a_point(const study::Manifest& manifest, const Run& run) {
   const double begin = cpu_seconds();
-  for (const study::PlannedPoint& point : manifest.points) {
-    if (run(study::run_of(manifest, point)) != 0) throw std::runtime_error("a point failed");
+  for (const study::Point& point : manifest.points) {
+    if (run(manifest.setup(point)) != 0) throw std::runtime_error("a point failed");
   }
   return (cpu_seconds() - begin) / static_cast<double>(manifest.points.size());
 }
@@ -44,11 +44,11 @@ void measure(const std::string& folder, const std::string& output) {
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   cli::warm_up(manifest, all);
   std::ostringstream said;
-  const double bare = seconds_a_point(manifest, [&](const study::PointRun& run) {
-    study::PointResult result;
+  const double bare = seconds_a_point(manifest, [&](const study::Setup& run) {
+    study::RunResult result;
     return cli::run_point(run, result, said);
   });
-  const double written = seconds_a_point(manifest, [&](const study::PointRun& run) {
+  const double written = seconds_a_point(manifest, [&](const study::Setup& run) {
     cli::RunOptions options = cli::options_of(run);
     options.output = output;
     options.no_pictures = options.no_report = options.quiet = true;

@@ -258,7 +258,7 @@ class Sweep:
     def run(self, point, output, set=None):
         """Runs a point, or its key, again as an ordinary run with pictures and report."""
         key = point if isinstance(point, str) else point["key"]
-        arguments = ["run", "--point", self.folder / "points" / f"{key}.json"]
+        arguments = ["run", "--point", f"{self.folder}:{key}"]
         return _run(arguments, output, set)
 
 

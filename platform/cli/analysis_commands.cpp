@@ -2,10 +2,12 @@
 
 #include <cli/commands.h>
 #include <cli/program.h>
+#include <cli/sweep_command.h>
 #include <result/console.h>
 #include <result/metrics.h>
 #include <result/page/report_page.h>
 #include <study/compare.h>
+#include <study/named_point.h>
 #include <study/pareto.h>
 #include <study/report.h>
 #include <study/results.h>
@@ -15,11 +17,25 @@
 #include <vp/text.h>
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <ostream>
 
 namespace platform::cli {
 
 namespace {
+
+/// All results in the folder of a sweep. Those of an earlier version are taken over.
+std::shared_ptr<study::Shards> shards_of(const study::Store& store, const study::Manifest& manifest,
+                                         std::ostream& err) {
+  auto shards = std::make_shared<study::Shards>(store);
+  tell_damages(*shards, err);
+  study::adopt_kept(store, manifest, *shards, 0, [&](const std::string& file) {
+    err << "markervp: warning: '" << file
+        << "' is not whole, as a power failure leaves it: sweep again" << std::endl;
+  });
+  return shards;
+}
 
 /// The results of a sweep's folder, which must exist, with the figures that are asked for.
 study::Results results_of(const std::string& folder, const std::vector<vp::Expression>& figures,
@@ -30,8 +46,9 @@ study::Results results_of(const std::string& folder, const std::vector<vp::Expre
   if (!std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored))
     throw vp::InputError("'" + folder + "' is no folder of a sweep: it has no manifest.json");
   const study::Store store(folder);
-  study::Results results =
-      study::read_results(std::make_shared<study::RunLogs>(store), store.read_manifest(), figures);
+  study::Manifest manifest = store.read_manifest();
+  const auto shards = shards_of(store, manifest, err);
+  study::Results results = study::read_results(shards, std::move(manifest), figures);
   if (results.missing != 0)
     err << "markervp: warning: " << result::counted(results.missing, "point") << " not computed yet"
         << std::endl;
@@ -97,8 +114,7 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
 int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
   if (options.folder.empty() != options.at.has_value())
     throw vp::InputError(
-        "sensitivity: name the folder of a sweep, or one of its points with --at "
-        "out/NAME/points/KEY.json");
+        "sensitivity: name the folder of a sweep, or one of its points with --at out/NAME:KEY");
   if (options.at) return find_step_effects(options, out, err);
   std::vector<vp::Expression> figures;
   for (const std::string& text : options.figures) figures.emplace_back(text, "--figure");
@@ -129,13 +145,37 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
   return done;
 }
 
-int compare_runs(const CompareOptions& options, std::ostream& out) {
-  out << study::compare(study::read_comparable(options.first),
-                        study::read_comparable(options.second));
+namespace {
+
+/// A point of a sweep is run again for that, apart, if its whole result is not kept.
+study::Comparable comparable_of(const std::string& name, std::ostream& err) {
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored) || !study::names_point(name))
+    return study::read_comparable(name);
+  const study::NamedPoint point = study::named_point(name);
+  if (point.failed) throw vp::InputError("'" + name + "' is a point that failed: " + point.message);
+  if (!point.kept.is_null()) return study::comparable(name, point.kept, point.configuration);
+  warn_of_version(point, err);
+  const study::Json made = made_apart([&](std::ostream& said) {
+    study::RunResult result;
+    if (run_point(point.asked.setup, result, said) != done)
+      throw vp::InputError("'" + name + "' fails when it is run again");
+    return study::Json{{"result", std::move(result.result)},
+                       {"configuration", result.configuration}};
+  });
+  return study::comparable(name, made.at("result"),
+                           made.at("configuration").get<std::map<std::string, std::string>>());
+}
+
+}  // namespace
+
+int compare_runs(const CompareOptions& options, std::ostream& out, std::ostream& err) {
+  const study::Comparable first = comparable_of(options.first, err);
+  out << study::compare(first, comparable_of(options.second, err));
   return done;
 }
 
-int make_report(const ReportOptions& options, std::ostream& out) {
+int make_report(const ReportOptions& options, std::ostream& out, std::ostream& err) {
   if (page::page_template().empty()) {
     throw vp::InputError(
         "this markervp was built without report.html: build it again with Node.js and npm "
@@ -150,8 +190,9 @@ int make_report(const ReportOptions& options, std::ostream& out) {
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::path(folder) / "manifest.json", ignored)) {
       const study::Store store(folder);
-      study::write_page(study::read_results(std::make_shared<study::RunLogs>(store),
-                                            store.read_manifest(), study::page_figures()),
+      study::Manifest manifest = store.read_manifest();
+      const auto shards = shards_of(store, manifest, err);
+      study::write_page(study::read_results(shards, std::move(manifest), study::page_figures()),
                         folder);
     } else {
       page::write_report(folder);

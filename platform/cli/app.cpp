@@ -148,8 +148,8 @@ void add_linux_option(CLI::App& command, RunOptions& target) {
 }
 
 void add_point_option(CLI::App& command, RunOptions& target) {
-  command.add_option("--point", target.point, "run a sweep's point again (points/KEY.json)")
-      ->type_name("FILE");
+  command.add_option("--point", target.point, "run a point of a sweep again: out/NAME:KEY")
+      ->type_name("POINT");
 }
 
 void add_output_options(CLI::App& command, RunOptions& target) {

@@ -46,6 +46,8 @@ void add_run_options(CLI::App& command, SweepOptions& target) {
   command.add_flag(
       "--isolate", target.isolate,
       "each point in a process of its own (default: those of PS programs of your own)");
+  command.add_flag("--keep-results", target.keep_results,
+                   "keep each point's whole result.json (points/KEY.json); else it is made again");
   command
       .add_option("--chunk", target.chunk, "Slurm: points a task (default: some seconds' worth)")
       ->type_name("N")
@@ -105,6 +107,7 @@ void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
   command->add_option("SUBMISSION", target.submission, "its number")->required();
   command->add_option("TASK", target.task, "its number")->required();
   command->add_option("POINTS", target.points_a_process, "points a process")->required();
+  command->add_flag("--keep-results", target.keep_results, "whole");
 }
 
 void add_metrics(CLI::App& app, MetricsOptions& target) {
@@ -133,8 +136,8 @@ void add_sensitivity(CLI::App& app, SensitivityOptions& target) {
   command->add_option("DIR", target.folder, "folder of the sweep")->type_name("DIR");
   command
       ->add_option("--at", target.at,
-                   "what one step of each parameter changes at a point (points/KEY.json)")
-      ->type_name("FILE");
+                   "what one step of each parameter changes at a point: out/NAME:KEY")
+      ->type_name("POINT");
   command->add_option("--figure", target.figures, "of what (default: the sweep's objectives)")
       ->type_name("FIGURE")
       ->expected(1)
@@ -144,7 +147,8 @@ void add_sensitivity(CLI::App& app, SensitivityOptions& target) {
 
 void add_compare(CLI::App& app, CompareOptions& target) {
   CLI::App* command = app.add_subcommand("compare", "in what two runs or points differ");
-  command->add_option("A", target.first, "result.json, its folder, or a point's file")
+  command
+      ->add_option("A", target.first, "result.json, its folder, or a sweep's point: out/NAME:KEY")
       ->type_name("FILE")
       ->required();
   command->add_option("B", target.second, "the other")->type_name("FILE")->required();

@@ -75,7 +75,7 @@ int print_map(const MapOptions& options, std::ostream& out);
 int import_handoff(const ImportOptions& options, std::ostream& out);
 
 /// Makes the page of a folder again, or one that compares two runs.
-int make_report(const ReportOptions& options, std::ostream& out);
+int make_report(const ReportOptions& options, std::ostream& out, std::ostream& err);
 
 /// Lists the chips that a design can be built for, or all figures of one.
 int list_devices(const DevicesOptions& options, std::ostream& out);
@@ -128,7 +128,7 @@ int find_sensitivity(const SensitivityOptions& options, std::ostream& out, std::
 /// What one step of each parameter is worth at a point: options.at.
 int find_step_effects(const SensitivityOptions& options, std::ostream& out, std::ostream& err);
 
-int compare_runs(const CompareOptions& options, std::ostream& out);
+int compare_runs(const CompareOptions& options, std::ostream& out, std::ostream& err);
 
 /// Reads --config, --set and --design into `configuration`.
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration);

@@ -6,6 +6,7 @@
 #include <result/console.h>
 #include <study/engine.h>
 #include <study/explore/explore.h>
+#include <study/named_point.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <study/sensitivity.h>
@@ -54,16 +55,18 @@ class Generations {
       : options_(options),
         budget_(budget),
         store_(store),
-        logs_(store),
+        shards_(store),
         space_(space),
         err_(err),
-        bar_(space.manifest().name, budget.points()) {}
+        bar_(space.manifest().name, budget.points()) {
+    tell_damages(shards_, err);
+  }
 
   std::map<std::size_t, study::Outcome> compute(const std::vector<std::size_t>& positions) {
     const study::Manifest& manifest = space_.manifest();
     if (positions.empty() || host::InterruptGuard::noted()) return {};
     const std::vector<std::size_t> pending =
-        pending_points(store_, logs_, manifest, positions.front(), options_.retry_failed, err_);
+        pending_points(options_, store_, shards_, manifest, positions.front(), err_);
     before_ += positions.size() - pending.size();
     keep_manifest();
     const auto progress = [&](std::uint64_t points) { bar_.update(positions.front() + points); };
@@ -71,10 +74,10 @@ class Generations {
                                             [&] { return budget_.time_is_over(); });
     computed_ += tally.computed;
     abandoned_ += tally.abandoned;
-    logs_.refresh();
+    shards_.refresh();
     std::map<std::size_t, study::Outcome> outcomes;
     for (const std::size_t position : positions) {
-      if (auto outcome = logs_.outcome(manifest.points[position].key))
+      if (auto outcome = shards_.outcome(manifest.points[position].key))
         outcomes.emplace(position, *std::move(outcome));
     }
     return outcomes;
@@ -102,7 +105,7 @@ class Generations {
   const ExploreOptions& options_;
   const explore::Budget& budget_;
   study::Store& store_;
-  study::RunLogs logs_;
+  study::Shards shards_;
   study::Space& space_;
   std::ostream& err_;
   vp::Progress bar_;
@@ -164,9 +167,8 @@ int explore_points(const ExploreOptions& options, std::ostream& out, std::ostrea
   generations.reset();  // and its bar
   study::Results results = explorer.results();
   results.manifest = space.manifest();
-  study::RunLogs logs(store);
-  logs.complete(space.manifest());
-  write_results(options, store, logs, results, computed, before, out);
+  const study::Shards shards(store);
+  write_results(options, store, shards, results, computed, before, out);
   if (host::InterruptGuard::noted()) {
     err << "markervp: interrupted: the same command continues" << std::endl;
     return interrupted;
@@ -182,12 +184,12 @@ constexpr const char* usual_figures[] = {"summary.fps.mean", "summary.latency_us
                                          "summary.energy_per_frame_mj", "resources.total.lut"};
 
 /// The values that the folder's sweep or search gave the point.
-study::Assignment point_in(const study::Manifest& manifest, const std::string& file) {
-  const std::string key = fs::path(file).stem().string();
+study::Assignment point_in(const study::Manifest& manifest, const study::NamedPoint& point) {
   const auto found = std::find_if(manifest.points.begin(), manifest.points.end(),
-                                  [&](const auto& point) { return point.key == key; });
+                                  [&](const auto& planned) { return planned.key == point.key; });
   if (found == manifest.points.end())
-    throw vp::InputError("'" + file + "' is no point of the last sweep or search in its folder");
+    throw vp::InputError("'" + point.name +
+                         "' is no point of the last sweep or search in its folder");
   return found->swept;
 }
 
@@ -207,35 +209,34 @@ std::vector<vp::Expression> figures_of(const SensitivityOptions& options) {
 }
 
 /// The points of a manifest, computed where they are not there.
-study::Results computed(study::Store& store, const std::shared_ptr<study::RunLogs>& logs,
+study::Results computed(study::Store& store, const std::shared_ptr<study::Shards>& shards,
                         const study::Manifest& manifest, const std::vector<vp::Expression>& figures,
                         std::ostream& err) {
   const host::InterruptGuard guard;
-  const std::vector<std::size_t> pending = pending_points(store, *logs, manifest, 0, false, err);
+  const std::vector<std::size_t> pending = pending_points({}, store, *shards, manifest, 0, err);
   vp::Progress bar("steps", pending.size());
   compute(
       {}, store, manifest, pending, [&](std::uint64_t points) { bar.update(points); }, err);
-  logs->complete(manifest);
-  return study::read_results(logs, study::Manifest(manifest), figures);
+  shards->refresh();
+  return study::read_results(shards, study::Manifest(manifest), figures);
 }
 
 }  // namespace
 
 int find_step_effects(const SensitivityOptions& options, std::ostream& out, std::ostream& err) {
-  const fs::path folder = fs::path(*options.at).parent_path().parent_path();
-  study::read_point(*options.at);  // says what is wrong with the file
-  study::Store store(folder.empty() ? "." : folder.string());
+  const study::NamedPoint named = study::named_point(*options.at);
+  study::Store store(named.folder);
   store.lock();
   study::Manifest manifest = store.read_manifest();
-  const study::Assignment at = point_in(manifest, *options.at);
+  const study::Assignment at = point_in(manifest, named);
   const study::Platform platform = sweep_platform();
   study::Space space(spec_of(manifest), platform);
   const std::vector<study::Step> steps = study::steps_from(space, at);
   space.manifest().points.push_back(space.point(at));
   for (const study::Step& step : steps) space.manifest().points.push_back(space.point(step.point));
-  const auto logs = std::make_shared<study::RunLogs>(store);
+  const auto shards = std::make_shared<study::Shards>(store);
   const std::vector<vp::Expression> figures = figures_of(options);
-  const study::Results results = computed(store, logs, space.manifest(), figures, err);
+  const study::Results results = computed(store, shards, space.manifest(), figures, err);
   if (results.missing != 0) {
     err << "markervp: interrupted: the same command continues" << std::endl;
     return interrupted;
@@ -248,7 +249,7 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
   const std::string csv = store.path("steps.csv");
   vp::write_file_durably(csv, study::effects_csv(effects));
   const bool page =
-      study::write_page(study::read_results(logs, std::move(manifest), study::page_figures()),
+      study::write_page(study::read_results(shards, std::move(manifest), study::page_figures()),
                         store.folder(), study::effects_json(effects, results.rows.front().key));
   out << "wrote " << csv << (page ? ", report.html" : "") << std::endl;
   return done;

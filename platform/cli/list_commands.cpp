@@ -412,6 +412,7 @@ std::string with_unit(const std::string& rate) {
 
 void load_configuration(const ConfigurationOptions& options, vp::Configuration& configuration) {
   for (const std::string& file : options.files) configuration.load_file(file);
+  for (const auto& [path, value] : options.settings) configuration.set(path, value);
   for (const std::string& assignment : options.assignments) configuration.set(assignment);
   if (options.design) configuration.set("design", *options.design, "--design");
 }

@@ -15,8 +15,9 @@ namespace platform::cli {
 /// --config and --set, in the order given.
 struct ConfigurationOptions {
   std::vector<std::string> files;
-  std::vector<std::string> assignments;  ///< "path=value"
-  std::optional<std::string> design;     ///< wins over both
+  std::map<std::string, std::string> settings = {};  ///< of a sweep's point, by path
+  std::vector<std::string> assignments;              ///< "path=value"; win over settings
+  std::optional<std::string> design;                 ///< wins over all
 };
 
 /// What the platform is, in words of their own: --fidelity, --program, --rate.
@@ -63,7 +64,7 @@ struct RunOptions : PlatformOptions {
   ConfigurationOptions configuration;
   std::string output = "out";
   std::map<std::string, std::string> input_settings;  ///< by study::InputSetting::name
-  std::optional<std::string> point;                   ///< file of a sweep's point, to run it again
+  std::optional<std::string> point;                   ///< of a sweep, to run it again
   std::optional<std::string> trace;
   std::optional<std::string> trace_window;
   std::vector<std::string> trace_filter;
@@ -231,7 +232,8 @@ struct SweepOptions {
   bool dry_run = false;
   bool retry_failed = false;
   bool require_all = false;
-  bool isolate = false;  ///< a process of its own for each point
+  bool isolate = false;       ///< a process of its own for each point
+  bool keep_results = false;  ///< whole, in points/
   bool no_report = false;
   std::uint32_t chunk = 0;    ///< 0: some seconds' worth
   std::uint32_t at_once = 0;  ///< 0: all that fit
@@ -252,6 +254,7 @@ struct SweepWorkerOptions {
   std::uint32_t submission = 0;
   std::uint32_t task = 0;
   std::uint32_t points_a_process = 1;
+  bool keep_results = false;
 };
 
 /// `markervp pareto`.
@@ -264,7 +267,7 @@ struct ParetoOptions {
 /// `markervp sensitivity`.
 struct SensitivityOptions {
   std::string folder;             ///< empty: that of the point
-  std::optional<std::string> at;  ///< a point's file: what one step of each parameter changes
+  std::optional<std::string> at;  ///< a point: what one step of each parameter changes
   std::vector<std::string> figures;
   bool all = false;  ///< not only feasible points
 };
@@ -316,7 +319,7 @@ std::uint64_t parse_moment(const std::string& text, const std::string& option);
 TimeWindow parse_trace_window(const std::string& text,
                               const std::string& option = "--trace-window");
 
-/// What `markervp run --point FILE` runs: the inputs, program and configuration of a
+/// What `markervp run --point POINT` runs: the inputs, program and configuration of a
 /// sweep's point; --set and --config change it. With --trace the fidelity is left to the trace.
 /// Says on `err` if the point was computed by another version. Without --point `options` as they
 /// are. Throws vp::InputError for a damaged file, or options that the point decides.

@@ -77,7 +77,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "config") return print_configuration(line.config, out);
   if (command == "map") return print_map(line.map, out);
   if (command == "import") return import_handoff(line.import, out);
-  if (command == "report") return make_report(line.report, out);
+  if (command == "report") return make_report(line.report, out, err);
   if (command == "devices") return list_devices(line.devices, out);
   if (command == "clocks") return list_clocks(line.clocks, out);
   if (command == "power")
@@ -91,7 +91,7 @@ int run_command(const CLI::App& app, const CommandLine& line,
   if (command == "metrics") return list_metrics(line.metrics, out);
   if (command == "pareto") return find_pareto(line.pareto, out, err);
   if (command == "sensitivity") return find_sensitivity(line.sensitivity, out, err);
-  if (command == "compare") return compare_runs(line.compare, out);
+  if (command == "compare") return compare_runs(line.compare, out, err);
   return print_completion(app, out);
 }
 

@@ -11,9 +11,9 @@
 #include <result/page/report_page.h>
 #include <result/result_json.h>
 #include <result/verdict.h>
+#include <study/contents.h>
 #include <study/inputs.h>
-#include <study/manifest.h>
-#include <study/point.h>
+#include <study/named_point.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -48,56 +48,34 @@ void refuse_doubles(const RunOptions& options) {
   }
 }
 
-/// Those of earlier versions had members of their own.
-study::Json input_settings_of(const study::PointRecord& record) {
-  study::Json settings = record.run.value("input", study::Json::object());
-  for (const study::Json& from : {record.run, record.identity_json()}) {
-    for (const char* setting : {"camera", "fit"}) {
-      if (from.contains(setting) && from[setting].is_string()) settings[setting] = from[setting];
-    }
-  }
-  return settings;
-}
-
-RunOptions options_of(const study::PointRecord& record, const RunOptions& options,
-                      std::ostream& err) {
-  const study::Json identity = record.identity_json();
-  if (identity.at("markervp") != study::program_identity(program_version(), source_revision()))
-    err << "markervp: warning: '" << *options.point
-        << "' was computed by another version of the program: results may differ" << std::endl;
+RunOptions options_of(const study::Setup& setup, const RunOptions& options) {
   RunOptions result = options;
-  result.inputs = record.run.at("inputs").get<std::vector<std::string>>();
-  const auto program = record.run.at("program").get<std::string>();
-  if (!program.empty()) result.program = program;
-  const study::Json settings = input_settings_of(record);
-  for (const auto& [setting, value] : settings.items())
-    result.input_settings.emplace(setting, value.get<std::string>());
-  if (!identity.at("frames").is_null() && !result.frames)
-    result.frames = identity.at("frames").get<std::uint64_t>();
-  if (result.repeat == 1) result.repeat = identity.at("repeat").get<std::uint64_t>();
-  std::vector<std::string> assignments;
-  for (const auto& [path, value] : record.run.at("settings").items()) {
+  result.inputs = setup.inputs;
+  if (!setup.program.empty()) result.program = setup.program;
+  for (const auto& setting : setup.input.settings) result.input_settings.insert(setting);
+  if (!result.frames) result.frames = setup.input.frames;
+  if (result.repeat == 1) result.repeat = setup.input.repeat;
+  for (const auto& [path, value] : setup.settings) {
     if (is_fidelity(path) && (options.trace || options.fidelity)) continue;
-    assignments.push_back(path + "=" + value.get<std::string>());
+    result.configuration.settings[path] = value;
   }
-  const std::vector<std::string>& asked = options.configuration.assignments;
-  assignments.insert(assignments.end(), asked.begin(), asked.end());
-  result.configuration.assignments = assignments;
   return result;
 }
 
 }  // namespace
 
+void warn_of_version(const study::NamedPoint& point, std::ostream& err) {
+  if (point.asked.program != study::program_identity(program_version(), source_revision()))
+    err << "markervp: warning: '" << point.name
+        << "' was computed by another version of the program: results may differ" << std::endl;
+}
+
 RunOptions with_point(const RunOptions& options, std::ostream& err) {
   if (!options.point) return options;
   refuse_doubles(options);
-  const study::PointRecord record = study::read_point(*options.point);
-  try {
-    return options_of(record, options, err);
-  } catch (const study::Json::exception&) {
-    throw vp::InputError("'" + *options.point +
-                         "' was changed: remove it, and the sweep computes it again");
-  }
+  const study::NamedPoint point = study::named_point(*options.point);
+  warn_of_version(point, err);
+  return options_of(point.asked.setup, options);
 }
 
 namespace {

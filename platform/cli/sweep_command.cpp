@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <future>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -94,10 +91,11 @@ void warn(const std::vector<std::string>& warnings, std::ostream& err) {
   for (const std::string& warning : warnings) err << "markervp: warning: " << warning << std::endl;
 }
 
-/// Says what else is in the folder.
-void mention_others(const study::Store& store, const study::Manifest& manifest, std::ostream& err) {
+/// Whole results that no shard and no point of the sweep knows: an earlier version left them.
+std::uint64_t left_over(const study::Store& store, const study::Shards& shards,
+                        const study::Manifest& manifest, std::string& version, std::ostream& err) {
   std::vector<std::string> foreign;
-  const std::vector<std::string> keys = store.keys(foreign);
+  const std::vector<std::string> keys = store.kept_keys(foreign);
   if (!foreign.empty()) {
     err << "markervp: warning: '" << store.path("points") << "' has '" << foreign.front() << "'"
         << (foreign.size() > 1 ? " and others" : "") << ", which no sweep wrote: left alone"
@@ -105,63 +103,61 @@ void mention_others(const study::Store& store, const study::Manifest& manifest, 
   }
   std::vector<std::string_view> planned;
   planned.reserve(manifest.points.size());
-  for (const study::PlannedPoint& point : manifest.points) planned.push_back(point.key);
+  for (const study::Point& point : manifest.points) planned.push_back(point.key);
   std::sort(planned.begin(), planned.end());
-  std::vector<std::string> others;
-  std::set_difference(keys.begin(), keys.end(), planned.begin(), planned.end(),
-                      std::back_inserter(others));
-  std::uint64_t older = 0;
-  std::string version;
-  for (const std::string& key : others) {
-    if (store.looks_like_one_of(manifest.program, key)) continue;
+  std::uint64_t count = 0;
+  for (const std::string& key : keys) {
+    if (shards.has(key) || std::binary_search(planned.begin(), planned.end(), key)) continue;
+    if (count++ != 0) continue;
     try {
-      const study::Json other = store.read(key).identity_json().at("markervp");
-      ++older;
-      version = other.value("version", "") + " " + other.value("revision", "");
+      const study::Json other = study::read_kept(store.kept_path(key)).identity_json();
+      version = other.at("markervp").value("version", "") + " " +
+                other.at("markervp").value("revision", "");
     } catch (const vp::InputError& error) {
       err << "markervp: warning: " << error.what() << std::endl;
     }
   }
-  if (older != 0)
-    err << "markervp: " << result::counted(older, "point") << " of another version of the program ("
-        << version << ") stay as they are and count for nothing here" << std::endl;
+  return count;
 }
 
-/// What there is of a point that no log knows. A file that is not whole goes.
-std::optional<study::Outcome> outcome_of_file(const study::Store& store, const std::string& key,
-                                              std::ostream& err) {
-  if (!store.has(key)) return std::nullopt;
-  try {
-    return study::outcome_of(store.read(key));
-  } catch (const study::HalfPoint&) {
-    err << "markervp: warning: '" << store.point_path(key)
-        << "' is not whole, as a power failure leaves it: the point is computed again" << std::endl;
-  }
-  std::error_code ignored;
-  fs::remove(store.point_path(key), ignored);
-  return std::nullopt;
+/// Says what else is in the folder.
+void mention_others(const study::Store& store, const study::Shards& shards,
+                    const study::Manifest& manifest, std::ostream& err) {
+  std::string version;
+  const std::uint64_t others = left_over(store, shards, manifest, version, err) +
+                               shards.of_other_versions(manifest.program, version);
+  if (others != 0)
+    err << "markervp: " << result::counted(others, "point")
+        << " of another version of the program (" << version
+        << ") stay as they are and count for nothing here" << std::endl;
 }
 
 }  // namespace
 
-std::vector<std::size_t> pending_points(const study::Store& store, study::RunLogs& logs,
-                                        const study::Manifest& manifest, std::size_t first,
-                                        bool retry_failed, std::ostream& err) {
-  study::RunLog log(store);
-  study::RunLogs::Block block;
+void tell_damages(const study::Shards& shards, std::ostream& err) {
+  warn(shards.damages(), err);
+}
+
+std::vector<std::size_t> pending_points(const SweepOptions& options, const study::Store& store,
+                                        study::Shards& shards, const study::Manifest& manifest,
+                                        std::size_t first, std::ostream& err) {
+  study::adopt_kept(store, manifest, shards, first, [&](const std::string& file) {
+    err << "markervp: warning: '" << file
+        << "' is not whole, as a power failure leaves it: the point is computed again" << std::endl;
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  });
+  study::Shards::Block block;
   std::vector<std::size_t> pending;
   for (std::size_t i = first; i < manifest.points.size(); ++i) {
     const std::string& key = manifest.points[i].key;
-    std::optional<study::Outcome> outcome = logs.logged(key, study::RunLogs::Want::facts, block);
-    if (!outcome && (outcome = outcome_of_file(store, key, err))) log.add_untold(key, *outcome);
-    if (outcome && outcome->failed && retry_failed) {
-      std::error_code ignored;
-      fs::remove(store.point_path(key), ignored);
-      outcome.reset();
-    }
-    if (!outcome) pending.push_back(i);
+    std::error_code ignored;
+    bool is_there = shards.has(key);
+    if (is_there && options.retry_failed)
+      is_there = !shards.outcome(key, study::Shards::Want::facts, block)->failed;
+    if (is_there && options.keep_results) is_there = fs::exists(store.kept_path(key), ignored);
+    if (!is_there) pending.push_back(i);
   }
-  logs.refresh();
   return pending;
 }
 
@@ -190,22 +186,26 @@ study::Tally compute(const SweepOptions& options, const study::Store& store,
                                     options.sbatch,
                                     manifest.name,
                                     points_a_process(manifest, options.isolate),
-                                    is_over};
+                                    is_over,
+                                    options.keep_results};
     return run_slurm(store, manifest, pending, slurm, run_point, progress, err);
   }
   warm_up(manifest, pending);
-  const study::LocalOptions local{options.jobs.value_or(cores()), "local",
+  const study::LocalOptions local{options.jobs.value_or(cores()),
+                                  "local",
                                   points_a_process(manifest, options.isolate),
-                                  [&](const std::string& text) { warn({text}, err); }, is_over};
+                                  [&](const std::string& text) { warn({text}, err); },
+                                  is_over,
+                                  options.keep_results};
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 
 void write_results(const SweepOptions& options, const study::Store& store,
-                   const study::RunLogs& logs, const study::Results& results,
+                   const study::Shards& shards, const study::Results& results,
                    std::uint64_t computed, std::uint64_t before, std::ostream& out) {
   // The database takes as long as all the rest, of a million points half a minute.
   std::future<void> database = std::async(std::launch::async, [&] {
-    study::write_database(store.path("sweep.sqlite"), results, logs);
+    study::write_database(store.path("sweep.sqlite"), results, shards);
   });
   study::write_csv(store.path("sweep.csv"), results);
   const bool page = !options.no_report && study::write_page(results, store.folder());
@@ -214,7 +214,8 @@ void write_results(const SweepOptions& options, const study::Store& store,
   out << text << "\n"
       << result::counted(results.rows.size(), "point") << ": " << computed << " computed now, "
       << before << " there before, " << results.failed() << " failed\n"
-      << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and points/ beside it";
+      << "wrote " << store.path("sweep.csv") << ", sweep.sqlite and "
+      << (options.keep_results ? "points/" : "runs/") << " beside it";
   if (page) out << ", report.html to look at";
   out << std::endl;
 }
@@ -234,14 +235,14 @@ int code_of_failures(const SweepOptions& options, const study::Results& results,
 namespace {
 
 int conclude(const SweepOptions& options, const study::Store& store,
-             const std::shared_ptr<study::RunLogs>& logs, study::Manifest&& manifest,
+             const std::shared_ptr<study::Shards>& shards, study::Manifest&& manifest,
              const study::Tally& tally, std::uint64_t before, std::ostream& out,
              std::ostream& err) {
   const std::size_t points = manifest.points.size();
-  logs->complete(manifest);
+  shards->refresh();
   const study::Results results =
-      study::read_results(logs, std::move(manifest), study::page_figures());
-  write_results(options, store, *logs, results, tally.computed, before, out);
+      study::read_results(shards, std::move(manifest), study::page_figures());
+  write_results(options, store, *shards, results, tally.computed, before, out);
   if (results.failed() != results.rows.size())
     warn(study::missing_figures(results.manifest, results.metric_names()), err);
   if (tally.interrupted) {
@@ -276,16 +277,17 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
   try {
     study::Store store(options.output.value_or((fs::path("out") / spec.name).string()));
     store.lock();
-    const auto logs = std::make_shared<study::RunLogs>(store);
+    const auto shards = std::make_shared<study::Shards>(store);
+    tell_damages(*shards, err);
     const std::vector<std::size_t> pending =
-        pending_points(store, *logs, manifest, 0, options.retry_failed, err);
+        pending_points(options, store, *shards, manifest, 0, err);
     std::future<void> written =
         std::async(std::launch::async, [&] { store.write_manifest(manifest); });
-    mention_others(store, manifest, err);
+    mention_others(store, *shards, manifest, err);
     written.get();
     const study::Tally tally = compute_all(options, store, manifest, pending, err);
     const std::size_t before = manifest.points.size() - pending.size();
-    return conclude(options, store, logs, std::move(manifest), tally, before, out, err);
+    return conclude(options, store, shards, std::move(manifest), tally, before, out, err);
   } catch (const vp::HostError& error) {
     throw vp::HostError(std::string(error.what()) +
                         "; what was computed is kept: run the sweep again");
@@ -295,8 +297,9 @@ int sweep_points(const SweepOptions& options, std::ostream& out, std::ostream& e
 int sweep_worker(const SweepWorkerOptions& options, std::ostream& err) {
   const study::Store store(options.folder);
   const host::InterruptGuard guard;
-  return study::run_slurm_task(store, options.submission, options.task, warm_up, run_point,
-                               options.points_a_process, err);
+  return study::run_slurm_task(
+      store, {options.submission, options.task, options.points_a_process, options.keep_results},
+      warm_up, run_point, err);
 }
 
 }  // namespace platform::cli

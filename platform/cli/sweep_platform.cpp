@@ -110,7 +110,7 @@ study::Elaborated elaborate(const ConfigurationOptions& options,
 
 study::Platform sweep_platform() {
   study::Platform platform;
-  platform.elaborate = [](const study::Build& build, const std::string& origin) {
+  platform.elaborate = [](const study::Setup& build, const std::string& origin) {
     return elaborated_from(made_apart([&](std::ostream&) {
       vp::Configuration configuration;
       for (const auto& [path, value] : build.settings) configuration.set(path, value, origin);
@@ -125,15 +125,14 @@ study::Platform sweep_platform() {
   return platform;
 }
 
-RunOptions options_of(const study::PointRun& point) {
+RunOptions options_of(const study::Setup& setup) {
   RunOptions options;
-  options.inputs = point.inputs;
-  options.program = if_named(point.program);
-  options.input_settings = point.input.settings;
-  options.frames = point.input.frames;
-  options.repeat = point.input.repeat;
-  for (const auto& [path, value] : point.settings)
-    options.configuration.assignments.push_back(path + "=" + value);
+  options.inputs = setup.inputs;
+  options.program = if_named(setup.program);
+  options.input_settings = setup.input.settings;
+  options.frames = setup.input.frames;
+  options.repeat = setup.input.repeat;
+  options.configuration.settings = setup.settings;
   return options;
 }
 
@@ -144,17 +143,17 @@ bool runs_own_code(const std::string& program,
          (design != configuration.end() && is_design_file(design->second));
 }
 
-int run_point(const study::PointRun& point, study::PointResult& result, std::ostream& err) {
+int run_point(const study::Setup& setup, study::RunResult& result, std::ostream& err) {
   vp::begin_fresh_context();
   pl::known_frame_bytes = most_known_bytes;
-  if (!runs_own_code(point.program, point.settings)) ps::Program::keep_loaded();
+  if (!runs_own_code(setup.program, setup.settings)) ps::Program::keep_loaded();
   MemoryRun found;
   const auto hand_over = [&] {
     result.result = found.result.take();
     result.configuration = std::move(found.configuration);
   };
   try {
-    const int code = run_in_memory(options_of(point), found, err);
+    const int code = run_in_memory(options_of(setup), found, err);
     hand_over();
     return code;
   } catch (...) {

@@ -33,12 +33,6 @@ double number_of(const ParameterKind& kind, const std::string& text);
 /// What it is in an expression.
 vp::ExpressionValue value_of(const ParameterKind& kind, const std::string& text);
 
-/// What a platform is built from, and so what a point is.
-struct Build {
-  std::string program;  ///< name or file of the PS program; empty: the usual
-  std::map<std::string, std::string> settings;  ///< path -> value, as the user wrote it
-};
-
 /// A platform that was built, and is gone.
 struct Elaborated {
   std::vector<vp::ParameterDescription> parameters;
@@ -114,5 +108,8 @@ class AxisValues {
   double start_ = 0;
   double stop_ = 0;
 };
+
+/// Axes that move together, with their values.
+using AxisGroup = std::vector<AxisValues>;
 
 }  // namespace platform::study

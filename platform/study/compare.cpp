@@ -6,7 +6,7 @@
 
 #include <host/document.h>
 #include <result/table.h>
-#include <study/point.h>
+#include <study/kept_result.h>
 #include <study/report.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -29,15 +29,6 @@ void add_facts(const Json& result, Comparable& run) {
   for (const std::string& input : inputs) text += (text.empty() ? "" : " ") + input;
   run.configuration["inputs"] = text;
   run.metrics = result::metrics_of(result);
-}
-
-void add_point(const PointRecord& record, const std::string& file, Comparable& run) {
-  if (record.failed())
-    throw vp::InputError(
-        "'" + file + "' is a point that failed: " + record.outcome["failure"].value("message", ""));
-  run.configuration =
-      record.identity_json().at("configuration").get<std::map<std::string, std::string>>();
-  add_facts(record.outcome["result"], run);
 }
 
 std::string change(double a, double b) {
@@ -72,7 +63,13 @@ Comparable read_comparable(const std::string& path) {
   run.name = path;
   try {
     if (json.is_object() && json.contains("markervp_point")) {
-      add_point(read_point(file), file, run);
+      const KeptResult kept = read_kept(file);
+      if (kept.outcome.failed)
+        throw vp::InputError("'" + file +
+                             "' is a point that failed: " + kept.outcome.failure.message);
+      run.configuration =
+          kept.identity_json().at("configuration").get<std::map<std::string, std::string>>();
+      add_facts(kept.result, run);
       return run;
     }
     if (!json.is_object() || !json.contains("summary") || !json.contains("configuration"))
@@ -85,6 +82,15 @@ Comparable read_comparable(const std::string& path) {
   } catch (const Json::exception&) {
     throw vp::InputError("'" + file + "' was changed or is damaged: run it again");
   }
+  return run;
+}
+
+Comparable comparable(const std::string& name, const Json& result,
+                      std::map<std::string, std::string> configuration) {
+  Comparable run;
+  run.name = name;
+  run.configuration = std::move(configuration);
+  add_facts(result, run);
   return run;
 }
 

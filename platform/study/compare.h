@@ -4,6 +4,7 @@
 #include <string>
 
 #include <result/metrics.h>
+#include <study/point.h>
 
 namespace platform::study {
 
@@ -14,7 +15,10 @@ struct Comparable {
   result::Metrics metrics;
 };
 
-/// Reads a result.json, a folder with one, or a point's file. Throws vp::InputError.
+/// A run with the result.json and the configuration that it made.
+Comparable comparable(const std::string& name, const Json& result,
+                      std::map<std::string, std::string> configuration);
+/// Reads a result.json, a folder with one, or a point that is kept whole. Throws vp::InputError.
 Comparable read_comparable(const std::string& path);
 
 /// Configuration and metrics in which the two differ, as tables; says so if they differ in nothing.

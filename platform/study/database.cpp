@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <ctime>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -286,7 +286,7 @@ std::vector<bool> add_metrics(Database& database, const Results& results) {
     ids.row(static_cast<std::int64_t>(shared[i] ? next++ : id++), names[i], shared[i]);
   Insert values(database, "metric_values", 1 + row_values);
   result::Selection selection(names);
-  RunLogs::Block block;
+  Shards::Block block;
   std::vector<bool> measured;
   for (std::size_t position = 0; position < results.rows.size(); ++position) {
     const result::Metrics metrics = results.metrics_of(results.rows[position], block);
@@ -310,59 +310,40 @@ std::vector<bool> add_metrics(Database& database, const Results& results) {
   return measured;
 }
 
-/// Finds the rows of keys, mostly asked for in the order of the rows.
-class RowFinder {
- public:
-  /// `order`: by_key().
-  RowFinder(const Results& results, const std::vector<std::size_t>& order)
-      : results_(results), order_(order) {}
+std::string date_text(std::int64_t seconds) {
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
 
-  /// results.rows.size() for a key that no row has.
-  std::size_t row_of(const std::string& key) {
-    const std::vector<ResultRow>& rows = results_.rows;
-    if (next_ < rows.size() && rows[next_].key == key) return next_++;
-    const auto found = std::lower_bound(
-        order_.begin(), order_.end(), key,
-        [&](std::size_t row, const std::string& wanted) { return rows[row].key < wanted; });
-    if (found == order_.end() || rows[*found].key != key) return rows.size();
-    next_ = *found + 1;
-    return *found;
-  }
-
- private:
-  const Results& results_;
-  const std::vector<std::size_t>& order_;
-  std::size_t next_ = 0;
-};
-
-/// The computations of the sweep's points. Of those that nobody told of, one where nobody told of
-/// any. `order`: by_key().
-void add_runs(const Database& database, const Results& results, const RunLogs& logs,
+/// The computations of the sweep's points; of one of which nothing is known, a row with its key.
+/// `order`: by_key().
+void add_runs(const Database& database, const Results& results, const Shards& shards,
               const std::vector<std::size_t>& order) {
-  std::vector<bool> told(results.rows.size());
-  RowFinder finder(results, order);
+  std::vector<bool> known(results.rows.size());
   Insert runs(database, "runs", 7);
-  const auto add = [&](const RunEntry& run) {
-    runs.row(run.key, run.engine, run.host, run.date, std::int64_t{run.attempt}, run.wall_s,
-             run.cpu_s);
-  };
-  logs.visit([&](const RunEntry& run) {
-    const std::size_t row = finder.row_of(run.key);
-    if (row == results.rows.size() || !run.told()) return;
-    told[row] = true;
-    add(run);
+  shards.visit([&](const Computation& run) {
+    const auto row = std::lower_bound(
+        order.begin(), order.end(), run.key,
+        [&](std::size_t a, const std::string& key) { return results.rows[a].key < key; });
+    const bool is_ours = row != order.end() && results.rows[*row].key == run.key;
+    if (!is_ours || run.outcome.attempt == 0) return;
+    known[*row] = true;
+    runs.row(run.key, run.engine, run.host, date_text(run.outcome.date),
+             std::int64_t{run.outcome.attempt}, run.outcome.wall_s, run.outcome.cpu_s);
   });
+  const std::string none;
   for (const std::size_t row : order) {
-    if (told[row]) continue;
-    RunEntry untold;
-    untold.key = results.rows[row].key;
-    add(untold);
+    if (!known[row]) runs.row(results.rows[row].key, none, none, none, nullptr, nullptr, nullptr);
   }
 }
 
 }  // namespace
 
-void write_database(const std::string& path, const Results& results, const RunLogs& runs) {
+void write_database(const std::string& path, const Results& results, const Shards& shards) {
   vp::OutputFile file(path, vp::OutputFile::By::name);
   {
     Database database(file.part());
@@ -382,7 +363,7 @@ void write_database(const std::string& path, const Results& results, const RunLo
     add_points(database, results, add_metrics(database, results));
     const std::vector<std::size_t> order = by_key(results);
     add_parameters(database, results, order);
-    add_runs(database, results, runs, order);
+    add_runs(database, results, shards, order);
     database.execute("COMMIT");
   }
   file.commit();

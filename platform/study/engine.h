@@ -8,32 +8,21 @@
 #include <vector>
 
 #include <study/manifest.h>
-#include <study/point.h>
 #include <study/store.h>
 
 namespace platform::study {
 
-/// What a point's run needs.
-struct PointRun {
-  std::string program;
-  std::vector<std::string> inputs;
-  std::map<std::string, std::string> settings;  ///< the values that are not their defaults
-  InputChoice input;
-};
-
-PointRun run_of(const Manifest& manifest, const PlannedPoint& point);
-
 /// What a run found.
-struct PointResult {
+struct RunResult {
   Json result;                                       ///< as ResultDocument has it
   std::map<std::string, std::string> configuration;  ///< effective
 };
 
 /// Runs the platform, as if its process had run nothing before. Returns the exit code of `markervp
 /// run`, and says on `err` what went wrong; may throw what that throws.
-using RunPoint = std::function<int(const PointRun& run, PointResult& result, std::ostream& err)>;
+using RunPoint = std::function<int(const Setup& setup, RunResult& result, std::ostream& err)>;
 
-/// How a sweep went; the logs of its folder have the outcomes.
+/// How a sweep went; the shards of its folder have the outcomes.
 struct Tally {
   std::uint64_t computed = 0;   ///< done now
   std::uint64_t abandoned = 0;  ///< begun, and broken off; nothing of them is kept
@@ -53,18 +42,19 @@ constexpr std::uint32_t usual_points_a_process = 256;
 
 struct LocalOptions {
   std::uint32_t jobs = 1;
-  std::string name = "local";  ///< is in the records of runs
+  std::string name = "local";  ///< is in the shards
   std::uint32_t points_a_process = usual_points_a_process;
   /// Called with a sentence when a process dies; may be empty.
   std::function<void(const std::string& text)> warn = {};
   /// Points that are not finished by then are abandoned.
   IsOver is_over = {};
+  bool keep_results = false;  ///< whole, as KeptResult
 };
 
 /// Computes the points at these positions of the manifest in `jobs` processes at a time, which take
 /// them one after another. A process that crashes or is killed costs the one point that it was at,
 /// which is tried once more in a process of its own; so does one whose run did not end well, since
-/// what it left behind is not known. Points that are there are left alone. Throws vp::HostError
+/// what it left behind is not known. Points that have a result get another. Throws vp::HostError
 /// if the machine fails, as when a result cannot be written: those written before are kept.
 Tally run_local(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const LocalOptions& options,
@@ -77,6 +67,7 @@ struct SlurmOptions {
   std::string name;                  ///< of the sweep
   std::uint32_t points_a_process = usual_points_a_process;
   IsOver is_over = {};  ///< cancels the job
+  bool keep_results = false;
 };
 
 /// Tasks that one array may have. Throws vp::InputError if Slurm does not answer here.
@@ -90,12 +81,20 @@ Tally run_slurm(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const SlurmOptions& options,
                 const RunPoint& run, const OnProgress& progress, std::ostream& err);
 
-/// What a task does: its share of submission number `submission`. `err` is its log, and gets what
+/// A task of a submission.
+struct SlurmTask {
+  std::uint32_t submission = 0;
+  std::uint32_t number = 0;
+  std::uint32_t points_a_process = usual_points_a_process;
+  bool keep_results = false;
+};
+
+/// What a task does: its share of the submission. `err` is its log, and gets what
 /// LocalOptions::warn would. Returns the exit code.
 int run_slurm_task(
-    const Store& store, std::uint32_t submission, std::uint32_t task,
+    const Store& store, const SlurmTask& task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run, std::uint32_t points_a_process, std::ostream& err);
+    const RunPoint& run, std::ostream& err);
 
 /// Says on `err` what the tasks warned of in their logs in the folder, twenty warnings at most, and
 /// which task each is of.

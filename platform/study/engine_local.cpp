@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <deque>
 #include <list>
 #include <system_error>
@@ -15,7 +16,7 @@
 
 #include <host/process.h>
 #include <study/engine.h>
-#include <study/run_log.h>
+#include <study/shard.h>
 #include <study/worker.h>
 #include <vp/file.h>
 
@@ -38,30 +39,26 @@ constexpr auto abandon_period = std::chrono::seconds(3);
 /// To be woken for every point costs as much as to note it.
 constexpr int listen_period_ms = 20;
 
-/// A pipe whose ends are closed with it. Reading does not wait.
+/// A pipe into which nothing is written: its end tells that a process ended.
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0 || ::fcntl(ends_[0], F_SETFL, O_NONBLOCK) != 0)
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
       throw std::system_error(errno, std::generic_category(), "no pipe for a sweep's process");
   }
   ~Pipe() {
     close_writing();
-    close_reading();
+    ::close(ends_[0]);
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
 
   int reading() const { return ends_[0]; }
-  int writing() const { return ends_[1]; }
-  void close_writing() { close(ends_[1]); }
-  void close_reading() { close(ends_[0]); }
-
- private:
-  static void close(int& end) {
-    if (end >= 0) ::close(std::exchange(end, -1));
+  void close_writing() {
+    if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
   }
 
+ private:
   std::array<int, 2> ends_{-1, -1};
 };
 
@@ -70,13 +67,12 @@ class Pool {
  public:
   Pool(const Store& store, const Manifest& manifest, const std::vector<std::size_t>& positions,
        const LocalOptions& options, const RunPoint& run, const OnProgress& progress)
-      : list_{store, manifest, positions, run},
+      : list_{store, manifest, positions, run, options},
         options_(options),
         progress_(progress),
         queue_(positions.size(), options.jobs),
-        told_(positions.size()),
         attempts_(positions.size(), 1),
-        log_(store, options.name) {
+        shard_(store, manifest, options.name) {
     for (std::uint32_t slot = options.jobs; slot-- > 0;) free_slots_.push_back(slot);
   }
 
@@ -92,6 +88,8 @@ class Pool {
       if (HostClock::now() - flushed_ > flush_period) flush();
     }
     flush();
+    show();
+    tally_.computed = queue_.finished();
     return tally_;
   }
 
@@ -100,7 +98,6 @@ class Pool {
     std::uint32_t slot;
     std::optional<std::size_t> only;  ///< the item that it was started for
     Pipe pipe;
-    MessageReader reader;
     std::optional<host::Child> child;
   };
 
@@ -125,35 +122,36 @@ class Pool {
 
   void start() {
     Running& running = running_.emplace_back();
-    running.reader = MessageReader(names_);
     running.slot = free_slots_.back();
     free_slots_.pop_back();
     if (!again_.empty()) {
       running.only = again_.front();
       again_.pop_front();
     }
-    running.child.emplace([&](std::ostream&, std::ostream&) {
+    running.child.emplace([&](std::ostream&, std::ostream& err) {
       list_.store.leave_lock_to_parent();
-      // Else a process whose parent was killed waits for ever in the middle of a message.
-      for (Running& other : running_) other.pipe.close_reading();
       // What PS programs print is of no use here.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
-      PointWorker worker(list_, queue_, running.slot, running.pipe.writing());
-      running.only ? worker.work_on(*running.only) : worker.work(options_.points_a_process);
-      return host::done;
+      PointWorker worker(list_, queue_, running.slot);
+      return running.only ? worker.work_on(*running.only, attempts_[*running.only], err)
+                          : worker.work(options_.points_a_process, err);
     });
     running.pipe.close_writing();
   }
 
-  /// Sleeps a while, or until a process ends or a signal comes, and takes what they told.
+  /// Sleeps a while, or until a process ends or a signal comes, and sees what was done.
   void listen() {
     std::vector<pollfd> pipes;
     for (const Running& running : running_) pipes.push_back({running.pipe.reading(), 0, 0});
-    if (::poll(pipes.data(), pipes.size(), listen_period_ms) < 0) return;
-    for (auto running = running_.begin(); running != running_.end();) {
+    const bool waited = ::poll(pipes.data(), pipes.size(), listen_period_ms) >= 0;
+    show();
+    if (!waited) return;
+    auto pipe = pipes.begin();
+    for (auto running = running_.begin(); running != running_.end(); ++pipe) {
       const auto next = std::next(running);
-      if (!read(*running)) {
+      // What a PS program starts may hold its pipe open.
+      if ((pipe->revents & POLLHUP) != 0 || running->child->ended()) {
         ended(*running);
         running_.erase(running);
       }
@@ -161,63 +159,22 @@ class Pool {
     }
   }
 
-  /// What the process told. False: there is nothing more to come.
-  bool read(Running& running) {
-    std::array<char, 1 << 16> block;
-    ssize_t size = 0;
-    while ((size = ::read(running.pipe.reading(), block.data(), block.size())) > 0) {
-      running.reader.add({block.data(), static_cast<std::size_t>(size)});
-      while (const std::optional<PointMessage> message = running.reader.next()) take(*message);
-    }
-    return size < 0 && (errno == EINTR || errno == EAGAIN);
-  }
-
-  void take(const PointMessage& message) {
-    switch (message.kind) {
-      case PointMessage::Kind::no_host:
-        throw vp::HostError(message.failure.message);
-      case PointMessage::Kind::interrupted:
-        ++tally_.abandoned;
-        stop();
-        break;
-      case PointMessage::Kind::fault:
-        again_or_failed(message.item, message.failure);
-        break;
-      case PointMessage::Kind::there:
-        // Of a process of ours, which was killed before it could say so.
-        if (attempts_[message.item] > 1) ++tally_.computed;
-        step(message.item);
-        break;
-      case PointMessage::Kind::computed:
-        done(message);
-        break;
-    }
-    useless_ = 0;
-  }
-
-  void done(const PointMessage& message) {
-    const std::size_t position = list_.positions[message.item];
-    log_.add(list_.manifest.points[position].key, message.wall_s, message.cpu_s,
-             attempts_[message.item], message);
-    names_ = message.metrics;
-    ++tally_.computed;
-    step(message.item);
-  }
-
-  void step(std::size_t item) {
-    told_[item] = true;
-    ++done_;
-    if (progress_) progress_(done_);
+  void show() {
+    if (progress_ && queue_.finished() != shown_) progress_(shown_ = queue_.finished());
   }
 
   /// A process that was killed, or ended itself, loses the point that it was at.
   void ended(Running& running) {
     const host::ChildEnd end = running.child->wait();
     free_slots_.push_back(running.slot);
+    if (queue_.told() == WorkQueue::Stop::no_host && end.exit_code != host::done)
+      throw vp::HostError(last_line(end.err));
+    if (queue_.told() == WorkQueue::Stop::interrupted) stop();
+    if (std::exchange(before_, queue_.finished()) != queue_.finished()) useless_ = 0;
     std::optional<std::size_t> item = queue_.held(running.slot);
     if (!item) item = running.only;
     queue_.release(running.slot);
-    if (item && !told_[*item]) {
+    if (item && !queue_.is_finished(*item)) {
       if (tally_.interrupted) {
         ++tally_.abandoned;
         return;
@@ -248,21 +205,21 @@ class Pool {
       again_.push_back(item);
       return;
     }
-    const PlannedPoint& point = list_.manifest.points[list_.positions[item]];
-    const PointRecord record = failed_record(list_.manifest, point, failure);
-    list_.store.write(record);
-    PointMessage message;
-    message.item = item;
-    message.failed = true;
-    message.failure = failure;
-    done(message);
+    Outcome outcome;
+    outcome.failed = true;
+    outcome.failure = failure;
+    outcome.date = std::time(nullptr);
+    outcome.attempt = attempts_[item];
+    shard_.add(list_.manifest.points[list_.positions[item]], outcome);
+    queue_.finish(item);
+    useless_ = 0;
   }
 
   /// Points that a process took and lost before it said so. False: there are none.
   bool find_lost() {
     if (tally_.interrupted) return false;
-    for (std::size_t item = 0; item < told_.size(); ++item) {
-      if (!told_[item]) again_.push_back(item);
+    for (std::size_t item = 0; item < list_.positions.size(); ++item) {
+      if (!queue_.is_finished(item)) again_.push_back(item);
     }
     return !again_.empty();
   }
@@ -278,35 +235,29 @@ class Pool {
 
   void flush() {
     flushed_ = HostClock::now();
-    if (tally_.computed != in_flush_) list_.store.flush();
-    in_flush_ = tally_.computed;
+    if (queue_.finished() != in_flush_) list_.store.flush();
+    in_flush_ = queue_.finished();
   }
 
   PointList list_;
   const LocalOptions& options_;
   const OnProgress& progress_;
   WorkQueue queue_;
-  std::vector<bool> told_;     ///< by item: nothing more to do
   std::vector<int> attempts_;  ///< by item
-  RunLog log_;
+  Shard shard_;                ///< of points that no process finishes
   std::deque<std::size_t> again_;
   std::vector<std::uint32_t> free_slots_;
   std::list<Running> running_;
-  result::Metrics names_;  ///< for the next to share
-  std::uint64_t done_ = 0;
+  std::uint64_t shown_ = 0;   ///< finished points that were told
+  std::uint64_t before_ = 0;  ///< finished when the last process ended
   int useless_ = 0;
   HostClock::time_point flushed_ = HostClock::now();
   std::optional<HostClock::time_point> abandoned_at_;
-  std::uint64_t in_flush_ = 0;  ///< points computed when it was
+  std::uint64_t in_flush_ = 0;  ///< points finished when it was
   Tally tally_;
 };
 
 }  // namespace
-
-PointRun run_of(const Manifest& manifest, const PlannedPoint& point) {
-  return {manifest.families[point.family].program, manifest.input_sets[point.input_set].inputs,
-          manifest.settings(point), manifest.input};
-}
 
 Tally run_local(const Store& store, const Manifest& manifest,
                 const std::vector<std::size_t>& positions, const LocalOptions& options,

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +19,8 @@
 #include <host/output_folder.h>
 #include <host/process.h>
 #include <study/engine.h>
+#include <study/shard.h>
+#include <study/shards.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -36,24 +39,6 @@ struct ArrayJob {
   std::string command;               ///< for the shell; SLURM_ARRAY_TASK_ID is the task's number
   std::vector<std::string> options;  ///< more for sbatch: "--partition=dse"
 };
-
-/// Hands the tasks to Slurm; one that loses its node is put back into the queue. Returns the job's
-/// number. Throws vp::InputError with what sbatch said.
-std::string submit(const ArrayJob& job);
-
-/// Whether tasks of the job wait or run. Slurm may be silent for a while; then the answer is yes.
-/// Throws vp::InputError if it stays silent.
-class JobWatch {
- public:
-  explicit JobWatch(std::string job);
-  bool active();
-
- private:
-  std::string job_;
-  int silent_ = 0;
-};
-
-void cancel(const std::string& job);
 
 /// Questions without an answer, one a second or two, before we give up.
 constexpr int most_silent = 60;
@@ -84,6 +69,8 @@ std::uint32_t largest_array() {
 
 namespace {
 
+/// Hands the tasks to Slurm; one that loses its node is put back into the queue. Returns the job's
+/// number. Throws vp::InputError with what sbatch said.
 std::string submit(const ArrayJob& job) {
   std::string array = "--array=0-" + std::to_string(job.tasks - 1);
   if (job.at_once != 0) array += "%" + std::to_string(job.at_once);
@@ -108,29 +95,34 @@ std::string submit(const ArrayJob& job) {
   return number;
 }
 
-JobWatch::JobWatch(std::string job) : job_(std::move(job)) {}
+/// Whether tasks of the job wait or run. Slurm may be silent for a while; then the answer is yes.
+/// Throws vp::InputError if it stays silent.
+class JobWatch {
+ public:
+  explicit JobWatch(std::string job) : job_(std::move(job)) {}
 
-bool JobWatch::active() {
-  const host::CommandEnd end =
-      host::run_command({"squeue", "--noheader", "--jobs=" + job_, "--format=%T"});
-  if (end.exit_code == 0) {
-    silent_ = 0;
-    return !vp::trim(end.out).empty();
+  bool active() {
+    const host::CommandEnd end =
+        host::run_command({"squeue", "--noheader", "--jobs=" + job_, "--format=%T"});
+    if (end.exit_code == 0) {
+      silent_ = 0;
+      return !vp::trim(end.out).empty();
+    }
+    if (end.out.find("Invalid job id") != std::string::npos) return false;
+    if (++silent_ > most_silent)
+      throw vp::InputError("Slurm does not answer any more: " + one_line(end.out) +
+                           "; run the same sweep again when it does: job " + job_ + " continues");
+    return true;
   }
-  if (end.out.find("Invalid job id") != std::string::npos) return false;
-  if (++silent_ > most_silent)
-    throw vp::InputError("Slurm does not answer any more: " + one_line(end.out) +
-                         "; run the same sweep again when it does: job " + job_ + " continues");
-  return true;
-}
+
+ private:
+  std::string job_;
+  int silent_ = 0;
+};
 
 void cancel(const std::string& job) {
   host::run_command({"scancel", job});
 }
-
-}  // namespace
-
-namespace {
 
 namespace fs = std::filesystem;
 using HostClock = std::chrono::steady_clock;
@@ -148,11 +140,13 @@ Json read_json(const std::string& path) {
   return host::read_json<Json>(path, "the sweep's own file", host::largest_result);
 }
 
-std::vector<std::size_t> missing(const Store& store, const Manifest& manifest,
+/// Of the positions, those of points without a result now.
+std::vector<std::size_t> missing(Shards& shards, const Manifest& manifest,
                                  const std::vector<std::size_t>& positions) {
+  shards.refresh();
   std::vector<std::size_t> result;
   std::copy_if(positions.begin(), positions.end(), std::back_inserter(result),
-               [&](std::size_t position) { return !store.has(manifest.points[position].key); });
+               [&](std::size_t position) { return !shards.has(manifest.points[position].key); });
   return result;
 }
 
@@ -166,7 +160,7 @@ Manifest part_of(const Manifest& whole, const std::vector<std::size_t>& position
   part.input = whole.input;
   std::map<std::size_t, std::size_t> families, input_sets;  // their numbers in the part
   for (const std::size_t position : positions) {
-    PlannedPoint& point = part.points.emplace_back(whole.points[position]);
+    Point& point = part.points.emplace_back(whole.points[position]);
     const auto [family, is_new_family] = families.emplace(point.family, part.families.size());
     if (is_new_family) part.families.push_back(whole.families[point.family]);
     point.family = family->second;
@@ -193,6 +187,7 @@ class Cluster {
   Cluster(const Store& store, const Manifest& manifest, const SlurmOptions& options,
           const RunPoint& run, const OnProgress& progress, std::ostream& err)
       : store_(store),
+        shards_(store),
         manifest_(manifest),
         options_(options),
         run_(run),
@@ -204,16 +199,16 @@ class Cluster {
     total_ = positions.size();
     largest_ = largest_array();
     wait_for_earlier(positions);
-    std::vector<std::size_t> wanted = missing(store_, manifest_, positions);
+    std::vector<std::size_t> wanted = missing(shards_, manifest_, positions);
     if (!wanted.empty() && !tally_.interrupted) measure(wanted);
     for (int round = 0; round < most_rounds && !tally_.interrupted; ++round) {
-      wanted = missing(store_, manifest_, positions);
+      wanted = missing(shards_, manifest_, positions);
       if (wanted.empty()) break;
       watch(submit_chunks(wanted), wanted);
       tell_warnings(logs_, err_);
     }
-    if (!tally_.interrupted) give_up(missing(store_, manifest_, positions));
-    tally_.computed = total_ - missing(store_, manifest_, positions).size();
+    if (!tally_.interrupted) give_up(missing(shards_, manifest_, positions));
+    tally_.computed = total_ - missing(shards_, manifest_, positions).size();
     return tally_;
   }
 
@@ -238,9 +233,10 @@ class Cluster {
     chunk_ = options_.chunk;
     if (chunk_ != 0) return;
     const HostClock::time_point begin = HostClock::now();
-    const Tally tally = run_local(
-        store_, manifest_, {wanted.front()},
-        {1, "local", options_.points_a_process, warns_on(err_), options_.is_over}, run_, nullptr);
+    const Tally tally = run_local(store_, manifest_, {wanted.front()},
+                                  {1, "local", options_.points_a_process, warns_on(err_),
+                                   options_.is_over, options_.keep_results},
+                                  run_, nullptr);
     tally_.interrupted = tally.interrupted;
     const double seconds = std::chrono::duration<double>(HostClock::now() - begin).count();
     chunk_ = static_cast<std::uint32_t>(
@@ -268,7 +264,8 @@ class Cluster {
                 "exec " + host::shell_quoted(executable) + " sweep-worker " +
                     host::shell_quoted(fs::absolute(store_.folder()).string()) + " " +
                     std::to_string(number) + " $SLURM_ARRAY_TASK_ID " +
-                    std::to_string(options_.points_a_process),
+                    std::to_string(options_.points_a_process) +
+                    (options_.keep_results ? " --keep-results" : ""),
                 options_.options});
     vp::write_file_durably(job_file(), Json{{"job", job}, {"submission", number}}.dump());
     err_ << "markervp: job " << job << ": " << tasks << " tasks of " << size << " points; logs in "
@@ -280,7 +277,7 @@ class Cluster {
   void watch(const std::string& job, const std::vector<std::size_t>& wanted) {
     JobWatch queue(job);
     for (;;) {
-      const std::size_t left = missing(store_, manifest_, wanted).size();
+      const std::size_t left = missing(shards_, manifest_, wanted).size();
       if (progress_) progress_(total_ - left);
       if (left == 0) return;
       if (host::InterruptGuard::noted() || (options_.is_over && options_.is_over())) {
@@ -296,17 +293,18 @@ class Cluster {
   }
 
   void give_up(const std::vector<std::size_t>& positions) {
-    for (const std::size_t position : positions) {
-      const PlannedPoint& point = manifest_.points[position];
-      if (!store_.has(point.key))
-        store_.write(failed_record(manifest_, point,
-                                   {-1, 0,
-                                    "no task of Slurm completed the point: see the logs of "
-                                    "its tasks in the folder 'slurm' of the sweep"}));
-    }
+    Outcome outcome;
+    outcome.failed = true;
+    outcome.failure.message =
+        "no task of Slurm completed the point: see the logs of its tasks in the folder 'slurm' of "
+        "the sweep";
+    outcome.date = std::time(nullptr);
+    Shard shard(store_, manifest_, "slurm");
+    for (const std::size_t position : positions) shard.add(manifest_.points[position], outcome);
   }
 
   const Store& store_;
+  Shards shards_;
   const Manifest& manifest_;
   const SlurmOptions& options_;
   const RunPoint& run_;
@@ -348,20 +346,22 @@ void tell_warnings(const std::string& folder, std::ostream& err) {
 }
 
 int run_slurm_task(
-    const Store& store, std::uint32_t submission, std::uint32_t task,
+    const Store& store, const SlurmTask& task,
     const std::function<void(const Manifest&, const std::vector<std::size_t>&)>& warm,
-    const RunPoint& run, std::uint32_t points_a_process, std::ostream& err) {
-  const std::string file = task_file(submission_folder(store, submission), task);
+    const RunPoint& run, std::ostream& err) {
+  const std::string file = task_file(submission_folder(store, task.submission), task.number);
   std::error_code ignored;
   if (!fs::exists(file, ignored))
-    throw vp::InputError("submission " + std::to_string(submission) + " has no task " +
-                         std::to_string(task));
+    throw vp::InputError("submission " + std::to_string(task.submission) + " has no task " +
+                         std::to_string(task.number));
   const Manifest manifest = read_manifest(file);
   std::vector<std::size_t> positions(manifest.points.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  positions = missing(store, manifest, positions);
+  Shards shards(store);
+  positions = missing(shards, manifest, positions);
   warm(manifest, positions);
-  const LocalOptions options{1, "slurm", points_a_process, warns_on(err)};
+  const LocalOptions options{1,  "slurm",          task.points_a_process, warns_on(err),
+                             {}, task.keep_results};
   const Tally tally = run_local(store, manifest, positions, options, run, nullptr);
   return tally.interrupted ? host::interrupted : host::done;
 }

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <string>
-#include <unordered_set>
 #include <utility>
 
 #include <study/expansion.h>
@@ -111,20 +109,6 @@ Trajectory TrajectorySampler::next() {
     trajectory.steps.push_back({dimension, step});
   }
   return trajectory;
-}
-
-Word::Word(const std::string& text) {
-  static std::mutex mutex;  // tables are written by two threads
-  static std::unordered_set<std::string> words;
-  const std::lock_guard<std::mutex> lock(mutex);
-  text_ = &*words.insert(text).first;
-}
-
-const std::string* find(const Assignment& values, const std::string& path) {
-  for (const auto& [name, value] : values) {
-    if (name == path) return &value.text();
-  }
-  return nullptr;
 }
 
 namespace {

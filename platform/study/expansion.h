@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <study/axes.h>
+#include <study/point.h>
 #include <study/spec.h>
 
 namespace platform::study {
@@ -47,35 +48,6 @@ class TrajectorySampler {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// A text of which points have many: a path, a value. Equal ones are one object, which stays until
-/// the program ends: so a point of a million costs some hundred bytes.
-class Word {
- public:
-  Word(const std::string& text);
-  Word(const char* text) : Word(std::string(text)) {}
-  Word() : Word("") {}
-
-  const std::string& text() const { return *text_; }
-  operator const std::string&() const { return *text_; }
-
-  friend bool operator==(const Word& a, const Word& b) { return a.text_ == b.text_; }
-  friend bool operator!=(const Word& a, const Word& b) { return a.text_ != b.text_; }
-  friend bool operator==(const Word& a, const std::string& b) { return *a.text_ == b; }
-  friend bool operator!=(const Word& a, const std::string& b) { return *a.text_ != b; }
-
- private:
-  const std::string* text_;
-};
-
-/// The swept values of one point, in the order of the axes: path and value.
-using Assignment = std::vector<std::pair<Word, Word>>;
-
-/// The value of this path; null if missing.
-const std::string* find(const Assignment& values, const std::string& path);
-
-/// Axes that move together, with their values.
-using AxisGroup = std::vector<AxisValues>;
 
 /// Two points that differ in one axis: a step of a sensitivity analysis.
 struct Effect {

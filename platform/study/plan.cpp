@@ -12,7 +12,8 @@
 #include <vector>
 
 #include <result/metrics.h>
-#include <study/axes.h>
+#include <study/axis_check.h>
+#include <study/contents.h>
 #include <study/expansion.h>
 #include <study/inputs.h>
 #include <study/manifest.h>
@@ -21,27 +22,14 @@
 #include <vp/error.h>
 #include <vp/expression.h>
 #include <vp/text.h>
-#include <vp/unit.h>
 
 namespace platform::study {
 
-/// What all points of a PS program and a design start from, and the parameters of that platform.
-struct Base {
-  Build build;
-  ParameterTable table;
-};
-
 namespace {
-
-/// Builds the platform with values of the axis, so that a wrong one shows before the first point:
-/// throws vp::InputError. Returns whether other parameters, or the picture's size, follow from it.
-bool check_values(const AxisValues& axis, const std::vector<Base>& bases, const Platform& platform);
-
-using Kind = ParameterKind::Kind;
 
 /// Gives points of the manifest's families their keys. Of many points that is most of the planning,
 /// so each processor takes its share.
-void find_keys(const Manifest& manifest, std::vector<PlannedPoint>& points) {
+void find_keys(const Manifest& manifest, std::vector<Point>& points) {
   constexpr std::size_t share_worth_a_thread = 1000;
   const std::size_t shares =
       std::max<std::size_t>(1, std::min<std::size_t>(std::thread::hardware_concurrency(),
@@ -57,61 +45,6 @@ void find_keys(const Manifest& manifest, std::vector<PlannedPoint>& points) {
         std::async(share + 1 == shares ? std::launch::deferred : std::launch::async, find));
   }
   for (std::future<void>& found : running) found.get();
-}
-
-/// The smallest, the largest, and one that is not whole.
-std::vector<std::string> extremes(const std::vector<std::string>& values,
-                                  const ParameterKind& kind) {
-  const auto less = [&](const std::string& a, const std::string& b) {
-    return number_of(kind, a) < number_of(kind, b);
-  };
-  std::set<std::string> chosen{*std::min_element(values.begin(), values.end(), less),
-                               *std::max_element(values.begin(), values.end(), less)};
-  for (const std::string& value : values) {
-    if (!vp::parse_quantity(value, kind.unit).whole()) {
-      chosen.insert(value);
-      break;
-    }
-  }
-  return {chosen.begin(), chosen.end()};
-}
-
-bool changes_others(const Elaborated& built, const ParameterTable& base, const std::string& path) {
-  if (built.input < base.input() || base.input() < built.input) return true;
-  const std::map<std::string, std::string> before = base.values();
-  for (const vp::ParameterDescription& parameter : built.parameters) {
-    const auto found = before.find(parameter.path);
-    if (parameter.path != path && (found == before.end() || found->second != parameter.value))
-      return true;
-  }
-  return built.parameters.size() != before.size();
-}
-
-bool check_values(const AxisValues& axis, const std::vector<Base>& bases,
-                  const Platform& platform) {
-  const ParameterKind kind = bases.front().table.kind(axis.path());
-  std::vector<std::string> values = axis.values();
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  if (kind.kind == Kind::quantity) values = extremes(values, kind);
-  bool influences = kind.kind != Kind::quantity;
-  for (const std::string& value : values) {
-    for (const Base& base : bases) {
-      Build build = base.build;
-      build.settings[axis.path()] = value;
-      try {
-        if (changes_others(platform.elaborate(build, axis.where()), base.table, axis.path()))
-          influences = true;
-      } catch (const vp::ParameterError& error) {
-        if (error.path() == axis.path()) throw;
-        influences = true;
-      } catch (const vp::InputError&) {
-        // Values that do not go together: such a point fails, and says why.
-        influences = true;
-      }
-    }
-  }
-  return influences;
 }
 
 bool is_program(const std::string& path) {
@@ -248,11 +181,11 @@ class Planner {
       }
     }
     for (const std::string& program : programs_) {
-      const Build build{program, spec_.set};
+      const Setup build{program, spec_.set};
       if (designs.empty())
         bases_.push_back({build, ParameterTable(platform_.elaborate(build, spec_.set_where))});
       for (const std::string& design : designs) {
-        Build with_design = build;
+        Setup with_design = build;
         with_design.settings["design"] = design;
         ParameterTable table(platform_.elaborate(with_design, spec_.set_where));
         bases_.push_back({std::move(with_design), std::move(table)});
@@ -330,7 +263,7 @@ class Planner {
   }
 
   void add_points(Expansion&& expansion) {
-    std::vector<PlannedPoint> points;
+    std::vector<Point> points;
     points.reserve(expansion.points.size());
     for (Assignment& assignment : expansion.points) points.push_back(placed(std::move(assignment)));
     std::vector<Assignment>().swap(expansion.points);  // and its room
@@ -338,7 +271,7 @@ class Planner {
     std::vector<std::size_t> positions;  // of the expansion's points
     std::unordered_map<std::string, std::size_t> seen;
     manifest_.points.reserve(points.size());
-    for (PlannedPoint& point : points) {
+    for (Point& point : points) {
       const auto [known, is_new] = seen.emplace(point.key, manifest_.points.size());
       positions.push_back(known->second);
       if (is_new) manifest_.points.push_back(std::move(point));
@@ -348,17 +281,17 @@ class Planner {
       manifest_.effects.push_back({key(effect.from), key(effect.to), effect.path, effect.delta});
   }
 
-  PlannedPoint planned(Assignment assignment) {
-    PlannedPoint point = placed(std::move(assignment));
+  Point planned(Assignment assignment) {
+    Point point = placed(std::move(assignment));
     point.key = key_of(identities_.of(point));
     return point;
   }
 
   /// All but its key.
-  PlannedPoint placed(Assignment assignment) {
-    PlannedPoint point;
+  Point placed(Assignment assignment) {
+    Point point;
     point.swept = std::move(assignment);
-    Build build{spec_.program, spec_.set};
+    Setup build{spec_.program, spec_.set};
     for (const auto& [path, value] : point.swept) {
       if (is_program(path)) build.program = value;
       if (is_special(path)) continue;
@@ -390,7 +323,7 @@ class Planner {
     facts::InputNeed input;
   };
 
-  const BuiltFamily& family_of(const Build& build) {
+  const BuiltFamily& family_of(const Setup& build) {
     const auto known = families_.find({build.program, build.settings});
     if (known != families_.end()) return known->second;
     Family family{build.program, {}, {}, {}, {}};
@@ -456,7 +389,7 @@ std::uint64_t Refusals::points() const {
 Refusals try_points(const Manifest& manifest, const Platform& platform, std::size_t most) {
   Refusals refusals;
   for (std::size_t i = 0; i < std::min(most, manifest.points.size()); ++i) {
-    const PlannedPoint& point = manifest.points[i];
+    const Point& point = manifest.points[i];
     const Family& family = manifest.families[point.family];
     std::string problem = family.problem;
     try {
@@ -518,7 +451,7 @@ vp::ExpressionValue Space::value(const Assignment& point, const std::string& nam
   return impl_->planner.value_of(point, name);
 }
 
-PlannedPoint Space::point(const Assignment& assignment) {
+Point Space::point(const Assignment& assignment) {
   return impl_->planner.planned(assignment);
 }
 

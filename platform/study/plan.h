@@ -18,7 +18,7 @@ namespace platform::study {
 /// What planning asks of the platform.
 struct Platform {
   /// Builds it in a process of its own. Throws vp::InputError that says what the user got wrong.
-  std::function<Elaborated(const Build&, const std::string& origin)> elaborate;
+  std::function<Elaborated(const Setup&, const std::string& origin)> elaborate;
   /// The file of a PS program that is named, or that belongs to the design; empty if there are no
   /// files.
   std::function<std::string(const std::string& program, const std::string& design)> program_file;
@@ -63,7 +63,7 @@ class Space {
   vp::ExpressionValue value(const Assignment& point, const std::string& name) const;
 
   /// Its key and all that a run of it needs; manifest() then has its family and inputs.
-  PlannedPoint point(const Assignment& assignment);
+  Point point(const Assignment& assignment);
   /// Without points, but for those that the caller adds.
   Manifest& manifest();
 

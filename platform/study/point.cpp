@@ -1,55 +1,34 @@
-#include <utility>
+#include <study/point.h>
 
 #include <host/digest.h>
-#include <host/document.h>
-#include <study/manifest.h>
-#include <study/point.h>
-#include <study/worker.h>
-#include <vp/error.h>
+
+#include <algorithm>
+#include <mutex>
+#include <unordered_set>
 
 namespace platform::study {
 
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of('\n');
-  if (end == std::string::npos) return "";
-  const std::size_t start = text.rfind('\n', end);
-  std::string line = text.substr(start == std::string::npos ? 0 : start + 1,
-                                 end - (start == std::string::npos ? 0 : start + 1) + 1);
-  const std::string name = "markervp: ";
-  return line.rfind(name, 0) == 0 ? line.substr(name.size()) : line;
-}
-
 namespace {
 
-constexpr int point_schema = 1;
-constexpr const char* point_mark = "markervp_point";
-
-PointRecord new_record(const Manifest& manifest, const PlannedPoint& point) {
-  PointRecord record;
-  record.key = point.key;
-  record.identity = manifest.identity(point);
-  record.run["program"] = manifest.families[point.family].program;
-  record.run["inputs"] = manifest.input_sets[point.input_set].inputs;
-  record.run["settings"] = manifest.settings(point);
-  if (!manifest.input.settings.empty()) record.run["input"] = manifest.input.settings;
-  return record;
-}
-
-void erase_what_stands_elsewhere(Json& result) {
-  for (const char* elsewhere : {"provenance", "configuration"}) result.erase(elsewhere);
-}
-
-/// Throws HalfPoint for what is no JSON.
-Json whole_json(const std::string& path) {
-  const std::string text = vp::read_text(path, "point", host::largest_result);
-  try {
-    return host::parse_json<Json>(text, "");
-  } catch (const vp::InputError&) {
-    throw HalfPoint(
-        "'" + path +
-        "' is damaged, or no file of a sweep's point: remove it, and the sweep computes "
-        "it again");
+/// Appends it as a JSON text.
+void append_text(std::string& json, const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+    return c >= ' ' && c <= '~' && c != '"' && c != '\\';
+  });
+  if (!plain) {
+    json += Json(text).dump();
+    return;
   }
+  json += '"';
+  json += text;
+  json += '"';
+}
+
+void add_line(std::string& json, const std::string& path, const std::string& value) {
+  append_text(json, path);
+  json += ':';
+  append_text(json, value);
+  json += ',';
 }
 
 }  // namespace
@@ -58,69 +37,93 @@ std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-PointRecord done_record(const Manifest& manifest, const PlannedPoint& point, Json result) {
-  PointRecord record = new_record(manifest, point);
-  erase_what_stands_elsewhere(result);
-  record.outcome["status"] = "done";
-  record.outcome["result"] = std::move(result);
-  return record;
+Word::Word(const std::string& text) {
+  static std::mutex mutex;  // tables are written by two threads
+  static std::unordered_set<std::string> words;
+  const std::lock_guard<std::mutex> lock(mutex);
+  text_ = &*words.insert(text).first;
 }
 
-PointRecord failed_record(const Manifest& manifest, const PlannedPoint& point,
-                          const Failure& failure, Json result) {
-  PointRecord record = new_record(manifest, point);
-  record.outcome["status"] = "failed";
-  record.outcome["failure"] = {
-      {"exit_code", failure.exit_code}, {"signal", failure.signal}, {"message", failure.message}};
-  if (result.is_object()) {
-    erase_what_stands_elsewhere(result);
-    record.outcome["result"] = std::move(result);
+const std::string* find(const Assignment& values, const std::string& path) {
+  for (const auto& [name, value] : values) {
+    if (name == path) return &value.text();
   }
-  return record;
+  return nullptr;
 }
 
-// A member a line. The outcome is most of it, and is put into words once, for the digest and the
-// file.
-std::string point_text(const PointRecord& record) {
-  const std::string outcome = json_text(record.outcome);
+std::map<std::string, std::string> Origins::settings(const Point& point) const {
+  const std::map<std::string, std::string>& defaults = families[point.family].defaults;
+  std::map<std::string, std::string> set;
+  auto standard = defaults.begin();
+  visit_configuration(point, [&](const std::string& path, const std::string& value) {
+    while (standard != defaults.end() && standard->first < path) ++standard;
+    const bool same =
+        standard != defaults.end() && standard->first == path && standard->second == value;
+    if (!same) set.emplace_hint(set.end(), path, value);
+  });
+  return set;
+}
+
+Setup Origins::setup(const Point& point) const {
+  return {families[point.family].program, settings(point), input_sets[point.input_set].inputs,
+          input};
+}
+
+std::string Origins::identity(const Point& point) const {
+  return Identities(*this).of(point);
+}
+
+const Identities::Shared& Identities::shared_by(std::size_t family, std::size_t input_set) {
+  constexpr std::size_t most_kept = 1000;  // 20 MB
+  if (shared_.size() == most_kept) shared_.clear();
+  const auto [known, is_new] = shared_.try_emplace({family, input_set});
+  Shared& shared = known->second;
+  if (!is_new) return shared;
+  const Family& of_point = origins_.families[family];
+  const InputChoice& input = origins_.input;
+  shared.text = "{\"markervp\":" + origins_.program.dump();
+  shared.text += ",\"tables\":" + origins_.tables.dump();
+  shared.text += ",\"contents\":" + of_point.contents.dump();
+  shared.text += ",\"inputs\":" + origins_.input_sets[input_set].contents.dump();
+  shared.text += ",\"frames\":" + (input.frames ? std::to_string(*input.frames) : "null");
+  shared.text += ",\"repeat\":" + std::to_string(input.repeat);
+  shared.text += ",\"configuration\":{";
+  for (const auto& [path, value] : of_point.configuration) {
+    const std::size_t begin = shared.text.size();
+    add_line(shared.text, path, value);
+    shared.lines.push_back({path, begin, shared.text.size()});
+  }
+  return shared;
+}
+
+// Between the changes, which are sorted as the lines are, it is what the points share.
+std::string Identities::of(const Point& point) {
+  const Shared& shared = shared_by(point.family, point.input_set);
   std::string text;
-  text.reserve(outcome.size() + record.identity.size() + 4096);
-  text += "{\"" + std::string(point_mark) + "\":" + std::to_string(point_schema);
-  text += ",\n\"key\":" + json_text(record.key);
-  text += ",\n\"identity\":" + record.identity;
-  text += ",\n\"run\":" + json_text(record.run);
-  text += ",\n\"digest\":" + json_text(host::content_hash(outcome));
-  text += ",\n\"outcome\":" + outcome + "}\n";
-  return text;
+  text.reserve(shared.text.size() + shared.text.size() / 8);
+  std::size_t copied = 0;
+  auto line = shared.lines.begin();
+  for (const auto& [path, value] : point.changes) {
+    line = std::lower_bound(line, shared.lines.end(), path.text(),
+                            [](const Shared::Line& a, const std::string& b) { return a.path < b; });
+    const bool is_there = line != shared.lines.end() && line->path == path.text();
+    const std::size_t place = line == shared.lines.end() ? shared.text.size() : line->begin;
+    text.append(shared.text, copied, place - copied);
+    add_line(text, path, value);
+    copied = is_there ? line->end : place;
+  }
+  text.append(shared.text, copied);
+  if (text.back() == ',') text.pop_back();
+  return text += "}}";
 }
 
-std::string identity_start(const Json& program) {
-  return "\"identity\":{\"markervp\":" + program.dump() + ",";
+std::string key_of(std::string_view identity) {
+  return host::content_hash(identity).substr(0, key_digits);
 }
 
-PointRecord read_point(const std::string& path, bool verify) {
-  Json json = whole_json(path);
-  const std::string start = "'" + path + "' ";
-  if (!json.is_object() || !json.contains(point_mark))
-    throw vp::InputError(start + "is no point of a sweep: move it elsewhere");
-  if (json[point_mark] != point_schema) {
-    throw vp::InputError(start + "has version " + json[point_mark].dump() +
-                         " of the format, this program reads version " +
-                         std::to_string(point_schema) +
-                         ": remove it, and the sweep computes it again");
-  }
-  try {
-    PointRecord record{json.at("key").get<std::string>(), json_text(json.at("identity")),
-                       std::move(json.at("run")), std::move(json.at("outcome"))};
-    const bool whole =
-        !verify || (key_of(record.identity) == record.key &&
-                    host::content_hash(json_text(record.outcome)) == json.at("digest"));
-    if (whole && (record.failed() || record.outcome.contains("result"))) return record;
-  } catch (const Json::exception&) {
-  }
-  throw vp::InputError(start +
-                       "was changed or is damaged: remove it, and the sweep computes it "
-                       "again");
+bool is_key(std::string_view text) {
+  return text.size() == key_digits &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 }  // namespace platform::study

@@ -122,7 +122,7 @@ Results::Results(const Manifest& asked) {
   for (const std::string& text : asked.constraints) constraints.emplace_back(text, asked.name);
 }
 
-void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
+void Results::add(const Manifest& from, Point point, Outcome outcome) {
   while (bases_.size() < from.families.size())
     bases_.push_back(std::make_shared<const std::map<std::string, std::string>>(
         from.families[bases_.size()].configuration));
@@ -132,12 +132,10 @@ void Results::add(const Manifest& from, PlannedPoint point, Outcome outcome) {
   if (selection_) outcome.metrics = selection_->of(outcome.metrics);
   static_cast<Outcome&>(row) = std::move(outcome);
   if (!rows.empty()) row.metrics.share_names(rows.back().metrics);
-  row.key = std::move(point.key);
-  row.swept = std::move(point.swept);
   row.base = bases_[point.family];
-  row.changes = std::move(point.changes);
   row.program = from.families[point.family].contents.value("program", "");
   row.inputs = vp::join(from.input_sets[point.input_set].inputs, "+");
+  static_cast<Point&>(row) = std::move(point);
   rows.push_back(std::move(row));
 }
 
@@ -188,12 +186,12 @@ std::vector<std::string> Results::reasons(const ResultRow& row) const {
   return reasons;
 }
 
-result::Metrics Results::metrics_of(const ResultRow& row, RunLogs::Block& block) const {
-  return logs_ ? logs_->metrics(row.key, block) : row.metrics;
+result::Metrics Results::metrics_of(const ResultRow& row, Shards::Block& block) const {
+  return shards_ ? shards_->metrics(row.key, block) : row.metrics;
 }
 
 std::vector<std::string> Results::metric_names() const {
-  if (logs_) return names_;
+  if (shards_) return names_;
   std::set<std::string> names;
   const result::Metrics* before = nullptr;
   for (const ResultRow& row : rows) {
@@ -208,40 +206,15 @@ std::vector<std::string> Results::chosen_metrics() const {
   return manifest.metrics.empty() ? metric_names() : manifest.metrics;
 }
 
-Outcome outcome_of(const PointRecord& record) {
-  Outcome outcome;
-  outcome.failed = record.failed();
-  if (outcome.failed) {
-    const Json& failure = record.outcome.at("failure");
-    outcome.failure = {failure.value("exit_code", -1), failure.value("signal", 0),
-                       failure.value("message", "")};
-  }
-  if (record.outcome.contains("result"))
-    outcome.metrics = result::metrics_of(record.outcome.at("result"));
-  outcome.complaints = complaints_of(record.outcome);
-  return outcome;
-}
-
-std::vector<std::pair<std::string, std::string>> complaints_of(const Json& outcome) {
-  std::vector<std::pair<std::string, std::string>> complaints;
-  const Json::json_pointer verdict("/result/verdict");
-  if (!outcome.contains(verdict)) return complaints;
-  for (const auto& [part, judged] : outcome.at(verdict).items()) {
-    if (judged.is_object() && judged.contains("why"))
-      complaints.emplace_back(part, judged["why"].get<std::string>());
-  }
-  return complaints;
-}
-
-Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+Results read_results(std::shared_ptr<const Shards> shards, Manifest&& manifest,
                      const std::vector<vp::Expression>& more) {
   Results results(manifest);
   results.rows.reserve(manifest.points.size());
   results.selection_.emplace(figures_of(manifest, more));
   result::Metrics before;
-  RunLogs::Block block;
-  for (PlannedPoint& point : manifest.points) {
-    std::optional<Outcome> outcome = logs->outcome(point.key, block);
+  Shards::Block block;
+  for (Point& point : manifest.points) {
+    std::optional<Outcome> outcome = shards->outcome(point.key, Shards::Want::all, block);
     if (!outcome) {
       ++results.missing;
       continue;
@@ -251,10 +224,10 @@ Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
     before = metrics;
     results.add(manifest, std::move(point), *std::move(outcome));
   }
-  std::vector<PlannedPoint>().swap(manifest.points);  // and its room
+  std::vector<Point>().swap(manifest.points);  // and its room
   results.repetitions_ = {};
   results.manifest = std::move(manifest);
-  results.logs_ = std::move(logs);
+  results.shards_ = std::move(shards);
   results.names_ = results.selection_->seen();
   return results;
 }
@@ -372,7 +345,7 @@ void write_csv(const std::string& path, const Results& results) {
   fields.insert(fields.end(), metrics.begin(), metrics.end());
   file.write(result::csv_line(fields));
   FigureFields figures(metrics, results.common());
-  RunLogs::Block block;
+  Shards::Block block;
   std::string lines;
   for (const ResultRow& row : results.rows) {
     fields = {row.key, row.failed ? "failed" : "done", row.failure.message,

@@ -10,20 +10,15 @@
 
 #include <result/verdict.h>
 #include <study/axes.h>
-#include <study/point.h>
-#include <study/run_log.h>
+#include <study/shards.h>
 #include <vp/expression.h>
 
 namespace platform::study {
 
 /// A point of a sweep with its figures.
-struct ResultRow : Outcome {
-  std::string key;
-  Assignment swept;
-  /// The effective configuration: these values, and changes to them. Points of a family share the
-  /// first.
+struct ResultRow : Point, Outcome {
+  /// The effective configuration: these values, which points of a family share, and its changes.
   std::shared_ptr<const std::map<std::string, std::string>> base;
-  Assignment changes;
   Word program;
   Word inputs;
   /// Of a point with the results of an earlier one (Repetitions): the place of that among the rows.
@@ -66,7 +61,7 @@ struct Results {
   /// What a sweep asks of its points, without any.
   explicit Results(const Manifest& asked);
   /// A point, which the same manifest has or had, with all its figures.
-  void add(const Manifest& manifest, PlannedPoint point, Outcome outcome);
+  void add(const Manifest& manifest, Point point, Outcome outcome);
 
   std::uint64_t failed() const;
   /// Whether a part (result::verdict_parts) of the verdict on the point holds.
@@ -78,7 +73,7 @@ struct Results {
   /// Why it failed or is not feasible; empty if it is.
   std::vector<std::string> reasons(const ResultRow& row) const;
   /// All metrics of a point, of which its row may have some only.
-  result::Metrics metrics_of(const ResultRow& row, RunLogs::Block& block) const;
+  result::Metrics metrics_of(const ResultRow& row, Shards::Block& block) const;
   /// The names of all metrics, sorted.
   std::vector<std::string> metric_names() const;
   /// The metrics that do not tell one point from another.
@@ -87,12 +82,12 @@ struct Results {
   std::vector<std::string> chosen_metrics() const;
 
  private:
-  friend Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+  friend Results read_results(std::shared_ptr<const Shards> shards, Manifest&& manifest,
                               const std::vector<vp::Expression>& more);
 
   /// The configurations of the families, which their points share.
   std::vector<std::shared_ptr<const std::map<std::string, std::string>>> bases_;
-  std::shared_ptr<const RunLogs> logs_;         ///< which have all metrics; null: the rows have
+  std::shared_ptr<const Shards> shards_;        ///< which have all metrics; null: the rows have
   std::vector<std::string> names_;              ///< of all metrics in them
   result::CommonFigures common_;                ///< of all metrics
   std::optional<result::Selection> selection_;  ///< the figures that rows have; none: all
@@ -102,7 +97,7 @@ struct Results {
 /// Reads the results of a manifest's points, which become the rows. Of a million points not all
 /// figures fit into memory: rows have those that the sweep asks for, and that `more` is made of.
 /// Throws vp::InputError for a damaged point.
-Results read_results(std::shared_ptr<const RunLogs> logs, Manifest&& manifest,
+Results read_results(std::shared_ptr<const Shards> shards, Manifest&& manifest,
                      const std::vector<vp::Expression>& more = {});
 
 /// Throws vp::InputError for a name in `expression` that no point has a value of, with the nearest.
@@ -139,10 +134,10 @@ std::string repetition_text(const Results& results, const ResultRow& row);
 ///   ran
 ///                                         share, or of metric_values, with 64 of the others a row
 ///   runs(key, engine, host, date, attempt, wall_s, cpu_s)
-///     only the key is known where the process was killed before it told
+///     only the key is known of results that an earlier version left (adopt_kept())
 ///   sweep(name, value)                    its title, file, program version
 ///
 /// Throws vp::OutputError.
-void write_database(const std::string& path, const Results& results, const RunLogs& runs);
+void write_database(const std::string& path, const Results& results, const Shards& shards);
 
 }  // namespace platform::study

@@ -396,4 +396,20 @@ std::string sweep_file(const std::string& name) {
                        "name a YAML file, or a study that 'markervp sweep --list' shows");
 }
 
+const char* to_string(Sampling::Method method) {
+  switch (method) {
+    case Sampling::Method::grid:
+      return "grid";
+    case Sampling::Method::random:
+      return "random";
+    case Sampling::Method::sobol:
+      return "sobol";
+    case Sampling::Method::morris:
+      return "morris";
+    case Sampling::Method::one_at_a_time:
+      return "one-at-a-time";
+  }
+  return "";
+}
+
 }  // namespace platform::study

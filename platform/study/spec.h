@@ -42,6 +42,8 @@ struct Sampling {
   std::uint32_t levels = 4;         ///< of Morris, even
 };
 
+const char* to_string(Sampling::Method method);
+
 /// How `markervp explore` chooses points.
 struct SearchChoice {
   std::string where;              ///< empty: the file does not say

@@ -122,7 +122,7 @@ class Bare(unittest.TestCase):
 
     def test_studies(self):
         self.study()
-        self.call("sweep", "study.yaml", "-o", "sweep")
+        self.call("sweep", "study.yaml", "-o", "sweep", "--keep-results")
         self.assertEqual(words_in((self.folder / "sweep" / "sweep.csv").read_text()), [])
         self.assertIn("frames.figures.peak.mean", (self.folder / "sweep" / "sweep.csv").read_text().splitlines()[0])
         self.assertIn("4", self.call("pareto", "sweep"))
@@ -131,7 +131,9 @@ class Bare(unittest.TestCase):
         for key in keys:
             self.assertEqual(words_in(key.read_text().replace(SOURCES, "").replace(RAMP, "")), [])
         self.call("compare", str(keys[0]), str(keys[1]))
-        self.call("run", "--point", str(keys[0]), "--no-report", "-o", "again")
+        shutil.rmtree(self.folder / "sweep" / "points")
+        self.call("compare", f"sweep:{keys[0].stem}", f"sweep:{keys[1].stem}")
+        self.call("run", "--point", f"sweep:{keys[0].stem}", "--no-report", "-o", "again")
         self.call("explore", "study.yaml", "-o", "explore", "--points", "4")
 
     def test_page(self):

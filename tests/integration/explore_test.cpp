@@ -17,7 +17,7 @@ search: {points: 60, generation: 12}
 )";
 
 void same_results(const Sweeps& sweeps, const std::string& one, const std::string& other) {
-  BOOST_TEST((sweeps.points(one) == sweeps.points(other)));
+  BOOST_TEST((sweeps.computations(one) == sweeps.computations(other)));
   for (const char* file : {"/manifest.json", "/points.csv", "/sweep.csv"}) {
     BOOST_TEST((kit::read_file(sweeps / (one + file)) == kit::read_file(sweeps / (other + file))),
                file);
@@ -36,7 +36,7 @@ BOOST_FIXTURE_TEST_CASE(a_search_does_not_depend_on_the_number_of_processes, Swe
   BOOST_TEST(contains(one.out, " front\n"), one.out);
   run({"explore", "s.yaml", "--jobs", "3", "--output", "three"});
   run({"explore", "s.yaml", "--isolate", "--no-report", "--output", "isolated"});
-  BOOST_TEST(points("one").size() == 60u);
+  BOOST_TEST(count_points("one") == 60u);
   same_results(*this, "one", "three");
   same_results(*this, "one", "isolated");
   // A sweep's tools know it.
@@ -132,8 +132,8 @@ BOOST_FIXTURE_TEST_CASE(a_point_tells_what_each_step_is_worth, Sweeps) {
   run({"sweep", "s.yaml"});
   const std::string csv = kit::read_file(*this / "out/s/points.csv");
   const std::string row = csv.substr(0, csv.find(",40 MHz,16"));
-  const std::string file = "out/s/points/" + row.substr(row.rfind('\n') + 1) + ".json";
-  const kit::Outcome outcome = run({"sensitivity", "--at", file});
+  const std::string point = "out/s:" + row.substr(row.rfind('\n') + 1);
+  const kit::Outcome outcome = run({"sensitivity", "--at", point});
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
   const std::string steps = kit::read_file(*this / "out/s/steps.csv");
   // Twice the labels cost logic, and no time.
@@ -143,17 +143,18 @@ BOOST_FIXTURE_TEST_CASE(a_point_tells_what_each_step_is_worth, Sweeps) {
   BOOST_TEST(count_points("out/s") == 6u);  // the steps were there
   if (contains(outcome.out, "report.html"))
     BOOST_TEST(contains(kit::read_file(*this / "out/s/report.html"), "\"steps\":{"));
-  BOOST_TEST(contains(run({"sensitivity", "--at", file, "--figure", "timing.mett"}).err,
+  BOOST_TEST(contains(run({"sensitivity", "--at", point, "--figure", "timing.mett"}).err,
                       "did you mean 'timing.met'"));
   for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"sensitivity"}, {"sensitivity", "out/s", "--at", file}}) {
+       {std::vector<std::string>{"sensitivity"}, {"sensitivity", "out/s", "--at", point}}) {
     const kit::Outcome refused = run(wrong);
     BOOST_TEST(refused.exit_code == 2);
     BOOST_TEST(contains(refused.err, "name the folder of a sweep, or one of its points"));
   }
-  std::filesystem::copy_file(*this / file, *this / "out/s/points/other.json");
-  BOOST_TEST(contains(run({"sensitivity", "--at", "out/s/points/other.json"}).err,
-                      "no point of the last sweep or search"));
+  write("t.yaml", "parameters: {sw.margin: [3 px, 4 px]}");
+  run({"sweep", "t.yaml", "--output", "out/s"});
+  BOOST_TEST(
+      contains(run({"sensitivity", "--at", point}).err, "no point of the last sweep or search"));
 }
 
 BOOST_FIXTURE_TEST_CASE(mistakes_in_a_search_cost_no_time, Sweeps) {

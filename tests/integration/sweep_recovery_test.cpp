@@ -166,42 +166,69 @@ BOOST_FIXTURE_TEST_CASE(a_point_killed_twice_is_recorded_with_the_signal, Sweeps
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.out, "1 point failed: the process was ended by a signal: Killed"),
              outcome.out);
-  const Json failure = Json::parse(kit::read_file(a_point("out/s")))["outcome"]["failure"];
-  BOOST_TEST(failure["signal"] == SIGKILL);
+  const platform::study::Shards shards{platform::study::Store(*this / "out/s")};
+  const auto known = shards.outcome(computations("out/s").begin()->first);
+  BOOST_TEST(known.value().failure.signal == SIGKILL);
   BOOST_TEST(computations("out/s").begin()->second == 1);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_full_disk_loses_nothing, Sweeps) {
   write("s.yaml", std::string(clocks) + "repeat: 80\n");
-  run({"sweep", "s.yaml", "--limit", "2"});
-  const auto before = points("out/s");
+  run({"sweep", "s.yaml", "--limit", "2", "--keep-results"});
+  const auto before = kept("out/s");
   // Files of 64 KiB at most: the result of 80 frames does not fit.
-  const kit::Outcome outcome = run_limited("ulimit -f 64", "sweep s.yaml");
+  const kit::Outcome outcome = run_limited("ulimit -f 64", "sweep s.yaml --keep-results");
   BOOST_TEST(outcome.exit_code == 2);
   BOOST_TEST(contains(outcome.err, "File too large"), outcome.err);
-  BOOST_TEST((points("out/s") == before));
+  BOOST_TEST((kept("out/s") == before));
   BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "4 points: 2 computed now"));
 }
 
-BOOST_FIXTURE_TEST_CASE(damaged_and_foreign_files_are_named, Sweeps) {
+BOOST_FIXTURE_TEST_CASE(a_damaged_shard_is_named_and_its_points_are_computed_again, Sweeps) {
   write("s.yaml", clocks);
-  run({"sweep", "s.yaml"});
+  run({"sweep", "s.yaml", "--jobs", "1"});
+  const std::string csv = kit::read_file(*this / "out/s/sweep.csv");
+  const std::string shard = a_shard("out/s"), whole = kit::read_file(shard);
+  std::string flipped = whole;
+  flipped[whole.size() - 20] = static_cast<char>(flipped[whole.size() - 20] ^ 1);
+  kit::write_file(shard, flipped);
+  const kit::Outcome pareto = run({"pareto", "out/s"});
+  BOOST_TEST(contains(pareto.err, ".shard' is damaged from byte "), pareto.err);
+  BOOST_TEST(contains(pareto.err, "1 point not computed yet"), pareto.err);
+  const kit::Outcome again = run({"sweep", "s.yaml"});
+  BOOST_TEST(contains(again.err, ".shard' is damaged from byte "), again.err);
+  BOOST_TEST(contains(again.out, "1 computed now, 3 there before"), again.out);
+  BOOST_TEST(kit::read_file(*this / "out/s/sweep.csv") == csv);
+  kit::write_file(shard, "notes of mine\n");
+  const kit::Outcome refused = run({"sweep", "s.yaml"});
+  BOOST_TEST(refused.exit_code == 2);
+  BOOST_TEST(contains(refused.err, "is no results of a sweep"), refused.err);
+}
+
+BOOST_FIXTURE_TEST_CASE(damaged_and_foreign_whole_results_are_named, Sweeps) {
+  write("s.yaml", clocks);
+  run({"sweep", "s.yaml", "--keep-results"});
   kit::write_file(*this / "out/s/points/notes.txt", "mine");
-  const std::string point = a_point("out/s");
+  const std::string point = *this / ("out/s/points/" + kept("out/s").begin()->first);
   const std::string whole = kit::read_file(point);
   kit::write_file(point, whole.substr(0, 100));
-  BOOST_TEST(contains(run({"pareto", "out/s"}).err, "is damaged"));
-  const kit::Outcome again = run({"sweep", "s.yaml"});
+  BOOST_TEST(contains(run({"run", "--point", point}).err, "is damaged"));
+  std::filesystem::remove_all(*this / "out/s/runs");
+  const kit::Outcome again = run({"sweep", "s.yaml", "--keep-results"});
   BOOST_TEST(contains(again.err, "is not whole"), again.err);
   BOOST_TEST(contains(again.err, "'notes.txt', which no sweep wrote"), again.err);
   BOOST_TEST(contains(again.out, "1 computed now, 3 there before"), again.out);
   BOOST_TEST(kit::read_file(point) == whole);
+  std::filesystem::remove_all(*this / "out/s/runs");
   std::string changed = whole;
   changed.replace(changed.find("\"frames\":1"), 10, "\"frames\":2");
   kit::write_file(point, changed);
-  const kit::Outcome refused = run({"sweep", "s.yaml"});
-  BOOST_TEST(refused.exit_code == 2);
-  BOOST_TEST(contains(refused.err, "was changed"), refused.err);
+  for (const std::vector<std::string>& reader :
+       {std::vector<std::string>{"sweep", "s.yaml"}, {"pareto", "out/s"}}) {
+    const kit::Outcome refused = run(reader);
+    BOOST_TEST(refused.exit_code == 2);
+    BOOST_TEST(contains(refused.err, "was changed"), refused.err);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,7 +5,7 @@
 
 #include <marker/report/marker_metrics.h>
 #include <result/metrics.h>
-#include <study/point.h>
+#include <study/kept_result.h>
 
 #include "sweeps.h"
 
@@ -23,16 +23,16 @@ BOOST_FIXTURE_TEST_CASE(the_page_of_a_sweep_has_all_its_points, Sweeps) {
   const kit::Outcome second = run({"sweep", "s.yaml"});
   if (!contains(second.out, "report.html to look at")) return;  // built without it
   const std::string text = kit::read_file(page);
-  for (const auto& [file, unused] : points("out/s"))
-    BOOST_TEST(contains(text, '"' + file.substr(0, file.find('.')) + '"'));
+  for (const auto& [key, unused] : computations("out/s"))
+    BOOST_TEST(contains(text, '"' + key + '"'));
 }
 
 BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_the_number_of_workers, Sweeps) {
   write("s.yaml", clocks);
-  run({"sweep", "s.yaml", "--jobs", "1", "--output", "one"});
-  run({"sweep", "s.yaml", "--jobs", "3", "--output", "three"});
-  BOOST_TEST(points("one").size() == 4u);
-  BOOST_TEST((points("one") == points("three")));
+  run({"sweep", "s.yaml", "--jobs", "1", "--output", "one", "--keep-results"});
+  run({"sweep", "s.yaml", "--jobs", "3", "--output", "three", "--keep-results"});
+  BOOST_TEST(kept("one").size() == 4u);
+  BOOST_TEST((kept("one") == kept("three")));
   BOOST_TEST(kit::read_file(*this / "one/sweep.csv") == kit::read_file(*this / "three/sweep.csv"));
 }
 
@@ -46,7 +46,7 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, 
         "  pl.width: [640 px, 320 px, 600 px]\n"
         "  inputs: [z1.0, squares]\n"
         "  sw.opt: [O0, O2]\n");
-  const std::vector<std::string> same{"sweep", "s.yaml", "--no-report", "--jobs"};
+  const std::vector<std::string> same{"sweep", "s.yaml", "--no-report", "--keep-results", "--jobs"};
   const auto with = [&](std::vector<std::string> more) {
     std::vector<std::string> all = same;
     all.insert(all.end(), more.begin(), more.end());
@@ -56,13 +56,14 @@ BOOST_FIXTURE_TEST_CASE(results_do_not_depend_on_what_their_process_did_before, 
   BOOST_TEST(alone.exit_code == 4, alone.err);  // no image is 600 px wide
   with({"1", "--output", "one"});
   with({"2", "--output", "two"});
-  BOOST_TEST(points("alone").size() > 20u);
-  BOOST_TEST((points("alone") == points("one")));
-  BOOST_TEST((points("alone") == points("two")));
+  BOOST_TEST(kept("alone").size() > 20u);
+  BOOST_TEST((kept("alone") == kept("one")));
+  BOOST_TEST((kept("alone") == kept("two")));
   const std::string csv = kit::read_file(*this / "alone/sweep.csv");
   BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
-  // From the files alone it is the same as from the processes' words.
+  // From whole results it is the same as from the shards.
   std::filesystem::remove(*this / "one/sweep.csv");
+  std::filesystem::remove_all(*this / "one/runs");
   BOOST_TEST(contains(with({"1", "--output", "one"}).out, " 0 computed now"));
   BOOST_TEST(csv == kit::read_file(*this / "one/sweep.csv"));
 }
@@ -72,10 +73,11 @@ class Tenth : public Sweeps {
  public:
   void equals_runs_of_their_own(const std::string& yaml, std::size_t least_points) const {
     write("s.yaml", yaml);
-    const kit::Outcome sweep = run({"sweep", "s.yaml", "--no-report", "--jobs", "2"});
+    const kit::Outcome sweep =
+        run({"sweep", "s.yaml", "--no-report", "--jobs", "2", "--keep-results"});
     BOOST_TEST(sweep.exit_code == 0, sweep.err);
     std::vector<std::string> files;
-    for (const auto& [file, text] : points("out/s")) files.push_back(file);
+    for (const auto& [file, text] : kept("out/s")) files.push_back(file);
     BOOST_TEST_REQUIRE(files.size() >= least_points);
     std::shuffle(files.begin(), files.end(), std::minstd_rand(18));
     files.resize(files.size() / 10);
@@ -142,23 +144,53 @@ BOOST_FIXTURE_TEST_CASE(equal_points_are_computed_once, Sweeps) {
   BOOST_TEST(contains(run({"sweep", "t.yaml", "--output", "d"}).out, "0 computed now, 1 there"));
 }
 
-BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, Sweeps) {
-  write("s.yaml", "parameters: {ps.fclk_clk1.frequency: [50 MHz]}");
-  run({"sweep", "s.yaml"});
-  const std::string file = a_point("out/s");
-  platform::study::PointRecord older = platform::study::read_point(file);
+/// What the version before left: each point's whole result in a file of its own, and no shard.
+class OlderFolder : public Sweeps {
+ public:
+  OlderFolder() {
+    write("s.yaml", clocks);
+    run({"sweep", "s.yaml", "--keep-results"});
+    std::filesystem::remove_all(*this / "out/s/runs");
+  }
+};
+
+BOOST_FIXTURE_TEST_CASE(points_of_another_version_are_mentioned, OlderFolder) {
+  const std::string file = *this / ("out/s/points/" + kept("out/s").begin()->first);
+  platform::study::KeptResult older = platform::study::read_kept(file);
   platform::study::Json identity = older.identity_json();
   identity["markervp"]["version"] = "0.0.1";
   older.identity = identity.dump();
   older.key = platform::study::key_of(older.identity);
   std::filesystem::remove(file);
   kit::write_file(*this / ("out/s/points/" + older.key + ".json"),
-                  platform::study::point_text(older));
+                  platform::study::kept_text(older));
   const kit::Outcome outcome = run({"sweep", "s.yaml"});
-  BOOST_TEST(contains(outcome.out, "1 point: 1 computed now, 0 there before"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "4 points: 1 computed now, 3 there before"), outcome.out);
   BOOST_TEST(contains(outcome.err, "1 point of another version of the program (0.0.1"),
              outcome.err);
-  BOOST_TEST(count_points("out/s") == 2u);
+  BOOST_TEST(count_points("out/s") == 4u);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_folder_of_the_version_before_is_read_by_every_reader, OlderFolder) {
+  const std::string csv = kit::read_file(*this / "out/s/sweep.csv");
+  const kit::Outcome pareto = run({"pareto", "out/s"});
+  BOOST_TEST(pareto.exit_code == 0, pareto.err);
+  BOOST_TEST(contains(pareto.out, "2 of 4 points feasible, 2 miss timing\n"), pareto.out);
+  std::filesystem::remove_all(*this / "out/s/runs");
+  BOOST_TEST(run({"sensitivity", "out/s"}).exit_code == 0);
+  std::filesystem::remove(*this / "out/s/sweep.csv");
+  BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now, 4 there before"));
+  BOOST_TEST(kit::read_file(*this / "out/s/sweep.csv") == csv);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_whole_result_that_is_missing_is_made_again, OlderFolder) {
+  const std::string file = kept("out/s").begin()->first;
+  const std::string text = kit::read_file(*this / ("out/s/points/" + file));
+  run({"sweep", "s.yaml"});
+  std::filesystem::remove(*this / ("out/s/points/" + file));
+  BOOST_TEST(contains(run({"sweep", "s.yaml"}).out, "0 computed now"), "nothing asks for it");
+  BOOST_TEST(contains(run({"sweep", "s.yaml", "--keep-results"}).out, "1 computed now, 3 there"));
+  BOOST_TEST(kit::read_file(*this / ("out/s/points/" + file)) == text);
 }
 
 BOOST_FIXTURE_TEST_CASE(mistakes_cost_no_time, Sweeps) {
@@ -325,18 +357,43 @@ BOOST_FIXTURE_TEST_CASE(a_huge_sweep_asks_first, Sweeps) {
 
 BOOST_FIXTURE_TEST_CASE(a_point_runs_again_as_an_ordinary_run, Sweeps) {
   write("s.yaml", clocks);
+  run({"sweep", "s.yaml", "--keep-results", "-o", "kept"});
   run({"sweep", "s.yaml"});
+  BOOST_TEST(!std::filesystem::exists(*this / "out/s/points"), "they are kept if asked for");
   const std::string point = a_point("out/s");
   BOOST_TEST(run({"run", "--point", point, "--no-pictures", "-q", "-o", "again"}).exit_code == 0);
   const Json result = Json::parse(kit::read_file(*this / "again/result.json"));
-  const Json record = Json::parse(kit::read_file(point));
+  const auto [file, text] = *kept("kept").begin();
+  const Json whole = Json::parse(text);
   for (const char* part : {"frames", "summary", "system", "profile"})
-    BOOST_TEST(result[part].dump() == record["outcome"]["result"][part].dump(), part);
-  BOOST_TEST(result["configuration"].dump() == record["identity"]["configuration"].dump());
-  BOOST_TEST(contains(run({"compare", point, "again"}).out, "metrics: the same"));
+    BOOST_TEST(result[part].dump() == whole["outcome"]["result"][part].dump(), part);
+  BOOST_TEST(result["configuration"].dump() == whole["identity"]["configuration"].dump());
+  for (const std::string& name :
+       {point, "kept/points/" + file, "kept:" + file.substr(0, file.find('.')),
+        "out/s/points/" + file}) {
+    const kit::Outcome compared = run({"compare", name, "again"});
+    BOOST_TEST(contains(compared.out, "configuration: the same\n\nmetrics: the same"),
+               name + ": " + compared.out + compared.err);
+  }
   const kit::Outcome both = run({"run", "z1.0", "--point", point});
   BOOST_TEST(both.exit_code == 2);
   BOOST_TEST(contains(both.err, "leave out INPUT"), both.err);
+}
+
+BOOST_FIXTURE_TEST_CASE(names_of_points_that_are_wrong_are_refused, Sweeps) {
+  write("s.yaml", "parameters: {pl.width: [600 px]}");
+  run({"sweep", "s.yaml"});
+  const std::string none = ":0123456789abcdef0123456789abcdef";
+  const auto said = [&](const std::vector<std::string>& arguments) {
+    const kit::Outcome outcome = run(arguments);
+    BOOST_TEST(outcome.exit_code == 2);
+    return outcome.err;
+  };
+  BOOST_TEST(contains(said({"run", "--point", "out/s"}), "cannot"));
+  BOOST_TEST(contains(said({"run", "--point", "out/s:12"}), "names no point of a sweep"));
+  BOOST_TEST(contains(said({"run", "--point", "out/s" + none}), "has no result of a point"));
+  BOOST_TEST(contains(said({"run", "--point", "nowhere" + none}), "no folder of a sweep"));
+  BOOST_TEST(contains(said({"compare", a_point("out/s"), "out"}), "is a point that failed"));
 }
 
 BOOST_FIXTURE_TEST_CASE(pareto_and_sensitivity_read_the_folder, Sweeps) {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <study/run_log.h>
+#include <study/shards.h>
 
 #include "executable.h"
 
@@ -56,7 +56,8 @@ class Sweeps : public kit::TemporaryFolder {
     BOOST_TEST(!std::filesystem::exists(*this / "out"));
     return outcome.err;
   }
-  std::map<std::string, std::string> points(const std::string& folder) const {
+  /// Whole results that are kept, by file.
+  std::map<std::string, std::string> kept(const std::string& folder) const {
     std::map<std::string, std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(*this / (folder + "/points"))) {
       if (entry.path().extension() == ".json")
@@ -66,19 +67,24 @@ class Sweeps : public kit::TemporaryFolder {
   }
   std::size_t count_points(const std::string& folder) const {
     std::error_code ignored;
-    const std::filesystem::directory_iterator all(*this / (folder + "/points"), ignored);
-    return std::count_if(begin(all), end(all),
-                         [](const auto& entry) { return entry.path().extension() == ".json"; });
+    return std::filesystem::exists(*this / (folder + "/runs"), ignored)
+               ? computations(folder).size()
+               : 0;
   }
   /// Times that points were computed, by key.
   std::map<std::string, int> computations(const std::string& folder) const {
     std::map<std::string, int> counts;
-    const platform::study::RunLogs logs{platform::study::Store(*this / folder)};
-    logs.visit([&](const platform::study::RunEntry& entry) { ++counts[entry.key]; });
+    const platform::study::Shards shards{platform::study::Store(*this / folder)};
+    shards.visit([&](const platform::study::Computation& found) { ++counts[found.key]; });
     return counts;
   }
+  /// The first by its key, as commands name it.
   std::string a_point(const std::string& folder) const {
-    return *this / (folder + "/points/" + points(folder).begin()->first);
+    return folder + ":" + computations(folder).begin()->first;
+  }
+  /// A shard of the folder.
+  std::string a_shard(const std::string& folder) const {
+    return std::filesystem::directory_iterator(*this / (folder + "/runs"))->path().string();
   }
 };
 

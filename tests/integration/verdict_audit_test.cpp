@@ -316,9 +316,9 @@ BOOST_FIXTURE_TEST_CASE(no_verdict_of_500_random_points_is_wrong, Sweeps) {
   const Auditor auditor;
   Seen seen;
   write("audit.yaml", space);
-  const kit::Outcome outcome = run({"sweep", "audit.yaml", "--no-report"});
+  const kit::Outcome outcome = run({"sweep", "audit.yaml", "--no-report", "--keep-results"});
   BOOST_TEST((outcome.exit_code == 0 || outcome.exit_code == 4), outcome.err);
-  for (const auto& [file, text] : points("out/audit")) {
+  for (const auto& [file, text] : kept("out/audit")) {
     BOOST_TEST_CONTEXT(file) {
       audit(auditor, Json::parse(text), seen);
     }

@@ -16,7 +16,7 @@ namespace study = platform::study;
 /// Parameters a and b, numbers from 0 to 1000, and a word.
 inline study::Platform numbers() {
   study::Platform platform;
-  platform.elaborate = [](const study::Build& build, const std::string&) {
+  platform.elaborate = [](const study::Setup& build, const std::string&) {
     study::Elaborated built;
     for (const char* path : {"a", "b", "word"}) {
       const std::string usual = path == std::string("word") ? "plain" : "0";
@@ -32,7 +32,7 @@ inline study::Platform numbers() {
   return platform;
 }
 
-inline double number(const study::PlannedPoint& point, const std::string& path) {
+inline double number(const study::Point& point, const std::string& path) {
   for (const auto& [name, value] : point.swept) {
     if (name == path) return std::stod(value);
   }
@@ -40,7 +40,7 @@ inline double number(const study::PlannedPoint& point, const std::string& path) 
 }
 
 /// Fast is what costs: frames a second grow with a, power with a², and both get worse off b = 500.
-inline study::Outcome outcome_of(const study::PlannedPoint& point) {
+inline study::Outcome outcome_of(const study::Point& point) {
   const double a = number(point, "a") / 1000, b = number(point, "b") / 1000 - 0.5;
   std::vector<std::pair<std::string, double>> figures{{"summary.fps.mean", 100 * a - 50 * b * b},
                                                       {"power.total_w.nominal", a * a + b * b}};

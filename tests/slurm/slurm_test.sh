@@ -35,8 +35,8 @@ parameters:
   ps.fclk_clk1.frequency: {start: 20 MHz, stop: 79 MHz, step: 1 MHz}
 Y
 
-"$markervp" sweep s.yaml --output local >local.log 2>&1 || fail "the local sweep"
-"$markervp" sweep s.yaml --output cluster --engine slurm --chunk 5 >cluster.log 2>&1 &
+"$markervp" sweep s.yaml --output local --keep-results >local.log 2>&1 || fail "the local sweep"
+"$markervp" sweep s.yaml --output cluster --engine slurm --chunk 5 --keep-results >cluster.log 2>&1 &
 sweep=$!
 count() { find cluster/points -name '*.json' 2>/dev/null | wc -l; }
 for _ in $(seq 600); do [ "$(count)" -ge 6 ] && break; sleep .1; done
@@ -65,19 +65,19 @@ grep -q '0 computed now, 60 there before' again.log || fail "points were compute
 
 # Without --chunk the first point says how many make a task: some run here, the rest on the cluster.
 scontrol update NodeName=n1 State=RESUME || true
-"$markervp" sweep s.yaml --limit 12 --output measured --engine slurm >measured.log 2>&1 || fail "the sweep without --chunk"
+"$markervp" sweep s.yaml --limit 12 --output measured --engine slurm --keep-results >measured.log 2>&1 || fail "the sweep without --chunk"
 each_once measured 12
 for point in measured/points/*.json; do cmp "$point" "local/points/${point##*/}" || fail "points differ"; done
 runs measured engine | grep -q local || fail "the first point was not measured here"
 runs measured engine | grep -q slurm || fail "nothing but the first point was computed"
 
 # The terminal is gone, the job continues: the same command waits for it.
-"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >left.log 2>&1 &
+"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 --keep-results >left.log 2>&1 &
 sweep=$!
 for _ in $(seq 600); do [ -n "$(find left/points -name '*.json' 2>/dev/null)" ] && break; sleep .1; done
 kill -9 "$sweep"
 wait "$sweep" 2>/dev/null || true
-"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 >attached.log 2>&1 || fail "the sweep that was left"
+"$markervp" sweep s.yaml --output left --engine slurm --chunk 10 --keep-results >attached.log 2>&1 || fail "the sweep that was left"
 grep -q 'of an earlier call is still in the queue: waiting for it' attached.log || fail "the job was not found again"
 [ "$(ls left/slurm | grep -c '^[0-9]*$')" = 1 ] || fail "the points were handed in again"
 each_once left 60
@@ -91,8 +91,8 @@ parameters:
 objectives: [max summary.fps.mean, min power.total_w.nominal]
 search: {points: 24, generation: 12}
 Y
-"$markervp" explore search.yaml --output found >found.log 2>&1 || fail "the local search"
-"$markervp" explore search.yaml --output searched --engine slurm --chunk 4 >searched.log 2>&1 || fail "the search on the cluster"
+"$markervp" explore search.yaml --output found --keep-results >found.log 2>&1 || fail "the local search"
+"$markervp" explore search.yaml --output searched --engine slurm --chunk 4 --keep-results >searched.log 2>&1 || fail "the search on the cluster"
 grep -q 'The search looked at 24 of 2760 points' searched.log || fail "the search did not say what it looked at"
 diff -r found/points searched/points || fail "the search on the cluster computed other points"
 cmp found/sweep.csv searched/sweep.csv || fail "sweep.csv of the searches differs"

@@ -170,7 +170,7 @@ bool Explorer::take(const Genome& genome, const Goal& goal) {
   std::string name;
   for (const auto& [path, value] : found) name += value.text() + '\n';
   if (!offered_.insert(name).second) return false;
-  study::PlannedPoint point = space_.point(found);
+  study::Point point = space_.point(found);
   // Different values may be the same point: clocks are those that a chip has.
   if (!keys_.insert(point.key).second) return false;
   space_.manifest().points.push_back(std::move(point));
@@ -200,7 +200,7 @@ std::size_t Explorer::take_any(const Goal& goal, std::uint64_t most) {
 
 /// False: interrupted. Then the points without an outcome are forgotten.
 bool Explorer::compute_taken() {
-  std::vector<study::PlannedPoint>& points = space_.manifest().points;
+  std::vector<study::Point>& points = space_.manifest().points;
   const std::size_t first = results_.rows.size();
   std::vector<std::size_t> positions;
   for (std::size_t i = first; i < points.size(); ++i) positions.push_back(i);

@@ -15,7 +15,7 @@
 
 #include <host/process.h>
 #include <study/engine.h>
-#include <study/run_log.h>
+#include <study/shards.h>
 #include <vp/error.h>
 #include <vp/file.h>
 
@@ -33,7 +33,7 @@ Manifest points(int count) {
   manifest.families.push_back({"hybrid", {{"a", "x"}}, {{"a", "x"}}, {}});
   manifest.input_sets.push_back({{"demo"}, {{"name", "demo"}}});
   for (int i = 0; i < count; ++i) {
-    PlannedPoint point;
+    Point point;
     point.changes = {{"a", std::to_string(i)}};
     point.swept = {{"a", std::to_string(i)}};
     point.key = key_of(manifest.identity(point));
@@ -61,9 +61,12 @@ class Platform : public kit::TemporaryFolder {
   int more_figures = 0;  ///< of each result
 
   Tally compute(const LocalOptions& options, const Mischief& mischief = {}) {
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < manifest_.points.size(); ++i) all.push_back(i);
-    return run_local(store(), manifest_, all, options, run_with(mischief), nullptr);
+    const Shards shards(store());
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < manifest_.points.size(); ++i) {
+      if (!shards.has(manifest_.points[i].key)) missing.push_back(i);
+    }
+    return run_local(store(), manifest_, missing, options, run_with(mischief), nullptr);
   }
   /// All points as a task of Slurm; returns its log.
   std::string compute_as_task(const Mischief& mischief) {
@@ -71,12 +74,12 @@ class Platform : public kit::TemporaryFolder {
     write_manifest(*this / "sweep/slurm/1/task-0.json", manifest_);
     std::ostringstream log;
     const auto warm = [](const Manifest&, const std::vector<std::size_t>&) {};
-    BOOST_TEST(run_slurm_task(store(), 1, 0, warm, run_with(mischief), 64, log) == 0);
+    BOOST_TEST(run_slurm_task(store(), {1, 0, 64}, warm, run_with(mischief), log) == 0);
     return log.str();
   }
 
   RunPoint run_with(const Mischief& mischief) {
-    return [this, mischief](const PointRun& asked, PointResult& result, std::ostream& err) {
+    return [this, mischief](const Setup& asked, RunResult& result, std::ostream& err) {
       const std::string number = asked.settings.at("a");
       std::ofstream(*this / "runs", std::ios::app)
           << number + " " + std::to_string(::getpid()) + "\n"
@@ -103,28 +106,18 @@ class Platform : public kit::TemporaryFolder {
   }
   Store store() const { return Store(*this / "sweep"); }
   const std::string& key(int number) const { return manifest_.points[number].key; }
-  PointRecord record(int number) const { return store().read(key(number)); }
-  void write_point(int number) const {
-    Json result;
-    result["summary"]["number"] = number;
-    store().write(done_record(manifest_, manifest_.points[number], std::move(result)));
+  bool has(int number) const { return Shards(store()).has(key(number)); }
+  Outcome outcome(int number) const { return Shards(store()).outcome(key(number)).value(); }
+  /// All computations, whosever.
+  std::vector<Computation> computations() const {
+    std::vector<Computation> all;
+    Shards(store()).visit([&](const Computation& found) { all.push_back(found); });
+    return all;
   }
-  /// What the logs say of a point.
-  Outcome outcome(int number) const { return RunLogs(store()).logged(key(number)).value(); }
-  /// All computations that the logs know.
-  std::vector<RunEntry> entries() const {
-    std::vector<RunEntry> entries;
-    RunLogs(store()).visit([&](const RunEntry& entry) { entries.push_back(entry); });
-    return entries;
-  }
-  std::vector<RunEntry> complete_runs() const {
-    RunLogs(store()).complete(manifest_);
-    return entries();
-  }
-  std::string files() const {
+  /// The whole results that are kept, one behind the other.
+  std::string kept() const {
     std::string all;
-    for (const PlannedPoint& point : manifest_.points)
-      all += kit::read_file(store().point_path(point.key));
+    for (const Point& point : manifest_.points) all += kit::read_file(store().kept_path(point.key));
     return all;
   }
 
@@ -160,8 +153,8 @@ BOOST_AUTO_TEST_CASE(at_the_deadline_points_in_progress_are_abandoned) {
   BOOST_TEST(tally.interrupted);
   BOOST_TEST(tally.computed == 3u);
   BOOST_TEST(tally.abandoned == 1u);
-  BOOST_TEST(platform.entries().size() == 3u);
-  BOOST_TEST(!platform.store().has(platform.key(3)));
+  BOOST_TEST(platform.computations().size() == 3u);
+  BOOST_TEST(!platform.has(3));
   // Another call computes what is missing.
   const Tally rest = platform.compute({});
   BOOST_TEST(rest.computed == 7u);
@@ -175,16 +168,23 @@ BOOST_AUTO_TEST_CASE(a_process_computes_some_points) {
   BOOST_TEST(tally.computed == 10u);
   BOOST_TEST(platform.processes() == 3u);
   BOOST_TEST(*platform.outcome(7).metrics.find("summary.number") == 7);
-  BOOST_TEST(platform.entries().size() == 10u);
+  BOOST_TEST(platform.computations().size() == 10u);
 }
 
-BOOST_AUTO_TEST_CASE(files_do_not_depend_on_who_computed_them) {
+BOOST_AUTO_TEST_CASE(whole_results_do_not_depend_on_who_computed_them) {
+  const auto kept_by = [](Platform& platform, std::uint32_t jobs, std::uint32_t points) {
+    LocalOptions options{jobs, "local", points};
+    options.keep_results = true;
+    platform.compute(options);
+    return platform.kept();
+  };
   Platform alone(9);
-  alone.compute({1, "local", 1});
   Platform together(9);
-  together.compute({3, "local", 64});
+  BOOST_TEST(kept_by(alone, 1, 1) == kept_by(together, 3, 64));
   BOOST_TEST(alone.processes() == 9u);
-  BOOST_TEST(alone.files() == together.files());
+  Platform none(1);
+  none.compute({1, "local", 1});
+  BOOST_TEST(!std::filesystem::exists(none.store().path("points")), "they are kept if asked for");
 }
 
 BOOST_AUTO_TEST_CASE(a_task_of_slurm_tells_of_a_process_that_died_and_the_sweep_of_that) {
@@ -235,44 +235,24 @@ BOOST_AUTO_TEST_CASE(a_run_that_crashes_is_tried_once_more) {
   BOOST_TEST(platform.attempts("3") == 1);
   // That which crashed, one for its second attempt, one for the rest.
   BOOST_TEST(platform.processes() == 3u);
-  BOOST_TEST(!platform.record(2).failed());
-  const std::vector<RunEntry> entries = platform.entries();
-  BOOST_TEST(std::count_if(entries.begin(), entries.end(),
-                           [](const RunEntry& entry) { return entry.attempt == 2; }) == 1);
+  BOOST_TEST(!platform.outcome(2).failed);
+  for (int number = 0; number < 6; ++number)
+    BOOST_TEST(platform.outcome(number).attempt == (number == 2 ? 2 : 1));
 }
 
-BOOST_AUTO_TEST_CASE(a_point_whose_process_was_killed_before_it_told_counts_as_computed) {
+BOOST_AUTO_TEST_CASE(a_sweep_that_was_killed_keeps_the_points_that_were_finished) {
   Platform platform(3);
-  const Tally tally =
-      platform.compute({1, "local", 64}, [&](int number, int attempt, std::ostream&) {
-        if (number != 1 || attempt != 1) return 0;
-        platform.write_point(1);
-        crash();
-      });
-  BOOST_TEST(tally.computed == 3u);
-  BOOST_TEST(platform.attempts("1") == 1);
-  BOOST_TEST(platform.record(1).outcome.at("result").at("summary").at("number") == 1);
-  BOOST_TEST(platform.entries().size() == 2u);
-  const std::vector<RunEntry> entries = platform.complete_runs();
-  BOOST_TEST(entries.size() == 3u);
-  for (const RunEntry& entry : entries)
-    BOOST_TEST(entry.cpu_s.has_value() == (entry.key != platform.key(1)));
-  for (const RunEntry& entry : entries)
-    BOOST_TEST(entry.host.empty() == (entry.key == platform.key(1)), "the process is not known");
-  BOOST_TEST(platform.complete_runs().size() == 3u);
-}
-
-BOOST_AUTO_TEST_CASE(a_process_whose_sweep_was_killed_ends_in_the_middle_of_its_message) {
-  Platform platform(2);
-  platform.more_figures = 20'000;  // more than a pipe holds
-  std::array<int, 2> alive{};      // open as long as one of the processes is there
+  std::array<int, 2> alive{};  // open as long as one of the processes is there
   BOOST_TEST_REQUIRE(::pipe(alive.data()) == 0);
   const pid_t sweep = ::fork();
   if (sweep == 0) {
     const platform::host::InterruptGuard
         guard;  // as the command has it: a signal ends no process at once
-    platform.compute({1, "local", 64}, [](int, int, std::ostream&) {
-      ::kill(::getppid(), SIGKILL);
+    platform.compute({1, "local", 64}, [](int number, int, std::ostream&) {
+      if (number == 1) {
+        ::kill(::getppid(), SIGKILL);
+        for (;;) ::pause();
+      }
       return 0;
     });
     ::_exit(0);
@@ -283,10 +263,11 @@ BOOST_AUTO_TEST_CASE(a_process_whose_sweep_was_killed_ends_in_the_middle_of_its_
   BOOST_TEST_REQUIRE((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
   pollfd end{alive[0], 0, 0};
   constexpr int generous_ms = 60'000;
-  BOOST_TEST(::poll(&end, 1, generous_ms) == 1, "the process waits for a reader that is gone");
+  BOOST_TEST(::poll(&end, 1, generous_ms) == 1, "its process computes on without it");
   ::close(alive[0]);
-  BOOST_TEST(platform.store().has(platform.key(0)), "what it computed is kept");
-  BOOST_TEST(platform.attempts("1") == 0);
+  BOOST_TEST(platform.has(0), "what it finished is kept");
+  BOOST_TEST(!platform.has(1));
+  BOOST_TEST(platform.attempts("2") == 0);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
@@ -305,16 +286,11 @@ BOOST_AUTO_TEST_CASE(a_run_that_crashes_again_is_recorded_with_its_signal) {
   BOOST_TEST(tally.computed == 3u);
   BOOST_TEST(platform.outcome(1).failed);
   BOOST_TEST(platform.attempts("1") == 2);
-  const PointRecord record = platform.record(1);
-  BOOST_TEST(record.failed());
-  const Json& failure = record.outcome.at("failure");
-  BOOST_TEST(failure.at("signal") == SIGKILL);
-  BOOST_TEST(contains(failure.at("message").get<std::string>(), "Killed"));
-  BOOST_TEST(!platform.record(0).failed());
-  BOOST_TEST(!platform.record(2).failed());
-  // Which is a result: it stays.
-  BOOST_TEST(platform.compute({1, "local", 64}, crashes).computed == 0u);
-  BOOST_TEST(platform.attempts("1") == 2);
+  BOOST_TEST(platform.outcome(1).failure.signal == SIGKILL);
+  BOOST_TEST(contains(platform.outcome(1).failure.message, "Killed"));
+  BOOST_TEST(platform.outcome(1).attempt == 2);
+  BOOST_TEST(!platform.outcome(0).failed);
+  BOOST_TEST(!platform.outcome(2).failed);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_its_process_is_no_result) {
@@ -324,9 +300,8 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_its_process_is_no_result) {
     return 0;
   });
   BOOST_TEST(platform.attempts("0") == 2);
-  BOOST_TEST(contains(platform.record(0).outcome.at("failure").at("message").get<std::string>(),
-                      "ended without a result"));
-  BOOST_TEST(!platform.record(1).failed());
+  BOOST_TEST(contains(platform.outcome(0).failure.message, "ended without a result"));
+  BOOST_TEST(!platform.outcome(1).failed);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_follows_a_run_that_failed_in_its_process) {
@@ -339,7 +314,6 @@ BOOST_AUTO_TEST_CASE(nothing_follows_a_run_that_failed_in_its_process) {
   BOOST_TEST(tally.computed == 4u);
   BOOST_TEST(platform.processes() == 2u);
   BOOST_TEST(platform.attempts("1") == 1);
-  BOOST_TEST(platform.record(1).outcome.at("failure").at("message") == "it does not fit");
   BOOST_TEST(platform.outcome(1).failure.message == "it does not fit");
   BOOST_TEST(platform.outcome(1).failure.exit_code == 2);
 }
@@ -351,10 +325,10 @@ BOOST_AUTO_TEST_CASE(a_program_named_like_an_error_of_the_disk_ends_its_own_poin
     return number == 1 ? 1 : 0;
   });
   BOOST_TEST(tally.computed == 3u);
-  BOOST_TEST(platform.record(1).failed());
+  BOOST_TEST(platform.outcome(1).failed);
   BOOST_TEST(platform.outcome(1).failure.message ==
              "program 'Input/output error test' ended with exit code 1");
-  for (const int number : {0, 2}) BOOST_TEST(!platform.record(number).failed());
+  for (const int number : {0, 2}) BOOST_TEST(!platform.outcome(number).failed);
 }
 
 BOOST_AUTO_TEST_CASE(a_machine_that_fails_ends_the_sweep_and_leaves_the_point_open) {
@@ -371,13 +345,13 @@ BOOST_AUTO_TEST_CASE(a_machine_that_fails_ends_the_sweep_and_leaves_the_point_op
             std::system_error(EMFILE, std::generic_category(), "cannot start a process"))}) {
     Platform platform(3);
     BOOST_CHECK_THROW(platform.compute({1}, fail(how)), vp::HostError);
-    BOOST_TEST(!platform.store().has(platform.key(1)));
-    BOOST_TEST(!platform.record(0).failed(), "what was computed is kept");
+    BOOST_TEST(!platform.has(1));
+    BOOST_TEST(!platform.outcome(0).failed, "what was computed is kept");
   }
   Platform platform(3);
   platform.compute(
       {1}, fail(std::make_exception_ptr(std::system_error(EINVAL, std::generic_category(), "no"))));
-  BOOST_TEST(platform.record(1).failed(), "an error of the run is one of its point");
+  BOOST_TEST(platform.outcome(1).failed, "an error of the run is one of its point");
 }
 
 BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {
@@ -386,13 +360,13 @@ BOOST_AUTO_TEST_CASE(another_value_than_planned_is_noticed) {
   BOOST_TEST(tally.computed == 1u);
   Platform wrong(1);
   const Manifest manifest = points(1);
-  const RunPoint run = [](const PointRun&, PointResult& result, std::ostream&) {
+  const RunPoint run = [](const Setup&, RunResult& result, std::ostream&) {
     result.configuration = {{"a", "another"}};
     result.result["summary"]["number"] = 0;
     return 0;
   };
   run_local(wrong.store(), manifest, {0}, {1, "local", 64}, run, nullptr);
-  BOOST_TEST(contains(RunLogs(wrong.store()).logged(manifest.points[0].key).value().failure.message,
+  BOOST_TEST(contains(Shards(wrong.store()).outcome(manifest.points[0].key).value().failure.message,
                       "another value than planned: a"));
 }
 

@@ -1,8 +1,8 @@
 #include <host/digest.h>
 #include <result/metrics.h>
 #include <result/table.h>
+#include <study/kept_result.h>
 #include <study/manifest.h>
-#include <study/point.h>
 #include <study/report.h>
 #include <study/store.h>
 #include <vp/unit.h>
@@ -23,7 +23,7 @@ Manifest one_point() {
   manifest.program = {{"version", "1"}};
   manifest.families.push_back({"hybrid", {{"a", "1"}, {"b", "2"}}, {{"a", "1"}, {"b", "1"}}, {}});
   manifest.input_sets.push_back({{"demo"}, {{"name", "demo"}}});
-  PlannedPoint point;
+  Point point;
   point.changes = {{"a", "5"}};
   point.swept = {{"a", "5"}};
   point.key = key_of(manifest.identity(point));
@@ -31,9 +31,13 @@ Manifest one_point() {
   return manifest;
 }
 
-PointRecord record_of(const Manifest& manifest) {
-  return done_record(manifest, manifest.points[0],
-                     {{"provenance", {{"host", "h"}}}, {"summary", {{"frames", 1}}}});
+KeptResult kept_of(const Manifest& manifest) {
+  const Point& point = manifest.points[0];
+  return {point.key,
+          manifest.identity(point),
+          manifest.setup(point),
+          {},
+          {{"provenance", {{"host", "h"}}}, {"summary", {{"frames", 1}}}}};
 }
 
 }  // namespace
@@ -60,7 +64,7 @@ BOOST_AUTO_TEST_CASE(what_decides_the_result_decides_the_key) {
 
 BOOST_AUTO_TEST_CASE(an_identity_has_the_changed_configuration_sorted) {
   Manifest manifest = one_point();
-  PlannedPoint& point = manifest.points[0];
+  Point& point = manifest.points[0];
   point.changes = {{"a", "5"}, {"aa", "\"quoted\"\n\xc3\xa9"}, {"c", "7"}};
   const Json json = Json::parse(manifest.identity(point));
   BOOST_TEST(json.at("markervp").at("version") == "1");
@@ -81,7 +85,7 @@ BOOST_AUTO_TEST_CASE(points_of_families_in_turn_have_the_identities_that_they_ha
     manifest.families[i].configuration["b"] = std::to_string(i + 2);
   }
   Identities identities(manifest);
-  PlannedPoint point = manifest.points[0];
+  Point point = manifest.points[0];
   for (int round = 0; round < 2; ++round) {
     for (point.family = 0; point.family < families; ++point.family)
       BOOST_REQUIRE(identities.of(point) == manifest.identity(point));
@@ -117,47 +121,42 @@ BOOST_AUTO_TEST_CASE(a_manifest_reads_back) {
   BOOST_TEST(contains(complaint([&] { read_manifest(file); }), "no manifest"));
 }
 
-BOOST_AUTO_TEST_CASE(a_point_reads_back_without_provenance) {
-  const kit::TemporaryFolder folder;
-  const Store store(folder.path());
-  const Manifest manifest = one_point();
-  store.write(record_of(manifest));
-  const PointRecord read = store.read(manifest.points[0].key);
-  BOOST_TEST(!read.failed());
-  BOOST_TEST(!contains(kit::read_file(store.point_path(read.key)), "host"));
-  BOOST_TEST(*result::metrics_of(read.outcome["result"]).find("summary.frames") == 1);
-}
-
-BOOST_AUTO_TEST_CASE(a_glance_tells_which_version_computed_a_point) {
+BOOST_AUTO_TEST_CASE(a_whole_result_reads_back_without_provenance) {
   const kit::TemporaryFolder folder;
   const Store store(folder.path());
   Manifest manifest = one_point();
-  const std::string key = manifest.points[0].key;
-  BOOST_TEST(!store.looks_like_one_of(manifest.program, key));
-  store.write(record_of(manifest));
-  BOOST_TEST(store.looks_like_one_of(manifest.program, key));
-  manifest.program["version"] = "2";
-  BOOST_TEST(!store.looks_like_one_of(manifest.program, key));
-  kit::write_file(store.point_path(key), "{");
-  BOOST_TEST(!store.looks_like_one_of(one_point().program, key));
+  manifest.input = {{{"fit", "crop"}}, 7, 3};
+  manifest.points[0].key = key_of(manifest.identity(manifest.points[0]));
+  const KeptResult kept = kept_of(manifest);
+  store.keep(kept);
+  const KeptResult read = read_kept(store.kept_path(kept.key));
+  BOOST_TEST(!read.outcome.failed);
+  BOOST_TEST(!contains(kit::read_file(store.kept_path(read.key)), "host"));
+  BOOST_TEST(*read.outcome.metrics.find("summary.frames") == 1);
+  BOOST_TEST(read.identity == kept.identity);
+  BOOST_TEST((read.setup.settings == kept.setup.settings));
+  BOOST_TEST((read.setup.inputs == kept.setup.inputs));
+  BOOST_TEST((read.setup.input.settings == kept.setup.input.settings));
+  BOOST_TEST(read.setup.input.frames.value() == 7u);
+  BOOST_TEST(read.setup.input.repeat == 3u);
 }
 
 BOOST_AUTO_TEST_CASE(damage_is_noticed) {
   const kit::TemporaryFolder folder;
   const Store store(folder.path());
   const Manifest manifest = one_point();
-  store.write(record_of(manifest));
-  const std::string path = store.point_path(manifest.points[0].key);
+  store.keep(kept_of(manifest));
+  const std::string path = store.kept_path(manifest.points[0].key);
   const std::string whole = kit::read_file(path);
   const auto said = [&](const std::string& text) {
     kit::write_file(path, text);
-    return complaint([&] { store.read(manifest.points[0].key); });
+    return complaint([&] { read_kept(path); });
   };
   BOOST_TEST(contains(said(whole.substr(0, whole.size() / 2)), "damaged"));
   // What a power failure leaves counts as nothing; what was changed does not.
   const auto half = [&](const std::string& text) {
     kit::write_file(path, text);
-    BOOST_CHECK_THROW(store.read(manifest.points[0].key), HalfPoint);
+    BOOST_CHECK_THROW(read_kept(path), HalfPoint);
   };
   half("");
   half(whole.substr(0, whole.size() - 2));
@@ -169,6 +168,9 @@ BOOST_AUTO_TEST_CASE(damage_is_noticed) {
   BOOST_TEST(contains(said("{}"), "no point of a sweep"));
   BOOST_TEST(contains(said("{\"markervp_point\": 99}"), "version 99"));
   BOOST_TEST(said(whole) == "");
+  const std::string other = store.kept_path(std::string(key_digits, '0'));
+  kit::write_file(other, whole);
+  BOOST_TEST(contains(complaint([&] { read_kept(other); }), "under another name"));
 }
 
 BOOST_AUTO_TEST_CASE(one_sweep_a_folder) {

@@ -25,7 +25,7 @@ class Wishes {
 
   /// A point with a real clock of `mhz`, at which it reaches `fps`.
   void add(const std::string& wish, double mhz, double fps, const std::string& labels = "8") {
-    PlannedPoint point;
+    Point point;
     point.key = "key of " + wish;
     point.swept = {{"clk.frequency", wish}, {"labels", labels}};
     Outcome outcome;

@@ -32,7 +32,7 @@ struct Point {
     return effects_of(steps, results, expressions);
   }
   void add(Results& results, const Assignment& point) {
-    const PlannedPoint planned = space.point(point);
+    const platform::study::Point planned = space.point(point);
     results.add(space.manifest(), planned, outcome_of(planned));
   }
 
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(many_points_have_the_keys_that_each_has_alone) {
   const Manifest manifest = plan(parse_spec(yaml, "study.yaml"), {}, platform);
   BOOST_TEST(manifest.points.size() == 6000u);
   Space space(parse_spec(yaml, "study.yaml"), platform);
-  for (const PlannedPoint& point : manifest.points) {
+  for (const platform::study::Point& point : manifest.points) {
     BOOST_REQUIRE(point.key == key_of(manifest.identity(point)));
     BOOST_REQUIRE(point.key == space.point(point.swept).key);
   }

@@ -8,21 +8,6 @@
 using namespace platform::study;
 namespace result = platform::result;
 
-namespace {
-
-PointMessage message(std::uint64_t item, const result::Metrics& metrics) {
-  PointMessage result;
-  result.item = item;
-  result.wall_s = 0.5;
-  result.failed = true;
-  result.failure = {3, 9, "why"};
-  result.complaints = {{"fits", "too big"}, {"timing", "missed"}};
-  result.metrics = metrics;
-  return result;
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_SUITE(workers)
 
 BOOST_AUTO_TEST_CASE(each_item_is_taken_once_by_all_processes_together) {
@@ -47,44 +32,22 @@ BOOST_AUTO_TEST_CASE(each_item_is_taken_once_by_all_processes_together) {
   BOOST_TEST(queue.stopped());
 }
 
-BOOST_AUTO_TEST_CASE(messages_arrive_whole_however_they_are_cut) {
-  const result::Metrics first{{"a", 1}, {"b", 2}};
-  const result::Metrics second{{"a", 3}, {"b", 4}};
-  MessageWriter writer;
-  std::string bytes = writer.bytes(message(1, first));
-  const std::size_t with_names = bytes.size();
-  const std::string without = writer.bytes(message(2, second));
-  BOOST_TEST(without.size() < with_names);
-  bytes += without + writer.bytes(message(3, result::Metrics{{"c", 5}}));
-  MessageReader reader;
-  std::vector<PointMessage> read;
-  for (const char byte : bytes) {
-    reader.add(std::string_view(&byte, 1));
-    while (const auto next = reader.next()) read.push_back(*next);
+BOOST_AUTO_TEST_CASE(what_a_process_finishes_or_tells_the_others_see) {
+  WorkQueue queue(3, 1);
+  BOOST_TEST(queue.finished() == 0u);
+  BOOST_TEST((queue.told() == WorkQueue::Stop::none));
+  const pid_t process = ::fork();
+  if (process == 0) {
+    queue.finish(1);
+    queue.tell(WorkQueue::Stop::no_host);
+    ::_exit(0);
   }
-  BOOST_REQUIRE(read.size() == 3u);
-  BOOST_TEST(read[0].item == 1u);
-  BOOST_TEST(read[0].failed);
-  BOOST_TEST(read[0].failure.message == "why");
-  BOOST_TEST(read[0].failure.signal == 9);
-  BOOST_TEST(read[0].wall_s == 0.5);
-  BOOST_TEST((read[0].complaints == message(0, {}).complaints));
-  BOOST_TEST(*read[0].metrics.find("b") == 2);
-  BOOST_TEST(*read[1].metrics.find("b") == 4);
-  BOOST_TEST(read[1].metrics.shares_names(read[0].metrics));
-  BOOST_TEST(*read[2].metrics.find("c") == 5);
-  BOOST_TEST(!read[2].metrics.find("a"));
-  // A reader in place of another shares what that one's messages had.
-  MessageReader later(read[0].metrics);
-  later.add(MessageWriter().bytes(message(4, second)));
-  BOOST_TEST(later.next()->metrics.shares_names(read[0].metrics));
-}
-
-BOOST_AUTO_TEST_CASE(half_a_message_is_none) {
-  const std::string bytes = MessageWriter().bytes(message(1, result::Metrics{{"a", 1}}));
-  MessageReader reader;
-  reader.add(std::string_view(bytes).substr(0, bytes.size() - 1));
-  BOOST_TEST(!reader.next().has_value());
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  BOOST_TEST(queue.finished() == 1u);
+  BOOST_TEST(!queue.is_finished(0));
+  BOOST_TEST(queue.is_finished(1));
+  BOOST_TEST((queue.told() == WorkQueue::Stop::no_host));
 }
 
 BOOST_AUTO_TEST_CASE(results_of_one_shape_are_read_like_any) {

@@ -25,7 +25,7 @@ function pointPanel(sweep, selection, compare) {
         h("dl", { class: "facts wide" }, sweep.parameters.map((p) => fact(p.name, p.text(point)))),
         h("dl", { class: "facts wide" }, sweep.metrics.filter((m) => Number.isFinite(m.of(point))).map((m) => fact(m.name, `${significant(m.of(point), 5)} ${m.unit}`)))),
       h("p", { class: "note", style: { margin: "18px 0 6px" } }, "To run it again, with pictures and ", h("a", { href: `${run}/report.html` }, "its own report"), ", which is there then:"),
-      h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, `markervp run --point ${shellWord(`${folder}/points/${point.key}.json`)} --output ${shellWord(`${folder}/${run}`)}`)));
+      h("pre", { tabindex: "0", "aria-label": "Command line" }, h("code", {}, `markervp run --point ${shellWord(`${folder}:${point.key}`)} --output ${shellWord(`${folder}/${run}`)}`)));
     panel.focus({ preventScroll: true });
     panel.scrollIntoView({ block: "nearest" });
   };

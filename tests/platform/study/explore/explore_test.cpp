@@ -30,7 +30,7 @@ std::string square_with(const std::string& search) {
 /// A search over `yaml` by a clock on which a point takes a second. Points from `most` on are
 /// interrupted, and so are those that the study's time does not suffice for.
 struct Study {
-  using Outcome = study::Outcome (*)(const study::PlannedPoint&);
+  using Outcome = study::Outcome (*)(const study::Point&);
 
   explicit Study(const std::string& yaml, Outcome outcome = outcome_of, std::size_t most = 1e9)
       : space(study::parse_spec(yaml, "study.yaml"), platform),
@@ -54,7 +54,7 @@ struct Study {
 
   std::vector<std::string> keys() {
     std::vector<std::string> keys;
-    for (const study::PlannedPoint& point : space.manifest().points) keys.push_back(point.key);
+    for (const study::Point& point : space.manifest().points) keys.push_back(point.key);
     return keys;
   }
 
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(constraints_choose_points_and_judge_results) {
               "constraints: [a + b <= 900, summary.fps.mean >= 20]\n"
               "objectives: [min power.total_w.nominal]\n");
   study.explorer.explore();
-  for (const study::PlannedPoint& point : study.space.manifest().points)
+  for (const study::Point& point : study.space.manifest().points)
     BOOST_TEST(number(point, "a") + number(point, "b") <= 900);
   // The slowest that is fast enough, on its best b.
   BOOST_REQUIRE(study.explorer.front().size() == 1u);
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(time_ends_it) {
 }
 
 BOOST_AUTO_TEST_CASE(where_no_point_runs_it_ends_at_once) {
-  Study study(square, [](const study::PlannedPoint&) {
+  Study study(square, [](const study::Point&) {
     study::Outcome outcome;
     outcome.failed = true;
     outcome.failure = {1, 0, "no such word"};
@@ -239,7 +239,7 @@ BOOST_AUTO_TEST_CASE(constraints_on_parameters_may_give_way_too) {
 
 BOOST_AUTO_TEST_CASE(a_part_of_the_verdict_may_give_way) {
   // Nothing above a = 600 meets timing.
-  const auto slow = [](const study::PlannedPoint& point) {
+  const auto slow = [](const study::Point& point) {
     study::Outcome outcome = outcome_of(point);
     const double margin = 100 * (600 / std::max(1.0, number(point, "a")) - 1);
     std::vector<std::pair<std::string, double>> figures;
@@ -326,7 +326,7 @@ BOOST_AUTO_TEST_CASE(one_deadline_holds_for_all_searches) {
 }
 
 BOOST_AUTO_TEST_CASE(what_nothing_can_give_way_for_takes_the_whole_budget) {
-  const auto idle = [](const study::PlannedPoint& point) {
+  const auto idle = [](const study::Point& point) {
     study::Outcome outcome = outcome_of(point);
     std::vector<std::pair<std::string, double>> figures;
     for (std::size_t i = 0; i < outcome.metrics.names().size(); ++i) {
