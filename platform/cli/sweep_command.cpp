@@ -1,5 +1,3 @@
-#include <sched.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <future>
@@ -38,13 +36,6 @@ constexpr std::size_t shown_points = 20, most_built = 500;
 /// What a sweep ends with if points failed, but `some` did not.
 int points_failed_code(const SweepOptions& options, bool some) {
   return some && !options.require_all ? points_failed : run_failed;
-}
-
-std::uint32_t cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (::sched_getaffinity(0, sizeof set, &set) != 0) return 1;
-  return static_cast<std::uint32_t>(std::max(1, CPU_COUNT(&set)));
 }
 
 int list_studies(std::ostream& out) {
@@ -191,7 +182,7 @@ study::Tally compute(const SweepOptions& options, const study::Store& store,
     return run_slurm(store, manifest, pending, slurm, run_point, progress, err);
   }
   warm_up(manifest, pending);
-  const study::LocalOptions local{options.jobs.value_or(cores()),
+  const study::LocalOptions local{options.jobs.value_or(host::usable_cores()),
                                   "local",
                                   points_a_process(manifest, options.isolate),
                                   [&](const std::string& text) { warn({text}, err); },

@@ -106,6 +106,9 @@ namespace platform::host {
 /// Its name; "unknown" if it has none.
 std::string host_name();
 
+/// Processors that this process may use: at least 1.
+unsigned usable_cores();
+
 /// Its time as results are dated: "2024-05-01T12:34:56Z".
 std::string utc_now();
 

@@ -1,5 +1,3 @@
-#include <sched.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -26,13 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-unsigned cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (::sched_getaffinity(0, sizeof set, &set) != 0) return 1;
-  return static_cast<unsigned>(std::max(1, CPU_COUNT(&set)));
-}
 
 /// How often each outcome came, of some shots.
 struct Counts {
@@ -174,7 +165,7 @@ int run_faults(const FaultsOptions& options, std::ostream& out, std::ostream& er
   if (!options.quiet) bar = std::make_unique<vp::Progress>("faults", file.count);
   const host::InterruptGuard guard;
   const Campaign campaign =
-      run_campaign(file, options.jobs.value_or(cores()), [&bar](std::uint64_t done) {
+      run_campaign(file, options.jobs.value_or(host::usable_cores()), [&bar](std::uint64_t done) {
         if (bar) bar->update(done);
       });
   bar.reset();
