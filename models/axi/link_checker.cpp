@@ -21,10 +21,7 @@ std::string text_of(const Address& a) {
 
 /// Lanes of the bus that a beat may write.
 Strobes lanes_of(const Address& a, unsigned beat, unsigned data_bytes) {
-  Strobes lanes;
-  for (unsigned i = 0; i < a.bytes_in(beat); ++i)
-    lanes.set((a.beat_address(beat) + i) % data_bytes);
-  return lanes;
+  return lanes(static_cast<unsigned>(a.beat_address(beat)) & (data_bytes - 1), a.bytes_in(beat));
 }
 
 /// Whether bytes that are to be written differ.

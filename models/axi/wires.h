@@ -77,6 +77,10 @@ struct Address {
 /// Lane 0 first.
 using Data = std::array<unsigned char, most_data_bytes>;
 using Strobes = std::bitset<most_data_bytes>;
+/// `bytes` lanes from `first` on.
+inline Strobes lanes(unsigned first, unsigned bytes) {
+  return ~(~Strobes() << bytes) << first;
+}
 
 /// VALID and READY of a channel.
 struct Handshake {
