@@ -119,6 +119,10 @@ void LinkChecker::check_stable(Channel& held, const Channel& now, Rule fell, Cha
 }
 
 void LinkChecker::check_stable(const Wires& wires) {
+  const auto waits = [](const Handshake& channel) { return channel.valid && !channel.ready; };
+  const bool any_waits =
+      waits(wires.aw) || waits(wires.ar) || waits(wires.w) || waits(wires.b) || waits(wires.r);
+  if (!std::exchange(any_held_, any_waits) && !any_waits) return;
   const unsigned bytes = shape_.data_bytes;
   const auto other_data = [bytes](const auto& a, const auto& b) {
     return !std::equal(a.data.begin(), a.data.begin() + bytes, b.data.begin());

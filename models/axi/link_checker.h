@@ -57,7 +57,8 @@ class LinkChecker {
   const Resets resets_;
   const Strobes bus_lanes_;
   vp::RuleReports reports_;
-  Wires held_;  ///< channels on which VALID waited on the last edge
+  Wires held_;             ///< channels on which VALID waited on the last edge
+  bool any_held_ = false;  ///< one of them did
   bool was_reset_ = false;
   bool early_response_ = false, early_data_ = false;  ///< passed before their request
   std::deque<Open> writes_, reads_;                   ///< oldest first

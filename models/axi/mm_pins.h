@@ -34,10 +34,10 @@ class Pin {
   }
   /// Whole bytes, the lowest first.
   void get_bytes(unsigned char* bytes, std::size_t count) const {
-    if (place_) std::memcpy(bytes, place_, count);
+    if (place_) copy_bytes(bytes, place_, count);
   }
   void set_bytes(const unsigned char* bytes, std::size_t count) const {
-    if (place_) std::memcpy(place_, bytes, count);
+    if (place_) copy_bytes(place_, bytes, count);
   }
 
  private:

@@ -216,7 +216,9 @@ vp::AxiStreamSlave& RtlPart::stream_in(const std::string& name) {
   if (StreamInLink* link = made<StreamInLink>(name)) return link->port();
   const Interface& interface = claim(name, {Kind::axi_stream}, true);
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<StreamInLink>(interface, clock, *rtl_, *sides_[clock])).port();
+  auto& link = add(std::make_unique<StreamInLink>(interface, clock, *rtl_, *sides_[clock]));
+  streams_.push_back(&link);
+  return link.port();
 }
 
 vp::AxiStreamMaster& RtlPart::stream_out(const std::string& name, unsigned packet_beats) {
@@ -228,8 +230,10 @@ vp::AxiStreamMaster& RtlPart::stream_out(const std::string& name, unsigned packe
                           "packets");
   }
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<StreamOutLink>(interface, clock, *rtl_, *sides_[clock], packet_beats))
-      .port();
+  auto& link =
+      add(std::make_unique<StreamOutLink>(interface, clock, *rtl_, *sides_[clock], packet_beats));
+  streams_.push_back(&link);
+  return link.port();
 }
 
 RtlPart::Output& RtlPart::add_output(const std::string& name, unsigned bits) {
@@ -403,7 +407,7 @@ void RtlPart::settle() {
 }
 
 void RtlPart::show_outputs() {
-  for (const auto& link : links_) link->show_outputs();
+  for (RtlLink* stream : streams_) stream->show_outputs();
   for (Output& output : outputs_) {
     const std::uint64_t now = output.pin.get();
     if (now == output.value) continue;

@@ -151,6 +151,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   };
   std::vector<ResetSignal> reset_signals_;
   std::vector<std::unique_ptr<RtlLink>> links_;
+  std::vector<RtlLink*> streams_;  ///< those whose signals follow outputs
   std::deque<Output> outputs_;
   struct Input {
     vp::SignalBase* signal;

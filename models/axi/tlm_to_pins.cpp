@@ -217,7 +217,7 @@ void TlmToPins::sample_reads() {
   tlm::tlm_generic_payload& payload = burst.request->payload;
   const unsigned char* enables = payload.get_byte_enable_ptr();
   if (!enables)
-    std::memcpy(payload.get_data_ptr() + part.offset, &wires_.r.data[part.lane], part.bytes);
+    copy_bytes(payload.get_data_ptr() + part.offset, &wires_.r.data[part.lane], part.bytes);
   for (unsigned i = 0; enables && i < part.bytes; ++i) {
     const unsigned at = part.offset + i;
     if (enables[at % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED)
@@ -245,8 +245,9 @@ void TlmToPins::drive_data() {
   const Span part = span(burst, w_beat_);
   const tlm::tlm_generic_payload& payload = burst.request->payload;
   const unsigned char* enables = payload.get_byte_enable_ptr();
-  std::fill_n(wires_.w.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
-  std::memcpy(&wires_.w.data[part.lane], payload.get_data_ptr() + part.offset, part.bytes);
+  if (part.bytes != shape_.data_bytes)
+    std::fill_n(wires_.w.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
+  copy_bytes(&wires_.w.data[part.lane], payload.get_data_ptr() + part.offset, part.bytes);
   wires_.w.strobes = lanes(part.lane, part.bytes);
   for (unsigned i = 0; enables && i < part.bytes; ++i) {
     if (enables[(part.offset + i) % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED)

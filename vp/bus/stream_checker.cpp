@@ -101,7 +101,7 @@ void StreamChecker::on_change(SignalBase& signal, std::uint32_t id) {
   }
   levels_[id].set(signal.bits(), ps);
   if (id == valid) check_fall(ps);
-  if (id == last && holds(ps))
+  if (id == last && levels_[valid].now != 0 && holds(ps))
     broken(Rule::stream_last_stable, "TLAST changed without TREADY, to ", levels_[last].now);
   if (id != last) follow(ps);
 }
@@ -148,8 +148,9 @@ void StreamChecker::check_fall(std::uint64_t ps) {
   broken(Rule::stream_valid_stable, "TVALID fell without TREADY, data ", offered);
 }
 
+// Behind a fall of TVALID the rest means nothing.
 void StreamChecker::check_stable(const Part& part, std::uint64_t ps) {
-  if (!holds(ps)) return;
+  if (levels_[valid].now == 0 || !holds(ps)) return;
   std::uint64_t changed = part.level.now ^ part.level.sampled(ps);
   if (part.part.field == StreamField::data) changed &= kept(part.part.low, ps);
   if (changed == 0) return;

@@ -214,6 +214,7 @@ void add_devices(HardwareMap& map, const vp::Router& router, const std::string& 
         device.description = &bank->registers().front().info();
       } else {
         device.registers = registers_of_rtl(*object);
+        for (HardwareMap::Register& one : device.registers) one.fields_of_kind = one.fields.data();
         device.description = object;
       }
     }

@@ -1,16 +1,21 @@
 // RTL with streams of other widths than 32 bits, and with TSTRB, TUSER, TID and TDEST.
 #include <boost/test/unit_test.hpp>
 
+#include <bus_master.h>
 #include <input_error.h>
+#include <memory_target.h>
 #include <simulation.h>
 
 #include <cstdint>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <axi/rtl_part.h>
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
+#include <vp/report.h>
 #include <xilinx/axis_buffer/axis_buffer.h>
 
 namespace {
@@ -121,4 +126,54 @@ BOOST_FIXTURE_TEST_CASE(bits_of_tuser_that_would_be_lost_are_refused, Bench) {
   BOOST_TEST(input_error([&] { fifo.s_axis(out); }) ==
              "part.wide_out sends 40 bits of TUSER, and fifo.s_axis takes 8 bits: the upper ones "
              "would be lost; make both alike");
+}
+
+namespace {
+
+/// The rules that RTL breaks, which a receiver lets wait and then takes, and a reset ends.
+std::string broken_by(unsigned fault) {
+  kit::Simulation simulation;
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  vp::Signal<bool> reset_n("reset_n", 1, true);
+  axi::RtlPart part("part", MARKERVP_FAULTY_STREAM_RTL, {{"clk", &clock}});
+  vp::AxiStream link("link");
+  vp::StreamSink sink("sink", clock);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  sink.ready_on = [](std::uint64_t cycle) { return cycle % 10 == 9; };
+  part.input("rst_n", reset_n);
+  part.tie("fault", fault);
+  part.stream_out("m_axis")(link);
+  sink.s_axis(link);
+  script.simulate([&] {
+    script.wait_until(500'000);
+    reset_n = false;
+    script.wait_until(700'000);
+    reset_n = true;
+    script.wait_until(800'000);
+  });
+  std::string names;
+  for (const vp::Warning& warning : reports.warnings())
+    names += warning.id.substr(warning.id.rfind('_', warning.id.rfind('_') - 1) + 1) + " ";
+  return names;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(each_violation_of_a_stream_at_the_pins_is_seen) {
+  const char* const rules[] = {"",
+                               "TVALID_STABLE ",
+                               "TDATA_STABLE ",
+                               "TLAST_STABLE ",
+                               "TKEEP_STABLE ",
+                               "TUSER_STABLE ",
+                               "TKEEP_GAP ",
+                               "TVALID_RESET "};
+  for (unsigned fault = 0; fault < std::size(rules); ++fault)
+    BOOST_TEST(broken_by(fault) == rules[fault]);
 }
