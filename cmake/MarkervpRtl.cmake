@@ -2,18 +2,19 @@ include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
 
 # markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
-#   [INTERFACES "port: kind…"…])
+#   [INTERFACES "port: kind…"…] [REGISTERS file])
 # RTL as a shared object. With IP in place of an IP, for `markervp run --set pl.fidelity.<ip>=FILE`; without IP a part of a design
 # (axi::RtlPart), whose interfaces are found among its ports, or said by INTERFACES. Verilator compiles the module `TOP`,
-# GHDL turns VHDL into Verilog for it, `TOP` then is an entity. The object knows its ports and parameters; markervp compares them with those of the
+# GHDL turns VHDL into Verilog for it, `TOP` then is an entity. REGISTERS describes its registers; without it, a component.xml or
+# x<top>_hw.h where the vendor's tools put it beside the sources. The object knows its ports and parameters; markervp compares them with those of the
 # IP when it loads it. Its assertions run, and end the run, but with NO_ASSERTIONS. Needs neither markervp's headers nor its compiler, so it serves every markervp of the same interface.
 function(markervp_add_rtl NAME)
-  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE" "IP;TOP;FILELIST"
+  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE" "IP;TOP;FILELIST;REGISTERS"
     "SOURCES;PARAMETERS;INCLUDE_DIRS;DEFINES;WAIVERS;VERILATOR_OPTIONS;GHDL_OPTIONS;INTERFACES" ${ARGN})
   if(NOT RTL_TOP OR NOT (RTL_SOURCES OR RTL_FILELIST) OR RTL_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "markervp_add_rtl(${NAME} [IP ip] TOP module SOURCES file… [PARAMETERS NAME=VALUE…] [INTERFACES \"port: kind\"…] "
       "[INCLUDE_DIRS dir…] [DEFINES NAME=VALUE…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS option…] [GHDL_OPTIONS option…] "
-      "[NO_ASSERTIONS] [COVERAGE]): got '${ARGN}'")
+      "[REGISTERS file] [NO_ASSERTIONS] [COVERAGE]): got '${ARGN}'")
   endif()
   find_package(verilator 5 HINTS "$ENV{VERILATOR_ROOT}" /usr/share/verilator)
   if(NOT verilator_FOUND)
@@ -69,6 +70,7 @@ function(markervp_add_rtl NAME)
   verilate(${NAME} ${coverage} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
     VERILATOR_ARGS -O3 --x-assign fast --x-initial unique ${assert} ${options} ${parameters})
   markervp_rtl_notes("${RTL_INTERFACES}" "${files}" notes)
+  markervp_rtl_registers(${NAME})
   markervp_rtl_glue(${NAME} "${folder}" "${generics}")
   # The glue has these functions (MarkervpRtl.cpp.in).
   target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_PRINTF=markervp_rtl_print)
@@ -79,6 +81,59 @@ function(markervp_add_rtl NAME)
   if(NOT RTL_COVERAGE)
     markervp_rtl_share_runtime(${NAME})
   endif()
+endfunction()
+
+# The description of its registers lies beside the object, where axi::RtlPart looks for it.
+function(markervp_rtl_registers NAME)
+  set(file "${RTL_REGISTERS}")
+  if(file)
+    get_filename_component(file "${file}" ABSOLUTE)
+    if(NOT EXISTS "${file}")
+      message(FATAL_ERROR "markervp_add_rtl(${NAME}): there is no file '${file}'")
+    endif()
+  elseif(NOT RTL_IP)
+    markervp_rtl_find_registers(file)
+  endif()
+  if(NOT file)
+    return()
+  endif()
+  if(NOT file MATCHES "\\.(xml|rdl|h)$")
+    message(FATAL_ERROR "markervp_add_rtl(${NAME}): REGISTERS '${file}' is no .xml (IP-XACT), .rdl (SystemRDL) or .h (Vitis HLS)")
+  endif()
+  set(ending "${CMAKE_MATCH_1}")
+  set(others xml rdl h)
+  list(REMOVE_ITEM others ${ending})
+  list(TRANSFORM others PREPEND "$<TARGET_FILE_DIR:${NAME}>/${NAME}.registers.")
+  set_property(TARGET ${NAME} APPEND PROPERTY LINK_DEPENDS "${file}")
+  add_custom_command(TARGET ${NAME} POST_BUILD
+    COMMAND "${CMAKE_COMMAND}" -E rm -f ${others}
+    COMMAND "${CMAKE_COMMAND}" -E copy_if_different "${file}" "$<TARGET_FILE_DIR:${NAME}>/${NAME}.registers.${ending}"
+    VERBATIM)
+endfunction()
+
+# A packaged IP has component.xml above its sources, and Vitis HLS the header of its driver beside or below that.
+function(markervp_rtl_find_registers RESULT)
+  string(TOLOWER "${RTL_TOP}" top)
+  foreach(source IN LISTS RTL_SOURCES)
+    get_filename_component(folder "${source}" ABSOLUTE)
+    foreach(level RANGE 2)
+      get_filename_component(folder "${folder}" DIRECTORY)
+      if(EXISTS "${folder}/component.xml")
+        file(READ "${folder}/component.xml" text)
+        if(text MATCHES "modelName>[ \t\r\n]*${RTL_TOP}[ \t\r\n]*<")
+          set(${RESULT} "${folder}/component.xml" PARENT_SCOPE)
+          return()
+        endif()
+      endif()
+      file(GLOB headers "${folder}/x${top}_hw.h" "${folder}/drivers/*/src/x${top}_hw.h" "${folder}/driver/x${top}_hw.h")
+      if(headers)
+        list(GET headers 0 header)
+        set(${RESULT} "${header}" PARENT_SCOPE)
+        return()
+      endif()
+    endforeach()
+  endforeach()
+  set(${RESULT} "" PARENT_SCOPE)
 endfunction()
 
 # Verilator's runtime takes longer to compile than an IP: once is enough for all objects. Each still has its own.
@@ -136,8 +191,8 @@ function(markervp_rtl_options RESULT)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${waivers}")
   endforeach()
   if(NOT RTL_IP)
-    foreach(legal WIDTH CASEINCOMPLETE CASEOVERLAP CASEX CMPCONST IMPLICIT LITENDIAN PINMISSING STMTDLY SYMRSVDWORD TIMESCALEMOD
-        UNOPTFLAT UNSIGNED)
+    foreach(legal WIDTH CASEINCOMPLETE CASEOVERLAP CASEX CMPCONST COMBDLY IMPLICIT INITIALDLY LATCH LITENDIAN PINMISSING SELRANGE
+        STMTDLY SYMRSVDWORD TIMESCALEMOD UNOPTFLAT UNSIGNED)
       list(APPEND options -Wno-${legal})
     endforeach()
     list(APPEND options --no-timing)

@@ -22,6 +22,7 @@ struct Recording {
 };
 
 inline std::size_t bytes_of(const RtlPort& port) {
+  if (port.bits > 64) return (port.bits + 31) / 32 * 4;
   return port.bits <= 8 ? 1 : port.bits <= 16 ? 2 : port.bits <= 32 ? 4 : 8;
 }
 

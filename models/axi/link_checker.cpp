@@ -21,10 +21,7 @@ std::string text_of(const Address& a) {
 
 /// Lanes of the bus that a beat may write.
 Strobes lanes_of(const Address& a, unsigned beat, unsigned data_bytes) {
-  Strobes lanes;
-  for (unsigned i = 0; i < a.bytes_in(beat); ++i)
-    lanes.set((a.beat_address(beat) + i) % data_bytes);
-  return lanes;
+  return lanes(static_cast<unsigned>(a.beat_address(beat)) & (data_bytes - 1), a.bytes_in(beat));
 }
 
 /// Whether bytes that are to be written differ.
@@ -122,6 +119,10 @@ void LinkChecker::check_stable(Channel& held, const Channel& now, Rule fell, Cha
 }
 
 void LinkChecker::check_stable(const Wires& wires) {
+  const auto waits = [](const Handshake& channel) { return channel.valid && !channel.ready; };
+  const bool any_waits =
+      waits(wires.aw) || waits(wires.ar) || waits(wires.w) || waits(wires.b) || waits(wires.r);
+  if (!std::exchange(any_held_, any_waits) && !any_waits) return;
   const unsigned bytes = shape_.data_bytes;
   const auto other_data = [bytes](const auto& a, const auto& b) {
     return !std::equal(a.data.begin(), a.data.begin() + bytes, b.data.begin());

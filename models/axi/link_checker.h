@@ -20,9 +20,11 @@ class LinkChecker {
 
   LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape,
               Resets resets = Resets::both)
-      : clock_(clock), shape_(shape), resets_(resets), reports_(link) {
-    for (unsigned lane = 0; lane < shape.data_bytes; ++lane) bus_lanes_.set(lane);
-  }
+      : clock_(clock),
+        shape_(shape),
+        resets_(resets),
+        bus_lanes_(lanes(0, shape.data_bytes)),
+        reports_(link) {}
 
   /// `in_reset`: the edge samples an active reset.
   void edge(const Wires& wires, bool in_reset);
@@ -53,9 +55,10 @@ class LinkChecker {
   const vp::Clock& clock_;
   const Shape shape_;
   const Resets resets_;
-  Strobes bus_lanes_;
+  const Strobes bus_lanes_;
   vp::RuleReports reports_;
-  Wires held_;  ///< channels on which VALID waited on the last edge
+  Wires held_;             ///< channels on which VALID waited on the last edge
+  bool any_held_ = false;  ///< one of them did
   bool was_reset_ = false;
   bool early_response_ = false, early_data_ = false;  ///< passed before their request
   std::deque<Open> writes_, reads_;                   ///< oldest first

@@ -27,12 +27,17 @@ class Pin {
     if (place_)
       pl::store_pin(place_, bits_, bits_ < 64 ? value & ((std::uint64_t{1} << bits_) - 1) : value);
   }
+  /// Bits of a port from `low` on: `bits` of them, in a place of their own size (vp::StreamPart).
+  Pin part(unsigned low, unsigned bits) const {
+    return place_ && low + bits <= bits_ ? Pin(static_cast<unsigned char*>(place_) + low / 8, bits)
+                                         : Pin();
+  }
   /// Whole bytes, the lowest first.
   void get_bytes(unsigned char* bytes, std::size_t count) const {
-    if (place_) std::memcpy(bytes, place_, count);
+    if (place_) copy_bytes(bytes, place_, count);
   }
   void set_bytes(const unsigned char* bytes, std::size_t count) const {
-    if (place_) std::memcpy(place_, bytes, count);
+    if (place_) copy_bytes(place_, bytes, count);
   }
 
  private:

@@ -1,11 +1,13 @@
 #include <axi/rtl_links.h>
 
+#include <algorithm>
 #include <utility>
 
 #include <vp/error.h>
-#include <vp/stream_checker.h>
 
 namespace axi {
+
+using vp::bits_per_byte;
 
 SlaveLink::SlaveLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
                      const vp::Clock& clk, TlmToPins::Begin begin)
@@ -59,41 +61,86 @@ StreamPins::StreamPins(const Interface& interface, const pl::RtlObject& rtl) {
     if (found == interface.ports.end()) return {};
     return {rtl.pin(found->second), rtl.descriptor().ports[found->second].bits};
   };
+  const auto refuse = [&](const char* signal, const std::string& why) {
+    const RtlPort& port = rtl.descriptor().ports[interface.ports.at(signal)];
+    throw vp::InputError(std::string(port.place) + ": port '" + port.name + "' of RTL '" +
+                         rtl.file() + "' has " + std::to_string(port.bits) + " bits, and " + why);
+  };
   data = pin("tdata");
   valid = pin("tvalid");
   ready = pin("tready");
   last = pin("tlast");
   keep = pin("tkeep");
   strobe = pin("tstrb");
-  constexpr unsigned widest = 32, bits_per_byte = 8;
-  if (data.bits() % bits_per_byte == 0 && data.bits() <= widest) return;
-  const RtlPort& port = rtl.descriptor().ports[interface.ports.at("tdata")];
-  throw vp::InputError(std::string(port.place) + ": port '" + port.name + "' of RTL '" +
-                       rtl.file() + "' has " + std::to_string(port.bits) +
-                       " bits, and streams of the platform 8, 16, 24 or 32: put a width converter "
-                       "into the RTL");
+  user = pin("tuser");
+  id = pin("tid");
+  dest = pin("tdest");
+  if (data.bits() % bits_per_byte != 0 || data.bits() > bits_per_byte * vp::most_stream_bytes)
+    refuse("tdata", "a stream has whole bytes, 8 to 1024 bits");
+  const std::string lanes = std::to_string(data.bits() / bits_per_byte);
+  for (const auto& [field, signal] : {std::pair{&keep, "tkeep"}, {&strobe, "tstrb"}}) {
+    if (*field && field->bits() != data.bits() / bits_per_byte)
+      refuse(signal, "one for each of " + lanes + " bytes is needed");
+  }
 }
 
-void StreamPins::check_width(const vp::AxiStream& link) const {
-  constexpr unsigned bits_per_byte = 8;
-  if (data.bits() == bits_per_byte * vp::beat_bytes(link)) return;
-  throw vp::InputError(std::string(link.name()) + " is " +
-                       std::to_string(bits_per_byte * vp::beat_bytes(link)) +
-                       " bits wide, and the RTL at it " + std::to_string(data.bits()) +
-                       ": put a width converter between");
+vp::StreamShape StreamPins::shape(const std::string& end) const {
+  return {end, data.bits() / bits_per_byte, strobe.bits(), user.bits(), id.bits(), dest.bits()};
+}
+
+const Pin& StreamPins::of(vp::StreamField field) const {
+  switch (field) {
+    case vp::StreamField::data:
+      return data;
+    case vp::StreamField::keep:
+      return keep;
+    case vp::StreamField::strobe:
+      return strobe;
+    case vp::StreamField::user:
+      return user;
+    case vp::StreamField::id:
+      return id;
+    case vp::StreamField::dest:
+      break;
+  }
+  return dest;
+}
+
+Pin StreamPins::of(const vp::StreamPart& part) const {
+  return of(part.field).part(part.low, part.bits);
+}
+
+Pin StreamPins::low_data() const {
+  return data.part(0, std::min(data.bits(), 32u));
+}
+
+Pin StreamPins::low_keep() const {
+  return keep.part(0, std::min(keep.bits(), 8u));
 }
 
 StreamInLink::StreamInLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
                            vp::Clocked& side)
-    : RtlLink(interface, clock), pins_(interface, rtl), port_(name.c_str(), side) {}
+    : RtlLink(interface, clock), pins_(interface, rtl), port_(name.c_str(), side) {
+  port_.set_shape(pins_.shape(rtl.instance() + "." + name));
+}
 
+// What sends no TSTRB has it as TKEEP.
 void StreamInLink::connect(const Follow& follow) {
-  pins_.check_width(port_.link());
-  follow(*port_.tdata.signal(), pins_.data);
+  follow(*port_.tdata.signal(), pins_.low_data());
   follow(*port_.tvalid.signal(), pins_.valid);
   follow(*port_.tlast.signal(), pins_.last);
-  follow(*port_.tkeep.signal(), pins_.keep);
-  follow(*port_.tkeep.signal(), pins_.strobe);
+  follow(*port_.tkeep.signal(), pins_.low_keep());
+  auto& parts = port_.link().parts();
+  const bool strobes = std::any_of(parts.begin(), parts.end(), [](const auto& one) {
+    return one.part.field == vp::StreamField::strobe;
+  });
+  if (!strobes && pins_.strobe)
+    follow(*port_.tkeep.signal(), pins_.strobe.part(0, std::min(pins_.strobe.bits(), 8u)));
+  for (auto& [part, wire] : parts) {
+    follow(wire, pins_.of(part));
+    if (!strobes && part.field == vp::StreamField::keep)
+      follow(wire, pins_.strobe.part(part.low, part.bits));
+  }
   port_.link().tready.defer_writes();
 }
 
@@ -107,18 +154,27 @@ StreamOutLink::StreamOutLink(const Interface& interface, std::size_t clock,
                              const pl::RtlObject& rtl, vp::Clocked& side, unsigned packet_beats)
     : RtlLink(interface, clock),
       pins_(interface, rtl),
+      low_data_(pins_.low_data()),
+      low_keep_(pins_.low_keep()),
       packet_beats_(packet_beats),
-      port_(name.c_str(), side) {}
+      port_(name.c_str(), side) {
+  port_.set_shape(pins_.shape(rtl.instance() + "." + name));
+}
 
 void StreamOutLink::connect(const Follow& follow) {
-  pins_.check_width(port_.link());
-  whole_word_ = (1u << vp::beat_bytes(port_.link())) - 1;
+  whole_word_ = (1u << std::min(port_.link().bytes(), 8u)) - 1;
   follow(*port_.tready.signal(), pins_.ready);
   vp::AxiStream& link = port_.link();
   link.tdata.defer_writes();
   link.tkeep.defer_writes();
   link.tvalid.defer_writes();
   link.tlast.defer_writes();
+  for (auto& [part, wire] : link.parts()) {
+    const Pin pin = pins_.of(part);
+    if (!pin) continue;  // TKEEP that the RTL does not have
+    wire.defer_writes();
+    parts_.push_back({pin, &wire});
+  }
 }
 
 void StreamOutLink::sample(bool) {
@@ -131,8 +187,9 @@ void StreamOutLink::show_outputs() {
     if (port_.tvalid.written()) port_.withdraw();
     return;
   }
-  port_.offer(static_cast<std::uint32_t>(pins_.data.get()), last(),
-              static_cast<std::uint8_t>(pins_.keep.get(whole_word_)));
+  port_.offer(static_cast<std::uint32_t>(low_data_.get()), last(),
+              static_cast<std::uint8_t>(low_keep_.get(whole_word_)));
+  for (const Part& part : parts_) *part.wire = static_cast<std::uint32_t>(part.pin.get());
 }
 
 }  // namespace axi

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <axi/interfaces.h>
 #include <axi/link_checker.h>
@@ -13,6 +14,7 @@
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/signal.h>
+#include <vp/stream_shape.h>
 
 namespace axi {
 
@@ -79,11 +81,18 @@ class MasterLink final : public RtlLink {
 
 /// The pins of a stream of RTL, whichever way it goes.
 struct StreamPins {
-  /// Throws vp::InputError unless they are 8, 16, 24 or 32 bits wide.
+  /// Throws vp::InputError unless TDATA has whole bytes, 128 at most.
   StreamPins(const Interface& interface, const pl::RtlObject& rtl);
-  /// Throws vp::InputError unless they are as wide as the link.
-  void check_width(const vp::AxiStream& link) const;
-  Pin data, valid, ready, last, keep, strobe;
+  /// `end`: what messages call it.
+  vp::StreamShape shape(const std::string& end) const;
+  /// Of a field; where the RTL has none, none.
+  const Pin& of(vp::StreamField field) const;
+  /// The pins of some wires of a link. Of a narrower field the bits that it has.
+  Pin of(const vp::StreamPart& part) const;
+  /// The lowest 32 of TDATA and 8 of TKEEP, of links of any width.
+  Pin low_data() const;
+  Pin low_keep() const;
+  Pin data, valid, ready, last, keep, strobe, user, id, dest;
 };
 
 /// RTL receives a stream.
@@ -119,8 +128,16 @@ class StreamOutLink final : public RtlLink {
  private:
   bool last() const { return pins_.last ? pins_.last.get() != 0 : beat_ + 1 == packet_beats_; }
 
+  /// Wires of the link beyond the lowest, and the pins that they follow.
+  struct Part {
+    Pin pin;
+    vp::Signal<std::uint32_t>* wire;
+  };
+
   const StreamPins pins_;
+  const Pin low_data_, low_keep_;
   const unsigned packet_beats_;
+  std::vector<Part> parts_;
   std::uint64_t whole_word_ = 0;  ///< TKEEP where the RTL has none
   unsigned beat_ = 0;             ///< of a packet, where the RTL has no TLAST
   vp::AxiStreamMaster port_;

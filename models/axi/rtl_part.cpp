@@ -1,6 +1,8 @@
 #include <axi/rtl_part.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -44,7 +46,10 @@ RtlPart::RtlPart(sc_core::sc_module_name name, const std::string& file, const Cl
             "seed"),
       figures_("figures", "", vp::Source::decision,
                "what synthesis makes of this RTL: a file of 'markervp rtl synth --output'; by "
-               "default <name>.figures.json beside the object") {
+               "default <name>.figures.json beside the object"),
+      registers_("registers", "", vp::Source::decision,
+                 "what describes its registers: component.xml, SystemRDL or a header of Vitis HLS; "
+                 "by default <name>.registers.xml, .rdl or .h beside the object") {
   const RtlDescriptor& descriptor = pl::open_rtl(file);
   kind_ = std::string("RTL ") + descriptor.top;
   if (*descriptor.ip != '\0') {
@@ -69,6 +74,18 @@ RtlPart::RtlPart(sc_core::sc_module_name name, const std::string& file, const Cl
 }
 
 RtlPart::~RtlPart() = default;
+
+std::string RtlPart::registers_file() const {
+  if (!registers_.get().empty()) return registers_;
+  std::filesystem::path beside = rtl_->file();
+  for (const char* ending : {".registers.xml", ".registers.rdl", ".registers.h"}) {
+    std::error_code ignored;
+    beside.replace_extension().concat(ending);
+    if (std::filesystem::exists(beside, ignored)) return beside.string();
+    beside = rtl_->file();
+  }
+  return {};
+}
 
 void RtlPart::connect_clocks(const ClockPins& clocks) {
   for (const auto& [pin, clock] : clocks) {
@@ -199,7 +216,9 @@ vp::AxiStreamSlave& RtlPart::stream_in(const std::string& name) {
   if (StreamInLink* link = made<StreamInLink>(name)) return link->port();
   const Interface& interface = claim(name, {Kind::axi_stream}, true);
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<StreamInLink>(interface, clock, *rtl_, *sides_[clock])).port();
+  auto& link = add(std::make_unique<StreamInLink>(interface, clock, *rtl_, *sides_[clock]));
+  streams_.push_back(&link);
+  return link.port();
 }
 
 vp::AxiStreamMaster& RtlPart::stream_out(const std::string& name, unsigned packet_beats) {
@@ -211,8 +230,10 @@ vp::AxiStreamMaster& RtlPart::stream_out(const std::string& name, unsigned packe
                           "packets");
   }
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<StreamOutLink>(interface, clock, *rtl_, *sides_[clock], packet_beats))
-      .port();
+  auto& link =
+      add(std::make_unique<StreamOutLink>(interface, clock, *rtl_, *sides_[clock], packet_beats));
+  streams_.push_back(&link);
+  return link.port();
 }
 
 RtlPart::Output& RtlPart::add_output(const std::string& name, unsigned bits) {
@@ -232,7 +253,9 @@ void RtlPart::input(const std::string& name, vp::SignalBase& signal) {
   if (pin_of(interface).bits() > 64)
     refuse(interface, "input '" + name + "' has more than 64 bits: signals have 64 at most");
   inputs_.push_back({&signal, pin_of(interface)});
-  if (interface.kind == Kind::reset) reset_signals_.push_back({&signal, interface.active_low});
+  named_inputs_.push_back({&interface, &signal});
+  if (interface.kind == Kind::reset)
+    reset_signals_.push_back({&signal, interface.active_low, clock_of(interface)});
 }
 
 void RtlPart::tie(const std::string& name, std::uint64_t value) {
@@ -272,8 +295,9 @@ void RtlPart::before_end_of_elaboration() {
   check_connections();
   for (const auto& link : links_) {
     auto* stream = dynamic_cast<StreamOutLink*>(link.get());
-    for (const auto& [signal, active_low] : reset_signals_)
-      if (stream) stream->port().reset_by(*signal, active_low);
+    for (const ResetSignal& reset : reset_signals_)
+      if (stream && stream->clock == reset.clock)
+        stream->port().reset_by(*reset.signal, reset.active_low);
   }
   show_pins();
 }
@@ -325,7 +349,30 @@ void RtlPart::end_of_elaboration() {
   }
 }
 
+/// Of other RTL, or of the clocked model that writes it; null: a process does.
+const vp::Clock* RtlPart::clock_of_writer(const vp::SignalBase& signal) const {
+  if (const auto* other = dynamic_cast<const RtlPart*>(signal.get_parent_object()))
+    return &other
+                ->sides_[other->clock_of(
+                    other->find(signal.basename(), {Kind::wire, Kind::interrupt}))]
+                ->clock();
+  const vp::Clocked* writer = signal.writer();
+  return writer ? &writer->clock() : nullptr;
+}
+
+void RtlPart::watch_inputs() {
+  for (const auto& [interface, signal] : named_inputs_) {
+    const vp::Clock& clock = sides_[clock_of(*interface)]->clock();
+    if (interface->kind == Kind::reset) {
+      checker_.watch_reset(interface->name, *signal, interface->active_low, clock);
+    } else if (const vp::Clock* from = clock_of_writer(*signal)) {
+      checker_.watch_wire(interface->name, *signal, *from, clock);
+    }
+  }
+}
+
 void RtlPart::start_of_simulation() {
+  watch_inputs();
   for (const Input& input : inputs_) input.pin.set(input.signal->bits());
   rtl_->evaluate();
   show_outputs();
@@ -360,7 +407,7 @@ void RtlPart::settle() {
 }
 
 void RtlPart::show_outputs() {
-  for (const auto& link : links_) link->show_outputs();
+  for (RtlLink* stream : streams_) stream->show_outputs();
   for (Output& output : outputs_) {
     const std::uint64_t now = output.pin.get();
     if (now == output.value) continue;
@@ -413,6 +460,7 @@ bool RtlPart::in_reset() const {
 
 void RtlPart::end_of_simulation() {
   for (const auto& link : links_) link->finish();
+  checker_.finish();
   rtl_->finish();
 }
 

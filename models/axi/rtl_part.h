@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <axi/input_checker.h>
 #include <axi/interfaces.h>
 #include <axi/rtl_links.h>
 #include <pl/common/rtl_object.h>
@@ -53,6 +54,9 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
 
   const std::vector<Interface>& interfaces() const { return interfaces_; }
   const std::string& file() const { return rtl_->file(); }
+  /// What describes its registers: the file that the parameter `registers` names, else
+  /// <name>.registers.xml, .rdl or .h beside <name>.so; "" if there is none.
+  std::string registers_file() const;
 
   /// A memory-mapped slave: bind its socket to an interconnect.
   TlmToPins& slave(const std::string& name);
@@ -106,6 +110,8 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   std::size_t clock_of(const Interface& interface) const;
   Output& add_output(const std::string& name, unsigned bits);
   void follow(vp::SignalBase& signal, const Pin& pin);
+  void watch_inputs();
+  const vp::Clock* clock_of_writer(const vp::SignalBase& signal) const;
   void check_connections() const;
   void show_pins();
   void show_pin(const std::string& name, const void* place, unsigned bits);
@@ -125,6 +131,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   std::string kind_;
   vp::Parameter<std::uint64_t> seed_;
   vp::Parameter<std::string> figures_;
+  vp::Parameter<std::string> registers_;
   std::unique_ptr<pl::RtlObject> rtl_;
   std::vector<Interface> interfaces_;
   std::vector<std::unique_ptr<Side>> sides_;  ///< one for each clock
@@ -137,14 +144,26 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
     bool active_low;
   };
   std::vector<ResetPin> resets_;
-  std::vector<std::pair<vp::SignalBase*, bool>> reset_signals_;  ///< and whether they are low
+  struct ResetSignal {
+    vp::SignalBase* signal;
+    bool active_low;
+    std::size_t clock;
+  };
+  std::vector<ResetSignal> reset_signals_;
   std::vector<std::unique_ptr<RtlLink>> links_;
+  std::vector<RtlLink*> streams_;  ///< those whose signals follow outputs
   std::deque<Output> outputs_;
   struct Input {
     vp::SignalBase* signal;
     Pin pin;
   };
   std::vector<Input> inputs_;
+  struct NamedInput {
+    const Interface* interface;
+    vp::SignalBase* signal;
+  };
+  std::vector<NamedInput> named_inputs_;  ///< resets and wires
+  InputChecker checker_{*this};
   std::vector<std::unique_ptr<vp::SignalBase>> probes_;
 
   vp::Signal<bool> settles_{"settles"};  ///< turned when an input has changed: see on_change()

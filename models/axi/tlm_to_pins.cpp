@@ -165,8 +165,8 @@ void TlmToPins::add_fixed(std::vector<Burst>& bursts, Request& request) const {
 TlmToPins::Span TlmToPins::span(const Burst& burst, unsigned beat) const {
   const Address& a = burst.address;
   const unsigned begin = a.offset(beat);
-  return {static_cast<unsigned>(a.beat_address(beat) % shape_.data_bytes), burst.offset + begin,
-          std::min(a.bytes_in(beat), burst.bytes - begin)};
+  return {static_cast<unsigned>(a.beat_address(beat)) & (shape_.data_bytes - 1),
+          burst.offset + begin, std::min(a.bytes_in(beat), burst.bytes - begin)};
 }
 
 void TlmToPins::answer(const Burst& burst, Response response) {
@@ -216,10 +216,12 @@ void TlmToPins::sample_reads() {
   const Span part = span(burst, r_beat_);
   tlm::tlm_generic_payload& payload = burst.request->payload;
   const unsigned char* enables = payload.get_byte_enable_ptr();
-  for (unsigned i = 0; i < part.bytes; ++i) {
+  if (!enables)
+    copy_bytes(payload.get_data_ptr() + part.offset, &wires_.r.data[part.lane], part.bytes);
+  for (unsigned i = 0; enables && i < part.bytes; ++i) {
     const unsigned at = part.offset + i;
-    if (enables && enables[at % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED) continue;
-    payload.get_data_ptr()[at] = wires_.r.data[part.lane + i];
+    if (enables[at % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED)
+      payload.get_data_ptr()[at] = wires_.r.data[part.lane + i];
   }
   burst.request->response = worst(burst.request->response, wires_.r.response);
   if (++r_beat_ != burst.address.beats) return;
@@ -243,14 +245,13 @@ void TlmToPins::drive_data() {
   const Span part = span(burst, w_beat_);
   const tlm::tlm_generic_payload& payload = burst.request->payload;
   const unsigned char* enables = payload.get_byte_enable_ptr();
-  wires_.w.strobes.reset();
-  std::fill_n(wires_.w.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
-  std::memcpy(&wires_.w.data[part.lane], payload.get_data_ptr() + part.offset, part.bytes);
-  for (unsigned i = 0; i < part.bytes; ++i) {
-    const unsigned at = part.offset + i;
-    const bool enabled =
-        !enables || enables[at % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED;
-    wires_.w.strobes.set(part.lane + i, enabled);
+  if (part.bytes != shape_.data_bytes)
+    std::fill_n(wires_.w.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
+  copy_bytes(&wires_.w.data[part.lane], payload.get_data_ptr() + part.offset, part.bytes);
+  wires_.w.strobes = lanes(part.lane, part.bytes);
+  for (unsigned i = 0; enables && i < part.bytes; ++i) {
+    if (enables[(part.offset + i) % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED)
+      wires_.w.strobes.reset(part.lane + i);
   }
   wires_.w.last = w_beat_ + 1 == burst.address.beats;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 /// AXI4 and AXI4-Lite at the pins (IHI0022): what is on the wires of one interface before a clock
 /// edge, be they a model's or the RTL's.
@@ -77,6 +79,21 @@ struct Address {
 /// Lane 0 first.
 using Data = std::array<unsigned char, most_data_bytes>;
 using Strobes = std::bitset<most_data_bytes>;
+/// `bytes` lanes from `first` on.
+inline Strobes lanes(unsigned first, unsigned bytes) {
+  return ~(~Strobes() << bytes) << first;
+}
+
+/// Of the usual words without a call.
+inline void copy_bytes(void* to, const void* from, std::size_t count) {
+  if (count == 4) {
+    std::memcpy(to, from, 4);
+  } else if (count == 8) {
+    std::memcpy(to, from, 8);
+  } else {
+    std::memcpy(to, from, count);
+  }
+}
 
 /// VALID and READY of a channel.
 struct Handshake {

@@ -251,7 +251,9 @@ void print_registers(const HardwareMap::Device& device, std::ostream& out) {
   out << fmt::format("{}: {}, 0x{:08X} to 0x{:08X} ({})\n", device.name, device.what, device.base,
                      device.base + device.size - 1, device.path);
   if (device.registers.empty()) {
-    out << "memory, no registers\n";
+    out << (device.what.rfind("RTL ", 0) == 0
+                ? "no file describes its registers: markervp_add_rtl(… REGISTERS file) names one\n"
+                : "memory, no registers\n");
     return;
   }
   out << fmt::format("\n{:<10}  {:<22} {:<6} {:<10}  {:<10}  {}\n", "address", "register", "access",

@@ -1,16 +1,37 @@
 #include <vp/axi_stream.h>
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
+#include <vp/ip.h>
 #include <vp/stream_checker.h>
 
 namespace vp {
 
 namespace {
 
+constexpr unsigned data_bytes = 4, keep_lanes = 8;  // of tdata and tkeep
+
+std::uint32_t word_at(const StreamBytes& beat, unsigned byte) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, &beat.data[byte], sizeof word);
+  return word;
+}
+
+std::uint32_t lanes_at(const StreamBytes& beat, unsigned first, unsigned lanes) {
+  std::uint32_t word = 0;
+  for (unsigned i = 0; i < lanes; ++i) word |= std::uint32_t{beat.keep[first + i]} << i;
+  return word;
+}
+
 [[noreturn]] void second_end(const AxiStream& link, const char* end) {
   throw std::logic_error(std::string(link.name()) + ": a second " + end + " is bound to this link");
+}
+
+std::string end_name(const char* port, const Clocked& owner) {
+  return std::string(owner.name()) + "." + port;
 }
 
 }  // namespace
@@ -19,8 +40,48 @@ AxiStream::AxiStream(sc_core::sc_module_name name) : sc_module(name) {}
 
 AxiStream::~AxiStream() = default;
 
-void AxiStream::check_beat(std::uint8_t keep, bool last) {
-  if (checker_) checker_->pass(keep, last);
+void AxiStream::check_beat(bool last) {
+  if (checker_) checker_->pass(last);
+}
+
+// Whole beats, until a master says other.
+void AxiStream::join() {
+  if (!master_ || !slave_end_) return;
+  const StreamShape &from = master_->shape(), &to = slave_end_->shape();
+  bytes_ = bytes_between(from, to);
+  tkeep.set_width(std::clamp(bytes_, data_bytes, keep_lanes));
+  const HierarchyScope inside(*this);
+  for (const StreamPart& part : parts_between(from, to)) {
+    const bool whole = part.field == StreamField::keep || part.field == StreamField::strobe;
+    const std::uint32_t initial = whole ? ~0u >> (32 - part.bits) : 0;
+    parts_.emplace_back(part, initial).wire.set_writer(master_->owner_);
+  }
+}
+
+StreamBytes AxiStream::beat() const {
+  StreamBytes beat;
+  const auto set_data = [&beat](unsigned byte, std::uint32_t word) {
+    std::memcpy(&beat.data[byte], &word, sizeof word);
+  };
+  const auto set_keep = [&beat](unsigned first, unsigned lanes, std::uint32_t word) {
+    for (unsigned i = 0; i < lanes; ++i) beat.keep[first + i] = (word >> i & 1) != 0;
+  };
+  set_data(0, tdata.get());
+  set_keep(0, std::min(bytes_, keep_lanes), tkeep.get());
+  for (const auto& [part, wire] : parts_) {
+    if (part.field == StreamField::data) set_data(part.low / bits_per_byte, wire.get());
+    if (part.field == StreamField::keep) set_keep(part.low, part.bits, wire.get());
+  }
+  return beat;
+}
+
+void AxiStream::show(const StreamBytes& beat) {
+  tdata = word_at(beat, 0);
+  tkeep = static_cast<std::uint8_t>(lanes_at(beat, 0, std::min(bytes_, keep_lanes)));
+  for (auto& [part, wire] : parts_) {
+    if (part.field == StreamField::data) wire = word_at(beat, part.low / bits_per_byte);
+    if (part.field == StreamField::keep) wire = lanes_at(beat, part.low, part.bits);
+  }
 }
 
 void AxiStream::excuse() {
@@ -54,11 +115,14 @@ AxiStreamMaster::AxiStreamMaster(const char* name, Clocked& owner)
       tkeep(&owner),
       tvalid(&owner),
       tlast(&owner),
-      tready((std::string(name) + "_tready").c_str(), &owner) {}
+      tready((std::string(name) + "_tready").c_str(), &owner),
+      owner_(owner),
+      shape_{end_name(name, owner)} {}
 
 void AxiStreamMaster::bind(AxiStream& link) {
   if (link.master_) second_end(link, "master");
   link.master_ = this;
+  link.join();
   link_ = &link;
   tdata(link.tdata);
   tkeep(link.tkeep);
@@ -73,11 +137,14 @@ AxiStreamSlave::AxiStreamSlave(const char* name, Clocked& owner)
       tvalid((std::string(name) + "_tvalid").c_str(), &owner),
       tlast((std::string(name) + "_tlast").c_str(), &owner),
       tready(&owner),
-      owner_(owner) {}
+      owner_(owner),
+      shape_{end_name(name, owner)} {}
 
 void AxiStreamSlave::bind(AxiStream& link) {
   if (link.slave_) second_end(link, "slave");
   link.slave_ = &owner_;
+  link.slave_end_ = this;
+  link.join();
   link.slave_takes_source_ = takes_source_;
   link.sink_ = sink_;
   link_ = &link;

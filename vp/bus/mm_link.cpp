@@ -97,7 +97,9 @@ MmLink::MmLink(sc_core::sc_module_name name) : sc_module(name), socket("socket")
 
 void MmLink::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   for (MmObserver* observer : observers_) observer->before(*this, payload, delay);
+  const PayloadChecker::Sent sent = checker_.before(payload);
   socket->b_transport(payload, delay);
+  checker_.after(sent, payload);
   for (MmObserver* observer : observers_) observer->after(*this, payload, delay);
   count(payload.get_command(), payload.get_data_length(), payload.is_response_error());
 }
@@ -112,11 +114,14 @@ bool MmLink::direct_allowed() const {
 }
 
 bool MmLink::direct_memory(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) {
-  if (RegisterRoute* route = RegisterRoute::asked_for(payload)) {
+  RegisterRoute* const route = RegisterRoute::asked_for(payload);
+  if (route) {
     if (!observers_.empty()) return false;
     route->add(*this);
   }
-  return direct_allowed() && socket->get_direct_mem_ptr(payload, dmi);
+  if (!direct_allowed() || !socket->get_direct_mem_ptr(payload, dmi)) return false;
+  if (!route) checker_.granted(payload, dmi);
+  return true;
 }
 
 void MmLink::account(tlm::tlm_command command, std::uint64_t address, std::uint64_t bytes) {

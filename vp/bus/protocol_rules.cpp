@@ -76,9 +76,34 @@ constexpr RuleInfo rules[] = {
     {"AXI4STREAM_ERRM_TDATA_STABLE", "data of kept bytes stay while TVALID waits for TREADY"},
     {"AXI4STREAM_ERRM_TLAST_STABLE", "TLAST stays while TVALID waits for TREADY"},
     {"AXI4STREAM_ERRM_TKEEP_STABLE", "TKEEP stays while TVALID waits for TREADY"},
+    {"AXI4STREAM_ERRM_TSTRB_STABLE", "TSTRB stays while TVALID waits for TREADY"},
+    {"AXI4STREAM_ERRM_TUSER_STABLE", "TUSER stays while TVALID waits for TREADY"},
+    {"AXI4STREAM_ERRM_TID_STABLE", "TID stays while TVALID waits for TREADY"},
+    {"AXI4STREAM_ERRM_TDEST_STABLE", "TDEST stays while TVALID waits for TREADY"},
+    {"AXI4STREAM_ERRM_TVALID_RESET", "TVALID is low when a reset of the master ends"},
+    {"AXI4STREAM_ERRM_TKEEP_TSTRB", "TSTRB is set only where TKEEP is"},
+    {"AXI4STREAM_AUXM_TID_TDEST_WIDTH", "TID and TDEST have 24 bits at most, together"},
     {"AXI4STREAM_ERRM_TKEEP_GAP",
      "words are whole but for the last of a packet: receivers do not realign (a rule of the "
      "platform)"},
+    {"TLM2_RESPONSE", "a payload leaves with TLM_INCOMPLETE_RESPONSE and returns with another one"},
+    {"TLM2_DATA", "a payload that reads or writes has a data pointer and a length"},
+    {"TLM2_STREAMING_WIDTH", "a streaming width is not 0"},
+    {"TLM2_BYTE_ENABLES", "byte enables have a length, and are 0x00 or 0xFF"},
+    {"TLM2_KEPT",
+     "a target leaves command, data pointer, lengths, streaming width and byte enables as they "
+     "are"},
+    {"TLM2_DMI_HINT", "a payload leaves with its DMI hint cleared"},
+    {"TLM2_DMI_RANGE", "direct access is granted for a range with the address that was asked for"},
+    {"BRAM_ADDRESS", "an address at a port lies in the memory"},
+    {"RESET_WIDTH", "a reset of RTL lasts for the 16 clocks that AMD's IP need"},
+    {"RESET_DOMAIN", "a reset of RTL ends on an edge of the clock that it belongs to"},
+    {"CLOCK_CROSSING",
+     "a wire of several bits that comes from another clock stays for two clocks of the RTL that "
+     "samples it"},
+    {"INTERRUPT_PULSE",
+     "an interrupt lasts until the controller can have sampled it, and software can have seen it "
+     "if it is level-sensitive"},
 };
 static_assert(sizeof rules / sizeof *rules == rule_count);
 

@@ -1,5 +1,7 @@
 #include <vp/stream_checker.h>
 
+#include <algorithm>
+
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
 #include <vp/text.h>
@@ -8,22 +10,29 @@ namespace vp {
 
 namespace {
 
-/// The bits of the data whose bytes are kept.
-std::uint64_t bits_of_kept(std::uint64_t keep) {
-  std::uint64_t mask = 0;
-  for (unsigned byte = 0; byte < 8; ++byte)
-    if (keep >> byte & 1) mask |= std::uint64_t{0xFF} << 8 * byte;
-  return mask;
+Rule stable_rule(StreamField field) {
+  switch (field) {
+    case StreamField::data:
+      return Rule::stream_data_stable;
+    case StreamField::keep:
+      return Rule::stream_keep_stable;
+    case StreamField::strobe:
+      return Rule::stream_strb_stable;
+    case StreamField::user:
+      return Rule::stream_user_stable;
+    case StreamField::id:
+      return Rule::stream_id_stable;
+    case StreamField::dest:
+      break;
+  }
+  return Rule::stream_dest_stable;
+}
+
+std::uint64_t ones(unsigned bits) {
+  return (std::uint64_t{1} << bits) - 1;
 }
 
 }  // namespace
-
-unsigned beat_bytes(const AxiStream& link) {
-  constexpr unsigned usual = 4;
-  const auto* bytes = dynamic_cast<const sc_core::sc_attribute<unsigned>*>(
-      link.get_attribute(beat_bytes_attribute));
-  return bytes ? bytes->value : usual;
-}
 
 void StreamChecker::Level::set(std::uint64_t value, std::uint64_t ps) {
   if (changed_ps != ps) before = now;
@@ -33,11 +42,14 @@ void StreamChecker::Level::set(std::uint64_t value, std::uint64_t ps) {
 
 StreamChecker::StreamChecker(AxiStream& link, const Clock& clock, const std::vector<Reset>& resets)
     : clock_(clock),
-      whole_(static_cast<std::uint8_t>((1u << beat_bytes(link)) - 1)),
-      signals_{&link.tvalid, &link.tready, &link.tdata, &link.tlast, &link.tkeep},
+      bytes_(link.bytes()),
+      signals_{&link.tvalid, &link.tready, &link.tlast},
+      parts_{{{StreamField::data, 0, link.tdata.width()}, &link.tdata},
+             {{StreamField::keep, 0, link.tkeep.width()}, &link.tkeep}},
       resets_(resets),
       reset_levels_(resets.size()),
       reports_(link) {
+  for (AxiStream::Part& part : link.parts()) parts_.push_back({part.part, &part.wire});
   for (const Wire wire : {valid, ready}) {
     levels_[wire].now = levels_[wire].before = signals_[wire]->bits();
     signals_[wire]->attach(*this, wire);
@@ -45,8 +57,19 @@ StreamChecker::StreamChecker(AxiStream& link, const Clock& clock, const std::vec
   if (may_wait()) listen();
   for (std::uint32_t i = 0; i < resets_.size(); ++i) {
     reset_levels_[i].now = reset_levels_[i].before = resets_[i].signal->bits();
-    resets_[i].signal->attach(*this, wires + i);
+    resets_[i].signal->attach(*this, reset_ids + i);
   }
+  check_width();
+}
+
+void StreamChecker::check_width() {
+  constexpr unsigned most = 24;  // IHI0051, recommended
+  unsigned bits = 0;
+  for (const Part& part : parts_) {
+    const bool routes = part.part.field == StreamField::id || part.part.field == StreamField::dest;
+    if (routes) bits += part.part.bits;
+  }
+  if (bits > most) broken(Rule::stream_id_dest_width, "bits of both are ", bits);
 }
 
 void StreamChecker::excuse() {
@@ -64,12 +87,31 @@ bool StreamChecker::excused(std::uint64_t ps) const {
   return false;
 }
 
+/// The master must hold what it offered before this instant.
+bool StreamChecker::holds(std::uint64_t ps) const {
+  return levels_[valid].sampled(ps) != 0 && levels_[ready].sampled(ps) == 0 && !excused(ps);
+}
+
 void StreamChecker::on_change(SignalBase& signal, std::uint32_t id) {
   const std::uint64_t ps = clock_.scheduler().now_ps();
-  if (id >= wires) return reset_levels_[id - wires].set(signal.bits(), ps);
+  if (id >= reset_ids) return change_reset(id - reset_ids, signal.bits(), ps);
+  if (id >= wires) {
+    parts_[id - wires].level.set(signal.bits(), ps);
+    return check_stable(parts_[id - wires], ps);
+  }
   levels_[id].set(signal.bits(), ps);
-  if (id != ready) check(static_cast<Wire>(id), ps);
-  if (id == valid || id == ready) follow(ps);
+  if (id == valid) check_fall(ps);
+  if (id == last && levels_[valid].now != 0 && holds(ps))
+    broken(Rule::stream_last_stable, "TLAST changed without TREADY, to ", levels_[last].now);
+  if (id != last) follow(ps);
+}
+
+// A master lowers TVALID on the first edge of its reset at the latest.
+void StreamChecker::change_reset(std::uint32_t number, std::uint64_t level, std::uint64_t ps) {
+  reset_levels_[number].set(level, ps);
+  const std::uint64_t inactive = resets_[number].active_low ? 1 : 0;
+  if (level == inactive && levels_[valid].sampled(ps) != 0)
+    broken(Rule::stream_valid_reset, "TVALID is high, data ", parts_.front().wire->bits());
 }
 
 // In the instant in which the wait ends the other wires may still break a rule: they are left on
@@ -81,46 +123,75 @@ void StreamChecker::follow(std::uint64_t ps) {
   } else if (listens_ && !ended_ps_) {
     ended_ps_ = ps;
   } else if (listens_ && *ended_ps_ != ps) {
-    for (const Wire wire : {data, last, keep}) signals_[wire]->detach(*this);
+    signals_[last]->detach(*this);
+    for (const Part& part : parts_) part.wire->detach(*this);
     listens_ = false;
   }
 }
 
 void StreamChecker::listen() {
   listens_ = true;
-  for (const Wire wire : {data, last, keep}) {
-    levels_[wire] = {};
-    levels_[wire].now = signals_[wire]->bits();
-    signals_[wire]->attach(*this, wire);
+  levels_[last] = {};
+  levels_[last].now = signals_[last]->bits();
+  signals_[last]->attach(*this, last);
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+    parts_[i].level = {};
+    parts_[i].level.now = parts_[i].wire->bits();
+    parts_[i].wire->attach(*this, wires + i);
   }
 }
 
-void StreamChecker::check(Wire wire, std::uint64_t ps) {
-  const bool waits = levels_[valid].sampled(ps) != 0 && levels_[ready].sampled(ps) == 0;
-  if (!waits || excused(ps)) return;
-  switch (wire) {
-    case valid:
-      return broken(Rule::stream_valid_stable, "TVALID fell without TREADY, data ",
-                    levels_[data].sampled(ps));
-    case data:
-      if (((levels_[data].now ^ levels_[data].sampled(ps)) &
-           bits_of_kept(levels_[keep].sampled(ps))) == 0)
-        return;
-      return broken(Rule::stream_data_stable, "TDATA changed without TREADY, to ",
-                    levels_[data].now);
-    case last:
-      return broken(Rule::stream_last_stable, "TLAST changed without TREADY, to ",
-                    levels_[last].now);
-    case keep:
-      return broken(Rule::stream_keep_stable, "TKEEP changed without TREADY, to ",
-                    levels_[keep].now);
-    case ready:
-    case wires:
-      break;
+void StreamChecker::check_fall(std::uint64_t ps) {
+  if (!holds(ps)) return;
+  const Part& data = parts_.front();
+  const std::uint64_t offered = listens_ ? data.level.sampled(ps) : data.wire->bits();
+  broken(Rule::stream_valid_stable, "TVALID fell without TREADY, data ", offered);
+}
+
+// Behind a fall of TVALID the rest means nothing.
+void StreamChecker::check_stable(const Part& part, std::uint64_t ps) {
+  if (levels_[valid].now == 0 || !holds(ps)) return;
+  std::uint64_t changed = part.level.now ^ part.level.sampled(ps);
+  if (part.part.field == StreamField::data) changed &= kept(part.part.low, ps);
+  if (changed == 0) return;
+  broken(stable_rule(part.part.field),
+         std::string(to_string(part.part.field)) + " changed without TREADY, to ", part.level.now);
+}
+
+/// Of 32 bits of data from `first_bit` on, those whose bytes were kept.
+std::uint64_t StreamChecker::kept(unsigned first_bit, std::uint64_t ps) const {
+  const unsigned first = first_bit / bits_per_byte;
+  std::uint64_t mask = 0;
+  for (const Part& part : parts_) {
+    if (part.part.field != StreamField::keep) continue;
+    for (unsigned byte = 0; byte < 4; ++byte) {
+      const unsigned lane = first + byte;
+      if (lane < part.part.low || lane >= part.part.low + part.part.bits) continue;
+      if (part.level.sampled(ps) >> (lane - part.part.low) & 1)
+        mask |= ones(bits_per_byte) << bits_per_byte * byte;
+    }
+  }
+  return mask;
+}
+
+void StreamChecker::pass(bool last_beat) {
+  for (const Part& part : parts_) {
+    const std::uint64_t bits = part.wire->bits();
+    if (part.part.field == StreamField::keep && !last_beat) {
+      const unsigned lanes = std::min(part.part.bits, bytes_ - part.part.low);
+      if (bits != ones(lanes)) broken(Rule::stream_keep_gap, "a word with TKEEP ", bits);
+    } else if (part.part.field == StreamField::strobe) {
+      std::uint64_t keep = 0;
+      for (const Part& other : parts_) {
+        if (other.part.field == StreamField::keep && other.part.low / 32 == part.part.low / 32)
+          keep |= other.wire->bits() << other.part.low % 32;
+      }
+      if ((bits & ~keep) != 0) broken(Rule::stream_keep_strb, "a beat with TSTRB ", bits);
+    }
   }
 }
 
-void StreamChecker::broken(Rule rule, const char* what, std::uint64_t value) {
+void StreamChecker::broken(Rule rule, const std::string& what, std::uint64_t value) {
   reports_.violate(rule, &clock_, what + hex(value));
 }
 

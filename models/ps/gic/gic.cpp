@@ -4,6 +4,7 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/report.h>
+#include <vp/unit.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -237,11 +238,24 @@ std::uint64_t Gic::risen_ps(std::uint32_t id) const {
 }
 
 // True if an input has risen.
+// An interrupt that software has acknowledged was seen, however short.
+void Gic::check_pulse(std::uint32_t id) {
+  if (!logic_.enabled[id] || logic_.active[id]) return;
+  const std::uint64_t width = scheduler_.now_ps() - risen_ps_[id];
+  const bool edge = logic_.edge[id];
+  if (width >= (edge ? shortest_edge : shortest_level)) return;
+  reports_.violate(vp::Rule::interrupt_pulse, nullptr,
+                   "interrupt " + std::to_string(id) + ", " + (edge ? "edge" : "level") +
+                       "-sensitive, was high for " + vp::format_time(width));
+}
+
 bool Gic::set_f2p(std::uint32_t levels) {
   const bool risen = (levels & ~f2p_levels_) != 0;
   for (std::uint32_t changed = levels ^ f2p_levels_; changed != 0; changed &= changed - 1) {
     const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
-    set_level(gic::irq_f2p_id(bit), (levels >> bit & 1) != 0);
+    const std::uint32_t id = gic::irq_f2p_id(bit);
+    if ((levels >> bit & 1) == 0) check_pulse(id);
+    set_level(id, (levels >> bit & 1) != 0);
   }
   f2p_levels_ = levels;
   return risen;

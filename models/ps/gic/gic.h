@@ -2,7 +2,9 @@
 
 #include <gic_registers.h>
 #include <vp/counter.h>
+#include <vp/parameter.h>
 #include <vp/register_bank.h>
+#include <vp/rule_reports.h>
 #include <vp/signal.h>
 #include <array>
 #include <cstdint>
@@ -140,6 +142,15 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   /// The interrupt that software acknowledged and has not ended; 1023 for none.
   vp::Signal<std::uint16_t> active{"active", 10, 1023};
 
+  vp::Parameter<std::uint64_t> shortest_edge{
+      "shortest_edge", 6'000, vp::Unit::time, vp::Source::assumed,
+      "pulse on IRQ_F2P that an edge-sensitive interrupt certainly sees: two periods of PERIPHCLK, "
+      "which is half the CPU's clock (UG585)"};
+  vp::Parameter<std::uint64_t> shortest_level{
+      "shortest_level", 50'000, vp::Unit::time, vp::Source::assumed,
+      "pulse on IRQ_F2P of a level-sensitive interrupt that software can have ended: less than one "
+      "access through a GP port takes"};
+
   vp::Counter acknowledged{"acknowledged", "interrupts acknowledged by reading ICCIAR"};
   vp::Counter spurious{"spurious", "reads of ICCIAR when no interrupt was signalled"};
 
@@ -169,6 +180,7 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
  private:
   Gic(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, unsigned number);
   void end_of_elaboration() override;
+  void end_of_simulation() override { reports_.finish(); }
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
 
   void wire_cpu_interface();
@@ -181,6 +193,7 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   void raise_software_interrupt(std::uint32_t word);
 
   bool set_f2p(std::uint32_t levels);
+  void check_pulse(std::uint32_t id);
   void set_level(std::uint32_t id, bool level);
   void update_outputs();
   void update_lines();
@@ -197,6 +210,7 @@ class Gic : public sc_core::sc_module, public vp::SignalListener {
   bool idle_ = false;  ///< nothing is forwarded to the CPU interface
   std::uint32_t f2p_levels_ = 0;
   std::map<std::uint32_t, vp::Signal<bool>*> wires_;
+  vp::RuleReports reports_{*this};
 };
 
 }  // namespace ps

@@ -6,18 +6,20 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace xilinx {
 
 namespace {
 
-constexpr std::uint32_t widest = 4, reset_pin = 1;
+constexpr std::uint32_t reset_pin = 1;
 constexpr std::uint32_t distributed_depth = 64;  ///< deeper FIFOs are block memory (PG085)
 
 std::uint32_t checked(const char* name, std::uint32_t bytes) {
-  if (bytes >= 1 && bytes <= widest) return bytes;
+  if (bytes >= 1 && bytes <= vp::most_stream_bytes) return bytes;
   throw vp::InputError(std::string(name) + ": streams of " + std::to_string(bytes) +
-                       " bytes are not modelled, those of 1 to 4 are");
+                       " bytes are not modelled, those of 1 to " +
+                       std::to_string(vp::most_stream_bytes) + " are");
 }
 
 }  // namespace
@@ -31,6 +33,15 @@ AxisBuffer::AxisBuffer(sc_core::sc_module_name name, vp::Clock& aclk, const Axis
               "clocks from a beat in to that beat on offer"),
       in_bytes_(checked(this->name(), build.in_bytes)),
       out_bytes_(checked(this->name(), build.out_bytes)) {
+  const std::string prefix = std::string(this->name()) + ".";
+  const auto shape = [&](const char* end, std::uint32_t bytes) {
+    return vp::StreamShape{prefix + end, bytes, build.strobe, build.user, build.id, build.dest};
+  };
+  s_axis.set_shape(shape("s_axis", in_bytes_));
+  m_axis.set_shape(shape("m_axis", out_bytes_));
+  if (in_bytes_ != out_bytes_ && (build.strobe + build.user + build.id + build.dest) != 0)
+    throw vp::InputError(std::string(this->name()) +
+                         ": a width converter with TSTRB, TUSER, TID or TDEST is not modelled");
   wake_on(s_axis.tvalid);
   wake_on(m_axis.tready);
 }
@@ -38,6 +49,14 @@ AxisBuffer::AxisBuffer(sc_core::sc_module_name name, vp::Clock& aclk, const Axis
 void AxisBuffer::end_of_elaboration() {
   Clocked::end_of_elaboration();
   if (aresetn.bound()) aresetn.signal()->attach(*this, reset_pin);
+  for (auto& from : s_axis.link().parts()) {
+    const bool is_bytes =
+        from.part.field == vp::StreamField::data || from.part.field == vp::StreamField::keep;
+    for (auto& to : m_axis.link().parts()) {
+      if (!is_bytes && to.part.field == from.part.field && to.part.low == from.part.low)
+        aside_.push_back({&from.wire, &to.wire});
+    }
+  }
 }
 
 void AxisBuffer::on_change(vp::SignalBase& signal, std::uint32_t id) {
@@ -59,7 +78,7 @@ void AxisBuffer::edge() {
   if (m_axis.free()) {
     offering_ = !beats_.empty() && beats_.front().ready <= cycle;
     if (offering_) {
-      m_axis.offer(beats_.front().data, beats_.front().last, beats_.front().keep);
+      offer(beats_.front());
     } else {
       m_axis.withdraw();
     }
@@ -71,22 +90,27 @@ void AxisBuffer::edge() {
 }
 
 void AxisBuffer::take(std::uint64_t cycle) {
-  const Beat beat{s_axis.tdata.read(), s_axis.tkeep.read(), s_axis.tlast.read(),
-                  cycle + latency - 1};
+  Beat beat{s_axis.link().beat(), {}, s_axis.tlast.read(), cycle + latency - 1};
+  for (const Side& side : aside_) beat.sides.push_back(side.from->get());
   if (in_bytes_ == out_bytes_) {
-    beats_.push_back(beat);
+    beats_.push_back(std::move(beat));
   } else {
     convert(beat);
   }
+}
+
+void AxisBuffer::offer(const Beat& beat) {
+  m_axis.offer(beat.bytes, beat.last);
+  for (std::size_t i = 0; i < aside_.size(); ++i) *aside_[i].to = beat.sides[i];
 }
 
 // The last byte of a packet takes TLAST along; a last beat without bytes goes alone.
 void AxisBuffer::convert(const Beat& beat) {
   bool moved = false;
   for (unsigned lane = 0; lane < in_bytes_; ++lane) {
-    if ((beat.keep >> lane & 1) == 0) continue;
-    collected_.data |= (beat.data >> 8 * lane & 0xFF) << 8 * count_;
-    collected_.keep = static_cast<std::uint8_t>(collected_.keep | 1u << count_);
+    if (!beat.bytes.keep[lane]) continue;
+    collected_.bytes.data[count_] = beat.bytes.data[lane];
+    collected_.bytes.keep.set(count_);
     moved = true;
     if (++count_ == out_bytes_) push(collected_, beat.ready);
   }

@@ -108,16 +108,16 @@ void Bram::store(std::uint32_t address, const std::uint32_t* words, std::uint32_
 
 void Bram::refuse_write(std::uint32_t address) {
   ++out_of_range;
-  vp::warn(*this, "/markervp/bram/out_of_range",
-           "write at word " + vp::hex(address) + ", the memory has " + std::to_string(depth_a) +
-               " words");
+  reports_.violate(vp::Rule::bram_address, nullptr,
+                   "write at word " + vp::hex(address) + ", the memory has " +
+                       std::to_string(depth_a) + " words");
 }
 
 std::uint8_t Bram::refuse_read(std::uint32_t address) {
   ++out_of_range;
-  vp::warn(*this, "/markervp/bram/out_of_range",
-           "read at byte " + vp::hex(address) + ", the memory has " +
-               std::to_string(bytes_.size()) + " bytes");
+  reports_.violate(vp::Rule::bram_address, nullptr,
+                   "read at byte " + vp::hex(address) + ", the memory has " +
+                       std::to_string(bytes_.size()) + " bytes");
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <vp/counter.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
+#include <vp/rule_reports.h>
 
 namespace xilinx {
 
@@ -22,7 +23,7 @@ double block_ram_36(std::uint64_t depth, std::uint32_t width, bool parity = true
 /// so the leftmost pixel of a word is in bits 7:0.
 ///
 /// A plain memory: the module at port B models its latency of one clock. An access out of range is
-/// a fault of the module at the port: it is warned of, a write is dropped, a read returns 0.
+/// a fault of the module at the port: it breaks a rule, a write is dropped, a read returns 0.
 class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::sc_interface {
  public:
   /// A model at port B that reads many bytes at once: called for accesses of port A.
@@ -85,6 +86,7 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
   }
 
  private:
+  void end_of_simulation() override { reports_.finish(); }
   vp::IpEstimate own_estimate() const override;
   void store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
   void refuse_write(std::uint32_t address);
@@ -92,6 +94,7 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
 
   static constexpr std::uint32_t word_bytes = 4;  ///< of port A
 
+  vp::RuleReports reports_{*this};
   std::vector<std::uint8_t> bytes_;
   Reader* reader_ = nullptr;
   Writer* writer_ = nullptr;

@@ -2,7 +2,6 @@
 
 #include <vp/error.h>
 #include <vp/ip.h>
-#include <vp/stream_checker.h>
 #include <vp/text.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
@@ -197,10 +196,8 @@ void BlockDesign::join_streams() {
   }
 }
 
-vp::AxiStream& BlockDesign::make_stream(const End& master, unsigned bytes) {
-  vp::AxiStream& link = streams_.emplace_back((master.part + "_" + master.port).c_str());
-  link.add_attribute(beat_bytes_.emplace_back(vp::beat_bytes_attribute, bytes));
-  return link;
+vp::AxiStream& BlockDesign::make_stream(const End& master) {
+  return streams_.emplace_back((master.part + "_" + master.port).c_str());
 }
 
 void BlockDesign::join_stream(const End& master, const End& slave) {
@@ -227,9 +224,7 @@ void BlockDesign::join_stream(const End& master, const End& slave) {
     refuse(slave, "takes beats of " + std::to_string(to.bytes) + " bytes, and " + master.text() +
                       " sends " + std::to_string(from.bytes) + ": put a width converter between");
   }
-  constexpr unsigned usual_bytes = 4;
-  const unsigned bytes = from.bytes != 0 ? from.bytes : to.bytes != 0 ? to.bytes : usual_bytes;
-  vp::AxiStream& link = make_stream(master, bytes);
+  vp::AxiStream& link = make_stream(master);
   from.bind(link, clock);
   to.bind(link, clock);
   streams_joined_[master.text()] = streams_joined_[slave.text()] = true;
@@ -240,7 +235,7 @@ void BlockDesign::close_open_streams() {
   for (auto& [name, part] : placed_) {
     for (auto& [bus, port] : part.stream_masters) {
       if (streams_joined_.count(name + "." + bus) != 0) continue;
-      vp::AxiStream& link = make_stream({name, bus, ""}, port.bytes);
+      vp::AxiStream& link = make_stream({name, bus, ""});
       port.bind(link, *port.clock);
       auto& end = blocked_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock);
       end.ready_on = [](std::uint64_t) { return false; };
@@ -248,7 +243,7 @@ void BlockDesign::close_open_streams() {
     }
     for (auto& [bus, port] : part.stream_slaves) {
       if (streams_joined_.count(name + "." + bus) != 0) continue;
-      vp::AxiStream& link = make_stream({name, bus, ""}, port.bytes);
+      vp::AxiStream& link = make_stream({name, bus, ""});
       silent_.emplace_back((name + "_" + bus + "_open").c_str(), *port.clock).m_axis(link);
       port.bind(link, *port.clock);
     }

@@ -56,7 +56,7 @@ class BlockDesign : public sc_core::sc_module, public Design {
   void join_pins(const PlacedPart& part);
   void join_streams();
   void join_stream(const End& master, const End& slave);
-  vp::AxiStream& make_stream(const End& master, unsigned bytes);
+  vp::AxiStream& make_stream(const End& master);
   void close_open_streams();
   void join_addresses();
   void join_segment(const AddressSegment& segment);
@@ -82,7 +82,6 @@ class BlockDesign : public sc_core::sc_module, public Design {
   std::vector<std::string> being_placed_;
   std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
   std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
-  std::deque<sc_core::sc_attribute<unsigned>> beat_bytes_;                  ///< of the streams
   std::deque<vp::AxiStream> streams_;
   std::deque<vp::StreamSource> silent_;
   std::deque<vp::StreamSink> blocked_;

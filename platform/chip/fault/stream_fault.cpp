@@ -8,8 +8,6 @@ namespace platform {
 
 namespace {
 
-constexpr unsigned data_bits = 32;
-
 /// Beats that pass on a stream, or are offered there, one an edge at most.
 class BeatCount {
  public:
@@ -90,8 +88,9 @@ void let_streams_fail() {
 
 std::unique_ptr<FaultyPlace> place_stream_fault(Injector& injector, Injection& injection) {
   vp::AxiStream& stream = place_named<vp::AxiStream>(injection.fault.where, "a stream");
-  if (injection.fault.bit >= data_bits)
-    throw vp::InputError(std::string(stream.name()) + " has 32 bits: 'bit' is 0 to 31");
+  if (injection.fault.bit >= stream.tdata.width())
+    throw vp::InputError(std::string(stream.name()) + ".tdata has " +
+                         std::to_string(stream.tdata.width()) + " bits: 'bit' counts from 0");
   if (stream.has_fault())
     throw vp::InputError(std::string(stream.name()) + " has a fault already: one is possible");
   return std::make_unique<BeatFault>(injector, injection, stream);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <axi/rtl_part.h>
+#include <chip/handoff/register_file.h>
 #include <gic_registers.h>
 #include <uart_registers.h>
 #include <vp/ip.h>
@@ -50,9 +51,17 @@ Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
   return device;
 }
 
+std::vector<std::string> register_interfaces(const axi::RtlPart& rtl) {
+  std::vector<std::string> names;
+  for (const axi::Interface& one : rtl.interfaces())
+    if (one.slave && (one.kind == axi::Kind::axi4 || one.kind == axi::Kind::axi_lite))
+      names.push_back(one.name);
+  return names;
+}
+
 /// Memory, or an IP of which only the address is known. The vendor's tools name the interface of an
 /// IP that is not theirs: EXAMPLE_0_S_AXI_CONTROL.
-Device without_registers(const HardwareMap::Device& place) {
+Device without_bank(const HardwareMap::Device& place) {
   Device device{capitals(place.name),
                 {},
                 static_cast<std::uint32_t>(place.base),
@@ -61,11 +70,8 @@ Device without_registers(const HardwareMap::Device& place) {
                 {}};
   const sc_core::sc_object* object = sc_core::sc_find_object(place.path.c_str());
   std::vector<std::string> interfaces;
-  if (const auto* rtl = dynamic_cast<const axi::RtlPart*>(object)) {
-    for (const axi::Interface& one : rtl->interfaces())
-      if (one.slave && (one.kind == axi::Kind::axi4 || one.kind == axi::Kind::axi_lite))
-        interfaces.push_back(one.name);
-  }
+  if (const auto* rtl = dynamic_cast<const axi::RtlPart*>(object))
+    interfaces = register_interfaces(*rtl);
   const auto* stub = dynamic_cast<const xilinx::RegisterStub*>(object);
   if (stub && stub->ip().rfind("xilinx.com:ip:", 0) != 0) {
     for (const auto* slave : vp::all_below<xilinx::RegisterStub::Slave>(*stub))
@@ -175,6 +181,20 @@ std::vector<HardwareMap::Register> registers_of(const vp::RegisterBank& bank) {
   return list;
 }
 
+/// Those that a file describes, of RTL or of one of its interfaces.
+std::vector<HardwareMap::Register> registers_of_rtl(const sc_core::sc_object& object) {
+  const auto* slave = dynamic_cast<const axi::TlmToPins*>(&object);
+  const auto* part =
+      dynamic_cast<const axi::RtlPart*>(slave ? object.get_parent_object() : &object);
+  const std::string file = part ? part->registers_file() : std::string();
+  if (file.empty()) return {};
+  const std::vector<std::string> slaves = register_interfaces(*part);
+  const std::string name = slave ? slave->basename() : slaves.empty() ? "" : slaves.front();
+  const auto maps = handoff::read_registers(file);
+  const auto* found = handoff::registers_behind(maps, name, slaves.size() == 1);
+  return found ? *found : std::vector<HardwareMap::Register>();
+}
+
 void add_devices(HardwareMap& map, const vp::Router& router, const std::string& parent,
                  const std::string& way, const std::vector<std::string>& buses = {}) {
   for (const vp::Router::Region& region : router.regions()) {
@@ -192,6 +212,10 @@ void add_devices(HardwareMap& map, const vp::Router& router, const std::string& 
       if (bank) {
         device.registers = registers_of(*bank);
         device.description = &bank->registers().front().info();
+      } else {
+        device.registers = registers_of_rtl(*object);
+        for (HardwareMap::Register& one : device.registers) one.fields_of_kind = one.fields.data();
+        device.description = object;
       }
     }
     map.devices.push_back(std::move(device));
@@ -263,7 +287,9 @@ std::string xparameters_header(Zynq& zynq) {
     }
   }
   for (const HardwareMap::Device& place : map.devices) {
-    if (place.registers.empty()) platform.devices.push_back(without_registers(place));
+    const auto* bank =
+        dynamic_cast<const vp::RegisterBank*>(sc_core::sc_find_object(place.path.c_str()));
+    if (!bank) platform.devices.push_back(without_bank(place));
   }
   std::stable_sort(platform.devices.begin(), platform.devices.end(),
                    [](const Device& a, const Device& b) { return a.driver < b.driver; });

@@ -6,6 +6,7 @@
 #include <simulation.h>
 
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/router.h>
 
 namespace {
@@ -210,6 +212,70 @@ BOOST_FIXTURE_TEST_CASE(a_loop_that_does_not_settle_ends_the_run, kit::Simulatio
     message = report.what();
   }
   BOOST_TEST(message.find("combinational loop") != message.npos, message);
+}
+
+namespace {
+
+/// Rules that are broken while `reset_n` is low from `from` to `to` ps.
+std::string broken_by_reset(Bench& bench, std::uint64_t from, std::uint64_t to) {
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  bench.software.simulate([&] {
+    bench.software.wait_until(from);
+    bench.reset_n = false;
+    bench.software.wait_until(to);
+    bench.reset_n = true;
+    bench.software.wait_until(to + 100'000);
+  });
+  std::string names;
+  for (const vp::Warning& warning : reports.warnings())
+    names += warning.id.substr(warning.id.rfind('/') + 1) + " ";
+  return names;
+}
+
+/// A value that changes on each edge of a clock.
+class Counting final : public vp::Clocked {
+ public:
+  Counting(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {}
+  vp::Signal<std::uint8_t> value{"value"};
+
+ private:
+  void edge() override { value = static_cast<std::uint8_t>(value + 1); }
+};
+
+/// How often a wire of RTL at 100 MHz that a counter at `hertz` drives did not stay.
+std::size_t crossings(std::uint64_t hertz) {
+  kit::Simulation simulation;
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000), other("other", scheduler, hertz);
+  Counting counter("counter", other);
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  for (const char* open : {"s_axi_control", "m_axi_gmem", "in", "out"}) part.leave_open(open);
+  part.input("mode", counter.value);
+  sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
+  return reports.count("/markervp/rule/CLOCK_CROSSING");
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(a_reset_of_16_clocks_that_ends_on_an_edge_is_silent, Bench) {
+  BOOST_TEST(broken_by_reset(*this, 50'000, 210'000) == "");
+}
+BOOST_FIXTURE_TEST_CASE(a_reset_of_three_clocks_is_too_short, Bench) {
+  BOOST_TEST(broken_by_reset(*this, 50'000, 80'000) == "RESET_WIDTH ");
+}
+BOOST_FIXTURE_TEST_CASE(a_reset_that_ends_between_edges_belongs_to_another_clock, Bench) {
+  BOOST_TEST(broken_by_reset(*this, 50'000, 213'000) == "RESET_DOMAIN ");
+}
+BOOST_AUTO_TEST_CASE(a_wire_that_comes_from_another_clock_and_stays_is_silent) {
+  BOOST_TEST(crossings(40'000'000) == 0u);
+}
+BOOST_AUTO_TEST_CASE(a_wire_that_comes_from_another_clock_and_does_not_stay) {
+  BOOST_TEST(crossings(70'000'000) == 1u);
 }
 
 BOOST_FIXTURE_TEST_CASE(an_access_in_reset_ends_the_run, Bench) {

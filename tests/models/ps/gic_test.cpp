@@ -744,3 +744,38 @@ BOOST_AUTO_TEST_CASE(a_software_interrupt_to_a_core_that_is_off) {
 }
 
 BOOST_AUTO_TEST_SUITE_END()
+
+namespace {
+
+/// IRQ_F2P[0] is high for `ps`; how often that was too short.
+std::size_t short_pulses(GicBench& bench, std::uint64_t ps, bool edge, bool enabled = true) {
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  bench.run([&] {
+    if (enabled) set_up(61, 0xA0, edge);
+    bench.irq_f2p = 1;
+    sc_core::wait(sc_core::sc_time::from_value(ps));
+    bench.irq_f2p = 0;
+    return 0;
+  });
+  return reports.count("/markervp/rule/INTERRUPT_PULSE");
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(a_pulse_of_one_clock_is_too_short_for_a_level, GicBench) {
+  BOOST_TEST(short_pulses(*this, 10'000, false) == 1u);
+}
+BOOST_FIXTURE_TEST_CASE(a_pulse_of_one_clock_is_long_enough_for_an_edge, GicBench) {
+  BOOST_TEST(short_pulses(*this, 10'000, true) == 0u);
+}
+BOOST_FIXTURE_TEST_CASE(a_pulse_of_4_ns_is_too_short_for_an_edge, GicBench) {
+  BOOST_TEST(short_pulses(*this, 4'000, true) == 1u);
+}
+BOOST_FIXTURE_TEST_CASE(a_level_that_software_can_have_ended_is_silent, GicBench) {
+  BOOST_TEST(short_pulses(*this, 100'000, false) == 0u);
+}
+BOOST_FIXTURE_TEST_CASE(a_pulse_of_an_interrupt_that_is_not_enabled_is_silent, GicBench) {
+  BOOST_TEST(short_pulses(*this, 10'000, false, false) == 0u);
+}

@@ -128,8 +128,8 @@ BOOST_AUTO_TEST_CASE(widths_that_are_not_modelled) {
   vp::ClockScheduler scheduler("scheduler");
   vp::Clock clock("clock", scheduler, 1'000'000);
   BOOST_TEST(input_error([&] {
-               xilinx::AxisBuffer wide("wide", clock, {8, 4, 16, 1});
-             }) == "wide: streams of 8 bytes are not modelled, those of 1 to 4 are");
+               xilinx::AxisBuffer wide("wide", clock, {129, 4, 16, 1});
+             }) == "wide: streams of 129 bytes are not modelled, those of 1 to 128 are");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -60,7 +60,7 @@ BOOST_FIXTURE_TEST_CASE(out_of_range_is_warned_of_and_survived, Bench) {
   BOOST_TEST(bram.read_b(0xFFFFFFFF) == 0);
   BOOST_TEST(bram.out_of_range == 3u);
   BOOST_TEST(bram.writes_a == 0u);
-  BOOST_TEST(reports.count("/markervp/bram/out_of_range") == 3u);
+  BOOST_TEST(reports.count("/markervp/rule/BRAM_ADDRESS") == 1u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

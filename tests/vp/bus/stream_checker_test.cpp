@@ -32,8 +32,9 @@ class Master : public vp::Clocked {
 
 /// The slave is ready on edge 6 only: it raises READY behind edge 5.
 struct Bench : kit::Simulation {
-  Bench() {
+  explicit Bench(const vp::StreamShape& shape = {"master.m"}) {
     reports.redirect(text);
+    master.m.set_shape(shape);
     master.m(link);
     master.rst(rst);
     sink.s_axis(link);
@@ -60,6 +61,22 @@ struct Bench : kit::Simulation {
   vp::AxiStream link{"link"};
   Master master{"master", clock};
   vp::StreamSink sink{"sink", clock};
+};
+
+/// Beats of two bytes.
+struct NarrowBench : Bench {
+  NarrowBench() : Bench({"master.m", 2}) {}
+};
+
+/// Beats of twelve bytes, with all that may go along.
+struct WideBench : Bench {
+  WideBench() : Bench({"master.m", 12, 12, 1, 8, 4}) {}
+  /// Puts `value` on a wire of the link.
+  void put(const char* wire, std::uint32_t value) {
+    for (auto& part : link.parts())
+      if (part.part.name() == wire) part.wire = value;
+  }
+  void offer() { master.m.offer(1, false, 0xFF); }
 };
 
 }  // namespace
@@ -112,15 +129,11 @@ BOOST_FIXTURE_TEST_CASE(a_short_word_inside_of_a_packet, Bench) {
   on(2, [this] { master.m.offer(1, false, 3); });
   BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_GAP");
 }
-BOOST_FIXTURE_TEST_CASE(words_of_a_narrower_link_are_whole, Bench) {
-  sc_core::sc_attribute<unsigned> bytes(vp::beat_bytes_attribute, 2);
-  link.add_attribute(bytes);
+BOOST_FIXTURE_TEST_CASE(words_of_a_narrower_link_are_whole, NarrowBench) {
   on(2, [this] { master.m.offer(1, false, 3); });
   BOOST_TEST(broken() == "");
 }
-BOOST_FIXTURE_TEST_CASE(a_short_word_of_a_narrower_link, Bench) {
-  sc_core::sc_attribute<unsigned> bytes(vp::beat_bytes_attribute, 2);
-  link.add_attribute(bytes);
+BOOST_FIXTURE_TEST_CASE(a_short_word_of_a_narrower_link, NarrowBench) {
   on(2, [this] { master.m.offer(1, false, 1); });
   BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_GAP");
 }
@@ -132,4 +145,70 @@ BOOST_FIXTURE_TEST_CASE(a_reset_may_drop_a_beat, Bench) {
   on(3, [this] { rst = true; });
   on(4, [this] { master.m.withdraw(); });
   BOOST_TEST(broken() == "");
+}
+BOOST_FIXTURE_TEST_CASE(a_reset_that_ends_with_tvalid_low_is_silent, Bench) {
+  on(3, [this] { rst = true; });
+  on(4, [this] { master.m.withdraw(); });
+  on(5, [this] { rst = false; });
+  BOOST_TEST(broken() == "");
+}
+BOOST_FIXTURE_TEST_CASE(tvalid_that_is_high_when_a_reset_ends, Bench) {
+  on(3, [this] { rst = true; });
+  on(5, [this] { rst = false; });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TVALID_RESET");
+}
+BOOST_FIXTURE_TEST_CASE(a_wide_beat_that_waits_is_silent, WideBench) {
+  on(2, [this] { offer(); });
+  BOOST_TEST(broken() == "");
+  BOOST_TEST(link.beats == 1u);
+}
+BOOST_FIXTURE_TEST_CASE(upper_bytes_of_tdata_that_change, WideBench) {
+  on(2, [this] { offer(); });
+  on(3, [this] { put("tdata_95_64", 1); });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TDATA_STABLE");
+}
+BOOST_FIXTURE_TEST_CASE(upper_bytes_that_are_not_kept_may_change, WideBench) {
+  on(2, [this] {
+    master.m.offer(1, true, 0xFF);
+    put("tkeep_11_8", 0);
+    put("tstrb", 0xFF);
+  });
+  on(3, [this] { put("tdata_95_64", 1); });
+  BOOST_TEST(broken() == "");
+}
+BOOST_FIXTURE_TEST_CASE(upper_bits_of_tkeep_that_change, WideBench) {
+  on(2, [this] { master.m.offer(1, true, 0xFF); });
+  on(3, [this] {
+    put("tkeep_11_8", 7);
+    put("tstrb", 0x7FF);
+  });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_STABLE AXI4STREAM_ERRM_TSTRB_STABLE");
+}
+BOOST_FIXTURE_TEST_CASE(tuser_tid_and_tdest_that_change, WideBench) {
+  on(2, [this] { offer(); });
+  on(3, [this] { put("tuser", 1); });
+  on(4, [this] { put("tid", 1); });
+  on(5, [this] { put("tdest", 1); });
+  BOOST_TEST(broken() ==
+             "AXI4STREAM_ERRM_TUSER_STABLE AXI4STREAM_ERRM_TID_STABLE "
+             "AXI4STREAM_ERRM_TDEST_STABLE");
+}
+BOOST_FIXTURE_TEST_CASE(a_short_wide_beat_inside_of_a_packet, WideBench) {
+  on(2, [this] {
+    offer();
+    put("tkeep_11_8", 7);
+    put("tstrb", 0x7FF);
+  });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_GAP");
+}
+BOOST_FIXTURE_TEST_CASE(tstrb_where_tkeep_is_not, WideBench) {
+  on(2, [this] {
+    master.m.offer(1, true, 0xFF);
+    put("tkeep_11_8", 7);
+  });
+  BOOST_TEST(broken() == "AXI4STREAM_ERRM_TKEEP_TSTRB");
+}
+BOOST_AUTO_TEST_CASE(tid_and_tdest_of_more_than_24_bits) {
+  Bench wide({"master.m", 4, 0, 0, 16, 9});
+  BOOST_TEST(wide.broken() == "AXI4STREAM_AUXM_TID_TDEST_WIDTH");
 }

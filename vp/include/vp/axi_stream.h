@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <systemc>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <vp/clock.h>
 #include <vp/counter.h>
 #include <vp/signal.h>
+#include <vp/stream_shape.h>
 
 namespace vp {
 
@@ -63,10 +65,13 @@ class StreamFault {
 };
 
 class AxiStreamMaster;
+class AxiStreamSlave;
 class StreamChecker;
 
-/// One 32-bit AXI4-Stream connection, a named object with the five wires of thesis figure 4.18 and
-/// TKEEP.
+/// One AXI4-Stream connection, a named object with the five wires of thesis figure 4.18 and TKEEP.
+///
+/// Its ends say how wide it is: models 32 bits, RTL what its ports have. Wider beats have further
+/// wires, and TSTRB, TUSER, TID and TDEST if the master drives them.
 ///
 /// The master's module drives all wires but tready, the slave's module drives that. A beat passes
 /// on each clock edge that samples tvalid and tready high. Both ends belong to the same clock. A
@@ -78,7 +83,7 @@ class AxiStream : public sc_core::sc_module {
   const char* kind() const override { return "vp::AxiStream"; }
 
   Signal<std::uint32_t> tdata{"tdata"};
-  Signal<std::uint8_t> tkeep{"tkeep", 4, 0xF};  ///< bit i: byte lane i carries data
+  Signal<std::uint8_t> tkeep{"tkeep", 4, 0xF};  ///< bit i: byte lane i carries data, of 8 at most
   Signal<bool> tvalid{"tvalid"};
   Signal<bool> tlast{"tlast"};
   Signal<bool> tready{"tready"};
@@ -89,6 +94,20 @@ class AxiStream : public sc_core::sc_module {
   /// During elaboration, or later if they do already.
   void pass_singly(StreamFault* fault);
   bool has_fault() const { return fault_ != nullptr; }
+
+  /// Further wires: there once both ends are bound.
+  struct Part {
+    explicit Part(const StreamPart& of, std::uint32_t initial)
+        : part(of), wire(of.name().c_str(), of.bits, initial) {}
+    StreamPart part;
+    Signal<std::uint32_t> wire;
+  };
+  std::deque<Part>& parts() { return parts_; }
+  /// Of a beat, once both ends are bound.
+  unsigned bytes() const { return bytes_; }
+  /// All bytes of the beat on the wires, for links of any width.
+  StreamBytes beat() const;
+  void show(const StreamBytes& beat);
 
   // Counted by the slave on its clock edges.
   Counter beats{"beats", "beats passed"};
@@ -101,11 +120,15 @@ class AxiStream : public sc_core::sc_module {
 
   void start_of_simulation() override;
   void end_of_simulation() override;
-  void check_beat(std::uint8_t keep, bool last);
+  void check_beat(bool last);
   void excuse();
+  void join();
 
+  unsigned bytes_ = 4;
+  std::deque<Part> parts_;
   std::unique_ptr<StreamChecker> checker_;
   AxiStreamMaster* master_ = nullptr;
+  AxiStreamSlave* slave_end_ = nullptr;
   Clocked* slave_ = nullptr;
   bool slave_takes_source_ = false;
   BeatSource* source_ = nullptr;
@@ -120,7 +143,11 @@ class AxiStreamMaster {
  public:
   AxiStreamMaster(const char* name, Clocked& owner);
 
-  /// Throws std::logic_error if the link has a master already.
+  /// How wide it is, if not 32 bits of TDATA alone: before the binding.
+  void set_shape(const StreamShape& shape) { shape_ = shape; }
+  const StreamShape& shape() const { return shape_; }
+  /// Throws std::logic_error if the link has a master already, vp::InputError if both ends do not
+  /// fit.
   void bind(AxiStream& link);
   void operator()(AxiStream& link) { bind(link); }
   bool bound() const { return link_ != nullptr; }
@@ -145,6 +172,12 @@ class AxiStreamMaster {
     if (link_->fault_) link_->fault_->offered(data, last);
     tdata = data;
     tkeep = keep;
+    tlast = last;
+    tvalid = true;
+  }
+  /// The same, of any width.
+  void offer(const StreamBytes& beat, bool last) {
+    link_->show(beat);
     tlast = last;
     tvalid = true;
   }
@@ -189,6 +222,8 @@ class AxiStreamMaster {
 
   bool taken() const { return tready.read() && !(link_->fault_ && link_->fault_->repeats()); }
 
+  Clocked& owner_;
+  StreamShape shape_;
   AxiStream* link_ = nullptr;
   struct Reset {
     std::function<SignalBase*()> signal;  ///< known when all is bound
@@ -202,7 +237,11 @@ class AxiStreamSlave {
  public:
   AxiStreamSlave(const char* name, Clocked& owner);
 
-  /// Throws std::logic_error if the link has a slave already.
+  /// How wide it is, if not 32 bits of TDATA alone: before the binding.
+  void set_shape(const StreamShape& shape) { shape_ = shape; }
+  const StreamShape& shape() const { return shape_; }
+  /// Throws std::logic_error if the link has a slave already, vp::InputError if both ends do not
+  /// fit.
   void bind(AxiStream& link);
   void operator()(AxiStream& link) { bind(link); }
   bool bound() const { return link_ != nullptr; }
@@ -219,7 +258,7 @@ class AxiStreamSlave {
     if (valid && ready) {
       ++link_->beats;
       link_->packets.add(tlast.read());
-      if (tkeep.read() != 0xF) link_->check_beat(tkeep.read(), tlast.read());
+      if (tkeep.read() != 0xF || !link_->parts_.empty()) link_->check_beat(tlast.read());
       waiting_ = false;
       return true;
     }
@@ -250,6 +289,7 @@ class AxiStreamSlave {
   void count_stall(bool valid);
 
   Clocked& owner_;
+  StreamShape shape_;
   AxiStream* link_ = nullptr;
   bool takes_source_ = false;
   BurstSink* sink_ = nullptr;
@@ -257,10 +297,13 @@ class AxiStreamSlave {
   std::uint64_t last_stall_cycle_ = 0;
 };
 
-/// The master of a stream in a test bench: sends the beats it is given, one a clock.
+/// The master of a stream in a test bench, of any width: sends the beats it is given, one a clock.
+/// Bytes beyond the fourth are 0.
 class StreamSource : public Clocked {
  public:
-  StreamSource(sc_core::sc_module_name name, Clock& clock) : Clocked(name, clock) {}
+  StreamSource(sc_core::sc_module_name name, Clock& clock) : Clocked(name, clock) {
+    m_axis.set_shape({this->name(), 0});
+  }
 
   AxiStreamMaster m_axis{"m_axis", *this};
   unsigned sent = 0;  ///< beats that passed
@@ -294,11 +337,12 @@ class StreamSource : public Clocked {
   std::deque<Beat> queue_;
 };
 
-/// The slave of a stream in a test bench: takes beats, and keeps them with the cycle on which each
-/// passed.
+/// The slave of a stream in a test bench, of any width: takes beats, and keeps them with the cycle
+/// on which each passed.
 class StreamSink : public Clocked {
  public:
   StreamSink(sc_core::sc_module_name name, Clock& clock) : Clocked(name, clock) {
+    s_axis.set_shape({this->name(), 0});
     wake_on(s_axis.tvalid);
   }
 
@@ -307,6 +351,7 @@ class StreamSink : public Clocked {
     std::uint32_t data;
     bool last;
     std::uint8_t keep;
+    std::vector<std::uint32_t> more = {};  ///< what the link's further wires carried
   };
 
   AxiStreamSlave s_axis{"s_axis", *this};
@@ -321,6 +366,7 @@ class StreamSink : public Clocked {
     const std::uint64_t cycle = clock().cycle();
     if (s_axis.sample()) {
       beats.push_back({cycle, s_axis.tdata, s_axis.tlast, s_axis.tkeep});
+      for (const auto& part : s_axis.link().parts()) beats.back().more.push_back(part.wire.get());
     }
     if (cycle < sleep_until) {
       s_axis.tready = false;

@@ -9,6 +9,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 #include <vp/counter.h>
+#include <vp/payload_checker.h>
 
 namespace vp {
 
@@ -76,6 +77,7 @@ class MmObserver {
 /// One memory-mapped connection to a target: a named object that counts what passes it.
 ///
 /// An initiator or an interconnect owns it and sends through it; `socket` is bound to the target.
+/// What passes it is held to IEEE 1666's rules of payloads.
 class MmLink : public sc_core::sc_module {
  public:
   explicit MmLink(sc_core::sc_module_name name);
@@ -108,6 +110,7 @@ class MmLink : public sc_core::sc_module {
  private:
   friend class RegisterRoute;
 
+  void end_of_simulation() override { checker_.finish(); }
   void invalidate(sc_dt::uint64 first, sc_dt::uint64 last);
   void take_back();
   bool direct_allowed() const;
@@ -122,6 +125,7 @@ class MmLink : public sc_core::sc_module {
     if (failed) ++errors;
   }
 
+  PayloadChecker checker_{*this};
   std::vector<MmObserver*> observers_;
   std::function<void(std::uint64_t, std::uint64_t)> invalidated_;
 };

@@ -4,7 +4,7 @@
 
 /// The rules of the links that checkers watch, once for models and documentation (docs/rules.md).
 /// Names are those of the field: Arm's, as AMD's and Intel's public guides print them (PG101,
-/// PG145, PG293).
+/// PG145, PG293). What has no name there has one of ours: TLM2_, BRAM_, RESET_, CLOCK_, INTERRUPT_.
 namespace vp {
 
 enum class Rule : unsigned {
@@ -77,7 +77,26 @@ enum class Rule : unsigned {
   stream_data_stable,
   stream_last_stable,
   stream_keep_stable,
+  stream_strb_stable,
+  stream_user_stable,
+  stream_id_stable,
+  stream_dest_stable,
+  stream_valid_reset,
+  stream_keep_strb,
+  stream_id_dest_width,
   stream_keep_gap,
+  tlm_response,
+  tlm_data,
+  tlm_streaming_width,
+  tlm_byte_enables,
+  tlm_kept,
+  tlm_dmi_hint,
+  tlm_dmi_range,
+  bram_address,
+  reset_width,
+  reset_domain,
+  clock_crossing,
+  interrupt_pulse,
   count
 };
 

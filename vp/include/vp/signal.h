@@ -184,6 +184,8 @@ class Signal : public SignalReader<T> {
   T written() const { return this->queued_ ? next_ : value_; }
 
   unsigned width() const override { return width_; }
+  /// For a wire whose width its ends say, before the simulation.
+  void set_width(unsigned bits) { width_ = bits; }
   std::uint64_t bits() const override {
     if constexpr (std::is_floating_point_v<T>) {
       std::uint64_t pattern = 0;

@@ -2,19 +2,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <vp/rule_reports.h>
 #include <vp/signal.h>
+#include <vp/stream_shape.h>
 
 namespace vp {
 
 class AxiStream;
-
-/// The attribute (sc_core::sc_attribute<unsigned>) of a link whose beats have fewer than 4 bytes.
-inline constexpr const char* beat_bytes_attribute = "beat_bytes";
-/// Bytes of a beat, 1 to 4.
-unsigned beat_bytes(const AxiStream& link);
 
 /// Watches the handshake of one stream: what VALID offers stays until READY, but for a reset of the
 /// master. It listens to TVALID and TREADY, and to the other wires while a beat may wait: a link at
@@ -30,10 +27,8 @@ class StreamChecker final : public SignalListener {
   /// Of a link with both ends, at the start of the simulation.
   StreamChecker(AxiStream& link, const Clock& clock, const std::vector<Reset>& resets);
 
-  /// A beat passes: whether its bytes are what receivers expect.
-  void pass(std::uint8_t keep, bool last) {
-    if (keep != whole_ && !last) broken(Rule::stream_keep_gap, "a word with TKEEP ", keep);
-  }
+  /// A beat passes that is not four whole bytes: whether its bytes are what receivers expect.
+  void pass(bool last);
   /// The master drops what it offers now, because it is reset.
   void excuse();
   void finish() const { reports_.finish(); }
@@ -45,23 +40,36 @@ class StreamChecker final : public SignalListener {
     void set(std::uint64_t value, std::uint64_t ps);
     std::uint64_t sampled(std::uint64_t ps) const { return changed_ps == ps ? before : now; }
   };
-  enum Wire : std::uint32_t { valid, ready, data, last, keep, wires };
+  enum Wire : std::uint32_t { valid, ready, last, wires };
+  /// Bits of another field.
+  struct Part {
+    StreamPart part;
+    SignalBase* wire;
+    Level level = {};
+  };
+  static constexpr std::uint32_t reset_ids = 1u << 16;  ///< above those of wires and parts
 
   void on_change(SignalBase& signal, std::uint32_t id) override;
   bool may_wait() const { return levels_[valid].now != 0 && levels_[ready].now == 0; }
   void follow(std::uint64_t ps);
   void listen();
   bool excused(std::uint64_t ps) const;
-  void check(Wire wire, std::uint64_t ps);
-  void broken(Rule rule, const char* what, std::uint64_t value);
+  bool holds(std::uint64_t ps) const;
+  void check_fall(std::uint64_t ps);
+  void check_stable(const Part& part, std::uint64_t ps);
+  void change_reset(std::uint32_t number, std::uint64_t level, std::uint64_t ps);
+  std::uint64_t kept(unsigned first_bit, std::uint64_t ps) const;
+  void check_width();
+  void broken(Rule rule, const std::string& what, std::uint64_t value);
 
   const Clock& clock_;
-  const std::uint8_t whole_;  ///< TKEEP of a beat with all of its bytes
+  const unsigned bytes_;
   SignalBase* const signals_[wires];
-  const std::vector<Reset> resets_;
   Level levels_[wires];
+  std::vector<Part> parts_;
+  const std::vector<Reset> resets_;
   std::vector<Level> reset_levels_;
-  bool listens_ = false;                   ///< to data, last and keep
+  bool listens_ = false;                   ///< to TLAST and the parts
   std::optional<std::uint64_t> ended_ps_;  ///< when the wait ended, while it still listens
   std::uint64_t excused_ps_ = ~std::uint64_t{0};
   RuleReports reports_;

@@ -13,6 +13,7 @@
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -187,5 +188,53 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_joined_is_refused_with_its_line) {
   BOOST_TEST(refusal("MMCM_CLKFBOUT_MULT_F: 37.125", "MMCM_CLKFBOUT_MULT_F: 63.000")
                  .find("would run at 1575.000 MHz") != std::string::npos);
 }
+
+#ifdef MARKERVP_EVERYTHING_RTL
+namespace {
+
+/// RTL behind GP0, whose registers a file of this text describes.
+struct Described : kit::TemporaryFolder {
+  explicit Described(const std::string& rdl) { kit::write_file(*this / "copier.rdl", rdl); }
+  facts::HardwareMap map() const {
+    const std::string design =
+        "name: copying\nsettings:\n  device: xc7z020-1\nparts:\n"
+        "  ps:\n    ip: xilinx.com:ip:processing_system7:5.5\n"
+        "  copier:\n    ip: own:user:everything:1.0\n    rtl: " MARKERVP_EVERYTHING_RTL
+        "\n    pins:\n      ap_clk: ps.FCLK_CLK0\n      mode: external.mode\n"
+        "    buses:\n      s_axi_control: ps.M_AXI_GP0\n"
+        "addresses:\n  ps.M_AXI_GP0:\n    copier.s_axi_control: [0x43C00000, 64 KiB]\n"
+        "external:\n  mode: {width: 8, level: 0}\n";
+    Built chip(design, {"pl.copier.registers=" + *this / "copier.rdl"});
+    return hardware_map(*chip.zynq);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(registers_of_rtl_are_in_the_map) {
+  const Described copier(
+      "addrmap copier {\n  reg { field { } START; field { sw = r; } DONE; } CONTROL @0;\n"
+      "  reg { field { } VALUE[32] = 7; } FROM @0x10;\n};\n");
+  const facts::HardwareMap map = copier.map();
+  const auto found = std::find_if(map.devices.begin(), map.devices.end(),
+                                  [](const auto& device) { return device.name == "copier"; });
+  BOOST_TEST_REQUIRE((found != map.devices.end()));
+  BOOST_TEST_REQUIRE(found->registers.size() == 2u);
+  BOOST_TEST(found->registers[1].name == "FROM");
+  BOOST_TEST(found->registers[1].reset == 7u);
+  BOOST_TEST(found->registers[0].fields_of_kind != found->registers[1].fields_of_kind);
+  BOOST_TEST(register_text(map, 0x43C0'0000, 2) ==
+             "copier.CONTROL: 0x00000002 (DONE 1, all else 0)");
+  // It stays a device of its address for software.
+  BOOST_TEST(map.xparameters.find("#define XPAR_COPIER_S_AXI_CONTROL_BASEADDR 0x43C00000U") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_description_of_registers_is_refused_with_its_line) {
+  const Described copier("addrmap copier {\n  reg { field { } START } CONTROL;\n};\n");
+  BOOST_TEST(input_error([&] { copier.map(); }) ==
+             copier / "copier.rdl" + ":2: '}' where ';' belongs");
+}
+#endif
 
 BOOST_AUTO_TEST_SUITE_END()
