@@ -515,7 +515,7 @@ class Session:
         self._ask("interrupt", id=number, level=int(level))
 
     def uart(self, text, device="uart0"):
-        """Types into an UART; characters come at its baud rate."""
+        """Types into an UART, "uart1" or "pl.axi_uartlite_0"; characters come at its baud rate."""
         self._ask("receive", device=device, text=text)
 
     def send(self, source, words, last=True):

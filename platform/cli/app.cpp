@@ -357,7 +357,7 @@ void add_map(CLI::App& app, MapOptions& target) {
 void add_import(CLI::App& app, ImportOptions& target) {
   CLI::App* command =
       app.add_subcommand("import", "make a design of a Vivado hand-off: .hwh, .xsa or .hdf");
-  command->add_option("FILE", target.file, "the hand-off")->type_name("")->required();
+  command->add_option("FILE", target.file, "the hand-off")->type_name("");
   command->add_option("-o,--output", target.output, "folder (default: the design's name)")
       ->type_name("DIR");
   command->add_option("--rtl", target.rtl, "folders with RTL of its IP")->type_name("DIR");
@@ -366,6 +366,8 @@ void add_import(CLI::App& app, ImportOptions& target) {
   command
       ->add_option("--block-design", target.block_design, "which one, of an archive with several")
       ->type_name("NAME");
+  command->add_flag("--shelf", target.shelf,
+                    "print the IP that has a model, with what is modelled of each (Markdown)");
   command->footer(import_help);
 }
 

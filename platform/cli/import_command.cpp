@@ -1,4 +1,5 @@
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/shelf.h>
 #include <chip/handoff/handoff.h>
 #include <chip/handoff/rtl_sources.h>
 #include <chip/run/simulation.h>
@@ -123,6 +124,11 @@ std::vector<std::string> from_folder(const std::vector<std::string>& files,
 }  // namespace
 
 int import_handoff(const ImportOptions& options, std::ostream& out) {
+  if (options.shelf) {
+    out << block_design::shelf_table();
+    return done;
+  }
+  if (options.file.empty()) throw vp::InputError("import needs a hand-off: .hwh, .xsa or .hdf");
   const handoff::Handoff handoff = handoff::read_handoff(options.file, options.block_design);
   const block_design::ImportedDesign design =
       block_design::import_design(handoff, handoff::RtlFinder(options.rtl));

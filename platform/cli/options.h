@@ -160,6 +160,7 @@ struct ImportOptions {
   std::vector<std::string> programs;  ///< sources of the PS program
   std::vector<std::string> rtl;       ///< folders with RTL of its IP
   std::string output;                 ///< folder; empty: the name of the block design
+  bool shelf = false;                 ///< print the IP that the platform knows instead
 };
 
 /// `markervp report`.

@@ -1,6 +1,7 @@
 // One description of the registers: headers, models and documentation agree.
 #include <axi_dma_registers.h>
 #include <axi_gpio_registers.h>
+#include <chip/block_design/shelf.h>
 #include <chip/system/designs.h>
 #include <chip/system/hardware_map.h>
 #include <cli/commands.h>
@@ -91,6 +92,12 @@ BOOST_AUTO_TEST_CASE(the_documentation_is_what_the_program_prints) {
   const std::string page = kit::read_file(source / "docs/registers.md");
   BOOST_TEST((page == platform::cli::map_as_markdown(default_map())),
              "docs/registers.md is old: markervp map --markdown > docs/registers.md");
+}
+
+BOOST_AUTO_TEST_CASE(the_documentation_has_the_shelf_that_the_program_prints) {
+  const std::string page = kit::read_file(source / "docs/own-zynq.md");
+  BOOST_TEST((page.find(platform::block_design::shelf_table()) != std::string::npos),
+             "the table of docs/own-zynq.md is old: markervp import --shelf prints it");
 }
 
 BOOST_AUTO_TEST_CASE(what_has_a_model_is_not_among_what_has_none) {

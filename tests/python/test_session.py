@@ -95,7 +95,7 @@ def test_what_comes_at_the_very_end_of_a_wait_ends_no_later_one(start):
     (lambda board: board.drive("ps.gic.n_irq", 2), "a whole number up to 1"),
     (lambda board: board.interrupt(31), "interrupts with a wire from outside are 32 to 95"),
     (lambda board: board.interrupt(96), "a whole number up to 95"),
-    (lambda board: board.uart("x", device="uart7"), "choose uart0 or uart1"),
+    (lambda board: board.uart("x", device="uart7"), "choose ps.uart0, ps.uart1"),
     (lambda board: board.run("5 kg"), "write it in ps, ns, us, ms or s"),
     (lambda board: board.run("-1 us"), "not between 0 and 1000 s"),
     (lambda board: board.wait_for("1 +", timeout="1 us"), "column 4: a value is missing"),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <board/hosts.h>
 #include <ps/cpu/console.h>
 #include <vp/clock.h>
 #include <vp/counter.h>
@@ -8,7 +9,6 @@
 #include <vp/signal.h>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <string_view>
 #include <systemc>
 
@@ -20,7 +20,7 @@ namespace ps {
 /// What software sends goes to `console` and to `on_transmit`; receive() is the other end of the
 /// line, which sends with the same settings. Breaks, modem lines and errors on the line are not
 /// modelled.
-class Uart : public vp::Clocked {
+class Uart : public vp::Clocked, public board::SerialHost {
  public:
   Uart(sc_core::sc_module_name name, vp::Clock& uart_ref_clk);
   const char* kind() const override { return "ps::Uart"; }
@@ -32,15 +32,12 @@ class Uart : public vp::Clocked {
   vp::In<bool> rst{"rst"};      ///< active high, from the SLCR; may be left open
 
   Console console;
-  /// Called with each byte when its last bit has left.
-  std::function<void(std::uint8_t)> on_transmit;
 
   vp::Counter transmitted{"transmitted", "bytes that left"};
   vp::Counter received{"received", "bytes that came into the receive FIFO"};
   vp::Counter lost{"lost", "bytes that met a full FIFO or a receiver that was off"};
 
-  /// Bytes that the other end sends, one after the other, from now on.
-  void receive(std::string_view bytes);
+  void receive(std::string_view bytes) override;
 
  private:
   /// What is under way on one direction of the line.

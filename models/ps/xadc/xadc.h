@@ -4,6 +4,7 @@
 #include <deque>
 #include <systemc>
 
+#include <board/hosts.h>
 #include <board/xadc.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
@@ -17,7 +18,7 @@ namespace ps {
 /// The processing system's interface to the XADC. A command is carried out at once: its answer
 /// (that of the command before it, as on the chip) is there in the next access, which no driver
 /// waits for.
-class XadcInterface : public sc_core::sc_module {
+class XadcInterface : public sc_core::sc_module, public board::AnalogueHost {
  public:
   XadcInterface(sc_core::sc_module_name name, vp::ClockScheduler& scheduler);
   const char* kind() const override { return "ps::XadcInterface"; }
@@ -25,8 +26,7 @@ class XadcInterface : public sc_core::sc_module {
   vp::RegisterBank registers;   ///< at 0xF800_7100
   vp::Signal<bool> irq{"irq"};  ///< interrupt 39, active high
 
-  /// Sets an input, as board::Xadc::set().
-  void set_input(unsigned channel, double value);
+  void set_input(unsigned channel, double value) override;
   board::Xadc& converter() { return converter_; }
 
  private:

@@ -1,6 +1,7 @@
 #include <xilinx/axi_cdma/axi_cdma.h>
 
 #include <algorithm>
+#include <string>
 
 #include <vp/report.h>
 #include <xilinx/common/estimate.h>
@@ -28,6 +29,8 @@ AxiCdma::AxiCdma(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiC
       Ip(&s_axi_aclk),
       burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
                   "build option Maximum Burst Length (PG034)"),
+      memory_bytes("memory_bytes", build.memory_bytes, vp::Unit::bytes, {4, 128},
+                   vp::Source::published, "build option Write/Read Data Width, in bytes (PG034)"),
       start_clocks("start_clocks", 16, vp::Unit::cycles, {1, 1000}, vp::Source::assumed,
                    "BTT to the first address: register, command and the DataMover's 8 (PG022)"),
       read_clocks("read_clocks", 20, vp::Unit::cycles, {0, 1000}, vp::Source::published,
@@ -47,7 +50,7 @@ vp::IpEstimate AxiCdma::own_estimate() const {
   vp::IpEstimate e = axi_estimate("axi_cdma", 750, 1000, 1);
   e.fmax_hz = 150'000'000;
   e.active_clocks = [this] {
-    return clocks_per_access * accesses(s_axi_lite) + m_axi.link.bytes_read / word_bytes;
+    return clocks_per_access * accesses(s_axi_lite) + m_axi.link.bytes_read / memory_bytes;
   };
   return e;
 }
@@ -67,11 +70,12 @@ void AxiCdma::start() {
              "BTT written during a transfer: ignored; wait for CDMASR.Idle first");
     return;
   }
-  if (btt_ == 0 || (sa_ | da_ | btt_) % word_bytes != 0) {
-    vp::warn(
-        *this, "/markervp/axi_cdma/order",
-        "a transfer of 0 bytes, or one whose addresses and length are no multiples of 4, which "
-        "a build without realignment does not take (DMAIntErr)");
+  if (btt_ == 0 || (sa_ | da_) % memory_bytes != 0) {
+    vp::warn(*this, "/markervp/axi_cdma/order",
+             "a transfer of 0 bytes, or one whose addresses are no multiples of " +
+                 std::to_string(memory_bytes) +
+                 ", the bytes of a beat, which a build without realignment does not take "
+                 "(DMAIntErr)");
     return fail(cdmasr::DMAIntErr);
   }
   sr_.clear_bits(cdmasr::Idle);
@@ -109,13 +113,17 @@ void AxiCdma::take(State state, std::uint64_t clocks) {
   done_at_ = clock().cycle() + std::max<std::uint64_t>(1, clocks);
 }
 
+std::uint32_t AxiCdma::beats(std::uint32_t bytes) const {
+  return (bytes + memory_bytes - 1) / memory_bytes;
+}
+
 void AxiCdma::read_burst() {
   const bool fixed = cr_.any(cdmacr::Key_Hole_Read);
   const std::uint32_t from = fixed ? sa_ : sa_ + done_bytes_, to = da_ + done_bytes_;
-  burst_bytes_ = std::min({btt_ - done_bytes_, burst_beats * word_bytes, most_burst_bytes,
+  burst_bytes_ = std::min({btt_ - done_bytes_, burst_beats * memory_bytes, most_burst_bytes,
                            boundary - from % boundary, boundary - to % boundary});
   m_axi.read(from, data_.data(), burst_bytes_, fixed);
-  take(State::reading, burst_bytes_ / word_bytes);
+  take(State::reading, beats(burst_bytes_));
 }
 
 void AxiCdma::write_burst() {

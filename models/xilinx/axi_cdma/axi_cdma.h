@@ -17,16 +17,18 @@ namespace xilinx {
 /// Build options, as Vivado asks for them; the defaults of its parameters.
 struct AxiCdmaBuild {
   std::uint32_t burst_beats = 16;  ///< 2 to 256
+  std::uint32_t memory_bytes = 4;  ///< of a beat: 4 to 128
 };
 
-/// AXI Central DMA v4.1 (PG034), simple mode, 32 bits wide, without data realignment: addresses are
-/// multiples of 4. A burst is read, then written; the next one is read meanwhile.
+/// AXI Central DMA v4.1 (PG034), simple mode, without data realignment: addresses are multiples of
+/// a beat. A burst is read, then written; the next one is read meanwhile. A beat takes a clock.
 class AxiCdma : public vp::Clocked, public vp::Ip {
  public:
   AxiCdma(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiCdmaBuild& build = {});
   const char* kind() const override { return "xilinx::AxiCdma"; }
 
   vp::Parameter<std::uint32_t> burst_beats;
+  vp::Parameter<std::uint32_t> memory_bytes;
   vp::Parameter<std::uint32_t> start_clocks;
   vp::Parameter<std::uint32_t> read_clocks;
 
@@ -37,7 +39,7 @@ class AxiCdma : public vp::Clocked, public vp::Ip {
 
  private:
   enum class State { idle, starting, reading, writing };
-  static constexpr std::uint32_t most_burst_bytes = 1024;
+  static constexpr std::uint32_t most_burst_bytes = 4096;
 
   void edge() override;
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
@@ -51,6 +53,7 @@ class AxiCdma : public vp::Clocked, public vp::Ip {
   void read_burst();
   void write_burst();
   void burst_written();
+  std::uint32_t beats(std::uint32_t bytes) const;
   void take(State state, std::uint64_t clocks);
   void update();
 

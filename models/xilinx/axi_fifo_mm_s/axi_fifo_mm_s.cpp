@@ -33,22 +33,39 @@ AxiFifoMmS::AxiFifoMmS(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                        const AxiFifoMmSBuild& build)
     : Clocked(name, s_axi_aclk),
       Ip(&s_axi_aclk),
-      fifo_depth("fifo_depth", build.fifo_depth, vp::Unit::none, {512, 131'072},
-                 vp::Source::published, "build option FIFO depth, each direction (PG080)"),
+      use_tx_data("use_tx_data", build.use_tx_data, vp::Source::published,
+                  "build option Enable Transmit Data (PG080)"),
+      use_rx_data("use_rx_data", build.use_rx_data, vp::Source::published,
+                  "build option Enable Receive Data (PG080)"),
+      tx_fifo_depth("tx_fifo_depth", build.tx_fifo_depth, vp::Unit::none, {512, 131'072},
+                    vp::Source::published, "build option Transmit FIFO Depth (PG080)"),
+      rx_fifo_depth("rx_fifo_depth", build.rx_fifo_depth, vp::Unit::none, {512, 131'072},
+                    vp::Source::published, "build option Receive FIFO Depth (PG080)"),
+      has_tkeep("has_tkeep", build.has_tkeep, vp::Source::published,
+                "build option Enable TKEEP (PG080)"),
       s_axi("s_axi", axi_fifo_mm_s::registers, fifo_options(), &s_axi_aclk.scheduler()),
       isr_(s_axi[ISR]),
       ier_(s_axi[IER]) {
   wire();
 }
 
-// The guide's table has about 500 LUT and 700 FF; each direction of 512 words is half a RAMB36.
+// The guide's table has about 500 LUT and 700 FF for both directions; one of 512 words is half a
+// RAMB36.
 vp::IpEstimate AxiFifoMmS::own_estimate() const {
-  vp::IpEstimate e = axi_estimate("axi_fifo_mm_s", 500, 700, fifo_depth / 512);
+  const bool both = use_tx_data && use_rx_data;
+  const std::uint32_t words = (use_tx_data ? tx_fifo_depth : 0) + (use_rx_data ? rx_fifo_depth : 0);
+  vp::IpEstimate e =
+      axi_estimate("axi_fifo_mm_s", both ? 500 : 300, both ? 700 : 400, words / 1024.0);
   e.active_clocks = [this] { return clocks_per_access * accesses(s_axi); };
   return e;
 }
 
 void AxiFifoMmS::wire() {
+  if (!use_tx_data)
+    for (const std::uint32_t offset : {TDFR, TDFV, TDFD, TLR, TDR}) s_axi[offset].remove();
+  if (!use_rx_data)
+    for (const std::uint32_t offset : {RDFR, RDFO, RDFD, RLR, RDR}) s_axi[offset].remove();
+  s_axi[TDFV].set_reset_value(use_tx_data ? tx_fifo_depth - reserved_words : 0);
   for (vp::Register* r : {&isr_, &ier_}) r->after_write([this](std::uint32_t) { update(); });
   const auto on_key = [this](std::uint32_t offset, bool sends, bool receives) {
     s_axi[offset].after_write([this, sends, receives](std::uint32_t word) {
@@ -62,10 +79,10 @@ void AxiFifoMmS::wire() {
   on_key(SRR, true, true);
   s_axi[TDFV].computed_by([this] {
     const std::size_t used = written_.size() + leaving_.size() + reserved_words;
-    return used >= fifo_depth ? 0u : static_cast<std::uint32_t>(fifo_depth - used) & ~1u;
+    return used >= tx_fifo_depth ? 0u : static_cast<std::uint32_t>(tx_fifo_depth - used) & ~1u;
   });
   s_axi[TDFD].after_write([this](std::uint32_t word) {
-    if (written_.size() + leaving_.size() + reserved_words >= fifo_depth)
+    if (written_.size() + leaving_.size() + reserved_words >= tx_fifo_depth)
       return raise(event::TPOE, "TDFD written while the FIFO is full; look at TDFV first");
     written_.push_back(word);
   });
@@ -96,7 +113,7 @@ void AxiFifoMmS::send_packet(std::uint32_t bytes) {
              "TLR does not agree with the words written to TDFD: nothing is sent (ISR.TSE)");
     return raise(event::TSE);
   }
-  const std::uint32_t rest = bytes % bytes_per_word;
+  const std::uint32_t rest = has_tkeep ? bytes % bytes_per_word : 0;
   while (!written_.empty()) {
     const bool last = written_.size() == 1;
     const auto keep = static_cast<std::uint8_t>(last && rest != 0 ? (1u << rest) - 1 : 0xF);
@@ -134,6 +151,7 @@ void AxiFifoMmS::reset_receiving() {
   lengths_.clear();
   arriving_bytes_ = readable_ = 0;
   raise(event::RRC);
+  if (!awake()) wake();  // a stream that waited for room
 }
 
 void AxiFifoMmS::before_end_of_elaboration() {
@@ -169,7 +187,9 @@ void AxiFifoMmS::edge() {
   if (axi_str_rxd.bound()) {
     if (axi_str_rxd.sample()) {
       arriving_.push_back(axi_str_rxd.tdata);
-      arriving_bytes_ += static_cast<std::uint32_t>(__builtin_popcount(axi_str_rxd.tkeep.read()));
+      arriving_bytes_ +=
+          has_tkeep ? static_cast<std::uint32_t>(__builtin_popcount(axi_str_rxd.tkeep.read()))
+                    : bytes_per_word;
       idle = false;
       if (axi_str_rxd.tlast.read()) {
         received_.insert(received_.end(), arriving_.begin(), arriving_.end());
@@ -179,7 +199,7 @@ void AxiFifoMmS::edge() {
         raise(event::RC);
       }
     }
-    const bool has_room = received_.size() + arriving_.size() + reserved_words < fifo_depth;
+    const bool has_room = received_.size() + arriving_.size() + reserved_words < rx_fifo_depth;
     axi_str_rxd.tready = has_room;
     if (axi_str_rxd.tvalid.read() && has_room) idle = false;
   }

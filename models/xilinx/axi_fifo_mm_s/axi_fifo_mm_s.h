@@ -16,7 +16,10 @@ namespace xilinx {
 
 /// Build options, as Vivado asks for them; the defaults of its parameters.
 struct AxiFifoMmSBuild {
-  std::uint32_t fifo_depth = 512;  ///< words in each direction
+  bool use_tx_data = true, use_rx_data = true;  ///< which directions there are
+  std::uint32_t tx_fifo_depth = 512;            ///< words
+  std::uint32_t rx_fifo_depth = 512;            ///< words
+  bool has_tkeep = false;  ///< without it, each word of a stream has four bytes
 };
 
 /// AXI4-Stream FIFO v4.2 (PG080), AXI4-Lite data, store and forward: a packet leaves once its
@@ -28,7 +31,9 @@ class AxiFifoMmS : public vp::Clocked, public vp::Ip {
              const AxiFifoMmSBuild& build = {});
   const char* kind() const override { return "xilinx::AxiFifoMmS"; }
 
-  vp::Parameter<std::uint32_t> fifo_depth;
+  vp::Parameter<bool> use_tx_data, use_rx_data;
+  vp::Parameter<std::uint32_t> tx_fifo_depth, rx_fifo_depth;
+  vp::Parameter<bool> has_tkeep;
 
   vp::In<bool> s_axi_aresetn{"s_axi_aresetn"};  ///< may be left open
   vp::RegisterBank s_axi;

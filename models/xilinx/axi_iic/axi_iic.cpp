@@ -39,7 +39,9 @@ AxiIic::AxiIic(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiIic
       ier_(s_axi[IER]),
       cr_(s_axi[CR]),
       pirq_(s_axi[RX_FIFO_PIRQ]) {
+  s_axi[GPO].set_reset_value(build.gpo_default & ((1u << gpo_width) - 1));
   wire();
+  gpo = static_cast<std::uint8_t>(s_axi[GPO].value());
 }
 
 // A public report has 398 LUT and 363 FF (7z020).
@@ -86,7 +88,7 @@ void AxiIic::reset() {
   busy_ = dynamic_ = wants_stop_ = false;
   to_come_ = 0;
   done_at_ = vp::Clock::never;
-  gpo = 0;
+  gpo = static_cast<std::uint8_t>(s_axi[GPO].value());
   update();
 }
 

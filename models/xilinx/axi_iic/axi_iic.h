@@ -18,6 +18,7 @@ namespace xilinx {
 struct AxiIicBuild {
   std::uint32_t iic_freq = 100'000;  ///< Hz
   std::uint32_t gpo_width = 1;       ///< 1 to 8
+  std::uint32_t gpo_default = 0;     ///< after reset
 };
 
 /// AXI IIC v2.1 (PG090) as a master, static and dynamic, at the level of whole bytes: a start or a

@@ -24,7 +24,7 @@ vp::RegisterBankOptions quad_spi_options() {
 }  // namespace
 
 AxiQuadSpi::AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
-                       const AxiQuadSpiBuild& build)
+                       const AxiQuadSpiBuild& build, vp::Clock* ext_spi_clk)
     : Clocked(name, s_axi_aclk),
       Ip(&s_axi_aclk),
       sck_ratio("sck_ratio", build.sck_ratio, vp::Unit::none, {2, 2048}, vp::Source::published,
@@ -34,6 +34,7 @@ AxiQuadSpi::AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
       fifo_depth("fifo_depth", build.fifo_depth, vp::Unit::none, {16, 256}, vp::Source::published,
                  "build option FIFO Depth (PG153)"),
       s_axi("s_axi", axi_quad_spi::registers, quad_spi_options(), &s_axi_aclk.scheduler()),
+      ext_spi_clk_(ext_spi_clk ? *ext_spi_clk : s_axi_aclk),
       gie_(s_axi[DGIER]),
       isr_(s_axi[IPISR]),
       ier_(s_axi[IPIER]),
@@ -180,11 +181,19 @@ std::uint32_t AxiQuadSpi::status() const {
   return bits;
 }
 
+/// Clocks of the registers until a word has passed, rounded up.
+std::uint64_t AxiQuadSpi::word_clocks() const {
+  const std::uint64_t on_line = std::uint64_t{bits_per_word} * sck_ratio;
+  const std::uint64_t line_hz = ext_spi_clk_.frequency_hz();
+  if (line_hz == 0) return vp::Clock::never - clock().cycle();  // the clock is stopped
+  return (on_line * clock().frequency_hz() + line_hz - 1) / line_hz;
+}
+
 void AxiQuadSpi::update() {
   constexpr std::uint32_t running = spicr::SPE | spicr::Master;
   const bool may_run = (cr_ & (running | spicr::Inhibit)) == running;
   if (may_run && done_at_ == vp::Clock::never && !tx_.empty()) {
-    done_at_ = clock().cycle() + bits_per_word * sck_ratio;
+    done_at_ = clock().cycle() + word_clocks();
     select();
   }
   ip2intc_irpt = gie_.any(dgier_GIE) && (isr_ & ier_) != 0;

@@ -23,14 +23,14 @@ struct AxiQuadSpiBuild {
   std::uint32_t fifo_depth = 16;  ///< 16 or 256
 };
 
-/// AXI Quad SPI v3.2 (PG153) in standard mode as a master of 8-bit words, with `ext_spi_clk` at the
-/// clock of its registers. Reading an empty SPI_DRR and writing a full SPI_DTR are errors on the
-/// bus of the chip; here they are warned of, and change nothing. Bytes from where no device is read
-/// 0xFF.
+/// AXI Quad SPI v3.2 (PG153) in standard mode as a master of 8-bit words. Reading an empty SPI_DRR
+/// and writing a full SPI_DTR are errors on the bus of the chip; here they are warned of, and
+/// change nothing. Bytes from where no device is read 0xFF.
 class AxiQuadSpi : public vp::Clocked, public vp::Ip, public board::SpiHost {
  public:
-  AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
-             const AxiQuadSpiBuild& build = {});
+  /// `ext_spi_clk`: what SCK is made from; null: the clock of the registers.
+  AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiQuadSpiBuild& build = {},
+             vp::Clock* ext_spi_clk = nullptr);
   const char* kind() const override { return "xilinx::AxiQuadSpi"; }
 
   vp::Parameter<std::uint32_t> sck_ratio;
@@ -55,8 +55,10 @@ class AxiQuadSpi : public vp::Clocked, public vp::Ip, public board::SpiHost {
   void reset();
   std::uint8_t exchange(std::uint8_t byte);
   std::uint32_t status() const;
+  std::uint64_t word_clocks() const;
   void update();
 
+  vp::Clock& ext_spi_clk_;
   vp::Register &gie_, &isr_, &ier_, &cr_, &ssr_;
   std::deque<std::uint8_t> tx_, rx_;
   std::vector<std::shared_ptr<board::SpiDevice>> devices_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <axi_uartlite_registers.h>
+#include <board/hosts.h>
 #include <vp/clock.h>
 #include <vp/ip.h>
 #include <vp/parameter.h>
@@ -9,7 +10,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <string_view>
 #include <systemc>
 
@@ -25,7 +25,7 @@ struct AxiUartliteBuild {
 /// AXI UART Lite v2.0 (PG142), at the level of whole characters. Its interrupt is a pulse of one
 /// clock: connect it to an edge-sensitive input. Reading an empty receive FIFO and writing a full
 /// send FIFO are errors on the bus of the chip; here they are warned of, and change nothing.
-class AxiUartlite : public vp::Clocked, public vp::Ip {
+class AxiUartlite : public vp::Clocked, public vp::Ip, public board::SerialHost {
  public:
   AxiUartlite(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
               const AxiUartliteBuild& build = {});
@@ -39,10 +39,7 @@ class AxiUartlite : public vp::Clocked, public vp::Ip {
   vp::RegisterBank s_axi;
   vp::Signal<bool> interrupt{"interrupt"};
 
-  /// Called with each byte when its stop bit has left. May be null.
-  std::function<void(std::uint8_t)> on_transmit;
-  /// Bytes that the other end sends, one after the other, from now on.
-  void receive(std::string_view bytes);
+  void receive(std::string_view bytes) override;
 
  private:
   void edge() override;

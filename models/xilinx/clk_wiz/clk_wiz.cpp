@@ -13,7 +13,7 @@ namespace {
 
 using namespace clk_wiz;
 
-constexpr double thousandths = 1000.0;
+constexpr double thousandths = 1000.0, hz_per_mhz = 1e6;
 
 vp::RegisterBankOptions wizard_options() {
   vp::RegisterBankOptions options;
@@ -29,25 +29,28 @@ std::uint32_t in_thousandths(std::uint32_t whole, std::uint32_t fraction) {
 
 }  // namespace
 
-ClkWiz::ClkWiz(sc_core::sc_module_name name, vp::Clock& clk_in1, const ClkWizBuild& build)
-    : Clocked(name, clk_in1),
+ClkWiz::ClkWiz(sc_core::sc_module_name name, vp::Clock& clk_in1, const ClkWizBuild& build,
+               vp::Clock* s_axi_aclk)
+    : Clocked(name, s_axi_aclk ? *s_axi_aclk : clk_in1),
       Ip(&clk_in1),
       lock_us("lock_us", 100, vp::Unit::none, {1, 10'000}, vp::Source::published,
               "longest time until an MMCM has locked, us (DS187)"),
       s_axi_lite("s_axi_lite", clk_wiz::registers, wizard_options(), &clk_in1.scheduler()),
+      clk_in1_(clk_in1),
+      limits_(manager_limits(build.pll, build.grade)),
       build_(build) {
   if (build.divide.empty() || build.divide.size() > output_count)
     throw vp::InputError(std::string(this->name()) + ": an MMCM has 1 to 7 outputs");
-  const double vco = vco_hz();
-  if (vco < vco_low_hz || vco > vco_high_hz)
+  if (!is_legal())
     throw vp::InputError(std::string(this->name()) + ": its VCO would run at " +
-                         std::to_string(std::llround(vco / 1e6)) +
-                         " MHz; choose factors that give 600 to 1200 MHz");
+                         std::to_string(std::llround(vco_hz() / hz_per_mhz)) +
+                         " MHz; choose factors that give " + legal_range());
   for (unsigned n = 0; n < build.divide.size(); ++n) {
     outputs_.push_back(std::make_unique<vp::Clock>(("clk_out" + std::to_string(n + 1)).c_str(),
                                                    clk_in1.scheduler(), output_hz(n)));
   }
   show(build);
+  clk_in1_.add_listener(*this);
   s_axi_lite[SR].computed_by([this] { return locked ? sr_LOCKED : 0u; });
   s_axi_lite[SRR].after_write([this, build](std::uint32_t word) {
     if (word != reset_key) return;
@@ -81,8 +84,20 @@ vp::IpEstimate ClkWiz::own_estimate() const {
 }
 
 double ClkWiz::vco_hz() const {
-  const double input = static_cast<double>(clock().frequency_hz());
+  const double input = static_cast<double>(clk_in1_.frequency_hz());
   return input * build_.multiply / thousandths / build_.divclk;
+}
+
+bool ClkWiz::is_legal() const {
+  bool legal = build_.divclk != 0 && build_.divclk <= limits_.divclk_max &&
+               build_.multiply >= 2000 && build_.multiply <= 64'000;
+  for (const std::uint32_t divisor : build_.divide) legal &= divisor >= 1000 && divisor <= 128'000;
+  return legal && vco_hz() >= limits_.vco_min && vco_hz() <= limits_.vco_max;
+}
+
+std::string ClkWiz::legal_range() const {
+  return std::to_string(std::llround(limits_.vco_min / hz_per_mhz)) + " to " +
+         std::to_string(std::llround(limits_.vco_max / hz_per_mhz)) + " MHz";
 }
 
 std::uint64_t ClkWiz::output_hz(unsigned number) const {
@@ -105,12 +120,10 @@ void ClkWiz::load() {
   locked = false;
   for (const auto& output : outputs_) output->set_frequency(0);
   locked_at_ = vp::Clock::never;
-  bool legal = build_.divclk != 0 && build_.multiply >= 2000 && build_.multiply <= 64'000;
-  for (const std::uint32_t divisor : build_.divide) legal &= divisor >= 1000 && divisor <= 128'000;
-  if (!legal || vco_hz() < vco_low_hz || vco_hz() > vco_high_hz) {
+  if (!is_legal()) {
     vp::warn(*this, "/markervp/clk_wiz/factors",
-             "factors that put the VCO outside 600 to 1200 MHz, or that an MMCM does not have: it "
-             "does not lock, and its outputs stop");
+             "factors that put the VCO outside " + legal_range() +
+                 ", or that it does not have: it does not lock, and its outputs stop");
     return wake_at(locked_at_);
   }
   locked_at_ = clock().cycle() + 1 + lock_us * (clock().frequency_hz() / 1'000'000);
@@ -121,8 +134,16 @@ void ClkWiz::edge() {
   sleep();
   if (locked_at_ > clock().cycle()) return wake_at(locked_at_);
   locked_at_ = vp::Clock::never;
-  for (unsigned n = 0; n < outputs_.size(); ++n) outputs_[n]->set_frequency(output_hz(n));
+  drive();
   locked = true;
+}
+
+void ClkWiz::drive() {
+  for (unsigned n = 0; n < outputs_.size(); ++n) outputs_[n]->set_frequency(output_hz(n));
+}
+
+void ClkWiz::after_change(vp::Clock&) {
+  if (locked) drive();
 }
 
 }  // namespace xilinx

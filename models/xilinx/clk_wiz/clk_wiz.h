@@ -6,9 +6,11 @@
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
+#include <xilinx/fabric_clock/clock_settings.h>
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -19,18 +21,18 @@ struct ClkWizBuild {
   std::uint32_t divclk = 1;                      ///< 1 to 106
   std::uint32_t multiply = 10'000;               ///< 2 to 64
   std::vector<std::uint32_t> divide = {10'000};  ///< of each output, 1 to 128; seven at most
+  bool pll = false;                              ///< PLLE2 instead of MMCME2
+  unsigned grade = 1;                            ///< the speed grade, 1 to 3
 };
 
-/// Clocking wizard v6.0 (PG065): an MMCM with up to seven outputs. With registers, software changes
+/// Clocking wizard v6.0 (PG065) with registers: an MMCM with up to seven outputs. Software changes
 /// its factors; the outputs stop until it has locked again. Phases and duty cycles are stored only.
-class ClkWiz : public vp::Clocked, public vp::Ip {
+class ClkWiz : public vp::Clocked, public vp::Ip, private vp::ClockListener {
  public:
-  /// Limits of the VCO at speed grade -1 (DS187).
-  static constexpr double vco_low_hz = 600e6, vco_high_hz = 1200e6;
-
-  /// `clk_in1` is its input and, with registers, their clock. Throws vp::InputError for factors
-  /// that put the VCO outside its limits, or too many outputs.
-  ClkWiz(sc_core::sc_module_name name, vp::Clock& clk_in1, const ClkWizBuild& build = {});
+  /// `clk_in1` is its input; `s_axi_aclk` the clock of its registers, null: the same one. Throws
+  /// vp::InputError for factors that put the VCO outside its limits, or too many outputs.
+  ClkWiz(sc_core::sc_module_name name, vp::Clock& clk_in1, const ClkWizBuild& build = {},
+         vp::Clock* s_axi_aclk = nullptr);
   const char* kind() const override { return "xilinx::ClkWiz"; }
 
   vp::Parameter<std::uint32_t> lock_us;
@@ -44,11 +46,18 @@ class ClkWiz : public vp::Clocked, public vp::Ip {
  private:
   void edge() override;
   vp::IpEstimate own_estimate() const override;
+  void before_change(vp::Clock&) override {}
+  void after_change(vp::Clock&) override;
   double vco_hz() const;
+  bool is_legal() const;
+  std::string legal_range() const;
   std::uint64_t output_hz(unsigned number) const;
   void show(const ClkWizBuild& build);
   void load();
+  void drive();
 
+  vp::Clock& clk_in1_;
+  const ManagerLimits limits_;
   std::vector<std::unique_ptr<vp::Clock>> outputs_;
   ClkWizBuild build_;
   std::uint64_t locked_at_ = vp::Clock::never;

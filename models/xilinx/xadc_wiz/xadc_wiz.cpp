@@ -25,12 +25,15 @@ XadcWiz::XadcWiz(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const Xadc
       Ip(&s_axi_aclk),
       sequence_channels("sequence_channels", build.sequence_channels, vp::Unit::none, {1, 32},
                         vp::Source::published, "conversions in a sequence (PG091)"),
-      adcclk_divisor("adcclk_divisor", 4, vp::Unit::none, {2, 255}, vp::Source::published,
+      adcclk_divisor("adcclk_divisor", build.adcclk_divisor, vp::Unit::none, {2, 255},
+                     vp::Source::published,
                      "clocks of the registers in one of ADCCLK, 26 MHz at most (UG480)"),
       s_axi_lite("s_axi_lite", xadc_wiz::registers, wizard_options(), &s_axi_aclk.scheduler()),
+      initial_(build.initial),
       gie_(s_axi_lite[GIER]),
       isr_(s_axi_lite[IPISR]),
       ier_(s_axi_lite[IPIER]) {
+  reset_converter();
   wire();
 }
 
@@ -49,7 +52,7 @@ void XadcWiz::wire() {
     if (word == reset_key) reset();
   });
   s_axi_lite[SYSMONRR].after_write([this](std::uint32_t word) {
-    if ((word & 1) != 0) converter.reset();
+    if ((word & 1) != 0) reset_converter();
   });
   vp::Register& status = s_axi_lite[SR];
   status.computed_by([this] { return ends(); });
@@ -65,9 +68,14 @@ void XadcWiz::wire() {
 
 void XadcWiz::reset() {
   s_axi_lite.reset();
-  converter.reset();
+  reset_converter();
   origin_ = seen_ = clock().cycle();
   update();
+}
+
+void XadcWiz::reset_converter() {
+  converter.reset();
+  for (const auto& [address, word] : initial_) converter.write(address, word);
 }
 
 void XadcWiz::before_end_of_elaboration() {

@@ -154,7 +154,7 @@ class DesignReader : vp::YamlReader {
       }
       if (!is_allowed(*known, value)) {
         fail(entry.second, part.name + ": " + known->name + " = " + vp::excerpt(value) +
-                               " is not modelled, but " + vp::one_of(known->allowed) +
+                               " is not modelled, but " + allowed_values(*known) +
                                "; 'as: stub' leaves the part out");
       }
     }

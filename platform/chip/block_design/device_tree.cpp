@@ -61,18 +61,33 @@ std::string properties(const Module& module) {
   return text;
 }
 
+/// The cells of an interrupt, as its controller's binding has them.
+std::string cells_of(const Netlist::Interrupt& interrupt) {
+  if (!interrupt.controller) {
+    return "0 " + std::to_string(interrupt.id - first_shared_interrupt) + " " +
+           std::to_string(level_high);
+  }
+  const auto kinds =
+      vp::Decimal::parse(handoff::parameter(interrupt.controller->parameters, "C_KIND_OF_INTR"));
+  const auto edges = kinds ? kinds->whole() : std::nullopt;
+  const bool is_edge = edges && (*edges >> interrupt.id & 1) != 0;
+  return std::to_string(interrupt.id) + (is_edge ? " 0" : " 2");  // of xlnx,xps-intc-1.00.a
+}
+
+/// Of a module that has lines to several controllers those to the first one.
 std::string interrupts_of(const Module& module, const std::vector<Netlist::Interrupt>& all) {
   std::string cells, pins;
+  const Module* controller = nullptr;
   for (const Netlist::Interrupt& interrupt : all) {
     if (interrupt.source.pin.module != &module) continue;
-    cells += (cells.empty() ? "" : " ") + std::string("0 ") +
-             std::to_string(interrupt.id - first_shared_interrupt) + " " +
-             std::to_string(level_high);
+    if (cells.empty()) controller = interrupt.controller;
+    if (interrupt.controller != controller) continue;
+    cells += (cells.empty() ? "" : " ") + cells_of(interrupt);
     pins += (pins.empty() ? "\"" : ", \"") + interrupt.source.pin.port->name + "\"";
   }
   if (cells.empty()) return {};
-  return indent + "interrupt-parent = <&intc>;\n" + indent + "interrupts = <" + cells + ">;\n" +
-         indent + "interrupt-names = " + pins + ";\n";
+  return indent + "interrupt-parent = <&" + (controller ? controller->instance : "intc") + ">;\n" +
+         indent + "interrupts = <" + cells + ">;\n" + indent + "interrupt-names = " + pins + ";\n";
 }
 
 std::string clocks_of(const Module& module, const Netlist& nets) {
@@ -93,7 +108,9 @@ std::string clocks_of(const Module& module, const Netlist& nets) {
 
 std::string device_tree(const Handoff& handoff) {
   const Netlist nets(handoff);
-  const std::vector<Netlist::Interrupt> interrupts = nets.interrupts();
+  std::vector<Netlist::Interrupt> interrupts = nets.interrupts();
+  const auto behind = nets.interrupts_of_controllers();
+  interrupts.insert(interrupts.end(), behind.begin(), behind.end());
   std::string text =
       "/* Devices of the programmable logic of " + handoff.name +
       ": include it behind the board's. */\n/ {\n\tamba_pl: amba_pl {\n\t\t#address-cells = <1>;\n"

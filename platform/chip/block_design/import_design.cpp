@@ -219,7 +219,7 @@ class Writer {
     for (const ParameterRule& known : rule.parameters) {
       const std::string value = parameter(module.parameters, known.name);
       if (!value.empty() && !is_allowed(known, value)) {
-        return known.name + " = " + value + " is not modelled, but " + vp::one_of(known.allowed);
+        return known.name + " = " + value + " is not modelled, but " + allowed_values(known);
       }
     }
     return {};
@@ -231,7 +231,7 @@ class Writer {
     if (rule) {
       for (const ParameterRule& known : rule->parameters) {
         const std::string value = parameter(module.parameters, known.name);
-        if (!value.empty() && value != known.usual) list.emplace_back(known.name, value);
+        if (!value.empty() && unquoted(value) != known.usual) list.emplace_back(known.name, value);
       }
     } else if (!module.is_vendors()) {
       for (const auto& [name, value] : module.parameters)

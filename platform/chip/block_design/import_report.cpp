@@ -57,9 +57,13 @@ std::string addresses_table(const Handoff& handoff) {
 
 std::string interrupts_table(const Handoff& handoff, const Netlist& nets) {
   std::string rows;
-  for (const Netlist::Interrupt& interrupt : nets.interrupts()) {
+  std::vector<Netlist::Interrupt> interrupts = nets.interrupts();
+  const auto behind = nets.interrupts_of_controllers();
+  interrupts.insert(interrupts.end(), behind.begin(), behind.end());
+  for (const Netlist::Interrupt& interrupt : interrupts) {
     const handoff::PinBit& source = interrupt.source;
-    rows += "| " + std::to_string(interrupt.id) + " | `" +
+    rows += "| " + std::to_string(interrupt.id) +
+            (interrupt.controller ? " of `" + interrupt.controller->instance + "`" : "") + " | `" +
             (source.pin.module ? source.pin.module->instance : "external") + "." +
             source.pin.port->name +
             (source.pin.port->width > 1 ? "[" + std::to_string(source.bit) + "]" : "") + "` |\n";

@@ -1,4 +1,4 @@
-#include <chip/block_design/place.h>
+#include <chip/block_design/place_ports.h>
 
 #include <strings.h>
 #include <vp/error.h>
@@ -9,7 +9,6 @@
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
 #include <xilinx/axis_buffer/axis_buffer.h>
-#include <xilinx/fabric_clock/fabric_clock.h>
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
@@ -28,8 +27,7 @@ std::string Placement::text(const std::string& name) const {
 }
 
 std::uint64_t Placement::number(const std::string& name) const {
-  std::string digits = text(name);
-  digits.erase(std::remove(digits.begin(), digits.end(), '"'), digits.end());  // "000" of Vivado's
+  const std::string digits = unquoted(text(name));
   const auto value = vp::Decimal::parse(digits);
   const auto whole = value ? value->whole() : std::nullopt;
   if (!whole || *whole < 0 || *whole > UINT64_MAX)
@@ -60,24 +58,6 @@ void Placement::refuse(const std::string& problem) const {
 }
 
 namespace {
-
-/// Binds a port of a model by the name that it has in the design.
-template <class T>
-std::function<void(vp::SignalBase&)> input(const Placement& at, const std::string& pin,
-                                           vp::In<T>& port, bool inverted = false) {
-  const std::string name = at.part.name + "_" + pin;
-  return [&port, name, inverted, &adapters = at.adapters](vp::SignalBase& source) {
-    auto* same = dynamic_cast<vp::Signal<T>*>(&source);
-    if (same && !inverted) return port(*same);
-    auto adapter = std::make_unique<xilinx::WireAdapter<T>>(name.c_str(), source, inverted);
-    port(adapter->out);
-    adapters.push_back(std::move(adapter));
-  };
-}
-
-SlavePort registers(vp::RegisterBank& bank) {
-  return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
-}
 
 xilinx::GpioChannelBuild gpio_channel(const Placement& at, const std::string& number) {
   xilinx::GpioChannelBuild build;
@@ -124,11 +104,6 @@ xilinx::AxiDmaBuild dma_build(const Placement& at) {
       at.number(build.include_mm2s ? "C_MM2S_BURST_SIZE" : "C_S2MM_BURST_SIZE"));
   build.memory_words = at.number("C_M_AXI_S2MM_DATA_WIDTH") > 32 ? 2 : 1;
   return build;
-}
-
-MasterPort memory_master(xilinx::MemoryPort& port) {
-  return {[&port](vp::Router& way) { port.link.socket.bind(way.socket); },
-          [&port](xilinx::MemoryPath& path) { port.share(path); }};
 }
 
 constexpr std::uint32_t widest_stream_bytes = 4, bits_per_byte = 8;
@@ -237,41 +212,6 @@ Placed place_reset(const Placement& at) {
                     {"peripheral_aresetn", &reset->peripheral_aresetn},
                     {"mb_reset", &reset->mb_reset}};
   placed.object = std::move(reset);
-  return placed;
-}
-
-unsigned speed_grade(const Placement& at) {
-  const std::string& grade = at.ports.ps.clock_planner().device().grade;
-  return grade.empty() || grade.front() < '1' || grade.front() > '3'
-             ? 1
-             : static_cast<unsigned>(grade.front() - '0');
-}
-
-/// Outputs are those whose pins the design uses.
-Placed place_fabric_clock(const Placement& at) {
-  xilinx::FabricClockBuild build;
-  build.pll = at.text("PRIMITIVE") == "PLL";
-  build.input_divider = at.text("MMCM_DIVCLK_DIVIDE");
-  build.multiplier = at.text("MMCM_CLKFBOUT_MULT_F");
-  build.outputs.clear();
-  for (unsigned i = 0; i < 7; ++i) {
-    const std::string divider =
-        "MMCM_CLKOUT" + std::to_string(i) + (i == 0 ? "_DIVIDE_F" : "_DIVIDE");
-    build.outputs.emplace_back(at.text("CLK_OUT" + std::to_string(i + 1) + "_PORT"),
-                               at.text(divider));
-  }
-  // Vivado leaves the name of an unused output as it was, even if another one has it.
-  std::set<std::string> names;
-  const auto repeated = [&](const auto& output) { return !names.insert(output.first).second; };
-  build.outputs.erase(std::remove_if(build.outputs.begin(), build.outputs.end(), repeated),
-                      build.outputs.end());
-  auto clocks = std::make_unique<xilinx::FabricClock>(at.part.name.c_str(), at.clock({"clk_in1"}),
-                                                      speed_grade(at), build);
-  Placed placed;
-  for (const auto& [name, divider] : build.outputs) placed.clocks[name] = clocks->output(name);
-  placed.outputs = {{"locked", &clocks->locked}};
-  placed.unused_inputs = {"clk_in1", "reset", "resetn"};
-  placed.object = std::move(clocks);
   return placed;
 }
 
@@ -402,7 +342,8 @@ Placed place_part(const Placement& at) {
   if (rule->ip == "axi_bram_ctrl") return place_bram_ctrl(at);
   if (rule->ip == "proc_sys_reset") return place_reset(at);
   if (rule->ip.rfind("axis_", 0) == 0) return place_stream_buffer(at, rule->ip);
-  return place_fabric_clock(at);
+  if (const Placer placer = peripheral_placer(rule->ip)) return placer(at);
+  return place_clock_manager(at);
 }
 
 }  // namespace platform::block_design

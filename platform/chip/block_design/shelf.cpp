@@ -1,6 +1,7 @@
 #include <chip/block_design/shelf.h>
 
 #include <vp/text.h>
+#include <vp/unit.h>
 
 #include <strings.h>
 #include <algorithm>
@@ -54,7 +55,8 @@ std::vector<ParameterRule> concat_parameters() {
 std::vector<ParameterRule> clock_parameters() {
   std::vector<ParameterRule> list{{"PRIM_IN_FREQ", "100.000"},
                                   {"PRIMITIVE", "MMCM", {"MMCM", "PLL", "Auto", "None"}},
-                                  {"USE_DYN_RECONFIG", "false", {"false", "0"}},
+                                  {"USE_DYN_RECONFIG", "false", {"false", "true", "0", "1"}},
+                                  {"INTERFACE_SELECTION", "Enable_AXI", {"Enable_AXI"}},
                                   {"USE_DYN_PHASE_SHIFT", "false", {"false", "0"}},
                                   {"RESET_TYPE", "ACTIVE_HIGH", {"ACTIVE_HIGH", "ACTIVE_LOW"}},
                                   {"MMCM_DIVCLK_DIVIDE", "1"},
@@ -69,18 +71,160 @@ std::vector<ParameterRule> clock_parameters() {
   return list;
 }
 
+/// Levels of single pins: Vivado writes "1" with quotation marks.
+ParameterRule polarity(const std::string& name) {
+  return {name, "1", {"0", "1"}};
+}
+
+/// A build option of which only one value is modelled.
+ParameterRule only(const std::string& name, const std::string& value) {
+  return {name, value, {value}};
+}
+
+IpRule timer() {
+  return {"axi_timer",
+          Kind::model,
+          "AXI timer (PG079)",
+          {{"C_COUNT_WIDTH", "32", {"8", "16", "32"}},
+           {"C_ONE_TIMER_ONLY", "0", {"0", "1"}},
+           polarity("C_GEN0_ASSERT"),
+           polarity("C_GEN1_ASSERT"),
+           polarity("C_TRIG0_ASSERT"),
+           polarity("C_TRIG1_ASSERT")}};
+}
+
+IpRule interrupt_controller() {
+  return {"axi_intc",
+          Kind::model,
+          "AXI interrupt controller (PG099), without fast mode",
+          {{"C_NUM_INTR_INPUTS", "1", {}, 1, 32},
+           {"C_KIND_OF_INTR", "0xFFFFFFFF"},
+           {"C_KIND_OF_EDGE", "0xFFFFFFFF"},
+           {"C_KIND_OF_LVL", "0xFFFFFFFF"},
+           only("C_HAS_FAST", "0"),
+           only("C_HAS_ILR", "0"),
+           only("C_HAS_IPR", "1"),
+           only("C_HAS_SIE", "1"),
+           only("C_HAS_CIE", "1"),
+           only("C_HAS_IVR", "1"),
+           only("C_NUM_SW_INTR", "0"),
+           only("C_EN_CASCADE_MODE", "0"),
+           only("C_IRQ_IS_LEVEL", "1"),
+           {"C_IRQ_ACTIVE", "0x1", {"0x1", "1", "0x0", "0"}}}};
+}
+
+IpRule iic() {
+  return {"axi_iic",
+          Kind::model,
+          "AXI IIC as a master (PG090)",
+          {{"C_IIC_FREQ", "100000", {}, 1'000, 1'000'000},
+           {"C_GPO_WIDTH", "1", {}, 1, 8},
+           {"C_DEFAULT_VALUE", "0x00"},
+           only("C_TEN_BIT_ADR", "0"),
+           only("C_SMBUS_PMBUS_HOST", "0")}};
+}
+
+IpRule uartlite() {
+  return {"axi_uartlite",
+          Kind::model,
+          "AXI UART Lite (PG142)",
+          {{"C_BAUDRATE", "9600", {}, 110, 921'600},
+           {"C_DATA_BITS", "8", {"5", "6", "7", "8"}},
+           {"C_USE_PARITY", "0", {"0", "1"}},
+           {"C_ODD_PARITY", "0", {"0", "1"}}}};
+}
+
+IpRule quad_spi() {
+  return {"axi_quad_spi",
+          Kind::model,
+          "AXI Quad SPI as a master, standard mode, words of 8 bits (PG153)",
+          {{"C_SCK_RATIO", "16", {}, 2, 2048},
+           {"C_NUM_SS_BITS", "1", {}, 1, 32},
+           {"C_FIFO_DEPTH", "16", {"16", "256"}},
+           only("C_NUM_TRANSFER_BITS", "8"),
+           only("C_SPI_MODE", "0"),
+           only("C_TYPE_OF_AXI4_INTERFACE", "0"),
+           only("C_XIP_MODE", "0"),
+           only("C_DUAL_QUAD_MODE", "0"),
+           only("C_BYTE_LEVEL_INTERRUPT_EN", "0"),
+           only("Master_mode", "1")}};
+}
+
+IpRule stream_fifo() {
+  return {"axi_fifo_mm_s",
+          Kind::model,
+          "AXI4-Stream FIFO, store and forward, AXI4-Lite data (PG080)",
+          {{"C_USE_TX_DATA", "1", {"0", "1"}},
+           {"C_USE_RX_DATA", "1", {"0", "1"}},
+           {"C_TX_FIFO_DEPTH", "512", {}, 512, 131'072},
+           {"C_RX_FIFO_DEPTH", "512", {}, 512, 131'072},
+           {"C_HAS_AXIS_TKEEP", "0", {"0", "1"}},
+           only("C_DATA_INTERFACE_TYPE", "0"),
+           only("C_USE_TX_CTRL", "0"),
+           only("C_USE_TX_CUT_THROUGH", "0"),
+           only("C_USE_RX_CUT_THROUGH", "0"),
+           only("C_HAS_AXIS_TDEST", "0"),
+           only("C_HAS_AXIS_TID", "0"),
+           only("C_HAS_AXIS_TSTRB", "0"),
+           only("C_HAS_AXIS_TUSER", "0"),
+           only("C_AXI_STR_TXD_TDATA_WIDTH", "32"),
+           only("C_AXI_STR_RXD_TDATA_WIDTH", "32")}};
+}
+
+IpRule central_dma() {
+  return {"axi_cdma",
+          Kind::model,
+          "AXI central DMA, simple mode (PG034)",
+          {only("C_INCLUDE_SG", "0"),
+           only("C_INCLUDE_DRE", "0"),
+           only("C_USE_DATAMOVER_LITE", "0"),
+           {"C_M_AXI_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},
+           {"C_M_AXI_MAX_BURST_LEN", "16", {"2", "4", "8", "16", "32", "64", "128", "256"}}}};
+}
+
+/// INIT_40 … INIT_5F of the converter, by the vendor's names of them.
+std::vector<ParameterRule> converter_parameters() {
+  std::vector<ParameterRule> list{only("INTERFACE_SELECTION", "Enable_AXI"),
+                                  only("C_HAS_AXI4STREAM", "0"),
+                                  only("C_HAS_EXTERNAL_MUX", "0"),
+                                  only("BIPOLAR_OPERATION", "false"),
+                                  only("C_SEQUENCE_R4", "0"),
+                                  only("C_SEQUENCE_R5", "0"),
+                                  only("TIMING_MODE", "Continuous"),
+                                  {"CHANNEL_AVERAGING", "None", {"None", "16", "64", "256"}},
+                                  {"SEQUENCER_MODE", "Off", {"Off", "Continuous"}},
+                                  {"C_CONFIGURATION_R0", "0"},
+                                  {"C_CONFIGURATION_R1", "0"},
+                                  {"C_CONFIGURATION_R2", "1024", {}, 0x200, 0xFFFF},
+                                  {"C_SEQUENCE_R0", "0"},
+                                  {"C_SEQUENCE_R1", "0"},
+                                  {"C_SEQUENCE_R2", "0"},
+                                  {"C_SEQUENCE_R3", "0"},
+                                  {"C_SEQUENCE_R6", "0"},
+                                  {"C_SEQUENCE_R7", "0"}};
+  for (unsigned i = 0; i < 16; ++i)
+    list.push_back({"C_ALARM_LIMIT_R" + std::to_string(i), "0", {}, 0, 0xFFFF});
+  return list;
+}
+
 std::vector<IpRule> rules() {
   const std::vector<ParameterRule> logic{{"C_OPERATION", "and", {"and", "or", "xor", "not"}},
                                          {"C_SIZE", "8"}};
   const std::vector<ParameterRule> slice{{"DIN_WIDTH", "32"}, {"DIN_FROM", "0"}, {"DIN_TO", "0"}};
   const std::vector<ParameterRule> constant{{"CONST_WIDTH", "1"}, {"CONST_VAL", "1"}};
   std::vector<IpRule> list{
-      {"processing_system7", Kind::model, "processing system of the Zynq-7000 (UG585)"},
-      {"axi_dma", Kind::model, "AXI DMA, direct and scatter-gather (PG021)", dma_parameters()},
+      {"processing_system7", Kind::model,
+       "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1 and HP0 to HP3 to the DDR, "
+       "FCLK 0 "
+       "to 3, IRQ_F2P, EMIO GPIO; other pins drive 0"},
+      {"axi_dma", Kind::model,
+       "AXI DMA, direct and scatter-gather (PG021); memory of 64 bits and more as one of 32, or 64 "
+       "for S2MM: the same words, longer on the bus",
+       dma_parameters()},
       {"axi_gpio", Kind::model, "AXI GPIO (PG144)", gpio_parameters()},
       {"axi_bram_ctrl",
        Kind::model,
-       "AXI BRAM controller with its memory (PG078)",
+       "AXI BRAM controller with its memory, as large as its segment (PG078)",
        {{"C_S_AXI_PROTOCOL", "AXI4", {"AXI4", "AXI4LITE"}},
         {"C_S_AXI_DATA_WIDTH", "32", {"32"}},
         {"C_SINGLE_PORT_BRAM", "0", {"0", "1"}},
@@ -92,18 +236,34 @@ std::vector<IpRule> rules() {
         {"C_AUX_RST_WIDTH", "4"},
         {"C_EXT_RESET_HIGH", "0", {"0", "1"}},
         {"C_AUX_RESET_HIGH", "0", {"0", "1"}}}},
-      {"clk_wiz", Kind::model, "MMCM or PLL of the fabric (PG065, UG472), without registers",
-       clock_parameters()},
-      {"axi_interconnect", Kind::bus, "AXI Interconnect (PG059)"},
-      {"smartconnect", Kind::bus, "SmartConnect (PG247)"},
-      {"axi_protocol_converter", Kind::bus, "AXI protocol converter (PG059)"},
-      {"axi_dwidth_converter", Kind::bus, "AXI data width converter (PG059)"},
-      {"axi_clock_converter", Kind::bus, "AXI clock converter (PG059)"},
-      {"axi_register_slice", Kind::bus, "AXI register slice (PG059)"},
-      {"axi_data_fifo", Kind::bus, "AXI data FIFO (PG059)"},
+      {"clk_wiz", Kind::model, "MMCM or PLL of the fabric (PG065, UG472)", clock_parameters()},
+      timer(),
+      interrupt_controller(),
+      iic(),
+      uartlite(),
+      quad_spi(),
+      stream_fifo(),
+      central_dma(),
+      {"xadc_wiz", Kind::model, "XADC with registers (PG091, UG480)", converter_parameters()},
+      {"axi_interconnect", Kind::bus,
+       "AXI Interconnect (PG059): a way for addresses, with `read_latency` and `write_latency`"},
+      {"smartconnect", Kind::bus,
+       "SmartConnect (PG247): a way for addresses, with `read_latency` and `write_latency`"},
+      {"axi_protocol_converter", Kind::bus,
+       "AXI protocol converter (PG059): a way for addresses, with `read_latency` and "
+       "`write_latency`"},
+      {"axi_dwidth_converter", Kind::bus,
+       "AXI data width converter (PG059): a way for addresses, with `read_latency` and "
+       "`write_latency`"},
+      {"axi_clock_converter", Kind::bus,
+       "AXI clock converter (PG059): a way for addresses, with `read_latency` and `write_latency`"},
+      {"axi_register_slice", Kind::bus,
+       "AXI register slice (PG059): a way for addresses, with `read_latency` and `write_latency`"},
+      {"axi_data_fifo", Kind::bus,
+       "AXI data FIFO (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"axis_data_fifo",
        Kind::model,
-       "AXI4-Stream FIFO of up to 32 bits (PG085)",
+       "AXI4-Stream FIFO of up to 32 bits, one clock (PG085)",
        {{"FIFO_DEPTH", "512"},
         {"FIFO_MODE", "1", {"1"}},
         {"IS_ACLK_ASYNC", "0", {"0"}},
@@ -130,8 +290,8 @@ std::vector<IpRule> rules() {
        "one gate of all bits",
        {{"C_OPERATION", "and", {"and", "or", "xor"}}, {"C_SIZE", "8"}}},
       {"blk_mem_gen", Kind::left_out, "block memory: that of a BRAM controller is part of it"},
-      {"ila", Kind::left_out, "logic analyser"},
-      {"system_ila", Kind::left_out, "logic analyser"},
+      {"ila", Kind::left_out, "logic analyser: software sees nothing of it"},
+      {"system_ila", Kind::left_out, "logic analyser: software sees nothing of it"},
       {"vio", Kind::left_out, "virtual pins of the debugger"},
       {"jtag_axi", Kind::left_out, "bus master of the debugger"},
       {"debug_bridge", Kind::left_out, "debugger"}};
@@ -164,6 +324,22 @@ const std::vector<IpRule>& shelf() {
   return list;
 }
 
+std::string shelf_table() {
+  std::string text = "| IP | Here | What | Values that are modelled, where not all are |\n";
+  text += "|---|---|---|---|\n";
+  for (const IpRule& rule : shelf()) {
+    std::vector<std::string> limits;
+    for (const ParameterRule& parameter : rule.parameters) {
+      const bool has_limits =
+          parameter.most != 0 || (!parameter.allowed.empty() && parameter.allowed.front() != "*");
+      if (has_limits) limits.push_back("`" + parameter.name + "` " + allowed_values(parameter));
+    }
+    text += "| `" + rule.ip + "` | " + to_string(rule.kind) + " | " + rule.what + " | " +
+            vp::join(limits, "; ") + " |\n";
+  }
+  return text;
+}
+
 const IpRule* rule_for(const std::string& vlnv) {
   const std::vector<std::string> parts = vp::split(vlnv, ':');
   if (parts.size() != 4) return nullptr;
@@ -183,9 +359,24 @@ const ParameterRule* find_parameter(const IpRule& rule, const std::string& name)
 }
 
 bool is_allowed(const ParameterRule& rule, const std::string& value) {
+  if (rule.most != 0) {
+    const auto number = vp::Decimal::parse(unquoted(value));
+    const auto whole = number ? number->whole() : std::nullopt;
+    return whole && *whole >= rule.least && *whole <= rule.most;
+  }
   if (rule.allowed.empty() || rule.allowed.front() == "*") return true;
   return std::any_of(rule.allowed.begin(), rule.allowed.end(),
-                     [&](const std::string& one) { return same(one, value); });
+                     [&](const std::string& one) { return same(one, unquoted(value)); });
+}
+
+std::string allowed_values(const ParameterRule& rule) {
+  if (rule.most != 0) return std::to_string(rule.least) + " to " + std::to_string(rule.most);
+  return vp::one_of(rule.allowed);
+}
+
+std::string unquoted(std::string word) {
+  word.erase(std::remove(word.begin(), word.end(), '"'), word.end());
+  return word;
 }
 
 }  // namespace platform::block_design

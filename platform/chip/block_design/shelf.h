@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct ParameterRule {
   std::string name;                       ///< as the vendor writes it; capitals do not count
   std::string usual;                      ///< its value where the design says nothing
   std::vector<std::string> allowed = {};  ///< values that are modelled; empty: any number
+  std::uint64_t least = 0, most = 0;      ///< of a number; 0 and 0: any
 };
 
 /// What is known of an IP before it is placed.
@@ -37,6 +39,10 @@ struct IpRule {
 /// All IP that the platform knows, by name.
 const std::vector<IpRule>& shelf();
 
+/// All of it as a table of Markdown: what each IP is here, and which values of its parameters are
+/// modelled where not all are.
+std::string shelf_table();
+
 /// The rule for a VLNV; null for an IP that is not on the shelf, or not the vendor's.
 const IpRule* rule_for(const std::string& vlnv);
 
@@ -45,5 +51,9 @@ const ParameterRule* find_parameter(const IpRule& rule, const std::string& name)
 
 /// Whether a value is modelled.
 bool is_allowed(const ParameterRule& rule, const std::string& value);
+/// What is: "'0' or '1'", "8 to 32".
+std::string allowed_values(const ParameterRule& rule);
+/// The word without the quotation marks that Vivado leaves around some: "1" with them is 1.
+std::string unquoted(std::string word);
 
 }  // namespace platform::block_design

@@ -103,4 +103,18 @@ std::vector<Netlist::Interrupt> Netlist::interrupts() const {
   return result;
 }
 
+std::vector<Netlist::Interrupt> Netlist::interrupts_of_controllers() const {
+  std::vector<Interrupt> result;
+  for (const Module& module : handoff_.modules) {
+    const Port* lines =
+        module.is_vendors() && module.ip() == "axi_intc" ? module.port("intr") : nullptr;
+    if (!lines) continue;
+    for (unsigned bit = 0; bit < lines->width; ++bit) {
+      const std::optional<PinBit> source = origin(*lines, bit);
+      if (source) result.push_back({bit, *source, &module});
+    }
+  }
+  return result;
+}
+
 }  // namespace platform::handoff

@@ -49,13 +49,16 @@ class Netlist {
   /// constant.
   std::optional<PinBit> origin(const Port& input, unsigned bit) const;
 
-  /// An interrupt of the PL at the PS.
+  /// An interrupt of the PL.
   struct Interrupt {
-    std::uint32_t id;  ///< at the interrupt controller: 61 to 68, 84 to 91
+    std::uint32_t id;  ///< at the PS: 61 to 68, 84 to 91; of an axi_intc its input
     PinBit source;
+    const Module* controller = nullptr;  ///< the axi_intc that takes it; null: the PS
   };
-  /// Those that are wired, by bit of IRQ_F2P.
+  /// Those that are wired to the PS, by bit of IRQ_F2P.
   std::vector<Interrupt> interrupts() const;
+  /// Those that are wired to each axi_intc of the design, by its input.
+  std::vector<Interrupt> interrupts_of_controllers() const;
 
  private:
   std::optional<PinBit> behind(const PinBit& output, unsigned depth) const;

@@ -9,8 +9,10 @@
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/foreign_object.h>
+#include <vp/ip.h>
 #include <vp/systemc_pins.h>
 #include <vp/unit.h>
+#include <xilinx/axi_uartlite/axi_uartlite.h>
 #include <algorithm>
 #include <numeric>
 #include <ostream>
@@ -24,9 +26,11 @@ namespace {
 /// Prints what is in the UARTs without line end, however the run ends.
 struct ConsoleFlush {
   ProcessingSystem& ps;
+  std::deque<ps::Console>& of_the_logic;
   ~ConsoleFlush() {
     ps.uart0.console.flush();
     ps.uart1.console.flush();
+    for (ps::Console& console : of_the_logic) console.flush();
   }
 };
 
@@ -83,6 +87,14 @@ void Simulation::connect_consoles() {
   zynq_->ps.cpu.console.connect(print);
   zynq_->ps.uart0.console.connect(print, "uart0: ");
   zynq_->ps.uart1.console.connect(print, "uart1: ");
+  for (auto* line : vp::all_below<xilinx::AxiUartlite>(zynq_->pl())) {
+    ps::Console& console = logic_consoles_.emplace_back();
+    console.connect(print, std::string(line->basename()) + ": ");
+    line->on_transmit = [&console](std::uint8_t byte) {
+      const char c = static_cast<char>(byte);
+      console.write(&c, 1);
+    };
+  }
 }
 
 Simulation::Simulation(const SimulationOptions& options) : options_(options) {
@@ -139,12 +151,12 @@ void Simulation::build() {
     inject(fault, inject_->origin());
   if (options_.control)
     control_ = std::make_unique<RemoteControl>("control", *zynq_, *options_.control);
+  connect_consoles();
   for (const TerminalOptions& terminal : options_.terminals) {
     terminals_.push_back(
         std::make_unique<Terminal>(("terminal_" + terminal.uart).c_str(), *zynq_, terminal));
     if (options_.console) *options_.console << terminals_.back()->introduction() << std::endl;
   }
-  connect_consoles();
 }
 
 void Simulation::inject(const Fault& fault, const std::string& origin) {
@@ -190,7 +202,7 @@ facts::Timeline Simulation::timeline() const {
 }
 
 void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
-  const ConsoleFlush flush{zynq_->ps};
+  const ConsoleFlush flush{zynq_->ps, logic_consoles_};
   const Debugged debugged(*zynq_);
   std::optional<vp::OutputFile> coverage;
   if (options_.register_coverage) coverage.emplace(*options_.register_coverage);

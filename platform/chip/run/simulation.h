@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <exception>
 #include <iosfwd>
 #include <memory>
@@ -23,6 +24,7 @@
 #include <chip/watch/timeline_recorder.h>
 #include <facts/result.h>
 #include <host/process.h>
+#include <ps/cpu/console.h>
 #include <ps/cpu/program.h>
 #include <vp/parameter.h>
 #include <vp/report.h>
@@ -136,6 +138,7 @@ class Simulation {
   std::unique_ptr<Injector> injector_;
   std::unique_ptr<RemoteControl> control_;
   std::vector<std::unique_ptr<Terminal>> terminals_;
+  std::deque<ps::Console> logic_consoles_;  ///< of serial lines of the PL
   bool wrote_trace_ = false;
   std::string software_profile_;
   std::vector<std::string> history_;

@@ -13,6 +13,7 @@
 #include <vp/ip.h>
 #include <vp/register_bank.h>
 #include <vp/text.h>
+#include <xilinx/axi_intc/axi_intc.h>
 #include <xilinx/concat/concat.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
@@ -33,7 +34,22 @@ std::string capitals(std::string text) {
   return text;
 }
 
-Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
+/// The lines of a module that interrupt controllers of the PL take.
+std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
+                                                            const sc_core::sc_object& module) {
+  std::vector<xparameters::FabricInterrupt> list;
+  for (auto* intc : vp::all_below<xilinx::AxiIntc>(zynq.pl())) {
+    for (unsigned n = 0; n < intc->num_intr_inputs; ++n) {
+      if (!intc->intr(n).bound()) continue;
+      const xilinx::BitOrigin origin = xilinx::Wiring::origin(*intc->intr(n).signal(), 0);
+      if (origin.signal && origin.signal->get_parent_object() == &module)
+        list.push_back({capitals(origin.signal->basename()), capitals(intc->basename()), n});
+    }
+  }
+  return list;
+}
+
+Device exported(Zynq& zynq, const HardwareMap& map, const vp::RegisterBank& bank,
                 const HardwareMap::Device& place) {
   const sc_core::sc_object& module = *bank.get_parent_object();
   Device device{capitals(place.name),
@@ -48,6 +64,7 @@ Device exported(const HardwareMap& map, const vp::RegisterBank& bank,
     if (line && line->get_parent_object() == &module)
       device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
   }
+  device.fabric_interrupts = fabric_interrupts(zynq, module);
   return device;
 }
 
@@ -283,7 +300,7 @@ std::string xparameters_header(Zynq& zynq) {
   // Those that software can reach, in the order in which drivers number them.
   for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
     for (const HardwareMap::Device& place : map.devices) {
-      if (place.path == bank->name()) platform.devices.push_back(exported(map, *bank, place));
+      if (place.path == bank->name()) platform.devices.push_back(exported(zynq, map, *bank, place));
     }
   }
   for (const HardwareMap::Device& place : map.devices) {

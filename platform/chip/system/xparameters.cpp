@@ -39,6 +39,31 @@ std::string sdt_driver(const std::string& driver) {
   return "X" + interrupt_driver(driver);
 }
 
+/// An interrupt controller of the PL, for the lines that it takes.
+struct Controller {
+  unsigned number;  ///< among those of its driver
+  std::uint32_t base;
+};
+using Controllers = std::map<std::string, Controller>;
+
+/// "AXI_INTC_0_AXI_GPIO_0_IP2INTC_IRPT_INTR", and the driver's name for it.
+void define_behind_controllers(Section& out, const Device& device, unsigned number,
+                               const Controllers& controllers) {
+  for (const FabricInterrupt& interrupt : device.fabric_interrupts) {
+    const auto controller = controllers.find(interrupt.controller);
+    if (controller == controllers.end()) continue;
+    const std::string end = device.name + "_" + interrupt.line;
+    out.number(Section::classic, interrupt.controller + "_" + end + "_INTR", interrupt.number);
+    out.address(Section::classic, end + "_MASK", 1u << interrupt.number);
+    if (device.driver.empty()) continue;
+    const std::string driver = "INTC_" + std::to_string(controller->second.number) + "_" +
+                               interrupt_driver(device.driver) + "_" + std::to_string(number);
+    const bool is_only = device.fabric_interrupts.size() == 1;
+    out.number(Section::classic, driver + (is_only ? "" : "_" + interrupt.line) + "_VEC_ID",
+               interrupt.number);
+  }
+}
+
 void define_classic(Section& out, const Device& device, unsigned number) {
   const bool has_driver = !device.driver.empty();
   std::vector<std::string> names{device.name};
@@ -84,6 +109,26 @@ void define_sdt(Section& out, const Device& device, unsigned number) {
     }
     if (!device.interrupts.empty())
       out.address(Section::sdt, name + "_INTERRUPT_PARENT", gic::distributor_base);
+  }
+}
+
+/// The lowest bit of a controller's address says that it is one of the PL.
+void define_sdt_behind_controllers(Section& out, const Device& device, unsigned number,
+                                   const Controllers& controllers) {
+  constexpr std::uint32_t is_in_the_logic = 1;
+  if (device.fabric_interrupts.empty() || device.driver.empty()) return;
+  for (const std::string& name :
+       {device.name, sdt_driver(device.driver) + "_" + std::to_string(number)}) {
+    for (std::size_t n = 0; n < device.fabric_interrupts.size(); ++n) {
+      const std::string end = n == 0 ? "" : "_" + std::to_string(n);
+      const unsigned input = device.fabric_interrupts[n].number;
+      out.hex(Section::sdt, name + "_INTERRUPTS" + end, input);
+      out.number(Section::sdt, "FABRIC_" + name + "_INTR" + end, input);
+    }
+    const auto controller = controllers.find(device.fabric_interrupts.front().controller);
+    if (controller != controllers.end())
+      out.address(Section::sdt, name + "_INTERRUPT_PARENT",
+                  controller->second.base | is_in_the_logic);
   }
 }
 
@@ -166,6 +211,21 @@ std::string clocks_and_memory(const Platform& platform) {
   return out.text();
 }
 
+/// What the driver of interrupt controllers of the PL takes of all of them.
+std::string controllers_in_common(const Platform& platform) {
+  std::uint32_t most = 0;
+  for (const Device& device : platform.devices) {
+    for (const auto& [option, value] : device.options)
+      if (option == "NUM_INTR_INPUTS") most = std::max(most, value);
+  }
+  if (most == 0) return {};
+  Section out("Interrupt controllers of the PL");
+  out.number(Section::both, "INTC_MAX_NUM_INTR_INPUTS", most);
+  for (const char* name : {"IPR", "SIE", "CIE", "IVR"})
+    out.number(Section::both, std::string("XINTC_HAS_") + name, 1);
+  return out.text();
+}
+
 std::string console(const Platform& platform) {
   if (platform.uarts.empty()) return {};
   Section out("Console");
@@ -181,19 +241,27 @@ std::string header(const Platform& platform) {
   std::string text = beginning + clocks_and_memory(platform) +
                      processing_system(platform.cpu_hz, platform.uarts) +
                      "#include <xparameters_ps.h>\n";
+  Controllers controllers;
+  for (const Device& device : platform.devices) {
+    if (device.driver == "INTC")
+      controllers.emplace(device.name,
+                          Controller{static_cast<unsigned>(controllers.size()), device.base});
+  }
   std::map<std::string, unsigned> numbers;
   for (const Device& device : platform.devices) {
     Section out(device.name);
     const unsigned number = numbers[device.driver]++;
     define_classic(out, device, number);
+    define_behind_controllers(out, device, number, controllers);
     define_sdt(out, device, number);
+    if (device.interrupts.empty()) define_sdt_behind_controllers(out, device, number, controllers);
     text += out.text();
   }
   Section counts("How many a driver has");
   for (const auto& [driver, count] : numbers) {
     if (!driver.empty()) counts.number(Section::both, sdt_driver(driver) + "_NUM_INSTANCES", count);
   }
-  return text + counts.text() + console(platform) + "\n#endif\n";
+  return text + counts.text() + controllers_in_common(platform) + console(platform) + "\n#endif\n";
 }
 
 }  // namespace xparameters

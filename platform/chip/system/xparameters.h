@@ -12,6 +12,13 @@ namespace xparameters {
 
 using Options = std::vector<std::pair<std::string, std::uint32_t>>;
 
+/// A line of a device to an interrupt controller of the PL.
+struct FabricInterrupt {
+  std::string line;        ///< "IP2INTC_IRPT"
+  std::string controller;  ///< its device: "AXI_INTC_0"
+  unsigned number;         ///< of its input
+};
+
 /// One device of the PL as its driver sees it.
 struct Device {
   std::string name;    ///< of the instance in capitals: "AXI_GPIO_0"
@@ -25,6 +32,8 @@ struct Device {
   /// Those of the SDT flow, where the tree has them.
   Options sdt_options = {};
   std::string compatible = {};  ///< "xlnx,axi-gpio-2.0"
+  /// Lines to interrupt controllers of the PL.
+  std::vector<FabricInterrupt> fabric_interrupts = {};
 };
 
 struct Platform {

@@ -141,11 +141,12 @@ void add_build(Device& device, const sc_core::sc_object& module) {
   } else if (const auto* cdma = dynamic_cast<const xilinx::AxiCdma*>(&module)) {
     device.driver = "AXICDMA";
     device.compatible = "xlnx,axi-cdma-4.1";
-    device.options = {{"INCLUDE_DRE", 0},       {"USE_DATAMOVER_LITE", 0},
-                      {"M_AXI_DATA_WIDTH", 32}, {"M_AXI_MAX_BURST_LEN", cdma->burst_beats},
-                      {"ADDR_WIDTH", 32},       {"INCLUDE_SG", 0}};
+    const std::uint32_t width = 8 * cdma->memory_bytes;
+    device.options = {{"INCLUDE_DRE", 0},          {"USE_DATAMOVER_LITE", 0},
+                      {"M_AXI_DATA_WIDTH", width}, {"M_AXI_MAX_BURST_LEN", cdma->burst_beats},
+                      {"ADDR_WIDTH", 32},          {"INCLUDE_SG", 0}};
     device.sdt_options = {
-        {"DATA_WIDTH", 32}, {"MAX_BURST_LEN", cdma->burst_beats}, {"ADDRWIDTH", 32}};
+        {"DATA_WIDTH", width}, {"MAX_BURST_LEN", cdma->burst_beats}, {"ADDRWIDTH", 32}};
   } else if (dynamic_cast<const xilinx::XadcWiz*>(&module)) {
     device.driver = "SYSMON";
     device.compatible = "xlnx,xadc-wiz-3.3";

@@ -107,11 +107,20 @@ Json contents(const Json& command) {
   return {{"bytes", bytes}};
 }
 
+// "uart0" is short for "ps.uart0".
+Json receive(const Json& command) {
+  const std::string device = text(command, "device");
+  const bool is_short = device.find('.') == std::string::npos;
+  module_named<board::SerialHost>((is_short ? "ps." : "") + device, "serial line")
+      .receive(text(command, "text"));
+  return Json::object();
+}
+
 Json analogue(const Json& command) {
   const auto value = command.find("value");
   if (value == command.end() || !value->is_number())
     throw vp::InputError("needs 'value', a number");
-  module_named<ps::XadcInterface>(text(command, "name"), "XADC")
+  module_named<board::AnalogueHost>(text(command, "name"), "XADC")
       .set_input(static_cast<unsigned>(number(command, "channel", 31)), value->get<double>());
   return Json::object();
 }
@@ -119,7 +128,8 @@ Json analogue(const Json& command) {
 }  // namespace
 
 bool is_for_the_board(const std::string& what) {
-  return what == "pin" || what == "attach" || what == "contents" || what == "analogue";
+  return what == "pin" || what == "attach" || what == "contents" || what == "receive" ||
+         what == "analogue";
 }
 
 Json obey_for_the_board(Zynq& zynq, const std::string& what, const Json& command) {
@@ -127,6 +137,7 @@ Json obey_for_the_board(Zynq& zynq, const std::string& what, const Json& command
     if (what == "pin") return pin(zynq.ps, command);
     if (what == "attach") return attach(command);
     if (what == "contents") return contents(command);
+    if (what == "receive") return receive(command);
     return analogue(command);
   } catch (const std::logic_error& error) {  // of the models: an address or a size
     throw vp::InputError(error.what());

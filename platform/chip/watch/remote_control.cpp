@@ -262,7 +262,6 @@ Json RemoteControl::obey_in_time(const std::string& what, const Json& command) {
   if (what == "wait_text") return wait_for_text(command);
   if (what == "write") return write(command);
   if (what == "drive") return drive(command);
-  if (what == "receive") return receive(command);
   if (what == "interrupt") return interrupt(command);
   if (what == "send") return send(command);
   if (is_for_the_board(what)) {
@@ -367,14 +366,6 @@ Json RemoteControl::drive(const Json& command) {
       !write_as<std::uint16_t>(signal, value) && !write_as<std::uint32_t>(signal, value) &&
       !write_as<std::uint64_t>(signal, value))
     throw vp::InputError(std::string("'") + signal.name() + "' can be read only");
-  return Json::object();
-}
-
-Json RemoteControl::receive(const Json& command) {
-  const std::string device = text_of(command, "device");
-  if (device != "uart0" && device != "uart1")
-    throw vp::InputError("'" + vp::excerpt(device) + "' receives nothing: choose uart0 or uart1");
-  (device == "uart0" ? zynq_.ps.uart0 : zynq_.ps.uart1).receive(text_of(command, "text"));
   return Json::object();
 }
 

@@ -52,7 +52,6 @@ class RemoteControl final : public sc_core::sc_module,
   Json read(const Json& command);
   Json write(const Json& command);
   Json drive(const Json& command);
-  Json receive(const Json& command);
   Json interrupt(const Json& command);
   Json send(const Json& command);
   Json received(const Json& command);

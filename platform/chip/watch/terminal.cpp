@@ -23,6 +23,17 @@ namespace {
 /// How often the run looks for what was typed, simulated: less than a character at 9600 baud.
 constexpr std::uint64_t look_every_ps = 1'000'000'000;
 
+/// A UART of the PS by its name, or a serial line of the PL by that of its part.
+board::SerialHost& line_named(const std::string& name) {
+  for (const char* start : {"ps.", "pl."}) {
+    if (auto* found =
+            dynamic_cast<board::SerialHost*>(sc_core::sc_find_object((start + name).c_str())))
+      return *found;
+  }
+  throw vp::InputError("--terminal '" + vp::excerpt(name) +
+                       "': give uart0 or uart1, or the name of an axi_uartlite of the design");
+}
+
 /// A link of a run that was killed leads nowhere any more.
 bool leads_nowhere(const std::string& link) {
   struct stat found {};
@@ -35,8 +46,7 @@ bool leads_nowhere(const std::string& link) {
 TerminalOptions TerminalOptions::parse(const std::string& text) {
   const std::size_t at = text.find('=');
   TerminalOptions options{text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
-  const bool is_uart = options.uart == "uart0" || options.uart == "uart1";
-  if (!is_uart || (at != std::string::npos && options.link.empty())) {
+  if (options.uart.empty() || (at != std::string::npos && options.link.empty())) {
     throw vp::InputError("--terminal '" + vp::excerpt(text) +
                          "': give uart0 or uart1, or the same with a link: uart1=FILE");
   }
@@ -46,10 +56,7 @@ TerminalOptions TerminalOptions::parse(const std::string& text) {
 }
 
 Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptions& options)
-    : sc_module(name),
-      zynq_(zynq),
-      options_(options),
-      uart_(options.uart == "uart0" ? zynq.ps.uart0 : zynq.ps.uart1) {
+    : sc_module(name), zynq_(zynq), options_(options), uart_(line_named(options.uart)) {
   open();
   try {
     link();
@@ -58,7 +65,10 @@ Terminal::Terminal(sc_core::sc_module_name name, Zynq& zynq, const TerminalOptio
     close(terminal_);
     throw;
   }
-  uart_.on_transmit = [this](std::uint8_t byte) { send(byte); };
+  uart_.on_transmit = [this, console = uart_.on_transmit](std::uint8_t byte) {
+    if (console) console(byte);
+    send(byte);
+  };
   SC_THREAD(serve);
 }
 

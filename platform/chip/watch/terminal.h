@@ -6,15 +6,15 @@
 #include <string>
 #include <systemc>
 
+#include <board/hosts.h>
 #include <chip/system/zynq.h>
 #include <host/guard.h>
-#include <ps/uart/uart.h>
 
 namespace platform {
 
 /// What `--terminal` asks for.
 struct TerminalOptions {
-  std::string uart;  ///< "uart0" or "uart1"
+  std::string uart;  ///< "uart0", "uart1", or an axi_uartlite of the design
   std::string link;  ///< a symbolic link to the terminal, made for the run; "": none
 
   /// Of "uart1" or "uart1=LINK". Throws vp::InputError.
@@ -48,7 +48,7 @@ class Terminal final : public sc_core::sc_module {
 
   Zynq& zynq_;
   TerminalOptions options_;
-  ps::Uart& uart_;
+  board::SerialHost& uart_;
   std::string path_;
   int line_ = -1;      ///< this end
   int terminal_ = -1;  ///< the other one: open, so that the line stays when its reader leaves

@@ -75,7 +75,8 @@ BOOST_AUTO_TEST_CASE(cdma_reports_what_fails) {
   cdma.m_axi.link.socket.bind(memory.socket);
   b.master.socket.bind(cdma.s_axi_lite.socket);
   b.master.simulate([&] {
-    b.master.write(BTT, 7);
+    b.master.write(SA, 2);
+    b.master.write(BTT, 8);
     BOOST_TEST((b.master.read(CDMASR) & cdmasr::DMAIntErr) != 0u);
     b.master.write(CDMACR, cdmacr::Reset);
     b.master.write(BTT, 8);

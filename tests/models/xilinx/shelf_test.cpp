@@ -302,7 +302,9 @@ BOOST_AUTO_TEST_CASE(fifo_sends_packets_to_itself) {
   using namespace axi_fifo_mm_s;
   Bench b;
   vp::AxiStream stream("stream");
-  xilinx::AxiFifoMmS fifo("axi_fifo_mm_s_0", b.clock);
+  xilinx::AxiFifoMmSBuild build;
+  build.has_tkeep = true;
+  xilinx::AxiFifoMmS fifo("axi_fifo_mm_s_0", b.clock, build);
   fifo.axi_str_txd(stream);
   fifo.axi_str_rxd(stream);
   b.master.socket.bind(fifo.s_axi.socket);

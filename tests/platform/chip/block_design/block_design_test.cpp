@@ -1,12 +1,7 @@
 // Designs of YAML, built: addresses, interrupts, clocks, wires, and what is refused.
-#include <chip/block_design/block_design.h>
 #include <chip/block_design/import_design.h>
 #include <chip/system/hardware_map.h>
-#include <chip/system/zynq.h>
-#include <simulation.h>
-#include <vp/configuration.h>
 #include <vp/error.h>
-#include <vp/file.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/fabric_clock/fabric_clock.h>
@@ -18,10 +13,11 @@
 #include <string>
 #include <utility>
 
+#include "built_design.h"
 #include "input_error.h"
 #include "small_handoff.h"
-#include "temporary_files.h"
 
+using kit::replaced;
 using namespace platform;
 
 namespace {
@@ -31,39 +27,11 @@ std::string small_design() {
   return block_design::import_design(handoff).text;
 }
 
-/// A chip with a design of this text, and `settings` of the user.
-struct Built : kit::Simulation {
+struct Built : kit::BuiltDesign {
   explicit Built(const std::string& text = small_design(),
-                 const std::vector<std::string>& settings = {}) {
-    const kit::TemporaryFolder folder;
-    const std::string file = folder / "design.yaml";
-    vp::write_file(file, text);
-    info = block_design::load(file);
-    for (const std::string& setting : settings) configuration.set(setting);
-    for (const auto& [path, value] : info.defaults) {
-      if (!configuration.find(path)) configuration.set(path, value, file);
-    }
-    const vp::Configuration::Scope scope(configuration);
-    zynq = std::make_unique<Zynq>(info);
-  }
-
-  template <class T>
-  T& part(const std::string& name) {
-    auto* object = sc_core::sc_find_object(("pl." + name).c_str());
-    BOOST_TEST_REQUIRE(object != nullptr, name);
-    return dynamic_cast<T&>(*object);
-  }
-
-  vp::Configuration configuration;
-  DesignInfo info;
-  std::unique_ptr<Zynq> zynq;
+                 const std::vector<std::string>& settings = {})
+      : BuiltDesign(text, settings) {}
 };
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  BOOST_TEST_REQUIRE(at != std::string::npos, what);
-  return text.replace(at, what.size(), by);
-}
 
 std::string refusal(const std::string& what, const std::string& by) {
   return input_error([&] { const Built chip(replaced(small_design(), what, by)); });

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <chip/block_design/place.h>
+#include <vp/register_bank.h>
+#include <xilinx/axi_dma/memory_port.h>
+#include <xilinx/wiring/wiring.h>
+
+/// How ports of models become those of a placed part.
+namespace platform::block_design {
+
+/// Binds a port of a model by the name that it has in the design.
+template <class T>
+std::function<void(vp::SignalBase&)> input(const Placement& at, const std::string& pin,
+                                           vp::In<T>& port, bool inverted = false) {
+  const std::string name = at.part.name + "_" + pin;
+  return [&port, name, inverted, &adapters = at.adapters](vp::SignalBase& source) {
+    auto* same = dynamic_cast<vp::Signal<T>*>(&source);
+    if (same && !inverted) return port(*same);
+    auto adapter = std::make_unique<xilinx::WireAdapter<T>>(name.c_str(), source, inverted);
+    port(adapter->out);
+    adapters.push_back(std::move(adapter));
+  };
+}
+
+/// An output of a model, or its inverse.
+inline vp::SignalBase* output(const Placement& at, const std::string& pin, vp::Signal<bool>& signal,
+                              bool inverted) {
+  if (!inverted) return &signal;
+  const std::string name = at.part.name + "_" + pin;
+  auto adapter = std::make_unique<xilinx::WireAdapter<bool>>(name.c_str(), signal, true);
+  vp::SignalBase* out = &adapter->out;
+  at.adapters.push_back(std::move(adapter));
+  return out;
+}
+
+/// The registers of a model as a slave.
+inline SlavePort registers(vp::RegisterBank& bank) {
+  return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
+}
+
+/// A memory master of a model.
+inline MasterPort memory_master(xilinx::MemoryPort& port) {
+  return {[&port](vp::Router& way) { port.link.socket.bind(way.socket); },
+          [&port](xilinx::MemoryPath& path) { port.share(path); }};
+}
+
+/// A small IP of registers; null if `ip` is none.
+using Placer = Placed (*)(const Placement& at);
+Placer peripheral_placer(const std::string& ip);
+
+/// A clock manager of the fabric: with registers, or without.
+Placed place_clock_manager(const Placement& at);
+
+}  // namespace platform::block_design
