@@ -340,6 +340,8 @@ BOOST_AUTO_TEST_CASE(rtl_as_a_part_of_a_design) {
   BOOST_TEST(contains(map.out, "0x43C00000..0x43C0FFFF"), map.out);
   BOOST_TEST(contains(map.out, "RTL everything"), map.out);
   BOOST_TEST(contains(map.out, "63  pl.copier.interrupt"), map.out);
+  const kit::Outcome registers = installed.markervp({"map", "copier", "--design", design});
+  BOOST_TEST(contains(registers.out, "0x43C00010  FROM"), registers.out);
   const Json result = Json::parse(kit::read_file(installed.beside("with_part/result.json")));
   BOOST_TEST(result["resources"]["unknown"] == Json{"pl.copier"});
 }

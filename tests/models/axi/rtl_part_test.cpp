@@ -6,6 +6,7 @@
 #include <simulation.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -91,6 +92,14 @@ BOOST_FIXTURE_TEST_CASE(interfaces_are_found_by_the_names_of_ports, Bench) {
                                           "wire mode in",
                                           "wire leds out"};
   BOOST_TEST(found == expected, boost::test_tools::per_element());
+}
+
+BOOST_FIXTURE_TEST_CASE(what_describes_registers_lies_beside_the_object, Bench) {
+  std::filesystem::path beside = everything;
+  BOOST_TEST(part.registers_file() == beside.replace_extension(".registers.rdl").string());
+  BOOST_TEST(std::filesystem::exists(beside));
+  axi::RtlPart other("other", MARKERVP_TWO_CLOCKS_RTL, {{"a_clk", &clock}, {"b_clk", &clock}});
+  BOOST_TEST(other.registers_file() == "");
 }
 
 BOOST_FIXTURE_TEST_CASE(registers_answer_on_exact_clocks, Bench) {
