@@ -95,7 +95,7 @@ foreach(wing chip facts fpga marker result trace)
     SKIP commands detectors linux_app page picture power synthesis validation)
 endforeach()
 
-install(TARGETS hybrid improved ps-only blink two-cores exercise LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
+install(TARGETS hybrid improved ps-only blink two-cores exercise notebook LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
 install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
 install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
 install(DIRECTORY sw/linux/ DESTINATION "${data_folder}/linux")
@@ -120,7 +120,7 @@ install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake cmak
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 # Where Debian's Python looks for modules.
 set(MARKERVP_PYTHON_FOLDER "lib/python3/dist-packages")
-install(FILES python/markervp.py python/markervp_pytest.py DESTINATION "${MARKERVP_PYTHON_FOLDER}")
+install(FILES python/markervp.py python/markervp_overlay.py python/markervp_pytest.py DESTINATION "${MARKERVP_PYTHON_FOLDER}")
 install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

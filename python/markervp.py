@@ -6,6 +6,7 @@
     sweep = markervp.sweep({"parameters": {"sw.canonical_width": ["24 px", "60 px"]}})
     sweep.frame()                       # a pandas.DataFrame, where pandas is installed
     markervp.read_sweep("out/mine")     # what was computed before
+    overlay = markervp.Overlay("mine/")  # a notebook leads it, with PYNQ's names: markervp_overlay
     with markervp.Session("./blink.so") as board:   # a test leads the run
         board.wait_for("axi_gpio_0.GPIO_DATA == 0x100", timeout="1 ms")
 
@@ -29,9 +30,16 @@ import sqlite3
 import subprocess
 import tempfile
 
-__all__ = ["Beat", "Error", "Run", "Session", "Sweep", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
+__all__ = ["Beat", "Error", "MMIO", "Overlay", "Run", "Session", "Sweep", "allocate", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
 
 _points_failed = 4
+
+
+def __getattr__(name):  # a notebook's names, which other programs do not load
+    if name in ("MMIO", "Overlay", "allocate"):
+        import markervp_overlay
+        return getattr(markervp_overlay, name)
+    raise AttributeError(f"module 'markervp' has no attribute '{name}'")
 
 
 _control = re.compile("[\\x00-\\x1f\\x7f-\\x9f\\u200e\\u200f\\u2028-\\u202e\\u2066-\\u2069]")

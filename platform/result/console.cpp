@@ -215,11 +215,28 @@ std::string frame_text(const facts::UnitReport& frame, std::optional<std::uint64
   return text + times_text(frame.times);
 }
 
+namespace {
+
+/// Whether the design is good, and what it costs.
+std::string design_lines(const facts::Summary& summary, const facts::RunFacts& facts) {
+  std::string text = verdict_text(verdict_of(facts, summary));
+  if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty()))
+    text += cost_text(facts.power, *facts.resources, *facts.timing, facts.work.unit);
+  if (facts.clocks) text += clock_text(*facts.clocks);
+  return text;
+}
+
+}  // namespace
+
 std::string summary_text(const facts::Summary& summary, const facts::RunFacts& facts,
                          const std::vector<std::string>& own) {
   const std::string point = fmt::format("   ({}, design {}, {}, profile {})\n", facts.system,
                                         facts.design, facts.fidelity, facts.profile);
-  if (summary.frames() == 0) return end_text(facts) + point + injected_text(facts.injected);
+  if (summary.frames() == 0) {
+    const bool delivers = !facts.work.unit.empty();
+    return end_text(facts) + point + (delivers ? "" : design_lines(summary, facts)) +
+           injected_text(facts.injected);
+  }
   std::string text = facts.work.counted(summary.frames());
   for (const facts::Tally& tally : facts.work.tallies) {
     const std::uint64_t units = summary.tally(tally.name);
@@ -236,11 +253,7 @@ std::string summary_text(const facts::Summary& summary, const facts::RunFacts& f
     text += limit_text(*limit, facts.work);
   for (const facts::Summary::Figure& figure : summary.figures()) text += figure_text(figure);
   for (const std::string& added : own) text += added + "\n";
-  text += verdict_text(verdict_of(facts, summary));
-  if (facts.resources && facts.timing && (facts.power || !facts.resources->unknown.empty())) {
-    text += cost_text(facts.power, *facts.resources, *facts.timing, facts.work.unit);
-  }
-  if (facts.clocks) text += clock_text(*facts.clocks);
+  text += design_lines(summary, facts);
   if (summary.settled() > 0) {
     text +=
         fmt::format("settled  the {}s of {} {}; that is in no time or energy\n", facts.work.given,
@@ -312,21 +325,26 @@ std::string timing_line(const facts::TimingReport& timing) {
                      mhz(unknown ? critical.fmax_mhz : critical.fmax_high_mhz), reachable);
 }
 
+/// "LUT 120 of 53200   FF …   (xc7z020)".
+std::string amounts_text(const facts::ResourceReport& resources) {
+  std::string text;
+  for (const facts::Primitive& p : facts::primitives) {
+    text += fmt::format("{}{} {:.0f} of {:.0f}", text.empty() ? "" : "   ", p.text,
+                        resources.total.*p.amount, resources.available.*p.amount);
+  }
+  return text + fmt::format("   ({})", resources.device);
+}
+
 std::string resource_line(const facts::ResourceReport& resources) {
   if (resources.modules.empty()) return "";
   if (!resources.unknown.empty() && resources.over.empty()) {
-    std::string text = "fits     unknown\n";
+    std::string text = "fits     unknown: at least " + amounts_text(resources) + "\n";
     for (const facts::ResourceReport::Module& module : resources.modules) {
       if (!module.known) text += fmt::format("         {}: {}\n", module.name, module.source);
     }
     return text;
   }
-  std::string text = resources.over.empty() ? "fits     " : "TOO BIG  ";
-  for (const facts::Primitive& p : facts::primitives) {
-    text += fmt::format("{}{} {:.0f} of {:.0f}", &p == facts::primitives ? "" : "   ", p.text,
-                        resources.total.*p.amount, resources.available.*p.amount);
-  }
-  return text + fmt::format("   ({})\n", resources.device);
+  return (resources.over.empty() ? "fits     " : "TOO BIG  ") + amounts_text(resources) + "\n";
 }
 
 std::string cost_text(const std::optional<facts::PowerReport>& power,

@@ -51,6 +51,8 @@ BOOST_FIXTURE_TEST_CASE(a_program_runs_on_what_was_imported, Imported) {
   BOOST_TEST(ran.exit_code == 0, ran.out + ran.err);
   BOOST_TEST(has(ran.out, "0 bytes wrong, length 101, interrupts 1, buttons 9, own 0"), ran.out);
   BOOST_TEST(has(ran.err, "me:user:own:1.0 has neither model nor RTL"), ran.err);
+  BOOST_TEST(has(ran.out, "verdict  unknown: "), ran.out);
+  BOOST_TEST(has(ran.out, "fits     unknown: at least LUT "), ran.out);
   const Json result = this->result();
   BOOST_TEST(result.at("resources").dump().find("a stub is in the place of me:user:own:1.0") !=
              std::string::npos);
@@ -89,6 +91,21 @@ BOOST_FIXTURE_TEST_CASE(importing_again_keeps_what_the_user_changed, Imported) {
   BOOST_TEST(has(file("design.yaml.new"), "ps.cpu_clk.frequency: 666.666687 MHz"));
 }
 
+BOOST_FIXTURE_TEST_CASE(a_program_as_it_is_has_units_of_work, Imported) {
+  import();
+  const std::string design = file("design.yaml");
+  for (const char* end : {"ends: axi_dma_0.s2mm_introut", "line: bytes wrong"}) {
+    kit::write_file(*this / "mine/design.yaml", design + "\nwork: {unit: packet, " + end + "}\n");
+    const kit::Outcome ran = run_program();
+    BOOST_TEST(has(ran.out, "1 packet   ("), ran.out + ran.err);
+    BOOST_TEST(has(ran.out, "packets/s mean "), ran.out);
+    BOOST_TEST(result().at("frames").size() == 1u);
+  }
+  kit::write_file(*this / "mine/design.yaml",
+                  design + "\nwork: {unit: packet, ends: lines.dout}\n");
+  BOOST_TEST(has(run_program().err, "'lines.dout' has several bits"));
+}
+
 BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
   import();
   const kit::Outcome map = markervp({"map", "--design", "mine/design.yaml"});
@@ -98,8 +115,7 @@ BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
   BOOST_TEST(has(config.out, "length_width: 20"), config.out + config.err);
   const kit::Outcome none = markervp({"run", "--design", "mine/design.yaml"});
   BOOST_TEST(none.exit_code == 2);
-  BOOST_TEST(has(none.err, "design 'small' names no PS program: give one with --program"),
-             none.err);
+  BOOST_TEST(has(none.err, "design 'small' lacks its PS program 'build/small': build"), none.err);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_folder_of_the_users_is_left_alone, Imported) {

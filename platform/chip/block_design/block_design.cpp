@@ -41,6 +41,24 @@ BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const Des
   join_addresses();
   close_open_streams();
   close_open_ports();
+  if (design_.unit.end.part.empty()) return;
+  unit_end_ = &signal_of(design_.unit.end);
+  if (unit_end_->width() != 1)
+    refuse(design_.unit.end, "has several bits, and a unit ends where one rises");
+}
+
+facts::Work BlockDesign::work() const {
+  const std::string& unit = design_.unit.name;
+  return unit.empty() ? facts::Work{"", "the program ends well"}
+                      : facts::Work{unit, "every " + unit + " is delivered"};
+}
+
+// What ends one begins the next: there is nothing else by which a program as it is shows its units.
+bool BlockDesign::report(const Publication& publication, facts::UnitReport& unit) {
+  if (design_.unit.name.empty()) return false;
+  unit.start_ps = std::exchange(unit_from_ps_, publication.ps);
+  unit.end_ps = publication.ps;
+  return true;
 }
 
 // What is clocked goes before its clock.

@@ -10,6 +10,7 @@
 #include <chip/block_design/design_file.h>
 #include <chip/block_design/place.h>
 #include <chip/system/design.h>
+#include <chip/system/unit_source.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/parameter.h>
@@ -35,14 +36,17 @@ class ExternalInput : public sc_core::sc_module {
 /// The programmable logic as a design file describes it: its parts, wired.
 ///
 /// Object names are those of the file: `pl.axi_dma_0`, `pl.xlconcat_0.dout`, `pl.external.btns`.
-class BlockDesign : public sc_core::sc_module, public Design {
+class BlockDesign : public sc_core::sc_module, public Design, public UnitSource {
  public:
   /// Throws vp::InputError with file and line for what cannot be built or joined.
   BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const DesignFile& design);
   ~BlockDesign() override;
   const char* kind() const override { return "BlockDesign"; }
 
-  facts::Work work() const override { return {"", "the program ends well"}; }
+  facts::Work work() const override;
+  bool report(const Publication& publication, facts::UnitReport& unit) override;
+  vp::SignalBase* unit_end() override { return unit_end_; }
+  const std::string& unit_line() const override { return design_.unit.line; }
   std::vector<std::string> used_stubs() const override;
 
  private:
@@ -75,7 +79,9 @@ class BlockDesign : public sc_core::sc_module, public Design {
 
   PlPorts& ports_;
   const DesignFile& design_;
-  std::string ps_;  ///< the name of the processing system among the parts
+  vp::SignalBase* unit_end_ = nullptr;
+  std::uint64_t unit_from_ps_ = 0;  ///< end of the unit before
+  std::string ps_;                  ///< the name of the processing system among the parts
   std::map<std::string, std::unique_ptr<ExternalInput>> external_;
   std::map<std::string, Placed> placed_;
   std::vector<std::string> order_;  ///< in which parts were placed: clocks before what they clock

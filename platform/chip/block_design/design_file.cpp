@@ -33,6 +33,7 @@ class DesignReader : vp::YamlReader {
     for_each(root_,
              {{"name", [&](const auto& n) { design_.name = name(n, "name"); }},
               {"programs", [&](const auto& n) { design_.programs = scalars(n, "programs"); }},
+              {"work", [&](const auto& n) { read_work(n); }},
               {"settings", [&](const auto& n) { read_settings(n, ""); }},
               {"parts", [&](const auto& n) { read_parts(n); }},
               {"addresses", [&](const auto& n) { read_addresses(n); }},
@@ -73,6 +74,18 @@ class DesignReader : vp::YamlReader {
       if (value.IsMap()) return read_settings(value, path);
       design_.settings.emplace_back(path, scalar(value, path));
     });
+  }
+
+  void read_work(const YAML::Node& map) {
+    UnitOfWork& unit = design_.unit;
+    for_each(map,
+             {{"unit", [&](const auto& n) { unit.name = name(n, "unit"); }},
+              {"line", [&](const auto& n) { unit.line = scalar(n, "line"); }},
+              {"ends", [&](const auto& n) { unit.end = end(n, scalar(n, "ends")); }}},
+             "work");
+    if (unit.name.empty()) fail(map, "'work' needs the 'unit' that the design delivers");
+    if (!unit.line.empty() && !unit.end.part.empty())
+      fail(map, "a unit of work ends with a 'line', or where a pin 'ends' it, not both");
   }
 
   /// "axi_dma_0.M_AXIS_MM2S".
@@ -244,6 +257,7 @@ class DesignReader : vp::YamlReader {
       for (const auto& [bus, master] : part.buses)
         check_end(master, part.name + "." + bus + " is joined to");
     }
+    if (!design_.unit.end.part.empty()) check_end(design_.unit.end, "the unit of work ends with");
     for (const AddressSegment& segment : design_.addresses) {
       check_end(segment.master, "the master");
       check_end(segment.slave, "the slave");

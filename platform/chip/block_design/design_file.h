@@ -47,6 +47,14 @@ struct ExternalPin {
   std::uint64_t hz = 0;     ///< of an input that is a clock; 0: a level
 };
 
+/// What a design delivers, and how the end of a unit of it is seen: a pin rises, the program prints
+/// a line with a text, or, with neither, the program publishes something (hal_publish).
+struct UnitOfWork {
+  std::string name;  ///< "packet"; empty: it delivers nothing
+  std::string line;
+  End end;  ///< a part of "": no pin
+};
+
 /// A block design as its YAML file describes it.
 struct DesignFile {
   std::string file;
@@ -54,6 +62,7 @@ struct DesignFile {
   std::vector<std::string> programs;  ///< of the PS, relative to the file
   /// Parameters of the platform, unless the user sets others: {"ps.cpu_clk.frequency", "650 MHz"}.
   std::vector<std::pair<std::string, std::string>> settings;
+  UnitOfWork unit;
   std::vector<PlacedPart> parts;
   std::vector<AddressSegment> addresses;
   std::vector<ExternalPin> external;

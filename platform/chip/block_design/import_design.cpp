@@ -83,6 +83,7 @@ class Writer {
         "your");
     line("# changes.");
     line("name: " + identifier(handoff_.name));
+    line("programs: [" + yaml("build/" + handoff_.name) + "]  # what CMakeLists.txt builds");
     write_settings();
     line("\nparts:");
     for (const Module& module : handoff_.modules) write_part(module);

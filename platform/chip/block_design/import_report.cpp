@@ -113,8 +113,7 @@ std::string import_report(const Handoff& handoff, const ImportedDesign& design,
          "design.yaml\n"
          "cmake -S . -B build -DCMAKE_PREFIX_PATH=<where markervp is installed>\ncmake --build "
          "build\n"
-         "markervp run --design design.yaml --program build/" +
-         handoff.name + ".so\n```\n";
+         "markervp run --design design.yaml\n```\n";
 }
 
 namespace {

@@ -73,18 +73,21 @@ void Simulation::choose_design() {
       "what is in the programmable logic: 'markervp designs' lists them");
   design_ = &design_named(*design_name_);
   set_defaults(*design_);
-  if (!program_ && design_->programs.empty() && options_.is_only_shown)
+  if (!program_ && options_.is_only_shown && !has_usual_program(*design_))
     program_ = ps::Program::linked(no_program);
   if (!program_) program_ = ps::Program::load(usual_program(*design_));
 }
 
 void Simulation::connect_consoles() {
-  if (!options_.console && !control_) return;
+  if (!options_.console && !control_ && !unit_watch_) return;
   const auto print = [this](const std::string& line) {
     if (options_.console) *options_.console << line << std::endl;
     if (control_) control_->printed(line);
   };
-  zynq_->ps.cpu.console.connect(print);
+  zynq_->ps.cpu.console.connect([this, print](const std::string& line) {
+    print(line);
+    if (unit_watch_) unit_watch_->printed(line);
+  });
   zynq_->ps.uart0.console.connect(print, "uart0: ");
   zynq_->ps.uart1.console.connect(print, "uart1: ");
   for (auto* line : vp::all_below<xilinx::AxiUartlite>(zynq_->pl())) {
@@ -132,6 +135,8 @@ void Simulation::build() {
     zynq_->design().note_option(program.options[i].name, software_options_->value(i));
   zynq_->design().note_option("unoptimised", software_options_->is_unoptimised() ? 1 : 0);
   bench_ = std::make_unique<FrameBench>(*zynq_, *camera_, *software_options_, reports_);
+  if (auto* source = dynamic_cast<UnitSource*>(&zynq_->design()))
+    unit_watch_ = std::make_unique<UnitWatch>("unit_watch", *zynq_, *source, *bench_);
   power_ = std::make_unique<ZynqPower>(
       "power", *zynq_, design_->draws_power,
       camera_->has_rate() ? PowerMode::activity : PowerMode::vivado_default);

@@ -16,6 +16,7 @@
 #include <chip/run/cost_profile.h>
 #include <chip/run/frame_bench.h>
 #include <chip/run/software_options.h>
+#include <chip/run/unit_watch.h>
 #include <chip/system/zynq.h>
 #include <chip/watch/bus_log.h>
 #include <chip/watch/remote_control.h>
@@ -131,6 +132,7 @@ class Simulation {
   std::unique_ptr<CameraTiming> camera_;
   std::unique_ptr<SoftwareOptions> software_options_;
   std::unique_ptr<FrameBench> bench_;
+  std::unique_ptr<UnitWatch> unit_watch_;  ///< null: the program tells of its units itself
   std::unique_ptr<ZynqPower> power_;
   std::unique_ptr<TimingClosure> timing_;
   std::unique_ptr<TimelineRecorder> recorder_;

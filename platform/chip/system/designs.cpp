@@ -165,7 +165,19 @@ std::string installed_program(const std::string& name) {
                        ": give its file, or install markervp completely");
 }
 
+/// The first program of a design from outside; empty: missing.
+std::string outside_program(const DesignInfo& design) {
+  std::vector<std::string> folders = program_folders();
+  folders.insert(folders.begin(), folder_of(design));
+  return file_in(folders, design.programs.front());
+}
+
 }  // namespace
+
+bool has_usual_program(const DesignInfo& design) {
+  if (design.programs.empty()) return false;
+  return folder_of(design).empty() || !outside_program(design).empty();
+}
 
 std::string usual_program(const DesignInfo& design) {
   if (design.programs.empty()) {
@@ -175,9 +187,7 @@ std::string usual_program(const DesignInfo& design) {
   }
   const std::string name = design.programs.front(), folder = folder_of(design);
   if (folder.empty()) return installed_program(name);
-  std::vector<std::string> folders = program_folders();
-  folders.insert(folders.begin(), folder);
-  std::string file = file_in(folders, name);
+  std::string file = outside_program(design);
   if (!file.empty()) return file;
   throw vp::InputError("design '" + design.name + "' lacks its PS program '" + name + "': build " +
                        name + ".so in " + folder +

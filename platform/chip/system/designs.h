@@ -45,6 +45,8 @@ std::string program_file(const std::string& name);
 /// That of the first program that belongs to the design: `<name>.so` in the folder of a design from
 /// outside, or installed. Throws vp::InputError if missing.
 std::string usual_program(const DesignInfo& design);
+/// Whether it is there; a program that comes with the platform is taken to be.
+bool has_usual_program(const DesignInfo& design);
 
 /// Whether program_file() takes the name for a file.
 bool is_own_program(const std::string& name);

@@ -1,4 +1,5 @@
 #include <chip/watch/board_control.h>
+#include <chip/watch/command_fields.h>
 
 #include <cstdint>
 #include <memory>
@@ -16,29 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint64_t most_bytes = 1 << 20;
-
-std::uint64_t number(const Json& command, const char* key, std::uint64_t most,
-                     std::uint64_t otherwise) {
-  const auto found = command.find(key);
-  if (found == command.end()) return otherwise;
-  if (!found->is_number_unsigned() || found->get<std::uint64_t>() > most)
-    throw vp::InputError("'" + std::string(key) + "' must be a whole number up to " +
-                         std::to_string(most));
-  return found->get<std::uint64_t>();
-}
-
-std::uint64_t number(const Json& command, const char* key, std::uint64_t most) {
-  if (!command.contains(key)) throw vp::InputError("needs '" + std::string(key) + "'");
-  return number(command, key, most, 0);
-}
-
-std::string text(const Json& command, const char* key) {
-  const auto found = command.find(key);
-  if (found == command.end() || !found->is_string())
-    throw vp::InputError("needs '" + std::string(key) + "', a text");
-  return found->get<std::string>();
-}
+constexpr std::uint64_t largest_device = 1 << 20;  ///< bytes
 
 /// The module `name` that is a T; `what` is it in words.
 template <class T>
@@ -54,30 +33,30 @@ T& module_named(const std::string& name, const std::string& what) {
 
 Json pin(ProcessingSystem& ps, const Json& command) {
   constexpr std::uint64_t last = 117;
-  const auto pin = static_cast<unsigned>(number(command, "number", last));
-  if (command.contains("level")) ps.gpio.set_pin(pin, number(command, "level", 1) != 0);
+  const auto pin = static_cast<unsigned>(number_of(command, "number", last));
+  if (command.contains("level")) ps.gpio.set_pin(pin, number_of(command, "level", 1) != 0);
   if (command.contains("released")) ps.gpio.release_pin(pin);
   if (command.contains("wire_to"))
-    ps.gpio.connect_pins(pin, static_cast<unsigned>(number(command, "wire_to", last)));
+    ps.gpio.connect_pins(pin, static_cast<unsigned>(number_of(command, "wire_to", last)));
   return {{"level", ps.gpio.pin(pin)}};
 }
 
 std::unique_ptr<board::I2cDevice> i2c_device(const std::string& device, const Json& command) {
   if (device == "eeprom")
-    return std::make_unique<board::I2cEeprom>(number(command, "size", most_bytes, 256),
-                                              number(command, "page", most_bytes, 16));
+    return std::make_unique<board::I2cEeprom>(number_of(command, "size", largest_device, 256),
+                                              number_of(command, "page", largest_device, 16));
   if (device == "registers")
     return std::make_unique<board::I2cRegisterFile>(
-        static_cast<unsigned>(number(command, "index_bytes", 2, 1)),
-        static_cast<unsigned>(number(command, "value_bytes", 2, 1)));
+        static_cast<unsigned>(number_of(command, "index_bytes", 2, 1)),
+        static_cast<unsigned>(number_of(command, "value_bytes", 2, 1)));
   throw vp::InputError("no I2C device '" + vp::excerpt(device) + "': choose eeprom or registers");
 }
 
 Json attach(const Json& command) {
-  const std::string bus = text(command, "bus"), device = text(command, "device");
+  const std::string bus = text_of(command, "bus"), device = text_of(command, "device");
   if (device == "flash") {
-    const auto slave = static_cast<unsigned>(number(command, "slave", 31, 0));
-    const auto size = number(command, "size", 64u << 20, board::SpiFlash::usual_size);
+    const auto slave = static_cast<unsigned>(number_of(command, "slave", 31, 0));
+    const auto size = number_of(command, "size", 64u << 20, board::SpiFlash::usual_size);
     module_named<board::SpiHost>(bus, "SPI controller")
         .attach(slave, std::make_shared<board::SpiFlash>(size));
     return Json::object();
@@ -85,34 +64,34 @@ Json attach(const Json& command) {
   auto made = i2c_device(device, command);
   module_named<board::I2cHost>(bus, "I2C controller")
       .i2c_bus()
-      .attach(static_cast<unsigned>(number(command, "address", 0x7F)), std::move(made));
+      .attach(static_cast<unsigned>(number_of(command, "address", 0x7F)), std::move(made));
   return Json::object();
 }
 
 Json contents(const Json& command) {
   board::I2cBus& bus =
-      module_named<board::I2cHost>(text(command, "bus"), "I2C controller").i2c_bus();
-  const auto address = static_cast<unsigned>(number(command, "address", 0x7F));
+      module_named<board::I2cHost>(text_of(command, "bus"), "I2C controller").i2c_bus();
+  const auto address = static_cast<unsigned>(number_of(command, "address", 0x7F));
   board::I2cDevice* device = bus.find(address);
   if (!device) throw vp::InputError("no device at I2C address " + std::to_string(address));
-  const std::uint64_t at = number(command, "at", most_bytes);
+  const std::uint64_t at = number_of(command, "at", largest_device);
   Json bytes = Json::array();
   if (const auto given = command.find("bytes"); given != command.end()) {
     std::uint64_t place = at;
     for (const Json& byte : *given) device->poke(place++, byte.get<std::uint8_t>());
     return Json::object();
   }
-  const std::uint64_t count = number(command, "count", most_bytes);
+  const std::uint64_t count = number_of(command, "count", largest_device);
   for (std::uint64_t i = 0; i < count; ++i) bytes.push_back(device->peek(at + i));
   return {{"bytes", bytes}};
 }
 
 // "uart0" is short for "ps.uart0".
 Json receive(const Json& command) {
-  const std::string device = text(command, "device");
+  const std::string device = text_of(command, "device");
   const bool is_short = device.find('.') == std::string::npos;
   module_named<board::SerialHost>((is_short ? "ps." : "") + device, "serial line")
-      .receive(text(command, "text"));
+      .receive(text_of(command, "text"));
   return Json::object();
 }
 
@@ -120,8 +99,8 @@ Json analogue(const Json& command) {
   const auto value = command.find("value");
   if (value == command.end() || !value->is_number())
     throw vp::InputError("needs 'value', a number");
-  module_named<board::AnalogueHost>(text(command, "name"), "XADC")
-      .set_input(static_cast<unsigned>(number(command, "channel", 31)), value->get<double>());
+  module_named<board::AnalogueHost>(text_of(command, "name"), "XADC")
+      .set_input(static_cast<unsigned>(number_of(command, "channel", 31)), value->get<double>());
   return Json::object();
 }
 

@@ -7,7 +7,9 @@
 
 #include <chip/system/hardware_map.h>
 #include <chip/watch/board_control.h>
+#include <chip/watch/bus_control.h>
 #include <chip/watch/bus_log.h>
+#include <chip/watch/command_fields.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <vp/axi_stream.h>
@@ -22,21 +24,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t longest_command = 1 << 20;
-
-std::string text_of(const Json& command, const char* key) {
-  const auto found = command.find(key);
-  if (found == command.end() || !found->is_string())
-    throw vp::InputError("needs '" + std::string(key) + "', a text");
-  return found->get<std::string>();
-}
-
-std::uint64_t number_of(const Json& command, const char* key, std::uint64_t most) {
-  const auto found = command.find(key);
-  if (found == command.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() > most)
-    throw vp::InputError("needs '" + std::string(key) + "', a whole number up to " +
-                         std::to_string(most));
-  return found->get<std::uint64_t>();
-}
 
 /// Of "5 ms".
 std::uint64_t time_of(const Json& command, const char* key) {
@@ -264,13 +251,16 @@ Json RemoteControl::obey_in_time(const std::string& what, const Json& command) {
   if (what == "drive") return drive(command);
   if (what == "interrupt") return interrupt(command);
   if (what == "send") return send(command);
+  if (is_for_the_bus(what)) return obey_for_the_bus(zynq_, what, command);
   if (is_for_the_board(what)) {
     zynq_.settle();
     return obey_for_the_board(zynq_, what, command);
   }
-  throw vp::InputError("no command '" + vp::excerpt(what) +
-                       "': there are run, wait, wait_text, read, signal, write, drive, receive, "
-                       "interrupt, send, received, pin, attach, contents, analogue and finish");
+  throw vp::InputError(
+      "no command '" + vp::excerpt(what) +
+      "': there are run, wait, wait_text, read, signal, write, drive, receive, "
+      "interrupt, send, received, pin, attach, contents, analogue, access, memory, "
+      "devices and finish");
 }
 
 /// Lets simulated time pass, less if what the test waits for comes.

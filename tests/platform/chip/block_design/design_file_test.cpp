@@ -87,6 +87,18 @@ BOOST_AUTO_TEST_CASE(errors_have_line_and_nearest_name) {
              "d.yaml:19: the slave 'axi_gpio_1.S_AXI': no such part, did you mean 'axi_gpio_0'?");
 }
 
+BOOST_AUTO_TEST_CASE(what_a_design_delivers) {
+  const std::string work = text + std::string("work: {unit: packet, ends: axi_gpio_0.irq}\n");
+  BOOST_TEST(parse_design(work, "d.yaml").unit.end.text() == "axi_gpio_0.irq");
+  BOOST_TEST(error_with("name: blinker", "name: blinker\nwork: {line: done}") ==
+             "d.yaml:2: 'work' needs the 'unit' that the design delivers");
+  BOOST_TEST(error_with("name: blinker",
+                        "name: blinker\nwork: {unit: packet, line: done, ends: axi_gpio_0.irq}")
+                 .find("not both") != std::string::npos);
+  BOOST_TEST(error_with("name: blinker", "name: blinker\nwork: {unit: packet, ends: axi_gpo_0.irq}")
+                 .find("did you mean 'axi_gpio_0'?") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(values_that_cannot_be) {
   BOOST_TEST(error_with("[0x41200000, 64 KiB]", "0x41200000")
                  .find("d.yaml:19: where 'axi_gpio_0.S_AXI' is: write [base, size]") == 0u);

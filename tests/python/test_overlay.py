@@ -1,0 +1,96 @@
+"""Notebooks of PYNQ on a design in YAML: registers, buffers, DMA, GPIO and interrupts, with PYNQ's names."""
+import asyncio
+import pathlib
+
+import markervp
+import pytest
+
+numpy = pytest.importorskip("numpy")
+
+
+@pytest.fixture(scope="module")
+def overlay():
+    with markervp.Overlay(pathlib.Path(__file__).with_name("overlay.yaml")) as made:
+        yield made
+
+
+def test_parts_are_found_by_name(overlay):
+    assert overlay.ip_dict["axi_dma_0"]["phys_addr"] == 0x40400000
+    assert set(overlay.ip_dict) == {"axi_dma_0", "leds"}
+    with pytest.raises(AttributeError, match="Could not find IP or hierarchy buttons in overlay: there are axi_dma_0, leds"):
+        overlay.buttons.read()
+
+
+def test_dma_brings_back_what_it_sends_and_takes_time(overlay):
+    sent, came = markervp.allocate(shape=(1000,), dtype=numpy.uint32), markervp.allocate((1000,), "u4")
+    sent[:] = numpy.arange(1000) * 7
+    dma, before = overlay.axi_dma_0, overlay.session.time
+    dma.recvchannel.transfer(came)
+    dma.sendchannel.transfer(sent)
+    dma.sendchannel.wait()
+    dma.recvchannel.wait()
+    assert (came == sent).all() and came[999] == 6993
+    assert dma.recvchannel.transferred == 4000
+    assert 10e-6 < overlay.session.time - before < 30e-6, "1000 words at 100 MHz"
+
+
+def test_a_part_of_a_buffer_is_transferred(overlay):
+    sent, came = overlay.allocate((64,), "u1"), overlay.allocate((64,), "u1")
+    sent[:] = range(64)
+    overlay.axi_dma_0.recvchannel.transfer(came)
+    overlay.axi_dma_0.sendchannel.transfer(sent, start=16, nbytes=8)
+    overlay.axi_dma_0.recvchannel.wait()
+    assert list(came[:9]) == [16, 17, 18, 19, 20, 21, 22, 23, 0]
+    assert sent[16:].physical_address == sent.physical_address + 16
+    with pytest.raises(ValueError, match="exceeds the buffer"):
+        overlay.axi_dma_0.sendchannel.transfer(sent, start=60, nbytes=8)
+
+
+def test_a_failed_transfer_is_an_error(overlay):
+    with markervp.Overlay(pathlib.Path(__file__).with_name("overlay.yaml")) as other:
+        sent, came = other.allocate((16,)), other.allocate((4,))
+        other.axi_dma_0.recvchannel.transfer(came)
+        other.axi_dma_0.sendchannel.transfer(sent)
+        with pytest.raises(RuntimeError, match="DMA channel failed: status 0x.*0x10 internal"):
+            other.axi_dma_0.recvchannel.wait()
+
+
+def test_gpio_and_register_maps(overlay):
+    leds = overlay.leds
+    leds.setdirection("out")
+    leds[0:4].write(0b1010)
+    assert leds.channel2.read() == 0b1010
+    leds[0].on()
+    leds[3].toggle()
+    assert leds.channel2.read() == 0b0011
+    leds.register_map.GPIO_DATA = 0x81
+    assert leds.register_map.GPIO2_DATA == 0x81 and leds.read(8) == 0x81
+    with pytest.raises(markervp.Error, match="GPIO_DATA"):
+        leds.register_map.GPIO_DATE
+
+
+def test_registers_at_an_address(overlay):
+    mmio = markervp.MMIO(0x41200000, 0x10)
+    mmio.write(0x0, 0x55)
+    assert mmio.read(0x8) == 0x55
+    with pytest.raises(MemoryError):
+        mmio.read(0x2)
+    with pytest.raises(IndexError):
+        mmio.read(0x10)
+    with pytest.raises(markervp.Error, match="a data abort on the processor"):
+        markervp.MMIO(0x50000000).read()
+
+
+def test_an_interrupt_is_awaited(overlay):
+    sent, came = overlay.allocate((16,)), overlay.allocate((16,))
+    dma = overlay.axi_dma_0
+    dma.write(0x30, 0x1001)  # run, interrupt on completion
+    dma.recvchannel.transfer(came)
+    dma.sendchannel.transfer(sent)
+    asyncio.run(dma.s2mm_introut.wait())
+    assert dma.read(0x34) & 0x1000
+    dma.write(0x34, 0x1000)
+    overlay.session.run("1 us")
+    assert overlay.session.signal("pl.axi_dma_0.s2mm_introut") == 0
+    with pytest.raises(AttributeError, match="axi_dma_0 has no line 'mm2s'"):
+        dma.mm2s
