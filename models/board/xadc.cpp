@@ -1,6 +1,7 @@
 #include <board/xadc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -63,6 +64,7 @@ void Xadc::set(unsigned channel, double value) {
                             ": 0 temperature, 1 VCCINT, 2 VCCAUX, 3 VP/VN, 6 VBRAM, 13 to 15 "
                             "supplies of the PS, 16 to 31 VAUX");
   }
+  volts_[channel] = value;
   const double part =
       channel == temperature ? (value + kelvin_zero) / kelvin_span : value / span_of(channel);
   const double code = std::clamp(part * full_scale + 8.0, 0.0, full_scale - 1);  // rounds 12 bits
@@ -78,8 +80,24 @@ void Xadc::note_extremes(unsigned channel) {
   }
 }
 
+// UG480: registers 4C and 4D of the sequencer, or bit 10 of configuration register 0 while a single
+// channel is converted.
+bool Xadc::is_bipolar(unsigned channel) const {
+  constexpr std::uint16_t single_channel = 3, bipolar = 1u << 10, vp_vn_bipolar = 1u << 11;
+  const bool is_aux = channel >= vaux_0 && channel < vaux_0 + aux_count;
+  if (channel != vp_vn && !is_aux) return false;
+  if (words_[config_1] >> sequencer_shift == single_channel)
+    return (words_[first_config] & bipolar) != 0;
+  return is_aux ? (words_[0x4D] >> (channel - vaux_0) & 1) != 0
+                : (words_[0x4C] & vp_vn_bipolar) != 0;
+}
+
 std::uint16_t Xadc::read(unsigned address) const {
   if (address == flags) return alarms();
+  if (is_bipolar(address)) {
+    const double steps = std::clamp(std::floor(volts_[address] * 4096.0 + 0.5), -2048.0, 2047.0);
+    return static_cast<std::uint16_t>(static_cast<int>(steps) * 16);
+  }
   return words_.at(address);
 }
 

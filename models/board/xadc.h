@@ -20,7 +20,8 @@ class Xadc {
   Xadc();
 
   /// Sets an input by the address of its result: °C for `temperature`, else volts. Values beyond
-  /// what the converter measures stop at its ends. Throws std::out_of_range for an address without
+  /// what the converter measures stop at its ends: 0 to 1 V of VP/VN and VAUX, -0.5 to 0.5 V where
+  /// their registers say bipolar. Throws std::out_of_range for an address without
   /// an input.
   void set(unsigned channel, double value);
 
@@ -36,9 +37,11 @@ class Xadc {
 
  private:
   static bool is_input(unsigned channel);
+  bool is_bipolar(unsigned channel) const;
   void note_extremes(unsigned channel);
 
   std::array<std::uint16_t, register_count> words_{};
+  std::array<double, vaux_0 + aux_count> volts_{};  ///< of VP/VN and VAUX
 };
 
 }  // namespace board

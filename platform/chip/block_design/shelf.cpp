@@ -187,9 +187,6 @@ std::vector<ParameterRule> converter_parameters() {
   std::vector<ParameterRule> list{only("INTERFACE_SELECTION", "Enable_AXI"),
                                   only("C_HAS_AXI4STREAM", "0"),
                                   only("C_HAS_EXTERNAL_MUX", "0"),
-                                  only("BIPOLAR_OPERATION", "false"),
-                                  only("C_SEQUENCE_R4", "0"),
-                                  only("C_SEQUENCE_R5", "0"),
                                   only("TIMING_MODE", "Continuous"),
                                   {"CHANNEL_AVERAGING", "None", {"None", "16", "64", "256"}},
                                   {"SEQUENCER_MODE", "Off", {"Off", "Continuous"}},
@@ -200,6 +197,8 @@ std::vector<ParameterRule> converter_parameters() {
                                   {"C_SEQUENCE_R1", "0"},
                                   {"C_SEQUENCE_R2", "0"},
                                   {"C_SEQUENCE_R3", "0"},
+                                  {"C_SEQUENCE_R4", "0"},
+                                  {"C_SEQUENCE_R5", "0"},
                                   {"C_SEQUENCE_R6", "0"},
                                   {"C_SEQUENCE_R7", "0"}};
   for (unsigned i = 0; i < 16; ++i)

@@ -127,6 +127,20 @@ BOOST_AUTO_TEST_CASE(clk_wiz_refuses_what_no_mmcm_makes) {
   BOOST_CHECK_THROW(xilinx::ClkWiz("many", b.clock, build), vp::InputError);
 }
 
+BOOST_AUTO_TEST_CASE(xadc_wiz_measures_both_signs_where_its_build_says_so) {
+  Bench b;
+  xilinx::XadcWizBuild build;
+  build.initial = {{0x41, 0x2000}, {0x4D, 1}};
+  xilinx::XadcWiz wizard("xadc_wiz_0", b.clock, build);
+  for (const unsigned channel : {0u, 1u}) wizard.set_input(board::Xadc::vaux_0 + channel, -0.25);
+  BOOST_TEST(wizard.converter.read(board::Xadc::vaux_0) == 0xC000u);
+  BOOST_TEST(wizard.converter.read(board::Xadc::vaux_0 + 1) == 0u, "it is unipolar");
+  wizard.set_input(board::Xadc::vaux_0, 0.75);
+  BOOST_TEST(wizard.converter.read(board::Xadc::vaux_0) == 0x7FF0u, "its end");
+  wizard.converter.write(0x41, 0x3000);  // a single channel: bit 10 of register 0x40 says it
+  BOOST_TEST(wizard.converter.read(board::Xadc::vaux_0) == 0xC000u);
+}
+
 BOOST_AUTO_TEST_CASE(xadc_wiz_shows_inputs_and_ends_of_sequences) {
   using namespace xadc_wiz;
   Bench b;
