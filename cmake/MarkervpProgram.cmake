@@ -171,6 +171,7 @@ function(markervp_add_program NAME)
   target_link_options(${NAME} PRIVATE "LINKER:-Ttext-segment=0x00100000" "LINKER:-Bsymbolic-functions")
   # Built for gcov, it offers the function that writes the counters: they are static data, which the platform else restores.
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}")
+  string(REPLACE "," "$<COMMA>" flags "${flags}")  # -fsanitize=address,undefined
   set(options "$<TARGET_PROPERTY:${NAME},COMPILE_OPTIONS>;${flags}")
   target_link_options(${NAME} PRIVATE "$<$<IN_LIST:--coverage,${options}>:-Wl,-u,__gcov_dump>")
   set_target_properties(${NAME} PROPERTIES PREFIX "" SUFFIX .so C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)

@@ -134,7 +134,8 @@ void LocalThresholdClocked::move_pipeline() {
   if (taken_ >= lag()) {
     const std::uint32_t a_clock = geometry_.pixels_per_clock;
     const auto place = static_cast<std::uint32_t>(taken_ - lag()) * a_clock;
-    const std::uint32_t leaving = pipeline_ >> pipeline_clocks * a_clock;  // the last one in bit 0
+    const std::uint32_t leaving =
+        pipeline_ >> pipeline_clocks() * a_clock;  // the last one in bit 0
     binary_out = (leaving >> (a_clock - 1) & 1) != 0;
     for (std::uint32_t lane = 1; lane < a_clock; ++lane)
       more_binary[lane - 1] = (leaving >> (a_clock - 1 - lane) & 1) != 0;
@@ -232,6 +233,7 @@ void LocalThreshold::connect(IpPorts& ports) {
   }
   ports.parameter("RADIUS", radius.name(), radius);
   ports.parameter("OFFSET", offset.name(), offset);
+  ports.parameter("RELATIVE", relative.name(), relative);
 }
 
 // The next frame may come at once behind the lag, and the window turns into the next row while the
@@ -262,12 +264,21 @@ void LocalThreshold::refuse(const std::string& why) const {
             why + ": a frame takes " + std::to_string(geometry_.clocks() + lag()) + " clocks here");
 }
 
+namespace {
+
+/// What is synthesised; a share of another power of two takes the same logic.
+constexpr std::int64_t usual_relative = 3;
+
+}  // namespace
+
 // The pixels of the window's rows, before and behind its middle, and the sums of all columns, as
 // wide as what a clock brings.
 vp::IpEstimate LocalThreshold::own_estimate() const {
   const std::uint32_t pixels = geometry_.pixels_per_clock;
   vp::IpEstimate e =
-      synthesised_ip("local_threshold", {{"PIXELS_PER_CLOCK", pixels}, {"RADIUS", radius}});
+      synthesised_ip("local_threshold", {{"PIXELS_PER_CLOCK", pixels},
+                                         {"RADIUS", radius},
+                                         {"RELATIVE", relative == 0 ? 0 : usual_relative}});
   const std::uint32_t window = 2 * radius + 1, row = geometry_.clocks_per_row();
   const std::uint32_t lag = LocalThresholdCore::lag(geometry_, radius) / pixels;
   e.bram36 = xilinx::block_ram_36(lag, 8 * pixels) +

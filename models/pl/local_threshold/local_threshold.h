@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,15 +11,18 @@ namespace pl {
 
 /// What makes a pixel dark where light is uneven: it is darker than the mean of the window around
 /// it by `offset` grey levels (OpenCV's adaptiveThreshold() with a block of 2 radius + 1 and
-/// C = offset; windows end at the frame's border), or not above `level`.
+/// C = offset; windows end at the frame's border), and by 1 / 2^`relative` of the mean if that is
+/// not 0: what a surface reflects is relative to the light. Or it is not above `level`.
 struct LocalRule {
-  std::uint32_t radius = 0;  ///< px
-  std::uint32_t offset = 0;  ///< grey levels
+  std::uint32_t radius = 0;    ///< px
+  std::uint32_t offset = 0;    ///< grey levels
+  std::uint32_t relative = 0;  ///< 0: not
   std::uint8_t level = 0;
 
   /// Without division: `sum` of the `count` pixels in the window.
   bool dark(std::uint8_t pixel, std::uint32_t sum, std::uint32_t count) const {
-    return pixel <= level || count * (pixel + offset) <= sum;
+    const std::uint32_t share = relative == 0 ? 0 : sum >> relative;
+    return pixel <= level || count * pixel + std::max(count * offset, share) <= sum;
   }
 };
 
@@ -90,8 +94,18 @@ class LocalThreshold : public GlobalThreshold {
       vp::Source::decision,
       "grey levels by which a dark pixel is darker than its window's mean"};
 
-  /// Registers from the window's sum to the output: product, comparison, output.
-  static constexpr std::uint64_t pipeline_clocks = 3;
+  vp::Parameter<std::uint32_t> relative{"relative",
+                                        0,
+                                        vp::Unit::none,
+                                        {0, 7},
+                                        vp::Source::decision,
+                                        "a dark pixel is also darker than its window's mean by 1 / "
+                                        "2^relative of it, as in dim light; "
+                                        "0: by offset alone"};
+
+  /// Registers from the window's sum to the output: product, comparison, output; the share of the
+  /// mean takes another.
+  std::uint64_t pipeline_clocks() const { return relative == 0 ? 3 : 4; }
 
  protected:
   LocalThreshold(sc_core::sc_module_name name, const Site& site);
@@ -102,11 +116,11 @@ class LocalThreshold : public GlobalThreshold {
   /// From the edge that takes a pixel to the one that lets it leave.
   std::uint64_t lag() const {
     return LocalThresholdCore::lag(geometry_, radius) / geometry_.pixels_per_clock +
-           pipeline_clocks;
+           pipeline_clocks();
   }
   /// Resets and loads on this edge. True: nothing else happens.
   bool resets();
-  LocalRule rule() const { return {radius, offset, level_}; }
+  LocalRule rule() const { return {radius, offset, relative, level_}; }
   [[noreturn]] void refuse(const std::string& why) const;
 
   static constexpr const char* too_early = "a frame begins before the one before has left";

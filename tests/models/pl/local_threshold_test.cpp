@@ -4,6 +4,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include "threshold_bench.h"
 
 using harness::Image;
@@ -26,7 +29,9 @@ bool dark_by_definition(const Image& image, const pl::Geometry& g, const pl::Loc
     }
   }
   const double pixel = image[static_cast<std::size_t>(row * width + column)];
-  return pixel <= rule.level || pixel + rule.offset <= sum / count;
+  const double mean = sum / count;
+  const double share = rule.relative == 0 ? 0 : std::floor(sum / (1 << rule.relative)) / count;
+  return pixel <= rule.level || pixel + std::max<double>(rule.offset, share) <= mean;
 }
 
 /// Pixels of a binary image, and the edges behind which they stand.
@@ -95,6 +100,7 @@ BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition) {
   for (int round = 0; round < 40; ++round) {
     const pl::Geometry g{32 * (1 + random.below(3)), 16 + random.below(20)};
     const pl::LocalRule rule{1 + random.below(7), 1 + random.below(40),
+                             random.below(2) * (1 + random.below(7)),
                              static_cast<std::uint8_t>(random.below(2) * random.below(60))};
     const Image image = harness::noise(g.width, g.height, random.below(1000));
     std::vector<std::uint32_t> words;
@@ -156,6 +162,39 @@ BOOST_AUTO_TEST_CASE(the_image_leaves_at_these_clocks) {
   }
 }
 
+// The share of the mean takes a register more.
+BOOST_AUTO_TEST_CASE(a_share_of_the_mean_leaves_a_clock_later) {
+  Script script;
+  script.frames[10] = harness::noise(size.width, size.height, 5);
+  script.end = 3000;
+  for (const char* model : {"clocked", "tlm"}) {
+    const Seen seen = run(
+        model, script,
+        {"local_threshold.radius=3px", "local_threshold.relative=3", "local_threshold.offset=2"});
+    BOOST_REQUIRE_EQUAL(seen.edges.size(), size.pixels());
+    BOOST_TEST(seen.edges.front() == 11 + 3 * size.width + 3 + 4 + 1);
+    for (std::uint32_t i = 0; i < size.pixels(); ++i) {
+      const bool dark =
+          dark_by_definition(script.frames[10], size, {3, 2, 3, 0},
+                             static_cast<int>(i % size.width), static_cast<int>(i / size.width));
+      BOOST_REQUIRE_EQUAL(seen.dark[i], dark);
+    }
+  }
+}
+
+// A marker of reflectance 0.1 on 0.8 in a fifteenth of the light: 1 grey level on 14.
+BOOST_AUTO_TEST_CASE(a_share_of_the_mean_sees_in_dim_light) {
+  const pl::LocalRule fixed{5, 10, 0, 0}, relative{5, 2, 3, 0};
+  const std::uint32_t count = 121, sum = 61 * 14 + 60 * 1;
+  BOOST_TEST(!fixed.dark(1, sum, count));
+  BOOST_TEST(relative.dark(1, sum, count));
+  BOOST_TEST(!relative.dark(14, sum, count));
+  // In bright light noise of 10 levels is no longer dark.
+  BOOST_TEST(fixed.dark(190, 200 * count, count));
+  BOOST_TEST(!relative.dark(190, 200 * count, count));
+  BOOST_TEST(relative.dark(175, 200 * count, count));
+}
+
 // Four pixels a clock: those that lag are made whole clocks.
 BOOST_AUTO_TEST_CASE(the_image_of_groups_leaves_at_these_clocks) {
   Script script;
@@ -181,7 +220,9 @@ BOOST_AUTO_TEST_CASE(frames_resets_and_loads_at_any_clock_are_equal_in_both_mode
   for (int round = 0; round < 90; ++round) {
     Script script;
     const std::uint32_t radius = 1 + random.below(6), group = 1u << round % 3;
-    const std::uint64_t lag = (std::uint64_t{radius} * size.width + radius + group - 1) / group + 3;
+    const std::uint32_t relative = random.below(2) * (1 + random.below(7));
+    const std::uint64_t lag =
+        (std::uint64_t{radius} * size.width + radius + group - 1) / group + (relative == 0 ? 3 : 4);
     const std::uint32_t clocks = size.pixels() / group;
     std::uint64_t cycle = 3 + random.below(20);
     for (int frame = 0; frame < 6; ++frame) {
@@ -202,8 +243,9 @@ BOOST_AUTO_TEST_CASE(frames_resets_and_loads_at_any_clock_are_equal_in_both_mode
       }
     }
     script.end = cycle + 1000;
-    const std::vector<std::string> settings{"local_threshold.radius=" + std::to_string(radius) +
-                                            "px"};
+    const std::vector<std::string> settings{
+        "local_threshold.radius=" + std::to_string(radius) + "px",
+        "local_threshold.relative=" + std::to_string(relative)};
     const Seen clocked = run("clocked", script, settings, group),
                tlm = run("tlm", script, settings, group);
     BOOST_TEST((clocked == tlm), "round " << round);

@@ -4,12 +4,14 @@
 // A pixel waits in a delay line until it is in the middle of the window, and in a second one until
 // its row leaves the window. A sum is kept of each column in the window, and of the window.
 // Four registers lie between the port and the binary image: column, difference, window, comparison; and
-// where several pixels come on a clock differences, their sums, windows, comparisons.
+// where several pixels come on a clock differences, their sums, windows, comparisons. RELATIVE takes one
+// more: what the sum allows.
 module local_threshold #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
     parameter int RADIUS = 5,   // pixels of the window on each side of its middle
     parameter int OFFSET = 10,  // levels by which a dark pixel is below its window's mean
+    parameter int RELATIVE = 0,  // and by 1 / 2^RELATIVE of the mean; 0: by OFFSET alone
     parameter int PIXELS_PER_CLOCK = 1,  // 1, 2 or 4
     parameter int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10,
     parameter int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9
@@ -227,8 +229,9 @@ module local_threshold #(
 
   // The mean without division.
   logic [7:0] level;
-  logic [2:0] leaves_then;
-  always_ff @(posedge clk) leaves_then <= reset ? '0 : {leaves_then[1:0], leaves};
+  localparam int STAGES = RELATIVE == 0 ? 3 : 4;
+  logic [STAGES-1:0] leaves_then;
+  always_ff @(posedge clk) leaves_then <= reset ? '0 : STAGES'({leaves_then, leaves});
   logic [P-1:0] binary;
   for (genvar lane = 0; lane < P; lane++) begin : g_mean
     // Not in the multiplier, which needs its inputs a nanosecond earlier than a register of the fabric.
@@ -239,14 +242,32 @@ module local_threshold #(
     logic [SUM:0] limit;
     logic below, below_then;
     always_ff @(posedge clk) begin
-      count        <= across[lane*N+:N] * down;
-      count_then   <= count;
-      grey         <= middle[8*lane+:8];
-      raised       <= {1'b0, grey} + 9'(OFFSET);
-      limit        <= (SUM + 1)'(count_then) * (SUM + 1)'(raised);
-      below        <= grey <= level;
-      below_then   <= below;
-      binary[lane] <= below_then || limit <= {1'b0, sums[lane*SUM+:SUM]};
+      count      <= across[lane*N+:N] * down;
+      count_then <= count;
+      grey       <= middle[8*lane+:8];
+      raised     <= {1'b0, grey} + (RELATIVE == 0 ? 9'(OFFSET) : 9'd0);
+      limit      <= (SUM + 1)'(count_then) * (SUM + 1)'(raised);
+      below      <= grey <= level;
+      below_then <= below;
+    end
+    if (RELATIVE == 0) begin : g_offset
+      always_ff @(posedge clk) binary[lane] <= below_then || limit <= {1'b0, sums[lane*SUM+:SUM]};
+    end else begin : g_share
+      // The larger of both distances from the mean; a sum that is below it has no dark pixel.
+      localparam int LESS = SUM + 1;
+      logic [LESS-1:0] offsets, allowed, limit_then;
+      logic reaches, below_last;
+      wire [LESS-1:0] sum = {1'b0, sums[lane*SUM+:SUM]};
+      wire [LESS-1:0] share = sum >> RELATIVE;
+      wire [LESS-1:0] distance = offsets > share ? offsets : share;
+      always_ff @(posedge clk) begin
+        offsets      <= LESS'(count_then) * LESS'(OFFSET);
+        allowed      <= sum - distance;
+        reaches      <= distance <= sum;
+        limit_then   <= limit;
+        below_last   <= below_then;
+        binary[lane] <= below_last || (reaches && limit_then <= allowed);
+      end
     end
   end
   assign {binary_out_3, binary_out_2, binary_out_1, binary_out} = 4'(binary);
@@ -255,8 +276,8 @@ module local_threshold #(
   assign thresh_out  = 1'b0;
   assign thresh_data = '0;
   always_ff @(posedge clk) begin
-    binary_ena <= leaves_then[2] && !reset;
-    if (leaves_then[2]) begin
+    binary_ena <= leaves_then[STAGES-1] && !reset;
+    if (leaves_then[STAGES-1]) begin
       binary_x <= !binary_ena || binary_x == X_BITS'(WIDTH - P) ? '0 : binary_x + X_BITS'(P);
       if (!binary_ena) binary_y <= '0;
       else if (binary_x == X_BITS'(WIDTH - P)) binary_y <= binary_y + 1'b1;

@@ -125,6 +125,8 @@ const Bug bugs[] = {
      "- lane) / P + 2;", "binary_out", 2},
     {"border_of_a_neighbour", "local_threshold", "local_threshold.sv", "1 + RIGHT) - place",
      "2 + RIGHT) - place", "binary_out", 2},
+    {"offset_alone", "local_threshold", "local_threshold.sv", "offsets > share ? offsets : share",
+     "offsets", "binary_out", 2},
     {"later_of_equal_peaks", "global_threshold", "peak_search.sv", "{total, ~latest}",
      "{total, latest}", "active_threshold", 4},
     {"peak_of_the_first_pixel", "global_threshold", "peak_search.sv", "first || rank >= best",
@@ -141,6 +143,9 @@ const Bug bugs[] = {
 
 /// What comes on an edge.
 const std::uint32_t groups[] = {1, 2, 4};
+
+/// Pixels on an edge where the local threshold takes a share of the mean.
+constexpr std::uint32_t share_at = 2;
 
 const Strings thresholds{"otsu_threshold", "global_threshold", "local_threshold"};
 const Strings ips{"camera",          "blob_labelling", "otsu_threshold", "global_threshold",
@@ -163,6 +168,7 @@ std::string parameters(const std::string& ip, std::uint32_t pixels) {
   std::string all = "WIDTH=64 HEIGHT=32 PIXELS_PER_CLOCK=" + std::to_string(pixels);
   if (ip == "blob_labelling") all += " LABELS=16 MINIMUM_SIDE=2 RUN_FIFO_DEPTH=12";
   if (ip == "local_threshold") all += " RADIUS=3";
+  if (ip == "local_threshold" && pixels == share_at) all += " RELATIVE=3 OFFSET=2";
   if (ip == "pixel_stream") all += " FIFO_DEPTH=6";
   return all;
 }
@@ -208,7 +214,7 @@ struct Fidelity : sc_core::sc_module {
 /// random.
 struct Chain : kit::Simulation {
   Chain(const Strings& more, const std::string& rule, std::uint32_t a_clock)
-      : settings(settings_with(more, rule)),
+      : settings(settings_with(more, rule, a_clock)),
         fidelity("fidelity", rule),
         geometry{size.width, size.height, size.burst_words, a_clock},
         chain(build()) {
@@ -230,11 +236,14 @@ struct Chain : kit::Simulation {
     return made;
   }
 
-  static Strings settings_with(const Strings& more, const std::string& rule) {
+  static Strings settings_with(const Strings& more, const std::string& rule,
+                               std::uint32_t a_clock) {
     Strings all{"blob_labelling.label_count=16", "blob_labelling.minimum_side=2 px",
                 "blob_labelling.run_fifo_depth=12", "pixel_stream.fifo_depth=6",
                 "blob_stream.fifo_depth=20"};
     if (rule == "local_threshold") all.push_back("local_threshold.radius=3 px");
+    if (rule == "local_threshold" && a_clock == share_at)
+      all.insert(all.end(), {"local_threshold.relative=3", "local_threshold.offset=2"});
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
