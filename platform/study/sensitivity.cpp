@@ -238,7 +238,7 @@ std::string not_compared_text(const SensitivityReport& report) {
   return "no two of the points that count differ in one of these alone, so nothing can be said of "
          "it: " +
          vp::join(report.not_compared, ", ") +
-         "; 'markervp sensitivity --at FOLDER/points/KEY.json' computes the steps around a point, "
+         "; 'markervp sensitivity --at FOLDER:KEY' computes the steps around a point, "
          "and 'sample: {method: morris}' or 'one-at-a-time' makes a sweep for it";
 }
 

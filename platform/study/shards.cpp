@@ -1,6 +1,7 @@
 #include <study/shards.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,13 +43,17 @@ std::vector<double> take_values(shard::Taker& taker, std::vector<double> values)
 
 /// Opened for each look: a folder may have more shards than a process may have files open, and a
 /// file that is opened anew shows what another host has added to it.
-std::string bytes_of(const std::string& path, std::uint64_t offset, std::size_t count) {
-  std::string block(count, '\0');
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const ssize_t got =
-      file < 0 ? -1 : ::pread(file, block.data(), count, static_cast<off_t>(offset));
+std::string bytes_of(const std::string& path, std::uint64_t offset, std::uint64_t most) {
+  std::string block;
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);  // if it is a pipe
+  struct stat facts {};
+  if (file >= 0 && ::fstat(file, &facts) == 0) {
+    const auto size = static_cast<std::uint64_t>(facts.st_size);
+    block.resize(size > offset ? std::min(most, size - offset) : 0);
+    const ssize_t got = ::pread(file, block.data(), block.size(), static_cast<off_t>(offset));
+    block.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
+  }
   if (file >= 0) ::close(file);
-  block.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
   return block;
 }
 

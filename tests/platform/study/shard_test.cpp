@@ -1,5 +1,6 @@
 #include <malloc.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -321,6 +322,15 @@ BOOST_AUTO_TEST_CASE(whatever_byte_of_a_shard_changes_results_are_right_or_missi
     } catch (const vp::InputError&) {
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(pipes_and_endless_files_among_shards_are_no_results_and_hold_nothing_up) {
+  const Folder folder(1, 3);
+  folder.add_all();
+  BOOST_TEST_REQUIRE(::mkfifo(folder.store().path("runs/pipe.shard").c_str(), 0600) == 0);
+  std::filesystem::create_symlink("/dev/zero", folder.store().path("runs/zero.shard"));
+  const Shards shards(folder.store());
+  check_equal(shards.outcome(folder.key(0)).value(), folder.outcome(0));
 }
 
 BOOST_AUTO_TEST_CASE(shards_grow_while_they_are_read) {
