@@ -55,7 +55,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   const std::vector<Interface>& interfaces() const { return interfaces_; }
   const std::string& file() const { return rtl_->file(); }
   /// What describes its registers: the file that the parameter `registers` names, else
-  /// <name>.registers.xml, .rdl or .h beside <name>.so; "" if no such file exists.
+  /// NAME.registers.xml, .rdl or .h beside NAME.so; "" if no such file exists.
   std::string registers_file() const;
 
   /// A memory-mapped slave: bind its socket to an interconnect.

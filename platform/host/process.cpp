@@ -140,7 +140,8 @@ void end_by(int signal) {
 
 InterruptGuard::InterruptGuard(std::function<void()> interrupt)
     : interrupt_(std::move(interrupt)), outer_(innermost) {
-  signal_noted = 0;
+  // What an outer guard noted holds: work that begins in between ends soon, too.
+  if (!outer_) signal_noted = 0;
   innermost = this;
   struct sigaction action {};
   action.sa_handler = &InterruptGuard::on_signal;

@@ -52,7 +52,7 @@ class InterruptGuard : private vp::HostTicks::Listener {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// A signal was noted since the innermost guard was made.
+  /// A signal was noted since the outermost guard was made.
   static bool noted();
 
  private:

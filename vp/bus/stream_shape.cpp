@@ -58,7 +58,7 @@ unsigned StreamShape::bits(StreamField field) const {
 
 std::string StreamPart::name() const {
   constexpr const char* names[] = {"tdata", "tkeep", "tstrb", "tuser", "tid", "tdest"};
-  const std::string field_name = names[static_cast<unsigned>(field)];
+  std::string field_name = names[static_cast<unsigned>(field)];
   if (low == 0) return field_name;
   return field_name + "_" + std::to_string(low + bits - 1) + "_" + std::to_string(low);
 }

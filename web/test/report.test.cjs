@@ -359,7 +359,7 @@ test("a table that comes into sight keeps its buttons: one that is pressed is no
 test("a point of a sweep opens, with its command", () => open("sweep", async (page) => {
   const button = page.locator("#points tbody button").nth(4);
   await button.click();
-  assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep/points/${await button.textContent()}cafe.json' --output 'out/a sweep/reports/${await button.textContent()}cafe'`);
+  assert.equal(await page.locator("#point pre").textContent(), `markervp run --point 'out/a sweep:${await button.textContent()}cafe' --output 'out/a sweep/reports/${await button.textContent()}cafe'`);
   assert.equal(await page.locator("#point a").getAttribute("href"), `reports/${await button.textContent()}cafe/report.html`);
   await page.locator("#maps select").first().selectOption({ label: "Power" });
   assert.match(await page.locator("#maps h3").textContent(), /^Power, W/);

@@ -121,9 +121,12 @@ void plan_clock_fault(Injector& injector, Injection& injection) {
   if (dynamic_cast<vp::GatedClock*>(&clock))
     throw vp::InputError(std::string(clock.name()) + " follows " + clock.source().name() +
                          ": name that");
-  injector.plan(fault.at_ps, [&injector, &injection, &clock] {
+  // An access that waits for a clock that goes on is late; through one that is stopped it never
+  // comes, and ends the run. A clock of 1 Hz has no edge in less than a second.
+  const bool pauses = fault.value == 0 && fault.for_ps < vp::EdgeTimes::ps_per_second;
+  injector.plan(fault.at_ps, [&injector, &injection, &clock, pauses] {
     const std::uint64_t usual_hz = clock.frequency_hz();
-    clock.set_frequency(injection.fault.value);
+    clock.set_frequency(pauses ? 1 : injection.fault.value);
     injection.happened(injector.zynq().scheduler.now_ps());
     if (injection.fault.for_ps == Fault::for_ever) return;
     injector.plan(injection.fault.at_ps + injection.fault.for_ps,

@@ -26,7 +26,7 @@ struct DescribedRegister {
   std::vector<Field> fields;
 };
 
-/// Adds its words of 32 bits; the upper ones are called <name>_HI. `place` is for messages: throws
+/// Adds its words of 32 bits; the upper ones are called NAME_HI. `place` is for messages: throws
 /// vp::InputError for what cannot be a register, and for too many of them.
 void add_register(RegisterMap& map, DescribedRegister described, const std::string& place);
 

@@ -115,7 +115,7 @@ bool Zynq::poke(std::uint32_t address, std::uint32_t word) {
 
 // The buses have names of their own, which say nothing of what a program wanted there.
 std::string Zynq::answerer_at(std::uint32_t address) const {
-  const std::string device = device_at(address);
+  std::string device = device_at(address);
   const bool is_bus = device == "peripheral_bus" || device == "private_bus";
   if (!device.empty() && !is_bus) return device;
   const PsBlock* block = ps_block_at(address);

@@ -32,7 +32,8 @@ BOOST_AUTO_TEST_CASE(version) {
 BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
-       "a command is missing: run, history, debug, faults, designs, config, map, import, report, devices, "
+       "a command is missing: run, history, debug, faults, designs, config, map, import, report, "
+       "devices, "
        "clocks, power, rtl, trace, sweep, explore, metrics, pareto, sensitivity, compare, scenes, "
        "validate, "
        "compare-detectors or completion"},

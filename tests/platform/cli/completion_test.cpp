@@ -47,7 +47,8 @@ BOOST_FIXTURE_TEST_SUITE(completion, Completion)
 BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(
       offered({"markervp", "\"\""}) ==
-      "run history debug faults designs config map import report devices clocks power rtl trace sweep "
+      "run history debug faults designs config map import report devices clocks power rtl trace "
+      "sweep "
       "explore "
       "metrics pareto sensitivity compare scenes validate compare-detectors completion --help "
       "--version ");
