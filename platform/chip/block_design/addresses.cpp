@@ -185,10 +185,11 @@ void BlockDesign::close_open_ports() {
         port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
     }
     for (auto& [bus, port] : part.slaves) {
-      const bool is_seen = std::any_of(
-          design_.addresses.begin(), design_.addresses.end(), [&](const AddressSegment& segment) {
-            return segment.slave.part == name && segment.slave.port == bus;
-          });
+      const bool is_seen =
+          std::any_of(design_.addresses.begin(), design_.addresses.end(),
+                      [&name = name, &bus = bus](const AddressSegment& segment) {
+                        return segment.slave.part == name && segment.slave.port == bus;
+                      });
       if (!is_seen && part.open_slave) part.open_slave(bus);
     }
   }

@@ -69,8 +69,6 @@ LinuxDevices::LinuxDevices(sc_core::sc_module_name name, Zynq& zynq)
 
 namespace {
 
-constexpr const char* folder_name = "markervp-linux-";
-
 [[noreturn]] void no_folder(const std::string& reason) {
   throw vp::InputError("--linux: no folder can be made for the application's /dev and /sys (" +
                        reason + "): let TMPDIR name one that takes files");

@@ -83,9 +83,10 @@ void check_roles(const TraceFile& file, const BusInterface& one, const std::stri
       throw vp::InputError(where + "needs " + vp::join(roles, ", "));
   }
   for (const auto& [role, variable] : one.roles) {
-    const bool is_control = std::any_of(least.begin(), least.end(), [&](const auto& roles) {
-      return std::find(roles.begin(), roles.end(), role) != roles.end();
-    });
+    const bool is_control =
+        std::any_of(least.begin(), least.end(), [&role = role](const auto& roles) {
+          return std::find(roles.begin(), roles.end(), role) != roles.end();
+        });
     const bool may_be_wide = role == "psel" || one.kind == BusKind::irq;
     if (is_control && !may_be_wide && file.variable(variable).width != 1) {
       throw vp::InputError(where + role + " is a vector of " +
