@@ -40,7 +40,7 @@ class Store {
   void write_manifest(const Manifest& manifest) const;
   Manifest read_manifest() const;
 
-  /// Keys of the whole results in the folder, sorted. Names what is there and is none.
+  /// Keys of the whole results in the folder, sorted. `foreign`: names of other files there.
   std::vector<std::string> kept_keys(std::vector<std::string>& foreign) const;
 
  private:

@@ -1,5 +1,5 @@
-// Every seed, and what becomes of it when bytes change, are lost or come twice: no target may do
-// anything but return or throw what the user is told. scripts/fuzz looks for more.
+// Every seed, and what becomes of it when bytes change, are lost or come twice: a target either
+// returns or throws an error with a message for the user. scripts/fuzz looks for more.
 #include "targets.h"
 
 #include <algorithm>

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(both_fidelities_make_the_same_of_a_fault) {
   for (const char* fault :
        {"{what: flip, where: pl.axi_dma_0.s_axi_lite.MM2S_DMACR, bit: 0, at: 2 ms}",
         "{what: corrupt, where: pl.axi_dma_0.m_axi_mm2s.link, bit: 77, access: 900}",
-        "{what: clock, where: ps.fclk_clk1.clk, frequency: 0 Hz, at: 8 ms, for: 1 ms}"}) {
+        "{what: clock, where: ps.fclk_clk1.clk, frequency: 25 MHz, at: 8 ms}"}) {
     inject(fault, {"--frames", "1", "--fidelity", "tlm"});
     const std::string tlm = frames();
     BOOST_TEST(injected()["times"] == 1, fault);
@@ -140,6 +140,8 @@ BOOST_AUTO_TEST_CASE(places_that_there_are_not_are_refused_with_the_nearest) {
            {"{what: flip, where: pl.bram, address: 400000, bit: 0, at: 1 ms}", "0 to 307199"},
            {"{what: flip, where: pl.axi_dma_0.s_axi_lite.MM2S_DMACX, bit: 0, at: 1 ms}",
             "did you mean 'MM2S_DMACR'?"},
+           {"{what: flip, where: pl.axi_dma_0.s_axi_lite.MM2S_DMACR, address: 8, bit: 0, at: 1 ms}",
+            "'address' is a byte of a memory"},
            {"{what: clock, where: ps.fclk_clk7, frequency: 0 Hz, at: 1 ms}", "a clock"}}) {
     const kit::Outcome outcome = inject(fault);
     BOOST_TEST(outcome.exit_code == 2, fault);
@@ -159,13 +161,17 @@ BOOST_AUTO_TEST_CASE(a_campaign_is_the_same_with_any_number_of_jobs) {
   BOOST_TEST(all["broken"] == 0);
 }
 
-BOOST_AUTO_TEST_CASE(an_access_waits_for_a_clock_that_pauses) {
-  const std::string clock = "{what: clock, where: ps.fclk_clk0.clk, frequency: 0 Hz, at: 2 ms";
-  BOOST_TEST(inject(clock + ", for: 10 us}").exit_code == 0);
-  BOOST_TEST(result()["frames"].size() == 2u);
-  const kit::Outcome outcome = inject(clock + "}");
+BOOST_AUTO_TEST_CASE(a_clock_changes_for_good) {
+  const std::string clock = "{what: clock, where: ps.fclk_clk0.clk, at: 2 ms, frequency: ";
+  BOOST_TEST(run({"z1.0", "z2.0", "--no-pictures", "--no-report"}).exit_code == 0);
+  const double usual_us = result()["program_end"]["time_us"];
+  BOOST_TEST(inject(clock + "50 MHz}").exit_code == 0);
+  const double slow_us = result()["program_end"]["time_us"];
+  BOOST_TEST((slow_us > usual_us && slow_us < 2 * usual_us), slow_us << " for " << usual_us);
+  const kit::Outcome outcome = inject(clock + "0 Hz}");
   BOOST_TEST(outcome.exit_code == 3);
   BOOST_TEST(contains(outcome.err, "bus hang"), outcome.err);
+  BOOST_TEST(contains(inject(clock + "0 Hz, for: 10 us}").err, "'clock' takes no 'for'"));
 }
 
 // Each line is a run with `inject`, whatever came of it.

@@ -49,7 +49,7 @@ inline MasterPort memory_master(xilinx::MemoryPort& port) {
           [&port](xilinx::MemoryPath& path) { port.share(path); }};
 }
 
-/// A small IP of registers; null if `ip` is none.
+/// What places an IP that has registers and little else; null for any other IP.
 using Placer = Placed (*)(const Placement& at);
 Placer peripheral_placer(const std::string& ip);
 

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <optional>
-
 #include <chip/fault/injector.h>
 #include <chip/fault/places.h>
 #include <vp/error.h>
@@ -60,14 +57,15 @@ class BusFault : public FaultyPlace, public vp::MmObserver {
     if (injector_.zynq().scheduler.now_ps() < fault().at_ps) return false;
     if (fault().of == Fault::Of::reads && !payload.is_read()) return false;
     if (fault().of == Fault::Of::writes && !payload.is_write()) return false;
+    const bool has_bit = fault().bit / 8 < payload.get_data_length();
+    if (fault().what == Fault::What::corrupt && !has_bit) return false;
     if (!fault().has_address) return true;
     const std::uint64_t first = base_ + payload.get_address();
     return fault().address >= first && fault().address - first < payload.get_data_length();
   }
 
   void flip(tlm::tlm_generic_payload& payload) const {
-    const unsigned bit = fault().bit % (8 * std::max(1U, payload.get_data_length()));
-    payload.get_data_ptr()[bit / 8] ^= static_cast<unsigned char>(1U << bit % 8);
+    payload.get_data_ptr()[fault().bit / 8] ^= static_cast<unsigned char>(1U << fault().bit % 8);
   }
 
   Injector& injector_;

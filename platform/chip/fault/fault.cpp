@@ -43,7 +43,7 @@ const std::vector<Kind>& kinds() {
       {"lost", What::lost, {"where"}, {"at", "edge", "count"}},
       {"late", What::late, {"where", "by"}, {"at", "edge", "count"}},
       {"spurious", What::spurious, {"where", "at", "for"}, {}},
-      {"clock", What::clock, {"where", "frequency", "at"}, {"for"}},
+      {"clock", What::clock, {"where", "frequency", "at"}, {}},
       {"input", What::input, {"value"}, {"unit", "count", "from", "bytes"}},
       {"torn", What::torn, {"from"}, {"unit", "count", "bytes"}},
   };

@@ -12,7 +12,7 @@ namespace platform {
 ///     - {what: slverr, where: ps.interconnect_gp0.axi_dma_0, access: 3}
 ///     - {what: flip, address: 0x43000000, bit: 5, at: 1.2 ms}
 ///
-/// Times are of the simulation. What a fault of a kind takes is in `fault_kinds`.
+/// Times are of the simulation. What a fault of a kind takes: docs/faults.md.
 struct Fault {
   enum class What {
     slverr,    ///< a target answers an access with an error, after it did what was asked
@@ -26,7 +26,7 @@ struct Fault {
     lost,      ///< a rising edge of a signal is not seen: the signal stays low until it falls
     late,      ///< a rising edge of a signal is seen later
     spurious,  ///< a signal is high for a while, though its writer says low
-    clock,     ///< a clock runs at another frequency; 0: it stops
+    clock,     ///< a clock runs at another frequency from then on; 0: it stops
     input,     ///< bytes of an input are wrong
     torn,      ///< bytes of an input are those of the one before it
   };

@@ -155,7 +155,7 @@ void FaultSpace::find_signals(Class& found, Injector& injector) const {
 
 void FaultSpace::find_streams(Class& found, Zynq& zynq) const {
   for (const vp::AxiStream* stream : vp::all_below<vp::AxiStream>(zynq.pl())) {
-    if (stream->beats.get() == 0) continue;
+    if (stream->beats.get() == 0 || !counts_beats(*stream)) continue;
     add(found, stream->name(), 3 + word_bits,
         [where = std::string("where: ") + stream->name()](std::uint64_t n) {
           constexpr const char* kinds[] = {"what: dropped, ", "what: repeated, ", "what: tlast, "};
@@ -169,8 +169,10 @@ void FaultSpace::find_clocks(Class& found, Zynq& zynq) const {
   for (const auto& [number, source] : zynq.ps.fclks()) {
     const std::string path = source->clk.name();
     if (source->clk.edges_run() == 0) continue;
-    add(found, path, 1, [path](std::uint64_t) {
-      return "what: clock, where: " + path + ", frequency: 0 Hz, for: 10 us";
+    const std::uint64_t half_hz = source->clk.frequency_hz() / 2;
+    add(found, path, 2, [path, half_hz](std::uint64_t n) {
+      return "what: clock, where: " + path +
+             ", frequency: " + std::to_string(n == 0 ? 0 : half_hz) + " Hz";
     });
   }
 }

@@ -21,7 +21,7 @@ namespace platform {
 ///   | internal | a bit of a register inside of the logic, where the fidelity has them         |
 ///   | signal   | a wire of one bit: stuck for 100 us, a rising edge lost or late, a pulse     |
 ///   | stream   | a beat is dropped, comes twice, has a wrong bit or the other TLAST           |
-///   | clock    | a clock of the logic stops for 10 us                                         |
+///   | clock    | a clock of the logic stops, or runs at half its frequency                    |
 ///   | input    | a dead or hot byte from then on, an input of zeros or ones, a torn one       |
 class FaultSpace {
  public:

@@ -81,13 +81,16 @@ class Injector {
 
 /// Whether a path is that of a stream.
 bool is_stream(const std::string& path);
+/// Whether single beats of a stream can be faulty. RTL of the user at an end moves its wires
+/// whenever they settle, which does not tell beats apart.
+bool counts_beats(const vp::AxiStream& stream);
 /// Before the run: each stream passes its beats one by one, so that faults can be added later.
 void let_streams_fail();
 
 /// Throws vp::InputError for a signal or register that Injector::unplayed() has a key for.
 void check_played(const Injector& injector, const std::string& path);
 
-// One for each group of kinds; they throw vp::InputError as the constructor does.
+// One for each group of kinds; they throw vp::InputError as Injector::add() does.
 std::unique_ptr<FaultyPlace> place_bus_fault(Injector& injector, Injection& injection);
 std::unique_ptr<FaultyPlace> place_stream_fault(Injector& injector, Injection& injection);
 std::unique_ptr<FaultyPlace> place_signal_fault(Injector& injector, Injection& injection);

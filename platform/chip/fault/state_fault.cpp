@@ -104,11 +104,13 @@ vp::Register* register_named(const std::string& path) {
 void plan_flip(Injector& injector, Injection& injection) {
   const std::string& where = injection.fault.where;
   if (where.empty()) return plan_flip_at_address(injector, injection);
-  if (vp::Register* target = register_named(where))
-    return plan_flip_of(injector, injection, *target);
   sc_core::sc_object* const object = sc_core::sc_find_object(where.c_str());
   if (auto* memory = dynamic_cast<xilinx::Bram*>(object))
     return plan_flip_in(injector, injection, *memory);
+  if (injection.fault.has_address)
+    throw vp::InputError("'address' is a byte of a memory, and '" + where + "' is none");
+  if (vp::Register* target = register_named(where))
+    return plan_flip_of(injector, injection, *target);
   plan_flip_of(injector, injection,
                place_named<vp::ProbeBase>(where,
                                           "a memory, a register of a device (BANK.NAME) or "
@@ -121,16 +123,9 @@ void plan_clock_fault(Injector& injector, Injection& injection) {
   if (dynamic_cast<vp::GatedClock*>(&clock))
     throw vp::InputError(std::string(clock.name()) + " follows " + clock.source().name() +
                          ": name that");
-  // An access that waits for a clock that goes on is late; through one that is stopped it never
-  // comes, and ends the run. A clock of 1 Hz has no edge in less than a second.
-  const bool pauses = fault.value == 0 && fault.for_ps < vp::EdgeTimes::ps_per_second;
-  injector.plan(fault.at_ps, [&injector, &injection, &clock, pauses] {
-    const std::uint64_t usual_hz = clock.frequency_hz();
-    clock.set_frequency(pauses ? 1 : injection.fault.value);
+  injector.plan(fault.at_ps, [&injector, &injection, &clock] {
+    clock.set_frequency(injection.fault.value);
     injection.happened(injector.zynq().scheduler.now_ps());
-    if (injection.fault.for_ps == Fault::for_ever) return;
-    injector.plan(injection.fault.at_ps + injection.fault.for_ps,
-                  [&clock, usual_hz] { clock.set_frequency(usual_hz); });
   });
 }
 

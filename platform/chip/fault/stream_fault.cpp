@@ -1,5 +1,7 @@
 #include <cstdint>
+#include <initializer_list>
 
+#include <axi/rtl_part.h>
 #include <chip/fault/injector.h>
 #include <chip/fault/places.h>
 #include <vp/axi_stream.h>
@@ -76,7 +78,22 @@ class BeatFault : public FaultyPlace, public vp::StreamFault {
   bool repeats_ = false;
 };
 
+/// The user's RTL at an end of `stream`; null without.
+const sc_core::sc_object* rtl_end(const vp::AxiStream& stream) {
+  for (const vp::SignalBase* wire :
+       std::initializer_list<const vp::SignalBase*>{&stream.tvalid, &stream.tready}) {
+    for (const sc_core::sc_object* end = wire->writer(); end; end = end->get_parent_object()) {
+      if (dynamic_cast<const axi::RtlPart*>(end)) return end;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+bool counts_beats(const vp::AxiStream& stream) {
+  return rtl_end(stream) == nullptr;
+}
 
 bool is_stream(const std::string& path) {
   return dynamic_cast<vp::AxiStream*>(sc_core::sc_find_object(path.c_str())) != nullptr;
@@ -91,6 +108,9 @@ std::unique_ptr<FaultyPlace> place_stream_fault(Injector& injector, Injection& i
   if (injection.fault.bit >= stream.tdata.width())
     throw vp::InputError(std::string(stream.name()) + ".tdata has " +
                          std::to_string(stream.tdata.width()) + " bits: 'bit' counts from 0");
+  if (const sc_core::sc_object* rtl = rtl_end(stream))
+    throw vp::InputError(std::string(stream.name()) + " has RTL at an end (" + rtl->name() +
+                         "), whose beats are not counted: let one of its wires be stuck");
   if (stream.has_fault())
     throw vp::InputError(std::string(stream.name()) + " has a fault already: one is possible");
   return std::make_unique<BeatFault>(injector, injection, stream);

@@ -166,6 +166,7 @@ class Carrier {
       injector.plan(campaign_.shots[i].at_ps, [this, i] { fork_for(i); });
     const Witness seen = subject_.run();
     if (copy_) finish_copy(seen);
+    if (!seen.error.empty()) throw vp::InputError(seen.error);
   }
 
  private:
@@ -205,8 +206,8 @@ class Carrier {
     copy_ = i;
     writing_ = writing;
     Simulation& simulation = subject_.simulation();
-    simulation.zynq().ps.leave_memory_to_parent();
     try {
+      simulation.zynq().ps.leave_memory_to_parent();
       simulation.inject(parse_faults("[" + campaign_.shots[i].fault + "]", "campaign").front(),
                         "campaign");
     } catch (const vp::InputError& error) {
@@ -295,8 +296,11 @@ Campaign run_campaign(const CampaignFile& file, unsigned jobs,
     finished = static_cast<std::uint64_t>(std::count(done.begin(), done.end(), true));
     progress(finished);
   }
+  // Only those of an interrupted campaign are missing.
   std::vector<Shot> shots;
   for (std::size_t i = 0; i < count; ++i) {
+    if (!done[i] && !host::InterruptGuard::noted())
+      throw vp::InputError("nothing is known of fault " + campaign.shots[i].fault);
     if (done[i]) shots.push_back(std::move(campaign.shots[i]));
   }
   campaign.shots = std::move(shots);

@@ -22,7 +22,7 @@ bool is_right(const Witness& right, const Witness& seen, std::size_t i) {
   return i < seen.units.size() && seen.units[i] == right.units[i];
 }
 
-/// The first one; null: there is none.
+/// The first warning that the right run does not have; null without.
 const std::string* new_warning(const Witness& right, const Witness& seen) {
   const auto& known = right.warnings;
   const auto found =

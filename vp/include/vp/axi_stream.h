@@ -56,7 +56,7 @@ class BurstSender {
 class StreamFault {
  public:
   virtual ~StreamFault() = default;
-  /// The master offers a beat: what its wires show.
+  /// The master offers a beat: what its wires show, of TDATA the first 32 bits.
   virtual void offered(std::uint32_t& data, bool& last) = 0;
   /// A beat passes on this edge, and the slave does not see it.
   virtual bool drops() = 0;
@@ -178,6 +178,11 @@ class AxiStreamMaster {
   /// The same, of any width.
   void offer(const StreamBytes& beat, bool last) {
     link_->show(beat);
+    if (link_->fault_) {
+      std::uint32_t data = tdata.written();
+      link_->fault_->offered(data, last);
+      tdata = data;
+    }
     tlast = last;
     tvalid = true;
   }
@@ -254,8 +259,8 @@ class AxiStreamSlave {
   bool sample() {
     const bool valid = tvalid.read();
     const bool ready = tready.get();
-    if (valid && ready && link_->fault_ && link_->fault_->drops()) return waiting_ = false;
     if (valid && ready) {
+      if (link_->fault_ && link_->fault_->drops()) return waiting_ = false;
       ++link_->beats;
       link_->packets.add(tlast.read());
       if (tkeep.read() != 0xF || !link_->parts_.empty()) link_->check_beat(tlast.read());

@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(each_key_is_read_in_its_unit) {
   const auto list = parse_faults(
       "[{what: slverr, where: axi_dma_0, access: 3, count: all, of: writes, address: 0x40400018},"
       " {what: late, where: pl.irq, by: 10 us, edge: 2, at: 1.5 ms},"
-      " {what: clock, where: fclk_clk0, frequency: 25 MHz, at: 1 us, for: 2 ns},"
+      " {what: clock, where: fclk_clk0, frequency: 25 MHz, at: 1 us},"
       " {what: torn, from: 100, bytes: 7, unit: 4}]",
       "f.yaml");
   BOOST_REQUIRE(list.size() == 4u);
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(each_key_is_read_in_its_unit) {
   BOOST_TEST(list[0].address == 0x40400018u);
   BOOST_TEST((list[0].nth == 3 && list[0].count == Fault::for_ever));
   BOOST_TEST((list[1].by_ps == 10'000'000u && list[1].nth == 2 && list[1].at_ps == 1'500'000'000u));
-  BOOST_TEST((list[2].value == 25'000'000u && list[2].for_ps == 2'000u));
+  BOOST_TEST((list[2].value == 25'000'000u && list[2].for_ps == Fault::for_ever));
   BOOST_TEST((list[3].address == 100u && list[3].bytes == 7u && list[3].nth == 4u));
   BOOST_TEST(list[3].text == "{what: torn, from: 100, bytes: 7, unit: 4}");
   BOOST_TEST(parse_faults("[" + list[3].text + "]", "again").front().bytes == 7u);
