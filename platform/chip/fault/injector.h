@@ -4,6 +4,7 @@
 #include <chip/system/zynq.h>
 #include <facts/result.h>
 #include <trace/vocabulary.h>
+#include <vp/axi_stream.h>
 
 #include <cstdint>
 #include <deque>
