@@ -1,6 +1,7 @@
 // Faults in the whole system: what hardware and software make of them.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -156,9 +157,19 @@ BOOST_AUTO_TEST_CASE(a_campaign_is_the_same_with_any_number_of_jobs) {
   const std::string csv = kit::read_file(*this / "one/faults.csv");
   BOOST_TEST(lines_of(csv).size() == 41u);
   BOOST_TEST((csv == kit::read_file(*this / "two/faults.csv")));
-  const Json all = Json::parse(kit::read_file(*this / "one/faults.json"))["all"];
+  const Json counts = Json::parse(kit::read_file(*this / "one/faults.json"));
+  const Json all = counts["all"];
   BOOST_TEST(all["faults"] == 40);
   BOOST_TEST(all["broken"] == 0);
+  std::uint64_t with_bit = 0;
+  for (const auto& [bit, of_bit] : counts["bits"].items())
+    with_bit += of_bit["faults"].get<std::uint64_t>();
+  const std::vector<std::string> lines = lines_of(csv);
+  BOOST_TEST(with_bit == std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+               return contains(line, ", bit: ");
+             }));
+  const std::string page = kit::read_file(*this / "one/report.html");
+  BOOST_TEST(contains(page, "id=\"faults\""));
 }
 
 BOOST_AUTO_TEST_CASE(a_clock_changes_for_good) {

@@ -3,6 +3,7 @@ import { h, s } from "./kit/dom.js";
 import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
 import { application } from "./application.js";
 import { comparePage } from "./compare/page.js";
+import { faultsPage } from "./faults/page.js";
 import { runPage } from "./run/page.js";
 import { sweepPage } from "./sweep/page.js";
 
@@ -36,6 +37,8 @@ function show() {
   const result = block("result");
   const sweep = block("sweep");
   if (sweep) return frame(sweepPage(sweep));
+  const faults = block("faults");
+  if (faults) return frame(faultsPage(faults));
   for (const [id, page] of Object.entries(application.pages)) {
     const data = block(id);
     if (data) return frame(page(data, block));

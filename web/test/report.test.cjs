@@ -13,7 +13,7 @@ const samples = require("./samples.cjs");
 const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
-  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(), detectors: samples.detectors(),
+  run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(), detectors: samples.detectors(), faults: samples.faults({ hostile: "<img src=x onerror='window.hacked=1'>" }),
   hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
   systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
@@ -72,10 +72,10 @@ async function scrollThrough(page) {
     await page.evaluate((to) => window.scrollTo({ top: to, behavior: "instant" }), y);
     await page.waitForTimeout(30);
   }
-  await page.waitForTimeout(150);
+  await page.waitForFunction(() => [...document.querySelectorAll(".chart-area")].every((area) => !area.checkVisibility() || area.dataset.drawn === "true"));
 }
 
-const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4 };
+const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4, faults: 3 };
 const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2 };
 for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
   for (const colorScheme of inLightOnly[name] ? ["light"] : ["light", "dark"]) {
@@ -99,16 +99,19 @@ for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
   }
 }
 
-// The target is 1 s on a desk; a machine that builds at the same time gets five times that.
+// The target is 1 s on a desk: what the page's thread computes until all is there, however busy the machine is.
 for (const name of ["run", "sweep"]) {
-  test(`${name}: opens quickly`, () => open(name, async (page) => {
-    const took = await page.evaluate(() => {
-      const [entry] = performance.getEntriesByType("navigation");
-      return entry.domContentLoadedEventEnd - entry.startTime;
-    });
-    console.log(`${name}: ${Math.round(took)} ms`);
-    assert.ok(took < 5000, `${took} ms`);
-  }));
+  test(`${name}: opens quickly`, async () => {
+    const page = await browser.newPage();
+    const session = await page.context().newCDPSession(page);
+    await session.send("Performance.enable", { timeDomain: "threadTicks" });
+    await page.goto("file://" + path.join(folder, name + ".html"));
+    const { metrics } = await session.send("Performance.getMetrics");
+    const took = metrics.find((metric) => metric.name === "TaskDuration").value;
+    console.log(`${name}: ${took.toFixed(2)} s`);
+    assert.ok(took > 0 && took < 2, `${took} s`);
+    await page.close();
+  });
 }
 
 test("narrow screens do not scroll sideways", async () => {
@@ -302,7 +305,7 @@ test("charts and tables are exported", () => open("run", async (page) => {
 }));
 
 test("every chart is exported", async () => {
-  for (const name of ["run", "sweep", "validation", "comparison", "detectors"]) {
+  for (const name of ["run", "sweep", "validation", "comparison", "detectors", "faults"]) {
     await open(name, async (page) => {
       await scrollThrough(page);
       const buttons = page.locator('figure .tools button[aria-label$=" as SVG"], figure .tools button[aria-label$=" as PNG"]');
@@ -664,6 +667,17 @@ test("colours switch and survive", () => open("run", async (page) => {
 
 test("sections without data are not there", () => open("short", async (page) => {
   assert.equal(await page.locator('.chart-area[aria-label^="Latency of each frame"]').count(), 0);
+}));
+
+test("a fault says how to have it again, with its waveforms", () => open("faults", async (page) => {
+  assert.deepEqual(await page.locator("#noticed tbody td").allTextContents(), ["80", "10", "3", "5", "0", "2"]);
+  await page.locator("#shots").getByRole("button", { name: "17", exact: true }).click();
+  assert.deepEqual(await page.locator("#shot pre").allTextContents(), ["markervp run z1.0 --set 'inject=[…]'", "markervp run z1.0 --set 'inject=[…]' --trace fault-17.fst"]);
+  assert.match(await page.locator("#shot").textContent(), /<img src=x/);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  const bits = page.locator("#bits figure");
+  await bits.getByRole("button", { name: "Table" }).click();
+  assert.deepEqual(await bits.locator("tbody th").allTextContents(), ["00", "02", "10"]);
 }));
 
 test("a name like markup stays text", () => open("hostile", async (page) => {

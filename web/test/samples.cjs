@@ -34,6 +34,15 @@ function frameOf(index, random, input) {
   };
 }
 
+/** A campaign: of each class some faults, the worst of which are listed. */
+function faults({ hostile = "" } = {}) {
+  const outcomes = ["masked", "recovered", "reported", "unnoticed", "hang", "broken"];
+  const counts = (...numbers) => ({ faults: numbers.reduce((a, b) => a + b, 0), ...Object.fromEntries(outcomes.map((name, i) => [name, numbers[i] ?? 0])), interval: Object.fromEntries(outcomes.map((name) => [name, [0.01, 0.2]])) });
+  const shot = (number, outcome) => ({ number, class: "bus", module: "pl.axi_dma_0", at_us: 12.5 * number, times: 1, outcome, fault: `{what: slverr, where: pl.axi_dma_0.link, at: ${number} us}`, sign: hostile, again: "markervp run z1.0 --set 'inject=[…]'" });
+  return { faults: { seed: 1, units: 3, end_us: 35760, design: "thesis", inputs: ["z1.0", "z2.0"], outcomes, all: counts(80, 10, 5, 3, 2), classes: { bus: counts(40, 10, 5, 0, 2), memory: counts(40, 0, 0, 3) },
+    modules: { "pl.axi_dma_0": counts(40, 10, 5, 0, 2), "pl.bram": counts(40, 0, 0, 3) }, bits: { "00": counts(3, 1), "02": counts(3), 10: counts(2, 0, 0, 1) }, shots: [shot(9, "unnoticed"), shot(17, "hang"), shot(20, "recovered")] } };
+}
+
 /** What sets the frame rate: one stage after the other, of which this one takes the longest. */
 function limitOf(stages, stage, text, more = {}) {
   return { kind: "sequence", stages: [stage], stages_us: 1, period_us: 2, percent: { ...Object.fromEntries(stages.map((name) => [name, name === stage ? 100 : 0])), camera: 0 },
@@ -220,4 +229,4 @@ function detectors() {
   return { detectors: { schema: 1, dictionary: "4x4_250", images: ["z0.5", "z1.0"], detectors: list, host_ms: { improved: 0.8, opencv: 3, apriltag3: 45.6 }, left_out: [{ design: "hd", why: "it takes images of 1280x720 px" }] } };
 }
 
-module.exports = { run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, page };
+module.exports = { run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };
