@@ -1,6 +1,9 @@
 #include <study/doubt.h>
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
+#include <numeric>
 
 #include <study/pareto.h>
 
@@ -26,14 +29,76 @@ Figures ends(const std::vector<std::vector<Span>>& points, const std::vector<boo
   return figures;
 }
 
-std::vector<std::size_t> first_front(const Figures& figures, const std::vector<bool>& maximise) {
-  const std::vector<std::size_t> front = fronts(figures, maximise);
-  std::vector<std::size_t> members;
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (front[i] == 1) members.push_back(i);
+/// Finds whether one of many points dominates a place: of up to two objectives by bisection, of
+/// more by looking at all.
+class Dominators {
+ public:
+  Dominators(const Figures& figures, const std::vector<bool>& maximise)
+      : figures_(figures), maximise_(maximise) {
+    if (maximise.size() > 2) return;
+    std::vector<std::size_t> order(figures.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return first(figures[a]) > first(figures[b]); });
+    Step step;
+    for (const std::size_t i : order) {
+      step.first = first(figures[i]);
+      const double second = this->second(figures[i]);
+      if (second > step.most) {
+        step.next = step.most;
+        step.most = second;
+        step.holder = i;
+      } else {
+        step.next = std::max(step.next, second);
+      }
+      steps_.push_back(step);
+    }
   }
-  return members;
-}
+
+  /// Without the point `except`.
+  bool dominate(const std::vector<double>& place, std::size_t except) const {
+    if (maximise_.size() > 2) {
+      for (std::size_t j = 0; j < figures_.size(); ++j)
+        if (j != except && dominates(figures_[j], place, maximise_)) return true;
+      return false;
+    }
+    const double x = first(place), y = second(place);
+    const auto better = std::partition_point(steps_.begin(), steps_.end(),
+                                             [x](const Step& s) { return s.first > x; });
+    const auto no_worse =
+        std::partition_point(better, steps_.end(), [x](const Step& s) { return s.first == x; });
+    return most_before(better, except) >= y || most_before(no_worse, except) > y;
+  }
+
+ private:
+  static constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+  /// The best two in the second objective, of a point and those better in the first.
+  struct Step {
+    double first = 0;
+    double most = nothing;
+    double next = nothing;
+    std::size_t holder = 0;  ///< of `most`
+  };
+  using Place = std::vector<Step>::const_iterator;
+
+  double turned(const std::vector<double>& figures, std::size_t i) const {
+    return maximise_[i] ? figures[i] : -figures[i];
+  }
+  double first(const std::vector<double>& figures) const { return turned(figures, 0); }
+  double second(const std::vector<double>& figures) const {
+    return maximise_.size() > 1 ? turned(figures, 1) : 0;
+  }
+  double most_before(Place end, std::size_t except) const {
+    if (end == steps_.begin()) return nothing;
+    const Step& step = *std::prev(end);
+    return step.holder == except ? step.next : step.most;
+  }
+
+  const Figures& figures_;
+  const std::vector<bool>& maximise_;
+  std::vector<Step> steps_;  ///< best first in the first objective
+};
 
 }  // namespace
 
@@ -70,28 +135,16 @@ std::optional<Span> span_in(const ResultRow& row, const vp::Expression& figure) 
   return span;
 }
 
-// What dominates is found among those that nothing dominates: at their worst for what is sure, at
-// their best for what is possible. A point at its best may hide others from that front: where it is
-// on it, all are looked at.
 std::vector<result::Holds> surely_dominated(const std::vector<std::vector<Span>>& points,
                                             const std::vector<bool>& maximise) {
   const Figures best = ends(points, maximise, true), worst = ends(points, maximise, false);
-  const std::vector<std::size_t> solid = first_front(worst, maximise);
-  const std::vector<std::size_t> hopeful = first_front(best, maximise);
-  std::vector<bool> is_hopeful(points.size(), false);
-  for (const std::size_t i : hopeful) is_hopeful[i] = true;
+  const Dominators at_worst(worst, maximise), at_best(best, maximise);
   std::vector<result::Holds> found;
   found.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool surely = std::any_of(solid.begin(), solid.end(), [&](std::size_t j) {
-      return dominates(worst[j], best[i], maximise);
-    });
-    bool possibly = !is_hopeful[i];
-    for (std::size_t j = 0; j < points.size() && !possibly; ++j)
-      possibly = j != i && dominates(best[j], worst[i], maximise);
-    found.push_back(surely     ? result::Holds::yes
-                    : possibly ? result::Holds::unknown
-                               : result::Holds::no);
+    found.push_back(at_worst.dominate(best[i], i)   ? result::Holds::yes
+                    : at_best.dominate(worst[i], i) ? result::Holds::unknown
+                                                    : result::Holds::no);
   }
   return found;
 }

@@ -3,6 +3,7 @@
 #include <study/pareto.h>
 
 #include <boost/test/unit_test.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,26 +105,35 @@ BOOST_AUTO_TEST_CASE(without_bands_an_order_is_sure) {
 BOOST_AUTO_TEST_CASE(it_is_that_of_the_definition) {
   std::uint32_t seed = 7;
   const auto draw = [&] { return static_cast<double>((seed = seed * 1664525 + 1013904223) >> 29); };
-  const std::vector<bool> maximise{true, false};
-  std::vector<std::vector<Span>> points;
-  for (int i = 0; i < 60; ++i) {
-    const double a = draw(), b = draw();
-    points.push_back({{a, a + (i % 3 == 0 ? draw() : 0)}, {b, b + (i % 2 == 0 ? draw() : 0)}});
-  }
-  const std::vector<Holds> found = surely_dominated(points, maximise);
-  const auto end = [&](std::size_t i, bool better) {
-    return std::vector<double>{better ? points[i][0].high : points[i][0].low,
-                               better ? points[i][1].low : points[i][1].high};
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    bool surely = false, possibly = false;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      if (j == i) continue;
-      surely = surely || dominates(end(j, false), end(i, true), maximise);
-      possibly = possibly || dominates(end(j, true), end(i, false), maximise);
+  for (const std::vector<bool>& maximise :
+       {std::vector<bool>{false}, {true, false}, {true, true}, {false, true, true}}) {
+    std::vector<std::vector<Span>> points(80);
+    for (std::vector<Span>& point : points) {
+      for (std::size_t k = 0; k < maximise.size(); ++k) {
+        const double low = draw();
+        point.push_back({low, low + (draw() < 4 ? draw() : 0)});
+      }
     }
-    const Holds expected = surely ? Holds::yes : possibly ? Holds::unknown : Holds::no;
-    BOOST_TEST((found[i] == expected), i);
+    const std::vector<Holds> found = surely_dominated(points, maximise);
+    const auto end = [&](std::size_t i, bool better) {
+      std::vector<double> figures;
+      for (std::size_t k = 0; k < maximise.size(); ++k)
+        figures.push_back(maximise[k] == better ? points[i][k].high : points[i][k].low);
+      return figures;
+    };
+    std::set<Holds> seen;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool surely = false, possibly = false;
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        if (j == i) continue;
+        surely = surely || dominates(end(j, false), end(i, true), maximise);
+        possibly = possibly || dominates(end(j, true), end(i, false), maximise);
+      }
+      const Holds expected = surely ? Holds::yes : possibly ? Holds::unknown : Holds::no;
+      BOOST_TEST((found[i] == expected), i << " of " << maximise.size());
+      seen.insert(expected);
+    }
+    BOOST_TEST(seen.size() > 1u);
   }
 }
 
