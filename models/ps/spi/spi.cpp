@@ -76,7 +76,7 @@ void Spi::hold_in_reset(bool hold) {
 void Spi::control_written(std::uint32_t word) {
   cr_.clear_bits(ps_spi::cr::MANSTRT);
   if ((word & ps_spi::cr::MANSTRT) != 0) started_ = true;
-  if (cr_.any(ps_spi::cr::SSFORCE)) select(chosen());
+  if (enable_ != 0 && cr_.any(ps_spi::cr::SSFORCE)) select(chosen());
   update();
 }
 

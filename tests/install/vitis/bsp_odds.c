@@ -1,6 +1,8 @@
 /* The rest of the headers: checks, tests of registers, waiting, time, the low-level interrupt
  * controller. */
-#include "sleep.h"
+#include "Sleep.h" /* as a host writes it that does not mind the case */
+#include "platform.h"
+#include "platform_config.h"
 #include "xil_assert.h"
 #include "xil_cache.h"
 #include "xil_io.h"
@@ -38,6 +40,7 @@ int main(void) {
   u8 nibble = 0;
   XTime begin, end;
 
+  init_platform();
   Xil_AssertSetCallback(CheckFailed);
   Xil_AssertWait = FALSE;
   if (Positive(5) != 5 || Positive(-5) != 0 || checks_failed != 1) return XST_FAILURE;

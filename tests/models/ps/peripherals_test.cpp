@@ -211,6 +211,7 @@ BOOST_AUTO_TEST_CASE(spi_reads_a_flash) {
     using namespace ps_spi;
     BOOST_TEST(look(at + CR) == 0x20000u);
     BOOST_TEST(look(at + ISR) == event::TXOW);
+    put(at + CR, cr::MSTREN | cr::SSFORCE);  // slave 0, which is not there: nothing while disabled
     put(at + CR, cr::MSTREN | cr::SSFORCE | 1u << cr::PRESC_shift | 0xDu << cr::SSCTRL_shift);
     put(at + ENABLE, 1);
     const std::uint64_t start = now_ps();
