@@ -4,6 +4,7 @@ import { isDark, onTheme, toggleTheme } from "./kit/theme.js";
 import { application } from "./application.js";
 import { comparePage } from "./compare/page.js";
 import { runPage } from "./run/page.js";
+import { wavesPage } from "./run/waves.js";
 import { sweepPage } from "./sweep/page.js";
 
 function block(id) {
@@ -40,6 +41,8 @@ function show() {
     const data = block(id);
     if (data) return frame(page(data, block));
   }
+  const trace = block("waves");
+  if (trace) return frame(wavesPage(trace));
   const folders = block("comparison");
   if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
   if (result) return frame(runPage(result, block("extras")));
