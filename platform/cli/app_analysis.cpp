@@ -381,16 +381,18 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   add_file(*convert, target);
   convert->add_option("OUTPUT", target.other, "a .vcd or .fst")->type_name("FILE")->required();
 
-  CLI::App* plot = add(*trace, target, "plot", "draw signals as SVG, or as a timing diagram");
+  CLI::App* plot = add(*trace, target, "plot",
+                       "draw signals as SVG or timing diagram; a page to look around in");
   add_file(*plot, target);
-  plot->add_option("SIGNAL", target.signals, "names, or their ends")->type_name("")->required();
+  plot->add_option("SIGNAL", target.signals, "names, or their ends; a page takes all without")
+      ->type_name("");
   add_window(*plot, target);
   plot->add_option("--marker", target.marker, "a line at a time: 6.1ms")->type_name("TIME");
   plot->add_option("--every", target.every,
                    "a timing diagram for WaveDrom instead, a column for each of these edges")
       ->type_name("CLOCK");
   plot->add_option("-o,--output", target.output,
-                   "picture (default: plot.svg), or diagram (diagram.json)")
+                   "picture (default: plot.svg), diagram (diagram.json), or page (NAME.html)")
       ->type_name("FILE");
 
   CLI::App* gtkw = add(*trace, target, "gtkw", "write save and translate files for GTKWave");

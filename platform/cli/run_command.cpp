@@ -5,6 +5,7 @@
 #include <cli/frame_runner.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <cli/wave_page.h>
 #include <host/output_folder.h>
 #include <host/process.h>
 #include <result/console.h>
@@ -286,6 +287,7 @@ struct Views {
   page::RunExtras* page;     ///< null: not wanted
   host::OutputFolder& folder;
   const vp::Configuration& configuration;
+  const std::optional<std::string>& trace;
 };
 
 /// Writes them, after the result. One that cannot be written does not keep the other from it; the
@@ -311,6 +313,7 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
   if (!timeline.empty()) views.page->add_member("timeline", facts::page_json(timeline));
   const std::string& profile = simulation.software_profile();
   if (!profile.empty()) views.page->add_member("profile", profile);
+  if (simulation.wrote_trace()) views.page->add_member("waves", waves_of_run(*views.trace));
   return attempt([&] {
     views.folder.add(page::report_name);
     page::write_report(views.folder.path(), views.page->json(views.configuration.parameters()));
@@ -468,9 +471,10 @@ int run_into(MemoryRun* memory, const RunOptions& asked_for,
     return verdict(options, runner, facts, job, warnings.size(), runner.error(), err);
   }
   std::exception_ptr error = runner.error();
-  const bool has_page = write_views(
-      {timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder, configuration},
-      *simulation, error);
+  const bool has_page =
+      write_views({timeline_file ? &*timeline_file : nullptr, page ? &extras : nullptr, *folder,
+                   configuration, options.trace},
+                  *simulation, error);
   out << (options.quiet ? "" : "\n")
       << result::summary_text(result.summary(), facts, own_lines(result.summary()))
       << written_text(options, runner, *simulation, configuration, has_page, error != nullptr)

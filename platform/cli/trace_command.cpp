@@ -5,7 +5,9 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <cli/trace_options.h>
+#include <cli/wave_page.h>
 #include <host/output_folder.h>
+#include <result/page/report_page.h>
 #include <trace/listing.h>
 #include <trace/questions.h>
 #include <trace/statistics.h>
@@ -324,7 +326,20 @@ int diagram(const TraceCommandOptions& options, TraceFile& file, const trace::Pl
   return done;
 }
 
+/// A page with a viewer in place of a picture.
+int viewer(const TraceCommandOptions& options, const std::string& name, std::ostream& out,
+           std::ostream& err) {
+  if (!page::write_page(name, {{"waves", waves_json(options, err)}}))
+    throw vp::InputError("this program was built without its page: draw an SVG");
+  out << "wrote " << name << "\n";
+  return done;
+}
+
 int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  const std::string name = options.output.value_or("plot.svg");
+  if (std::filesystem::path(name).extension() == ".html") return viewer(options, name, out, err);
+  if (options.signals.empty())
+    throw vp::InputError("plot: name the signals; all of them are in a page only: -o waves.html");
   TraceFile file = opened(options);
   trace::PlotOptions asked;
   asked.signals = options.signals;
@@ -345,8 +360,8 @@ int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   if (options.marker)
     asked.marker_ps = parse_trace_window(*options.marker + ":", "--marker").from_ps;
   const std::string picture = trace::plot_as_svg(file, asked);
-  vp::write_file(options.output.value_or("plot.svg"), picture);
-  out << "wrote " << options.output.value_or("plot.svg") << "\n";
+  vp::write_file(name, picture);
+  out << "wrote " << name << "\n";
   warn_of(file, err);
   return done;
 }

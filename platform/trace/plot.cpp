@@ -275,4 +275,18 @@ std::string readable(const std::string& text, Kind kind, unsigned width) {
   return result;
 }
 
+std::string shown_value(const TraceFile& file, const vp::WaveVariable& variable,
+                        const std::string& text, Kind kind) {
+  if (kind != Kind::bits || (variable.width == 1 && variable.enumeration == 0))
+    return text.empty() && kind != Kind::text ? "x" : text;
+  if (variable.enumeration != 0) {
+    const std::string digits = vp::full_digits(text, variable.width);
+    for (const auto& [value, word] : file.reader().enumerations()[variable.enumeration - 1].words) {
+      if (vp::full_digits(value, variable.width) == digits) return word;
+    }
+  }
+  if (variable.width == 1) return text.empty() ? "x" : text;
+  return "0x" + (text.empty() ? "x" : readable(text, kind, variable.width));
+}
+
 }  // namespace platform::trace

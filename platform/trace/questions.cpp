@@ -175,18 +175,18 @@ class Finder final : public Replay::Listener {
 /// Writes rows at times, on edges or when a condition comes true.
 class Reporter final : public Replay::Listener {
  public:
-  Reporter(TraceFile& file, const ValuesOptions& options,
+  /// `times_ps`: rising.
+  Reporter(TraceFile& file, const ValuesOptions& options, std::vector<std::uint64_t> times_ps,
            const std::function<bool(const ValueRow&)>& take)
       : file_(file),
         options_(options),
         take_(take),
         replay_(file),
         watch_(replay_, options.when, options.every, "values --when"),
-        times_(options.at_ps) {
+        times_(std::move(times_ps)) {
     replay_.keep_texts();
     for (const std::string& name : options.signals)
       slots_.push_back(replay_.watch(vp::find_path(name, file.paths(), "values: ")));
-    std::sort(times_.begin(), times_.end());
   }
 
   void run() {
@@ -224,22 +224,9 @@ class Reporter final : public Replay::Listener {
       const vp::WaveVariable& variable = file_.variable(replay_.variable(slot));
       const std::string& text = before ? replay_.text_before(slot) : replay_.text(slot);
       const auto kind = before ? replay_.kind_before(slot) : replay_.kind(slot);
-      row.values.push_back(shown(text, kind, variable));
+      row.values.push_back(shown_value(file_, variable, text, kind));
     }
     stopped_ = !take_(row);
-  }
-  std::string shown(const std::string& text, vp::WaveVariable::Kind kind,
-                    const vp::WaveVariable& variable) const {
-    if (kind != vp::WaveVariable::Kind::bits || variable.width == 1)
-      return text.empty() && kind != vp::WaveVariable::Kind::text ? "x" : text;
-    if (variable.enumeration != 0) {
-      const std::string digits = vp::full_digits(text, variable.width);
-      for (const auto& [value, word] :
-           file_.reader().enumerations()[variable.enumeration - 1].words) {
-        if (vp::full_digits(value, variable.width) == digits) return word;
-      }
-    }
-    return "0x" + (text.empty() ? "x" : readable(text, kind, variable.width));
   }
 
   TraceFile& file_;
@@ -273,7 +260,19 @@ void values(TraceFile& file, const ValuesOptions& options,
                     static_cast<int>(!options.when.empty() || options.every.has_value());
   if (kinds != 1)
     throw vp::InputError("values: say when: --at TIME, or --when CONDITION, or --every CLOCK");
-  Reporter(file, options, take).run();
+  std::vector<std::uint64_t> times = options.at_ps;
+  std::sort(times.begin(), times.end());
+  if (times.empty()) Reporter(file, options, times, take).run();
+  // Those that lie behind one entry to the file are read in one go.
+  for (auto begin = times.begin(); begin != times.end();) {
+    const auto entry = file.reader().entry(*begin);
+    const auto end = std::find_if(begin, times.end(), [&](std::uint64_t ps) {
+      return entry && file.reader().entry(ps) != entry;
+    });
+    if (entry) file.reader().enter(*entry);
+    Reporter(file, options, {begin, end}, take).run();
+    begin = end;
+  }
 }
 
 }  // namespace platform::trace

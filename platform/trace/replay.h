@@ -226,6 +226,11 @@ class Stepper final : private vp::WaveHandler {
 /// A value for people: vectors in hexadecimal, the rest as it is.
 std::string readable(const std::string& text, vp::WaveVariable::Kind kind, unsigned width);
 
+/// The same with its type: a name where the values have names, "0x2A" of a vector, "x" of what has
+/// no value yet.
+std::string shown_value(const TraceFile& file, const vp::WaveVariable& variable,
+                        const std::string& text, vp::WaveVariable::Kind kind);
+
 /// An edge of a signal, by which instants are counted: "top.clk", "top.clk falling".
 struct ClockEdge {
   std::string signal;

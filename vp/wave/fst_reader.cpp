@@ -41,7 +41,26 @@ std::string FstReader::remark() const {
   file_.fail("the changes of a signal are corrupt", file_.changes()[block_ - 1].at);
 }
 
+std::uint64_t FstReader::block_before(std::uint64_t steps) const {
+  std::uint64_t block = 0;
+  for (std::size_t next = 1; next < file_.changes().size(); ++next, ++block) {
+    const fst::File::Section& section = file_.changes()[next];
+    const std::string start = file_.read(section.at, sizeof steps);
+    if (fst::Cursor(file_, start, section.at, "block of changes").u64() > steps) break;
+  }
+  return block;
+}
+
 void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
+  if (entry_) {
+    block_ = *std::exchange(entry_, std::nullopt);
+    // The first values of a block leave out texts.
+    for (std::size_t net = 0; net < nets_.size(); ++net) {
+      if (selected[net] && nets_[net].kind == WaveVariable::Kind::text) block_ = 0;
+    }
+    open_ = false;
+    entered_ = true;
+  }
   for (;;) {
     if (open_) {
       if (!hand_over_block(at, selected, handler)) return;
@@ -66,7 +85,8 @@ void FstReader::open_block(const fst::File::Section& section, const std::vector<
   cursor.varint();  // handles in the frame
   const std::uint64_t frame_at = cursor.offset();
   if (packed > section.end() - frame_at) cursor.fail("is shorter than its first values");
-  frame_due_ = block_ == 1;
+  const bool entered = std::exchange(entered_, false);
+  frame_due_ = block_ == 1 || entered;
   if (frame_due_) frame_ = file_.read_packed(frame_at, packed, unpacked);
 
   const std::uint64_t behind = frame_at + packed;
@@ -254,7 +274,7 @@ bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selecte
   return true;
 }
 
-/// The values at the start of the file. What is unknown has no value yet.
+/// The values at the start of a block. What is unknown in the first has no value yet.
 void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler) {
   const std::string_view frame = frame_;
   std::size_t at = 0;
@@ -266,14 +286,15 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
     const std::string_view value = frame.substr(at, size);
     at += size;
     if (!selected[net]) continue;
+    const bool first = block_ == 1;
     double real = 0;
     if (is_real) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, value.data(), sizeof bits);
       bits = swapped(bits, file_.is_swapped());
       std::memcpy(&real, &bits, sizeof real);
-      if (!std::isnan(real)) hand_over_real(net, value.data(), handler);
-    } else if (value.find_first_not_of('x') != std::string_view::npos) {
+      if (!first || !std::isnan(real)) hand_over_real(net, value.data(), handler);
+    } else if (!first || value.find_first_not_of('x') != std::string_view::npos) {
       hand_over_bits(net, value, handler);
     }
   }

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,10 @@ class FstReader {
   /// What is odd about the file; empty if nothing is.
   std::string remark() const;
 
+  /// The last block that is not after `steps`.
+  std::uint64_t block_before(std::uint64_t steps) const;
+  /// The next read() begins with the values at the start of a block, or of an earlier one.
+  void enter(std::uint64_t block) { entry_ = block; }
   /// Hands over the changes of the selected nets, from where the last call stopped to the end or
   /// until `at` has enough. Throws InputError.
   void read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler);
@@ -93,7 +98,9 @@ class FstReader {
   bool open_ = false;
   std::size_t instant_ = 0;  ///< its time was handed over if `announced_`
   bool announced_ = false;
-  bool frame_due_ = false;  ///< the first block's values were not handed over
+  bool frame_due_ = false;  ///< the block's first values were not handed over
+  bool entered_ = false;    ///< the next block is the first to be read
+  std::optional<std::uint64_t> entry_;
   std::uint64_t block_start_ = 0, block_end_ = 0;
   std::vector<std::uint64_t> times_;
   std::string frame_;

@@ -26,6 +26,11 @@ class GzipSource final : public ByteSource {
     if (state_ == State::plain) return read_plain(to, size);
     return state_ == State::over ? 0 : read_packed(to, size);
   }
+  bool can_seek() const override { return state_ == State::plain && source_->can_seek(); }
+  void seek(std::uint64_t offset) override {
+    held_ = 0;
+    source_->seek(offset);
+  }
 
  private:
   enum class State : std::uint8_t { begin, plain, packed, over };

@@ -2,9 +2,7 @@
 
 #include "gzip_source.h"
 
-#include <fcntl.h>
 #include <vp/error.h>
-#include <vp/file.h>
 
 #include <algorithm>
 #include <charconv>
@@ -14,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-// The values of a VCD.
+// The words behind the header of a VCD.
 
 namespace vp {
 
@@ -22,24 +20,6 @@ namespace {
 
 constexpr const char* too_long =
     "a word, or white space, longer than 256 KiB: the file is corrupt, or no VCD";
-
-class FileSource final : public ByteSource {
- public:
-  explicit FileSource(const std::filesystem::path& file) : file_(file, "trace") {
-    ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_SEQUENTIAL);
-  }
-
-  std::size_t read(char* to, std::size_t size) override {
-    return file_.read(to, size, InputFile::HostClock::now() + InputFile::patience);
-  }
-
- private:
-  InputFile file_;
-};
-
-bool is_blank(char c) {
-  return static_cast<unsigned char>(c) <= ' ';
-}
 
 /// What a word is that begins with a letter.
 enum class Word : std::uint8_t { other, time, scalar, vector, real, text, port, keyword };
@@ -86,51 +66,12 @@ constexpr std::uint32_t no_net = 0;
 
 }  // namespace
 
-bool VcdWindow::refill(const char* from) {
-  const auto unused = static_cast<std::size_t>(from - buffer_.data());
-  const auto held = static_cast<std::size_t>(end_ - from);
-  const bool only_blanks =
-      held == 0 && unused == size && std::all_of(buffer_.data(), buffer_.data() + size, is_blank);
-  if (held == size || only_blanks) {
-    cursor = from;
-    too_long_ = true;
-    return false;
-  }
-  line(from);
-  counted_ = buffer_.data();
-  std::memmove(buffer_.data(), from, held);
-  cursor = buffer_.data();
-  end_ = buffer_.data() + held;
-  std::size_t count = 0;
-  const char* last = nullptr;
-  do {
-    count = source_->read(end_, size - static_cast<std::size_t>(end_ - buffer_.data()));
-    read_ += count;
-    end_ += count;
-    last = end_;
-    while (last != cursor && !is_blank(last[-1])) --last;
-    // A word, and what belongs to it, must come whole: read until there is another blank.
-  } while (count != 0 && static_cast<std::size_t>(last - cursor) <= held &&
-           end_ != buffer_.data() + size);
-  std::memset(end_, ' ', padding);
-  safe_ = last;
-  return static_cast<std::size_t>(end_ - cursor) > held;
-}
-
-std::uint64_t VcdWindow::line(const char* at) const {
-  if (at > counted_) {
-    lines_ += static_cast<std::uint64_t>(std::count(counted_, at, '\n'));
-    counted_ = at;
-  }
-  return lines_;
-}
-
 VcdReader::VcdReader(const std::filesystem::path& file, const WaveOptions& options,
                      WaveNotes& notes)
     : file_(file),
       options_(options),
       notes_(notes),
-      window_(unpacked(std::make_unique<FileSource>(file), file,
+      window_(unpacked(open_bytes(file), file,
                        [this](const std::string& text) {
                          if (options_.strict)
                            throw InputError("trace '" + file_.string() + "' " + text +
@@ -229,9 +170,35 @@ bool VcdReader::has_longer(std::string_view code) const {
   return false;
 }
 
-void VcdReader::read(const std::vector<bool>& selected, Clock& clock, WaveHandler& handler) {
+void VcdReader::select(const std::vector<bool>& selected) {
   for (std::size_t i = 0; i < nets_.size(); ++i)
     nets_[i].selected = selected[i] && (nets_[i].width != 0);
+}
+
+void VcdReader::enter(const Place& place, const std::vector<std::uint64_t>& changes,
+                      const std::vector<bool>& selected, Clock& clock, WaveHandler& handler) {
+  window_.seek(place.offset, place.line);
+  select(selected);
+  steps_ = place.steps;
+  started_ = true;
+  over_ = false;
+  if (!clock.reach(place.steps)) return;
+  for (const std::uint64_t offset : changes) read_change(offset, clock, handler);
+  window_.seek(place.offset, place.line);
+}
+
+void VcdReader::read_change(std::uint64_t offset, Clock& clock, WaveHandler& handler) {
+  window_.seek(offset, 1);
+  single_ = true;
+  do {
+    if (!window_.refill(window_.cursor)) window_.close_last_word();
+  } while (read_window(clock, handler) == Status::more &&
+           window_.offset(window_.cursor) == offset && window_.safe() != window_.end());
+  single_ = false;
+}
+
+void VcdReader::read(const std::vector<bool>& selected, Clock& clock, WaveHandler& handler) {
+  select(selected);
   if (over_ || (!started_ && !begin_values(clock, handler))) return;
   for (;;) {
     const Status status = read_window(clock, handler);
@@ -258,7 +225,7 @@ bool VcdReader::begin_values(Clock& clock, WaveHandler& handler) {
       }
       continue;
     }
-    window_.cursor = word.data();
+    window_.cursor = begin_ = word.data();
     if (word.front() == '#') return true;
     started_ = true;
     return clock.reach(0);
@@ -270,6 +237,7 @@ bool VcdReader::begin_values(Clock& clock, WaveHandler& handler) {
 VcdReader::Status VcdReader::read_window(Clock& clock, WaveHandler& handler) {
   const char* at = window_.cursor;
   const char* const safe = window_.safe();
+  const char* const until = single_ ? std::min(at + 1, safe) : safe;
   const std::uint32_t* const table = by_short_code_.data();
   const std::size_t table_size = by_short_code_.size();
   const auto is_code = [](char c) { return static_cast<unsigned char>(c - '!') < 94; };
@@ -284,8 +252,9 @@ VcdReader::Status VcdReader::read_window(Clock& clock, WaveHandler& handler) {
     at_ = to;
     return declared_net_of({from, static_cast<std::size_t>(to - from)});
   };
-  while (at < safe) {
+  while (at < until) {
     const Letter letter = letters[static_cast<unsigned char>(*at)];
+    begin_ = at;
     if (letter.word == Word::scalar) {
       const char* to = at + 1;
       if (is_blank(*to) && !pass_blanks_of_bit(to)) break;
@@ -476,119 +445,6 @@ VcdReader::Status VcdReader::read_keyword(std::string_view word, WaveHandler& ha
   if (std::find(std::begin(known), std::end(known), word) == std::end(known))
     fail("unknown keyword " + shown(word));
   return Status::again;
-}
-
-/// What is in $dumpoff: nothing is known.
-void VcdReader::hand_over_unknowns(WaveHandler& handler) {
-  for (std::uint32_t i = 0; i < nets_.size(); ++i) {
-    const Net& net = nets_[i];
-    if (!net.selected || net.is_event) continue;
-    WaveValue value;
-    value.kind = net.kind;
-    value.real = std::numeric_limits<double>::quiet_NaN();
-    value.known = net.kind == WaveVariable::Kind::text;
-    value.text = net.kind == WaveVariable::Kind::bits   ? "x"
-                 : net.kind == WaveVariable::Kind::real ? "nan"
-                                                        : "";
-    handler.change(i, value);
-  }
-}
-
-/// Digits that are no plain number: letters, too many, a prefix; or of a signal of another type.
-void VcdReader::read_bits(std::string_view digits, std::uint32_t net, WaveHandler& handler) {
-  const Net& form = nets_[net];
-  if (digits.substr(0, 2) == "0b") digits.remove_prefix(2);
-  DecodedDigits decoded = decode_digits(digits);
-  if (digits.empty()) fail("a value of 0 digits");
-  if (!decoded.valid) fail(shown(digits) + " is no binary number");
-  if (decoded.capitals) {
-    digits_ = digits;
-    for (char& c : digits_) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    digits = digits_;
-  }
-  WaveValue value;
-  value.known = decoded.known;
-  value.bits = decoded.bits;
-  value.text = digits;
-  if (form.kind == WaveVariable::Kind::text) {
-    note("a text has a number as its value");
-    value.kind = form.kind;
-    value.known = true;
-  } else if (form.kind == WaveVariable::Kind::real) {
-    note("a real signal has bits as its value: they are taken as a whole number");
-    value.kind = form.kind;
-    value.real = value.known ? static_cast<double>(value.bits) : std::nan("");
-    text_.resize(32);
-    const auto end = std::to_chars(text_.data(), text_.data() + text_.size(), value.real).ptr;
-    value.text = std::string_view(text_.data(), static_cast<std::size_t>(end - text_.data()));
-  } else if (digits.size() > form.width) {
-    shorten(digits, form.width);
-    decoded = decode_digits(digits);
-    value.known = decoded.known;
-    value.bits = decoded.bits;
-    value.text = digits;
-  } else if (digits.size() < form.width &&
-             std::string_view("01xz").find(digits.front()) == std::string_view::npos) {
-    note(
-        "values begin with a letter that the standard does not extend to the left: it is "
-        "repeated");
-  }
-  handler.change(net, value);
-}
-
-/// Leaves out the digits on the left that say nothing.
-void VcdReader::shorten(std::string_view& digits, unsigned width) {
-  const std::string_view lost = digits.substr(0, digits.size() - width);
-  const std::string_view left = digits.substr(lost.size());
-  const char restored = left.front() == '1' ? '0' : left.front();
-  if (lost.find_first_not_of(restored) != std::string_view::npos) {
-    fail("a value of " + std::to_string(digits.size()) + " digits for a signal of " +
-         std::to_string(width) + " bits");
-  }
-  note(
-      "values have more digits than their signal: those on the left, which say nothing, are left "
-      "out");
-  digits = left;
-}
-
-void VcdReader::read_real(std::string_view digits, std::uint32_t net, WaveHandler& handler) {
-  WaveValue value;
-  value.kind = WaveVariable::Kind::real;
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  value.text = digits;
-  const char* const end = digits.data() + digits.size();
-  const auto parsed = std::from_chars(digits.data(), end, value.real);
-  if (parsed.ec == std::errc::invalid_argument || parsed.ptr != end)
-    fail(shown(digits) + " is no number");
-  value.known = std::isfinite(value.real);
-  if (nets_[net].kind != WaveVariable::Kind::real) {
-    note("a signal of bits or text has a real number as its value");
-    if (nets_[net].kind == WaveVariable::Kind::text) {
-      value.kind = WaveVariable::Kind::text;
-      value.known = true;
-    }
-  }
-  handler.change(net, value);
-}
-
-void VcdReader::read_text(std::string_view text, std::uint32_t net, WaveHandler& handler) {
-  if (nets_[net].kind != WaveVariable::Kind::text)
-    note("a signal of bits or numbers has words as values: it is a text from there on");
-  unescape(text, text_);
-  WaveValue value;
-  value.kind = WaveVariable::Kind::text;
-  value.known = true;
-  value.text = text_;
-  handler.change(net, value);
-}
-
-void VcdReader::read_port(std::string_view states, std::uint32_t net, WaveHandler& handler) {
-  std::string digits;
-  for (const char c : states) {
-    digits += state_of_port(c);
-    if (digits.back() == '\0') fail(shown(states) + " are no states of a port");
-  }
-  read_bits(digits, net, handler);
 }
 
 bool VcdReader::accept_last_word() {

@@ -44,6 +44,21 @@ class VcdReader {
   /// until the clock has enough. Throws InputError.
   void read(const std::vector<bool>& selected, Clock& clock, WaveHandler& handler);
 
+  /// A place at which reading can begin: the first word of an instant.
+  struct Place {
+    std::uint64_t steps, offset, line;
+  };
+  /// enter() works. Ask behind the header.
+  bool can_enter() { return window_.can_seek(); }
+  /// The byte at which the change or the instant begins that is being handed over.
+  std::uint64_t offset() const { return window_.offset(begin_); }
+  /// The instant that is being handed over.
+  Place place() const { return {steps_, offset(), window_.line(begin_)}; }
+  /// Goes to `place` and hands over, in its instant, the changes at the bytes `changes`, which
+  /// rise: those that made the values before it. read() continues there.
+  void enter(const Place& place, const std::vector<std::uint64_t>& changes,
+             const std::vector<bool>& selected, Clock& clock, WaveHandler& handler);
+
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
@@ -77,6 +92,8 @@ class VcdReader {
   /// A longer identifier begins with this one.
   bool has_longer(std::string_view code) const;
 
+  void select(const std::vector<bool>& selected);
+  void read_change(std::uint64_t offset, Clock& clock, WaveHandler& handler);
   bool pass_blanks_of_bit(const char*& to);
   Status read_window(Clock& clock, WaveHandler& handler);
   bool begin_values(Clock& clock, WaveHandler& handler);
@@ -96,7 +113,9 @@ class VcdReader {
   WaveOptions options_;
   WaveNotes& notes_;
   VcdWindow window_;
-  const char* at_ = nullptr;  ///< for messages: the word that is looked at
+  const char* at_ = nullptr;     ///< for messages: the word that is looked at
+  const char* begin_ = nullptr;  ///< of the change or instant that is being handed over
+  bool single_ = false;          ///< a window is left behind its first word
 
   std::vector<Net> nets_;
   std::vector<WaveDeclared> declared_;

@@ -53,6 +53,8 @@ class WaveNotes {
   /// `line`: 0 if it is not known.
   void add(const std::string& text, std::uint64_t line);
   std::vector<std::string> texts() const;
+  /// From here on nothing is added: all of the file is known.
+  void close() { closed_ = true; }
 
  private:
   struct Note {
@@ -60,6 +62,7 @@ class WaveNotes {
     std::uint64_t count, line;
   };
   std::vector<Note> notes_;
+  bool closed_ = false;
 };
 
 /// A part of a vector that a file declares bit by bit.
@@ -93,6 +96,8 @@ class WaveJoiner final : public WaveHandler {
   void begin(WaveHandler& next, const std::vector<bool>& selected);
   /// The file is over.
   void flush();
+  /// The file is entered at another place: no part has a value yet.
+  void forget();
 
   bool at(std::uint64_t ps) override;
   void change(std::uint32_t net, const WaveValue& value) override;

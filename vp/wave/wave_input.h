@@ -23,7 +23,19 @@ class ByteSource {
   virtual ~ByteSource() = default;
   /// Up to `size` bytes; 0 at the end. Throws InputError.
   virtual std::size_t read(char* to, std::size_t size) = 0;
+  /// False: the bytes come once, from front to back. Ask when some were read.
+  virtual bool can_seek() const { return false; }
+  /// Reads on from there.
+  virtual void seek(std::uint64_t /*offset*/) {}
 };
+
+/// The bytes of a file as they are. Throws InputError.
+std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& file);
+
+/// White space, as a VCD has it between words.
+constexpr bool is_blank(char c) {
+  return static_cast<unsigned char>(c) <= ' ';
+}
 
 constexpr std::array<std::array<char, 8>, 256> make_digits_of_byte() {
   std::array<std::array<char, 8>, 256> digits{};
@@ -64,6 +76,10 @@ class VcdWindow {
   /// The file is over: the word that ends with it counts as whole.
   void close_last_word() { safe_ = end_; }
 
+  bool can_seek() const { return source_->can_seek(); }
+  /// Reads on at that byte of the file, in its line `line`.
+  void seek(std::uint64_t offset, std::uint64_t line);
+
   /// A word, or white space, that is longer than the window.
   bool too_long() const { return too_long_; }
   /// Of the byte `at` in the window: its line, and its place in the file. Lines are asked for from
@@ -76,11 +92,14 @@ class VcdWindow {
 
  private:
   static constexpr std::size_t padding = 16;
+  /// Read first behind a seek: a change or two are often all that is wanted.
+  static constexpr std::size_t smallest_chunk = 1 << 12;
 
   std::unique_ptr<ByteSource> source_;
   std::vector<char> buffer_;
   const char* safe_;
   char* end_;
+  std::size_t chunk_ = size;  ///< read at once
   bool too_long_ = false;
   // The line of a place that was asked for, to count on from there.
   mutable const char* counted_;

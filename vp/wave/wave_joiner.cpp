@@ -99,4 +99,12 @@ void WaveJoiner::flush() {
   due_.clear();
 }
 
+void WaveJoiner::forget() {
+  due_.clear();
+  for (Joined& joined : joined_) {
+    joined.is_due = false;
+    joined.digits.assign(joined.digits.size(), 'x');
+  }
+}
+
 }  // namespace vp

@@ -261,6 +261,7 @@ std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& va
 }
 
 void WaveNotes::add(const std::string& text, std::uint64_t line) {
+  if (closed_) return;
   // What differs from one to the next is in quotes.
   const auto same = [&](const Note& note) {
     return note.text.substr(0, note.text.find('\'')) == text.substr(0, text.find('\''));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fst_reader.h"
+#include "vcd_index.h"
 #include "vcd_reader.h"
 #include "wave_declared.h"
 
@@ -27,7 +28,7 @@ bool looks_like_fst(const std::filesystem::path& file) {
 }  // namespace
 
 WaveReader::WaveReader(const std::filesystem::path& file, const WaveOptions& options)
-    : file_(file), notes_(std::make_unique<WaveNotes>()) {
+    : options_(options), file_(file), notes_(std::make_unique<WaveNotes>()) {
   if (looks_like_fst(file)) {
     fst_ = std::make_unique<FstReader>(file);
     timescale_fs_ = fst_->timescale_fs();
@@ -86,6 +87,39 @@ void WaveReader::select_all() {
   for (const WaveVariable& variable : variables_) select(variable.net);
 }
 
+std::optional<std::uint64_t> WaveReader::entry(std::uint64_t ps) {
+  constexpr unsigned fs_per_ps = 1000;
+  constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+  const auto wide = static_cast<unsigned __int128>(ps) * fs_per_ps / timescale_fs_;
+  const std::uint64_t steps = wide > last ? last : static_cast<std::uint64_t>(wide);
+  if (fst_) return fst_->block_before(steps);
+  if (!std::exchange(index_sought_, true) && !options_.strict && vcd_->can_enter() &&
+      std::filesystem::file_size(file_) >= options_.index_from) {
+    index_ = VcdIndex::of(file_, options_, *notes_);
+    if (index_) notes_->close();
+  }
+  return index_ ? index_->place_before(steps) : std::nullopt;
+}
+
+void WaveReader::enter(std::uint64_t entry) {
+  started_ = false;
+  if (joiner_) joiner_->forget();
+  if (fst_) {
+    fst_->enter(entry);
+  } else {
+    entry_ = entry;
+  }
+}
+
+/// Nets of the file that are wanted and keep their values; what occurred before is over.
+std::vector<std::uint32_t> WaveReader::standing() const {
+  std::vector<std::uint32_t> nets;
+  for (std::uint32_t net = 0; net < wanted_.size(); ++net) {
+    if (wanted_[net] && !vcd_->nets()[net].is_event) nets.push_back(net);
+  }
+  return nets;
+}
+
 void WaveReader::read(WaveHandler& handler) {
   WaveHandler* next = &handler;
   if (joiner_) {
@@ -105,7 +139,11 @@ void WaveReader::read(WaveHandler& handler) {
       bool reach(std::uint64_t steps) override { return take(steps); }
       const decltype(reach_now)& take;
     } clock(reach_now);
-    vcd_->read(wanted_, clock, *next);
+    if (entry_) {
+      const VcdReader::Place& place = index_->place(*std::exchange(entry_, std::nullopt));
+      vcd_->enter(place, index_->last_changes(place, standing()), wanted_, clock, *next);
+    }
+    if (!stopped) vcd_->read(wanted_, clock, *next);
   }
   if (joiner_ && !stopped) joiner_->flush();
 }

@@ -5,6 +5,7 @@ import { application } from "./application.js";
 import { comparePage } from "./compare/page.js";
 import { faultsPage } from "./faults/page.js";
 import { runPage } from "./run/page.js";
+import { wavesPage } from "./run/waves.js";
 import { sweepPage } from "./sweep/page.js";
 
 function block(id) {
@@ -43,6 +44,8 @@ function show() {
     const data = block(id);
     if (data) return frame(page(data, block));
   }
+  const trace = block("waves");
+  if (trace) return frame(wavesPage(trace));
   const folders = block("comparison");
   if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
   if (result) return frame(runPage(result, block("extras")));

@@ -41,6 +41,11 @@ blocks.waiting.result.stages.splice(2, 0, { name: "wait", part_of: "frame" });
 for (const frame of blocks.waiting.result.frames) frame.time_us.wait = 5000;
 Object.assign(blocks.waiting.result.limit, { kind: "behind", stages: ["evaluation", "identification"], clock: undefined, levers: ["sw.second_core=1"],
   text: "evaluation and identification set the frame rate: 1.0 of 1.0 us, other stages overlap", faster_with: "sw.second_core=1" });
+blocks.waves = { waves: samples.waves() };
+blocks.manyWaves = { waves: samples.waves({ changes: 1e6 }) };
+blocks.traced = samples.run({ frames: 3 });
+blocks.traced.extras.waves = samples.waves();
+blocks.traced.extras.timeline.frames = [{ index: 0, start: 2, end: 8 }]; // µs
 let browser;
 
 before(async () => {
@@ -76,7 +81,7 @@ async function scrollThrough(page) {
 }
 
 const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4, faults: 3 };
-const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2 };
+const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2, waves: 0, traced: 4 };
 for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
   for (const colorScheme of inLightOnly[name] ? ["light"] : ["light", "dark"]) {
     test(`${name}, ${colorScheme}: every chart draws, and axe finds nothing`, () => open(name, async (page) => {
@@ -701,4 +706,58 @@ test("it prints", () => open("short", async (page) => {
   await page.emulateMedia({ media: "print" });
   assert.ok(!(await page.locator(".bar").isVisible()));
   assert.ok((await page.pdf()).length > 20000);
+}));
+
+/** How many colours the pixels of a row of waves have. */
+const coloursOfRow = (page, row) => page.$eval(".wave-sight canvas", (canvas, at) => {
+  const dense = window.devicePixelRatio;
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, (26 + at * 26 + 6) * dense, canvas.width, 12 * dense);
+  const colours = new Set();
+  for (let i = 0; i < data.length; i += 4) colours.add(data.slice(i, i + 4).join());
+  return colours.size;
+}, row);
+
+test("waves: rows are drawn, the cursor shows values, keys and search work", () => open("waves", async (page) => {
+  await page.waitForSelector(".wave-scroll[data-drawn]");
+  const names = await page.$$eval(".wave-names button", (buttons) => buttons.map((button) => button.title || button.textContent.trim()));
+  assert.deepEqual(names, ["▾ Transactions 1", "top.m_axi.read_1", "▾ Software 1", "ps.cpu.function_name", "▾ top 4", "top.clk", "top.state", "top.level", "top.copy"]);
+  for (const row of [1, 3, 5, 6, 7, 8]) assert.ok(await coloursOfRow(page, row) > 1, `row ${row} is empty`);
+  assert.ok(await coloursOfRow(page, 0) <= 3, "beside a title are the rules and the cursor alone");
+  const valueOf = (name) => page.$eval(`.wave-names button[title="${name}"] b`, (b) => b.textContent);
+  await page.focus(".wave-scroll");
+  await page.click('.wave-names button[title="top.state"]');
+  await page.focus(".wave-scroll");
+  await page.keyboard.press("n");
+  assert.match(await page.textContent(".waves .note"), /^100 ns /);
+  assert.equal(await valueOf("top.state"), "run");
+  assert.equal(await valueOf("top.m_axi.read_1"), "read 0x1000 4 beats OKAY");
+  assert.equal(await valueOf("ps.cpu.function_name"), "step_1");
+  await page.keyboard.press("p");
+  assert.equal(await valueOf("top.state"), "idle");
+  await page.keyboard.press("+");
+  assert.match(await page.textContent(".waves .note"), /5 µs in sight/);
+  await page.fill(".waves input", "function");
+  assert.deepEqual(await page.$$eval(".wave-name", (rows) => rows.map((row) => row.title)), ["ps.cpu.function_name"]);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+}));
+
+test("manyWaves: a million changes are drawn in no time", () => open("manyWaves", async (page) => {
+  await page.waitForSelector(".wave-scroll[data-drawn]");
+  const took = await page.evaluate(() => {
+    const start = performance.now();
+    for (let i = 0; i < 20; ++i) document.querySelector(".wave-scroll").dispatchEvent(new KeyboardEvent("keydown", { key: i < 10 ? "+" : "-" }));
+    return (performance.now() - start) / 20;
+  });
+  console.log(`a view of 10^6 changes: ${took.toFixed(1)} ms`);
+  assert.ok(took < 100, `${took} ms`);
+}));
+
+test("traced: the waves point at the frame, and the timeline at the waves", () => open("traced", async (page) => {
+  await page.waitForSelector(".wave-scroll[data-drawn]");
+  assert.ok(await page.$("#waves select"), "frames can be chosen");
+  await page.locator(".wave-sight canvas").click({ position: { x: 300, y: 100 } });
+  await page.click("#waves button.plain");
+  assert.equal(await page.$eval("#frame", (section) => section.getBoundingClientRect().top < innerHeight), true);
 }));

@@ -229,4 +229,33 @@ function detectors() {
   return { detectors: { schema: 1, dictionary: "4x4_250", images: ["z0.5", "z1.0"], detectors: list, host_ms: { improved: 0.8, opencv: 3, apriltag3: 45.6 }, left_out: [{ design: "hd", why: "it takes images of 1280x720 px" }] } };
 }
 
-module.exports = { run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };
+/** Numbers of seven bits a byte, as the program packs them. */
+function packed(numbers) {
+  const bytes = [];
+  for (let number of numbers) {
+    for (; number >= 128; number = Math.floor(number / 128)) bytes.push(number % 128 + 128);
+    bytes.push(number);
+  }
+  return Buffer.from(bytes).toString("base64");
+}
+
+/** A trace: a clock, a state with names, a number, a curve, a lane of reads, what the software runs. `changes`: of the clock. */
+function waves({ changes = 2000 } = {}) {
+  const half = 5000, to = changes * half;
+  const list = (count, of) => Array.from({ length: count }, (_, i) => of(i));
+  const some = Math.max(4, Math.floor(changes / 20));
+  const words = (name, of, form = "words") => ({ name, form, bits: 32, count: some, changes: packed(list(some, (i) => [i && 20 * half, i % 7]).flat()), words: list(7, of) });
+  return {
+    file: "t.vcd", from: 0, to, leftOut: 1,
+    signals: [
+      { name: "top.clk", form: "bit", bits: 1, count: changes, changes: packed(list(changes, (i) => (i && half) * 4 + i % 2)) },
+      words("top.state", (i) => ["idle", "run", "</script><img src=x onerror='window.hacked=1'>", "x", "0x1F", "0xx", ""][i]),
+      words("top.level", (i) => String(i * 1.5), "real"),
+      words("ps.cpu.function_name", (i) => `step_${i}`),
+      { name: "top.copy", form: "bit", bits: 1, sameAs: 0 },
+    ],
+    lanes: [{ name: "top.m_axi.read_1", count: some, spans: packed(list(some, (i) => [i && 20 * half, 8 * half, i % 7 * 2 + (i % 5 === 0 ? 1 : 0)]).flat()), words: list(7, (i) => `read 0x${i}000 4 beats OKAY`) }],
+  };
+}
+
+module.exports = { waves, run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 namespace vp {
 
 class FstReader;
+class VcdIndex;
 class VcdReader;
 class WaveJoiner;
 class WaveNotes;
@@ -64,6 +66,9 @@ struct WaveOptions {
   std::uint64_t timescale_fs = 0;  ///< of a VCD that says none; 0: 1 ns, with a warning
   bool lenient = false;            ///< leaves out times that fall and undeclared identifiers
   bool strict = false;             ///< what is odd is an error, not a warning
+  /// A VCD of so many bytes gets an index when its reader is to skip something. Strict reading
+  /// needs all of the file, and no index.
+  std::uint64_t index_from = std::uint64_t{64} << 20;
 };
 
 /// Reads a trace from front to back in bounded memory: a VCD (IEEE 1364, 18.2 and 18.4) as any tool
@@ -96,7 +101,12 @@ class WaveReader {
   void select(std::uint32_t net);
   void select_all();
 
-  /// Hands over everything selected, once. Throws InputError.
+  /// A place not after `ps` at which the file can be entered: a block of an FST, or with the help
+  /// of its index a place in a large VCD. None: it can only be read from the front.
+  std::optional<std::uint64_t> entry(std::uint64_t ps);
+  /// The next read() enters there, and hands over first which values are known in that instant.
+  void enter(std::uint64_t entry);
+  /// Hands over everything selected, from where the last call stopped. Throws InputError.
   void read(WaveHandler& handler);
 
   /// The last time that was read, in ps, and the femtoseconds beyond it.
@@ -111,11 +121,16 @@ class WaveReader {
  private:
   void declare(std::vector<WaveDeclared> declared);
   bool reach(std::uint64_t steps, WaveHandler& handler);
+  std::vector<std::uint32_t> standing() const;
 
+  WaveOptions options_;
   std::filesystem::path file_;
   std::unique_ptr<WaveNotes> notes_;
   std::unique_ptr<VcdReader> vcd_;  ///< one of both
   std::unique_ptr<FstReader> fst_;
+  std::unique_ptr<VcdIndex> index_;  ///< null: there is none
+  bool index_sought_ = false;
+  std::optional<std::uint64_t> entry_;  ///< where the next read() enters a VCD
   std::unique_ptr<WaveJoiner> joiner_;  ///< null: no vector was declared bit by bit
   std::vector<WaveVariable> variables_;
   std::vector<WaveEnumeration> enumerations_;

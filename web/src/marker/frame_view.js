@@ -1,6 +1,7 @@
 // The image with what was found in it, each kind a layer to switch.
 import { download, h, s } from "../kit/dom.js";
 import { counted, error, fixed, heading, significant, time, words } from "../kit/format.js";
+import { onMoment } from "../kit/moment.js";
 import { stageColour } from "../kit/theme.js";
 import { countsOf, partsOf } from "../run/facts.js";
 
@@ -165,6 +166,10 @@ export function frameView(run) {
     download(`${shown[place].input}.svg`, new XMLSerializer().serializeToString(copy), "image/svg+xml");
   } }, "SVG");
   draw();
+  onMoment((moment) => {
+    const to = shown.findIndex((frame) => frame.index === moment.frame);
+    if (to >= 0) go(to);
+  });
   const rest = run.frames.length - shown.length;
   return h("section", { id: "frame", "aria-labelledby": "frame-title" },
     h("div", { class: "section-head" }, h("h2", { id: "frame-title" }, "Frame"),

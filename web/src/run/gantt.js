@@ -1,6 +1,7 @@
 // Everything that happened, on one time axis: engines, then counters below.
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
+import { pointAt } from "../kit/moment.js";
 import { counted, fixed, heading, significant, time, words } from "../kit/format.js";
 import { isDark, palette } from "../kit/theme.js";
 
@@ -115,7 +116,7 @@ export function gantt(run) {
   const button = (text, label, act) => h("button", { type: "button", "aria-label": label, onclick: act }, text);
   const figure = chart({
     name: "timeline", title: "Timeline", height, canvas: true, option,
-    note: `The first ${frames.length === 1 ? unit : `${frames.length} ${unit}s`}. Outlined bars are the critical path: shortening them shortens the ${unit}. Drag to move; Ctrl and the wheel zoom.`,
+    note: `The first ${frames.length === 1 ? unit : `${frames.length} ${unit}s`}. Outlined bars are the critical path: shortening them shortens the ${unit}. Drag to move; Ctrl and the wheel zoom.${run.extras.waves ? " A double click shows the moment in the waves." : ""}`,
     summary: `${counted(tracks.length, "track")}: ${tracks.map((track) => `${track.name}, ${counted(track.spans.length, "interval")}`).join("; ")}.`,
     table: () => ({ caption: "Intervals of the timeline", rows: tracks.flatMap((track) => track.spans.map((span) => ({ track, span }))), columns: [
       { title: "Track", value: (r) => r.track.name }, { title: "What", value: (r) => nameOf(r.span[2]), show: words },
@@ -129,6 +130,7 @@ export function gantt(run) {
   });
   function follow(chartInstance) {
     const surface = chartInstance.getZr();
+    chartInstance.on("dblclick", ({ value }) => pointAt({ ps: value[1] * 1e6, frame: frames.find((frame) => value[1] >= frame.start && value[1] < frame.end)?.index }));
     let held = null;
     surface.on("mousewheel", (event) => {
       if (!event.event.ctrlKey) return;

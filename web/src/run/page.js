@@ -11,6 +11,7 @@ import { overTime } from "./over_time.js";
 import { configuration, frameTable, provenance } from "./tables.js";
 import { timing } from "./timeline.js";
 import { verdict } from "./verdict.js";
+import { waves } from "./waves.js";
 
 function title(run) {
   const names = [...new Set(run.frames.map((frame) => frame.input).filter(Boolean))];
@@ -28,6 +29,6 @@ export function runPage(result, extras) {
   run.overTime = () => overTime(run);
   return {
     title: title(run), subtitle: subtitle(run),
-    sections: [verdict(run), guidance(run), ...application.sections(run), timing(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
+    sections: [verdict(run), guidance(run), ...application.sections(run), timing(run), waves(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
   };
 }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include <cli/options.h>
+
+namespace platform::cli {
+
+/// What the page's viewer shows of a trace: a JSON text with its signals and, if it has buses,
+/// their transactions. The options say which trace, signals and window, and how it is read. Throws
+/// vp::InputError.
+std::string waves_json(const TraceCommandOptions& options, std::ostream& err);
+
+/// The same of the trace that a run wrote; of one that is no file, or too large for every page, it
+/// says so only.
+std::string waves_of_run(const std::string& file);
+
+}  // namespace platform::cli

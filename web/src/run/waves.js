@@ -1,0 +1,41 @@
+// The recorded trace of a run, or a trace alone: a viewer, and what the other parts of the page know of the cursor's moment.
+import { h } from "../kit/dom.js";
+import { counted } from "../kit/format.js";
+import { onMoment, pointAt } from "../kit/moment.js";
+import { waveView } from "../kit/wave_view.js";
+
+const psInUs = 1e6;
+
+function leftOut(data) {
+  return data.leftOut > 0 && h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`);
+}
+
+const help = () => h("p", { class: "note" }, "Click sets the cursor, Shift and a click a second one; drag or Shift and the wheel move, Ctrl and the wheel zoom. A row that you choose has its changes behind ‹ and ›.");
+
+/** The page of a trace alone. */
+export function wavesPage(data) {
+  const { element } = waveView(data);
+  return { title: data.file, subtitle: counted(data.signals.length, "signal"),
+    sections: [h("section", { id: "waves", "aria-labelledby": "waves-title" }, h("h2", { id: "waves-title" }, "Waves"), help(), leftOut(data), element)] };
+}
+
+/** The section of a run's page; null without a trace. */
+export function waves(run) {
+  const data = run.extras.waves;
+  const section = (...children) => h("section", { id: "waves", "aria-labelledby": "waves-title" }, h("h2", { id: "waves-title" }, "Waves"), children);
+  if (data?.tooLarge) return section(h("p", { class: "note" }, `The trace is too large for this page: markervp trace plot ${data.tooLarge} --window FROM:TO -o page.html shows a part.`));
+  if (!data?.signals?.length) return null;
+  const spans = (run.extras.timeline?.frames ?? []).map((frame) => ({ index: frame.index, name: `${run.unit} ${frame.index + 1}`, from: frame.start * psInUs, to: frame.end * psInUs }))
+    .filter((frame) => frame.to > data.from && frame.from < data.to);
+  const here = h("p", { class: "note" });
+  const moved = (ps) => {
+    const frame = spans.find((one) => ps >= one.from && ps < one.to);
+    here.replaceChildren(frame ? h("button", { type: "button", class: "plain", onclick: () => {
+      pointAt({ ps, frame: frame.index }, section);
+      document.getElementById("frame")?.scrollIntoView();
+    } }, `in ${frame.name}`) : "");
+  };
+  const viewer = waveView(data, { frames: spans, moved });
+  onMoment((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
+  return section(help(), leftOut(data), viewer.element, here);
+}
