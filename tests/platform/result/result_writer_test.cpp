@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
              (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow"}));
   BOOST_TEST(frame["counts"]["feature_overflow"] == 5);
   BOOST_TEST(keys(frame["markers"][0]) ==
-             (Keys{"id", "rotation", "corners_px", "pose", "reprojection_px", "iterations", "truth",
-                   "error"}));
+             (Keys{"id", "rotation", "side_m", "corners_px", "pose", "reprojection_px",
+                   "iterations", "truth", "error"}));
   BOOST_TEST(keys(json["summary"]) ==
              (Keys{"frames", "delivered", "detected", "fps", "latency_us"}));
 }
