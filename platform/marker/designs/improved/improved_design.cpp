@@ -313,7 +313,21 @@ void ImprovedDesign::check(facts::UnitReport& frame) {
       marker.reprojection_px =
           reprojection_px(found.camera, marker.pose, marker.side_m, ideal_corners(i));
   }
+  warn_of_vague_markers(frame);
   check_board(frame);
+}
+
+void ImprovedDesign::warn_of_vague_markers(facts::UnitReport& frame) const {
+  const auto which = static_cast<std::size_t>(option("dictionary").value_or(0));
+  if (which >= marker::dictionaries.size()) return;
+  const marker::Dictionary& dictionary = marker::dictionaries[which];
+  for (const FoundMarker& found : marker_frame(frame).markers) {
+    const auto id = static_cast<std::uint32_t>(found.id);
+    if (id < dictionary.size && marker::equals_itself_turned(dictionary, id))
+      frame.warnings.push_back(fmt::format(
+          "marker {} of {} looks the same when it is turned by half: its rotation is a guess", id,
+          dictionary.name));
+  }
 }
 
 std::array<PixelPoint, 4> ImprovedDesign::ideal_corners(std::size_t index) const {

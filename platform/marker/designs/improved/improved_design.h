@@ -69,6 +69,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void add_counts(facts::UnitReport& frame);
   /// Where a pinhole camera would see the corners of a marker that was found.
   std::array<PixelPoint, 4> ideal_corners(std::size_t index) const;
+  void warn_of_vague_markers(facts::UnitReport& frame) const;
   /// Whether the markers can be those of the board, if one was seen.
   void check_board(facts::UnitReport& frame);
   Dropped counters() const;
