@@ -50,8 +50,8 @@ cli::Application marker_application() {
   marker.examples = examples;
   marker.run_help = run_help;
   marker.input_command = "scenes --names";
-  marker.commands = {commands::add_design_figures, commands::add_scenes, commands::add_validate,
-                     commands::add_compare_detectors};
+  marker.commands = {commands::add_design_figures, commands::add_scenes, commands::add_poses,
+                     commands::add_validate, commands::add_compare_detectors};
   marker.requirements = {{"--require-marker", "detected", "exit code 1 if a frame has no marker"}};
   marker.summary_lines = marker_summary;
   marker.draw = draw;

@@ -54,6 +54,10 @@ const std::array<Dictionary, dictionary_count> dictionaries = {{
     {"7x7_250", 7, 250, 17, words::aruco_7x7.data()},
     {"7x7_1000", 7, 1000, 14, words::aruco_7x7.data()},
     {"apriltag_36h11", 6, 587, 11, words::apriltag_36h11.data()},
+    {"apriltag_16h5", 4, 30, 5, words::apriltag_16h5.data()},
+    {"apriltag_25h9", 5, 35, 9, words::apriltag_25h9.data()},
+    {"aruco_original", 5, 1024, 1, words::aruco_original.data()},
+    {"aruco_mip_36h12", 6, 250, 12, words::aruco_mip_36h12.data()},
 }};
 
 const Dictionary* find_dictionary(const char* name) {
@@ -72,6 +76,13 @@ std::uint64_t rotate_clockwise(std::uint64_t word, std::uint32_t cells) {
     }
   }
   return turned;
+}
+
+bool equals_itself_turned(const Dictionary& dictionary, std::uint32_t id) {
+  const std::uint64_t word = dictionary.words[id];
+  const std::uint64_t half_turned =
+      rotate_clockwise(rotate_clockwise(word, dictionary.cells), dictionary.cells);
+  return half_turned == word;
 }
 
 void CodeBook::open(const Dictionary& dictionary, std::uint32_t correct) {

@@ -10,20 +10,25 @@ struct Dictionary {
   const char* name;            ///< as OpenCV's, in lower case: "4x4_50", "apriltag_36h11"
   std::uint32_t cells;         ///< of the code's side, 4 to 7
   std::uint32_t size;          ///< IDs
-  std::uint32_t distance;      ///< least number of cells in which two words differ, however turned
+  std::uint32_t distance;      ///< least number of cells in which two words differ, however turned;
+                               ///< 1: a word may equal itself turned
   const std::uint64_t* words;  ///< by ID: row by row, the top left cell highest; 1 = black
 };
 
-inline constexpr std::uint32_t max_dictionary_size = 1000;
+inline constexpr std::uint32_t max_dictionary_size = 1024;
 inline constexpr std::uint32_t min_code_cells = 4;
 inline constexpr std::uint32_t max_code_cells = 7;
 
-/// ArUco's DICT_4X4_50 to DICT_7X7_1000 and AprilTag's 36h11.
-inline constexpr std::uint32_t dictionary_count = 17;
+/// ArUco's DICT_4X4_50 to DICT_7X7_1000, AprilTag's families, ArUco's first dictionary and its
+/// MIP_36h12.
+inline constexpr std::uint32_t dictionary_count = 21;
 extern const std::array<Dictionary, dictionary_count> dictionaries;
 
 /// The dictionary of that name, or nullptr.
 const Dictionary* find_dictionary(const char* name);
+
+/// True if the marker looks the same when it is turned, so that its rotation cannot be known.
+bool equals_itself_turned(const Dictionary& dictionary, std::uint32_t id);
 
 /// The word turned by a quarter clockwise.
 std::uint64_t rotate_clockwise(std::uint64_t word, std::uint32_t cells);

@@ -32,11 +32,13 @@ struct FoundMarker {
   int id = 0;
   int rotation = 0;                      ///< quarter turns clockwise from upright, 0 to 3
   std::array<PixelPoint, 4> corners_px;  ///< clockwise from the marker's own top left
+  double side_m = marker_side_m;         ///< of its black square, as the program takes it to be
   bool has_pose = true;  ///< false: the corners admit none, or it is one of a board's
   Pose pose;
   // Of the pose, where the program tells them.
   std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
   std::optional<std::uint32_t> iterations;
+  std::optional<std::uint32_t> corrected = {};  ///< cells of its code that were wrong
   std::optional<PoseCovariance> covariance;
   std::optional<PoseMotion> motion = {};
   /// Of a board's marker: how far its corners are from where the board has them, px, root of the
@@ -74,6 +76,8 @@ struct Features {
 /// What the marker application says of a frame.
 class MarkerFrame : public facts::UnitExtra {
  public:
+  /// Simulated time: the middle of the exposure, or when the work on the image began.
+  std::optional<std::uint64_t> taken_ps;
   std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
   std::vector<FoundMarker> markers;
   std::optional<FoundBoard> board;         ///< where the program looks for one, and sees it

@@ -11,6 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int us_places = 6;
 constexpr int px_places = 6;
 constexpr int rotation_places = 9;
 constexpr int metre_places = 9;
@@ -55,6 +56,8 @@ double six_digits(double value) {
   return result;
 }
 
+}  // namespace
+
 Json covariance_json(const PoseCovariance& covariance) {
   Json rows = Json::array();
   for (std::size_t row = 0; row < 6; ++row) {
@@ -65,6 +68,8 @@ Json covariance_json(const PoseCovariance& covariance) {
   }
   return rows;
 }
+
+namespace {
 
 Json motion_json(const PoseMotion& motion) {
   Json json = {{"frames", motion.frames}};
@@ -102,6 +107,8 @@ Json marker_json(const MarkerFrame& frame, const FoundMarker& found) {
   Json json;
   json["id"] = found.id;
   json["rotation"] = found.rotation;
+  json["side_m"] = found.side_m;
+  if (found.corrected) json["corrected"] = *found.corrected;
   json["corners_px"] = corners_json(found.corners_px);
   if (found.has_pose) {
     json["pose"] = pose_json(found.pose);
@@ -125,6 +132,9 @@ Json marker_json(const MarkerFrame& frame, const FoundMarker& found) {
 void MarkerFrame::add_members(Place place, Json& json) const {
   switch (place) {
     case Place::behind_index:
+      if (taken_ps)
+        json["taken_us"] =
+            result::rounded(static_cast<double>(*taken_ps) / facts::ps_per_us, us_places);
       json["threshold"] = threshold;
       return;
     case Place::before_counts:

@@ -21,7 +21,7 @@ void find_numbers(const std::string& name, const Json& json, const Found& found)
 }
 
 bool take(const std::string& name, const Json& value, const Found& found) {
-  if (name == "scene_marker" || name == "further_scene_markers") return true;
+  if (name == "scene_marker" || name == "further_scene_markers" || name == "taken_us") return true;
   if (name != "markers") return false;
   found("markers", static_cast<double>(value.size()));
   for (const Json& marker : value) {

@@ -14,8 +14,9 @@
 #define IMPROVED_OPTIONS(X)                                                                   \
   X(dictionary,                                                                               \
     "4x4_50|4x4_100|4x4_250|4x4_1000|5x5_50|5x5_100|5x5_250|5x5_1000|6x6_50|6x6_100|6x6_250|" \
-    "6x6_1000|7x7_50|7x7_100|7x7_250|7x7_1000|apriltag_36h11",                                \
-    2, 0, 16, "markers that are looked for (the thesis' are 4x4_250)")                        \
+    "6x6_1000|7x7_50|7x7_100|7x7_250|7x7_1000|apriltag_36h11|apriltag_16h5|apriltag_25h9|"    \
+    "aruco_original|aruco_mip_36h12",                                                         \
+    2, 0, 20, "markers that are looked for (the thesis' are 4x4_250)")                        \
   X(board, "none|grid|charuco", 0, 0, 2,                                                      \
     "none: each marker has a pose of its own; else one pose of all that are on the board")    \
   X(marker_side, "m", 0.30, 0.001, 100, "side of a marker's black square (thesis chapter 5)") \

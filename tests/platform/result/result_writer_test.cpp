@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(the_keys_of_schema_1_stand_in_order) {
              (Keys{"corners", "blobs", "feature_words", "candidates", "feature_overflow"}));
   BOOST_TEST(frame["counts"]["feature_overflow"] == 5);
   BOOST_TEST(keys(frame["markers"][0]) ==
-             (Keys{"id", "rotation", "corners_px", "pose", "reprojection_px", "iterations", "truth",
-                   "error"}));
+             (Keys{"id", "rotation", "side_m", "corners_px", "pose", "reprojection_px",
+                   "iterations", "truth", "error"}));
   BOOST_TEST(keys(json["summary"]) ==
              (Keys{"frames", "delivered", "detected", "fps", "latency_us"}));
 }
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_absent) {
   marker_frame(frame).truth.reset();
   marker_frame(frame).markers[0].has_pose = false;
   const Json marker = written({frame})["frames"][0]["markers"][0];
-  BOOST_TEST(keys(marker) == (Keys{"id", "rotation", "corners_px"}));
+  BOOST_TEST(keys(marker) == (Keys{"id", "rotation", "side_m", "corners_px"}));
   const Json nothing = written({});
   BOOST_TEST(nothing["frames"].empty());
   BOOST_TEST(keys(nothing["summary"]) == (Keys{"frames", "delivered", "detected"}));

@@ -33,6 +33,14 @@ std::optional<marker::Places> places_of(const marker::Board& board, const BoardM
   return places;
 }
 
+/// How far a place is seen from `ideal_px`, px.
+PixelPoint offset(const Camera& camera, const Pose& pose, const marker::Place& place,
+                  const PixelPoint& ideal_px) {
+  const Eigen::Vector3d p = transform(pose, {place[0], place[1], place[2]});
+  return {camera.fx * p.x() / p.z() + camera.cx - ideal_px.x,
+          camera.fy * p.y() / p.z() + camera.cy - ideal_px.y};
+}
+
 /// Adds up distances between corners.
 class Residual {
  public:
@@ -51,6 +59,17 @@ class Residual {
 
 }  // namespace
 
+double reprojection_px(const Camera& camera, const Pose& pose, double side_m,
+                       const std::array<PixelPoint, 4>& ideal_px) {
+  const marker::Places places = marker::single_marker(side_m);
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const PixelPoint off = offset(camera, pose, places[i], ideal_px[i]);
+    sum += std::hypot(off.x, off.y);
+  }
+  return sum / 4;
+}
+
 BoardFit check_board(const marker::Board& board, const Camera& camera, const Pose& pose,
                      std::vector<BoardMarker>& markers) {
   BoardFit fit;
@@ -63,11 +82,9 @@ BoardFit check_board(const marker::Board& board, const Camera& camera, const Pos
     Residual own;
     for (std::size_t i = 0; i < 4; ++i) {
       const marker::Place& place = (*places)[i];
-      const Eigen::Vector3d p = transform(pose, {place[0], place[1], place[2]});
-      const double x = camera.fx * p.x() / p.z() + camera.cx - marker.ideal_px[i].x;
-      const double y = camera.fy * p.y() / p.z() + camera.cy - marker.ideal_px[i].y;
-      own.add(x, y);
-      all.add(x, y);
+      const PixelPoint off = offset(camera, pose, place, marker.ideal_px[i]);
+      own.add(off.x, off.y);
+      all.add(off.x, off.y);
     }
     own.add_marker(mean_side(marker));
     all.add_marker(mean_side(marker));

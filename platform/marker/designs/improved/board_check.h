@@ -34,6 +34,10 @@ struct BoardFit {
   static constexpr double least_px = 0.5;
 };
 
+/// How far the corners of a marker are from where its pose has them, px, mean.
+double reprojection_px(const Camera& camera, const Pose& pose, double side_m,
+                       const std::array<PixelPoint, 4>& ideal_px);
+
 /// How far the corners are from where the board has them, seen by `camera` at `pose`; sets each
 /// marker's residual. Markers of an ID that is seen twice count for nothing.
 BoardFit check_board(const marker::Board& board, const Camera& camera, const Pose& pose,

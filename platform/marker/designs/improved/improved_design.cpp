@@ -33,10 +33,12 @@ std::optional<PoseMotion> motion_of(const marker::PoseMotion& motion) {
   return PoseMotion{motion.frames, motion.velocity, motion.turn_rate};
 }
 
-FoundMarker found_marker(const marker::Detection& detection) {
+FoundMarker found_marker(const marker::Detection& detection, double side_m) {
   const marker::DetectedMarker& m = detection.marker;
   FoundMarker found;
   found.id = m.id;
+  found.side_m = side_m;
+  found.corrected = m.corrected;
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.fit.image[i].x, m.fit.image[i].y};
   found.has_pose = detection.pose.valid;
   if (!found.has_pose) return found;
@@ -141,8 +143,9 @@ void ImprovedDesign::fill_in(facts::UnitReport& frame, std::uint64_t now_ps) con
     frame.gave_up = marker::status_name(result_.status);
     frame.warnings.push_back("the software gave up: " + frame.gave_up);
   }
+  const double side_m = option("marker_side").value_or(marker_side_m);
   for (std::uint32_t i = 0; i < result_.found.count; ++i)
-    found.markers.push_back(found_marker(result_.found.markers[i]));
+    found.markers.push_back(found_marker(result_.found.markers[i], side_m));
   const marker::ResponseUse& response = result_.found.response;
   if (response.is_said) {
     found.response = {marker::response_name(response.origin), response.exponent};
@@ -199,6 +202,7 @@ void ImprovedDesign::add_times(facts::UnitReport& frame, std::uint64_t now_ps) {
       "had to do for the one before";
   wait.waits = true;
   frame.times.insert(frame.times.begin(), {capture, wait});
+  marker_frame(frame).taken_ps = sent.mid_exposure_ps;
   marker_frame(frame).features.blobs = std::move(sent.blobs);
   frame.times.push_back(between("last_pixel_to_result", sent.end_ps, now_ps, ""));
   frame.times.push_back(between("mid_exposure_to_result", sent.mid_exposure_ps, now_ps, ""));
@@ -233,9 +237,13 @@ void ImprovedDesign::explain_capture(facts::StageTime& capture) {
     capture.levers = {std::string(pixels_per_clock.name()) + "=" + std::to_string(2 * p)};
 }
 
-bool ImprovedDesign::has_option(const char* name) const {
+std::optional<double> ImprovedDesign::option(const char* name) const {
   const auto found = options_.find(name);
-  return found != options_.end() && found->second >= 0.5;
+  return found == options_.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool ImprovedDesign::has_option(const char* name) const {
+  return option(name).value_or(0) >= 0.5;
 }
 
 // A second core has nothing to do where only one blob is worth a look.
@@ -298,7 +306,35 @@ std::uint32_t ImprovedDesign::settling_showings() const {
 void ImprovedDesign::check(facts::UnitReport& frame) {
   take_truth(frame);
   judge(frame);
+  MarkerFrame& found = marker_frame(frame);
+  for (std::size_t i = 0; i < found.markers.size(); ++i) {
+    FoundMarker& marker = found.markers[i];
+    if (marker.has_pose)
+      marker.reprojection_px =
+          reprojection_px(found.camera, marker.pose, marker.side_m, ideal_corners(i));
+  }
+  warn_of_vague_markers(frame);
   check_board(frame);
+}
+
+void ImprovedDesign::warn_of_vague_markers(facts::UnitReport& frame) const {
+  const auto which = static_cast<std::size_t>(option("dictionary").value_or(0));
+  if (which >= marker::dictionaries.size()) return;
+  const marker::Dictionary& dictionary = marker::dictionaries[which];
+  for (const FoundMarker& found : marker_frame(frame).markers) {
+    const auto id = static_cast<std::uint32_t>(found.id);
+    if (id < dictionary.size && marker::equals_itself_turned(dictionary, id))
+      frame.warnings.push_back(fmt::format(
+          "marker {} of {} looks the same when it is turned by half: its rotation is a guess", id,
+          dictionary.name));
+  }
+}
+
+std::array<PixelPoint, 4> ImprovedDesign::ideal_corners(std::size_t index) const {
+  const marker::Quad& corners = result_.found.markers[index].marker.fit.ideal;
+  std::array<PixelPoint, 4> px;
+  for (std::size_t i = 0; i < px.size(); ++i) px[i] = {corners[i].x, corners[i].y};
+  return px;
 }
 
 void ImprovedDesign::check_board(facts::UnitReport& frame) {
@@ -306,10 +342,9 @@ void ImprovedDesign::check_board(facts::UnitReport& frame) {
   if (!found.board) return;
   std::vector<BoardMarker> markers;
   for (std::uint32_t i = 0; i < result_.found.count; ++i) {
-    const marker::DetectedMarker& m = result_.found.markers[i].marker;
     BoardMarker& seen = markers.emplace_back();
-    seen.id = m.id;
-    for (std::size_t k = 0; k < 4; ++k) seen.ideal_px[k] = {m.fit.ideal[k].x, m.fit.ideal[k].y};
+    seen.id = result_.found.markers[i].marker.id;
+    seen.ideal_px = ideal_corners(i);
   }
   const marker::Board board = board_of(options_);
   const BoardFit fit = platform::check_board(board, found.camera, found.board->pose, markers);
@@ -405,49 +440,6 @@ const DesignInfo& improved_design() {
       },
       {}};
   return info;
-}
-
-namespace {
-
-trace::Vocabulary make_improved_words() {
-  trace::Vocabulary v;
-  v.start = "pl.control_block.ena";
-  // Usual depth: decision of the stream.
-  v.buffers = {{"pl.blob_stream.fifo_count", "pl.blob_stream.depth", 512}};
-  v.losses = {{"dropped_triggers", "pl.camera.dropped_triggers"},
-              {"dropped_pictures", "pl.pixel_stream.dropped_frames"},
-              {"cut_pictures", "pl.pixel_stream.cut_frames"},
-              {"dropped_packets", "pl.blob_stream.dropped_frames"},
-              {"lost_in_logic", "pl.blob_labelling.label_overflow"}};
-  v.interrupts = {{"pl.axi_dma_0.s2mm_introut", marker_logic::addresses::dma_image_interrupt,
-                   "DMA 0: picture", "dark blue"},
-                  {"pl.axi_dma_1.s2mm_introut", marker_logic::addresses::dma_binary_interrupt,
-                   "DMA 1: blobs", "dark red"}};
-  v.irq_f2p = "pl.concat.dout";
-  v.groups = {{"Control",
-               {"pl.control_block.rst_out", "pl.control_block.ena", "pl.camera.frame_number",
-                "pl.blob_stream.busy"}},
-              {"Pixels",
-               {"pl.camera.frame_ena", "pl.camera.pixel_x", "pl.camera.pixel_y", "pl.camera.pixel",
-                "pl.otsu_threshold.active_threshold"}},
-              {"Picture",
-               {"pl.pixels.tvalid", "pl.pixels.tready", "pl.pixels.tlast", "pl.pixels.tdata",
-                "pl.pixel_stream.fifo_count", "pl.pixel_stream.dropped_frames"}},
-              {"Blobs",
-               {"pl.blob_labelling.blob_out", "pl.blob_labelling.extreme_0",
-                "pl.blob_labelling.idle", "pl.blobs.tvalid", "pl.blobs.tready", "pl.blobs.tlast",
-                "pl.blobs.tdata", "pl.blob_stream.fifo_count"}}};
-  v.translated = {{"pl.concat.dout", "interrupt_lines.flt"}};
-  v.files = {
-      {"interrupt_lines.flt", "0 -\n1 ?dark blue?picture\n2 ?dark red?blobs\n3 ?purple4?both\n"}};
-  return v;
-}
-
-}  // namespace
-
-const trace::Vocabulary& improved_words() {
-  static const trace::Vocabulary words = make_improved_words();
-  return words;
 }
 
 // The same logic and program for other ends: other sizes and settings.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,13 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void fill_in(facts::UnitReport& frame, std::uint64_t now_ps) const;
   void add_times(facts::UnitReport& frame, std::uint64_t now_ps);
   void explain_capture(facts::StageTime& capture);
+  std::optional<double> option(const char* name) const;
   bool has_option(const char* name) const;
   std::vector<std::string> software_levers() const;
   void add_counts(facts::UnitReport& frame);
+  /// Where a pinhole camera would see the corners of a marker that was found.
+  std::array<PixelPoint, 4> ideal_corners(std::size_t index) const;
+  void warn_of_vague_markers(facts::UnitReport& frame) const;
   /// Whether the markers can be those of the board, if one was seen.
   void check_board(facts::UnitReport& frame);
   Dropped counters() const;

@@ -206,8 +206,9 @@ std::uint64_t HandshakeWatch::finish_frame() {
 
 namespace {
 
-FoundMarker found_marker(const marker::Marker& m) {
+FoundMarker found_marker(const marker::Marker& m, double side_m) {
   FoundMarker found;
+  found.side_m = side_m;
   found.id = m.identity.id;
   found.rotation = m.identity.rotation;
   for (std::size_t i = 0; i < 4; ++i) found.corners_px[i] = {m.corners[i].x, m.corners[i].y};
@@ -237,13 +238,13 @@ Features features_of(const marker::FrameResult& result) {
 /// markers, features. Its stamps count pairs of cycles of `cpu_clk`; `levers` make the software
 /// faster.
 void fill_in(facts::UnitReport& report, const marker::FrameResult& result, std::uint64_t now_ps,
-             const vp::Clock& cpu_clk, const std::vector<std::string>& levers) {
+             const vp::Clock& cpu_clk, const std::vector<std::string>& levers, double side_m) {
   report.index = result.frame;
   if (result.status != marker::Status::ok) report.gave_up = marker::status_name(result.status);
   MarkerFrame& found = marker_frame(report);
   if (result.has_threshold) found.threshold = result.threshold;
   for (std::uint32_t i = 0; i < result.marker_count; ++i)
-    found.markers.push_back(found_marker(result.markers[i]));
+    found.markers.push_back(found_marker(result.markers[i], side_m));
   // Stamps count pairs of CPU cycles.
   const auto duration = [&](const marker::StageTime& stage) {
     return cpu_clk.duration_ps(2.0 * static_cast<double>(stage.end - stage.start));
@@ -290,6 +291,7 @@ void fill_in(facts::UnitReport& report, const marker::FrameResult& result, std::
   }
   report.end_ps = now_ps;
   report.start_ps = start_ps;
+  found.taken_ps = start_ps;
   report.upload_ps = duration(t.upload);
   found.features = features_of(result);
 }
@@ -405,7 +407,7 @@ bool MarkerDesign::report(const Publication& publication, facts::UnitReport& fra
   marker_frame(frame).threshold = threshold_;
   std::vector<std::string> levers;
   if (is_unoptimised_) levers.emplace_back("sw.opt=O2");
-  fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk, levers);
+  fill_in(frame, result, publication.ps, ports_.ps.cpu_clk.clk, levers, marker_side_m_);
   frame.counts = counts_of(result, *this);
   add_losses(frame, result);
   const std::uint64_t stray = handshake_.finish_frame();

@@ -95,6 +95,7 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   std::optional<double> program_option(const std::string& name) const override;
   void note_option(const std::string& name, double value) override {
     if (name == "unoptimised") is_unoptimised_ = value >= 0.5;
+    if (name == "marker_side") marker_side_m_ = value;
   }
   /// The threshold in use is that of the frame before.
   std::uint32_t settling_showings() const override { return 1; }
@@ -115,6 +116,7 @@ class MarkerDesign : public ProgrammableLogic, public Design, private vp::Signal
   PlPorts& ports_;
   HandshakeWatch handshake_;
   BlobFigure blob_figure_;
+  double marker_side_m_ = marker_side_m;
   bool is_unoptimised_ = false;  ///< the program: -O2 would be faster
   std::uint8_t threshold_ = 0;   ///< in use when the frame began
 };

@@ -76,7 +76,8 @@ BOOST_AUTO_TEST_CASE(each_library_gives_corners_and_pose_as_we_do) {
 
 // AprilTag's bits are in an order of its own, for even and odd sides.
 BOOST_AUTO_TEST_CASE(every_dictionary_is_read_by_every_library) {
-  for (const char* name : {"4x4_50", "5x5_100", "6x6_250", "7x7_1000", "apriltag_36h11"}) {
+  for (const char* name : {"4x4_50", "5x5_100", "6x6_250", "7x7_1000", "apriltag_36h11",
+                           "apriltag_25h9", "aruco_mip_36h12"}) {
     const MarkerSet markers = markers_of(name);
     const auto all = make_peers(markers);
     for (const std::size_t id : {std::size_t{0}, std::size_t{17}, markers.words.size() - 1}) {
