@@ -2,6 +2,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "installation.h"
 
@@ -95,6 +98,27 @@ BOOST_AUTO_TEST_CASE(shells_and_cmake_find_their_part) {
                            "usr/lib/cmake/markervp/markervpConfig.cmake",
                            "usr/include/markervp/vp/vp/clock.h", "usr/lib/libmarkervp_vp.a"})
     BOOST_TEST(fs::exists(package / path), path);
+}
+
+BOOST_AUTO_TEST_CASE(its_bill_of_materials_names_libraries_and_packages_of_the_page) {
+  const DebianPackage& package = DebianPackage::get();
+  const std::string script = MARKERVP_SOURCE "/scripts/sbom";
+  const kit::Outcome outcome = package.run(script, {MARKERVP_BUILD});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  const auto bill = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(bill["bomFormat"] == "CycloneDX");
+  std::map<std::string, std::string> found;
+  for (const auto& component : bill["components"]) {
+    BOOST_TEST(component["version"] != "");
+    found[component["name"]] = component["purl"];
+  }
+  BOOST_TEST(found["nlohmann-json3-dev"].find("pkg:deb/debian/nlohmann-json3-dev@") == 0u);
+  BOOST_TEST(found["libstdc++6"].find("pkg:deb/debian/") == 0u);
+  BOOST_TEST(found["echarts"].find("pkg:npm/echarts@") == 0u);
+  BOOST_TEST(found.count("playwright-core") == 0u);
+  const kit::Outcome nothing = package.run(script, {package / "no-build"});
+  BOOST_TEST(nothing.exit_code == 1);
+  BOOST_TEST(contains(nothing.err, "build it first"), nothing.err);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
