@@ -131,7 +131,14 @@ std::string BlockDesign::number_of(const AddressSegment& segment) const {
   return number == 0 ? "" : "_" + std::to_string(number);
 }
 
+/// A stub asks for nothing: the local memory of a processor in the PL needs no way there.
+bool BlockDesign::asks(const AddressSegment& segment) {
+  std::vector<std::string> way;
+  return !placed(segment.master.part).any_output || find_way(segment.slave, segment.master, way, 0);
+}
+
 void BlockDesign::join_segment(const AddressSegment& segment) {
+  if (!asks(segment)) return;
   const std::vector<std::string> way = way_between(segment);
   std::vector<vp::Router*> routers{&way_of(segment.master, way)};
   for (std::size_t i = 1; i < way.size(); ++i) routers.push_back(&router(way[i]));

@@ -139,8 +139,8 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
     if (!aclk) refuse({part.name, "M_AXI_GP1_ACLK", part.place}, "has no clock");
     ports_.m_axi_gp1(way, *aclk);
   }};
-  for (const char* port :
-       {"S_AXI_HP0", "S_AXI_HP1", "S_AXI_HP2", "S_AXI_HP3", "S_AXI_GP0", "S_AXI_GP1"}) {
+  for (const char* port : {"S_AXI_HP0", "S_AXI_HP1", "S_AXI_HP2", "S_AXI_HP3", "S_AXI_GP0",
+                           "S_AXI_GP1", "S_AXI_ACP"}) {
     placed.slaves[port] = {[&ps](RegionSocket& socket) { socket.bind(ps.s_axi_hp0.socket); }, true};
   }
   for (const auto& [pin, source] : part.pins) {

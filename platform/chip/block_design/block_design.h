@@ -63,6 +63,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   vp::AxiStream& make_stream(const End& master);
   void close_open_streams();
   void join_addresses();
+  bool asks(const AddressSegment& segment);
   void join_segment(const AddressSegment& segment);
   std::vector<std::string> way_between(const AddressSegment& segment) const;
   bool find_way(const End& from, const End& master, std::vector<std::string>& way,

@@ -309,11 +309,13 @@ class Writer {
       for (const handoff::Segment& segment : module.segments) {
         auto& slaves = masters[module.instance + "." + segment.master];
         const std::string slave = segment.instance + "." + segment.slave;
-        if (slaves.empty() || slaves.back().first != slave) slaves.emplace_back(slave, Ranges());
+        auto entry = std::find_if(slaves.begin(), slaves.end(),
+                                  [&](const auto& known) { return known.first == slave; });
+        if (entry == slaves.end()) entry = slaves.insert(entry, {slave, Ranges()});
         const std::string size = vp::format_quantity(
             vp::Decimal(static_cast<vp::Decimal::Whole>(segment.last - segment.base + 1), 0),
             vp::Unit::bytes);
-        slaves.back().second.push_back("[" + vp::hex(segment.base) + ", " + size + "]");
+        entry->second.push_back("[" + vp::hex(segment.base) + ", " + size + "]");
       }
     }
     if (masters.empty()) return;

@@ -213,9 +213,9 @@ std::vector<IpRule> rules() {
   const std::vector<ParameterRule> constant{{"CONST_WIDTH", "1"}, {"CONST_VAL", "1"}};
   std::vector<IpRule> list{
       {"processing_system7", Kind::model,
-       "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1 and HP0 to HP3 to the DDR, "
-       "FCLK 0 "
-       "to 3, IRQ_F2P, EMIO GPIO; other pins drive 0"},
+       "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1, HP0 to HP3 and ACP to the "
+       "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
+       "EMIO GPIO; other pins drive 0"},
       {"axi_dma", Kind::model,
        "AXI DMA, direct and scatter-gather (PG021); memory of 64 bits and more as one of 32, or 64 "
        "for S2MM: the same words, longer on the bus",

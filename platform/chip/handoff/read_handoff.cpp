@@ -48,6 +48,13 @@ std::vector<std::string> likely_designs(const Archive& archive) {
   return names;
 }
 
+bool lists_pieces(const Archive& archive) {
+  return std::any_of(archive.names().begin(), archive.names().end(), [&](const std::string& name) {
+    return ends_with(name, ".hwh") &&
+           archive.read(name).find("MODTYPE=\"ps7_cortexa9\"") != std::string::npos;
+  });
+}
+
 Handoff read_archive(const Archive& archive, const std::string& file, const std::string& design) {
   std::vector<std::string> names = listed_designs(archive, file);
   if (names.empty()) names = likely_designs(archive);
@@ -55,10 +62,14 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
     const bool has_hwh =
         std::any_of(archive.names().begin(), archive.names().end(),
                     [](const std::string& name) { return ends_with(name, ".hwh"); });
-    throw vp::InputError("'" + file + "' " +
-                         (has_hwh ? "holds no hand-off with a processing_system7: it is for "
-                                    "another family, or of an IP alone"
-                                  : "holds no hand-off (.hwh): export the hardware again"));
+    throw vp::InputError(
+        "'" + file + "' " +
+        (!has_hwh ? "holds no hand-off (.hwh): export the hardware again"
+         : lists_pieces(archive)
+             ? "lists the processing system in pieces (ps7_…), as Vivado did until "
+               "2014: export the hardware again with a later one"
+             : "holds no hand-off with a processing_system7: it is for another "
+               "family, or of an IP alone"));
   }
   std::vector<std::string> choices;
   for (const std::string& name : names) choices.push_back(stem(name));

@@ -133,6 +133,24 @@ BOOST_AUTO_TEST_CASE(pins_of_the_ps_lead_through_gates_and_back) {
   BOOST_TEST(chip.zynq->ps.gpio.emio_gpio_i.read() == 0xAu);
 }
 
+// A processor in the PL has no model, and nothing leads from it to its local memory.
+BOOST_AUTO_TEST_CASE(masters_in_stubs_need_no_way) {
+  Built chip(replaced(small_design(), "addresses:\n",
+                      "addresses:\n  own_0.DLMB:\n    axi_gpio_0.S_AXI: [0x0, 16 KiB]\n"));
+  for (const auto& device : hardware_map(*chip.zynq).devices)
+    if (device.name == "axi_gpio_0") BOOST_TEST(device.base == 0x4120'0000u);
+}
+
+BOOST_AUTO_TEST_CASE(the_coherent_port_leads_to_the_ddr) {
+  std::string text = small_design();
+  for (std::size_t at = 0; (at = text.find("S_AXI_HP0", at)) != std::string::npos;)
+    text.replace(at, 9, "S_AXI_ACP");
+  BOOST_CHECK_NO_THROW(const Built chip(text));
+  text.replace(text.find("    ps.S_AXI_ACP"), 16, "    ps.S_AXI_HP4");
+  BOOST_TEST(input_error([&] { const Built chip(text); }).find("no bus leads from there to it") !=
+             std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_joined_is_refused_with_its_line) {
   BOOST_TEST(
       refusal("axi_gpio_0.S_AXI: [0x41200000", "axi_gpio_0.S_AXI: [0x40400000").find("overlaps") !=

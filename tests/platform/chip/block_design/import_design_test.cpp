@@ -49,6 +49,18 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_back) {
   BOOST_TEST(setting("ps.uart1.enabled") == "false");
 }
 
+// The address editor may list another slave between two windows of one.
+BOOST_AUTO_TEST_CASE(windows_of_one_slave_stand_together) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("cpu", "me:user:cpu:1.0", "", "", "",
+              kit::segment("M_AXI", "own_0", "S00_AXI", "0x0", "0xFFFF") +
+                  kit::segment("M_AXI", "axi_gpio_0", "S_AXI", "0x10000", "0x1FFFF") +
+                  kit::segment("M_AXI", "own_0", "S00_AXI", "0x20000", "0x2FFFF"));
+  const ImportedDesign design = imported(text);
+  BOOST_TEST(has(design.text, "own_0.S00_AXI: [[0x00000000, 64 KiB], [0x00020000, 64 KiB]]"));
+  BOOST_TEST(parse_design(design.text, "design.yaml").addresses.size() == 8u);
+}
+
 BOOST_AUTO_TEST_CASE(parameters_as_usual_are_left_out) {
   const std::string text = imported(kit::small_handoff()).text;
   BOOST_TEST(has(text, "      C_GPIO_WIDTH: 4\n"));

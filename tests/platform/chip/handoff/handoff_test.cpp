@@ -198,6 +198,10 @@ BOOST_AUTO_TEST_CASE(archives_that_are_no_archives) {
   BOOST_TEST(error().find("'../small.hwh', which leaves its folder") != std::string::npos);
   archive(path, {{"readme.txt", "x"}});
   BOOST_TEST(error().find("holds no hand-off (.hwh)") != std::string::npos);
+  archive(path, {{"old.hwh", "<MODULE MODTYPE=\"ps7_cortexa9\"/>"}});
+  BOOST_TEST(error().find("lists the processing system in pieces") != std::string::npos);
+  archive(path, {{"other.hwh", "<MODULE MODTYPE=\"axi_dma\"/>"}});
+  BOOST_TEST(error().find("it is for another family") != std::string::npos);
   vp::write_file(path, "hello");
   BOOST_TEST(error().find("is neither XML nor a zip") != std::string::npos);
 }
