@@ -24,6 +24,11 @@ void add_configuration_options(CLI::App& command, ConfigurationOptions& target) 
       ->take_all();
 }
 
+void add_design_option(CLI::App& command, ConfigurationOptions& target) {
+  command.add_option("--design", target.design, "what is in the PL ('markervp designs')")
+      ->type_name("NAME");
+}
+
 namespace {
 
 constexpr const char* examples = R"(Examples:
@@ -45,25 +50,6 @@ constexpr const char* usual_examples =
     R"(  markervp run --design mine.so             a design of your own, results in out/
   markervp run --design mine.so samples.bin with its input, block by block
 )";
-
-constexpr const char* rtl_check_help =
-    R"(  markervp rtl check corner_detection --rtl build demo z2.0 noise.png
-Both get the same inputs in the running system: those named, and stimuli that are hard on the logic.
-The first output that differs ends it: port, clock and both values are printed, and lockstep.vcd and
-lockstep.gtkw show the clocks around it. Else a table says what was exercised; outputs that never
-changed are NOT EXERCISED, and the check has not passed (1).)";
-
-constexpr const char* rtl_vectors_help =
-    R"(  markervp rtl vectors corner_detection demo noise.png -o vectors
-runs the platform and writes what its model sees and does on every clock: stimulus.hex and
-response.hex, for $fscanf, $readmemh and textio. bench.sv and bench.vhd play them to RTL.)";
-
-constexpr const char* rtl_compare_help =
-    R"(  markervp run demo --trace ours.vcd --trace-clocks
-  markervp rtl compare questa.vcd ours.vcd --map ports.yaml
-The inputs tell how many clocks one lies behind the other. The first clock in which a port differs
-is reported in both, with both values; compare.vcd and compare.gtkw show the clocks around it.
-docs/rtl.md has a map.)";
 
 constexpr const char* usual_run_help =
     R"(INPUT is what the design takes: files of samples, or nothing. With --linux it is an argument of
@@ -89,11 +75,6 @@ constexpr std::size_t most_clocks = 1'000;
 // Type names say to the reader and to the shell completion what a value is: FILE, DIR, or its
 // choices with bars.
 
-void add_design_option(CLI::App& command, ConfigurationOptions& target) {
-  command.add_option("--design", target.design, "what is in the PL ('markervp designs')")
-      ->type_name("NAME");
-}
-
 /// "scenes, images, folders, videos; files of samples": those of the application first.
 std::string what_inputs_are() {
   std::vector<std::string> kinds;
@@ -117,6 +98,8 @@ void add_input_settings(CLI::App& command, std::map<std::string, std::string>& t
   }
 }
 
+}  // namespace
+
 void add_input_options(CLI::App& command, RunOptions& target) {
   command.add_option("INPUT", target.inputs, what_inputs_are())->type_name("");
   add_input_settings(command, target.input_settings);
@@ -127,6 +110,8 @@ void add_input_options(CLI::App& command, RunOptions& target) {
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, most_frames).description(""));
 }
+
+namespace {
 
 void add_platform_options(CLI::App& command, PlatformOptions& target) {
   command.add_option("--fidelity", target.fidelity, "how the PL is modelled (default: tlm)")
@@ -253,75 +238,6 @@ void add_run(CLI::App& app, RunOptions& target) {
   add_trace_options(*command, target);
   add_debug_options(*command, target);
   command->footer(application().run_help ? application().run_help : usual_run_help);
-}
-
-void add_rtl(CLI::App& app, RtlOptions& target) {
-  CLI::App* rtl = app.add_subcommand("rtl", "RTL and the models of its IP");
-  rtl->require_subcommand(1);
-  CLI::App* check = rtl->add_subcommand("check", "run RTL in lock-step with its model");
-  check->callback([&target] { target.command = "check"; });
-  check->add_option("IP", target.ip, "the IP that it replaces: corner_detection")
-      ->type_name("")
-      ->required();
-  check->add_option("--rtl", target.rtl, "what markervp_add_rtl() built, or the folder it lies in")
-      ->type_name("FILE")
-      ->required();
-  check->add_flag("--no-stimuli", target.no_stimuli, "play only these inputs, no hard stimuli");
-  add_input_options(*check, target.run);
-  add_design_option(*check, target.run.configuration);
-  add_configuration_options(*check, target.run.configuration);
-  check->add_option("-o,--output", target.run.output, "folder for the results (default: out)")
-      ->type_name("DIR");
-  check->footer(rtl_check_help);
-  CLI::App* vectors =
-      rtl->add_subcommand("vectors", "write stimulus and response of an IP, and benches for them");
-  vectors->callback([&target] { target.command = "vectors"; });
-  vectors->add_option("IP", target.ip, "whose ports: corner_detection")->type_name("")->required();
-  add_input_options(*vectors, target.run);
-  add_design_option(*vectors, target.run.configuration);
-  add_configuration_options(*vectors, target.run.configuration);
-  vectors->add_option("-o,--output", target.run.output, "folder for the files (default: out)")
-      ->type_name("DIR");
-  vectors->footer(rtl_vectors_help);
-  CLI::App* compare =
-      rtl->add_subcommand("compare", "compare a simulation made elsewhere with a trace of ours");
-  compare->callback([&target] { target.command = "compare"; });
-  compare->add_option("THEIRS", target.compare.theirs, "of Questa, Vivado, Icarus …: VCD or FST")
-      ->type_name("FILE")
-      ->required();
-  compare->add_option("OURS", target.compare.ours, "of run --trace --trace-clocks")
-      ->type_name("FILE")
-      ->required();
-  compare->add_option("--map", target.compare.map, "clock and ports of both, YAML")
-      ->type_name("FILE")
-      ->required();
-  compare
-      ->add_option("-o,--output", target.compare.output, "folder for a difference (default: out)")
-      ->type_name("DIR");
-  compare->footer(rtl_compare_help);
-  CLI::App* synth = rtl->add_subcommand("synth", "synthesise with Yosys: LUT, FF, BRAM, DSP, Fmax");
-  synth->callback([&target] { target.command = "synth"; });
-  RtlSynthOptions& options = target.synth;
-  synth->add_option("IP", options.ips, "these IP of the pixel pipeline (default: all)")
-      ->type_name("");
-  synth->add_option("--rtl", options.rtl, "your own .v and .sv files")->type_name("DIR");
-  synth->add_option("--top", options.top, "the module in them")->type_name("MODULE");
-  synth->add_option("--parameter", options.parameters, "of the module: LABELS=64")
-      ->type_name("NAME=NUMBER")
-      ->expected(1)
-      ->take_all();
-  synth
-      ->add_option("--include", options.includes,
-                   "where `include finds files, besides the sources' folders")
-      ->type_name("DIR")
-      ->expected(1)
-      ->take_all();
-  synth->add_option("--define", options.defines, "a macro: FAST, DEPTH=16")
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->take_all();
-  synth->add_flag("--no-dsp", options.no_dsp, "build multiplications from LUT");
-  synth->add_option("-o,--output", options.output, "the figures as JSON")->type_name("FILE");
 }
 
 void add_designs(CLI::App& app, DesignsOptions& target) {

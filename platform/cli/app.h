@@ -17,6 +17,15 @@ std::unique_ptr<CLI::App> make_app(CommandLine& target);
 /// Adds --config and --set.
 void add_configuration_options(CLI::App& command, ConfigurationOptions& target);
 
+/// Adds --design.
+void add_design_option(CLI::App& command, ConfigurationOptions& target);
+
+/// Adds the inputs of a run, and what is said of them.
+void add_input_options(CLI::App& command, RunOptions& target);
+
+/// Adds `rtl` and its commands.
+void add_rtl(CLI::App& app, RtlOptions& target);
+
 /// Adds those of architecture exploration: sweep, pareto, sensitivity, compare.
 void add_exploration(CLI::App& app, CommandLine& target);
 

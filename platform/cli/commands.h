@@ -99,6 +99,10 @@ int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments
 /// Synthesises RTL with Yosys: primitives, and Fmax as a range.
 int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out);
 
+/// RTL proved equal to that of the IP in whose place it is, or the clock on which it differs.
+int prove_rtl(const std::string& ip, const RtlProveOptions& options, std::ostream& out,
+              std::ostream& err);
+
 /// RTL in lock-step with its model, in processes of their own.
 int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
 

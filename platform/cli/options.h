@@ -109,6 +109,16 @@ struct RtlSynthOptions {
   std::optional<std::string> output;
 };
 
+/// `markervp rtl prove`.
+struct RtlProveOptions {
+  std::optional<std::string> rtl;  ///< a folder of the user's; none: the streams of ours
+  std::optional<std::string> top;  ///< none: the module of the IP's name
+  std::vector<std::string> parameters, includes, defines;  ///< as RtlSynthOptions
+  unsigned seconds = 60;
+  std::uint64_t depth = 0;  ///< clocks that are enough; 0: only a proof is
+  std::string output = "out";
+};
+
 /// `markervp rtl compare`.
 struct RtlCompareOptions {
   std::string theirs, ours;  ///< traces
@@ -118,13 +128,15 @@ struct RtlCompareOptions {
 
 /// `markervp rtl`.
 struct RtlOptions {
-  std::string command;  ///< "check", "vectors", "compare", "synth"
+  std::string command;  ///< "check", "prove", "vectors", "compare", "synth"
   std::string ip;
   std::string rtl;  ///< check: shared object, or a folder with IP.so in it or in its `build`
-  bool no_stimuli = false;  ///< check: only what the user names
+  bool no_stimuli = false;              ///< check: only what the user names
+  std::optional<std::string> stimulus;  ///< check: of a proof, played at the pins and nothing else
   RunOptions run;
   RtlCompareOptions compare;
   RtlSynthOptions synth;
+  RtlProveOptions prove;
 };
 
 /// `markervp designs`.

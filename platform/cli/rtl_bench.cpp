@@ -48,6 +48,9 @@ constexpr std::uint64_t clock_hz = 71'000'000, other_clock_hz = 100'000'000;
 /// A reset of a stream crossing reaches both of its sides.
 constexpr std::uint32_t longest_crossing = 64;
 
+/// Behind what a proof found, which is the last that matters.
+constexpr std::uint64_t clocks_behind = 4;
+
 /// Before a difference.
 constexpr std::uint64_t traced_ps = 20'000'000;
 
@@ -105,9 +108,11 @@ class Bench {
     return *bram_;
   }
   vp::Signal<bool>& other_signal(const char* name) {
-    const vp::HierarchyScope inside(other_driver_);
+    const vp::HierarchyScope inside(play_.recorded ? driver_ : other_driver_);
     signals_.push_back(std::make_unique<vp::Signal<bool>>(name));
-    return static_cast<vp::Signal<bool>&>(*signals_.back());
+    auto& signal = static_cast<vp::Signal<bool>&>(*signals_.back());
+    others_[name] = &signal;
+    return signal;
   }
 
   /// All ports that are not bound get a signal; then come the stimuli.
@@ -121,20 +126,25 @@ class Bench {
       }
       input.port->signal()->set_writer(driver);
     }
-    driver_.add(std::make_unique<pl::MoodSwings>(mood_, play_.geometry.clocks()));
+    if (play_.recorded)
+      driver_.add(std::make_unique<pl::Recorded>(recorded_pins(), play_.recorded->rows));
+    else
+      driver_.add(std::make_unique<pl::MoodSwings>(mood_, play_.geometry.clocks()));
   }
   template <class Stimulus, class... Arguments>
   void drive(Arguments&&... arguments) {
+    if (play_.recorded) return;
     driver_.add(std::make_unique<Stimulus>(mood_, *ports_, std::forward<Arguments>(arguments)...));
   }
   /// On the edges of the other clock.
   template <class Stimulus, class... Arguments>
   void drive_other(Arguments&&... arguments) {
+    if (play_.recorded) return;
     other_driver_.add(
         std::make_unique<Stimulus>(mood_, *ports_, std::forward<Arguments>(arguments)...));
   }
   void drive_other(std::unique_ptr<pl::Stimulus> stimulus) {
-    other_driver_.add(std::move(stimulus));
+    if (!play_.recorded) other_driver_.add(std::move(stimulus));
   }
   void resets(const std::string& system = "", std::uint32_t shortest = 1) {
     drive<pl::Resets>("rst", system, shortest);
@@ -163,6 +173,11 @@ class Bench {
     return owner != nullptr && &owner->clock() == &other_clk_ ? other_driver_ : driver_;
   }
 
+  std::vector<pl::Recorded::Set> recorded_pins();
+  std::uint64_t clocks() const {
+    return play_.recorded ? play_.recorded->rows.size() + clocks_behind : played_clocks;
+  }
+
   const PinPlay& play_;
   vp::ReportRouter reports_{sc_core::SC_NONE};
   vp::Configuration configuration_;
@@ -173,11 +188,33 @@ class Bench {
   pl::StimulusMood mood_;
   pl::PinDriver driver_{"driver", clk_}, other_driver_{"other_driver", other_clk_};
   std::vector<std::unique_ptr<vp::SignalBase>> signals_;
+  std::map<std::string, vp::Signal<bool>*> others_;  ///< by the name of the pin that they drive
   std::vector<std::unique_ptr<vp::AxiStream>> links_;
   std::unique_ptr<xilinx::Bram> bram_;
   std::shared_ptr<void> ip_;
   const pl::IpPorts* ports_ = nullptr;
 };
+
+std::vector<pl::Recorded::Set> Bench::recorded_pins() {
+  std::vector<pl::Recorded::Set> pins;
+  for (const std::string& name : play_.recorded->names) {
+    const auto other = others_.find(name);
+    if (other != others_.end()) {
+      pins.emplace_back([signal = other->second](std::uint64_t value) { *signal = value != 0; });
+      continue;
+    }
+    const auto& inputs = ports_->inputs;
+    const auto input = std::find_if(inputs.begin(), inputs.end(),
+                                    [&](const auto& each) { return each.name == name; });
+    if (input == inputs.end() || input->write == nullptr) {
+      throw vp::InputError("--stimulus: '" + name + "' of " + play_.instance +
+                           (input == inputs.end() ? " is no input" : " is a pin of a sensor") +
+                           ": it cannot be played");
+    }
+    pins.push_back(input->write);
+  }
+  return pins;
+}
 
 void Bench::run(std::optional<std::uint64_t> traced_from_ps) {
   std::unique_ptr<vp::Tracer> tracer;
@@ -191,7 +228,7 @@ void Bench::run(std::optional<std::uint64_t> traced_from_ps) {
   std::exception_ptr error;
   try {
     vp::call_objects([this] {
-      sc_core::sc_start(vp::from_ps(clk_.duration_ps(double{played_clocks})));
+      sc_core::sc_start(vp::from_ps(clk_.duration_ps(static_cast<double>(clocks()))));
       sc_core::sc_stop();
     });
   } catch (const sc_core::sc_report& report) {  // of a model: vp::error()

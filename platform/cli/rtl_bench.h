@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <cli/rtl_recorded.h>
 #include <pl/common/geometry.h>
 #include <vp/parameter.h>
 
@@ -21,13 +23,15 @@ struct PinPlay {
   std::vector<vp::ParameterDescription> parameters;  ///< of the platform
   std::vector<std::vector<std::uint8_t>> pictures;   ///< of that geometry
   std::string trace_file;                            ///< what comes around a difference
+  std::optional<RecordedPins> recorded = {};         ///< this, and nothing of all that
 };
 
 /// Whether there is a bench for the IP.
 bool has_bench(const std::string& instance);
 
 /// Plays on the pins of the IP. Its reports go to `err`. Throws vp::ProtocolError for a difference,
-/// and for RTL that ends itself. pl::lockstep_use() says what was exercised.
+/// and for RTL that ends itself; vp::InputError for a recorded pin that the IP does not have.
+/// pl::lockstep_use() says what was exercised.
 void play_pins(const PinPlay& play, std::ostream& err);
 
 }  // namespace platform::cli

@@ -226,6 +226,7 @@ PinPlay pins_of(const RtlOptions& options, const study::Elaborated& platform,
     for (int i = 0; i < times; ++i) play.pictures.push_back(picture.pixels);
   }
   play.trace_file = *run.trace;
+  if (options.stimulus) play.recorded = read_recorded(*options.stimulus);
   return play;
 }
 
@@ -246,6 +247,16 @@ std::vector<Play> plays_of(const RtlOptions& options) {
   const study::Elaborated platform = elaborate(watched, options.run.program);
   const FrameSize size = frame_size(platform);
   const auto value = [&](const std::string& path) { return value_of(platform, path); };
+  if (options.stimulus) {
+    if (own || !has_bench(options.ip))
+      throw vp::InputError(own ? "--stimulus is played without pictures: leave them out"
+                               : "--stimulus: '" + options.ip +
+                                     "' has no pins of its own to play at");
+    RunOptions run = lockstep_options(options, (fs::path(folder) / "stimulus").string());
+    fs::create_directories(run.output);
+    plays.push_back({"stimulus", run, pins_of(options, platform, run)});
+    return plays;
+  }
   const std::string pictures = (fs::path(folder) / "stimuli").string();
   fs::create_directories(pictures);
   auto files = write_stimuli(pictures, size.width, size.height);

@@ -91,6 +91,7 @@ int compare_traces(const RtlCompareOptions& options, std::ostream& out, std::ost
 int ask_rtl(const RtlOptions& options, const std::vector<std::string>& arguments, std::ostream& out,
             std::ostream& err) {
   if (options.command == "synth") return synthesise_rtl(options.synth, out);
+  if (options.command == "prove") return prove_rtl(options.ip, options.prove, out, err);
   if (options.command == "vectors") return write_vectors(options, arguments, out, err);
   if (options.command == "compare") return compare_traces(options.compare, out, err);
   return check_rtl(options, out, err);

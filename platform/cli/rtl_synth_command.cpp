@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <future>
 #include <ostream>
 #include <thread>
 
 #include <cli/commands.h>
 #include <fpga/synthesis/synthesis.h>
+#include <fpga/synthesis/yosys.h>
 #include <vp/error.h>
 #include <vp/file.h>
 
@@ -19,24 +19,6 @@ namespace {
 using synthesis::Design;
 using synthesis::Figures;
 
-/// LABELS=64. Throws vp::InputError.
-synthesis::Parameters parameters_of(const std::vector<std::string>& given) {
-  synthesis::Parameters parameters;
-  for (const std::string& text : given) {
-    const std::size_t equals = text.find('=');
-    std::int64_t value = 0;
-    const char* const begin =
-        text.data() + (equals == std::string::npos ? text.size() : equals + 1);
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (equals == 0 || error != std::errc{} || stop != end) {
-      throw vp::InputError("--parameter '" + text + "': give NAME=NUMBER, as LABELS=64");
-    }
-    parameters[text.substr(0, equals)] = value;
-  }
-  return parameters;
-}
-
 std::vector<Design> designs_of(const RtlSynthOptions& options) {
   if (options.rtl.has_value() != options.top.has_value()) {
     throw vp::InputError("--rtl and --top belong together: a folder, and the module in it");
@@ -46,14 +28,14 @@ std::vector<Design> designs_of(const RtlSynthOptions& options) {
     if (options.parameters.empty()) return designs;
     if (options.ips.size() != 1) throw vp::InputError("--parameter is for one IP: name it");
     designs.resize(1);
-    designs.front().parameters = parameters_of(options.parameters);
+    designs.front().parameters = synthesis::parse_parameters(options.parameters);
     return designs;
   }
   if (!options.ips.empty()) {
     throw vp::InputError("give '" + options.ips.front() + "' or --rtl, not both");
   }
   return {{*options.top, *options.top, synthesis::sources_in(*options.rtl),
-           parameters_of(options.parameters)}};
+           synthesis::parse_parameters(options.parameters)}};
 }
 
 std::string name_of(const Figures& figures) {

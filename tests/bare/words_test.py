@@ -27,7 +27,8 @@ platform/fpga/power/power_table.cpp 2
 platform/fpga/synthesis/synthesis.cpp 14
 platform/chip/run/cost_profile.cpp 14
 platform/chip/run/cost_profile.h 3
-platform/cli/app.cpp 5
+platform/cli/app.cpp 1
+platform/cli/app_rtl.cpp 4
 platform/cli/rtl_bench.cpp 25
 platform/cli/rtl_bench.h 1
 platform/cli/rtl_check_command.cpp 2

@@ -2,6 +2,8 @@
 // compare`: a trace against a trace.
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -109,6 +111,54 @@ BOOST_AUTO_TEST_CASE(a_short_reset_shows_what_it_forgets) {
   BOOST_TEST(contains(outcome.err, "corner_out is 0, and 1 in the RTL"), outcome.err);
   BOOST_TEST(contains(outcome.out, "gtkwave out/pins/lockstep.vcd"), outcome.out);
   BOOST_TEST(has("out/pins/lockstep.gtkw"));
+}
+
+// Noise behind a reset, on each of the pins.
+std::string noise_on_pins() {
+  std::string text = "ena pixel rst x y\n0 0 1 0 0\n0 0 0 0 0\n";
+  std::uint32_t state = 7;
+  for (int i = 0; i < 64 * 20; ++i) {
+    state = state * 1'103'515'245u + 12'345u;
+    std::array<char, 64> row{};
+    std::snprintf(row.data(), row.size(), "1 %x 0 %x %x\n", state >> 24, i % 64u, i / 64u);
+    text += row.data();
+  }
+  return text;
+}
+
+BOOST_AUTO_TEST_CASE(a_stimulus_is_played_at_the_pins_and_nothing_else_is) {
+  kit::write_file(*this / "stimulus.txt", noise_on_pins());
+  const auto play = [this](const std::string& rtl) {
+    return kit::run_process(MARKERVP_EXECUTABLE,
+                            {"rtl", "check", "corner_detection", "--rtl", rtl, "--stimulus",
+                             "stimulus.txt", "--set", "pl.width=64 px", "--set", "pl.height=32 px"},
+                            path());
+  };
+  const kit::Outcome equal = play(object("equal"));
+  BOOST_TEST(equal.exit_code == 0, equal.err);
+  BOOST_TEST(contains(equal.out, "played 'stimulus'"), equal.out);
+  const kit::Outcome late = play(object("late"));
+  BOOST_TEST(late.exit_code == 1);
+  BOOST_TEST(contains(late.err, "in the play 'stimulus'"), late.err);
+  BOOST_TEST(contains(late.err, "corner_out is 1, and 0 in the RTL"), late.err);
+  BOOST_TEST(has("out/stimulus/lockstep.vcd"));
+}
+
+BOOST_AUTO_TEST_CASE(a_stimulus_that_cannot_be_played_is_refused) {
+  const auto refusal = [this](const std::string& text, const Arguments& more = {}) {
+    kit::write_file(*this / "stimulus.txt", text);
+    Arguments all{"rtl",           "check",      "corner_detection", "--rtl",
+                  object("equal"), "--stimulus", "stimulus.txt"};
+    all.insert(all.end(), more.begin(), more.end());
+    const kit::Outcome outcome = kit::run_process(MARKERVP_EXECUTABLE, all, path());
+    BOOST_TEST(outcome.exit_code == 2, outcome.err);
+    return outcome.err;
+  };
+  BOOST_TEST(contains(refusal("ena rst\n1 0\n1 g\n"), "line 3: give 2 hexadecimal numbers"));
+  BOOST_TEST(contains(refusal("ena rst\n"), "no clock follows the names"));
+  BOOST_TEST(contains(refusal("\n"), "line 1: give the names"));
+  BOOST_TEST(contains(refusal("enable\n1\n"), "'enable' of corner_detection is no input"));
+  BOOST_TEST(contains(refusal("ena\n1\n", {"noise.pgm"}), "leave them out"));
 }
 
 BOOST_AUTO_TEST_CASE(a_check_that_plays_nothing_is_refused) {

@@ -235,6 +235,28 @@ class Packets final : public Stimulus {
   std::uint32_t gap_ = 0;    ///< most clocks between two words of the packet
 };
 
+/// Values that are written down, a row an edge; then the last ones stay.
+class Recorded final : public Stimulus {
+ public:
+  using Row = std::vector<std::uint64_t>;  ///< a value for each pin
+  using Set = std::function<void(std::uint64_t)>;
+
+  /// `rows` lives longer than this.
+  Recorded(std::vector<Set> pins, const std::vector<Row>& rows)
+      : pins_(std::move(pins)), rows_(rows) {}
+
+ private:
+  void edge() override {
+    if (at_ == rows_.size()) return;
+    for (std::size_t i = 0; i < pins_.size(); ++i) pins_[i](rows_[at_][i]);
+    ++at_;
+  }
+
+  const std::vector<Set> pins_;
+  const std::vector<Row>& rows_;
+  std::size_t at_ = 0;
+};
+
 /// What the labelling says of a frame: blobs, its end, pixels without a label; and the camera.
 class BlobFrames final : public Stimulus {
  public:

@@ -1,0 +1,121 @@
+#include <fpga/synthesis/rtl_design.h>
+
+#include <algorithm>
+#include <charconv>
+#include <regex>
+#include <set>
+#include <system_error>
+
+#include <vp/error.h>
+#include <vp/file.h>
+
+namespace platform::synthesis {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> declared_in(const std::string& text, const char* what) {
+  const std::regex declaration("(^|\\n)\\s*(?:" + std::string(what) + ")\\s+(\\w+)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator m(text.begin(), text.end(), declaration), end; m != end; ++m)
+    names.push_back((*m)[2]);
+  return names;
+}
+
+Parameters parse_parameters(const std::vector<std::string>& given) {
+  Parameters parameters;
+  for (const std::string& text : given) {
+    const std::size_t equals = text.find('=');
+    std::int64_t value = 0;
+    const char* const begin =
+        text.data() + (equals == std::string::npos ? text.size() : equals + 1);
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (equals == 0 || error != std::errc{} || stop != end) {
+      throw vp::InputError("--parameter '" + text + "': give NAME=NUMBER, as LABELS=64");
+    }
+    parameters[text.substr(0, equals)] = value;
+  }
+  return parameters;
+}
+
+std::string parameters_text(const Parameters& parameters) {
+  std::string text;
+  for (const auto& [name, value] : parameters) text += " " + name + "=" + std::to_string(value);
+  return text;
+}
+
+namespace {
+
+/// Of a source, comments left out.
+std::string code_of(const fs::path& source) {
+  static const std::regex comment(R"(//[^\n]*|/\*[^]*?\*/)");
+  return std::regex_replace(vp::read_text(source, "source"), comment, " ");
+}
+
+}  // namespace
+
+bool has_parameter(const Design& design, const std::string& name) {
+  const std::regex module("\\bmodule\\s+" + design.top + "\\b"),
+      assigned("\\b" + name + R"(\s*=[^=])");
+  static const std::regex kind(R"(\b(?:local)?param(?:eter)?\b)");
+  for (const fs::path& source : design.sources) {
+    const std::string text = code_of(source);
+    std::smatch found;
+    if (!std::regex_search(text, found, module)) continue;
+    const std::string rest = found.suffix();
+    const std::string body = rest.substr(0, rest.find("endmodule"));
+    for (std::sregex_iterator m(body.begin(), body.end(), assigned), end; m != end; ++m) {
+      const std::string before = body.substr(0, static_cast<std::size_t>(m->position()));
+      std::string last;
+      for (std::sregex_iterator k(before.begin(), before.end(), kind); k != end; ++k)
+        last = k->str();
+      if (last == "parameter") return true;
+    }
+  }
+  return false;
+}
+
+std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::path>& sources) {
+  static const std::regex word(R"([A-Za-z_]\w*)");
+  std::map<std::string, std::size_t> declares;  // by name, the source
+  std::vector<std::string> texts;
+  for (const fs::path& source : sources) {
+    texts.push_back(code_of(source));
+    for (const std::string& name : declared_in(texts.back(), "module|package|interface"))
+      declares.emplace(name, texts.size() - 1);
+  }
+  std::vector<std::string> open{top};
+  std::set<std::size_t> needed;
+  while (!open.empty()) {
+    const auto found = declares.find(open.back());
+    open.pop_back();
+    if (found == declares.end() || !needed.insert(found->second).second) continue;
+    const std::string& text = texts[found->second];
+    for (std::sregex_iterator m(text.begin(), text.end(), word), end; m != end; ++m)
+      open.push_back(m->str());
+  }
+  std::vector<fs::path> found;
+  found.reserve(needed.size());
+  for (const std::size_t i : needed) found.push_back(sources[i]);
+  return found;
+}
+
+std::vector<fs::path> sources_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    if (path.extension() == ".v" || path.extension() == ".sv") found.push_back(path);
+  }
+  if (error) throw vp::InputError("'" + folder.string() + "': " + error.message());
+  if (found.empty()) {
+    throw vp::InputError("'" + folder.string() +
+                         "' has no .v or .sv file; VHDL becomes one with "
+                         "ghdl --synth --out=verilog");
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace platform::synthesis

@@ -1,0 +1,255 @@
+#include <fpga/synthesis/yosys.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include <vp/error.h>
+#include <vp/file.h>
+#include <vp/text.h>
+
+namespace platform::synthesis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *script_file = "script.ys", *instance_file = "instance.v",
+                     *check_log = "check.txt";
+
+/// That Yosys and its ABC have open at once, besides the standard ones.
+constexpr int yosys_descriptors = 9;
+
+/// What Yosys wrote; "" if it did not come so far.
+std::string log_of(const fs::path& file) {
+  return fs::exists(file) && !fs::is_empty(file) ? vp::read_text(file, "log", host::largest_result)
+                                                 : "";
+}
+
+/// In a script of Yosys.
+std::string quoted(const fs::path& path) {
+  if (path.string().find_first_of("\"\n") != std::string::npos) {
+    throw vp::InputError("'" + path.string() + "': give a path without quotes and line ends");
+  }
+  return "\"" + path.string() + "\"";
+}
+
+/// Names go into a script, whose language has commands of the shell.
+void check_name(const std::string& name, const char* what) {
+  static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*");
+  if (std::regex_match(name, identifier)) return;
+  throw vp::InputError("'" + name + "' is no name of a " + what +
+                       ": give one of letters, digits and _");
+}
+
+void check_definition(const std::string& definition) {
+  static const std::regex form("[A-Za-z_][A-Za-z0-9_]*(=[A-Za-z0-9_'.+-]+)?");
+  if (std::regex_match(definition, form)) return;
+  throw vp::InputError("'" + definition + "' is no macro: give NAME or NAME=VALUE");
+}
+
+bool has_negative(const Parameters& parameters) {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const auto& parameter) { return parameter.second < 0; });
+}
+
+/// A module with one instance of the design's top, with its parameters.
+std::string instance_of(const Design& design) {
+  std::string values;
+  for (const auto& [name, value] : design.parameters)
+    values += fmt::format("{}.{}({})", values.empty() ? "" : ", ", name, value);
+  return fmt::format("module markervp_instance;\n  {} #({}) top();\nendmodule\n", design.top,
+                     values);
+}
+
+/// Folders in which sources find what they include.
+std::vector<fs::path> include_folders(const Design& design) {
+  std::vector<fs::path> folders = design.includes;
+  for (const fs::path& source : design.sources) {
+    const fs::path folder = fs::absolute(source).parent_path();
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end())
+      folders.push_back(folder);
+  }
+  return folders;
+}
+
+/// A folder to include from, in the scratch folder: `-I` takes no name with a space in it.
+std::string include_link(std::size_t number) {
+  return "include_" + std::to_string(number);
+}
+
+/// The modules that the sources declare.
+std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
+  std::vector<std::string> names;
+  for (const fs::path& source : sources) {
+    for (const std::string& name : declared_in(vp::read_text(source, "source")))
+      names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Yosys prints what a $display says while it elaborates, and knows no widths in its formats:
+/// "%2d".
+bool stumbled_over_a_format(const host::CommandEnd& end) {
+  return end.exit_code != 0 &&
+         end.out.find("called with invalid/unsupported format specifier") != std::string::npos;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+std::string yosys_version() {
+  const host::CommandEnd end = host::run_command({"yosys", "-V"});
+  if (end.exit_code == host::no_such_command) {
+    throw vp::InputError("yosys is not installed: apt-get install yosys, or scripts/setup --rtl");
+  }
+  std::istringstream words(end.out);
+  std::string name, version;
+  words >> name >> version;
+  return name + " " + version;
+}
+
+void refuse(const Design& design, const std::string& why) {
+  throw vp::InputError("'" + design.top + "'" + parameters_text(design.parameters) + ": " + why);
+}
+
+std::string elaboration_of(const Design& design) {
+  // `-chparam` knows no sign, so one below zero comes from an instance, which goes again.
+  if (has_negative(design.parameters)) {
+    return std::string("read_verilog ") + instance_file +
+           "\nhierarchy -check -top markervp_instance\ndelete markervp_instance\n"
+           "hierarchy -auto-top\nrename -top " +
+           design.top;
+  }
+  std::string command = "hierarchy -check -top " + design.top;
+  for (const auto& [name, value] : design.parameters)
+    command += fmt::format(" -chparam {} {}", name, value);
+  return command;
+}
+
+host::CommandEnd run_in(const fs::path& folder, const std::vector<std::string>& command,
+                        unsigned seconds) {
+  std::vector<std::string> words{"env", "--chdir=" + folder.string()};
+  if (seconds > 0) words.insert(words.end(), {"prlimit", "--cpu=" + std::to_string(seconds)});
+  words.insert(words.end(), command.begin(), command.end());
+  return host::run_command(words, ".");
+}
+
+YosysFolder::YosysFolder(const Design& design)
+    : design_(design), includes_(include_folders(design)), sources_(design.sources) {
+  check_name(design.top, "module");
+  for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
+  for (const std::string& definition : design.defines) check_definition(definition);
+  for (std::size_t i = 0; i < includes_.size(); ++i)
+    fs::create_directory_symlink(fs::absolute(includes_[i]), scratch_ / include_link(i));
+  vp::write_file((scratch_ / instance_file).string(), instance_of(design));
+}
+
+host::CommandEnd YosysFolder::run(const Script& script, unsigned seconds) {
+  host::require_descriptors(yosys_descriptors, "yosys");
+  host::CommandEnd end = run_script(script, seconds);
+  if (stumbled_over_a_format(end)) {
+    copy_without_format_widths();
+    end = run_script(script, seconds);
+  }
+  name_originals(end.out);
+  return end;
+}
+
+host::CommandEnd YosysFolder::run_script(const Script& script, unsigned seconds) const {
+  vp::write_file((scratch_ / script_file).string(), script(reading()));
+  return run_in(scratch_.path(), {"yosys", "-q", "-s", script_file}, seconds);
+}
+
+std::string YosysFolder::reading() const {
+  std::string command = "read_verilog -sv -defer";
+  for (std::size_t i = 0; i < includes_.size(); ++i) command += " -I " + include_link(i);
+  for (const std::string& definition : design_.defines) command += " -D " + definition;
+  for (const fs::path& source : sources_) command += " " + quoted(fs::absolute(source));
+  return command;
+}
+
+/// Copies of the same lines.
+void YosysFolder::copy_without_format_widths() {
+  static const std::regex width(R"((%)[0-9]+([a-zA-Z]))");
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    std::istringstream lines(vp::read_text(sources_[i], "source"));
+    std::string text;
+    for (std::string line; std::getline(lines, line); text += line + "\n") {
+      if (line.find("$") != line.npos) line = std::regex_replace(line, width, "$1$2");
+    }
+    sources_[i] = scratch_ / (std::to_string(i) + "_" + sources_[i].filename().string());
+    vp::write_file(sources_[i].string(), text);
+  }
+}
+
+void YosysFolder::name_originals(std::string& text) const {
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    replace_all(text, sources_[i].string(), design_.sources[i].string());
+  for (std::size_t i = 0; i < includes_.size(); ++i)
+    replace_all(text, include_link(i) + "/", includes_[i].string() + "/");
+}
+
+/// "file:line: " of the `include of a name.
+std::string YosysFolder::includer_of(const std::string& name) const {
+  for (const fs::path& source : design_.sources) {
+    std::istringstream lines(vp::read_text(source, "source"));
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (line.find("`include") != line.npos && line.find(name) != line.npos)
+        return source.string() + ":" + std::to_string(number) + ": ";
+    }
+  }
+  return {};
+}
+
+void YosysFolder::refuse_loops() const {
+  const std::string check = log_of(scratch_ / check_log);
+  const std::size_t loop = check.find("found logic loop");
+  if (loop == std::string::npos) return;
+  static const std::regex place(R"(([^\s$|]+:\d+))");
+  std::smatch found;
+  const std::string rest = check.substr(loop);
+  const std::string where = std::regex_search(rest, found, place) ? found[1].str() + ": " : "";
+  synthesis::refuse(design_, where + "a combinational loop: put a register into it");
+}
+
+void YosysFolder::refuse(const host::CommandEnd& end) const {
+  if (end.exit_code == host::no_such_command) yosys_version();
+  const std::string& out = end.out;
+  std::smatch found;
+  static const std::regex error(R"(([^\n]*)ERROR: ([^\n]*))");
+  if (!std::regex_search(out, found, error)) {
+    const std::size_t last_end = out.find_last_not_of('\n');
+    const std::size_t begin = last_end == std::string::npos ? last_end : out.rfind('\n', last_end);
+    const std::string last =
+        last_end == std::string::npos ? "" : out.substr(begin + 1, last_end - begin);
+    synthesis::refuse(design_, "yosys itself failed" + (last.empty() ? "" : ": " + last) +
+                                   "; other parameters may work");
+  }
+  // Yosys knows no line of what it prints while it elaborates.
+  const std::string where = std::regex_replace(found[1].str(), std::regex(":0: $"), ": ");
+  const std::string what = found[2];
+  static const std::regex missing("Can't open include file `([^']+)'");
+  std::smatch file;
+  if (std::regex_search(what, file, missing)) {
+    synthesis::refuse(design_, includer_of(file[1]) + "no file '" + file[1].str() +
+                                   "' to include: name its folder with --include");
+  }
+  if (what.find("Module `" + design_.top + "' not found") != std::string::npos) {
+    const std::vector<std::string> modules = modules_in(design_.sources);
+    throw vp::InputError("no module '" + design_.top + "' in the sources" +
+                         (modules.empty() ? "" : ": name " + vp::one_of(modules)));
+  }
+  synthesis::refuse(design_, where + what);
+}
+
+}  // namespace platform::synthesis

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fpga/synthesis/rtl_design.h>
+#include <host/guard.h>
+#include <host/process.h>
+
+/// Yosys, and RTL as it reads it.
+namespace platform::synthesis {
+
+/// What Yosys calls itself: "Yosys 0.23". Throws vp::InputError if it is not installed.
+std::string yosys_version();
+
+/// Of one design: a folder in which Yosys runs and leaves its files. It goes with this object.
+class YosysFolder {
+ public:
+  /// A script, made of the command that reads the design's sources.
+  using Script = std::function<std::string(const std::string& reading)>;
+
+  /// Throws vp::InputError for names that Verilog does not know.
+  explicit YosysFolder(const Design& design);
+
+  /// Runs Yosys, once more where it stumbles over what is legal. What it prints names the design's
+  /// own files. It is ended behind so many seconds of the processor, if there are any.
+  host::CommandEnd run(const Script& script, unsigned seconds = 0);
+
+  std::filesystem::path operator/(const std::string& name) const { return scratch_ / name; }
+
+  /// The command of a script behind which refuse_loops() knows of combinational loops. (`tee` takes
+  /// no name with a space in it: the file lies where Yosys runs.)
+  static constexpr const char* check = "tee -q -o check.txt check";
+  /// Throws vp::InputError with file and line if there is one.
+  void refuse_loops() const;
+
+  /// Throws vp::InputError for what Yosys says of an error, in our words where we know better.
+  [[noreturn]] void refuse(const host::CommandEnd& end) const;
+
+ private:
+  host::CommandEnd run_script(const Script& script, unsigned seconds) const;
+  std::string reading() const;
+  void copy_without_format_widths();
+  void name_originals(std::string& text) const;
+  std::string includer_of(const std::string& name) const;
+
+  const Design& design_;
+  const host::ScratchFolder scratch_{"synth"};
+  const std::vector<std::filesystem::path> includes_;  ///< each has a link in the folder
+  std::vector<std::filesystem::path> sources_;         ///< the design's, or copies of them
+};
+
+/// The commands that make the top with its parameters of what was read. The top's name stays.
+std::string elaboration_of(const Design& design);
+
+/// A command in a folder, and what it printed: Yosys and ABC give names to a shell unquoted, and in
+/// their own folder they have no spaces. `seconds` as YosysFolder::run().
+host::CommandEnd run_in(const std::filesystem::path& folder,
+                        const std::vector<std::string>& command, unsigned seconds = 0);
+
+/// Throws vp::InputError that names the design: why it cannot be synthesised.
+[[noreturn]] void refuse(const Design& design, const std::string& why);
+
+}  // namespace platform::synthesis
